@@ -286,9 +286,9 @@ void AsperityContact::accept(Level& level) {
     my.newton.take(set, my.solution.v);
 }
 
-double AsperityContact::shortest_time() const {
-    return impl_->relaxing ? std::ranges::min(impl_->options.relaxation.time) : Contact::shortest_time();
-}
+bool AsperityContact::relaxes() const { return impl_->relaxing.has_value(); }
+
+double AsperityContact::shortest_time() const { return impl_->options.relaxation.shortest(); }
 
 void AsperityContact::step(double dt) { impl_->relaxing->step(dt); }
 
@@ -303,7 +303,7 @@ std::vector<double> AsperityContact::residual_depths() const {
 std::vector<double> AsperityContact::memory() const {
     std::vector<double> pairs;
     if (relaxes()) {
-        pairs.push_back(accepted_time());
+        pairs = last_accepted();
         impl_->relaxing->write(pairs);
         return pairs;
     }
@@ -316,9 +316,7 @@ std::vector<double> AsperityContact::memory() const {
 void AsperityContact::recall(const std::vector<double>& memory, const Level* level) {
     Impl& my = *impl_;
     if (relaxes()) {
-        if (memory.empty()) throw Error(Failure::bad_input, "the state does not belong to a contact of these asperities");
-        my.relaxing->read(std::span(memory).subspan(1));
-        recall_time(memory[0], level);
+        my.relaxing->read(recall_accepted(memory));
     } else {
         std::vector<int> yielded;
         Vector deepest;

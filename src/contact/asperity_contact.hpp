@@ -33,6 +33,7 @@ public:
     const Indenter& indenter() const override;
     const Asperities* asperities() const override;
     bool path_dependent() const override;
+    bool relaxes() const override;
     double shortest_time() const override;
     std::vector<double> memory() const override;
     void recall(const std::vector<double>& memory, const Level* level) override;

@@ -119,6 +119,25 @@ std::optional<FoundSummits> summits_of_difference(const Asperities& asperities, 
     return moved;
 }
 
+// Asperities of a list touch a flat, whatever the curvature c of the indenter at the contact (on a cone's tip that at the rim of the contact): by
+// Hertz's law their force is too large by sqrt(1 + c r), their area by 1 + c r. The change of N and A, relative; 0 for summits of a surface,
+// which slope_ratio judges.
+std::pair<double, double> stiffened(const Level& level, const ContactBodies& bodies) {
+    const Asperities& asperities = bodies.asperities;
+    if (bodies.options.rms_slope > 0 || level.contacts == 0) return {0, 0};
+    double force = 0, area = 0, of_force = 0, of_area = 0;
+    for (std::size_t k = 0; k < level.asperity.size(); ++k) {
+        const auto i = at(level.asperity[k]);
+        const double r = asperities.kappa1.empty() ? asperities.radius[i] : 2 / (asperities.kappa1[i] + asperities.kappa2[i]);
+        const double x = level.x[k] - bodies.indenter.x0, y = level.y[k] - bodies.indenter.y0, rim = std::max(level.a[k], std::hypot(x, y));
+        const auto c = rim > std::hypot(x, y) ? bodies.indenter.shape->curvature(rim, 0) : bodies.indenter.shape->curvature(x, y);
+        const double softer = 1 + std::max(0.0, 0.5 * (c.xx + c.yy) * r), f = std::abs(level.f[k]), A = level.a[k] * level.a[k];
+        force += f, of_force += f * (std::sqrt(softer) - 1);
+        area += A, of_area += A * (softer - 1);
+    }
+    return {force > 0 ? of_force / force : 0.0, area > 0 ? of_area / area : 0.0};
+}
+
 }  // namespace
 
 ContactBodies::ContactBodies(const Asperities& given, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_)
@@ -150,23 +169,6 @@ Method choose_method(const SolverOptions& options, const Kernel& kernel, const W
     return contacts * contacts / direct_rate(kernel, at(candidates.size())) > mesh_cost ? Method::mesh : Method::direct;
 }
 
-// Asperities of a list touch a flat, whatever the curvature c of the indenter at the contact: by Hertz's law their force is too large by
-// sqrt(1 + c r), their area by 1 + c r. The change of N and A, relative; 0 for summits of a surface, which slope_ratio judges.
-static std::pair<double, double> stiffened(const Level& level, const ContactBodies& bodies) {
-    const Asperities& asperities = bodies.asperities;
-    if (bodies.options.rms_slope > 0 || !(level.force > 0)) return {0, 0};
-    double force = 0, area = 0, of_force = 0, of_area = 0;
-    for (std::size_t k = 0; k < level.asperity.size(); ++k) {
-        const auto i = at(level.asperity[k]);
-        const double r = asperities.kappa1.empty() ? asperities.radius[i] : 2 / (asperities.kappa1[i] + asperities.kappa2[i]);
-        const auto c = bodies.indenter.shape->curvature(level.x[k] - bodies.indenter.x0, level.y[k] - bodies.indenter.y0);
-        const double softer = 1 + std::max(0.0, 0.5 * (c.xx + c.yy) * r), A = level.a[k] * level.a[k];
-        force += level.f[k], of_force += level.f[k] * (std::sqrt(softer) - 1);
-        area += A, of_area += A * (softer - 1);
-    }
-    return {of_force / force, of_area / area};
-}
-
 void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies) {
     const Asperities& asperities = bodies.asperities;
     const Indenter& indenter = bodies.indenter;
@@ -196,14 +198,14 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
         }
         level.force_error_expected += carried / level.force, level.area_error_expected += carried / level.force;
     }
-    if (const auto [force, area] = stiffened(level, bodies); force > kMuchError) {
-        level.status = graver(level.status, LevelStatus::out_of_validity);
-        level.error_cause = kCurvedCause;
+    judge_range(level, indenter, options);
+    if (const auto [force, area] = stiffened(level, bodies); force > 0) {
         const auto also = [](double expected) { return std::isnan(expected) ? 0.0 : expected; };
+        if (force > also(level.force_error_expected)) level.error_cause = kCurvedCause;
         level.force_error_expected = also(level.force_error_expected) + force;
         level.area_error_expected = also(level.area_error_expected) + area;
+        if (level.force_error_expected > kMuchError) level.status = graver(level.status, LevelStatus::out_of_validity);
     }
-    judge_range(level, indenter, options);
     // Summits of the surface are the contact points only if the indenter is nearly flat beside them.
     const bool of_surface = !bodies.of_difference;
     const auto flank_touches = [&] {

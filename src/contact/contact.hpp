@@ -25,15 +25,13 @@ public:
     Level at_force(double N);
 
     // Sets the time of the following levels, used only if relaxes(). The separation, or under force control the force, changes linearly from
-    // the last accepted level, in up to 16 steps; the first level is applied instantaneously. Throws Error(bad_input) if the time is not finite or earlier than that of the last level.
+    // the last accepted level, in up to 16 steps; a tip that was moved is at its new place from the beginning of the first step. The first
+    // level is applied instantaneously. Throws Error(bad_input) if the time is not finite or earlier than that of the last level.
     void set_time(double time);
     double time() const { return time_; }
-    bool relaxes() const { return std::isfinite(shortest_time()); }
-    // The shortest relaxation time; Infinity: the body does not relax.
+    virtual bool relaxes() const { return false; }
+    // The shortest relaxation time; Infinity: there is none.
     virtual double shortest_time() const { return std::numeric_limits<double>::infinity(); }
-    // True if one step of time is exact under a force that does not decrease (Lee and Radok: a growing contact depends on the history of the
-    // force alone).
-    virtual bool exact_while_growing() const { return false; }
 
     // Of the last level; with adhesion, after move_tip(), of the state at the new place:
     // dN/dZ0 (negative; 0 without contact) [force/length].
@@ -103,9 +101,10 @@ protected:
     virtual void accept(Level& level) { (void)level; }
     // If relaxes(): following trials end a time step dt that begins at the last accepted level.
     virtual void step(double dt) { (void)dt; }
-    // Time of the last accepted level, the first number of memory(); NaN: none.
-    double accepted_time() const { return accepted_.value_or(std::numeric_limits<double>::quiet_NaN()); }
-    void recall_time(double accepted, const Level* level);
+    // Time, separation and force of the last accepted level, the first numbers of memory(), NaN if there is none; and back. Returns the other
+    // numbers; throws Error(bad_input) if there are fewer.
+    std::vector<double> last_accepted() const;
+    std::span<const double> recall_accepted(std::span<const double> memory);
 
     // For periodic flats, solve() uses a reference plane that no force raises (Kernel::shift()): the separation Z0 of the mean planes
     // corresponds to Z0 - shift() N in solve(). first_touch() is the same in both.

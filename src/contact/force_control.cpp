@@ -86,28 +86,34 @@ Level Contact::at_separation(double Z0) {
 Level Contact::at_force(double N) {
     if (!(N > 0 || pulls()) || !std::isfinite(N))
         throw Error(Failure::bad_input, pulls() ? "the force must be finite" : "the force must be positive and finite");
-    const bool grows = N >= (1 - 10 * tolerance()) * force_;
-    return exact_while_growing() && grows ? to_force(N) : in_steps(force_, N, &Contact::to_force);
+    return in_steps(force_, N, &Contact::to_force);
 }
 
 Level Contact::in_steps(double from, double to, Level (Contact::*reach)(double)) {
     const double start = accepted_.value_or(time_), end = time_;
     const double steps = std::isfinite(from) ? steps_of_time(end - start, shortest_time()) : 1.0;
+    if (!(steps > 1)) return (this->*reach)(to);
+    const std::vector<double> before = memory();
+    // A level that is not reached leaves the state of the last one.
+    const auto take_back = [&] {
+        recall(before, nullptr);
+        time_ = end;
+    };
     std::int32_t iterations = 0;
     std::int64_t products = 0;
+    Level level;
     try {
-        for (double k = 1; k < steps; ++k) {
-            time_ = start + k / steps * (end - start);
-            const Level level = (this->*reach)(from + k / steps * (to - from));
-            iterations += level.iterations, products += level.products;
+        for (double k = 1; k <= steps; ++k) {
+            time_ = k < steps ? start + k / steps * (end - start) : end;
+            level = (this->*reach)(k < steps ? from + k / steps * (to - from) : to);
+            level.iterations = iterations += level.iterations, level.products = products += level.products;
+            if (level.status == LevelStatus::not_converged) break;
         }
     } catch (...) {
-        time_ = end;
+        take_back();
         throw;
     }
-    time_ = end;
-    Level level = (this->*reach)(to);
-    level.iterations += iterations, level.products += products;
+    if (level.status == LevelStatus::not_converged) take_back(), level.time = end;
     return level;
 }
 
@@ -150,10 +156,17 @@ void Contact::set_time(double time) {
     time_ = time;
 }
 
-void Contact::recall_time(double accepted, const Level* level) {
+std::vector<double> Contact::last_accepted() const {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    return {accepted_.value_or(none), accepted_ ? separation_ : none, accepted_ ? force_ : none};
+}
+
+std::span<const double> Contact::recall_accepted(std::span<const double> memory) {
+    if (memory.size() < 3) throw Error(Failure::bad_input, "the state does not belong to a body that relaxes");
     accepted_.reset();
-    if (level) separation_ = level->separation, force_ = level->force;
-    if (std::isfinite(accepted)) accepted_ = time_ = accepted;
+    if (std::isfinite(memory[0])) accepted_ = memory[0];
+    time_ = accepted_.value_or(0.0), separation_ = memory[1], force_ = memory[2];
+    return memory.subspan(3);
 }
 
 double Contact::slope() {

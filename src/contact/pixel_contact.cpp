@@ -27,7 +27,7 @@ void PixelContact::set_residual(Depths depths) {
 std::vector<double> PixelContact::memory() const {
     std::vector<double> numbers;
     if (relaxes()) {
-        numbers.push_back(accepted_time());
+        numbers = last_accepted();
         loads_->write(numbers);
         return numbers;
     }
@@ -38,10 +38,9 @@ std::vector<double> PixelContact::memory() const {
 void PixelContact::recall(const std::vector<double>& memory, const Level* level) {
     if (relaxes()) {
         const auto& places = loads_->places();
-        if (memory.empty() || loads_->read(std::span(memory).subspan(1)) + 1 != memory.size() ||
-            (!places.empty() && places.back() / heights_.nx >= heights_.ny))
+        const std::span<const double> rest = recall_accepted(memory);
+        if (loads_->read(rest) != rest.size() || (!places.empty() && places.back() / heights_.nx >= heights_.ny))
             throw Error(Failure::bad_input, "the state of the loads does not belong to this map");
-        recall_time(memory[0], level);
         step(0);
     } else {
         Depths depths;

@@ -13,8 +13,8 @@ class PixelContact : public Contact, protected CutMap {
 public:
     double first_touch() const final { return top_; }
     const Indenter& indenter() const final { return indenter_; }
-    double shortest_time() const final { return loads_ ? std::ranges::min(options_.relaxation.time) : Contact::shortest_time(); }
-    bool exact_while_growing() const final { return true; }
+    bool relaxes() const final { return loads_.has_value(); }
+    double shortest_time() const final { return options_.relaxation.shortest(); }
     bool path_dependent() const final { return relaxes() || std::isfinite(options_.hardness.H0); }
     // Triples of column, row and residual depth of a yielded point; for relaxing bodies the time, followed by the loads.
     std::vector<double> memory() const final;

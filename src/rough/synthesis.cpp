@@ -49,7 +49,7 @@ struct PastCache {
 using PastCache = ToCache;
 #endif
 
-// Copies rows of n numbers, `stride` apart, to the first `rows` places of n rows of `to`. n and rows must be even.
+// Copies rows of n numbers, `stride` apart, to the first `rows` places of n rows of `to`.
 template <class Target>
 RSC_ALWAYS_INLINE void transpose_body(const double* from, std::ptrdiff_t stride, int rows, int n, double* to, std::ptrdiff_t distance) {
     const int rows4 = rows - rows % 4, n4 = n - n % 4;

@@ -170,7 +170,7 @@ double expected_seconds(const Job& job, double workers) {
     // Elastic separations with half as many points again as the level before start from pressures that help little.
     constexpr double cold = 2.5, grown = 1.5;
     const bool steps = elements && !force && !layers && !job.indenter.period.finite() && !std::isfinite(job.settings.solids.hardness);
-    double before = 0, longest = 0, last_time = 0;
+    double before = 0, longest = 0, last_time = job.times.empty() ? 0.0 : job.times.front();
     for (std::size_t k = 0; k < job.levels.size(); ++k) {
         const double level = job.levels[k], begun = one;
         const double under = steps ? points_under(job, level, points) : 0;
@@ -180,9 +180,9 @@ double expected_seconds(const Job& job, double workers) {
         else
             one += (force && !job.indenter.period.finite() ? 2.5 : 1) * (layers ? 2 : 1) * (job.indenter.period.finite() ? 8 : 1) *
                    level_seconds(job, expected_candidates(job, likely_separation(job, level)));
-        if (relaxes(job.settings)) {  // in steps of time, of elements without those under growing forces; and their check on a coarser grid
-            const double parts = steps_of_time(job.times[k] - last_time, std::ranges::min(job.settings.solids.relaxation_time));
-            one += (one - begun) * (elements ? (force ? 0.0 : parts - 1) + 0.25 * parts : parts - 1);
+        if (relaxes(job.settings)) {  // in steps of time, of elements also on a coarser grid
+            const double parts = steps_of_time(job.times[k] - last_time, job.solver.relaxation.shortest());
+            one += (one - begun) * ((elements && job.settings.run.realizations == 1 ? 1.25 : 1.0) * parts - 1);
             last_time = job.times[k];
         }
         before = under;

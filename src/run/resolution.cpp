@@ -34,7 +34,7 @@ constexpr double kGrown = 2, kShrunk = 0.75;
 }  // namespace
 
 OtherGrid::OtherGrid(const Job& job, std::int64_t number, int threads, const HeightMap& map, double points_per_wave)
-    : read_(!job.spectrum) {
+    : read_(!job.spectrum), by_force_(relaxes(job.settings) && job.settings.indentation.control != Control::separation) {
     const double side = std::max(map.dx, map.dy), edge = job.indenter.shape->edge(side);
     if (edge > 0) edge_ = kEdgeShare * side / edge;
     if (job.settings.solids.adhesion > 0) return;  // its error is that of cohesive_resolution (contact/adhesive_elements.cpp)
@@ -64,12 +64,13 @@ std::optional<GridError> OtherGrid::error(const LevelValues& level) {
     if (contact_->relaxes()) contact_->set_time(level.time);
     Level other;
     try {
-        other = contact_->at_separation(level.separation);
+        other = by_force_ && level.force > 0 ? contact_->at_force(level.force) : contact_->at_separation(level.separation);
     } catch (const Error& error) {  // two flats closer than this grid allows
         if (error.kind() != Failure::bad_input) throw;
         return {};
     }
     if (other.status == LevelStatus::not_converged || level.contacts == 0) return {};
+    if (by_force_) other.force += contact_->stiffness() * (level.separation - other.separation);  // at the separation of the level
     const double share = coarser_ ? 0.5 : kFiner, pixels = level.pixels_per_contact;
     const auto change = [&](double here, double there) {
         return here == there ? 0.0 : share * std::abs(here - there) / (coarser_ ? here : std::max(here, there));

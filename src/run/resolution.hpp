@@ -43,6 +43,7 @@ private:
     std::optional<HeightMap> map_;
     std::unique_ptr<Contact> contact_;
     bool coarser_ = true, read_ = false;
+    bool by_force_ = false;  // a body that relaxes follows the forces of the levels
     double edge_ = 0;  // share of N by the places of the pixels at the edge of the indenter
 };
 

@@ -1,5 +1,7 @@
 #include "run/study.hpp"
 
+#include <sys/stat.h>
+
 #include "archive.hpp"
 #include "case/registry.hpp"
 #include "case/units.hpp"
@@ -90,16 +92,6 @@ std::string manifest_file(const std::string& output_file) {
     return (path.parent_path() / name).string();
 }
 
-// Throws Error(bad_input) if the manifest must not be written.
-void check_manifest(const std::string& output_file, const std::vector<std::string>& inputs) {
-    const std::string path = manifest_file(output_file);
-    std::string why = reason_to_leave(path, kManifest);
-    std::error_code error;
-    for (const std::string& input : inputs)
-        if (fs::is_regular_file(input, error) && fs::equivalent(input, path, error)) why = "this is an input of the run";
-    if (!why.empty()) bad_input("the manifest of the study, '" + path + "': " + why + " (give &output file another name)");
-}
-
 }  // namespace
 
 void write_manifest(const ReadCase& read, const std::vector<Member>& members, const std::string& command) {
@@ -170,16 +162,34 @@ void prepare_once(const Case& settings, std::set<std::vector<std::string>>& file
     if (settings.surface.source == Source::synthetic || files_read.insert(files).second) prepare(settings);
 }
 
-std::set<std::string> inputs_of(const std::vector<const Member*>& members) {
-    std::set<std::string> files;
-    for (const Member* member : members) {
+// Identities of files, whatever their names.
+using Files = std::set<std::pair<dev_t, ino_t>>;
+std::optional<Files::value_type> identity(const std::string& path) {
+    struct stat file {};
+    if (::stat(path.c_str(), &file) != 0 || !S_ISREG(file.st_mode)) return {};
+    return Files::value_type{file.st_dev, file.st_ino};
+}
+
+Files inputs_of(const std::vector<Member>& members, const RunOptions& options) {
+    Files files;
+    std::set<std::string> names(options.inputs.begin(), options.inputs.end());
+    for (const Member& member : members) {
         try {
-            for (std::string& file : input_files(member->settings)) files.insert(std::move(file));
-        } catch (const Error& error) {
-            throw named(error, *member);
+            for (std::string& file : input_files(member.settings)) names.insert(std::move(file));
+        } catch (const Error&) {  // a pattern without files: told when that member is looked at
         }
     }
+    for (const std::string& name : names)
+        if (const auto file = identity(name)) files.insert(*file);
     return files;
+}
+
+// Throws Error(bad_input) if the manifest must not be written.
+void check_manifest(const std::string& output_file, const Files& inputs) {
+    const std::string path = manifest_file(output_file);
+    std::string why = reason_to_leave(path, kManifest);
+    if (const auto file = identity(path); file && inputs.contains(*file)) why = "this is an input of the run";
+    if (!why.empty()) bad_input("the manifest of the study, '" + path + "': " + why + " (give &output file another name)");
 }
 
 std::vector<const Member*> wanted_of(const ReadCase& read, const std::vector<Member>& all, std::optional<int> only) {
@@ -193,15 +203,19 @@ std::vector<const Member*> wanted_of(const ReadCase& read, const std::vector<Mem
     return wanted;
 }
 
-// Calls look_at and then `ready(member, true if a result exists)` for every member; errors name the member.
+// Calls look_at and then `ready(member, true if a result exists)` for every wanted member; errors name the member. No result may replace an
+// input of any of `all`.
 template <class Ready>
-void look_at_all(const ReadCase& read, const std::vector<const Member*>& wanted, const RunOptions& options, Ready ready) {
-    RunOptions all = options;  // no result may replace an input of another member
-    for (const std::string& file : inputs_of(wanted)) all.inputs.push_back(file);
-    if (read.study) check_manifest(read.settings.output.file, all.inputs);
+void look_at_all(const ReadCase& read, const std::vector<Member>& all, const std::vector<const Member*>& wanted, const RunOptions& options,
+                 Ready ready) {
+    const Files inputs = inputs_of(all, options);
+    if (read.study) check_manifest(read.settings.output.file, inputs);
     for (const Member* member : wanted) {
         try {
-            ready(*member, look_at(*member, all));
+            const std::string& file = member->settings.output.file;
+            if (const auto result = identity(file); result && inputs.contains(*result))
+                bad_input("&output file='" + file + "': this is an input of the run, which the result would overwrite; name another file");
+            ready(*member, look_at(*member, options));
         } catch (const Error& error) {
             throw named(error, *member);
         }
@@ -314,7 +328,7 @@ Forecast check_members(const ReadCase& read, std::optional<int> only, const RunO
     Forecast all_members;
     std::size_t timed = 0;
     std::set<std::vector<std::string>> files_read;
-    look_at_all(read, wanted, options, [&](const Member& member, bool) {
+    look_at_all(read, all, wanted, options, [&](const Member& member, bool) {
         const bool campaign = member.settings.run.realizations > 1;
         if (timed == samples) return prepare_once(member.settings, files_read);
         ++timed;
@@ -333,7 +347,7 @@ RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunO
     const std::vector<const Member*> wanted = wanted_of(read, all, only);
     std::set<std::vector<std::string>> files_read;
     std::set<const Member*> there;  // members with an existing result
-    look_at_all(read, wanted, options, [&](const Member& member, bool result_there) {
+    look_at_all(read, all, wanted, options, [&](const Member& member, bool result_there) {
         if (result_there) there.insert(&member);
         // A single case is prepared later anyway.
         if (!member.values.empty()) prepare_once(member.settings, files_read);

@@ -64,9 +64,10 @@ test_lost_maps() {
     # So is the map of an indenter, and what another member of a study reads.
     printf "&indenter shape = 'map' file = 'out.nc' /\n&solids R = 2*Infinity /\n" | cat before.nml - > case.nml
     refused "input of the run"
-    cp out.nc out_002.nc && cp out.nc out_003.nc
-    printf "&study indenter%%file = 'out_003.nc', 'out_002.nc' /\n" >> case.nml
-    refused "member 2.*input of the run"
+    cp out.nc out_001.nc && cp out.nc out_003.nc
+    printf "&study indenter%%file = 'out_003.nc', 'out_001.nc' /\n" >> case.nml
+    refused "member 1.*input of the run"
+    refused "member 1.*input of the run" --member 1
 }
 
 # A result takes the place of an older one, and the screen says so.

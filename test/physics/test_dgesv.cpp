@@ -119,4 +119,17 @@ TEST(says_what_it_did) {
     CHECK(alone.method == Method::direct && alone.fallback == Fallback::no_interaction);
 }
 
+// The answer does not depend on where the regularisation begins, nor on how it is cut.
+TEST(regularisation_leaves_no_trace) {
+    const Asperities a = random_asperities(300, 0.012, 0.01, 5e-4, 0.5, 3);
+    const auto force = [&](double delta0, double cut, double tolerance) {
+        SolverOptions options{.method = Method::dgesv, .sigma = 0.01, .tolerance = tolerance};
+        options.delta0 = delta0, options.delta_cut = cut;
+        return AsperityContact(a, {1.0, 2.5, 0.5, 0.5}, options).at_separation(0.005).force;
+    };
+    const double reference = force(0.01, 5, 1e-11);
+    for (const double delta0 : {0.1, 0.01, 0.001})
+        for (const double cut : {2.0, 5.0, 10.0}) CHECK_RELATIVE(force(delta0, cut, 1e-10), reference, 1e-9);
+}
+
 }  // namespace

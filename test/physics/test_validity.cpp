@@ -66,12 +66,12 @@ TEST(asperity_under_a_small_ball) {
     for (const auto& [r, R, told] : {std::tuple{1.0, 2.0, true}, {0.1, 2.0, false}}) {
         Asperities one;
         one.x = {0.5}, one.y = {0.5}, one.z = {0}, one.radius = {r};
-        const double depth = 1e-6, both = r * R / (r + R);
+        const double depth = 1e-6, rim = 1e-6, both = r * R / (r + R);
         const Level level = AsperityContact(one, {1.0, R, 0.5, 0.5}, {}).at_separation(-depth);
-        CHECK((level.status == LevelStatus::out_of_validity) == told && std::isnan(level.force_error_expected) != told);
-        if (!told) continue;
-        CHECK_RELATIVE(level.force, (1 + level.force_error_expected) * 4 / 3.0 * std::sqrt(both) * depth * std::sqrt(depth), 1e-9);
-        CHECK_RELATIVE(level.area, (1 + level.area_error_expected) * std::numbers::pi * both * depth, 1e-9);
+        CHECK((level.status == LevelStatus::out_of_validity) == told);
+        CHECK_RELATIVE(level.force, (1 + level.force_error_expected) * 4 / 3.0 * std::sqrt(both) * depth * std::sqrt(depth), rim);
+        CHECK_RELATIVE(level.area, (1 + level.area_error_expected) * std::numbers::pi * both * depth,
+                       rim);  // the curvature at the rim is larger by (a/R)^2
     }
 }
 

@@ -13,6 +13,13 @@ struct Relaxation {
     std::vector<double> share = {}, time = {};
     double soft = 1;  // share of this body in the compliance 1/E* of the pair; 1 if the other one is rigid
     bool none() const { return share.empty(); }
+    // The shortest relaxation time with a share; Infinity: there is none.
+    double shortest() const {
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < share.size(); ++k)
+            if (share[k] > 0) least = std::min(least, time[k]);
+        return least;
+    }
 };
 
 // Contact of a relaxing body with an elastic or rigid one. The deflection under a variable load f is that of the instantaneous body under
