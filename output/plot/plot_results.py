@@ -160,6 +160,10 @@ class Result:
         """True if the file has the contact of the smooth indenter."""
         return "area_hertz" in self and bool(np.isfinite(self["area_hertz"]).any())
 
+    def has_tip(self):
+        """True for a round indenter, also on layers and bodies that relax, where its smooth contact has no closed form."""
+        return self.has_sphere() or "r_star" in self and bool(np.isfinite(self["r_star"]))
+
     def shape(self):
         return self.case.get("indenter%shape", "sphere").strip("'")
 

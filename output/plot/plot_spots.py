@@ -123,7 +123,7 @@ def spots(results, options):
         low, high = image.get_array().min(), image.get_array().max()
         bar = colour_bar(page.figure, image, page.axes[1], "height $z$", result.dimension("height"), shrink=0.85, aspect=25)
         bar.ax.set_ylim(low, high)  # the darker half of the greys is for the spots
-    if result.has_sphere() and max(abs(float(result["tip_x"]) - sum(page.axes[0].get_xlim()) / 2), abs(float(result["tip_y"]) - sum(page.axes[0].get_ylim()) / 2)) < half:
+    if result.has_tip() and max(abs(float(result["tip_x"]) - sum(page.axes[0].get_xlim()) / 2), abs(float(result["tip_y"]) - sum(page.axes[0].get_ylim()) / 2)) < half:
         page.axes[0].plot(float(result["tip_x"]), float(result["tip_y"]), "kx", ms=6, label="tip", ls="none", zorder=4)
     if pixels or (~yields & (f >= 0)).any():
         page.entry("elastic" if "contact_yields" in result and not pixels else "contact", marker="o", color=ELASTIC, ls="none", ms=5)

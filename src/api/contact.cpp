@@ -363,7 +363,7 @@ int32_t rsc_contact_asperities(rsc_asperities** asperities, const rsc_contact* c
 
 int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection) {
     return guarded(0, [&] {
-        const rsc::Level& level = level_of(contact);
+        const rsc::Level& last = level_of(contact);
         if (n < 0) refuse(2, "n", "must not be negative");
         if (n == 0) return;
         require_finite(x, n, 3, "x");
@@ -372,6 +372,8 @@ int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const doub
         rsc::Indenter indenter = contact->contact.indenter();
         indenter.x0 = contact->known.x0, indenter.y0 = contact->known.y0;
         const auto kernel = rsc::make_kernel(rsc::Interaction::point, rsc::substrate_of(indenter), indenter.period);
+        const std::optional<rsc::Level> lasting = contact->contact.lasting_loads(last);
+        const rsc::Level& level = lasting ? *lasting : last;
         for (int64_t i = 0; i < n; ++i) {
             const rsc::Vec2 at = indenter.image(x[i], y[i]);
             deflection[i] = rsc::deflection(level, *kernel, at.x, at.y);

@@ -299,6 +299,11 @@ std::vector<double> AsperityContact::residual_depths() const {
     return depths;
 }
 
+std::optional<Level> AsperityContact::lasting_loads(const Level& level) const {
+    if (!relaxes()) return {};
+    return impl_->relaxing->lasting(level);
+}
+
 // Pairs of the index of a yielded asperity and its largest penetration; for relaxing bodies the time, followed by their state.
 std::vector<double> AsperityContact::memory() const {
     std::vector<double> pairs;

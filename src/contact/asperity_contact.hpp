@@ -37,6 +37,7 @@ public:
     double shortest_time() const override;
     std::vector<double> memory() const override;
     void recall(const std::vector<double>& memory, const Level* level) override;
+    std::optional<Level> lasting_loads(const Level& level) const override;
     std::vector<double> residual_depths() const override;
 
 protected:

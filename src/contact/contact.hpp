@@ -71,6 +71,10 @@ public:
     // level, and later levels start from it. The tip must be at its position of that time.
     virtual void recall(const std::vector<double>& memory, const Level* level) = 0;
 
+    // Relaxing bodies: the loads under which the instantaneous body has the present deflections, where earlier loads last; empty for others.
+    // Their pixels, or their contacts, are those that ever carried load. `level` is the last level.
+    virtual std::optional<Level> lasting_loads(const Level& level) const { return (void)level, std::nullopt; }
+
     // Residual depth of each asperity after unloading [length]; empty if none yielded.
     virtual std::vector<double> residual_depths() const { return {}; }
     // Boundary elements: the points that yielded and their residual depths.

@@ -30,6 +30,12 @@ std::vector<double> LoadMemory::rest() const {
     return r;
 }
 
+std::vector<double> LoadMemory::lasting() const {
+    std::vector<double> sum = f_;
+    for (const auto& y : y_) std::transform(y.begin(), y.end(), sum.begin(), sum.begin(), std::plus{});
+    return sum;
+}
+
 void LoadMemory::accept(std::span<const std::int32_t> where, std::span<const double> f, const Deflect& deflect) {
     std::vector<std::int32_t> all;
     std::set_union(places_.begin(), places_.end(), where.begin(), where.end(), std::back_inserter(all));

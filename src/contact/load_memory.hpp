@@ -19,6 +19,8 @@ public:
     // Points that have ever carried a load, in increasing order, and the rest of each at the end of the step.
     const std::vector<std::int32_t>& places() const { return places_; }
     std::vector<double> rest() const;
+    // f + sum y_k after the last accepted loads: K times it are the deflections.
+    std::vector<double> lasting() const;
 
     // Accepts loads f at the end of the step, > 0 at `where` (increasing) and 0 elsewhere. `deflect` returns K f over all places(),
     // including `where`.

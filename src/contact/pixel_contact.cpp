@@ -68,6 +68,15 @@ ResidualProfile PixelContact::residual_profile() const {
     return profile;
 }
 
+std::optional<Level> PixelContact::lasting_loads(const Level& level) const {
+    if (!loads_) return {};
+    Level lasting = level;
+    lasting.pixels.index.clear();
+    for (const Pixel& pixel : loaded_pixels()) lasting.pixels.index.push_back(pixel.y * frame.nx + pixel.x);
+    lasting.pixels.pressure = loads_->lasting();
+    return lasting;
+}
+
 std::vector<Pixel> PixelContact::loaded_pixels() const {
     std::vector<Pixel> pixels;
     for (const std::int32_t i : loads_->places()) pixels.push_back(pixel_at(i));

@@ -20,6 +20,7 @@ public:
     std::vector<double> memory() const final;
     void recall(const std::vector<double>& memory, const Level* level) final;
     ResidualProfile residual_profile() const final;
+    std::optional<Level> lasting_loads(const Level& level) const final;
 
 protected:
     PixelContact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options);

@@ -107,6 +107,23 @@ void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& so
     step(0);
 }
 
+Level RelaxingAsperities::lasting(const Level& level) const {
+    Level all = level;
+    const std::vector<double> widest = law_.widest();
+    for (std::size_t i = 0; i < load_.size(); ++i) {
+        const int asperity = law_.touched()[i];
+        const auto now = std::lower_bound(level.asperity.begin(), level.asperity.end(), asperity);
+        if (now != level.asperity.end() && *now == asperity) {
+            all.f[static_cast<std::size_t>(now - level.asperity.begin())] = load_[i];
+            continue;
+        }
+        const double x = asperities_.x[at(asperity)], y = asperities_.y[at(asperity)], a = std::sqrt(widest[i] / std::numbers::pi);
+        all.add_contact(asperity, x, y, load_[i], a, 0);
+        if (!level.spots.empty()) all.spots.push_back({x, y, a, a, 0});
+    }
+    return all;
+}
+
 void RelaxingAsperities::write(std::vector<double>& numbers) const {
     numbers.insert(numbers.end(), {stored_, lost_, held_});
     law_.write(numbers);

@@ -5,6 +5,7 @@
 #include "contact/candidates.hpp"
 #include "contact/interaction/products.hpp"
 #include "contact/law/relaxing.hpp"
+#include "contact/level.hpp"
 
 namespace rsc {
 
@@ -27,6 +28,9 @@ public:
     // Stored energy of the springs and of the interaction (f'Bf/2 and that of each retardation), and dissipated energy [force length].
     double stored() const { return law_.stored() + stored_; }
     double lost() const { return law_.lost() + lost_; }
+
+    // Contact::lasting_loads(): on the spots of the level, and where it has no contact on circles of the largest area so far.
+    Level lasting(const Level& level) const;
 
     void write(std::vector<double>& numbers) const;
     void read(std::span<const double> numbers);

@@ -56,10 +56,16 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
     for (std::size_t k = 0; k < cut.size(); ++k)
         cut[k] = inside(surface, level.x[k], level.y[k]) < std::max(options.mean_spacing, level.a[k]);
     const LevelPixels& p = level.pixels;
+    // A map of the indenter ends, too, and carries no load beyond its border.
+    const bool ends = indenter.shape->keys().map != nullptr;
+    const auto beyond = [&](double x, double y) { return std::isinf(indenter.shape->height(x - indenter.x0, y - indenter.y0)); };
     const auto rows = p.dy > 0 ? static_cast<std::int32_t>(std::lround(surface.Ly / p.dy)) : 0;
     for (std::size_t k = 0; k < p.index.size(); ++k) {
         const std::int32_t column = p.index[k] % p.columns, row = p.index[k] / p.columns;
-        if (column == 0 || row == 0 || column + 1 == p.columns || row + 1 == rows) cut[static_cast<std::size_t>(p.contact[k])] = true;
+        if (column == 0 || row == 0 || column + 1 == p.columns || row + 1 == rows ||
+            (ends && (beyond(p.x(k) - p.dx, p.y(k)) || beyond(p.x(k) + p.dx, p.y(k)) || beyond(p.x(k), p.y(k) - p.dy) ||
+                      beyond(p.x(k), p.y(k) + p.dy))))
+            cut[static_cast<std::size_t>(p.contact[k])] = true;
     }
     level.edge_contacts = static_cast<std::int32_t>(std::count(cut.begin(), cut.end(), true));
     if (options.marks && p.index.empty()) level.edge_contacts += border_contacts(level, indenter, *options.marks);

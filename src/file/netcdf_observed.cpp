@@ -38,7 +38,7 @@ void ResultTable::maps() {
     add("map_area_fraction", dims, "1", "contact area over cell area, mean over realizations", o_.map_area_fraction,
         comment("A' = sum of pi a^2/w^2 over the asperities in the cell; above 1 where a spot is larger than the cell of its centre"));
     add("map_pressure", dims, unit(-2, 1), "force over cell area, mean over realizations", o_.map_pressure,
-        comment("p = sum of f/w^2 over the asperities in the cell"));
+        comment("p = sum of f/w^2 over the asperities in the cell, also of those that attract without contact"));
     if (o_.realizations == 1) return;
     const std::string rest = ": sum over realizations minus the mean times number of realizations times w^2",
                       why = "for rsc --merge and --resume, which add realizations without rounding";
@@ -56,7 +56,7 @@ void ResultTable::radial() {
         "mean over the circle of the map, interpolated by bicubic Bezier patches between cell centres; it may be negative beside empty cells";
     add("radial_area_fraction", dims, "1", "area fraction about the tip", o_.radial_area_fraction, comment(how));
     add("radial_pressure", dims, unit(-2, 1), "pressure about the tip", o_.radial_pressure, comment(how));
-    if (r_.indenter.layers.count > 0) return;  // no closed form
+    if (!elastic_half_space()) return;
     std::vector<double> hertz;
     const double R = r_.indenter.shape->hertz_radius();
     for (double N : o_.force.mean)

@@ -76,7 +76,8 @@ void keep_contacts(Result& result, const std::vector<Level>& levels, Contacts ke
             packed.spot_x.push_back(spot.x), packed.spot_y.push_back(spot.y);
             packed.major.push_back(spot.major), packed.minor.push_back(spot.minor), packed.angle.push_back(spot.angle);
         }
-        if (result.path_dependent()) packed.yields.insert(packed.yields.end(), level.yields.begin(), level.yields.end());
+        if (std::isfinite(result.settings.solids.hardness))
+            packed.yields.insert(packed.yields.end(), level.yields.begin(), level.yields.end());
     }
     result.contacts = std::move(packed);
 }
@@ -150,10 +151,11 @@ void read_levels(const Columns& file, Accumulators& sums) {
         if (!file.find(q.name) && !q.always) continue;  // no level has it
         const std::size_t parts = q.y ? 2 : 1;
         std::vector<std::size_t> lengths{count, steps};
+        if (q.of_step) lengths = {steps};
         if (q.y) lengths.push_back(parts);
         const std::vector<double> values = file.values(q.name, lengths);
         for (std::size_t k = 0; k < sums.rows.size(); ++k) {
-            q.put(sums.rows[k], values[k * parts]);
+            q.put(sums.rows[k], values[q.of_step ? k % steps : k * parts]);
             if (q.y) sums.rows[k].*q.y = values[k * parts + 1];
         }
     }

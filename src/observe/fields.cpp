@@ -197,7 +197,10 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
         if (asked.contact) f.contact.insert(f.contact.end(), touches.begin(), touches.end());
         if (asked.gap) {
             std::vector<double> gap(points, 0.0);
-            if (interaction != Interaction::none) gap = deflections(map, indenter, pressures[s], columns, rows);
+            if (interaction != Interaction::none) {
+                const std::optional<Level>& lasting = levels[s].lasting;
+                gap = deflections(map, indenter, lasting ? pressures_of(map, repeats, *lasting) : pressures[s], columns, rows);
+            }
             const ResidualProfile& lowered = levels[s].lowered;
             for (std::size_t k = 0; k < lowered.depth.size(); ++k) {
                 const int i = static_cast<int>(std::round((lowered.x[k] - map.x0) / map.dx)) - columns.first;

@@ -26,11 +26,12 @@ struct Fields {
     std::vector<double> heights;        // [y][x] of the undeformed surface [length]
 };
 
-// A level whose fields are requested. `lowered`: plastic residual of boundary elements after the level.
+// A level whose fields are requested. `lowered`: plastic residual of boundary elements after the level; `lasting`: Contact::lasting_loads().
 struct FieldLevel {
     std::int32_t step;
     const Level* level;
     ResidualProfile lowered;
+    std::optional<Level> lasting;
 };
 
 // Computes fields of levels of one contact. Pressures are those of boundary elements, or of asperities: Hertzian over each spot (the

@@ -55,28 +55,36 @@ MapLevel map_level(const MapGrid& grid, const Level& level) {
     MapLevel map;
     std::vector<Entry> entries;
     const LevelPixels& pixels = level.pixels;
+    const LevelTractions& t = level.tractions;
+    const auto add_spot = [&](double x, double y, double area, double force) {
+        if (const int cell = grid.cell(x, y); cell >= 0) entries.push_back({cell, area, force});
+    };
+    const auto add_pixel = [&](double x, double y, double area, double pressure) {
+        if (grid.cell(x, y) < 0) return;
+        const double u = (x - grid.x0) / grid.side, v = (y - grid.y0) / grid.side, force = pressure * pixels.dx * pixels.dy;
+        share_out(v, pixels.dy / grid.side, grid.ny, [&](int j, double part_y) {
+            share_out(u, pixels.dx / grid.side, grid.nx, [&](int i, double part_x) {
+                entries.push_back({j * grid.nx + i, part_x * part_y * area, part_x * part_y * force});
+            });
+        });
+    };
     for (std::size_t k = 0; k < level.asperity.size(); ++k) map.outside += grid.cell(level.x[k], level.y[k]) < 0;
     if (pixels.index.empty()) {
         for (std::size_t k = 0; k < level.asperity.size(); ++k) {
             const double area = level.own_area.empty() ? std::numbers::pi * level.a[k] * level.a[k] : level.own_area[k];
-            if (const int cell = grid.cell(level.x[k], level.y[k]); cell >= 0) entries.push_back({cell, area, level.f[k]});
+            add_spot(level.x[k], level.y[k], area, t.x.empty() ? level.f[k] : 0);
         }
     } else {
         // Each pixel has an equal share of the area of its contact. It covers the cell of the surface that begins at its point.
         std::vector<double> share(level.a.size(), 0.0);
         for (const std::int32_t contact : pixels.contact) share[static_cast<std::size_t>(contact)] += 1;
         for (std::size_t c = 0; c < share.size(); ++c) share[c] = std::numbers::pi * level.a[c] * level.a[c] / share[c];
-        for (std::size_t k = 0; k < pixels.index.size(); ++k) {
-            const double u = (pixels.x(k) - grid.x0) / grid.side, v = (pixels.y(k) - grid.y0) / grid.side;
-            if (grid.cell(pixels.x(k), pixels.y(k)) < 0) continue;
-            const double area = share[static_cast<std::size_t>(pixels.contact[k])], force = pixels.pressure[k] * pixels.dx * pixels.dy;
-            share_out(v, pixels.dy / grid.side, grid.ny, [&](int j, double part_y) {
-                share_out(u, pixels.dx / grid.side, grid.nx, [&](int i, double part_x) {
-                    entries.push_back({j * grid.nx + i, part_x * part_y * area, part_x * part_y * force});
-                });
-            });
-        }
+        for (std::size_t k = 0; k < pixels.index.size(); ++k)
+            add_pixel(pixels.x(k), pixels.y(k), share[static_cast<std::size_t>(pixels.contact[k])], pixels.pressure[k]);
     }
+    // With adhesion, places also attract without contact.
+    for (const std::int32_t k : pixels.cohesive) add_pixel(pixels.x_of(k), pixels.y_of(k), 0, pixels.tension);
+    for (std::size_t k = 0; k < t.x.size(); ++k) add_spot(t.x[k], t.y[k], 0, t.pressed[k] + t.pulled[k]);
     std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.cell < b.cell; });
     for (const Entry& e : entries) {
         if (map.cell.empty() || map.cell.back() != e.cell) {

@@ -13,6 +13,9 @@ std::vector<double> hann(int n, bool none) {
     return w;
 }
 
+// The nearest whole number. On maps with commensurate sides many modes lie midway between two rings: rounding must not divide them.
+std::size_t nearest(double q) { return static_cast<std::size_t>(q * (1 + 1e-12) + 0.5); }
+
 // Accumulates the power of modes by ring and angle.
 class Plane {
 public:
@@ -131,8 +134,8 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
         const double ky = step_y * (j <= ny / 2 ? j : j - ny);
         for (int i = 0; i < columns; ++i) {
             const double kx = step_x * i, q = std::hypot(stretch * (kx * along + ky * across), (ky * along - kx * across) / stretch) / ring;
-            if (!(q < static_cast<double>(rings) + 0.5)) continue;
-            const auto r = static_cast<std::size_t>(q + 0.5);
+            const std::size_t r = nearest(q);
+            if (r > rings) continue;
             const double copies = i == 0 || 2 * i == nx ? 1 : 2;  // counts the mirror image in the other half plane
             const double of_mode = copies * std::norm(modes[static_cast<std::ptrdiff_t>(j) * columns + i]);
             power[r] += of_mode;
@@ -158,13 +161,13 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
             const auto stretched = [&](double kx, double ky) {
                 return std::hypot(stretch * (kx * along + ky * across), (ky * along - kx * across) / stretch) / ring;
             };
-            const auto r = static_cast<std::size_t>(stretched(step_x * i, step_y * j) + 0.5);
+            const std::size_t r = nearest(stretched(step_x * i, step_y * j));
             if (r == 0 || r >= seen.size()) continue;
             for (int v = -half; v <= half; ++v)
                 for (int u = -half; u <= half; ++u) {
                     const double share = window[static_cast<std::size_t>(std::abs(u))] * window[static_cast<std::size_t>(std::abs(v))];
                     const double q = stretched(step_x * (i + 0.5 * u), step_y * (j + 0.5 * v));
-                    seen[r][static_cast<std::size_t>(q * MeasuredSpectrum::kPlaces + 0.5)] += (i == 0 ? 1 : 2) * share;
+                    seen[r][nearest(q * MeasuredSpectrum::kPlaces)] += (i == 0 ? 1 : 2) * share;
                 }
         }
     // By Parseval's theorem the squared modes add up to nx ny times the sum of the squared windowed heights.

@@ -292,7 +292,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
             if (curve->failed() > failed) level.status = LevelStatus::not_converged;
         }
         if (std::find(field_steps.begin(), field_steps.end(), static_cast<std::int32_t>(k)) != field_steps.end())
-            fields.push_back({static_cast<std::int32_t>(k), &level, contact->residual_profile()});
+            fields.push_back({static_cast<std::int32_t>(k), &level, contact->residual_profile(), contact->lasting_loads(level)});
         if (on_level && !on_level(k, r.levels.back())) break;
     }
     r.residual_depth = contact->residual_depths();

@@ -204,6 +204,15 @@ test_merge() {
     says "30 realizations, 600 levels"
     same ../whole/out.nc out.nc
     cd ..
+    # Times of levels are the same in all realizations.
+    local relaxing=(-s solids%relaxation_share=0.5 -s solids%relaxation_time=1.0 -s indentation%duration=2.0)
+    part soft 1 4 "${relaxing[@]}"
+    part soft_a 1 2 "${relaxing[@]}"
+    part soft_b 3 2 "${relaxing[@]}"
+    mkdir soft_merged && cd soft_merged
+    expect 0 "$rsc" --merge ../soft_a/out.nc ../soft_b/out.nc -o out.nc
+    same ../soft/out.nc out.nc
+    cd ..
     part law 14 4 -s "asperities%law='elliptic'"
     part one 14 1
     part later 15 2

@@ -2,6 +2,7 @@
 // while contacts grow, the two elastic answers in the limits, conservation of energy, convergence, memories.
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
+#include "contact/deflection.hpp"
 #include "contact/element_contact.hpp"
 #include "error.hpp"
 #include "height_maps.hpp"
@@ -191,6 +192,30 @@ void test_memory(const Kind& model) {
     CHECK_THROWS(copy->recall({0.0, 3.0}, nullptr), Error);
 }
 
+// The deflections are those of the elastic contact while the indenter is held, at once and after long, as only the forces relax. Those left by a
+// contact that ended are the instantaneous body's under the loads of the retardations, and fade.
+void test_deflections(const Kind& model) {
+    const auto soft = make(model, kBody), elastic = make(model, {});
+    CHECK(!elastic->lasting_loads(Level{}));
+    const auto kernel = make_kernel(Interaction::point, substrate_of(elastic->indenter()), elastic->indenter().period);
+    const double touch = elastic->first_touch(), Z0 = touch - model.depth;
+    const Level e = elastic->at_separation(Z0);
+    const auto at = [&](const Level& level, double x) { return deflection(level, *kernel, x, 0.35); };
+    const auto as_elastic = [&](const Level& level, double share) {
+        const Level lasting = *soft->lasting_loads(level);
+        for (const double x : {0.05, 0.45, 0.9}) CHECK_CLOSE(at(lasting, x), share * at(e, x), 1e-6 * std::abs(at(e, 0.45)));
+    };
+    double time = 0;
+    for (int k = 0; k < 8; ++k, soft->set_time(time += 1e4)) as_elastic(soft->at_separation(Z0), 1);
+    // Released at once after a long hold: the loads of the retardations alone are left, 1 - 0.3 of those of the relaxed body.
+    soft->set_time(time = soft->time() - 1e4 + 1e-9);
+    const Level released = soft->at_separation(touch + 5 * model.depth);
+    CHECK(released.force == 0);
+    as_elastic(released, 0.7);
+    soft->set_time(time + 1e4);
+    as_elastic(soft->at_separation(touch + 5 * model.depth), 0);
+}
+
 }  // namespace
 
 TEST(relaxing_contact) {
@@ -200,5 +225,6 @@ TEST(relaxing_contact) {
         test_path(kind);
         test_far_apart(kind);
         test_memory(kind);
+        test_deflections(kind);
     }
 }

@@ -54,6 +54,42 @@ class Fields(Program):
                 if boundary == "periodic" and model == "elements":  # what goes down here comes up there
                     np.testing.assert_allclose(r["field_gap"].mean(axis=(1, 2)), r["separation"].ravel(), rtol=1e-5, atol=1e-9)
 
+    def test_relaxed(self):
+        """Held for long: field_gap is that of the elastic body with the relaxed modulus. Curves of elastic bodies are absent, as are marks of yielding."""
+        for boundary, R in (("free", "10.0"), ("periodic", "Infinity")):
+            for model in ("elements", "asperities"):
+                text = ROUGH.format(boundary=boundary, R=R, model=model).replace("levels = 1.6, 0.6 contacts = 'none'", "levels = 0.4 contacts = 'all'")
+                self.run_case(text.replace("E = 1.0e3", "E = 1.0e2").replace("levels = 1.5, 0.5", "levels = 0.4999999"))
+                soft = self.result()
+                text = text.replace("E = 1.0e3", "relaxation_share = 0.9 relaxation_time = 1.0 E = 1.0e3")
+                self.run_case(text.replace("levels = 1.5, 0.5", "levels = 0.5, 0.4999999 times = 0.0, 1.0e3"))
+                r = self.result()
+                np.testing.assert_array_equal(r["field_step"], [2])
+                np.testing.assert_allclose(r["force"][0, 1], soft["force"][0, 0], rtol=1e-5)  # the solver's tolerance is 1e-6
+                np.testing.assert_allclose(r["field_gap"][-1], soft["field_gap"][-1], rtol=0, atol=1e-5 * soft["field_gap"].max())
+                for name in ("area_I", "area_II", "transition_force"):
+                    self.assertTrue(np.isnan(r[name]).all() and np.isfinite(soft[name]).all(), name)
+                for name in ("area_hertz", "hertz_pressure", "area_persson", "area_bgt", "area_gw", "contact_yields"):
+                    self.assertNotIn(name, r)
+
+    def test_tension(self):
+        """Two flats under tension have no area by theories of contact without adhesion."""
+        self.run_case(ROUGH.format(boundary="periodic", R="Infinity", model="asperities").replace("E = 1.0e3", "adhesion = 3e-3 E = 1.0e3").replace("1.5, 0.5", "1.5, 4.5", 1))
+        r = self.result()
+        pulled = r["force_mean"] < 0
+        self.assertTrue(pulled.any())
+        for name in ("area_persson", "area_bgt"):
+            np.testing.assert_array_equal(np.isnan(r[name]), pulled, name)
+
+    def test_map_of_attraction(self):
+        """The cells of the map add up to the force, the attraction of places without contact included."""
+        for model, w, reach in (("elements", 0.02, 0.02), ("asperities", 1e-3, 1e-3)):
+            keys = f"adhesion = {w} adhesion_range = {reach} E = 1.0e3"
+            self.run_case(ROUGH.format(boundary="free", R="10.0", model=model).replace("E = 1.0e3", keys))
+            r = self.result()
+            self.assertTrue((r["cohesive_area"] > 0).any())
+            np.testing.assert_allclose(r["map_pressure"].sum(axis=(1, 2)) * r["map_cell_side"] ** 2, r["force"][0], rtol=1e-9)
+
     def test_gap_about_a_smooth_sphere(self):
         with open(self.path("flat.txt"), "w") as out:
             out.write(("0 " * 81 + "\n") * 81)
@@ -127,6 +163,19 @@ class Maps(Program):
         self.assertGreater(forces[0], 0)
         self.assertAlmostEqual(forces[1] / forces[0], 1, delta=1e-9)  # the text has 18 digits, in another unit
         self.assertIn("pixel", self.run_case(netcdf.format(keys=keys), status=2))
+
+    def test_border_of_the_indenter(self):
+        """Contact at the border of a smaller map of body 2 is counted, as no load is carried beyond; contact in its middle is not."""
+        np.savetxt(self.path("map.txt"), np.zeros((40, 40)))
+        i = np.arange(17) - 8.0
+        for bend, at_border in ((-1e-4, False), (1e-4, True)):  # [mm]
+            np.savetxt(self.path("body.txt"), 1e6 * bend * (i[:, None] ** 2 + i**2))
+            text = self.CASE.replace("R = Infinity, 10.0", "").format(keys="detrend = 'none' height_unit = 'nm' pixel = 0.02 sigma = 1e-3", level=120e-4 if at_border else -2e-4)
+            self.run_case(text + "\n&indenter shape = 'map' file = 'body.txt' /")
+            r = self.result()
+            self.assertGreater(r["force"][0, 0], 0)
+            self.assertEqual(r["edge_contacts"][0, 0] > 0, at_border)
+            self.assertTrue(r["status"][0, 0] == 1 or not at_border)
 
     def test_window(self):
         r = self.heights("height_unit = 'nm' pixel = 0.02 window = 0.1, 0.5, 0.19, 0.7")

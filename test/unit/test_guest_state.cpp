@@ -86,7 +86,13 @@ TEST(test_time) {
     ContactHandle refused, copy;
     FrictionHandle friction;
     double Z0 = 0;
-    const double sudden = at(made.contact, 0, 0.01), held = at(made.contact, 2, 0.01);
+    const double sudden = at(made.contact, 0, 0.01), x[] = {0.5, 0.9}, y[] = {0.5, 0.1};
+    double before[2], after[2];
+    OK(rsc_contact_deflection(made.contact, 2, x, y, before));
+    const double held = at(made.contact, 2, 0.01);
+    // Under an indenter that is held the forces relax, the surface stays.
+    OK(rsc_contact_deflection(made.contact, 2, x, y, after));
+    for (const int k : {0, 1}) CHECK_RELATIVE(after[k], before[k], 1e-6);
     CHECK(held < 0.9 * sudden && value(made.contact, "time") == 2 && at(made.contact, 2, 0.01) == held);
     CHECK(rsc_contact_copy(&copy, made.contact) == RSC_SUCCESS && rsc_contact_set_time(copy, 1) == -2);
     CHECK(rsc_contact_set_time(made.contact, 1) == -2 && rsc_contact_set_time(made.contact, std::nan("")) == -2);

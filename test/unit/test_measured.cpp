@@ -26,6 +26,14 @@ double largest(const HeightMap& map) {
     return most;
 }
 
+// Rings have the same modes in any unit of length, also where the sides of a map are as 3 to 2 and many modes lie midway between two rings.
+TEST(rings_in_units) {
+    const auto modes = [](double unit) {
+        return measure_spectrum(make(48, 32, unit * 0.01, unit * 0.01, [](double x, double y) { return std::sin(x) + y; })).modes;
+    };
+    for (const double unit : {1e3, 1e-3, 1.7, 0.3}) CHECK(modes(unit) == modes(1));
+}
+
 TEST(forms) {
     constexpr double kRemoved = 1e-10;  // of the height the form spans
     const auto plane = [](double x, double y) { return 1e3 + 0.3 * x - 0.2 * y; };

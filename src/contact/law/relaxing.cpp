@@ -52,6 +52,10 @@ public:
         return all;
     }
 
+    std::vector<double> widest() const override {
+        return of_summits([&](const Summit& s) { return elastic_->area(s.asperity, s.nodes.back().s); });
+    }
+
     void respond(int n, const int* asperity, const double* u, double* force, double* slope, double* work) const override {
         std::vector<double> edge(at(n));
         for (int k = 0; k < n; ++k) edge[at(k)] = edge_of(asperity[k], u[k]);

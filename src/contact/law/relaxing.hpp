@@ -36,6 +36,8 @@ public:
     // [retardation][touched].
     virtual std::vector<double> forces() const = 0;
     virtual std::vector<std::vector<double>> retarded() const = 0;
+    // The largest contact area of each so far.
+    virtual std::vector<double> widest() const = 0;
     // Energy stored in the springs of all asperities, and energy dissipated since first touch [force length].
     virtual double stored() const = 0;
     virtual double lost() const = 0;
