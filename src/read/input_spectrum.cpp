@@ -20,8 +20,8 @@ InputSpectrum read_spectrum(const std::string& path, const std::string& length_u
             const auto exponent = [&](const char* name) {
                 const auto given = file.numbers_attribute(*file.find(name), "twin_exponent");
                 if (!given) return 0.0;
-                if (given->size() != 1 || !((*given)[0] >= -kMostExponent && (*given)[0] <= 0))
-                    bad_input(format("the attribute twin_exponent of %s must be one number from %g to 0", name, -kMostExponent));
+                if (given->size() != 1 || !(std::abs((*given)[0]) <= kMostExponent))
+                    bad_input(format("the attribute twin_exponent of %s must be one number from %g to %g", name, -kMostExponent, kMostExponent));
                 return (*given)[0];
             };
             if (by_direction) {

@@ -134,9 +134,11 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     if (m.fit) {
         MeasuredSpectrum& s = m.spectrum;
         const SpectrumTable table(s.wavenumber, s.psd);
-        s.exponent = twin_exponent([&](double kx, double ky) { return table(std::hypot(kx, ky)); }, s.wavenumber, map, m.parameters);
-        s.plane_exponent =
-            twin_exponent(PlaneSpectrum(s.plane_wavenumber, MeasuredSpectrum::kAngles, s.plane_psd), s.plane_wavenumber, map, m.parameters);
+        const PlaneSpectrum plane(s.plane_wavenumber, MeasuredSpectrum::kAngles, s.plane_psd);
+        const auto breaks = [](const Breaks::Found& found) { return found.points > 0; };
+        const double most = std::any_of(m.breaks.found.begin(), m.breaks.found.end(), breaks) ? 0 : kMostExponent;
+        s.exponent = twin_exponent([&](double kx, double ky) { return table(std::hypot(kx, ky)); }, s.wavenumber, map, m.parameters, most);
+        s.plane_exponent = twin_exponent(plane, s.plane_wavenumber, map, m.parameters, most);
     }
     return m;
 }

@@ -223,7 +223,7 @@ HeightParameters height_parameters(const HeightMap& map) {
 }
 
 double twin_exponent(const std::function<double(double, double)>& psd, const std::vector<double>& wavenumber, const HeightMap& map,
-                     const HeightParameters& parameters) {
+                     const HeightParameters& parameters, double most) {
     constexpr int parts = 4, angles = 4 * static_cast<int>(MeasuredSpectrum::kAngles);
     std::vector<std::array<double, 3>> rings;  // ln k, shares of the mean square height and slope
     const auto difference = [](double k, double step) { return 2 * std::sin(k * step / 2) / step; };
@@ -241,7 +241,7 @@ double twin_exponent(const std::function<double(double, double)>& psd, const std
         }
     }
     const double wanted = parameters.sdq * parameters.sdq / (parameters.sq * parameters.sq);
-    double low = -kMostExponent, high = 0;
+    double low = -kMostExponent, high = most;
     for (int step = 0; step < 50; ++step) {
         const double e = 0.5 * (low + high);
         double height = 0, slope = 0;

@@ -82,11 +82,12 @@ struct Isotropy {
 Isotropy isotropy(const HeightMap& map);
 
 // The exponent e for which psd(kx, ky) (k/wavenumber[0])^e, by first differences with the steps of the map, has the ratio of rms slope to
-// rms height of the map, between -kMostExponent and 0. The window of measure_spectrum() weighs the middle of the map, so that long waves of a
-// map that is rougher elsewhere are missing. Slopes that are missing are those of steps and spikes, which no spectrum reproduces.
+// rms height of the map, between -kMostExponent and `most`. The window of measure_spectrum() weighs the middle of the map, so that long waves of a
+// map that is rougher elsewhere are missing, and those of a map that is rougher there count too much. `most` is 0 for maps with breaks:
+// slopes that are missing there are those of pits, spikes and steps, which no spectrum reproduces.
 inline constexpr double kMostExponent = 0.5;
 double twin_exponent(const std::function<double(double, double)>& psd, const std::vector<double>& wavenumber, const HeightMap& map,
-                     const HeightParameters& parameters);
+                     const HeightParameters& parameters, double most);
 
 // psd[ring][...] times (k/wavenumber[0])^exponent; as it is if the sizes do not agree.
 std::vector<double> tilted(std::vector<double> psd, const std::vector<double>& wavenumber, double exponent);

@@ -112,7 +112,7 @@ static std::string other_slopes(const Measured& m) {
     const bool directional = m.isotropy < kIsotropic;
     const double exponent = directional ? s.plane_exponent : s.exponent;
     std::string said =
-        exponent > -kTold ? "" : format("\nspectrum of the twins: that of the map times k^%.2f, for its rms slope", exponent);
+        std::abs(exponent) < kTold ? "" : format("\nspectrum of the twins: that of the map times k^%.2f, for its rms slope", exponent);
     constexpr double smoother = 0.8, rougher = 1.25;
     if (const double high = m.parameters.high_slope; high < smoother || high > rougher)
         said += format(
@@ -127,7 +127,7 @@ static std::string other_slopes(const Measured& m) {
     const double slope = theoretical_moments(twin).rms_slope(), held = (directional ? twin.plane->sigma() : twin.table->sigma()) / sigma;
     if (std::abs(slope / m.parameters.sdq - 1) < kTold) return said;
     said += format("\nwarning: the rms slope of the twins is %.3g, the map's %.3g", slope, m.parameters.sdq);
-    if (exponent < 0 && exponent > -kMostExponent * (1 - 1e-9))  // which makes the slopes by first differences equal
+    if (exponent != 0 && std::abs(exponent) < kMostExponent * (1 - 1e-9))  // which makes the slopes by first differences equal
         return said +
                ": by first differences with the step of the map both are equal, but this step smooths the shortest waves; elements see the "
                "twins, on their finer grid, steeper than the map";
@@ -145,7 +145,10 @@ static std::string write_twins(const Job& job, const std::string& result) {
     const std::string path = stem(result) + "_twins.nml";
     if (const std::string why = reason_to_leave(path, kTwins); !why.empty()) return "twins: " + path + ": " + why;
     write_whole(path, kTwins, twins_text(job, result));
-    const char* const kept = job.measured->gaussian() ? "" : " and these heights; not kept: which waves carry the skewness, some 10 % of N";
+    const char* const kept = job.measured->gaussian()
+                                 ? ""
+                                 : " and these heights; not kept: which waves carry the skewness: some 10 % of N, and a "
+                                   "factor of several in A where few summits touch";
     return "twins: " + path + " (surfaces with this spectrum" + kept + ": rsc < " + path + ")" + other_slopes(*job.measured);
 }
 

@@ -187,7 +187,8 @@ TEST(lists) {
             .table;
     };
     CHECK_RELATIVE((*with(-0.5))(8), 13.0 / 2, 1e-12);
-    for (const double exponent : {-3.0, 0.2, std::nan("")}) CHECK(!accepted([&] { with(exponent); }));
+    CHECK_RELATIVE((*with(0.5))(8), 13.0 * 2, 1e-12);
+    for (const double exponent : {-3.0, 0.7, std::nan("")}) CHECK(!accepted([&] { with(exponent); }));
     CHECK(!accepted([&] { with(-0.5, "other"); }));
     CHECK(!accepted([] {
         read_spectrum(
