@@ -31,7 +31,7 @@ struct FieldLevel {
     std::int32_t step;
     const Level* level;
     ResidualProfile lowered;
-    std::optional<Level> lasting;
+    std::optional<Level> lasting = {};
 };
 
 // Computes fields of levels of one contact. Pressures are those of boundary elements, or of asperities: Hertzian over each spot (the

@@ -219,4 +219,24 @@ TEST(finer) {
     CHECK(levels > 10 && 10 * force >= 9 * levels && 10 * area >= 9 * levels);
 }
 
+// Law 'elliptic' on summits far more elongated than those of the fit: N differs by up to 31 % from elements, and the bounds say so.
+TEST(far_more_elongated) {
+    Case c;
+    c.surface.L_lambda_l = 8, c.surface.L_lambda_s = 24, c.surface.sigma = 5e-4, c.surface.aspect = 20, c.surface.direction = 30;
+    c.surface.n = 512;
+    c.solids.R[1] = 5;
+    c.indentation.levels = {2, 1.2, 0.4};
+    for (const int seed : {1, 2, 3}) {
+        c.run.seed = seed;
+        const auto pressed = [&](Model model) {
+            c.solver.model = model;
+            c.asperities.law = LawKind::elliptic;
+            return realize(prepare(c), 1, 1).levels;
+        };
+        const std::vector<Level> asperities = pressed(Model::asperities), truth = pressed(Model::elements);
+        for (std::size_t k = 0; k < truth.size(); ++k)
+            if (asperities[k].force > 0) CHECK(std::abs(asperities[k].force / truth[k].force - 1) <= asperities[k].force_error_expected);
+    }
+}
+
 }  // namespace
