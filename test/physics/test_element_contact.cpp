@@ -3,7 +3,6 @@
 
 #include "check.hpp"
 #include "contact/element_contact.hpp"
-#include "error.hpp"
 #include "height_maps.hpp"
 #include "rough/synthesis.hpp"
 

@@ -6,7 +6,6 @@
 
 #include "case/read_case.hpp"
 #include "check.hpp"
-#include "error.hpp"
 #include "physics/values/checked_file.hpp"
 #include "physics/values/distributions.hpp"
 #include "physics/values/levels.hpp"

@@ -10,7 +10,6 @@
 #include "contact/element_contact.hpp"
 #include "contact/equivalent.hpp"
 #include "contact/interaction/lattice.hpp"
-#include "error.hpp"
 #include "height_maps.hpp"
 #include "physics/elimination.hpp"
 #include "random_asperities.hpp"

@@ -6,7 +6,6 @@
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
 #include "contact/expected_error.hpp"
-#include "error.hpp"
 #include "run/job.hpp"
 #include "run/screen.hpp"
 

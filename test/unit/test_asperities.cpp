@@ -3,7 +3,6 @@
 #include "rough/synthesis.hpp"
 
 #include "check.hpp"
-#include "error.hpp"
 
 using namespace rsc;
 

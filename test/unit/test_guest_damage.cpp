@@ -2,7 +2,6 @@
 #include <sys/stat.h>
 
 #include "check.hpp"
-#include "error.hpp"
 #include "file/netcdf_writer.hpp"
 #include "file/result.hpp"
 #include "file/whole_file.hpp"

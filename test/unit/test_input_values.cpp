@@ -1,7 +1,6 @@
 // Every number that comes out of a file: values, units, axes and their directions, whatever the file's format, type and length. All
 // numbers of an input differ from each other.
 #include "check.hpp"
-#include "error.hpp"
 #include "read/input_netcdf.hpp"
 #include "read/inputs.hpp"
 #include "unit/netcdf_file.hpp"

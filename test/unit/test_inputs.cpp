@@ -2,7 +2,6 @@
 #include "read/inputs.hpp"
 
 #include "check.hpp"
-#include "error.hpp"
 #include "unit/netcdf_file.hpp"
 #include "unit/refused.hpp"
 #include "unit/temporary_folder.hpp"

@@ -3,7 +3,6 @@
 #include "check.hpp"
 #include "contact/equivalent.hpp"
 #include "contact/indenter/shapes.hpp"
-#include "error.hpp"
 #include "run/job.hpp"
 #include "run/prepare.hpp"
 #include "run/run.hpp"

@@ -1,6 +1,5 @@
 // Surfaces with a direction, with heights that are not Gaussian, and what is measured of them.
 #include "check.hpp"
-#include "error.hpp"
 #include "format.hpp"
 #include "height_maps.hpp"
 #include "rough/detection.hpp"

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include "check.hpp"
-#include "error.hpp"
 #include "read/formats.hpp"
 #include "read/inputs.hpp"
 #include "unit/map_files.hpp"

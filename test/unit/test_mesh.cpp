@@ -1,7 +1,6 @@
 // The mesh product against sums in long double, on every kind of point set.
 #include "check.hpp"
 #include "contact/interaction/mesh.hpp"
-#include "error.hpp"
 
 #include "rough/parallel.hpp"
 

@@ -4,7 +4,6 @@
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
 #include "check.hpp"
-#include "error.hpp"
 #include "unit/refused.hpp"
 
 using namespace rsc;

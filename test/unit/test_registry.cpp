@@ -4,7 +4,6 @@
 #include "case/options.hpp"
 #include "case/registry.hpp"
 #include "check.hpp"
-#include "error.hpp"
 #include "unit/refused.hpp"
 #include "version.h"
 

@@ -4,7 +4,6 @@
 #include <Random123/philox.h>
 
 #include "check.hpp"
-#include "error.hpp"
 #include "rough/modes.hpp"
 #include "rough/vector_math.hpp"
 

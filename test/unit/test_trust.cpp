@@ -4,7 +4,6 @@
 #include "contact/element_contact.hpp"
 #include "contact/expected_error.hpp"
 #include "contact/spots.hpp"
-#include "error.hpp"
 #include "height_maps.hpp"
 #include "observe/map.hpp"
 #include "observe/record.hpp"

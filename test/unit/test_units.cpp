@@ -5,7 +5,6 @@
 
 #include "case/read_case.hpp"
 #include "check.hpp"
-#include "error.hpp"
 #include "result_reader.hpp"
 #include "run/run.hpp"
 #include "unit/refused.hpp"

@@ -1,7 +1,6 @@
 // Maps in which everything differs from everything else (nx != ny, dx != dy, x0 != y0, heights without symmetry) against slow plain
 // computations, and what transposing, mirroring and rescaling them must do to every number that comes out.
 #include "check.hpp"
-#include "error.hpp"
 #include "height_maps.hpp"
 #include "rough/defects.hpp"
 #include "rough/detection.hpp"
