@@ -21,7 +21,8 @@ InputSpectrum read_spectrum(const std::string& path, const std::string& length_u
                 const auto given = file.numbers_attribute(*file.find(name), "twin_exponent");
                 if (!given) return 0.0;
                 if (given->size() != 1 || !(std::abs((*given)[0]) <= kMostExponent))
-                    bad_input(format("the attribute twin_exponent of %s must be one number from %g to %g", name, -kMostExponent, kMostExponent));
+                    bad_input(
+                        format("the attribute twin_exponent of %s must be one number from %g to %g", name, -kMostExponent, kMostExponent));
                 return (*given)[0];
             };
             if (by_direction) {

@@ -44,7 +44,7 @@ private:
     std::unique_ptr<Contact> contact_;
     bool coarser_ = true, read_ = false;
     bool by_force_ = false;  // a body that relaxes follows the forces of the levels
-    double edge_ = 0;  // share of N by the places of the pixels at the edge of the indenter
+    double edge_ = 0;        // share of N by the places of the pixels at the edge of the indenter
 };
 
 // Checks the levels of a run one after the other: each gets the error of the last level that was solved on the second grid. The check is
