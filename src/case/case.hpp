@@ -137,6 +137,8 @@ struct ModelChoice {
 ModelChoice model_of(const Case& settings);
 // True if body 1 relaxes, i.e. a share is positive.
 bool relaxes(const Case& settings);
+// True if closed forms of areas and pressures hold: body 1 is an elastic half-space without layers, and the only rough body.
+bool has_closed_forms(const Case& settings);
 inline bool by_elements(const Case& settings) { return model_of(settings).model == Model::elements; }
 
 }  // namespace rsc

@@ -213,8 +213,9 @@ std::vector<Key> make_registry() {
         number(RSC_KEY(indentation, start), "`unit`", kAny, "first level"),
         number(RSC_KEY(indentation, stop), "`unit`", kAny, "last level"),
         number(RSC_KEY(indentation, steps), "1", between(1, 1e6), "number of levels, both ends included"),
-        choice(RSC_KEY(indentation, unit), kLevelUnitNames,
-               "unit of separations: sigma or length; of pressures: relative, p/(E* sqrt(2 m2)), or pressure; forces have the force unit"),
+        choice(
+            RSC_KEY(indentation, unit), kLevelUnitNames,
+            "unit of separations: sigma or length; of pressures: relative, p/(E* sqrt(2 m2)), m2 of both bodies, or pressure; forces have the force unit"),
         choice(RSC_KEY(indentation, spacing), kSpacingNames, "spacing of the levels"),
         list(RSC_KEY(indentation, levels), 10000, "`unit`", kAny, "start, stop and steps give the levels",
              "list of levels instead of start, stop and steps"),

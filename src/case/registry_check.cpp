@@ -357,6 +357,8 @@ bool relaxes(const Case& settings) {
     return std::ranges::any_of(settings.solids.relaxation_share, [](double g) { return g > 0; });
 }
 
+bool has_closed_forms(const Case& c) { return c.solids.layer_thickness.empty() && !relaxes(c) && c.indenter.file.empty(); }
+
 ModelChoice model_of(const Case& c) {
     if (c.solver.model != Model::automatic) return {c.solver.model};
     // With 'auto', elements solve height maps unless a key asks for what only asperities have.

@@ -28,7 +28,8 @@ double mean_radius(const Level& level) {
     return std::inner_product(level.f.begin(), level.f.end(), level.a.begin(), 0.0) / std::accumulate(level.f.begin(), level.f.end(), 0.0);
 }
 
-Predictors predictors(const Level& level, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options) {
+Predictors predictors(const Level& level, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
+                      const Yielded& yielded) {
     const double contacts = level.contacts;
     double elongation = 0, pressed = 0, force = 0;
     for (std::size_t k = 0; k < level.asperity.size(); ++k) {
@@ -52,7 +53,7 @@ Predictors predictors(const Level& level, const Asperities& asperities, const In
             std::log(std::max(mean_radius(level) / options.mean_spacing, 1e-3)),
             1 / std::sqrt(contacts),
             options.points_per_wave > 0 ? std::min(4 / options.points_per_wave, 1.5) : 1.0,
-            level.plastic_contacts / contacts,
+            std::max(level.plastic_contacts, yielded.contacts) / contacts,
             indenter.period.finite() ? 1.0 : 0.0};
 }
 
@@ -106,11 +107,12 @@ double spike_share(const Level& level, const MapMarks& marks) {
 
 const char* error_cause(std::int32_t cause) { return kCauses[cause]; }
 
-void expect_error(Level& level, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options, bool ellipses) {
+void expect_error(Level& level, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options, bool ellipses,
+                  const Yielded& yielded) {
     if (level.contacts == 0 || !(level.force > 0) || options.interaction == Interaction::none || options.selection == Selection::paper ||
         !(options.mean_spacing > 0))
         return;
-    const Predictors x = predictors(level, asperities, indenter, options);
+    const Predictors x = predictors(level, asperities, indenter, options, yielded);
     const auto bound = [&](const double(&coefficients)[kErrorPredictors + 1]) {
         double sum = 0;
         for (std::size_t k = 0; k < x.size(); ++k) sum += coefficients[k] * x[k];
@@ -130,6 +132,8 @@ void expect_error(Level& level, const Asperities& asperities, const Indenter& in
         options.law == LawKind::elliptic ? kElongated * std::clamp((x[4] - kElongation) / kElongationMore, 0.0, 1.0) : 0.0;
     level.force_error_expected += elongated, level.area_error_expected += elongated;
     if (ellipses) level.force_error_expected *= kEllipses;
+    if (yielded.force > level.force) level.force_error_expected *= yielded.force / level.force;
+    if (yielded.area > level.area) level.area_error_expected *= yielded.area / level.area;
     const GridShare lost = grid_share(level, asperities, options);
     const bool coarse = lost.force > level.force_error_expected;
     level.force_error_expected = std::max(level.force_error_expected, lost.force);

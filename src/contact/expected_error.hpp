@@ -22,8 +22,13 @@ const char* error_cause(std::int32_t cause);
 
 // Sets force_error_expected, area_error_expected and error_cause of a level that has its contacts and counts. They are not set without
 // contact, or where the bounds were not calibrated: without interaction, with selection = 'paper', or if the mean spacing is unknown.
-// `ellipses`: all contacts are most loaded ellipses (law/ellipse_law.hpp), whose forces are nearer to those of elements.
-void expect_error(Level& level, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
-                  bool ellipses = false);
+// `ellipses`: all contacts are most loaded ellipses (law/ellipse_law.hpp), whose forces are nearer to those of elements. `yielded`: what has
+// yielded before; in unloading the errors of the force and the area at which it yielded remain.
+struct Yielded {
+    double force = 0, area = 0;  // of all asperities that have yielded, each at its deepest accepted level
+    std::int32_t contacts = 0;   // of the level
+};
+void expect_error(Level& level, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options, bool ellipses = false,
+                  const Yielded& yielded = {});
 
 }  // namespace rsc

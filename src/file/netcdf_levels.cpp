@@ -221,7 +221,7 @@ void ResultTable::regimes() {
     const double E = r_.indenter.E_star;
     const auto smooth = r_.indenter.shape->smooth(E);
     const std::string which = r_.theory ? "m2_theory and m4_theory" : "the means of m2 and m4 over realizations";
-    const bool known = elastic_half_space() && m.m2 > 0 && m.m4 > 0;
+    const bool known = has_closed_forms(r_.settings) && m.m2 > 0 && m.m4 > 0;
     std::vector<double> first, second, hertz;
     for (double N : o_.force.mean) {
         if (N < 0) N = kAbsent;  // adhesion
@@ -235,7 +235,7 @@ void ResultTable::regimes() {
                "pi (3 r_g N/(4 E*))^(2/3), r_g = 0.737/sqrt(m4), with " + which);
     add_absent("area_II", {"step"}, unit(2), "contact area proportional to force_mean, A_II", second,
                "beta sqrt(2 pi) N/(sqrt(2 m2) E*), beta = 0.2, with " + which);
-    if (!elastic_half_space()) return;
+    if (!has_closed_forms(r_.settings)) return;
     if (r_.indenter.period.finite()) return two_flats(m);
     add_absent("area_hertz", {"step"}, unit(2), "contact area of the smooth indenter at force_mean (sphere: Hertz)", hertz,
                "sphere: pi a^2, a = (3 N R*/(4 E*))^(1/3); missing for two flats and for indenters without a closed form");

@@ -56,7 +56,7 @@ void ResultTable::radial() {
         "mean over the circle of the map, interpolated by bicubic Bezier patches between cell centres; it may be negative beside empty cells";
     add("radial_area_fraction", dims, "1", "area fraction about the tip", o_.radial_area_fraction, comment(how));
     add("radial_pressure", dims, unit(-2, 1), "pressure about the tip", o_.radial_pressure, comment(how));
-    if (!elastic_half_space()) return;
+    if (!has_closed_forms(r_.settings)) return;
     std::vector<double> hertz;
     const double R = r_.indenter.shape->hertz_radius();
     for (double N : o_.force.mean)

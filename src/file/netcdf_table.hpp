@@ -81,8 +81,6 @@ private:
     void measured();
     void friction();
     void two_flats(const Moments& moments);
-    // False for bodies with layers or that relax, for which the closed forms of contact areas and pressures do not hold.
-    bool elastic_half_space() const { return r_.indenter.layers.count == 0 && !relaxes(r_.settings); }
     // netcdf_observed.cpp
     void maps();
     void radial();

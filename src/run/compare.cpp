@@ -66,11 +66,11 @@ std::vector<std::size_t> steps_to_compare(const Job& job, const std::vector<Leve
     return steps;
 }
 
-// True if the direction of the path is reversed at a level, or the path begins with unloading.
+// True if the direction of the path is reversed at a level, if it rests there, or if the path begins with unloading.
 bool turns(const std::vector<LevelValues>& levels, std::size_t k) {
     if (k + 1 >= levels.size()) return false;
     const double on = levels[k + 1].separation - levels[k].separation;
-    return k == 0 ? on > 0 : (levels[k].separation - levels[k - 1].separation) * on < 0;
+    return k == 0 ? on >= 0 : (levels[k].separation - levels[k - 1].separation) * on <= 0;
 }
 
 // Elements on the surface of a realization, with a second grid for their error. Synthetic surfaces are refined if the error is too large,

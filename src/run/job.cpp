@@ -57,13 +57,15 @@ void move_to(const Domain& place, HeightMap& map, std::int64_t number) {
 }
 
 // The m2 for relative pressures, common to all realizations: that of the map or of the single synthetic surface, or the expectation
-// over the modes of several surfaces. Negative or NaN: not known.
+// over the modes of several surfaces; of two rough bodies the sum. Negative or NaN: not known.
 double m2_of_pressures(const Job& job) {
-    if (!job.spectrum) return job.given ? job.given->statistics.m2 : kAbsent;
+    const auto& second = job.indenter.shape->keys().map;
+    const double other = second ? grid_moments(*second).m2 : 0.0;
+    if (!job.spectrum) return job.given ? job.given->statistics.m2 + other : kAbsent;
     const Case& c = job.settings;
-    if (c.run.realizations > 1) return discrete_moments(*job.spectrum).m2;
+    if (c.run.realizations > 1) return discrete_moments(*job.spectrum).m2 + other;
     const int n = 2 * static_cast<int>(std::ceil(shortest_wave(*job.spectrum))) + 2;  // the modes are the same on every grid
-    return RowSource(*job.spectrum, n, c.surface.normalise, c.run.seed, c.run.first_realization, 1).sampled().m2;
+    return RowSource(*job.spectrum, n, c.surface.normalise, c.run.seed, c.run.first_realization, 1).sampled().m2 + other;
 }
 
 // Jump of the heights across the border of a periodic map, relative to that between neighbouring points (rms).
@@ -282,7 +284,10 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         Level& level = r.levels.back();
         if (!job.times.empty()) level.time = job.times[k];
         add_answers(*contact, level, settings.solids.resistivity);
-        if (resolution) resolution->judge(k, level);
+        if (resolution)
+            resolution->judge(k, level);
+        else if (by_elements(settings) && !(settings.solids.adhesion > 0))
+            judge_pixels(level, !job.spectrum);
         if (job.measured && job.given) judge_filled(level, *job.measured, job.domain);
         if (level.force == 0 && level.separation < job.points_touch)  // contact at points that are no summits
             level.status = graver(level.status, LevelStatus::out_of_validity);

@@ -7,9 +7,10 @@
 namespace rsc {
 namespace {
 
-// Synthetic surfaces: expected error of N for contacts of one pixel, assumed to decrease as the third power of the contact radius in pixels:
-// an empirical lower bound for contacts of few pixels.
-constexpr double kOnePixel = 2;
+// Expected error of N for contacts of one pixel, on synthetic surfaces and on maps, assumed to decrease as the third power of the contact
+// radius in pixels: an empirical lower bound for contacts of few pixels.
+constexpr double kOnePixel = 2, kOnePixelRead = 0.7;
+double of_pixels(double pixels, bool read) { return (read ? kOnePixelRead : kOnePixel) * std::pow(pixels, -1.5); }
 
 // Fitted to 180 levels of random surfaces and shapes against 40 points in the shortest wave (test/README, elements): share of the change to a
 // finer grid, what is added for contacts of a few pixels, and for the area.
@@ -78,10 +79,9 @@ std::optional<GridError> OtherGrid::error(const LevelValues& level) {
     const double force = change(level.force, other.force), area = change(level.area, other.area);
     // Fitted to maps solved on a grid of half the step (test/README, elements on maps): nine of ten are within these bounds.
     if (read_)
-        return GridError{edge_ + force + 0.04 * area + 0.7 * std::pow(pixels, -1.5),
-                         edge_ + 1.4 * area + 2 * force + std::pow(pixels, -0.75)};
+        return GridError{edge_ + force + 0.04 * area + of_pixels(pixels, true), edge_ + 1.4 * area + 2 * force + std::pow(pixels, -0.75)};
     // Contacts of a few pixels may have the same error on both grids, and their areas in whole pixels by chance.
-    const double few = coarser_ ? kOnePixel * std::pow(pixels, -1.5) : kOnePixelFiner / pixels;
+    const double few = coarser_ ? of_pixels(pixels, false) : kOnePixelFiner / pixels;
     return GridError{edge_ + (coarser_ ? std::max(few, force) : few + force),
                      edge_ + std::max(few, area) + kPixelArea * std::pow(pixels, -0.75)};
 }
@@ -98,7 +98,7 @@ void ResolutionCheck::judge(std::size_t step, Level& level) {
     if (!other_.exists() || level.status == LevelStatus::not_converged || !(level.force > 0 || relaxing)) return;
     const auto& levels = job_.levels;
     const bool turns = std::isfinite(job_.settings.solids.hardness) && step > 0 && step + 1 < levels.size() &&
-                       (levels[step] - levels[step - 1]) * (levels[step + 1] - levels[step]) < 0;
+                       (levels[step] - levels[step - 1]) * (levels[step + 1] - levels[step]) <= 0;
     const bool due = relaxing || !last_ || level.pixels_per_contact >= kGrown * pixels_ || level.pixels_per_contact <= kShrunk * pixels_;
     if (due) {
         last_ = other_.error(level);
@@ -110,6 +110,13 @@ void ResolutionCheck::judge(std::size_t step, Level& level) {
     level.force_error_expected = last_->force;
     level.area_error_expected = last_->area;
     if (last_->force > kUnresolved) level.status = graver(level.status, LevelStatus::out_of_validity);
+}
+
+void judge_pixels(Level& level, bool read) {
+    if (level.status == LevelStatus::not_converged || !(level.force > 0)) return;
+    level.force_error_expected = of_pixels(level.pixels_per_contact, read);
+    level.area_error_expected = level.force_error_expected + (read ? 1 : kPixelArea) * std::pow(level.pixels_per_contact, -0.75);
+    if (level.force_error_expected > kUnresolved) level.status = graver(level.status, LevelStatus::out_of_validity);
 }
 
 void judge_filled(Level& level, const Measured& map, const Domain& domain) {

@@ -62,6 +62,9 @@ private:
     double pixels_ = 0;  // pixels_per_contact of that check
 };
 
+// The same without a second grid, for campaigns: the part of the errors that contacts of few pixels have. `read`: heights from a file.
+void judge_pixels(Level& level, bool read);
+
 // The check of a level for missing points of its map, which are not part of the contact.
 
 // A level is out_of_validity if a larger share of the contact area than this is on filled points.

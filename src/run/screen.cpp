@@ -64,8 +64,10 @@ void print_case(std::ostream& out, const Job& job) {
     }
     if (job.theory) {
         const Moments& m = *job.theory;
-        out << format("theory: rms slope %.4g, Nayak parameter %.4g, summit density %.5g 1/%s2, r_g %.4g %s, transition force N* %.5g %s\n",
-                      m.rms_slope(), m.nayak(), m.summit_density(), l, m.mean_radius(), l, transition_force(m, job.indenter.E_star), f);
+        out << format("theory: rms slope %.4g, Nayak parameter %.4g, summit density %.5g 1/%s2, r_g %.4g %s", m.rms_slope(), m.nayak(),
+                      m.summit_density(), l, m.mean_radius(), l);
+        if (has_closed_forms(job.settings)) out << format(", transition force N* %.5g %s", transition_force(m, job.indenter.E_star), f);
+        out << '\n';
     }
 }
 

@@ -1,8 +1,10 @@
 // What a case becomes before anything is pressed: levels, places, units, ranges and options, each by hand from the case's own numbers,
 // and what is refused just beyond its bound.
+#include "case/registry.hpp"
 #include "check.hpp"
 #include "contact/equivalent.hpp"
 #include "contact/indenter/shapes.hpp"
+#include "format.hpp"
 #include "run/job.hpp"
 #include "run/prepare.hpp"
 #include "run/run.hpp"
@@ -195,6 +197,18 @@ TEST(pressures) {
         const Job job = prepare(c);
         const double m2 = make_surface(c, 1, 1).sampled->m2;
         CHECK_RELATIVE(job.levels[0], 0.01 * job.indenter.E_star * std::sqrt(2 * m2) * 3 * 3, kRounding);
+        // Body 2 is a wave a cos(2 pi x/3), whose m2 is (2 pi a/3)^2/4.
+        constexpr int points = 64;
+        constexpr double a = 0.05, of_differences = 2e-3;
+        std::string wave;
+        for (int k = 0; k < points * points; ++k)
+            wave += format("%.12g %.12g %.12g\n", 3.0 * (k % points) / points, 3.0 * (k / points) / points,
+                           a * std::cos(2 * kPi * (k % points) / points));
+        c.indenter.file = write("wave.txt", wave);
+        set_key(c, "indenter%shape", "'map'");
+        const double both = m2 + std::pow(2 * kPi * a / 3, 2) / 4;
+        const Job two = prepare(c);
+        CHECK_RELATIVE(two.levels[0], 0.01 * two.indenter.E_star * std::sqrt(2 * both) * 3 * 3, of_differences);
     }
 }
 

@@ -1,4 +1,5 @@
 // What a level is worth: status, expected errors, grids of elements, borders, filled points.
+#include "case/registry.hpp"
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
@@ -7,7 +8,9 @@
 #include "height_maps.hpp"
 #include "observe/map.hpp"
 #include "observe/record.hpp"
+#include "run/compare.hpp"
 #include "run/job.hpp"
+#include "run/prepare.hpp"
 #include "run/resolution.hpp"
 #include "unit/temporary_folder.hpp"
 
@@ -218,24 +221,114 @@ TEST(finer) {
     CHECK(levels > 10 && 10 * force >= 9 * levels && 10 * area >= 9 * levels);
 }
 
+std::vector<Level> pressed(Case c, Model model) {
+    c.solver.model = model;
+    return realize(prepare(c), 1, 1).levels;
+}
+
 // Law 'elliptic' on summits far more elongated than those of the fit: N differs by up to 31 % from elements, and the bounds say so.
 TEST(far_more_elongated) {
     Case c;
     c.surface.L_lambda_l = 8, c.surface.L_lambda_s = 24, c.surface.sigma = 5e-4, c.surface.aspect = 20, c.surface.direction = 30;
     c.surface.n = 512;
     c.solids.R[1] = 5;
+    c.asperities.law = LawKind::elliptic;
     c.indentation.levels = {2, 1.2, 0.4};
     for (const int seed : {1, 2, 3}) {
         c.run.seed = seed;
-        const auto pressed = [&](Model model) {
-            c.solver.model = model;
-            c.asperities.law = LawKind::elliptic;
-            return realize(prepare(c), 1, 1).levels;
-        };
-        const std::vector<Level> asperities = pressed(Model::asperities), truth = pressed(Model::elements);
+        const std::vector<Level> asperities = pressed(c, Model::asperities), truth = pressed(c, Model::elements);
         for (std::size_t k = 0; k < truth.size(); ++k)
             if (asperities[k].force > 0) CHECK(std::abs(asperities[k].force / truth[k].force - 1) <= asperities[k].force_error_expected);
     }
+}
+
+// In unloading the errors of the level at which asperities yielded remain, while N decreases. Of these levels one has a bound that is
+// exceeded (nine of ten are promised).
+TEST(unloading) {
+    Case c;
+    c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 20, c.surface.sigma = 2e-3, c.surface.n = 256;
+    c.solids.E[0] = 1e5, c.solids.nu[0] = 0.3, c.solids.R[1] = 5, c.solids.hardness = 2e3;
+    c.asperities.law = LawKind::fourth_order;
+    c.indentation.levels = {2, 1.5, 1, 1.1, 1.2, 1.3, 1.4, 1.5};
+    constexpr std::size_t deepest = 2;
+    int levels = 0, within = 0;
+    for (const int seed : {1, 2, 3}) {
+        c.run.seed = seed;
+        const std::vector<Level> asperities = pressed(c, Model::asperities), truth = pressed(c, Model::elements);
+        for (std::size_t k = deepest + 1; k < truth.size(); ++k) {
+            if (!(asperities[k].force > 0)) continue;
+            ++levels;
+            within += std::abs(asperities[k].force - truth[k].force) <= asperities[k].force_error_expected * asperities[k].force;
+        }
+    }
+    CHECK(levels > 10 && 10 * within >= 9 * levels);
+    // Elements that are compared follow the path, also if it rests at its deepest level: twice the same.
+    const auto compared = [&](std::vector<double> path) {
+        c.indentation.levels = std::move(path), c.compare.levels = {1.1, 1.1};
+        const Job job = prepare(c);
+        const std::vector<Level> run = realize(job, 1, 1).levels;
+        return compare_levels(job, 1, 1, {run.begin(), run.end()}, nullptr, [] { return false; }).levels.back().force;
+    };
+    CHECK_RELATIVE(compared({1.1, 1, 1, 1.1}), compared({1.1, 1, 1.1}), 10 * SolverOptions{}.tolerance);
+}
+
+// Where the flank of an elongated ridge touches a cone, and no summit does, law 'hertz' has no contact, and does not promise that there is none.
+TEST(flanks) {
+    Case c;
+    c.run.seed = 6;
+    c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16, c.surface.sigma = 2e-3, c.surface.aspect = 4, c.surface.direction = 30;
+    c.surface.n = 256;
+    c.solids.R[1] = std::numeric_limits<double>::infinity();
+    set_key(c, "indenter%shape", "'cone'");
+    c.indenter.slope = 0.03;
+    c.indentation.levels = {1.2, 1.1, 1};
+    const std::vector<Level> asperities = pressed(c, Model::asperities), truth = pressed(c, Model::elements);
+    for (std::size_t k = 0; k < truth.size(); ++k)
+        CHECK(truth[k].force > 0 && asperities[k].force == 0 && asperities[k].status == LevelStatus::out_of_validity);
+}
+
+// Asperities that attract: N is a difference of forces that press and pull, and its error at least that of what presses.
+TEST(attracting) {
+    Case c;
+    c.run.seed = 3;
+    c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16, c.surface.sigma = 5e-3, c.surface.n = 256;
+    c.solids.E[0] = 1e5, c.solids.nu[0] = 0.3, c.solids.R[1] = 2;
+    c.indentation.levels = {1.5};
+    const Level dry = pressed(c, Model::asperities).front();
+    c.solids.adhesion = 0.2, c.solids.adhesion_range = 1.5e-3;
+    const Level level = pressed(c, Model::asperities).front();
+    // What presses is larger than without attraction, which draws the bodies together.
+    CHECK(level.force < dry.force && level.force_error_expected * level.force > dry.force_error_expected * dry.force);
+    c.indentation.levels = {2};  // here they attract each other without contact, elements by half as much again
+    const Level apart = pressed(c, Model::asperities).front();
+    CHECK(apart.force < 0 && apart.contacts == 0 && apart.status == LevelStatus::out_of_validity);
+}
+
+// Elements in a campaign have no second grid: contacts of few pixels are out of validity, with an error that holds.
+TEST(campaigns) {
+    Case c;
+    c.run.seed = 3, c.run.realizations = 8;
+    c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 32, c.surface.sigma = 2e-3;
+    c.solids.R[1] = 5;
+    c.solver.model = Model::elements;
+    c.indentation.levels = {3, 2.7, 2.4, 2.1, 1.8, 1.5};
+    const auto campaign = [&](double points) {
+        c.elements.points_per_wave = points;
+        const Job job = prepare(c);
+        std::vector<Level> all;
+        for (int k = 1; k <= c.run.realizations; ++k)
+            for (Level& level : realize(job, k, 1).levels) all.push_back(std::move(level));
+        return all;
+    };
+    const std::vector<Level> coarse = campaign(4), fine = campaign(16);
+    int levels = 0, within = 0;
+    for (std::size_t k = 0; k < fine.size(); ++k) {
+        if (!(fine[k].force > 0 && coarse[k].force > 0)) continue;
+        const double error = std::abs(coarse[k].force / fine[k].force - 1);
+        CHECK(error < 0.1 || coarse[k].status == LevelStatus::out_of_validity);
+        ++levels, within += error <= coarse[k].force_error_expected;
+    }
+    CHECK(levels > 10 && 10 * within >= 9 * levels);
 }
 
 }  // namespace
