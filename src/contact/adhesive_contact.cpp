@@ -74,9 +74,9 @@ Level AdhesiveContact::report() {
     for (std::size_t k = 0; k < my.now.asperity.size(); ++k) {
         const int i = my.now.asperity[k];
         const Sticking::State state = my.sticking.at(i, my.now.s[k]);
-        if (state.area > 0)
-            l.add_contact(i, my.asperities.x[at(i)], my.asperities.y[at(i)], state.f, std::sqrt(state.area / std::numbers::pi), state.u);
-        l.tractions.x.push_back(my.asperities.x[at(i)]), l.tractions.y.push_back(my.asperities.y[at(i)]);
+        const Vec2 place = my.indenter.image(my.asperities.x[at(i)], my.asperities.y[at(i)]);
+        if (state.area > 0) l.add_contact(i, place.x, place.y, state.f, std::sqrt(state.area / std::numbers::pi), state.u);
+        l.tractions.x.push_back(place.x), l.tractions.y.push_back(place.y);
         l.tractions.a.push_back(std::sqrt(state.area / std::numbers::pi)),
             l.tractions.c.push_back(std::sqrt(state.outer / std::numbers::pi));
         l.tractions.pressed.push_back(state.pressed), l.tractions.pulled.push_back(state.f - state.pressed);

@@ -49,7 +49,7 @@ std::unique_ptr<Law> law_of(const ContactBodies& bodies, std::optional<RelaxingA
     if (options.relaxation.none()) return law;
     const Creep creep(options.relaxation);
     auto relaxes = make_relaxing(std::move(law), asperities.size(), creep);
-    relaxing.emplace(asperities, *relaxes, creep, options.tolerance);
+    relaxing.emplace(asperities, bodies.indenter, *relaxes, creep, options.tolerance);
     return relaxes;
 }
 

@@ -46,21 +46,50 @@ std::vector<std::size_t> wholes_of(const std::vector<Spot>& spots, const Level& 
     return whole;
 }
 
-// Largest Z0 at which the flank of a summit touches the indenter: s.H^-1 s/2 above the Z0 at which its top touches, for the slope s and the
-// summit's curvatures H, at the place H^-1 s beside it, or if the tip is nearer than that place, where the tip touches.
-double beside(const Asperities& asperities, const Indenter& indenter) {
-    constexpr double kFlank = 1.5;  // flanks may be this much higher than those of paraboloids (measured: test/README)
-    double highest = -std::numeric_limits<double>::infinity();
+// Largest Z0 at which the flank of a summit touches the indenter: with the slope s of the indenter and the summit's curvatures H, at the place
+// H^-1 s beside it, or if the tip is nearer, there. `heights` (optional) are those of the surface at and around the places of the flanks that
+// are highest as paraboloids; without them the touch is that of the paraboloids.
+double beside(const Asperities& asperities, const Indenter& indenter, const SurfaceHeights& heights) {
+    constexpr std::size_t kMost = 200;
+    struct Flank {
+        double touch;
+        Vec2 summit, way;
+    };
+    std::vector<Flank> flanks;
     for (std::size_t i = 0; i < asperities.size(); ++i) {
-        const Vec2 d = indenter.from_tip(asperities.x[i], asperities.y[i]), slope = indenter.shape->gradient(d.x, d.y);
+        const Vec2 place = indenter.image(asperities.x[i], asperities.y[i]), d = indenter.from_tip(asperities.x[i], asperities.y[i]);
+        const Vec2 slope = indenter.shape->gradient(d.x, d.y);
         const bool round = asperities.kappa1.empty();
         const double c = round ? 1.0 : std::cos(asperities.angle[i]), s = round ? 0.0 : std::sin(asperities.angle[i]);
         const double along = slope.x * c + slope.y * s, across = slope.y * c - slope.x * s;
-        const double x = along * (round ? asperities.radius[i] : 1 / asperities.kappa2[i]);
-        const double y = across * (round ? asperities.radius[i] : 1 / asperities.kappa1[i]);
-        const double way = std::hypot(x, y), part = way > 0 ? std::min(std::hypot(d.x, d.y) / way, 1.0) : 0.0;
-        const double nearer = kFlank * (part - 0.5 * part * part) * (along * x + across * y);
-        highest = std::fmax(highest, indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) + nearer);
+        const double u = along * (round ? asperities.radius[i] : 1 / asperities.kappa2[i]);
+        const double v = across * (round ? asperities.radius[i] : 1 / asperities.kappa1[i]);
+        const double way = std::hypot(u, v), part = way > 0 ? std::min(std::hypot(d.x, d.y) / way, 1.0) : 0.0;
+        const double nearer = (part - 0.5 * part * part) * (along * u + across * v);
+        flanks.push_back({indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) + nearer,
+                          place,
+                          {-part * (u * c - v * s), -part * (u * s + v * c)}});
+    }
+    std::sort(flanks.begin(), flanks.end(), [](const Flank& a, const Flank& b) { return a.touch > b.touch; });
+    if (flanks.empty() || !heights) return flanks.empty() ? -std::numeric_limits<double>::infinity() : flanks[0].touch;
+    flanks.resize(std::min(flanks.size(), kMost));
+    std::vector<Vec2> places;
+    for (const Flank& f : flanks)
+        for (const double part : {0.5, 0.75, 1.0, 1.25, 1.5}) places.push_back({f.summit.x + part * f.way.x, f.summit.y + part * f.way.y});
+    double highest = -std::numeric_limits<double>::infinity();
+    Vec2 best{};
+    const auto look = [&](std::vector<Vec2> at) {
+        std::sort(at.begin(), at.end(), [](const Vec2& a, const Vec2& b) { return a.y < b.y; });  // rows are made one after the other
+        const std::vector<double> z = heights(at);
+        for (std::size_t k = 0; k < z.size(); ++k)
+            if (const double touch = indenter.clearance(at[k].x, at[k].y, z[k]); touch > highest) highest = touch, best = at[k];
+    };
+    look(std::move(places));
+    for (double step = 0.25 * std::hypot(flanks[0].way.x, flanks[0].way.y), last = 0.01 * step; step > last; step *= 0.6) {
+        places.clear();
+        for (const double y : {-step, 0.0, step})
+            for (const double x : {-step, 0.0, step}) places.push_back({best.x + x, best.y + y});
+        look(places);
     }
     return highest;
 }
@@ -241,7 +270,8 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
     const bool of_surface = !bodies.of_difference;
     const auto flank_touches = [&] {
         FlankTouch& flanks = bodies.flanks;
-        if (flanks.x0 != indenter.x0 || flanks.y0 != indenter.y0) flanks = {indenter.x0, indenter.y0, beside(bodies.of_surface, indenter)};
+        if (flanks.x0 != indenter.x0 || flanks.y0 != indenter.y0)
+            flanks = {indenter.x0, indenter.y0, beside(bodies.of_surface, indenter, options.heights)};
         return level.separation < flanks.Z0;
     };
     if ((of_surface && level.slope_ratio > kMostSlopeRatio) || (level.contacts == 0 && of_surface && flank_touches()))

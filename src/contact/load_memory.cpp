@@ -7,17 +7,6 @@ namespace {
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
 
-// Means over 0 < t < 1 of e^2, e l and l^2, where e = exp(-x t) and l = (1 - e)/x.
-struct Squares {
-    double ee, el, ll;
-};
-Squares squares(double x) {
-    constexpr double small = 1e-2;  // below, the fractions suffer from cancellation
-    const double one = x > 0 ? -std::expm1(-x) / x : 1.0, two = x > 0 ? -std::expm1(-2 * x) / (2 * x) : 1.0;
-    if (x < small) return {two, 0.5 - x * (0.5 - x * (7 / 24.0 - x / 8)), 1 / 3.0 - x * (0.25 - x * (7 / 60.0 - x / 24))};
-    return {two, (one - two) / x, (1 - 2 * one + two) / (x * x)};
-}
-
 }  // namespace
 
 LoadMemory::LoadMemory(const Creep& creep)
@@ -49,22 +38,20 @@ void LoadMemory::accept(std::span<const std::int32_t> where, std::span<const dou
     for (auto& y : y_) y = spread(places_, y);
     places_ = std::move(all);
     const std::vector<double> d = deflect(now);
-    const double f01 = dot(before, d), f11 = dot(now, d), f00 = ff_;
+    const double f01 = dot(before, d), f11 = dot(now, d), f00 = ff_, stored_before = stored();
+    // Twice the work (f_0 + f_1)'K (l_1 - l_0)/2 of the step, l = f + sum y_k, by the trapezoidal rule: none at a constant separation.
+    double twice = f11 - f00;
     for (std::size_t k = 0; k < y_.size(); ++k) {
-        const auto [rate, flow] = creep_.retardations()[k];
         const auto [stay, a, b] = passage_.lags[k];
         const double y0d = dot(y_[k], d), yf = yf_[k], yy = yy_[k];
-        // Dissipated: the integral of y'K y'/flow with the rate of change y' = alpha exp(-rate t) + beta (1 - exp(-rate t))/rate.
-        const Squares mean = squares(rate * passage_.dt);
-        const double alpha2 = flow * flow * f00 - 2 * flow * rate * yf + rate * rate * yy,
-                     both = flow * (flow * (f01 - f00) - rate * (y0d - yf)), beta2 = flow * flow * (f11 - 2 * f01 + f00);
-        lost_ += passage_.dt / flow * (mean.ee * alpha2 + 2 * mean.el * both + mean.ll * beta2);
+        twice += (stay - 1) * (yf + y0d) + a * (f00 + f01) + b * (f01 + f11);
         yy_[k] = stay * stay * yy + a * a * f00 + b * b * f11 + 2 * (stay * a * yf + stay * b * y0d + a * b * f01);
         yf_[k] = stay * y0d + a * f01 + b * f11;
         for (std::size_t i = 0; i < now.size(); ++i) y_[k][i] = stay * y_[k][i] + a * before[i] + b * now[i];
     }
     f_ = now;
     ff_ = f11;
+    lost_ += 0.5 * twice - (stored() - stored_before);
 }
 
 double LoadMemory::stored() const {

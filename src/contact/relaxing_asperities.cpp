@@ -28,8 +28,9 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) { return 
 
 }  // namespace
 
-RelaxingAsperities::RelaxingAsperities(const Asperities& asperities, RelaxingLaw& law, const Creep& creep, double tolerance)
-    : asperities_(asperities), law_(law), creep_(creep), tolerance_(tolerance), lowered_(asperities.size(), kUnknown) {}
+RelaxingAsperities::RelaxingAsperities(const Asperities& asperities, const Indenter& indenter, RelaxingLaw& law, const Creep& creep,
+                                       double tolerance)
+    : asperities_(asperities), indenter_(indenter), law_(law), creep_(creep), tolerance_(tolerance), lowered_(asperities.size(), kUnknown) {}
 
 void RelaxingAsperities::step(double dt) {
     law_.step(dt);
@@ -40,7 +41,10 @@ void RelaxingAsperities::step(double dt) {
 }
 
 void RelaxingAsperities::add_places(std::vector<double>& x, std::vector<double>& y, const std::vector<int>& places) const {
-    for (int i : places) x.push_back(asperities_.x[at(i)]), y.push_back(asperities_.y[at(i)]);
+    for (int i : places) {
+        const Vec2 image = indenter_.image(asperities_.x[at(i)], asperities_.y[at(i)]);
+        x.push_back(image.x), y.push_back(image.y);
+    }
 }
 
 void RelaxingAsperities::lower(Candidates& candidates, Products& products) {
@@ -117,9 +121,10 @@ Level RelaxingAsperities::lasting(const Level& level) const {
             all.f[static_cast<std::size_t>(now - level.asperity.begin())] = load_[i];
             continue;
         }
-        const double x = asperities_.x[at(asperity)], y = asperities_.y[at(asperity)], a = std::sqrt(widest[i] / std::numbers::pi);
-        all.add_contact(asperity, x, y, load_[i], a, 0);
-        if (!level.spots.empty()) all.spots.push_back({x, y, a, a, 0});
+        const Vec2 image = indenter_.image(asperities_.x[at(asperity)], asperities_.y[at(asperity)]);
+        const double a = std::sqrt(widest[i] / std::numbers::pi);
+        all.add_contact(asperity, image.x, image.y, load_[i], a, 0);
+        if (!level.spots.empty()) all.spots.push_back({image.x, image.y, a, a, 0});
     }
     return all;
 }

@@ -11,8 +11,9 @@ namespace rsc {
 
 class RelaxingAsperities {
 public:
-    // The asperities and the law must outlive this object. Deflections are accurate to `tolerance`, that of the levels.
-    RelaxingAsperities(const Asperities& asperities, RelaxingLaw& law, const Creep& creep, double tolerance);
+    // The asperities, the indenter, whose tip may move, and the law must outlive this object. Deflections are accurate to `tolerance`, that of
+    // the levels.
+    RelaxingAsperities(const Asperities& asperities, const Indenter& indenter, RelaxingLaw& law, const Creep& creep, double tolerance);
 
     void step(double dt);
     // Ratio of the forces of the law to the true ones.
@@ -39,6 +40,7 @@ private:
     void add_places(std::vector<double>& x, std::vector<double>& y, const std::vector<int>& places) const;
 
     const Asperities& asperities_;
+    const Indenter& indenter_;
     RelaxingLaw& law_;
     Creep creep_;
     double tolerance_;

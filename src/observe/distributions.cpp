@@ -142,15 +142,15 @@ FittedDistributions fit_distributions(const PdfBins& bins, const Distributions& 
     const Binned mean_pressure{bins.mean_pressure_width(), sum.mean_pressure.weight, sum.mean_pressure.overflow};
     const Binned spot_area{bins.area_width(), sum.spot_area.weight, sum.spot_area.overflow};
     const Binned pressure{bins.pressure_width(), sum.pressure.weight, sum.pressure.overflow};
-    const double contacts = mean_pressure.total();
+    const double contacts = mean_pressure.total();  // without those under tension
 
     out.mean_pressure_pdf = density(mean_pressure);
     out.mean_pressure_moments = moments_of(contacts, sum.mean_pressure.power);
     out.rayleigh = fit_rayleigh(contacts, sum.mean_pressure.power[1], mean_pressure);
 
     out.spot_area_pdf = density(spot_area);
-    out.spot_area_moments = moments_of(contacts, sum.spot_area.power);
-    out.exponential = fit_exponential(contacts, sum.spot_area.power[0], spot_area);
+    out.spot_area_moments = moments_of(spot_area.total(), sum.spot_area.power);
+    out.exponential = fit_exponential(spot_area.total(), sum.spot_area.power[0], spot_area);
 
     out.pressure_pdf = density(pressure);
     out.pressure_moments = moments_of(sum.pressure.total, sum.pressure.power);

@@ -111,7 +111,7 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter, 
     const Substrate body = substrate_of(indenter);
     if (indenter.period.finite()) {
         std::function<double(double)> share;
-        if (body.smooth()) share = [&](double k) { return body.smooth()->share(k / map.dx); };
+        if (body.smooth()) share = [&](double k) { return body.smooth()->share(k); };
         PeriodicPixels<double> whole(map.nx, map.ny, map.dx, map.dy, share);
         whole.apply(
             [&](int j, double* row) {
@@ -159,6 +159,28 @@ void about_contact(const HeightMap& map, const std::vector<Pressures>& levels, R
 }
 
 }  // namespace
+
+ResidualProfile lowered_summits(const HeightMap& map, bool repeats, const Asperities& asperities, const std::vector<double>& depths) {
+    ResidualProfile lowered;
+    for (std::size_t k = 0; k < depths.size(); ++k) {
+        if (!(depths[k] > 0)) continue;
+        const double radius = std::sqrt(2 * asperities.radius[k] * depths[k]), top = asperities.z[k] - depths[k];
+        const double x = asperities.x[k], y = asperities.y[k];
+        const auto range = [radius](double centre, double step) {
+            return Range{static_cast<int>(std::ceil((centre - radius) / step)), static_cast<int>(std::floor((centre + radius) / step))};
+        };
+        const Range columns = range(x - map.x0, map.dx), rows = range(y - map.y0, map.dy);
+        for (int j = rows.first; j <= rows.last; ++j)
+            for (int i = columns.first; i <= columns.last; ++i) {
+                if (!repeats && (i < 0 || j < 0 || i >= map.nx || j >= map.ny)) continue;
+                const int column = wrapped(i, map.nx), row = wrapped(j, map.ny);
+                if (!(map(column, row) > top) || std::hypot(map.x0 + i * map.dx - x, map.y0 + j * map.dy - y) > radius) continue;
+                lowered.x.push_back(map.x0 + column * map.dx), lowered.y.push_back(map.y0 + row * map.dy);
+                lowered.depth.push_back(map(column, row) - top);
+            }
+    }
+    return lowered;
+}
 
 Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction interaction, const std::vector<FieldLevel>& levels,
                  const FieldsAsked& asked) {

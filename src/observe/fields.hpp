@@ -26,7 +26,11 @@ struct Fields {
     std::vector<double> heights;        // [y][x] of the undeformed surface [length]
 };
 
-// A level whose fields are requested. `lowered`: plastic residual of boundary elements after the level; `lasting`: Contact::lasting_loads().
+// The points that yielded asperities have lost: those around a summit that are above it less its residual depth [length]. `repeats`: the
+// surface is periodic.
+ResidualProfile lowered_summits(const HeightMap& map, bool repeats, const Asperities& asperities, const std::vector<double>& depths);
+
+// A level whose fields are requested. `lowered`: plastic residual after the level; `lasting`: Contact::lasting_loads().
 struct FieldLevel {
     std::int32_t step;
     const Level* level;

@@ -273,6 +273,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     }
     r.levels.reserve(job.levels.size());
     const std::vector<std::int32_t> field_steps = steps_of_fields(job);
+    const std::vector<FilledPoints> filled = filled_points(job);
     std::vector<FieldLevel> fields;
     for (std::size_t k = 0; k < job.levels.size(); ++k) {
         if (!job.times.empty()) contact->set_time(job.times[k]);
@@ -288,7 +289,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
             resolution->judge(k, level);
         else if (by_elements(settings) && !(settings.solids.adhesion > 0))
             judge_pixels(level, !job.spectrum);
-        if (job.measured && job.given) judge_filled(level, *job.measured, job.domain);
+        judge_filled(level, filled);
         if (level.force == 0 && level.separation < job.points_touch)  // contact at points that are no summits
             level.status = graver(level.status, LevelStatus::out_of_validity);
         if (curve) {
@@ -296,8 +297,13 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
             add_friction(*curve, {settings.solids.friction, tangential_ratio(settings.solids.E, settings.solids.nu)}, level, r.friction);
             if (curve->failed() > failed) level.status = LevelStatus::not_converged;
         }
-        if (std::find(field_steps.begin(), field_steps.end(), static_cast<std::int32_t>(k)) != field_steps.end())
-            fields.push_back({static_cast<std::int32_t>(k), &level, contact->residual_profile(), contact->lasting_loads(level)});
+        const bool field = std::find(field_steps.begin(), field_steps.end(), static_cast<std::int32_t>(k)) != field_steps.end();
+        if (const Asperities* yielding = contact->asperities(); field)
+            fields.push_back({static_cast<std::int32_t>(k), &level,
+                              yielding ? lowered_summits(job.given_heights ? *job.given_heights : *r.heights, job.indenter.period.finite(),
+                                                         *yielding, contact->residual_depths())
+                                       : contact->residual_profile(),
+                              contact->lasting_loads(level)});
         if (on_level && !on_level(k, r.levels.back())) break;
     }
     r.residual_depth = contact->residual_depths();

@@ -402,6 +402,7 @@ Shape shape_of(const Case& settings) {
     if (!keys.file.empty()) {
         Surface second = read_map(settings, keys.file, std::nullopt, keys.channel);
         made.told = report(*second.measured, settings.run.length_unit);
+        made.filled = second.measured->filled;
         auto map = std::make_shared<HeightMap>(std::move(second.map));
         map->periodic = settings.indentation.boundary == Boundary::periodic;
         made.map = std::move(map);

@@ -119,23 +119,43 @@ void judge_pixels(Level& level, bool read) {
     if (level.force_error_expected > kUnresolved) level.status = graver(level.status, LevelStatus::out_of_validity);
 }
 
-void judge_filled(Level& level, const Measured& map, const Domain& domain) {
-    if (map.filled.empty() || level.contacts == 0) return;
-    double filled = 0, all = 0;
-    if (const LevelPixels& pixels = level.pixels; !pixels.index.empty()) {
-        all = static_cast<double>(pixels.index.size());
-        for (const std::int32_t k : pixels.index) filled += map.filled[static_cast<std::size_t>(k)];
+bool FilledPoints::at(double x, double y) const {
+    const auto nearest = [&](double from, double step, int n) {
+        const int k = static_cast<int>(std::lround(from / step));
+        return periodic ? ((k % n) + n) % n : k;
+    };
+    const int i = nearest(x - x0, dx, nx), j = nearest(y - y0, dy, ny);
+    return i >= 0 && j >= 0 && i < nx && j < ny &&
+           (*filled)[static_cast<std::size_t>(j) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(i)];
+}
+
+std::vector<FilledPoints> filled_points(const Job& job) {
+    std::vector<FilledPoints> maps;
+    if (const auto& m = job.measured; m && job.given && !m->filled.empty())
+        maps.push_back({&m->filled, m->nx, m->ny, m->dx, m->dy, job.domain.x0, job.domain.y0, job.indenter.period.finite()});
+    if (const ShapeKeys& body = job.indenter.shape->keys(); !body.filled.empty()) {
+        const HeightMap& m = *body.map;
+        maps.push_back({&body.filled, m.nx, m.ny, m.dx, m.dy, job.indenter.x0 - 0.5 * (m.nx - 1) * m.dx,
+                        job.indenter.y0 - 0.5 * (m.ny - 1) * m.dy, m.periodic});
     }
-    for (std::size_t c = 0; c < level.a.size() && level.pixels.index.empty(); ++c) {
-        const double x = level.x[c] - domain.x0, y = level.y[c] - domain.y0, a = level.a[c];
-        const auto first = [](double from, double step) { return std::max(0, static_cast<int>(std::ceil(from / step))); };
-        const auto last = [](double to, double step, int n) { return std::min(n - 1, static_cast<int>(std::floor(to / step))); };
-        for (int j = first(y - a, map.dy); j <= last(y + a, map.dy, map.ny); ++j)
-            for (int i = first(x - a, map.dx); i <= last(x + a, map.dx, map.nx); ++i) {
-                if (std::hypot(i * map.dx - x, j * map.dy - y) > a) continue;
-                all += 1;
-                filled += map.filled[static_cast<std::size_t>(j) * static_cast<std::size_t>(map.nx) + static_cast<std::size_t>(i)];
-            }
+    return maps;
+}
+
+void judge_filled(Level& level, std::span<const FilledPoints> maps) {
+    if (maps.empty() || level.contacts == 0) return;
+    double filled = 0, all = 0;
+    const auto count = [&](double x, double y) {
+        all += 1;
+        filled += std::any_of(maps.begin(), maps.end(), [&](const FilledPoints& map) { return map.at(x, y); });
+    };
+    const LevelPixels& pixels = level.pixels;
+    for (std::size_t k = 0; k < pixels.index.size(); ++k) count(pixels.x(k), pixels.y(k));
+    const FilledPoints& grid = maps.front();
+    for (std::size_t c = 0; c < level.a.size() && pixels.index.empty(); ++c) {
+        const double x = level.x[c] - grid.x0, y = level.y[c] - grid.y0, a = level.a[c];
+        for (double j = std::ceil((y - a) / grid.dy); j <= (y + a) / grid.dy; ++j)
+            for (double i = std::ceil((x - a) / grid.dx); i <= (x + a) / grid.dx; ++i)
+                if (std::hypot(i * grid.dx - x, j * grid.dy - y) <= a) count(grid.x0 + i * grid.dx, grid.y0 + j * grid.dy);
     }
     level.filled_share = all > 0 ? filled / all : 0.0;
     if (level.filled_share > kMuchFilled) level.status = graver(level.status, LevelStatus::out_of_validity);

@@ -70,8 +70,19 @@ void judge_pixels(Level& level, bool read);
 // A level is out_of_validity if a larger share of the contact area than this is on filled points.
 inline constexpr double kMuchFilled = 0.01;
 
-// Sets filled_share of a level on a map with filled points, and raises its status if it is too large. It counts the pixels under
-// pressure of elements, or the points within the contact spots of asperities.
-void judge_filled(Level& level, const Measured& map, const Domain& domain);
+// The filled points of a map; x0, y0 is the position of its first point [length].
+struct FilledPoints {
+    const std::vector<std::uint8_t>* filled;  // 1 at j*nx + i
+    int nx, ny;
+    double dx, dy, x0, y0;
+    bool periodic;
+    bool at(double x, double y) const;  // whether the nearest point is filled
+};
+// Those of the maps of both bodies, if any. The job must outlive them.
+std::vector<FilledPoints> filled_points(const Job& job);
+
+// Sets filled_share of a level on maps with filled points, and raises its status if it is too large. It counts the pixels under pressure of
+// elements, or the points of the first map within the contact spots of asperities.
+void judge_filled(Level& level, std::span<const FilledPoints> maps);
 
 }  // namespace rsc

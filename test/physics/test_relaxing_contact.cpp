@@ -99,7 +99,9 @@ void test_limits(const Kind& model) {
     double time = 0;
     for (int k = 0; k < 6; ++k) soft->set_time(time += 1e4), (void)soft->at_separation(Z0);
     soft->set_time(time += 1e4);
-    as_elastic(soft->at_separation(Z0), 0.3);
+    const Level relaxed = soft->at_separation(Z0);
+    as_elastic(relaxed, 0.3);
+    CHECK_RELATIVE(soft->energy() + relaxed.energy_lost, elastic->energy(), 1e-5);  // no work; a few pixels leave and enter the contact
     const auto pressed = make(model, kBody);
     for (int k = 0; k < 7; ++k) pressed->set_time(1e4 * k), (void)pressed->at_force(0.3 * e.force);
     pressed->set_time(1e5);
@@ -132,7 +134,8 @@ void test_path(const Kind& model) {
     };
     const int steps = model.elements ? 30 : 60;
     const End a = run(steps), b = run(2 * steps), c = run(4 * steps);
-    CHECK(c.lost > 0.1 && std::abs(c.balance) < (model.elements ? 3e-4 : 1e-4) && std::abs(c.balance) < 0.3 * std::abs(a.balance));
+    CHECK(c.lost > 0.1 && std::abs(c.balance) < (model.elements ? 3e-4 : 1e-4) &&
+          std::abs(c.balance) < 0.3 * std::max(std::abs(a.balance), std::abs(b.balance)));
     const double order = std::abs(a.force - b.force) / std::abs(b.force - c.force);
     if (!model.elements) CHECK(std::abs(order - 4) < 0.3);
     CHECK(std::abs(b.force - c.force) < 3e-3 * c.force);

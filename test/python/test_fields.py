@@ -51,8 +51,20 @@ class Fields(Program):
                 self.assertTrue(touch.any() and (r["field_gap"][~touch] >= 0).all() and (r["field_gap"][touch] == 0).all())
                 if model == "elements":  # every point is solved: none that carries nothing is entered
                     self.assertGreater(r["field_gap"][~touch].min(), 0)
-                if boundary == "periodic" and model == "elements":  # what goes down here comes up there
+                if boundary == "periodic" and model == "elements":  # what goes down here comes up there, with a layer, too
                     np.testing.assert_allclose(r["field_gap"].mean(axis=(1, 2)), r["separation"].ravel(), rtol=1e-5, atol=1e-9)
+                    self.run_case(ROUGH.format(boundary=boundary, R=R, model=model), *(w for key in ("thickness=0.05", "E=200", "nu=0.3") for w in ("-s", "solids%layer_" + key)))
+                    r = self.result()
+                    np.testing.assert_allclose(r["field_gap"].mean(axis=(1, 2)), r["separation"].ravel(), rtol=1e-5, atol=1e-9)
+
+    def test_yielded(self):
+        """Unloaded, summits that have yielded are lower by their residual depth: the indenter touches none."""
+        keys = ("-s", "solids%hardness=1", "-s", "indentation%levels=0.5,3", "-s", "output%field_levels=0.5,3", "-s", "output%contacts='all'")
+        self.run_case(ROUGH.format(boundary="free", R="10.0", model="asperities"), *keys)
+        r = self.result()
+        self.assertTrue(r["force"][0, 0] > 0 and r["force"][0, 1] == 0 and r["asperity_residual_depth"].max() > 0)
+        self.assertEqual(r["field_gap"][0].min(), 0)
+        self.assertGreater(r["field_gap"][1].min(), 0)
 
     def test_relaxed(self):
         """Held for long: field_gap is that of the elastic body with the relaxed modulus. Curves of elastic bodies are absent, as are marks of yielding."""

@@ -175,6 +175,17 @@ TEST(test_gamma_information) {
 __extension__ using Wide = __int128;
 
 // Against integers: in any order, in any groups.
+// Of two spots one is under tension: it has an area, but no place among the pressures.
+TEST(test_tension) {
+    Level level;
+    level.least_force = -1;
+    level.add_contact(0, 0, 0, 1, 1, 0), level.add_contact(1, 0, 0, -0.1, 0.5, 0);
+    const PdfBins bins = make_pdf_bins(10, 1, 1, 1, 1);
+    const FittedDistributions fit = fit_distributions(bins, distributions_of(bins, level, 0));
+    CHECK_RELATIVE(fit.spot_area_moments.mean, std::numbers::pi * 1.25 / 2, 1e-14);
+    CHECK_RELATIVE(fit.mean_pressure_moments.mean, 1 / std::numbers::pi, 1e-14);
+}
+
 TEST(test_exact_sums) {
     constexpr double kScale = 1e-3;
     const double quantum = quantum_of(kScale, 64);

@@ -92,24 +92,36 @@ TEST(coarser) {
 }
 
 TEST(filled) {
-    Measured map;
-    map.nx = map.ny = 4;
-    map.dx = map.dy = 1;
-    map.filled.assign(16, 0);
-    map.filled[5] = 1;  // the point (1, 1)
+    std::vector<std::uint8_t> missing(16);
+    missing[5] = 1;  // the point (1, 1)
+    const FilledPoints map{&missing, 4, 4, 1, 1, 0, 0, false};
     Level level;
     level.add_contact(0, 1, 1, 1, 1.2, 0);  // over (1, 1) and its four neighbours
-    judge_filled(level, map, {0, 0, 4, 4});
+    judge_filled(level, {&map, 1});
     CHECK_RELATIVE(level.filled_share, 0.2, kRounding);
     CHECK(level.status == LevelStatus::out_of_validity);
     level = {};
     level.add_contact(0, 3, 3, 1, 0.5, 0);
-    judge_filled(level, map, {0, 0, 4, 4});
+    judge_filled(level, {&map, 1});
     CHECK(level.filled_share == 0 && level.status == LevelStatus::converged);
+    // The same points on body 2, whose middle is above the tip: a cap with a hole at its top.
+    const Folder folder;
+    const auto write = [&](const std::string& name, auto&& height) {
+        std::ofstream file(folder / name);
+        for (int j = 0; j < 32; ++j)
+            for (int i = 0; i < 32; ++i) file << height(std::hypot(i - 15.5, j - 15.5)) << (i < 31 ? ' ' : '\n');
+        return folder / name;
+    };
+    Case c;
+    c.surface.source = Source::heights, c.surface.file = write("flat.txt", [](double) { return "0.0"; });
+    c.surface.pixel = 1.0, c.surface.sigma = 1e-3, c.surface.missing = Missing::fill, c.surface.detrend = Detrend::none;
+    c.indenter.file = write("cap.txt", [](double r) { return r < 2 ? std::string("nan") : std::to_string(-0.5e-3 * r * r); });
+    set_key(c, "indenter%shape", "'map'");
+    c.indentation.unit = LevelUnit::length, c.indentation.levels = {-0.01};
+    for (const Level& pressed : realize(prepare(c), 1, 1).levels)
+        CHECK(pressed.filled_share > 0.1 && pressed.status == LevelStatus::out_of_validity);
 }
 
-// A smooth sphere on coarse pixels of a map that is read: N is Hertz's, and the error told, which holds in nine of ten cases, is nowhere less than nine tenths of
-// the one there is.
 TEST(resolution) {
     const Folder folder;
     const std::string path = folder / "flat.txt";

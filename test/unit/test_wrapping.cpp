@@ -98,6 +98,18 @@ void test_path(const std::string& keys) {
     CHECK_RELATIVE(press(one, 1, -0.0625, 0.0105), press(other, 0.5, 0.4375, 0.0105), kTolerance);
 }
 
+// Loads that last at the border act as in the middle of the surface.
+void test_relaxing(const std::string& keys) {
+    const Round round(keys);
+    const ContactHandle one = round.contact(0), other = round.contact(1);
+    for (int k = 0; k < 4; ++k) {
+        for (rsc_contact* contact : {one.get(), other.get()}) OK(rsc_contact_set_time(contact, k));
+        const double N = press(one, 0.01 * k, 0.95, 0.01);
+        CHECK_RELATIVE(N, press(other, 0.5 + 0.01 * k, 0.45, 0.01), kTolerance);
+        CHECK_RELATIVE(value(one, "energy"), value(other, "energy"), kTolerance);
+    }
+}
+
 }  // namespace
 
 TEST(wrapping) {
@@ -105,6 +117,8 @@ TEST(wrapping) {
     test_contact(asperities, true);
     test_contact(asperities + "&asperities law='fourth_order' /", true);
     test_contact(elements, true);
+    test_contact("adhesion=0.05 " + asperities, false);
+    test_relaxing("relaxation_share=0.9 relaxation_time=1 " + asperities);
     test_path("hardness=1500 " + asperities);
     test_path("hardness=1500 " + elements);
 }
