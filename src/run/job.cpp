@@ -210,6 +210,8 @@ Job prepare(const Case& settings) {
                     "indentation: a pressure of %g: at E* sqrt(2 m2) = %g and above less than 5 %% of the area is gap, too little for the "
                     "asperity model; use solver%%model = 'elements', which is valid up to full contact",
                     level * unit, full));
+            if (!(level * unit < settings.solids.hardness))
+                bad_input(format("indentation: a nominal pressure of %.9g exceeds the hardness, %.9g", level * unit, settings.solids.hardness));
         }
         job.level_unit = unit * job.indenter.period.area();
     }
