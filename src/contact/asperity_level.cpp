@@ -115,13 +115,13 @@ void find_edge(const ContactBodies& bodies, double radius) {
 // Expected errors with adhesion: bounds were calibrated without it, so they are those of the forces that press, of which N is a part. What
 // attracts without contact is underestimated by an unknown share, because only summits do.
 void expect_error_of_pressed(Level& level, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
-                             bool ellipses) {
+                             const ContactTraits& contacts) {
     Level pressed = level;
     pressed.f.clear();
     for (std::size_t k = 0; k < level.tractions.a.size(); ++k)
         if (level.tractions.a[k] > 0) pressed.f.push_back(level.tractions.pressed[k]);
     pressed.force = std::accumulate(pressed.f.begin(), pressed.f.end(), 0.0);
-    expect_error(pressed, asperities, indenter, options, ellipses);
+    expect_error(pressed, asperities, indenter, options, contacts);
     if (level.force == 0) return;
     if (level.contacts == 0 && options.mean_spacing > 0) level.status = graver(level.status, LevelStatus::out_of_validity);
     level.force_error_expected = pressed.force_error_expected * std::max(pressed.force / std::abs(level.force), 1.0);
@@ -240,17 +240,23 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
     }
     if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;
     if (options.rms_slope > 0) level.slope_ratio = steepest_contact(level, indenter) / options.rms_slope;
-    bool ellipses = true;
-    for (std::size_t k = 0; k < level.asperity.size() && ellipses; ++k) ellipses = law.spot(level.asperity[k], level.u[k]).has_value();
-    Yielded yielded;
+    ContactTraits contacts{.ellipses = true};
+    bool some = false;
+    for (std::size_t k = 0; k < level.asperity.size(); ++k) {
+        const int i = level.asperity[k];
+        const bool ellipse = law.spot(i, level.u[k]).has_value();
+        contacts.ellipses = contacts.ellipses && ellipse, some = some || ellipse;
+        if (!ellipse || law.beyond(i, level.u[k])) contacts.outside.push_back(k);
+        contacts.yielded += law.deepest(i) > 0;
+    }
+    if (!some) contacts.outside.clear();
     for (int i = 0; i < static_cast<int>(asperities.size()) && law.path_dependent(); ++i)
         if (const double deepest = law.deepest(i); deepest > 0)
-            yielded.force += law.response(i, deepest).force, yielded.area += law.area(i, deepest);
-    for (const std::int32_t i : level.asperity) yielded.contacts += law.deepest(i) > 0;
+            contacts.yielded_force += law.response(i, deepest).force, contacts.yielded_area += law.area(i, deepest);
     if (options.adhesion.work > 0)
-        expect_error_of_pressed(level, asperities, indenter, options, ellipses);
+        expect_error_of_pressed(level, asperities, indenter, options, contacts);
     else
-        expect_error(level, asperities, indenter, options, ellipses, yielded);
+        expect_error(level, asperities, indenter, options, contacts);
     if (const double carried = carried_by_edge(level, bodies); carried > 0) {
         if (carried > kMuchError * level.force) {
             level.status = graver(level.status, LevelStatus::out_of_validity);

@@ -22,13 +22,17 @@ const char* error_cause(std::int32_t cause);
 
 // Sets force_error_expected, area_error_expected and error_cause of a level that has its contacts and counts. They are not set without
 // contact, or where the bounds were not calibrated: without interaction, with selection = 'paper', or if the mean spacing is unknown.
-// `ellipses`: all contacts are most loaded ellipses (law/ellipse_law.hpp), whose forces are nearer to those of elements. `yielded`: what has
-// yielded before; in unloading the errors of the force and the area at which it yielded remain.
-struct Yielded {
-    double force = 0, area = 0;  // of all asperities that have yielded, each at its deepest accepted level
-    std::int32_t contacts = 0;   // of the level
+struct ContactTraits {
+    bool ellipses = false;  // all contacts are most loaded ellipses (law/ellipse_law.hpp), whose forces are nearer to those of elements
+    // Contacts of a level with ellipses that have none, or are beyond their last one: along a lay their spots grow together with those of
+    // higher summits.
+    std::vector<std::size_t> outside = {};
+    // Contacts that have yielded, and the forces and areas of all asperities that have, each at its deepest accepted level: in unloading
+    // their errors remain.
+    std::int32_t yielded = 0;
+    double yielded_force = 0, yielded_area = 0;
 };
-void expect_error(Level& level, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options, bool ellipses = false,
-                  const Yielded& yielded = {});
+void expect_error(Level& level, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
+                  const ContactTraits& traits = {});
 
 }  // namespace rsc

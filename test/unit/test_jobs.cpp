@@ -220,6 +220,12 @@ TEST(closed_flats) {
     CHECK(accepted([&] { prepare(c); }));
     c.indentation.levels = {2, 1, 0};
     REFUSED(prepare(c), "that of full contact, 0 ");
+    Case hard = c;
+    hard.indentation.control = Control::pressure, hard.indentation.unit = LevelUnit::pressure;
+    hard.solids.hardness = 100, hard.indentation.levels = {99.9};
+    (void)prepare(hard);
+    hard.indentation.levels = {100};
+    REFUSED(prepare(hard), "hardness");
     c.solids.hardness = 5e3;  // pixels that yield have levels below
     CHECK(accepted([&] { prepare(c); }));
 }

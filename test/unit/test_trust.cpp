@@ -171,6 +171,13 @@ TEST(bounds) {
     round.kappa1 = round.kappa2 = round.angle = {};
     expect_error(level, round, indenter, options);
     CHECK(level.force_error_expected == curved);
+    // An elongated contact outside its ellipses.
+    a.kappa1 = {20};
+    expect_error(level, a, indenter, options, {.ellipses = true});
+    const double inside = level.force_error_expected;
+    expect_error(level, a, indenter, options, {.ellipses = true, .outside = {0}});
+    CHECK(level.force_error_expected > inside + 0.02);
+    a.kappa1 = {10};
     a.biharmonic = {};
     options.law = LawKind::hertz;
     level.slope_ratio = 2;

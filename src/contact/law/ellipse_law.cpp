@@ -30,9 +30,11 @@ public:
         if (!(u > 0)) return {};
         const std::size_t k = above(u);
         if (k < node_.size()) return within(k, (u - node_[k - 1].u) / (node_[k].u - node_[k - 1].u));
+        constexpr double q = 0.25;  // beyond the table stiffness ~ u^q: between a flat punch, 0, and a paraboloid, 1/2
         const LoadedEllipse& e = node_.back();
-        const double past = u - e.u;
-        return {e.force + e.stiffness * past, e.stiffness, work_.back() + past * (e.force + 0.5 * e.stiffness * past)};
+        const double x = u / e.u, power = std::pow(x, q), grown = e.stiffness * e.u / (q + 1), rest = e.force - grown;
+        return {rest + grown * x * power, e.stiffness * power,
+                work_.back() + rest * (u - e.u) + grown * e.u / (q + 2) * (x * x * power - 1)};
     }
 
     Spot spot(double u) const {
@@ -181,7 +183,7 @@ private:
     bool lower(int a, int b) const { return std::tie(clearance_[at(a)], b) < std::tie(clearance_[at(b)], a); }
 
     Table alone(int i) const {
-        constexpr double window = 1.3, fine = 45;  // half width over the widest ellipse; points in it
+        constexpr double window = 2, fine = 45;  // half width over the widest ellipse, whose centre may be off the summit; points in it
         const std::size_t k = at(i);
         const int steps = std::clamp(static_cast<int>(std::ceil(fine * std::max(found_.map->dx, found_.map->dy) / spacing_)), 1, 8);
         const HeightsAround heights(found_, stencil_, indenter_, asperities_.x[k], asperities_.y[k], window * spacing_, steps);

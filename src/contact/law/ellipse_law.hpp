@@ -10,10 +10,10 @@ namespace rsc {
 inline constexpr std::size_t kMostEllipses = 4000;
 
 // Force of a summit as the largest load of an elliptic spot on the heights around it (most_loaded.hpp), tabulated at some 120 penetrations.
-// The table is extrapolated with constant stiffness beyond its end. Where the ellipse of a summit contains lower ones that have asperities of
-// their own, what these carry is subtracted, with the penetration that they leave, so that together they carry the load of the ellipse. The
-// force is convex in the penetration. Asperities without an ellipse of their own carry nothing if they lie in the spot of a higher summit, and
-// otherwise follow `other`.
+// Beyond the table's end the stiffness grows with the fourth root of the penetration. Where the ellipse of a summit contains lower ones
+// that have asperities of their own, what these carry is subtracted, with the penetration that they leave, so that together they carry the
+// load of the ellipse. The force is convex in the penetration. Asperities without an ellipse of their own carry nothing if they lie in the
+// spot of a higher summit, and otherwise follow `other`.
 //
 // Summits, heights and the tip are those of `found` and `indenter`; `asperities` are the summits. Tables are built by prepare() and
 // depend on neither the order of calls nor the number of threads. `spacing`: mean distance of the surface's summits.
