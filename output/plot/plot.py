@@ -3,7 +3,7 @@
 
     python3 output/plot/plot.py output/rsc.nc                     draws all pictures of the file, in its folder
     python3 output/plot/plot.py a.nc b.nc                         both in one picture, labelled by the keys in which they differ
-    python3 output/plot/plot.py output/study_manifest.nc          the members of a study as curves, and as maps if two keys vary
+    python3 output/plot/plot.py output/study_manifest.nc          the members of a study as curves, or as maps if two keys of numbers vary
     python3 output/plot/plot.py FILE --format pdf --width single  for a journal (single, onehalf, double, or millimetres)
 
 Unreliable levels (variable `status`) have a mark, explained in the legend; a band is the expected error, or the scatter over realizations. Needs numpy, matplotlib and netCDF4 (Debian: python3-matplotlib, python3-netcdf4); if this Python lacks them,

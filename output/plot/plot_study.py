@@ -1,9 +1,10 @@
-"""Results of the members of a study at one level against one or two keys."""
+"""Results of the members of a study at one level against the keys that vary."""
 
 import numpy as np
 
+from plot_curves import title
 from plot_results import _in_order, axis_label, differing_keys, value_text
-from plot_style import Page, STYLES, colour_bar, label, short
+from plot_style import FEW, Page, STYLES, colour_bar, label, short
 
 QUANTITIES = {"force": "force $N$", "pressure": "nominal pressure", "separation_sigma": r"separation $Z_0/\sigma$", "separation": "separation $Z_0$", "contact_area": "true contact area $A$",
               "contacts": "number of contacts"}
@@ -27,15 +28,38 @@ def common_level(results, step):
     return [r.steps - 1 for r in results], "the last level of each"
 
 
+ERRORS = {"force": "force_error_expected", "contact_area": "area_error_expected"}
+
+
+def _curves(page, axis, quantity, results, values, levels, numbers, others):
+    """A quantity against the key of numbers, a curve for each set of values of the other keys, with the mean expected error as a band."""
+    shown = dict.fromkeys(others)
+    for (marker, line, colour), other in zip(STYLES, shown):
+        at = [k for k in np.argsort(numbers, kind="stable") if others[k] == other]
+        x, y = numbers[at], values[at]
+        axis.plot(x, y, marker, ls=line, color=colour, ms=3.5, label=other or None)
+        off = np.array([results[k].mean(name)[levels[k]] if (name := ERRORS.get(quantity)) and name in results[k] else 0.0 for k in at])
+        if np.nanmax(off, initial=0) > 0.03:  # less is not visible
+            axis.fill_between(x, y * np.maximum(1 - off, 0.02), y * (1 + off), color=colour, alpha=0.15, lw=0, gid="error")
+            page.entry(f"expected error{' of ' + other if len(shown) > 1 else ''}", color=colour, alpha=0.15, lw=5)
+
+
 def study(results, options):
-    """Area, contacts and force (separation under force control) at one level against the keys that vary: a curve for one key of numbers, maps
-    for two."""
+    """Area, contacts and force (separation under force control) at one level against the keys that vary: curves over one key of numbers, one for
+    each value of the others; maps for two keys of numbers, or of none."""
     results = [r for r in results if "force" in r and r.loaded().size]
     keys = differing_keys(results) if len(results) > 2 else []
     texts = [[r.case.get(key, "") for key in keys] for r in results]
-    if not 1 <= len(keys) <= 2 or len({tuple(t) for t in texts}) < len(texts):
+    if not keys or len({tuple(t) for t in texts}) < len(texts):
         return None
-    if len(keys) == 1 and any(_in_order(t[0])[0] for t in texts) or len(keys) == 2 and len(results) < 4:
+    of_numbers = [i for i in range(len(keys)) if not any(_in_order(t[i])[0] for t in texts)]
+    curves = len(of_numbers) == 1 and len({t[of_numbers[0]] for t in texts}) > 2
+    if curves:
+        key, marks = keys[of_numbers[0]], [t[of_numbers[0]] for t in texts]
+        x = np.array([_in_order(mark)[1] for mark in marks])
+        others = [", ".join(value_text(text) for i, text in enumerate(t) if i != of_numbers[0]) for t in texts]
+        curves = len(set(others)) <= FEW
+    if not curves and (len(keys) != 2 or len(results) < 4):
         return None
     levels, name = common_level(results, options.step)
     given = {"force": ["separation_sigma" if all("separation_sigma" in r for r in results) else "separation"], "pressure": ["separation_sigma"]}.get(results[0].control(), ["force"])
@@ -44,16 +68,14 @@ def study(results, options):
     for axis, quantity in zip(page.axes, quantities):
         values = np.array([r.mean(quantity)[level] for r, level in zip(results, levels)])
         dimension = results[0].dimension(quantity)
-        if len(keys) == 1:
-            x = np.array([_in_order(t[0])[1] for t in texts])
-            order = np.argsort(x)
-            axis.plot(x[order], values[order], STYLES[0][0], ls="-", color=STYLES[0][2], ms=3.5)
-            if x.min() > 0 and x.max() > 8 * x.min():
+        if curves:
+            _curves(page, axis, quantity, results, values, levels, x, others)
+            if x.min() > 0 and x.max() > 8 * x.min() and len(set(x)) > 5:
                 axis.set_xscale("log")
-            label(axis, "x", axis_label(keys[0], results[0]))
-            if x.size <= 5:  # the values themselves
+            label(axis, "x", axis_label(key, results[0]))
+            if len(set(x)) <= 5:  # the values themselves
                 axis.minorticks_off()
-                axis.set_xticks(x[order], [value_text(texts[k][0]) for k in order])
+                axis.set_xticks(sorted(set(x)), [value_text(marks[list(x).index(value)]) for value in sorted(set(x))])
             label(axis, "y", QUANTITIES[quantity], dimension)
             continue
         ends = [sorted({t[i] for t in texts}, key=_in_order) for i in (0, 1)]
@@ -71,4 +93,4 @@ def study(results, options):
         for key, shown, place, set_label in ((keys[0], ends[0], axis.set_yticks, axis.set_ylabel), (keys[1], ends[1], axis.set_xticks, axis.set_xlabel)):
             place(range(len(shown)), [value_text(t) for t in shown])
             set_label(axis_label(key, results[0]))
-    return page.finish(f"Study at {name}")
+    return page.finish(title(results, f"Study at {name}"))

@@ -26,24 +26,30 @@ HeightShape usable(HeightShape shape) {
     return {skewness, std::clamp(shape.kurtosis, 1.2 * skewness * skewness + 1.3, 90.0)};
 }
 
-// Sums go by lanes, so that loops vectorise, and modes by batches.
-constexpr int kLanes = 16, kBatch = 256;
+// Modes go by batches.
+constexpr int kBatch = 256;
 
-double sum(const float* lanes) { return std::accumulate(lanes, lanes + kLanes, 0.0f); }
-
-// Adds the squares, cubes and fourth powers of `count` numbers, a multiple of kLanes, to sums in lanes.
-RSC_ALWAYS_INLINE void add_powers_body(const float* z, std::ptrdiff_t count, float* second, float* third, float* fourth) {
-    for (std::ptrdiff_t i = 0; i < count; i += kLanes)
-        for (int l = 0; l < kLanes; ++l) {
-            const float square = z[i + l] * z[i + l];
-            second[l] += square, third[l] += z[i + l] * square, fourth[l] += square * square;
-        }
+// Adds the squares, cubes and fourth powers of `count` numbers, a multiple of 16, to three sums. Arrays of lanes would stay in memory.
+using Eight [[gnu::vector_size(32), gnu::aligned(4), gnu::may_alias]] = float;
+RSC_ALWAYS_INLINE void add_powers_body(const float* z, std::ptrdiff_t count, double* total) {
+    Eight second = {}, third = {}, fourth = {}, second2 = {}, third2 = {}, fourth2 = {};
+    for (std::ptrdiff_t i = 0; i < count; i += 16) {
+        const Eight a = reinterpret_cast<const Eight&>(z[i]), b = reinterpret_cast<const Eight&>(z[i + 8]);
+        const Eight a2 = a * a, b2 = b * b;
+        second += a2, third += a * a2, fourth += a2 * a2;
+        second2 += b2, third2 += b * b2, fourth2 += b2 * b2;
+    }
+    second += second2, third += third2, fourth += fourth2;
+    for (int l = 0; l < 8; ++l) total[0] += second[l], total[1] += third[l], total[2] += fourth[l];
 }
-RSC_DISPATCH(add_powers, add_powers_body, (const float* z, std::ptrdiff_t count, float* second, float* third, float* fourth),
-             (z, count, second, third, fourth))
+RSC_DISPATCH(add_powers, add_powers_body, (const float* z, std::ptrdiff_t count, double* total), (z, count, total))
 
 // Tangents and cosines of the angles by which a change p x + q y across a batch of modes rotates them; inverse: of their squared amplitudes.
 RSC_ALWAYS_INLINE void angles(const float* x, const float* y, const float* inverse, float p, float q, float* tangent, float* cosine) {
+    if (p == 0 && q == 0) {
+        std::fill_n(tangent, kBatch, 0.0f), std::fill_n(cosine, kBatch, 1.0f);
+        return;
+    }
     for (int i = 0; i < kBatch; ++i) {
         tangent[i] = (p * x[i] + q * y[i]) * inverse[i];
         cosine[i] = 1 + tangent[i] * tangent[i];
@@ -57,15 +63,14 @@ RSC_ALWAYS_INLINE void add_rotated_body(const float* x, const float* y, const fl
                                         float q, double* total) {
     alignas(64) float tangent[kBatch], cosine[kBatch];
     angles(x, y, inverse, p, q, tangent, cosine);
-    float sums[5][kLanes] = {};
-    for (int j = 0; j < kBatch; j += kLanes)
-        for (int l = 0; l < kLanes; ++l) {
-            const int m = j + l;
-            const float weight = cosine[m] * inverse[m], wx = weight * x[m], wy = weight * y[m], lost = 1 - cosine[m];
-            sums[0][l] += wx * x[m], sums[1][l] += wx * y[m], sums[2][l] += wy * y[m];
-            sums[3][l] += lost * u[m], sums[4][l] += lost * v[m];
-        }
-    for (int i = 0; i < 5; ++i) total[i] += sum(sums[i]);
+    const auto at = [](const float* numbers, int m) -> const Eight& { return reinterpret_cast<const Eight&>(numbers[m]); };
+    Eight xx = {}, xy = {}, yy = {}, lost_u = {}, lost_v = {};
+    for (int m = 0; m < kBatch; m += 8) {
+        const Eight weight = at(cosine, m) * at(inverse, m), wx = weight * at(x, m), lost = 1 - at(cosine, m);
+        xx += wx * at(x, m), xy += wx * at(y, m), yy += weight * at(y, m) * at(y, m);
+        lost_u += lost * at(u, m), lost_v += lost * at(v, m);
+    }
+    for (int l = 0; l < 8; ++l) total[0] += xx[l], total[1] += xy[l], total[2] += yy[l], total[3] += lost_u[l], total[4] += lost_v[l];
 }
 RSC_DISPATCH(add_rotated, add_rotated_body,
              (const float* x, const float* y, const float* u, const float* v, const float* inverse, float p, float q, double* total),
@@ -95,20 +100,12 @@ struct Modes {
 // Surface of some of the modes on m x m points. Single precision suffices, because only the phases of the modes are used.
 class Field {
 public:
-    Field(const Modes& modes, int m)
-        : modes_(modes),
-          m_(m),
-          columns_(modes.band.highest_kx + 1),
-          stride_((m + 7) / 8 * 8 + 8),
-          row_stride_((m + 2 + kLanes - 1) / kLanes * kLanes) {
+    Field(const Modes& modes, int m) : modes_(modes), m_(m), columns_(modes.band.highest_kx + 1), stride_(m + 8) {
         store_ = allocate(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(stride_));
-        rows_ = allocate(static_cast<std::size_t>(kBlock) * static_cast<std::size_t>(row_stride_) / 2);
-        heights_ = allocate(static_cast<std::size_t>(m_) * static_cast<std::size_t>(row_stride_) / 2);
-        std::fill_n(heights_.get(), m_ * row_stride_ / 2, Complex());
-        line_ = allocate(static_cast<std::size_t>(row_stride_) / 2);
-        modes_.runs([&](int kx, int ky, int count, const std::complex<double>*) {
-            runs_.emplace_back(kx * stride_ + (ky < 0 ? ky + m_ : ky), count);
-        });
+        rows_ = allocate(static_cast<std::size_t>(kBlock + 1) * static_cast<std::size_t>(m));
+        line_ = rows_.get() + kBlock * m_;
+        heights_ = allocate(static_cast<std::size_t>(m) * static_cast<std::size_t>(m) / 2);
+        modes_.runs([&](int kx, int ky, int count, const std::complex<double>*) { runs_.push_back({kx, ky < 0 ? ky + m_ : ky, count}); });
         plans_ = plans();
     }
 
@@ -139,18 +136,23 @@ public:
     // amplitudes of the modes are restored. It ends also when a round leaves more than the share `still` of the distance. The best phases
     // are stored in the caller's columns.
     HeightShape run(HeightShape wish, const HeightDistribution* by, double near_enough, int rounds, double still) {
+        constexpr double close = 3;  // times near_enough: one more step in the directions of the last one, which are known
         HeightShape best = now_;
         double nearest = HUGE_VAL, before = HUGE_VAL;
+        bool again = true;
+        step_ = 0;
         for (int round = 0;; ++round) {
             const double off = distance(now_, wish);
             if ((round > 0 || !by) && off < nearest) nearest = off, best = now_, kept_ = mode_;
-            if (round >= rounds || nearest <= near_enough || (round > 2 && off > still * before)) break;
+            if (round >= rounds || nearest <= near_enough || (!again && round > 2 && off > still * before)) break;
             before = off;
-            if (round > 0 || !by)
-                step(wish);
-            else
+            if (round == 0 && by) {
                 replace(*by);
-            now_ = heights();
+                now_ = heights();
+                continue;
+            }
+            again = !again && off < close * near_enough;
+            step(wish, again);
         }
         give();
         return best;
@@ -165,95 +167,100 @@ private:
         return Memory(reinterpret_cast<Complex*>(allocate_doubles(n, "a surface whose heights are not Gaussian")));
     }
     static fftwf_complex* fftw(Complex* p) { return reinterpret_cast<fftwf_complex*>(p); }
-    static float* numbers(const Memory& p) { return reinterpret_cast<float*>(p.get()); }
+    static float* numbers(Complex* p) { return reinterpret_cast<float*>(p); }
+    static const float* numbers(const Complex* p) { return reinterpret_cast<const float*>(p); }
     struct Plans {
-        FftwfPlan up, down, to_heights, to_modes;
+        FftwfPlan up, down;
     };
     // Planning takes longer than the transforms of a small surface: the plans of the last sizes are kept for the next surfaces.
     std::shared_ptr<const Plans> plans() const {
         constexpr std::size_t most = 4;
         static std::deque<std::pair<int, std::shared_ptr<const Plans>>> kept;
-        const auto lock = fftw_planning();
+        const std::lock_guard lock(library_lock());
         for (const auto& [points, p] : kept)
             if (points == m_) return p;
+        const auto planning = fftw_planning();
         const auto p = std::make_shared<Plans>();
-        auto *const c = fftw(store_.get()), *const row = fftw(rows_.get());
-        p->up.reset(fftwf_plan_dft_1d(m_, row, c, FFTW_BACKWARD, FFTW_ESTIMATE));
-        p->down.reset(fftwf_plan_dft_1d(m_, row, c, FFTW_FORWARD, FFTW_ESTIMATE));
-        p->to_heights.reset(fftwf_plan_dft_c2r_1d(m_, row, numbers(heights_), FFTW_ESTIMATE));
-        p->to_modes.reset(fftwf_plan_dft_r2c_1d(m_, numbers(line_), row, FFTW_ESTIMATE));
-        if (!p->up || !p->down || !p->to_heights || !p->to_modes)
-            throw Error(Failure::internal, "surface: FFTW made no plan for heights that are not Gaussian");
+        p->up.reset(fftwf_plan_dft_1d(m_, fftw(line_), fftw(store_.get()), FFTW_BACKWARD, FFTW_ESTIMATE));
+        p->down.reset(fftwf_plan_dft_1d(m_, fftw(line_), fftw(store_.get()), FFTW_FORWARD, FFTW_ESTIMATE));
+        if (!p->up || !p->down) throw Error(Failure::internal, "surface: FFTW made no plan for heights that are not Gaussian");
         kept.emplace_front(m_, p);
         if (kept.size() > most) kept.pop_back();
         return p;
     }
-    static constexpr int kBlock = 16;  // rows at a time
+    static constexpr int kBlock = 8;  // pairs of rows at a time
     static constexpr int kBins = 1024;
-    static constexpr double kLongest = 0.5;
+    static constexpr double kFar = 0.8, kLongest = 0.5,
+                            kSmall = 0.35;  // rms changes of heights by a step: at most, if the wish is far or not
 
-    // From a copy of each column, because FFTW takes longer in place.
-    void transform(const FftwfPlan& plan) {
-        for (int kx = 0; kx < columns_; ++kx) {
-            Complex* const c = store_.get() + kx * stride_;
-            std::copy_n(c, m_, rows_.get());
-            fftwf_execute_dft(plan.get(), fftw(rows_.get()), fftw(c));
-        }
+    // Calls visit(k, place of the modes in column kx, count) for its runs of modes k, k + 1, ...; next, k: the state of a walk over all columns.
+    template <class Next, class Visit>
+    void each(int kx, Next& next, std::size_t& k, Visit visit) const {
+        for (; next != runs_.end() && next->kx == kx; k += static_cast<std::size_t>(next++->count))
+            visit(k, next->first, static_cast<std::size_t>(next->count));
     }
 
-    // Calls visit(k, place of the modes in the columns, count) for runs of modes k, k + 1, ...
-    template <class Visit>
-    void each(Visit visit) const {
-        std::size_t k = 0;
-        for (const auto& [place, count] : runs_) {
-            visit(k, store_.get() + place, count);
-            k += count;
-        }
-    }
-
-    // The heights of the modes, and their moments.
+    // The heights of the modes, and their moments. Rows 2i and 2i + 1 are the real and imaginary parts of one transform.
     HeightShape heights() {
-        std::fill_n(store_.get(), columns_ * stride_, Complex());
-        each([&](std::size_t k, Complex* to, std::size_t count) { std::copy_n(mode_.data() + k, count, to); });
-        for (int ky = 1; 2 * ky < m_; ++ky) store_[m_ - ky] = std::conj(store_[ky]);  // kx = 0 contains its own mirror image
-        transform(plans_->up);
-        double m2 = 0, m3 = 0, m4 = 0;
-        for (int j = 0; j < m_; j += kBlock) {
-            const int count = std::min(kBlock, m_ - j);
-            for (int kx = 0; kx < columns_; ++kx) {
-                const Complex* const from = store_.get() + kx * stride_ + j;
-                for (int r = 0; r < count; ++r) rows_[r * row_stride_ / 2 + kx] = from[r];
-            }
-            for (int r = 0; r < count; ++r) {
-                Complex* const row = rows_.get() + r * row_stride_ / 2;
-                std::fill(row + columns_, row + m_ / 2 + 1, Complex());
-                fftwf_execute_dft_c2r(plans_->to_heights.get(), fftw(row), numbers(heights_) + (j + r) * row_stride_);
-            }
-            float second[kLanes] = {}, third[kLanes] = {}, fourth[kLanes] = {};
-            add_powers(numbers(heights_) + j * row_stride_, count * row_stride_, second, third, fourth);  // rows end with zeros
-            m2 += sum(second), m3 += sum(third), m4 += sum(fourth);
+        auto next = runs_.begin();
+        std::size_t done = 0;
+        for (int kx = 0; kx < columns_; ++kx) {
+            std::fill_n(line_, m_, Complex());
+            each(kx, next, done, [&](std::size_t k, int first, std::size_t count) { std::copy_n(mode_.data() + k, count, line_ + first); });
+            for (int ky = 1; kx == 0 && 2 * ky < m_; ++ky) line_[m_ - ky] = std::conj(line_[ky]);  // kx = 0 contains its own mirror image
+            fftwf_execute_dft(plans_->up.get(), fftw(line_), fftw(store_.get() + kx * stride_));
         }
-        const double points = static_cast<double>(m_) * m_, variance = m2 / points;
-        return {m3 / points / (variance * std::sqrt(variance)), m4 / points / (variance * variance)};  // the mean is 0: no mode (0, 0)
+        double sums[3] = {};
+        for (int j = 0; j < m_ / 2; j += kBlock) {
+            const int count = std::min(kBlock, m_ / 2 - j);
+            for (int r = 0; r < count; ++r) {
+                rows_[r * m_] = {store_[2 * (j + r)].real(), store_[2 * (j + r) + 1].real()};
+                std::fill_n(rows_.get() + r * m_ + columns_, m_ - 2 * columns_ + 1, Complex());
+            }
+            for (int kx = 1; kx < columns_; ++kx) {
+                const Complex* const from = store_.get() + kx * stride_ + 2 * j;
+                Complex *const to = rows_.get() + kx, *const mirror = rows_.get() + m_ - kx;
+                for (int r = 0; r < count; ++r) {
+                    const Complex a = from[2 * r], b = from[2 * r + 1];
+                    to[r * m_] = {a.real() - b.imag(), a.imag() + b.real()};
+                    mirror[r * m_] = {a.real() + b.imag(), b.real() - a.imag()};
+                }
+            }
+            Complex* const z = heights_.get() + j * m_;
+            for (int r = 0; r < count; ++r) fftwf_execute_dft(plans_->up.get(), fftw(rows_.get() + r * m_), fftw(z + r * m_));
+            add_powers(numbers(z), 2 * count * m_, sums);
+        }
+        const double points = static_cast<double>(m_) * m_, variance = sums[0] / points;
+        // The mean is 0: no mode (0, 0).
+        return {sums[1] / points / (variance * std::sqrt(variance)), sums[2] / points / (variance * variance)};
     }
 
-    // Fourier coefficients of a function of the heights, by column.
-    template <class Function>
-    void coefficients(Function of) {
-        float* const line = numbers(line_);
-        for (int j = 0; j < m_; j += kBlock) {
-            const int count = std::min(kBlock, m_ - j);
+    // Twice the Fourier coefficients of a function of the heights: visit(k, coefficients, count) for runs of modes k, k + 1, ...
+    template <class Function, class Visit>
+    void coefficients(Function of, Visit visit) {
+        for (int j = 0; j < m_ / 2; j += kBlock) {
+            const int count = std::min(kBlock, m_ / 2 - j);
             for (int r = 0; r < count; ++r) {
-                const float* const from = numbers(heights_) + (j + r) * row_stride_;
-                for (int i = 0; i < m_; ++i) line[i] = of(from[i]);
-                fftwf_execute_dft_r2c(plans_->to_modes.get(), line, fftw(rows_.get() + r * row_stride_ / 2));
+                const float* const z = numbers(heights_.get() + (j + r) * m_);
+                for (int i = 0; i < 2 * m_; ++i) numbers(line_)[i] = of(z[i]);
+                fftwf_execute_dft(plans_->down.get(), fftw(line_), fftw(rows_.get() + r * m_));
             }
             for (int kx = 0; kx < columns_; ++kx) {
-                Complex* const to = store_.get() + kx * stride_ + j;
-                for (int r = 0; r < count; ++r) to[r] = rows_[r * row_stride_ / 2 + kx];
+                const Complex *const from = rows_.get() + kx, *const mirror = rows_.get() + (kx > 0 ? m_ - kx : 0);
+                Complex* const to = store_.get() + kx * stride_ + 2 * j;
+                for (int r = 0; r < count; ++r) {
+                    const Complex a = from[r * m_], b = mirror[r * m_];
+                    to[2 * r] = {a.real() + b.real(), a.imag() - b.imag()};
+                    to[2 * r + 1] = {a.imag() + b.imag(), b.real() - a.real()};
+                }
             }
         }
-        transform(plans_->down);
+        auto next = runs_.begin();
+        std::size_t done = 0;
+        for (int kx = 0; kx < columns_; ++kx) {
+            fftwf_execute_dft(plans_->down.get(), fftw(store_.get() + kx * stride_), fftw(line_));
+            each(kx, next, done, [&](std::size_t k, int first, std::size_t count) { visit(k, line_ + first, count); });
+        }
     }
 
     // Parts of a change of heights along and across the modes, times their amplitude.
@@ -262,10 +269,9 @@ private:
     };
     template <class Function>
     void parts(Function of, Parts& to) {
-        coefficients(of);
         to.along.resize(mode_.size()), to.across.resize(mode_.size());
-        const float scale = 1 / (static_cast<float>(m_) * static_cast<float>(m_));
-        each([&](std::size_t first, const Complex* change, std::size_t count) {
+        const float scale = 0.5f / (static_cast<float>(m_) * static_cast<float>(m_));
+        coefficients(of, [&](std::size_t first, const Complex* change, std::size_t count) {
             const Complex* const mode = mode_.data() + first;
             for (std::size_t i = 0; i < count; ++i) {
                 const float x = scale * mode[i].real(), y = scale * mode[i].imag();
@@ -276,34 +282,53 @@ private:
     }
 
     // Newton's method for both moments with the smallest change of heights that phases allow: p z^2 + q z^3 without the parts along the modes.
-    // The rotation of a mode, and the loss along its old direction, are not linearised, because modes of small amplitude rotate far.
-    void step(HeightShape wish) {
-        parts([](float z) { return z * z; }, second_);
-        parts([](float z) { return z * z * z; }, third_);
+    // The rotation of a mode, and the loss along its old direction, are not linearised, because modes of small amplitude rotate far. What the
+    // step before missed, this one is expected to miss in proportion to the square of its size. again: from the same heights as the step
+    // before, corrected by what it missed.
+    void step(HeightShape wish, bool again) {
+        if (!again) {
+            parts([](float z) { return z * z; }, second_);
+            parts([](float z) { return z * z * z; }, third_);
+            from_ = now_;
+            std::swap(from_mode_, mode_);
+            mode_.resize(from_mode_.size());
+        }
         // skewness = <z^3>, kurtosis = <z^4>; every mode counts twice. A change of the skewness by p z^2 alone raises the kurtosis of Gaussian
         // heights by 4/3 of its square.
-        const double change = wish.skewness - now_.skewness, s = change / 6,
-                     t = (wish.kurtosis - now_.kurtosis - 4.0 / 3 * change * change) / 8;
+        const double skewness = wish.skewness - from_.skewness, kurtosis = wish.kurtosis - from_.kurtosis;
+        double s = skewness / 6, t = (kurtosis - 4.0 / 3 * skewness * skewness) / 8, size = 0;
+        const auto expect = [&](double share) {
+            s = (skewness - share * missed_.skewness) / 6, t = (kurtosis - share * missed_.kurtosis) / 8;
+        };
+        if (again) expect(1);
         alignas(64) float tangent[kBatch], cosine[kBatch];
+        HeightShape predicted;
         float p = 0, q = 0;
         for (int i = 0; i < kSteps; ++i) {
-            double sums[5] = {0, 0, 0, s, t};
+            double sums[5] = {};
             for (std::size_t k = 0; k < mode_.size(); k += kBatch)
                 add_rotated(&second_.across[k], &third_.across[k], &second_.along[k], &third_.along[k], &inverse_[k], p, q, sums);
-            const auto [a, b, c, s1, t1] = sums;
-            const double determinant = a * c - b * b;
-            if (!(determinant > 0)) return;
+            const auto [a, b, c, lost_s, lost_t] = sums;
+            const double determinant = a * c - b * b, s1 = s + lost_s, t1 = t + lost_t;
+            if (!(determinant > 0)) break;
             p = static_cast<float>((c * s1 - b * t1) / determinant), q = static_cast<float>((a * t1 - b * s1) / determinant);
-            const double size = std::sqrt(2 * (p * p * a + 2 * p * q * b + q * q * c));
-            if (const float most = static_cast<float>(kLongest / size); most < 1) p *= most, q *= most;
+            size = std::sqrt(2 * (p * p * a + 2 * p * q * b + q * q * c));
+            const double longest = size > 1 ? kFar : kLongest;
+            if (const float most = static_cast<float>(longest / size); most < 1) p *= most, q *= most;
+            size = std::min(size, longest);
+            predicted = {6 * (a * p + b * q - lost_s), 8 * (b * p + c * q - lost_t)};
+            if (!again && step_ > 0 && step_ <= kLongest && size < kSmall) expect(size * size / (step_ * step_));
         }
         for (std::size_t k = 0; k < mode_.size(); k += kBatch) {
             angles(&second_.across[k], &third_.across[k], &inverse_[k], p, q, tangent, cosine);
             for (std::size_t i = 0; i < kBatch; ++i) {
-                const float x = cosine[i] * mode_[k + i].real(), y = cosine[i] * mode_[k + i].imag();
+                const float x = cosine[i] * from_mode_[k + i].real(), y = cosine[i] * from_mode_[k + i].imag();
                 mode_[k + i] = {x - tangent[i] * y, y + tangent[i] * x};
             }
         }
+        now_ = heights();
+        step_ = size;
+        missed_ = {now_.skewness - from_.skewness - predicted.skewness, now_.kurtosis - from_.kurtosis - predicted.kurtosis};
     }
 
     void give() {
@@ -329,8 +354,8 @@ private:
     // Heights replaced by rank.
     void replace(const HeightDistribution& by) {
         long bin[kBins] = {};
-        for (int j = 0; j < m_; j += std::max(1, m_ / 128))  // enough rows
-            for (int i = 0; i < m_; ++i) ++bin[place_of(numbers(heights_)[j * row_stride_ + i])];
+        for (int j = 0; j < m_ / 2; j += std::max(1, m_ / 256))  // enough rows
+            for (int i = 0; i < 2 * m_; ++i) ++bin[place_of(numbers(heights_.get() + j * m_)[i])];
         double total = 0, below = 0;
         for (const long count : bin) total += static_cast<double>(count);
         float value[kBins + 1];
@@ -340,34 +365,43 @@ private:
             value[b] = static_cast<float>(by(-std::numbers::sqrt2 * boost::math::erfc_inv(2 * p, Policy())));
             if (b < kBins) below += static_cast<double>(bin[b]);
         }
-        coefficients([&](float z) {
+        const auto ranked = [&](float z) {
             const float at = std::clamp((z + kRange) * kPerUnit, 0.0f, static_cast<float>(kBins));
             const std::size_t k = std::min<std::size_t>(static_cast<std::size_t>(at), kBins - 1);
             return value[k] + (value[k + 1] - value[k]) * (at - static_cast<float>(k));
-        });
-        each([&](std::size_t k, const Complex* c, std::size_t count) {
+        };
+        coefficients(ranked, [&](std::size_t k, const Complex* c, std::size_t count) {
             for (std::size_t i = 0; i < count; ++i)
                 if (const float square = std::norm(c[i]); square > 1e-30f)
                     mode_[k + i] = c[i] * std::sqrt(std::norm(mode_[k + i]) / square);
         });
     }
 
+    struct Run {
+        int kx, first, count;  // modes from place `first` of column kx on
+    };
     const Modes& modes_;
     int m_, columns_;
-    std::ptrdiff_t stride_, row_stride_;  // strides of columns (complex numbers) and rows (real numbers)
-    Memory store_, rows_, heights_, line_;
-    std::vector<std::pair<std::ptrdiff_t, std::size_t>> runs_;  // places in the columns and lengths of the runs of modes
+    std::ptrdiff_t stride_;          // of columns
+    Memory store_, rows_, heights_;  // heights_: of pairs of rows
+    Complex* line_;                  // a column or a row
+    std::vector<Run> runs_;
     std::shared_ptr<const Plans> plans_;
-    HeightShape now_;
-    std::vector<Complex> mode_, kept_;  // for an rms height of 1; kept_: those nearest to the wish
-    std::vector<float> inverse_;        // of the squared amplitudes; 0 for a mode that is none
+    HeightShape now_, from_, missed_;               // the heights' now and before the last step; what that one missed
+    double step_ = 0;                               // rms change of heights by the last step
+    std::vector<Complex> mode_, kept_, from_mode_;  // for an rms height of 1; kept_: those nearest to the wish
+    std::vector<float> inverse_;                    // of the squared amplitudes; 0 for a mode that is none
     Parts second_, third_;
 };
 
-// Number of points, fast to transform: enough for fourth powers if there are few modes; with many modes more are not required.
+// Number of points: 4, 5 or 6 times a power of two, for which FFTW's complex transform takes half the time per point or less of others. Enough
+// for fourth powers if there are few modes; with many modes more are not required.
 int points(const Band& band) {
     const double highest = std::max({band.highest_kx, band.highest_ky, 16});
-    return 8 * fast_size(std::max(2.1 * highest + 2, std::min(4.1 * highest, 64.0)) / 8);
+    const double least = std::max(2.1 * highest + 2, std::min(4.1 * highest, 64.0));
+    for (int power = 16;; power *= 2)
+        for (int m : {4 * power, 5 * power, 6 * power})
+            if (m >= least) return m;
 }
 
 Band ellipse(const Band& whole, const Stretch& stretched, double q2) {
@@ -419,28 +453,38 @@ HeightShape reshape_heights(const Spectrum& spectrum, std::complex<double>* colu
         all.band = long_waves(all, 1 - 1e-12).first;
     }
     const HeightShape wish = spectrum.heights ? spectrum.heights->shape() : spectrum.shape;
-    // At first only the long waves are changed. The short ones remain Gaussian and uncorrelated with them, so the skewness and excess
-    // kurtosis of the sum are those of the long waves times powers of their share.
-    const auto [band, share] = long_waves(all, 0.92);
-    const auto of_long_waves = [s = share](double skewness, double kurtosis) {
-        return HeightShape{skewness / (s * std::sqrt(s)), kurtosis / (s * s)};
+    // Long waves are changed. The short ones remain Gaussian and uncorrelated with them, so the skewness and excess kurtosis of the sum are
+    // those of the long waves times powers of their share.
+    const auto of_long_waves = [](HeightShape sum, double share) {
+        return HeightShape{sum.skewness / (share * std::sqrt(share)), 3 + (sum.kurtosis - 3) / (share * share)};
     };
-    HeightShape ask = of_long_waves(wish.skewness, wish.kurtosis - 3), got;
-    ask.kurtosis += 3;
-    const Modes longest{whole, band, columns, stride, n};
-    Field coarse(longest, points(band)), fine(all, points(all.band));
+    Modes longest = all, most = all;
+    double share = 1, share_of_most = 1;
+    std::tie(longest.band, share) = long_waves(all, 0.92);
+    if (!spectrum.heights && std::max(all.band.highest_kx, all.band.highest_ky) > 200)
+        std::tie(most.band, share_of_most) = long_waves(all, 0.985);
+    Field coarse(longest, points(longest.band)), fine(most, points(most.band));
+    const HeightShape fine_wish = of_long_waves(wish, share_of_most);
+    HeightShape ask = of_long_waves(wish, share), got;
     constexpr int coarse_rounds = 10, corrections = 3, fine_rounds = 20;
     constexpr double far = 4;  // beyond, all waves are changed at once
     double off = 0;
     coarse.take();
     for (int i = 0; i < corrections && (i == 0 || (off > 1 && off < far)); ++i) {
-        coarse.run(usable(ask), nullptr, i == 0 ? 0.6 : 1, coarse_rounds, 0.75);
+        coarse.run(usable(ask), nullptr, i == 0 ? 0.6 : 1, coarse_rounds, 0.5);
         got = fine.take();
-        off = distance(got, wish);
-        const auto [skewness, kurtosis] = of_long_waves(wish.skewness - got.skewness, wish.kurtosis - got.kurtosis);
-        ask.skewness += skewness, ask.kurtosis += kurtosis;
+        off = distance(got, fine_wish);
+        const auto [skewness, kurtosis] =
+            of_long_waves({fine_wish.skewness - got.skewness, 3 + fine_wish.kurtosis - got.kurtosis}, share / share_of_most);
+        ask.skewness += skewness, ask.kurtosis += kurtosis - 3;
     }
-    if (off > 1 || spectrum.heights) got = fine.run(wish, spectrum.heights.get(), spectrum.heights ? 0.3 : 1, fine_rounds, HUGE_VAL);
+    if (off > 1 || spectrum.heights) got = fine.run(fine_wish, spectrum.heights.get(), spectrum.heights ? 0.3 : 1, fine_rounds, HUGE_VAL);
+    got = of_long_waves(got, 1 / share_of_most);
+    if (distance(got, wish) > 1 && share_of_most < 1) {
+        Field whole(all, points(all.band));
+        whole.take();
+        got = whole.run(wish, nullptr, 1, fine_rounds, HUGE_VAL);
+    }
     for (int ky = 1; ky <= whole.highest_ky; ++ky) columns[n - ky] = std::conj(columns[ky]);  // kx = 0
     return got;
 }

@@ -11,11 +11,21 @@
 #include "rough/defects.hpp"
 #include "rough/detection.hpp"
 #include "rough/parallel.hpp"
-#include "rough/reshape.hpp"
 #include "rough/synthesis.hpp"
 
 namespace rsc {
 namespace {
+
+// The smallest even size >= least with a fast Fourier transform.
+int fast_size(double least) {
+    int n = static_cast<int>(std::ceil(least));
+    for (n += n % 2;; n += 2) {
+        int rest = n;
+        for (int factor : {2, 3, 5, 7})
+            while (rest % factor == 0) rest /= factor;
+        if (rest == 1) return n;
+    }
+}
 
 // Hertz asperities are at grid points, as in the paper; the other laws need the summits between the points.
 Detail detail_of(const Case& settings) { return traits(settings.asperities.law).between_points ? Detail::subgrid : Detail::grid; }

@@ -30,7 +30,8 @@ void made() {
         double lambda_l, lambda_s;
         int n;
     };
-    for (const Grid& grid : {Grid{24, 256, 1024}, {24, 512, 2048}, {4, 128, 1024}, {4, 64, 1024}, {8, 64, 256}}) {
+    for (const Grid& grid :
+         {Grid{24, 256, 1024}, {24, 512, 2048}, {4, 128, 1024}, {4, 64, 1024}, {24, 128, 512}, {8, 64, 256}, {8, 32, 128}, {4, 16, 128}}) {
         const Spectrum plain = spectrum_of(grid.lambda_l, grid.lambda_s);
         const auto surface = [&](const Spectrum& s) { synthesize(s, grid.n, Normalise::sample, 1, 1); };
         const auto summits = [&](const Spectrum& s) { make_asperities(s, grid.n, Normalise::sample, 1, 1, Curvature::geometric); };

@@ -37,6 +37,7 @@ CASES = {
     "pressed": "&surface n=128 L_lambda_l=4 L_lambda_s=32 sigma=0.0009 / &solids R=Infinity,Infinity / &run realizations=3 /"
                "&indentation boundary='periodic' control='pressure' unit='relative' levels=0.001,0.004,0.01 /",
     "study": SURFACE + BALL + "&indentation start=2.0 stop=0.5 steps=4 / &study surface%sigma=5.0,10.0,20.0 surface%hurst=0.5,0.8 /",
+    "laws": SURFACE + BALL + "&indentation levels=1.0,0.5 / &study asperities%law='hertz','fourth_order' surface%sigma=5.0,10.0,20.0 /",
     "forced": SMALL + "&indentation control='force' levels=1.0,10.0 / &study run%seed=1,2,3,4,5,6,7,8,9,10,11,12 /",
     "cone": SMALL + "&solids hardness=1.5e4 / &indenter shape='cone' slope=0.05 / &indentation control='force' levels=0.1,1,10,1 /",
     "creep": SMALL + "&solids relaxation_share=0.5 relaxation_time=1.0 / &indentation control='force' levels=1,1,1,1 times=0,1,10,100 /",
@@ -291,6 +292,12 @@ class Numbers(Drawn):
         for name in ("force", "contact_area", "contacts"):
             self.has_image(figure, np.array([raw(file)[0][name][0, 1] for file in members("study", 6)]).reshape(3, 2).T)  # sigma varies slowest
         self.assertIn("1.5", figure._suptitle.get_text())
+        laws = self.figure("study", *members("laws", 6))  # sigma is a number, law is not: a curve for each law, with its expected error
+        for name in ("force", "contact_area"):
+            values = np.array([raw(file)[0][name][0, -1] for file in members("laws", 6)]).reshape(2, 3)  # law varies slowest
+            for of_law in values:
+                self.has_curve(laws, np.array([5.0, 10.0, 20.0]), of_law)
+        self.assertEqual(sum(c.get_gid() == "error" for axis in laws.axes[:2] for c in axis.collections), 4)
         forced = self.figure("study", *members("forced", 12))  # the force is the same everywhere: the separation is drawn instead
         self.assertIn("10 N", forced._suptitle.get_text())
         self.assertIn("Z_0", forced.axes[0].get_ylabel())
