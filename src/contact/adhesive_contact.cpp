@@ -7,7 +7,7 @@ namespace rsc {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kBefore = 6;  // numbers in memory() before the pairs
+constexpr std::size_t kBefore = 7;  // numbers in memory() before the pairs
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
@@ -16,9 +16,12 @@ public:
     AdhesiveContact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options, SummitSearch search)
         : path_(std::make_unique<AdhesivePath>(asperities, indenter, options, std::move(search))) {}
 
-    double stiffness() override { return slope_; }
+    double stiffness() override {
+        if (std::exchange(fresh_, false)) slope_ = path_->solver.slope();
+        return slope_;
+    }
     double clamped_stiffness() override {
-        return std::isnan(slope_) || path_->active.empty() ? slope_ : path_->solver.clamped_stiffness(path_->here.states);
+        return std::isnan(stiffness()) || path_->active.empty() ? slope_ : path_->solver.clamped_stiffness(path_->here.states);
     }
     double energy() const override { return energy_; }
     void move_tip(double x0, double y0) override;
@@ -27,7 +30,7 @@ public:
     const Asperities* asperities() const override { return &path_->asperities; }
     bool path_dependent() const override { return true; }
     bool pulls() const override { return true; }
-    // Position of the tip, separation, dissipated energy, smallest force, jumps, and pairs of an attached asperity and its state.
+    // Position of the tip, separation, dissipated energy, smallest force, jumps, margin, and pairs of an attached asperity and its state.
     std::vector<double> memory() const override;
     void recall(const std::vector<double>& memory, const Level* level) override;
 
@@ -35,7 +38,7 @@ protected:
     void forget_levels() override {
         const AdhesivePath& my = *path_;
         path_ = std::make_unique<AdhesivePath>(my.of_surface, Indenter(my.indenter), SolverOptions(my.options), my.search);
-        slope_ = energy_ = 0;
+        slope_ = energy_ = 0, fresh_ = false;
     }
     Level solve(double Z0) override;
     // Follows the path to the first state with the force, towards the surface if it is larger than the present force, otherwise away. If no
@@ -50,6 +53,7 @@ private:
 
     std::unique_ptr<AdhesivePath> path_;
     double slope_ = 0, energy_ = 0;  // of the last level
+    bool fresh_ = false;             // slope_ is still to be computed, from the state of the path
 };
 
 Level AdhesiveContact::report() {
@@ -65,7 +69,7 @@ Level AdhesiveContact::report() {
         return l;
     }
     my.now = my.past();
-    l.candidates = std::max(my.set.size(), static_cast<int>(my.active.size()));
+    l.candidates = my.set.size() + static_cast<int>(my.left_out.size());
     l.residual = my.here.residual;
     l.iterations = my.steps;
     l.products = my.direct->count() + (my.mesh ? my.mesh->count() : 0) - my.products_before;
@@ -95,20 +99,26 @@ Level AdhesiveContact::report() {
     l.jumps = my.jumps + my.accepted.jumps;
     l.energy_lost = my.now.lost;
     l.least_force = my.now.least_force;
-    slope_ = my.active.empty() ? 0.0 : my.here.change.force;
+    slope_ = 0, fresh_ = !my.active.empty();
     energy_ = my.active.empty() ? 0.0 : my.here.energy;
     return l;
 }
 
 Level AdhesiveContact::solve(double Z0) {
     AdhesivePath& my = *path_;
-    if (my.begin(Z0) && !my.lost_way) my.go(Z0, std::nullopt);
-    my.here.Z = Z0;
+    fresh_ = false;
+    for (my.thin = true;; my.thin = false) {
+        if (my.begin(Z0) && !my.lost_way) my.go(Z0, std::nullopt);
+        my.here.Z = Z0;
+        if (!my.thin || !(my.lost_way || my.missed())) break;
+    }
     return report();
 }
 
 std::optional<Level> AdhesiveContact::solve_under(double N) {
     AdhesivePath& my = *path_;
+    fresh_ = false;
+    my.thin = false;
     const bool anything = my.begin(-kInfinity);
     if (my.lost_way) return report();
     if (anything && std::abs(my.here.force - N) > 0.1 * tolerance() * std::abs(N)) {
@@ -135,6 +145,7 @@ void AdhesiveContact::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
     AdhesivePath& my = *path_;
     if (x0 == my.indenter.x0 && y0 == my.indenter.y0) return;
+    (void)stiffness();
     if (!my.accepted.asperity.empty()) {
         if (!my.move(x0, y0))
             throw Error(Failure::not_converged,
@@ -151,7 +162,8 @@ std::vector<double> AdhesiveContact::memory() const {
     const AdhesivePath::Past& past = path_->accepted;
     if (past.separation == kInfinity) return {};
     const Indenter& tip = path_->indenter;
-    std::vector<double> numbers = {tip.x0, tip.y0, past.separation, past.lost, past.least_force, static_cast<double>(past.jumps)};
+    std::vector<double> numbers = {tip.x0,     tip.y0, past.separation, past.lost, past.least_force, static_cast<double>(past.jumps),
+                                   past.margin};
     for (std::size_t k = 0; k < past.asperity.size(); ++k)
         numbers.insert(numbers.end(), {static_cast<double>(past.asperity[k]), past.s[k]});
     return numbers;
@@ -162,10 +174,11 @@ void AdhesiveContact::recall(const std::vector<double>& memory, const Level* las
     my.accepted = {};
     if (!memory.empty()) {
         AdhesivePath::Past& past = my.accepted;
-        bool sound = memory.size() % 2 == 0 && memory.size() >= kBefore;
+        bool sound = memory.size() >= kBefore && (memory.size() - kBefore) % 2 == 0;
         for (double value : memory) sound = sound && std::isfinite(value);
         if (sound)
-            past.separation = memory[2], past.lost = memory[3], past.least_force = memory[4], past.jumps = static_cast<int>(memory[5]);
+            past.separation = memory[2], past.lost = memory[3], past.least_force = memory[4], past.jumps = static_cast<int>(memory[5]),
+            past.margin = memory[6];
         for (std::size_t k = kBefore; sound && k + 1 < memory.size(); k += 2) {
             sound = memory[k] >= 0 && memory[k] < static_cast<double>(my.asperities.size()) && memory[k + 1] > 0;
             if (!sound) break;

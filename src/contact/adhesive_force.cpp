@@ -2,6 +2,11 @@
 #include "contact/adhesive_path.hpp"
 
 namespace rsc {
+namespace {
+
+constexpr double kRates = 1e-6;  // accuracy of derivatives
+
+}  // namespace
 
 // Finds the state of the smallest force between a state `below` with dN/dZ0 < 0 and a state `above` with dN/dZ0 > 0.
 AdhesivePath::Point AdhesivePath::least_between(const Point& below, const Point& above) {
@@ -12,7 +17,7 @@ AdhesivePath::Point AdhesivePath::least_between(const Point& below, const Point&
         Vector s(low.s.size());
         for (std::size_t k = 0; k < s.size(); ++k) s[k] = low.s[k] + share * (high.s[k] - low.s[k]);
         if (!find(Z, s, middle)) break;
-        complete(middle);
+        complete(middle, kRates);
         const double gained = std::abs(middle.change.force * (high.Z - low.Z));
         if (middle.force < least.force) least = middle;
         (middle.change.force < 0 ? low : high) = middle;
@@ -34,7 +39,7 @@ bool AdhesivePath::find_force(const Point& a, const Point& b, double wanted) {
         Vector s(low.s.size());
         for (std::size_t k = 0; k < s.size(); ++k) s[k] = low.s[k] + share * (high.s[k] - low.s[k]);
         if (Z == low.Z || Z == high.Z || !find(Z, s, middle)) return false;
-        complete(middle);
+        complete(middle, kRates);
         if (std::abs(middle.force - wanted) <= precise) {
             here = middle;
             return true;

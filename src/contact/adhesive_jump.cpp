@@ -4,7 +4,7 @@
 namespace rsc {
 namespace {
 
-constexpr double kInJump = 1e-8;  // residual of states after a jump
+constexpr double kInJump = 1e-9;  // residual of states after a jump
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
@@ -138,13 +138,16 @@ void AdhesivePath::let_go(std::size_t weakest, double ahead) {
 
 void AdhesivePath::attach_at(int position, double u, Vector& s) {
     const auto k = std::lower_bound(active.begin(), active.end(), position) - active.begin();
+    const int i = set.asperity[at(position)];
+    const double state = sticking.state_at(i, u);
+    solver.take_in(set, static_cast<std::size_t>(k), position, sticking.at(i, state).f);
     active.insert(active.begin() + k, position);
-    s.insert(s.begin() + k, sticking.state_at(set.asperity[at(position)], u));
+    s.insert(s.begin() + k, state);
     products->set_active(active);
 }
 
 void AdhesivePath::detach(std::size_t k, Vector& s) {
-    solver.release(k);
+    solver.release(set, k);
     active.erase(active.begin() + static_cast<std::ptrdiff_t>(k));
     s.erase(s.begin() + static_cast<std::ptrdiff_t>(k));
     products->set_active(active);

@@ -8,6 +8,7 @@ constexpr double kOnTheWay = 1e-5;  // residual of the state before the jump
 // Largest distance in penetration from attachment or detachment, relative to the difference of both. The jump itself takes place exactly there,
 // and the error of its energy is of second order in this.
 constexpr double kNear = 1e-4;
+constexpr double kFirst = 0.01;  // the same with the slope of the first try, relative to kNear
 constexpr double kApart = 1e-4;  // of others_apart()
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
@@ -35,18 +36,13 @@ bool AdhesivePath::others_apart(const Point& point, std::size_t k) const {
 bool AdhesivePath::leap(double target, std::optional<double> wanted) {
     const double direction = target > here.Z ? 1 : -1;
     const std::vector<int>& passive = products->passive();
-    Trend present{here.Z, Vector(at(set.size()))};
-    for (std::size_t k = 0; k < active.size(); ++k) present.rate[at(active[k])] = here.states[k].du * here.change.s[k];
-    for (std::size_t p = 0; p < passive.size(); ++p) present.rate[at(passive[p])] = here.change.u[p];
-    const double since = here.Z - trend.Z;
-    const bool bent = trend.rate.size() == present.rate.size() && since != 0;
-    const auto bend_of = [&](int position) { return bent ? (present.rate[at(position)] - trend.rate[at(position)]) / since : 0.0; };
+    const Vector now_rates = rates();
     double way = std::abs(target - here.Z), left = 0;
     int event = -1;
     const auto consider = [&](int position, double toward, double distance) {
-        const double rate = toward * direction * present.rate[at(position)], bend = toward * bend_of(position);
+        const double rate = toward * direction * now_rates[at(position)];
         if (!(rate > 0) || distance > 2 * rate * way) return;
-        const double root = rate * rate + 2 * bend * distance;
+        const double root = rate * rate + 2 * toward * bend(position) * distance;
         const double x = root > 0 ? 2 * distance / (rate + std::sqrt(root)) : way;
         if (x < way) way = x, event = position, left = -toward * distance;
     };
@@ -61,22 +57,14 @@ bool AdhesivePath::leap(double target, std::optional<double> wanted) {
     if (lets_go && !others_apart(here, index)) return false;
 
     Point there;
+    const double toward = lets_go ? -direction : direction;
     set_gaps(here.Z);
     // `lifts`: rate at which the forces of the others lift the surface at the event.
     double Z = here.Z + direction * way, last_Z = here.Z, last_gap = set.g0[at(event)], slope = 0, lifts = 0;
-    Vector start(here.s.size()), last_s = here.s;
-    for (std::size_t k = 0; k < start.size(); ++k) {
-        const int i = set.asperity[at(active[k])];
-        const double length = Z - here.Z, bend = 0.5 * length * length * bend_of(active[k]);
-        const double change = length * present.rate[at(active[k])] + bend, u = here.states[k].u + change;
-        start[k] = here.s[k] + change / here.states[k].du;
-        if (active[k] == event)
-            start[k] = last_s[k] = sticking.least(i);
-        else if (!(u > sticking.lets_go(i)))
-            return false;
-        else if (std::abs(start[k] - here.s[k]) > 0.03 * here.s[k])
-            start[k] = sticking.state_at(i, u);
-    }
+    auto [start, stands] = predict(Z, now_rates, event);
+    if (!stands) return false;
+    Vector last_s = here.s;
+    if (lets_go) start[index] = last_s[index] = sticking.least(set.asperity[at(event)]);
     for (int tries = 0;; ++tries) {
         if (tries == 5 || !(direction * (Z - here.Z) > 0) || !(direction * (target - Z) > 0) || Z - margin < covered) return false;
         there.Z = Z, there.s = start, ++steps;
@@ -84,10 +72,12 @@ bool AdhesivePath::leap(double target, std::optional<double> wanted) {
         if (!solver.solve(set, kOnTheWay, false, there.s, 0, lets_go ? static_cast<int>(index) : -1, false)) return false;
         const double now_left = lets_go ? solver.residuals()[index] : set.g0[at(event)] - solver.elevation(set, event) - sticking.touches();
         slope = (now_left - left) / (Z - last_Z);
+        if (!(slope * toward > 0)) return false;
+        // The slope at this end of the first way, by a parabola: good enough to go on, not for the energy at a distance.
+        if (const double end = 2 * slope - now_rates[at(event)]; tries == 0 && end * toward > 0) slope = end;
         lifts = (set.g0[at(event)] - last_gap) / (Z - last_Z) - slope;
-        if (!(slope * direction * (lets_go ? -1 : 1) > 0)) return false;
         left = now_left;
-        if (std::abs(left) < kNear * (sticking.touches() + scale(event))) break;
+        if (std::abs(left) < (tries == 0 ? kFirst : 1.0) * kNear * (sticking.touches() + scale(event))) break;
         const double next = Z - left / slope;
         for (std::size_t k = 0; k < start.size(); ++k) start[k] = there.s[k] + (there.s[k] - last_s[k]) * (next - Z) / (Z - last_Z);
         last_Z = Z, last_gap = set.g0[at(event)], last_s = there.s, Z = next;
@@ -109,7 +99,7 @@ bool AdhesivePath::leap(double target, std::optional<double> wanted) {
     if (wanted && *wanted >= least && *wanted <= std::max(here.force, there.force) + fall) return false;
 
     now.least_force = std::min(now.least_force, there.force);
-    if (!bent || std::abs(Z - here.Z) > 0.2 * std::abs(since)) trend = std::move(present);
+    note_bend(now_rates, there);
     here = std::move(there);
     keep();
     Vector s = here.s;

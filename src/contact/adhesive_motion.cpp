@@ -41,6 +41,7 @@ void AdhesivePath::hold_gaps() {
 bool AdhesivePath::move(double x0, double y0) {
     const Indenter old = indenter;
     const Past before = accepted;
+    thin = false;
     const auto place_tip = [&](const Indenter& tip) {
         motion.reset();
         indenter = tip;

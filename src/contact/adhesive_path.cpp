@@ -12,11 +12,10 @@ constexpr double kTouching = 1e-8, kFold = 1e-4, kShortest = 1e-9;
 // Distance from touching, relative to the difference of the penetrations at attachment and detachment, from which a free asperity attaches
 // within a level. The energies are extrapolated to the point of touching, so that the error of the loss is of second order in it.
 constexpr double kNearTouching = 1e-4;
-constexpr double kOnTheWay = 1e-5;                      // residual of states between levels
-constexpr double kRates = 1e-6, kRatesOnTheWay = 1e-4;  // accuracy of derivatives
+constexpr double kOnTheWay = 1e-5;  // residual of states between levels
 // Largest steps, relative to the expected distance to detachment: by the law of the asperity, and by extrapolation of its rate of change
 // (far and near).
-constexpr double kOwnWay = 0.7, kFarWay = 0.6, kNearWay = 0.9, kLongestWay = 0.98, kDoubt = 6, kClose = 4;
+constexpr double kOwnWay = 0.7, kFarWay = 0.6, kNearWay = 0.9, kLongestWay = 0.98, kDoubt = 6;
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
@@ -26,7 +25,7 @@ AdhesivePath::AdhesivePath(const Asperities& asperities_, const Indenter& indent
     : ContactBodies(asperities_, indenter_, options_, std::move(search_)),
       law(make_law(options_.law, asperities, indenter_.E_star)),
       sticking(*law, options_.adhesion.work, options_.adhesion.range),
-      direct(make_direct_products(kernel)),
+      direct(make_direct_products(kernel, true)),
       solver(sticking),
       place(asperities.size(), -1) {
     const auto refuse = [](const char* what) { throw Error(Failure::bad_input, std::string("solids%adhesion is ") + what); };
@@ -75,6 +74,52 @@ void AdhesivePath::cover(double lowest) {
     set.g0.resize(clearance.size()), rate.assign(clearance.size(), -1.0);
     choose_products();
     attach(attached, s);
+    left_out.clear();
+    if (thin && !active.empty() && leave_out(lowest)) choose_products(), attach(attached, s);
+}
+
+// Removes from the set the asperities that the present forces keep from touching at separations down to `lowest`. missed() tests it afterwards.
+bool AdhesivePath::leave_out(double lowest) {
+    const std::vector<int>& passive = products->passive();
+    Vector f, phi(passive.size());
+    safety = margin;
+    for (std::size_t k = 0; k < active.size(); ++k) {
+        f.push_back(sticking.at(set.asperity[at(active[k])], here.s[k]).f);
+        safety = std::max(safety, 2 * scale(active[k]));
+    }
+    products->inner_passive(f.data(), phi.data());
+    const double raised = kernel->shift() * std::accumulate(f.begin(), f.end(), 0.0) - sticking.touches();
+    std::vector<char> out(at(set.size()), 0);
+    for (std::size_t p = 0; p < phi.size(); ++p) out[at(passive[p])] = clearance[at(passive[p])] - lowest - phi[p] + raised < -safety;
+    for (const Held& held : held_before) out[at(place[at(held.asperity)])] = 0;
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < out.size(); ++k) {
+        const int i = set.asperity[k];
+        if (out[k]) {
+            left_out.push_back({i, clearance[k]}), place[at(i)] = -1;
+            continue;
+        }
+        place[at(i)] = static_cast<int>(n);
+        set.asperity[n] = i, set.x[n] = set.x[k], set.y[n] = set.y[k], clearance[n++] = clearance[k];
+    }
+    set.asperity.resize(n), set.x.resize(n), set.y.resize(n), clearance.resize(n), set.g0.resize(n), rate.resize(n);
+    return !left_out.empty();
+}
+
+// True if an asperity that was left out is so near to touching that it may have touched.
+bool AdhesivePath::missed() {
+    constexpr double near = 0.5;  // share of the distance that it should have kept
+    Vector f, x, y, phi(left_out.size(), 0.0);
+    for (const auto& [i, height] : left_out) {
+        const Vec2 image = indenter.image(asperities.x[at(i)], asperities.y[at(i)]);
+        x.push_back(image.x), y.push_back(image.y);
+    }
+    for (const Sticking::State& state : here.states) f.push_back(state.f);
+    if (!active.empty() && !left_out.empty()) products->elsewhere(f.data(), static_cast<int>(x.size()), x.data(), y.data(), phi.data());
+    const double raised = kernel->shift() * here.force - sticking.touches() - here.Z;
+    for (std::size_t k = 0; k < phi.size(); ++k)
+        if (left_out[k].second - phi[k] + raised > -near * safety) return true;
+    return false;
 }
 
 void AdhesivePath::choose_products() {
@@ -140,11 +185,12 @@ double AdhesivePath::fold(int position) const {
 }
 
 // Computes the derivatives of the last state with respect to Z.
-void AdhesivePath::complete(Point& point) { point.change = solver.change(rate, point.exact ? kRates : kRatesOnTheWay); }
+void AdhesivePath::complete(Point& point, double accuracy) { point.change = solver.change(rate, accuracy); }
 
 // Restores the accepted state. Returns false if nothing is attached and nothing touches before the target.
 bool AdhesivePath::begin(double target) {
     now = accepted;
+    margin = std::max(options.adhesion.range, now.margin);  // sets of points, and the rounding of sums over them, depend on nothing else
     jumps = steps = 0;
     products_before = direct->count() + (mesh ? mesh->count() : 0);
     lost_way = false;
@@ -154,7 +200,7 @@ bool AdhesivePath::begin(double target) {
     if (now.asperity.empty()) {
         if (!(target < highest)) {
             for (int i : set.asperity) place[at(i)] = -1;
-            set = {}, clearance.clear(), covered = kInfinity;
+            set = {}, clearance.clear(), left_out.clear(), covered = kInfinity;
             return false;
         }
         here.Z = highest;
@@ -178,6 +224,44 @@ bool AdhesivePath::begin(double target) {
     }
     complete(here);
     return true;
+}
+
+// Rates of all penetrations with respect to Z at `here`, by position in the set.
+AdhesivePath::Vector AdhesivePath::rates() const {
+    Vector all(at(set.size()));
+    for (std::size_t k = 0; k < active.size(); ++k) all[at(active[k])] = here.states[k].du * here.change.s[k];
+    for (std::size_t p = 0; p < here.change.u.size(); ++p) all[at(products->passive()[p])] = here.change.u[p];
+    return all;
+}
+
+// Second derivatives from `here`, with its rates, and a state with the same attached, unless they are known from a much longer way.
+void AdhesivePath::note_bend(const Vector& now_rates, const Point& there) {
+    constexpr double shorter = 0.2;
+    const double length = there.Z - here.Z;
+    if (std::abs(length) < shorter * trend.length) return;
+    trend.length = std::abs(length), trend.bend.resize(now_rates.size());
+    const auto note = [&](int position, double change) {
+        trend.bend[at(position)] = 2 * (change - length * now_rates[at(position)]) / (length * length);
+    };
+    for (std::size_t k = 0; k < active.size(); ++k) note(active[k], there.states[k].u - here.states[k].u);
+    for (std::size_t p = 0; p < there.u.size(); ++p) note(products->passive()[p], there.u[p] - here.u[p]);
+}
+
+// States of the attached at Z by extrapolation of their penetrations; whether all would still be attached, but for those at the position `but`.
+std::pair<AdhesivePath::Vector, bool> AdhesivePath::predict(double Z, const Vector& now_rates, int but) const {
+    constexpr double small = 0.03;  // relative change of s up to which u is linear in it
+    Vector start(here.s);
+    bool stands = true;
+    for (std::size_t k = 0; k < start.size(); ++k) {
+        const int i = set.asperity[at(active[k])];
+        const double length = Z - here.Z, change = length * (now_rates[at(active[k])] + 0.5 * length * bend(active[k])),
+                     u = here.states[k].u + change;
+        const bool hangs = u > sticking.lets_go(i);
+        stands = stands && (hangs || active[k] == but);
+        start[k] = std::max(here.s[k] + change / here.states[k].du, 0.5 * (here.s[k] + sticking.least(i)));
+        if (hangs && std::abs(start[k] - here.s[k]) > small * here.states[k].du * here.s[k]) start[k] = sticking.state_at(i, u);
+    }
+    return {start, stands};
 }
 
 // Follows the path from `here` to a separation, or to the first state with the wanted force. Returns false if everything detached before.
@@ -283,20 +367,10 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
             known = false;
             continue;
         }
-        Vector start(here.s.size());
-        for (std::size_t k = 0; k < start.size(); ++k) {
-            const double least = sticking.least(set.asperity[at(active[k])]);
-            // The rate of s is extrapolated linearly; near detachment that of the penetration u.
-            const int i = set.asperity[at(active[k])];
-            const double length = Z - here.Z, bend = known ? 0.5 * length * length / (here.Z - before.Z) : 0.0;
-            const double rate = here.change.s[k], before_rate = known ? before.change.s[k] : 0.0, du = here.states[k].du;
-            start[k] = std::max(here.s[k] + length * rate + bend * (rate - before_rate), 0.5 * (here.s[k] + least));
-            if (here.left[k] > kClose * std::abs(length)) continue;
-            const double u = here.states[k].u + length * du * rate + bend * (du * rate - (known ? before.states[k].du * before_rate : 0.0));
-            if (u > sticking.lets_go(i)) start[k] = sticking.state_at(i, u);
-        }
+        const Vector now_rates = rates();
+        const auto [start, stands] = predict(Z, now_rates);
         Point there;
-        if (!find(Z, std::move(start), there, Z == target ? 0.0 : kOnTheWay)) {
+        if (!find(Z, start, there, Z == target ? 0.0 : kOnTheWay)) {
             shorter *= 0.3;
             continue;
         }
@@ -349,6 +423,7 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
         const bool crossed = wanted && (here.force - *wanted) * (there.force - *wanted) <= 0;
         if (crossed && find_force(here, there, *wanted)) return true;
         now.least_force = std::min(now.least_force, there.force);
+        note_bend(now_rates, there);
         before = std::move(here);
         here = std::move(there);
         known = direct = true;
@@ -361,7 +436,7 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
 
 AdhesivePath::Past AdhesivePath::past() const {
     Past p = now;
-    p.separation = here.Z;
+    p.separation = here.Z, p.margin = margin;
     std::vector<std::pair<int, double>> order;
     for (std::size_t k = 0; k < active.size(); ++k) order.emplace_back(set.asperity[at(active[k])], here.s[k]);
     std::sort(order.begin(), order.end());

@@ -12,7 +12,7 @@
 
 namespace rsc {
 
-constexpr double kNoiseBeforeJump = 1e-7;  // error of the products of the state before a jump; it does not change in the jump
+constexpr double kNoiseBeforeJump = 3e-7;  // error of the products of the state before a jump; it does not change in the jump
 
 struct AdhesivePath : ContactBodies {
     using Vector = std::vector<double>;
@@ -24,6 +24,7 @@ struct AdhesivePath : ContactBodies {
         Vector s;
         double lost = 0;         // energy dissipated since the beginning
         double least_force = 0;  // smallest force since the beginning
+        double margin = 0;       // that of the path
         int jumps = 0;           // during moves of the tip since the last level
     };
 
@@ -56,6 +57,10 @@ struct AdhesivePath : ContactBodies {
     double covered = std::numeric_limits<double>::infinity();  // asperities with a clearance above this are in the set
     double margin = 0;        // height by which forces may raise an asperity, and the range of the attraction
     std::vector<int> active;  // positions of the attached in the set
+    // Asperities that would be in the set, with their clearances, but stay away from touching by more than `safety`.
+    bool thin = false;  // there may be such
+    std::vector<std::pair<int, double>> left_out;
+    double safety = 0;
 
     // A state on the path.
     struct Point {
@@ -79,26 +84,32 @@ struct AdhesivePath : ContactBodies {
     std::vector<Held> held_before;
     Vector free_before;
 
-    // Rates of all penetrations with respect to Z at an earlier state with nearly the same attached asperities, by position in the set.
+    // Second derivatives of all penetrations with respect to Z, by position in the set, from a way of this length.
     struct Trend {
-        double Z = 0;
-        Vector rate;
+        double length = 0;
+        Vector bend;
     } trend;
 
     // As AdhesiveContact.
     AdhesivePath(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_);
 
     void cover(double lowest);
+    bool leave_out(double lowest);
+    bool missed();
     void choose_products();
     void attach(const std::vector<int>& attached, const Vector& s);
     bool find(double Z, Vector s, Point& point, double accuracy = 0, int least = 0);
-    void complete(Point& point);
+    void complete(Point& point, double accuracy = 1e-4);
     double raised() const;
     void read_solution(Point& point);
     void hold();
     void keep();
     void hold_more(double Z);
     double energy_gained() const;
+    Vector rates() const;
+    double bend(int position) const { return trend.bend.empty() ? 0.0 : trend.bend[static_cast<std::size_t>(position)]; }
+    void note_bend(const Vector& now_rates, const Point& there);
+    std::pair<Vector, bool> predict(double Z, const Vector& now_rates, int but = -1) const;
     bool settle(double Z, Vector s);
     bool leap(double target, std::optional<double> wanted);
     bool others_apart(const Point& point, std::size_t k) const;

@@ -265,6 +265,21 @@ TEST(test_far_jumps) {
     }
 }
 
+// A contact that goes on from a memory gives the bits of one that was not interrupted.
+TEST(test_interrupted) {
+    const RandomAsperities system = random_asperities(60, 51, 0.06);
+    const auto make = [&] { return make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(3e-3)); };
+    const auto whole = make();
+    for (int k = 0; k <= 24; ++k) {
+        const auto other = make();
+        if (k > 0) other->recall(whole->memory(), nullptr);
+        const double Z = 0.03 - 0.0015 * std::min(k, 24 - k);
+        const Level level = whole->at_separation(Z), again = other->at_separation(Z);
+        CHECK(level.force == again.force && level.energy_lost == again.energy_lost && level.jumps == again.jumps);
+        CHECK(whole->stiffness() == other->stiffness() && whole->energy() == other->energy() && whole->memory() == other->memory());
+    }
+}
+
 // The work of a closed cycle is the energy lost.
 TEST(test_work) {
     for (unsigned seed : {31u, 32u}) {

@@ -9,14 +9,15 @@ namespace {
 
 class Direct final : public Products {
 public:
-    explicit Direct(std::shared_ptr<const Kernel> kernel) : Products(std::move(kernel)), sums_(*kernel_) {
+    Direct(std::shared_ptr<const Kernel> kernel, bool many)
+        : Products(std::move(kernel)), many_(many), sums_(*kernel_), all_sums_(*kernel_) {
         if (!kernel_->none() && kernel_->smooth() && !kernel_->lattice()) matrix_.emplace(*kernel_);
     }
 
     void set_points(int n, const double* x, const double* y) override {
         x_.assign(x, x + n);
         y_.assign(y, y + n);
-        fresh_ = true;
+        fresh_ = true, whole_ = false;
     }
 
     void set_active(const std::vector<int>& active) override {
@@ -73,7 +74,22 @@ public:
     double inner_error() const override { return sums_.has_single() ? 1e-6 : full_error(); }
 
 private:
+    // Sums over all points, with their 1/d stored, if most are active.
+    bool among_all(const double* f, double* phi) {
+        constexpr double most = 0.7;
+        if (!many_ || kernel_->none() || kernel_->lattice() || kernel_->smooth() || x_.size() > PairSums::kMostStored ||
+            static_cast<double>(active_.size()) < most * static_cast<double>(x_.size()))
+            return false;
+        if (!std::exchange(whole_, true)) all_sums_.assign(x_.size(), x_.data(), y_.data()), all_sums_.store();
+        all_f_.assign(x_.size(), 0.0), all_phi_.resize(x_.size());
+        for (std::size_t k = 0; k < active_.size(); ++k) all_f_[static_cast<std::size_t>(active_[k])] = f[k];
+        all_sums_.among(true, all_f_.data(), all_phi_.data());
+        for (std::size_t k = 0; k < active_.size(); ++k) phi[k] = all_phi_[static_cast<std::size_t>(active_[k])];
+        return true;
+    }
+
     void among(bool single, const double* f, double* phi) {
+        if (single && among_all(f, phi)) return;
         if (stored_)
             matrix_->among(single, f, phi);
         else
@@ -100,7 +116,9 @@ private:
     bool stored_ = false;  // the matrix is used for the current points
     std::vector<double> xa_, ya_, xp_, yp_, active_phi_, passive_phi_;
     std::vector<std::uint32_t> all_, active_numbers_, passive_numbers_, other_numbers_;  // numbers of points in the matrix
-    PairSums sums_;
+    bool many_, whole_ = false;  // many products with a set of points are expected; all_sums_ is that of the present points
+    std::vector<double> all_f_, all_phi_;
+    PairSums sums_, all_sums_;
     std::optional<PairMatrix> matrix_;
 };
 
@@ -139,7 +157,9 @@ double direct_rate(const Kernel& kernel, std::size_t candidates) {
     return !kernel.smooth() || candidates < stored ? 6e9 : 4e8;
 }
 
-std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> kernel) { return std::make_unique<Direct>(std::move(kernel)); }
+std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> kernel, bool many) {
+    return std::make_unique<Direct>(std::move(kernel), many);
+}
 
 namespace {
 

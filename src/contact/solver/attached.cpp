@@ -12,26 +12,35 @@ constexpr int kMostSteps = 30, kMostProducts = 400;
 // The residual is that of all asperities together, or this share of the largest relative to an asperity's own force and penetration of
 // detachment: beside large forces small contacts would otherwise be inaccurate.
 constexpr double kOwn = 1e-3, kRounding = 1e-9;
+constexpr double kAttached = 8;  // state of a small contact that has just attached, relative to that of detachment (JKR, a sphere: 6.3)
+constexpr double kBent = 0.01;  // change of the forces by the curvature of the law that is neglected in products, relative to the tolerance
+// Share of the tolerance from which a predicted state needs no step: near detachment small residuals are large errors.
+constexpr double kUnstepped = 0.01;
+constexpr double kExact = 1e-11;   // residual of exact solutions in a last step, whatever the tolerance
 constexpr double kFarthest = 0.5;  // largest relative change of s in a step
 
-double dot(const Vector& a, const Vector& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
-
-// MINRES for symmetric indefinite systems (Paige and Saunders, SIAM J. Numer. Anal. 12, 1975): |b - M x| <= accuracy |b|. Starts from x, or
-// from 0 if it is empty.
-template <class Multiply>
-void minres(Multiply&& multiply, const Vector& b, double accuracy, Vector& x) {
-    const std::size_t n = b.size();
-    Vector v = b, before(n, 0.0), next(n), w(n, 0.0), w_before(n, 0.0), w_next(n);
-    const double goal = accuracy * std::sqrt(dot(b, b));
-    if (!x.empty()) {
-        multiply(x, next);
-        for (std::size_t i = 0; i < n; ++i) v[i] -= next[i];
+double dot(const Vector& a, const Vector& b) {
+    double s0 = 0, s1 = 0, s2 = 0, s3 = 0;  // sums that do not wait for each other
+    const double *x = a.data(), *y = b.data();
+    std::size_t k = 0;
+    for (const std::size_t n = a.size() & ~std::size_t{3}; k < n; k += 4) {
+        s0 += x[k] * y[k], s1 += x[k + 1] * y[k + 1];
+        s2 += x[k + 2] * y[k + 2], s3 += x[k + 3] * y[k + 3];
     }
-    if (x.empty() || !(dot(v, v) < dot(b, b))) x.assign(n, 0.0), v = b;
+    for (; k < a.size(); ++k) s0 += x[k] * y[k];
+    return (s0 + s1) + (s2 + s3);
+}
+
+// MINRES for symmetric indefinite systems (Paige and Saunders, SIAM J. Numer. Anal. 12, 1975): adds M^-1 v to x until |v - M x| <= goal.
+// multiply(y, image, lift) computes the image M y and its part `lift`, the sum of which is added to `lifted` as y to x.
+template <class Multiply>
+void minres(Multiply&& multiply, Vector v, double goal, Vector& x, Vector& lifted) {
+    const std::size_t n = v.size();
+    Vector before(n, 0.0), next(n), lift(n), w(n, 0.0), w_before(n, 0.0), w_lift(n, 0.0), w_lift_before(n, 0.0);
     double beta = std::sqrt(dot(v, v)), left = beta, c = 1, c_before = 1, s = 0, s_before = 0;
     for (std::size_t k = 0; k < std::min<std::size_t>(2 * n + 10, kMostProducts) && std::abs(left) > goal && beta > 0; ++k) {
         for (double& value : v) value /= beta;
-        multiply(v, next);
+        multiply(v, next, lift);
         const double alpha = dot(v, next);
         for (std::size_t i = 0; i < n; ++i) next[i] -= alpha * v[i] + beta * before[i];
         const double beta_next = std::sqrt(dot(next, next));
@@ -40,44 +49,54 @@ void minres(Multiply&& multiply, const Vector& b, double accuracy, Vector& x) {
         if (!(r1 > 0)) break;
         c_before = c, s_before = s;
         c = d / r1, s = beta_next / r1;
-        for (std::size_t i = 0; i < n; ++i) {
-            w_next[i] = (v[i] - r3 * w_before[i] - r2 * w[i]) / r1;
-            x[i] += c * left * w_next[i];
-        }
+        const auto add = [&](const Vector& from, const Vector& last, Vector& to, Vector& sum) {
+            const double per = 1 / r1, share = c * left;
+            for (std::size_t i = 0; i < n; ++i) to[i] = per * (from[i] - r3 * to[i] - r2 * last[i]);
+            for (std::size_t i = 0; i < n; ++i) sum[i] += share * to[i];
+        };
+        add(v, w, w_before, x), add(lift, w_lift, w_lift_before, lifted);
         left *= -s;
         before.swap(v), v.swap(next);
-        w_before.swap(w), w.swap(w_next);
+        w_before.swap(w), w_lift_before.swap(w_lift);
         beta = beta_next;
     }
 }
 
 }  // namespace
 
-double AttachedSolver::miss(const WorkingSet& set, const Vector& res) const {
-    double error2 = 0, size2 = 0, own = 0;
-    for (std::size_t k = 0; k < res.size(); ++k) {
+void AttachedSolver::judge(const WorkingSet& set) {
+    double error2 = 0, doubt2 = 0, size2 = 0, own = 0, own_doubt = 0;
+    for (std::size_t k = 0; k < res_.size(); ++k) {
         if (k == held_) continue;
         const auto i = static_cast<std::size_t>(products_->active()[k]);
         const Sticking::State& now = state_[k];
-        const double error = now.stiffness * res[k], gap = std::abs(set.g0[i]) + std::abs(phi_[i]);
+        const double error = now.stiffness * std::abs(res_[k]), doubt = now.stiffness * out_[k],
+                     gap = std::abs(set.g0[i]) + std::abs(phi_[i]);
         const double weak = now.stiffness * law_.lets_go(set.asperity[i]), size = weak * weak + now.f * now.f;
-        error2 += error * error, size2 += size;
-        own = std::max(own, std::abs(error) / (std::sqrt(size) + kRounding * now.stiffness * gap));
+        error2 += error * error, doubt2 += doubt * doubt, size2 += size;
+        const double per = 1 / (std::sqrt(size) + kRounding * now.stiffness * gap);
+        own = std::max(own, error * per), own_doubt = std::max(own_doubt, doubt * per);
     }
-    return size2 == 0 ? 0.0 : std::max(std::sqrt(error2 / size2), kOwn * own);
+    const auto relative = [&](double sum2, double alone) { return size2 == 0 ? 0.0 : std::max(std::sqrt(sum2 / size2), kOwn * alone); };
+    residual_ = relative(error2, own), noise_ = noise_reference_ + relative(doubt2, own_doubt);
 }
 
-void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s, bool full) {
+void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s, bool full, double negligible) {
     stopping_point();
     const std::vector<int>& active = products_->active();
     const std::size_t n = active.size();
+    // After a step the product is known but for its curvature.
+    const bool stepped = std::exchange(stepped_, false) && f_.size() == n && lifted_.size() == n && elevated_.size() == n;
     state_.resize(n), f_.resize(n), res_.resize(n), df_.assign(n, 0.0), out_.assign(n, 0.0);
     force_ = 0;
+    double bent2 = 0, f2 = 0;
     for (std::size_t k = 0; k < n; ++k) {
         state_[k] = law_.at(set.asperity[static_cast<std::size_t>(active[k])], s[k]);
+        if (stepped) bent2 += std::pow(state_[k].f - f_[k] - pulled_[k], 2), f2 += state_[k].f * state_[k].f;
         f_[k] = state_[k].f;
         force_ += f_[k];
     }
+    const double bent = stepped && f2 > 0 ? std::sqrt(bent2 / f2) : 1.0;
     if (!full && std::includes(active.begin(), active.end(), reference_.begin(), reference_.end())) {
         Vector f(n, 0.0);  // new ones had no force
         for (std::size_t k = 0, j = 0; k < n && j < reference_.size(); ++k)
@@ -88,11 +107,19 @@ void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s, bool full)
         reference_ = active, f_reference_ = f_;
         phi_reference_.assign(static_cast<std::size_t>(set.size()), 0.0);
         if (n > 0) products_->full(f_.data(), phi_reference_.data());
-        noise_reference_ = 0;
+        noise_reference_ = noise_bent_ = 0;
     } else {
-        for (std::size_t k = 0; k < n; ++k) df_[k] = f_[k] - f_reference_[k];
-        products_->inner(df_.data(), out_.data());
+        bool changed = false;
+        for (std::size_t k = 0; k < n; ++k) df_[k] = f_[k] - f_reference_[k], changed = changed || df_[k] != 0;
+        if (changed && bent <= negligible) {
+            noise_bent_ += bent;
+            for (std::size_t k = 0; k < n; ++k) out_[k] = elevated_[k] + lifted_[k];
+        } else {
+            noise_bent_ = 0;
+            if (changed) products_->inner(df_.data(), out_.data());
+        }
     }
+    elevated_ = out_;
     phi_ = phi_reference_;
     for (std::size_t k = 0; k < n; ++k) phi_[static_cast<std::size_t>(active[k])] += out_[k];
     balance(set);
@@ -111,15 +138,15 @@ void AttachedSolver::balance(const WorkingSet& set) {
         const Sticking::State& now = state_[k];
         res_[k] = set.g0[i] - phi_[i] - now.u;
         energy_ += now.energy + now.f * (0.5 * phi_[i] + res_[k]);  // an error of second order in the residual
-        out_[k] = products_->inner_error() * (2 * std::abs(out_[k]) + share * std::abs(phi_[i]));
+        out_[k] = products_->inner_error() * (2 * std::abs(out_[k]) + share * std::abs(phi_[i])) + noise_bent_ * std::abs(phi_[i]);
     }
-    residual_ = miss(set, res_), noise_ = noise_reference_ + miss(set, out_);
-    weigh(0);
+    judge(set);
+    weighed_ = false, mu_ = 0, in_.resize(n);
 }
 
 void AttachedSolver::weigh(double mu) {
     const std::size_t n = state_.size();
-    mu_ = mu;
+    mu_ = mu, weighed_ = true;
     diagonal_.resize(n), p_.resize(n), to_s_.resize(n), in_.resize(n), out_.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
         const Sticking::State& now = state_[k];
@@ -132,20 +159,65 @@ void AttachedSolver::weigh(double mu) {
     if (held_ < n) diagonal_[held_] = 1, p_[held_] = to_s_[held_] = 0;
 }
 
-void AttachedSolver::multiply(const Vector& y, Vector& image) {
-    const double shift = products_->kernel().shift();
-    double sum = 0;
-    for (std::size_t k = 0; k < y.size(); ++k) sum += in_[k] = p_[k] * y[k];
-    products_->inner(in_.data(), out_.data());
-    for (std::size_t k = 0; k < y.size(); ++k) image[k] = diagonal_[k] * y[k] + p_[k] * (out_[k] - shift * sum);
+void AttachedSolver::multiply(const Vector& y, Vector& image, Vector& lift) {
+    for (std::size_t k = 0; k < y.size(); ++k) in_[k] = p_[k] * y[k];
+    products_->inner(in_.data(), lift.data());
+    complete(y, image, lift);
 }
 
-void AttachedSolver::solve_linear(const Vector& right, double accuracy, Vector& ds) {
-    Vector b(right.size());
-    for (std::size_t k = 0; k < b.size(); ++k) b[k] = p_[k] * right[k];
-    for (std::size_t k = 0; k < ds.size(); ++k) ds[k] /= to_s_[k];
-    minres([this](const Vector& y, Vector& image) { multiply(y, image); }, b, accuracy, ds);
-    for (std::size_t k = 0; k < b.size(); ++k) ds[k] *= to_s_[k];
+// image = M y, where lift = B p y without shift().
+void AttachedSolver::complete(const Vector& y, Vector& image, const Vector& lift) const {
+    const double shift = products_->kernel().shift() * dot(p_, y);
+    for (std::size_t k = 0; k < y.size(); ++k) image[k] = diagonal_[k] * y[k] + p_[k] * (lift[k] - shift);
+}
+
+void AttachedSolver::solve_linear(const Vector& right, double accuracy, Vector& ds, bool recycle) {
+    if (!weighed_) weigh(0);
+    const std::size_t n = right.size();
+    Vector v(n);
+    for (std::size_t k = 0; k < n; ++k) v[k] = p_[k] * right[k];
+    const double goal = accuracy * std::sqrt(dot(v, v));
+    ds.assign(n, 0.0), lifted_.assign(n, 0.0);
+    if (recycle && held_ >= n) approach(v, ds);
+    minres([this](const Vector& y, Vector& image, Vector& lift) { multiply(y, image, lift); }, std::move(v), goal, ds, lifted_);
+    pulled_.resize(n);
+    for (std::size_t k = 0; k < n; ++k) pulled_[k] = p_[k] * ds[k], ds[k] *= to_s_[k];
+}
+
+// Takes the combination of known_ with the smallest residual as the start y; v becomes its residual.
+void AttachedSolver::approach(Vector& v, Vector& y) {
+    const std::vector<int>& active = products_->active();
+    const std::size_t n = v.size(), most = known_.size();
+    constexpr double independent = 1e-8;  // square of the part of an image that must not depend on the others
+    std::vector<Vector> images;           // orthonormal
+    Vector start(n), lift(n), image(n);
+    std::vector<Vector> starts, lifts;
+    for (std::size_t m = most; m-- > 0;) {
+        for (std::size_t k = 0; k < n; ++k) {
+            const auto i = static_cast<std::size_t>(active[k]);
+            start[k] = known_[m].f[i] / p_[k], lift[k] = known_[m].phi[i];
+        }
+        complete(start, image, lift);
+        const double size = dot(image, image);
+        for (std::size_t j = 0; j < images.size(); ++j) {
+            const double c = dot(image, images[j]);
+            for (std::size_t k = 0; k < n; ++k) image[k] -= c * images[j][k], start[k] -= c * starts[j][k], lift[k] -= c * lifts[j][k];
+        }
+        const double rest = dot(image, image);
+        if (!(rest > independent * size)) continue;
+        const double unit = 1 / std::sqrt(rest), c = unit * unit * dot(v, image);
+        for (std::size_t k = 0; k < n; ++k) {
+            v[k] -= c * image[k], y[k] += c * start[k], lifted_[k] += c * lift[k];
+            image[k] *= unit, start[k] *= unit, lift[k] *= unit;
+        }
+        images.push_back(image), starts.push_back(start), lifts.push_back(lift);
+    }
+}
+
+void AttachedSolver::remember(Known&& known) {
+    constexpr std::size_t most = 4;
+    if (known_.size() == most) known_.erase(known_.begin());
+    known_.push_back(std::move(known));
 }
 
 // True if I + B D is stable: D^-1 + B is positive definite. A proof for stiffer asperities holds for softer and fewer ones.
@@ -158,14 +230,22 @@ bool AttachedSolver::apart(const WorkingSet& set) {
     for (std::size_t k = 0; k < n && covered; ++k) covered = state_[k].stiffness <= stiffest_[static_cast<std::size_t>(active[k])];
     if (covered) return true;
     std::fill(stiffest_.begin(), stiffest_.end(), 0.0);
-    std::vector<double> x(n), y(n), a(n);
-    for (const double wider : {1.2, 1.0}) {
-        for (std::size_t k = 0; k < n; ++k) {
-            const auto i = static_cast<std::size_t>(active[k]);
-            x[k] = set.x[i], y[k] = set.y[i], a[k] = wider * state_[k].stiffness / (2 * kernel.modulus());
+    // First with room for growth, and with those that may attach.
+    std::vector<double> a(stiffest_.size());
+    for (const double wider : {room_, 1.0}) {
+        if (wider < 1.001 && wider > 1) continue;
+        std::fill(a.begin(), a.end(), 0.0);
+        if (wider > 1)
+            for (const int k : products_->passive()) {
+                const int i = set.asperity[static_cast<std::size_t>(k)];
+                a[static_cast<std::size_t>(k)] = law_.at(i, kAttached * law_.least(i)).stiffness / (2 * kernel.modulus());
+            }
+        for (std::size_t k = 0; k < n; ++k) a[static_cast<std::size_t>(active[k])] = wider * state_[k].stiffness / (2 * kernel.modulus());
+        if (!kernel.none() && !positive_definite_by_shells(set.x, set.y, a)) {
+            room_ = 1 + 0.5 * (room_ - 1);
+            continue;
         }
-        if (!kernel.none() && !positive_definite_by_shells(x, y, a)) continue;
-        for (std::size_t k = 0; k < n; ++k) stiffest_[static_cast<std::size_t>(active[k])] = wider * state_[k].stiffness;
+        for (std::size_t k = 0; k < a.size(); ++k) stiffest_[k] = 2 * kernel.modulus() * a[k];
         return true;
     }
     return false;
@@ -232,6 +312,7 @@ bool AttachedSolver::stable(const WorkingSet& set) {
 }
 
 void AttachedSolver::step(const WorkingSet& set, double accuracy, Vector& s) {
+    stepped_ = true;
     Vector ds;
     solve_linear(res_, accuracy, ds);
     for (std::size_t k = 0; k < s.size(); ++k) {
@@ -250,45 +331,79 @@ void AttachedSolver::rest_on(const WorkingSet& set, double noise, const Vector& 
     for (double& phi : phi_reference_) phi += shift;
 }
 
-void AttachedSolver::release(std::size_t k) {
+void AttachedSolver::release(const WorkingSet& set, std::size_t k) {
     if (products_->active() != reference_) return;
-    Vector part(phi_reference_.size());
-    products_->set_active({reference_[k]});
-    products_->inner_everywhere(&f_reference_[k], part.data());
-    for (std::size_t i = 0; i < part.size(); ++i) phi_reference_[i] -= part[i];
+    const int position = reference_[k];
+    const Vector part = column(set, position);
+    for (std::size_t i = 0; i < part.size(); ++i) phi_reference_[i] -= f_reference_[k] * part[i];
+    for (Known& known : known_) {
+        const double f = std::exchange(known.f[static_cast<std::size_t>(position)], 0.0);
+        for (std::size_t i = 0; i < part.size(); ++i) known.phi[i] -= f * part[i];
+    }
     reference_.erase(reference_.begin() + static_cast<std::ptrdiff_t>(k));
     f_reference_.erase(f_reference_.begin() + static_cast<std::ptrdiff_t>(k));
 }
 
-double AttachedSolver::elevation(const WorkingSet& set, int position) {
-    const auto i = static_cast<std::size_t>(position);
-    double more = 0;
-    if (!df_.empty()) products_->elsewhere(df_.data(), 1, &set.x[i], &set.y[i], &more);
-    return phi_[i] + more;
+void AttachedSolver::take_in(const WorkingSet& set, std::size_t k, int position, double f) {
+    if (products_->active() != reference_) return;
+    Known known{Vector(phi_reference_.size(), 0.0), column(set, position)};
+    known.f[static_cast<std::size_t>(position)] = 1;
+    for (std::size_t i = 0; i < known.phi.size(); ++i) phi_reference_[i] += f * known.phi[i];
+    remember(std::move(known));
+    reference_.insert(reference_.begin() + static_cast<std::ptrdiff_t>(k), position);
+    f_reference_.insert(f_reference_.begin() + static_cast<std::ptrdiff_t>(k), f);
 }
 
-// Adds the change of the forces to phi_ at the others.
-void AttachedSolver::add_passive() {
-    const std::vector<int>& passive = products_->passive();
-    if (df_.empty() || passive.empty()) return;
+// Elevations by a unit force at a position.
+Vector AttachedSolver::column(const WorkingSet& set, int position) const {
+    const Kernel& kernel = products_->kernel();
+    const auto from = static_cast<std::size_t>(position);
+    Vector phi(set.x.size());
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+        const double dx = set.x[i] - set.x[from], dy = set.y[i] - set.y[from];
+        phi[i] = dx == 0 && dy == 0 ? kernel.self() : kernel.at(dx, dy);
+    }
+    return phi;
+}
+
+double AttachedSolver::elevation(const WorkingSet& set, int position) {
+    const Vector part = column(set, position);
+    double sum = phi_[static_cast<std::size_t>(position)];
+    for (std::size_t k = 0; k < df_.size(); ++k) sum += df_[k] * part[static_cast<std::size_t>(products_->active()[k])];
+    return sum;
+}
+
+// Adds the change of the forces to phi_ at the others; `keep`: and remembers it.
+void AttachedSolver::add_passive(bool keep) {
+    const std::vector<int>&active = products_->active(), &passive = products_->passive();
+    if (df_.empty()) return;
     Vector more(passive.size());
     products_->inner_passive(df_.data(), more.data());
     for (std::size_t k = 0; k < more.size(); ++k) phi_[static_cast<std::size_t>(passive[k])] += more[k];
+    if (!keep) return;
+    Known known{Vector(phi_.size(), 0.0), Vector(phi_.size(), 0.0)};
+    for (std::size_t k = 0; k < more.size(); ++k) known.phi[static_cast<std::size_t>(passive[k])] = more[k];
+    for (std::size_t k = 0; k < df_.size(); ++k) {
+        const auto i = static_cast<std::size_t>(active[k]);
+        known.f[i] = df_[k], known.phi[i] = elevated_[k];
+    }
+    remember(std::move(known));
 }
 
 bool AttachedSolver::solve(const WorkingSet& set, double tolerance, bool exact, Vector& s, int least, int held, bool whole) {
     held_ = static_cast<std::size_t>(held);
+    const bool predicted = exact && !phi_reference_.empty();
     double best = 1e300;
     int worse = 0;
     for (int k = 0;; ++k) {
-        evaluate(set, s, false);
+        evaluate(set, s, false, kBent * tolerance);
         const double noise = least > 0 ? noise_ - noise_reference_ : noise_;
         const bool near = residual_ <= tolerance + 2 * noise, stuck = residual_ >= 0.9 * best;
-        if ((near && noise > (exact ? 0.0 : 0.1 * tolerance)) || (stuck && noise > 0)) evaluate(set, s, true);
-        if (residual_ <= tolerance && k >= least) {
+        if ((near && noise > (exact ? 0.0 : 0.1 * tolerance)) || (stuck && noise > 0.01 * residual_)) evaluate(set, s, true);
+        if (residual_ <= (predicted && k == 0 ? kUnstepped : 1.0) * tolerance && k >= least) {
             if (!whole) return true;
             if (!stable(set)) return false;
-            add_passive();
+            add_passive(least > 0);
             return true;
         }
         if (residual_ < 0.9 * best)
@@ -296,7 +411,9 @@ bool AttachedSolver::solve(const WorkingSet& set, double tolerance, bool exact, 
         else
             ++worse;
         if (k == kMostSteps || worse > 6 || !std::isfinite(residual_)) break;
-        step(set, std::clamp(std::max(0.1 * residual_, exact ? 0.0 : 0.01 * tolerance / residual_), 1e-6, 1e-2), s);
+        step(set,
+             std::clamp(std::max(0.1 * residual_, (exact ? std::min(kExact, 0.1 * tolerance) : 0.1 * tolerance) / residual_), 1e-6, 3e-2),
+             s);
     }
     weakest_ = 0;
     double nearest = 1e300;
@@ -321,7 +438,6 @@ std::optional<AttachedSolver::Relaxed> AttachedSolver::relax(const WorkingSet& s
                 mu *= 2;
                 continue;
             }
-            ds.clear();
             solve_linear(res_, 1e-3, ds);
             change = 0;
             for (std::size_t i = 0; i < s.size(); ++i) change = std::max(change, std::abs(ds[i]) / s[i]);
@@ -349,15 +465,25 @@ double AttachedSolver::clamped_stiffness(const std::vector<Sticking::State>& sta
     const double shift = products_->kernel().shift();
     Vector root, y;  // roots of the stiffnesses D in y + D^1/2 B D^1/2 y = D^1/2
     for (const Sticking::State& now : states) root.push_back(std::sqrt(now.clamped));
-    in_.resize(root.size()), out_.resize(root.size());
-    const auto multiply_clamped = [&](const Vector& v, Vector& image) {
+    in_.resize(root.size()), y.resize(root.size()), lifted_.resize(root.size());
+    const auto multiply_clamped = [&](const Vector& v, Vector& image, Vector& lift) {
         double sum = 0;
         for (std::size_t k = 0; k < v.size(); ++k) sum += in_[k] = root[k] * v[k];
-        products_->inner(in_.data(), out_.data());
-        for (std::size_t k = 0; k < v.size(); ++k) image[k] = v[k] + root[k] * (out_[k] - shift * sum);
+        products_->inner(in_.data(), lift.data());
+        for (std::size_t k = 0; k < v.size(); ++k) image[k] = v[k] + root[k] * (lift[k] - shift * sum);
     };
-    minres(multiply_clamped, root, accuracy, y);
+    minres(multiply_clamped, root, accuracy * std::sqrt(dot(root, root)), y, lifted_);
     return dot(root, y);
+}
+
+// N' = -b'A^-1 b with b = -p, and b'A^-1 b = 2 b'y - y'A y but for the square of the error of y.
+double AttachedSolver::slope() {
+    constexpr double accuracy = 1e-4;
+    Vector y, image(state_.size()), lift(state_.size());
+    solve_linear(Vector(state_.size(), -1.0), accuracy, y);
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] /= to_s_[k];
+    multiply(y, image, lift);
+    return 2 * dot(p_, y) + dot(y, image);
 }
 
 AttachedSolver::Change AttachedSolver::change(const Vector& rate, double accuracy) {
@@ -366,17 +492,21 @@ AttachedSolver::Change AttachedSolver::change(const Vector& rate, double accurac
     const auto at = [](int k) { return static_cast<std::size_t>(k); };
     const double shift = products_->kernel().shift();
     Vector right, df(state_.size());
-    before_.resize(phi_.size(), 0.0);
-    for (int k : active) right.push_back(rate[at(k)]), c.s.push_back(before_[at(k)]);
-    if (!right.empty()) solve_linear(right, accuracy, c.s);
+    for (int k : active) right.push_back(rate[at(k)]);
+    if (!right.empty()) solve_linear(right, accuracy, c.s, true);
     for (std::size_t k = 0; k < df.size(); ++k) {
-        before_[at(active[k])] = c.s[k];
         c.force += df[k] = state_[k].df * c.s[k];
         c.power -= df[k] * right[k];
     }
     c.u.assign(passive.size(), 0.0);
     if (!df.empty()) products_->inner_passive(df.data(), c.u.data());
-    for (std::size_t k = 0; k < passive.size(); ++k) c.u[k] = rate[at(passive[k])] - c.u[k] + shift * c.force;
+    Known known{Vector(phi_.size(), 0.0), Vector(phi_.size(), 0.0)};
+    for (std::size_t k = 0; k < df.size(); ++k) known.f[at(active[k])] = pulled_[k], known.phi[at(active[k])] = lifted_[k];
+    for (std::size_t k = 0; k < passive.size(); ++k) {
+        known.phi[at(passive[k])] = c.u[k];
+        c.u[k] = rate[at(passive[k])] - c.u[k] + shift * c.force;
+    }
+    if (!df.empty()) remember(std::move(known));
     return c;
 }
 

@@ -37,7 +37,7 @@ public:
     // points must be those of the set, and the active points the attached ones, when the functions below are called.
     void use(Products& products) {
         products_ = &products;
-        reference_.clear(), phi_reference_.clear(), before_.clear(), proof_.clear(), stiffest_.clear();
+        reference_.clear(), phi_reference_.clear(), known_.clear(), proof_.clear(), stiffest_.clear(), room_ = 1.2;
     }
 
     // Solves for a stable equilibrium from the states s of the attached asperities. Returns false if none was found near; s is then
@@ -54,7 +54,9 @@ public:
     // `solved`: s is the last equilibrium at the same gaps.
     void rest_on(const WorkingSet& set, double noise, const std::vector<double>& s, bool solved = false);
     // Must be called before the k-th of the attached is removed from the active points: its force is taken away from rest_on().
-    void release(std::size_t k);
+    void release(const WorkingSet& set, std::size_t k);
+    // The same for one that is to become the k-th of the attached, with the force f.
+    void take_in(const WorkingSet& set, std::size_t k, int position, double f);
     std::size_t weakest() const { return weakest_; }
     // For states s far from equilibrium: contacts grow and shrink slowly, downhill in the energy, until s is a stable equilibrium or an
     // asperity has shrunk to nothing; `gone` is then its position among the attached. Returns nothing if it does not end, for example on an
@@ -80,19 +82,30 @@ public:
     };
     Change change(const std::vector<double>& rate, double accuracy);
 
+    // dN/dZ0 at the last stable equilibrium.
+    double slope();
     // Force that a unit approach adds at fixed contact areas, those of the states of the attached: flat punches that interact.
     double clamped_stiffness(const std::vector<Sticking::State>& states);
 
 private:
     // Products are those of the change of the forces since the last full product, with the error noise_ in the residual, unless `full`.
-    void evaluate(const WorkingSet& set, const std::vector<double>& s, bool full);
+    void evaluate(const WorkingSet& set, const std::vector<double>& s, bool full, double negligible = 0);
     void balance(const WorkingSet& set);
-    void add_passive();
-    double miss(const WorkingSet& set, const std::vector<double>& res) const;   // norm of residuals
+    void add_passive(bool keep = false);
+    std::vector<double> column(const WorkingSet& set, int position) const;
+    // A vector of forces and the elevations B f by it, without shift(), by position in the set: solutions of earlier systems, with which
+    // the next ones begin.
+    struct Known {
+        std::vector<double> f, phi;
+    };
+    void remember(Known&& known);
+    void approach(std::vector<double>& v, std::vector<double>& y);
+    void complete(const std::vector<double>& y, std::vector<double>& image, const std::vector<double>& lift) const;
+    void judge(const WorkingSet& set);                                          // norms of the residuals and of their errors out_
     void step(const WorkingSet& set, double accuracy, std::vector<double>& s);  // Newton's method
-    // Solves diag(u') ds + B diag(f') ds = right to the relative accuracy, starting from ds, or from 0 if it is empty.
-    void solve_linear(const std::vector<double>& right, double accuracy, std::vector<double>& ds);
-    void multiply(const std::vector<double>& y, std::vector<double>& image);
+    // Solves diag(u') ds + B diag(f') ds = right to the relative accuracy, starting from known_. pulled_ and lifted_ are then f' ds and B f' ds.
+    void solve_linear(const std::vector<double>& right, double accuracy, std::vector<double>& ds, bool recycle = false);
+    void multiply(const std::vector<double>& y, std::vector<double>& image, std::vector<double>& lift);
     void weigh(double mu);               // computes the coefficients of the symmetric systems
     bool apart(const WorkingSet& set);   // S is positive definite
     bool proved(const WorkingSet& set);  // stable by the cheaper proof
@@ -103,10 +116,17 @@ private:
     std::vector<double> phi_, f_, res_;
     double force_ = 0, energy_ = 0, residual_ = 0, noise_ = 0;
     std::size_t weakest_ = 0;
-    double mu_ = 0;                       // of weigh()
-    std::size_t held_ = ~std::size_t{0};  // of solve()
-    std::vector<double> stiffest_;        // by position in the set: D up to which S is known to be positive definite
-    std::vector<double> before_, proof_;  // by position in the set: the last ds/dZ0 and v, starting points
+    bool weighed_ = false;                 // by weigh(), since the states were evaluated
+    double mu_ = 0;                        // of weigh()
+    std::size_t held_ = ~std::size_t{0};   // of solve()
+    std::vector<double> stiffest_;         // by position in the set: D up to which S is known to be positive definite
+    double room_ = 1.2;                    // factor by which they are taken larger
+    std::vector<double> proof_;            // by position in the set: the last v, a starting point
+    std::vector<Known> known_;             // the last ones
+    std::vector<double> pulled_, lifted_;  // of solve_linear()
+    std::vector<double> elevated_;         // B df_
+    bool stepped_ = false;                 // the present states are one step behind those to be evaluated
+    double noise_bent_ = 0;                // relative change of the forces that elevated_ lacks
     // Last full product or rest_on(): active positions, forces, B f over the set, without shift(), and its noise; and the present change of
     // the forces.
     std::vector<int> reference_;
