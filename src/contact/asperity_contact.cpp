@@ -67,12 +67,14 @@ struct AsperityContact::Impl : ContactBodies {
     Method method = Method::direct;
     NewtonOutcome outcome;  // outcome of pass() and settle()
     bool passed = false;    // the solution is that of pass() and has not been settled
+    long guessing = 0;      // products taken by guessed_separation() and not yet told
     struct {
         double separation = 0;
         bool unique = true;  // the solution is proved to be unique
     } solved;                // last result of solve()
 
     EarlierLevels earlier;
+    LastingProof proof;
     std::unique_ptr<Products> direct, mesh;  // mesh: created on first use
     Products* products = nullptr;            // the products in use
     Newton newton;
@@ -104,11 +106,13 @@ struct AsperityContact::Impl : ContactBodies {
     NewtonOutcome solve_cold() { return solve_from(cold_start(*law, *products, candidates.set), true); }
     Level level(double Z0, const NewtonOutcome& outcome, bool unique) const;
     NewtonOutcome solve_by_paper(Fallback& why_not);
-    bool one_solution() const {
+    bool one_solution() {
         const auto& [v, force, slope] = solution;
         // On a soft layer self() < 0: a spot wider than the layer can be unstable by itself (no minimum of the energy).
         if (std::any_of(slope.begin(), slope.end(), [&](double rate) { return 1 + rate * kernel->self() <= 0; })) return false;
-        return has_one_solution(*law, *kernel, candidates.set.asperity, candidates.set.x, candidates.set.y, v, force, slope);
+        const WorkingSet& set = candidates.set;
+        if (follows()) return has_one_solution(*law, *kernel, set.asperity, set.x, set.y, v, force, slope);
+        return proof.holds(*law, *kernel, set.asperity, set.x, set.y, v, force, slope, {set.g0.front(), indenter.x0, indenter.y0});
     }
     Level report(double Z0) const;
 };
@@ -225,7 +229,7 @@ Level AsperityContact::solve(double Z0) {
     if (!my.follows()) my.earlier.remember(Z0, my.candidates, my.solution.v, unique);
     Level level = my.level(Z0, outcome, unique);
     level.iterations = iterations;
-    level.products = by_dgesv ? iterations : my.products_taken() - products_before;
+    level.products = by_dgesv ? iterations : my.products_taken() - products_before + std::exchange(my.guessing, 0);
     if (by_dgesv) level.method = Method::dgesv;
     if (dense) level.fallback = fallback;
     return level;
@@ -246,8 +250,56 @@ Level AsperityContact::pass(double Z0) {
     level.separation = Z0;
     for (double f : my.solution.force) level.force += f / my.scale();
     level.iterations = my.outcome.iterations;
-    level.products = my.products_taken() - products_before;
+    level.products = my.products_taken() - products_before + std::exchange(my.guessing, 0);
     return level;
+}
+
+// Without interaction the force N belongs to a depth, which the interaction increases by s, the mean of B F. There a solution to some per
+// cent shows by its slope where the force is N.
+std::optional<double> AsperityContact::guessed_separation(double N) {
+    Impl& my = *impl_;
+    if (my.follows() || my.options.method == Method::dgesv) return {};
+    constexpr double near = 0.05, rough = 0.02, slope = 1e-2;
+    constexpr double shallow = 0.25, shrink = 0.125, grow = 3;  // in rms heights; the ranking is extended seldom
+    constexpr int depths = 200;
+    double depth = std::max(shallow * my.options.sigma, std::numeric_limits<double>::epsilon() * std::abs(first_touch()));
+    double force_there = force_at_most(depth), power = 5;
+    for (int i = 0; i < depths && std::abs(force_there / N - 1) > near; ++i) {  // secants of logarithms
+        const double ratio = force_there > 0 ? std::clamp(std::pow(N / force_there, 1 / power), shrink, grow) : grow;
+        const double next = force_at_most(depth *= ratio);
+        if (next > 0 && force_there > 0 && ratio != 1) power = std::max(std::log(next / force_there) / std::log(ratio), 1.0);
+        force_there = next;
+    }
+    if (!(force_there > 0)) return {};
+    const long products_before = my.products_taken();
+    my.select(first_touch() - depth);
+    const WorkingSet& set = my.candidates.set;
+    Vector force, phi(at(set.size()));
+    for (std::size_t k = 0; k < phi.size(); ++k) force.push_back(my.law->force(set.asperity[k], set.g0[k]));
+    std::vector<int> all(phi.size());
+    std::iota(all.begin(), all.end(), 0);
+    my.products->set_points(set.size(), set.x.data(), set.y.data());
+    my.products->set_active(all);
+    my.products->inner(force.data(), phi.data());
+    // Forces in proportion to those without interaction raise the surface more than the true ones do: by 1.4 to 1.8 times on the default
+    // surface at any depth.
+    constexpr double screened = 0.67;
+    const double s =
+        screened * std::inner_product(force.begin(), force.end(), phi.begin(), 0.0) / std::accumulate(force.begin(), force.end(), 0.0);
+    double Z0 = first_touch() - depth - s;
+    if (!std::isfinite(Z0)) return {};
+    my.select(Z0);
+    Vector start(set.g0);
+    for (double& v : start) v -= s;
+    const NewtonOutcome outcome =
+        solve_candidates(set, my.newton, *my.products, {rough, my.options.max_iterations, false}, start, my.solution);
+    const double sum = std::accumulate(my.solution.force.begin(), my.solution.force.end(), 0.0) / my.scale();
+    if (outcome.converged && sum > 0) {
+        my.earlier.remember(Z0, my.candidates, my.solution.v, false, true);
+        Z0 += std::log(N / sum) * sum / (my.newton.stiffness(slope) / my.scale());
+    }
+    my.guessing = my.products_taken() - products_before;
+    return Z0;
 }
 
 Level AsperityContact::settle(const Level& passed) {

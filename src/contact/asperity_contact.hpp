@@ -54,6 +54,7 @@ protected:
     double tolerance() const override;
     double force_at_most(double depth) override;
     std::optional<double> likely_separation() const override;
+    std::optional<double> guessed_separation(double N) override;
     std::size_t levels_since_move() const override;
 
 private:

@@ -120,8 +120,9 @@ protected:
     // Functions required by force control.
     virtual double tolerance() const = 0;            // relative tolerance of the force
     virtual double force_at_most(double depth) = 0;  // upper bound at a depth below first touch; exact for one asperity
-    virtual std::optional<double> likely_separation() const { return {}; }  // initial guess; absent: near first touch
-    virtual std::size_t levels_since_move() const { return 0; }             // number of levels since the tip was moved, at most a few
+    virtual std::optional<double> likely_separation() const { return {}; }   // initial guess; absent: near first touch
+    virtual std::optional<double> guessed_separation(double) { return {}; }  // the same of a first level, from a rough solution for a force
+    virtual std::size_t levels_since_move() const { return 0; }              // number of levels since the tip was moved, at most a few
 
 private:
     Level to_separation(double Z0);  // as at_separation and at_force, in one step of time

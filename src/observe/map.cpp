@@ -170,12 +170,16 @@ RadialMean::RadialMean(const MapGrid& grid, double x0, double y0, int bins) {
                 parts_.push_back({static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(b), weight});
     }
     std::ranges::stable_sort(parts_, {}, &Part::cell);
+    for (std::size_t k = 0; k < parts_.size(); ++k)
+        if (k == 0 || parts_[k].cell != parts_[k - 1].cell) first_.push_back(k);
+    first_.push_back(parts_.size());
 }
 
 std::vector<double> RadialMean::operator()(const double* values) const {
     std::vector<double> mean(radii_.size());
-    for (const Part& part : parts_)
-        if (values[part.cell] != 0) mean[part.circle] += part.weight * values[part.cell];
+    for (std::size_t c = 0; c + 1 < first_.size(); ++c)
+        if (const double value = values[parts_[first_[c]].cell]; value != 0)
+            for (std::size_t k = first_[c]; k < first_[c + 1]; ++k) mean[parts_[k].circle] += parts_[k].weight * value;
     return mean;
 }
 

@@ -78,7 +78,8 @@ private:
         std::uint32_t cell, circle;
         double weight;
     };
-    std::vector<Part> parts_;  // in the order of the cells
+    std::vector<Part> parts_;         // in the order of the cells
+    std::vector<std::size_t> first_;  // part of each cell, and the end
 };
 
 }  // namespace rsc

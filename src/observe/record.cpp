@@ -145,11 +145,12 @@ Observations Accumulators::finish() const {
     const std::vector<std::int32_t> counts = converged();
     const auto cells = static_cast<std::size_t>(options.map.cells());
     const auto divide = [&](const std::vector<ExactSum>& sums, std::vector<double>& means, std::vector<double>& rests) {
-        means.reserve(sums.size()), rests.reserve(sums.size());
+        means.reserve(sums.size());
+        if (o.realizations > 1) rests.reserve(sums.size());
         for (const ExactSum& sum : sums) {
             const double divisor = map_divisor(options.map, counts[means.size() / cells]);
             means.push_back(sum.high / divisor);
-            rests.push_back((sum.high - rounded_product(means.back(), divisor)) + sum.low);
+            if (o.realizations > 1) rests.push_back((sum.high - rounded_product(means.back(), divisor)) + sum.low);
         }
     };
     divide(map_area, o.map_area_fraction, o.map_area_rest);

@@ -97,7 +97,7 @@ struct Observations {
     std::vector<double> radii;                                  // middle of the rings [length]
     std::vector<double> radial_area_fraction, radial_pressure;  // [step][radius]
     std::vector<FittedDistributions> distributions;             // [pdf level]
-    // Rounding errors of the means above, which restore the exact sums over realizations (map_sums): [step][j][i]
+    // Rounding errors of the means above, which restore the exact sums over several realizations (map_sums): [step][j][i]
     std::vector<double> map_area_rest, map_force_rest;  // [length^2], [force]
     std::vector<DistributionSums> distribution_sums;    // [pdf level]
     const LevelValues& row(std::size_t k, std::size_t step) const { return rows[k * steps + step]; }

@@ -20,18 +20,18 @@ std::string line_of(uLong crc) { return format("\nrsc: CRC-32 of all before this
 
 std::string checksum_line(const char* bytes, std::size_t size) { return line_of(crc32_z(0, reinterpret_cast<const Bytef*>(bytes), size)); }
 
-void require_sound(const std::string& path) {
+bool require_sound(const std::string& path) {
     std::ifstream in(path, std::ios::binary | std::ios::ate);
     std::string line = line_of(0);
     const std::streamoff length = static_cast<std::streamoff>(line.size()), digits = 9,
                          size = in ? static_cast<std::streamoff>(in.tellg()) : 0;
-    if (size < length) return;
+    if (size < length) return false;
     const std::string start = line.substr(0, line.size() - digits);
     in.seekg(size - length);
-    if (!in.read(line.data(), length)) return;
+    if (!in.read(line.data(), length)) return false;
     if (!line.starts_with(start)) {
         if (line.find(start) != std::string::npos) bad_input(path + ": is truncated: its last line, the checksum, is incomplete");
-        return;
+        return false;
     }
     std::vector<char> buffer(1 << 20);
     uLong crc = 0;
@@ -45,6 +45,7 @@ void require_sound(const std::string& path) {
         bad_input(path +
                   ": is damaged, or was changed since rsc wrote it: its checksum is wrong (nccopy makes a copy "
                   "without one)");
+    return true;
 }
 
 namespace {

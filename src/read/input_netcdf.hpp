@@ -14,8 +14,8 @@ namespace rsc {
 std::string checksum_line(const char* bytes, std::size_t size);
 
 // Throws Error(bad_input) for a file with such a line whose bytes do not match it. Files without a checksum, of earlier versions
-// or other programs, pass.
-void require_sound(const std::string& path);
+// or other programs, pass; true if the line is there.
+bool require_sound(const std::string& path);
 
 // The required length of a NetCDF file of the classic formats.
 

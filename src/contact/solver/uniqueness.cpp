@@ -142,8 +142,8 @@ double secant(const Law& law, double E_star, int asperity, double v, double forc
 class Search {
 public:
     Search(const Law& law, double E_star, const Cluster& cluster, const std::vector<Coupling>& close, const std::vector<int>& asperity,
-           const Vector& v, const Vector& slope, double noise)
-        : law_(law), E_star_(E_star), cluster_(cluster), v_(of_points(cluster, v)), slope_(of_points(cluster, slope)), noise_(noise) {
+           const Vector& v, const Vector& slope, double noise, double spread)
+        : law_(law), E_star_(E_star), cluster_(cluster), v_(of_points(cluster, v)), slope_(of_points(cluster, slope)) {
         for (std::size_t i : cluster.points) asperity_.push_back(asperity[i]);
         std::vector<std::size_t> place(v.size(), v.size());
         for (std::size_t k = 0; k < cluster.points.size(); ++k) place[cluster.points[k]] = k;
@@ -152,7 +152,13 @@ public:
             if (i < v.size() && j < v.size()) inside_.push_back({i, j, c.value});
         }
         force_ = forces(v_);
-        f_low_ = f_high_ = change_ = relief_ = force_;
+        f_low_ = f_high_ = change_ = relief_ = noise_ = force_;
+        Vector least(v_);
+        for (double& u : least) u -= spread;
+        least = forces(least);
+        for (std::size_t k = 0; k < least.size(); ++k) change_[k] = force_[k] - least[k];
+        couple(inside_, change_, noise_);
+        for (double& s : noise_) s += spread + noise;
     }
 
     // `low` and `high`: bounds on the penetrations of the cluster's points.
@@ -175,7 +181,7 @@ private:
         for (std::size_t k = 0; k < v_.size(); ++k) change_[k] = std::max(f_high_[k] - force_[k], force_[k] - f_low_[k]);
         couple(inside_, change_, up);
         Vector slack(up);
-        for (double& s : slack) s = give * s + noise_;
+        for (std::size_t k = 0; k < slack.size(); ++k) slack[k] = give * slack[k] + noise_[k];
         for (std::size_t k = 0; k < v_.size(); ++k) change_[k] = force_[k] - f_low_[k];
         couple(inside_, change_, up);
         for (std::size_t k = 0; k < v_.size(); ++k) high[k] = std::min(high[k], v_[k] + up[k] + slack[k]);
@@ -219,7 +225,7 @@ private:
     double E_star_;
     const Cluster& cluster_;
     Vector v_, slope_, force_;
-    double noise_;
+    Vector noise_;  // errors of v, and what it differs by in the solutions considered
     std::vector<int> asperity_;
     std::vector<Coupling> inside_;
     int parts_ = 0;
@@ -236,8 +242,11 @@ bool positive_definite_by_shells(const Vector& x, const Vector& y, const Vector&
     return true;
 }
 
-bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<int>& asperity, const Vector& x, const Vector& y,
-                      const Vector& v, const Vector& force, const Vector& slope) {
+namespace {
+
+// For all solutions with penetrations between v - spread and v.
+bool proved(const Law& law, const Kernel& kernel, const std::vector<int>& asperity, const Vector& x, const Vector& y, const Vector& v,
+            const Vector& force, const Vector& slope, double spread) {
     if (kernel.none() || v.empty()) return true;
     const double E_star = kernel.modulus();
     const std::size_t n = v.size();
@@ -306,17 +315,69 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
     const auto settled = [&](const Cluster& cluster) { return positive_definite(cluster, of_points(cluster, a)); };
     std::erase_if(doubtful, settled);
     if (doubtful.empty()) return true;
-    for (auto [from, to] : {std::pair{&high, &low}, std::pair{&low, &high}}) {
+    Vector least(alone);
+    if (spread > 0) {
+        for (std::size_t i = 0; i < n; ++i) f[i] = law.force(asperity[i], v[i] - spread);
+        couple(close, f, relief);
+        for (std::size_t i = 0; i < n; ++i) least[i] = v[i] - spread + relief[i];
+    }
+    for (auto [from, to, base] : {std::tuple{&high, &low, &least}, std::tuple{&low, &high, &alone}}) {
         for (std::size_t i = 0; i < n; ++i) f[i] = law.force(asperity[i], (*from)[i]);
         couple(close, f, relief);
-        for (std::size_t i = 0; i < n; ++i) (*to)[i] = alone[i] - relief[i];
+        for (std::size_t i = 0; i < n; ++i) (*to)[i] = (*base)[i] - relief[i];
     }
     secants();
     doubtful = doubtful_clusters(pairs, a);
     std::erase_if(doubtful, settled);
     return std::all_of(doubtful.begin(), doubtful.end(), [&](const Cluster& cluster) {
-        return Search(law, E_star, cluster, close, asperity, v, slope, noise).finds_one(of_points(cluster, low), of_points(cluster, high));
+        return Search(law, E_star, cluster, close, asperity, v, slope, noise, spread)
+            .finds_one(of_points(cluster, low), of_points(cluster, high));
     });
+}
+
+}  // namespace
+
+bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<int>& asperity, const Vector& x, const Vector& y,
+                      const Vector& v, const Vector& force, const Vector& slope) {
+    return proved(law, kernel, asperity, x, y, v, force, slope, 0);
+}
+
+bool LastingProof::holds(const Law& law, const Kernel& kernel, const std::vector<int>& asperity, const Vector& x, const Vector& y,
+                         const Vector& v, const Vector& force, const Vector& slope, const std::array<double, 3>& place) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    std::size_t touching = 0;
+    const auto covered = [&](std::size_t k) {
+        const auto i = static_cast<std::size_t>(asperity[k]);
+        touching += i < bound_.size() && bound_[i] > 0;
+        return i < bound_.size() && v[k] <= bound_[i] && v[k] >= bound_[i] - spread_;
+    };
+    std::size_t k = 0;
+    while (k < v.size() && covered(k)) ++k;
+    if (k == v.size() && touching == touching_) return true;
+    const double width = v.empty() ? 0 : wide_ * *std::max_element(v.begin(), v.end());
+    const auto last = std::exchange(place_, place);
+    bool near = waits_ == 0;
+    constexpr std::array<double, 3> share{1, 0.1, 0.1};  // of a change of place that penetrations change by, roughly
+    for (std::size_t d = 0; d < place.size(); ++d) near = near && share[d] * std::abs(place[d] - last[d]) < width;
+    waits_ = std::max(waits_ - 1, 0);
+    if (near) {
+        Vector high(v), f(v.size()), D(v.size()), W(v.size());
+        for (double& bound : high) bound += width;
+        law.respond(static_cast<int>(v.size()), asperity.data(), high.data(), f.data(), D.data(), W.data());
+        if (proved(law, kernel, asperity, x, y, high, f, D, 2 * width)) {
+            for (const int i : proved_) bound_[static_cast<std::size_t>(i)] = -kInfinity;
+            bound_.resize(std::max(bound_.size(), static_cast<std::size_t>(*std::max_element(asperity.begin(), asperity.end())) + 1),
+                          -kInfinity);
+            for (k = 0; k < high.size(); ++k) bound_[static_cast<std::size_t>(asperity[k])] = high[k];
+            proved_ = asperity, spread_ = 2 * width;
+            touching_ = static_cast<std::size_t>(std::count_if(high.begin(), high.end(), [](double u) { return u > 0; }));
+            return true;
+        }
+    }
+    const bool one = has_one_solution(law, kernel, asperity, x, y, v, force, slope);
+    constexpr int pause = 16, longer = 256;  // calls until bounds are tried again: narrower ones, or where there is nothing to prove
+    if (near) wide_ /= one ? 4 : 1, waits_ = one ? pause : longer;
+    return one;
 }
 
 }  // namespace rsc

@@ -35,4 +35,24 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
                       const std::vector<double>& y, const std::vector<double>& v, const std::vector<double>& force,
                       const std::vector<double>& slope);
 
+// A proof for all solutions with penetrations between some bounds, for calls in a loop during which little changes: the tests of
+// has_one_solution() with the largest secants that are possible, and the slack that the bounds leave. It holds for fewer asperities, too, if
+// those between the bounds that may touch are the same. The law must not change meanwhile.
+class LastingProof {
+public:
+    // As has_one_solution(). `place`: depth and position of the tip, by which it is decided whether bounds are worth a test.
+    bool holds(const Law& law, const Kernel& kernel, const std::vector<int>& asperity, const std::vector<double>& x,
+               const std::vector<double>& y, const std::vector<double>& v, const std::vector<double>& force,
+               const std::vector<double>& slope, const std::array<double, 3>& place);
+
+private:
+    std::vector<double> bound_;  // upper bound by asperity; -Infinity: not in the proof
+    double spread_ = 0;          // distance of the lower bounds
+    std::size_t touching_ = 0;   // asperities whose upper bound is positive
+    std::vector<int> proved_;    // asperities in the proof
+    std::array<double, 3> place_{std::numeric_limits<double>::infinity()};
+    double wide_ = 0.01;  // distance of the bounds from a solution, in its largest penetration; less after a test that failed
+    int waits_ = 0;       // calls until bounds are tested again
+};
+
 }  // namespace rsc
