@@ -17,7 +17,7 @@ public:
         : path_(std::make_unique<AdhesivePath>(asperities, indenter, options, std::move(search))) {}
 
     double stiffness() override {
-        if (std::exchange(fresh_, false)) slope_ = path_->solver.slope();
+        if (std::exchange(fresh_, false)) slope_ = path_->solver.slope(path_->here.states);
         return slope_;
     }
     double clamped_stiffness() override {

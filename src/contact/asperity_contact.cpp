@@ -364,9 +364,7 @@ std::vector<double> AsperityContact::memory() const {
         impl_->relaxing->write(pairs);
         return pairs;
     }
-    for (std::size_t i = 0; path_dependent() && i < impl_->asperities.size(); ++i)
-        if (const double deepest = impl_->law->deepest(static_cast<int>(i)); deepest > 0)
-            pairs.insert(pairs.end(), {static_cast<double>(i), deepest});
+    for (const int i : impl_->law->yielded()) pairs.insert(pairs.end(), {static_cast<double>(i), impl_->law->deepest(i)});
     return pairs;
 }
 

@@ -50,7 +50,7 @@ std::vector<std::size_t> wholes_of(const std::vector<Spot>& spots, const Level& 
 // H^-1 s beside it, or if the tip is nearer, there. `heights` (optional) are those of the surface at and around the places of the flanks that
 // are highest as paraboloids; without them the touch is that of the paraboloids.
 double beside(const Asperities& asperities, const Indenter& indenter, const SurfaceHeights& heights) {
-    constexpr std::size_t kMost = 200;
+    constexpr std::size_t kMost = 40;
     struct Flank {
         double touch;
         Vec2 summit, way;
@@ -66,16 +66,17 @@ double beside(const Asperities& asperities, const Indenter& indenter, const Surf
         const double v = across * (round ? asperities.radius[i] : 1 / asperities.kappa1[i]);
         const double way = std::hypot(u, v), part = way > 0 ? std::min(std::hypot(d.x, d.y) / way, 1.0) : 0.0;
         const double nearer = (part - 0.5 * part * part) * (along * u + across * v);
-        flanks.push_back({indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) + nearer,
-                          place,
-                          {-part * (u * c - v * s), -part * (u * s + v * c)}});
+        const double touch = indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) + nearer;
+        if (!std::isfinite(touch)) continue;  // beside the indenter
+        flanks.push_back({touch, place, {-part * (u * c - v * s), -part * (u * s + v * c)}});
     }
     std::sort(flanks.begin(), flanks.end(), [](const Flank& a, const Flank& b) { return a.touch > b.touch; });
-    if (flanks.empty() || !heights) return flanks.empty() ? -std::numeric_limits<double>::infinity() : flanks[0].touch;
+    if (flanks.empty() || !heights || indenter.shape->flat())
+        return flanks.empty() ? -std::numeric_limits<double>::infinity() : flanks[0].touch;
     flanks.resize(std::min(flanks.size(), kMost));
     std::vector<Vec2> places;
     for (const Flank& f : flanks)
-        for (const double part : {0.5, 0.75, 1.0, 1.25, 1.5}) places.push_back({f.summit.x + part * f.way.x, f.summit.y + part * f.way.y});
+        for (const double part : {0.6, 1.0, 1.4}) places.push_back({f.summit.x + part * f.way.x, f.summit.y + part * f.way.y});
     double highest = -std::numeric_limits<double>::infinity();
     Vec2 best{};
     const auto look = [&](std::vector<Vec2> at) {
@@ -250,19 +251,24 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
         contacts.yielded += law.deepest(i) > 0;
     }
     if (!some) contacts.outside.clear();
-    for (int i = 0; i < static_cast<int>(asperities.size()) && law.path_dependent(); ++i)
-        if (const double deepest = law.deepest(i); deepest > 0)
-            contacts.yielded_force += law.response(i, deepest).force, contacts.yielded_area += law.area(i, deepest);
+    // Those that yielded at another position of the tip are out of reach: lower than this level by more than any can recover.
+    double most = 0;
+    for (const int i : law.yielded()) most = std::max(most, law.deepest(i));
+    for (const int i : law.yielded()) {
+        const double deepest = law.deepest(i), top = indenter.clearance(asperities.x[at(i)], asperities.y[at(i)], asperities.z[at(i)]);
+        if (top - deepest < level.separation - 2 * most) continue;
+        contacts.yielded_force += law.response(i, deepest).force, contacts.yielded_area += law.area(i, deepest);
+    }
     if (options.adhesion.work > 0)
         expect_error_of_pressed(level, asperities, indenter, options, contacts);
     else
         expect_error(level, asperities, indenter, options, contacts);
-    if (const double carried = carried_by_edge(level, bodies); carried > 0) {
-        if (carried > kMuchError * level.force) {
+    if (const double carried = carried_by_edge(level, bodies), N = std::abs(level.force); carried > 0) {
+        if (carried > kMuchError * N) {
             level.status = graver(level.status, LevelStatus::out_of_validity);
             level.error_cause = kEdgeCause;
         }
-        level.force_error_expected += carried / level.force, level.area_error_expected += carried / level.force;
+        if (N > 0) level.force_error_expected += carried / N, level.area_error_expected += carried / N;
     }
     judge_range(level, indenter, options);
     if (const auto [force, area] = stiffened(level, bodies); force > 0) {

@@ -227,6 +227,23 @@ TEST(test_moves_cut) {
     CHECK_RELATIVE(end.energy_lost, 3 * (0 - jkr.energy(jkr.touching())) + 2 * jkr.energy(jkr.least()), 1e-6);
 }
 
+// Past the smallest force of two that interact, found on the way between two of its steps, the stiffness is that of the state at its end.
+TEST(test_stiffness_past_the_fold) {
+    const Asperities two = of({0.25, 0.75}, {0.5, 0.5}, {0.0, 0.0}, {1.0, 1.0});
+    const auto contact = make_asperity_contact(two, {kE, kFlat, 0.5, 0.5}, sticky(0.05 * kE / 1e3));
+    for (double Z = 1e-3; Z < 1e-2; Z += 3e-4) {
+        contact->forget();
+        (void)contact->at_separation(-0.002);
+        constexpr double h = 1e-7, of_differences = 1e-4;
+        const double force = contact->at_separation(Z - h).force;
+        (void)contact->at_separation(Z);
+        const double stiffness = contact->stiffness();
+        const Level after = contact->at_separation(Z + h);
+        if (after.contacts < 2) break;
+        CHECK_CLOSE(stiffness, (after.force - force) / (2 * h), of_differences * kE);
+    }
+}
+
 // However the way down and up is cut, it ends in the same state, with the same loss; also on a stiff coat, where what a force does to its own
 // place shifts the detachment.
 TEST(test_cutting) {

@@ -291,6 +291,23 @@ TEST(unloading) {
     CHECK_RELATIVE(compared({1.1, 1, 1, 1.1}), compared({1.1, 1, 1.1}), 10 * SolverOptions{}.tolerance);
 }
 
+// What has yielded under another position of the tip has no part in the error.
+TEST(yielded_elsewhere) {
+    Case c;
+    c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 20, c.surface.sigma = 2e-3, c.surface.n = 256;
+    c.solids.R[1] = 1, c.solids.hardness = 2e3;
+    const Job job = prepare(c);
+    const SurfaceModel model = make_surface_model(c, *job.spectrum, 1, 1);
+    const auto moved = make_asperity_contact(model.asperities, job.indenter, job.solver),
+               fresh = make_asperity_contact(model.asperities, job.indenter, job.solver);
+    moved->move_tip(0.2, 0.2);
+    CHECK(moved->at_separation(-2e-3).plastic_contacts > 0);
+    for (Contact* contact : {moved.get(), fresh.get()}) contact->move_tip(0.7, 0.7);
+    const Level there = moved->at_separation(2e-3), alone = fresh->at_separation(2e-3);
+    CHECK(alone.force > 0 && there.force == alone.force);
+    CHECK(there.force_error_expected == alone.force_error_expected);
+}
+
 // Where the flank of an elongated ridge touches a cone, and no summit does, law 'hertz' has no contact, and does not promise that there is none.
 TEST(flanks) {
     Case c;
@@ -321,6 +338,14 @@ TEST(attracting) {
     c.indentation.levels = {2};  // here they attract each other without contact, elements by half as much again
     const Level apart = pressed(c, Model::asperities).front();
     CHECK(apart.force < 0 && apart.contacts == 0 && apart.status == LevelStatus::out_of_validity);
+    // What the edge of a punch may carry makes bounds larger under tension, too.
+    c.surface.sigma = 2e-3, c.solids.R[1] = std::numeric_limits<double>::infinity(), c.solids.adhesion_range = 0;
+    set_key(c, "indenter%shape", "'punch'");
+    c.indenter.radius = 0.2, c.surface.n = 128;
+    c.solids.E[0] = 500, c.solids.adhesion = 0.1;
+    c.indentation.levels = {0.5};
+    for (const Level& edge : pressed(c, Model::asperities))
+        CHECK(edge.force < 0 && edge.force_error_expected > 0 && edge.area_error_expected > 0);
 }
 
 // Elements in a campaign have no second grid: contacts of few pixels are out of validity, with an error that holds.

@@ -87,8 +87,10 @@ public:
     }
     double residual_depth(int asperity) const override { return place_[at(asperity)] < 0 ? 0 : summit(asperity).rest; }
     double deepest(int asperity) const override { return place_[at(asperity)] < 0 ? 0 : summit(asperity).deepest; }
+    std::span<const int> yielded() const override { return yielded_; }
     void forget() override {
         for (Summit& s : summits_) s.deepest = 0, s.end = {}, s.rest = 0, s.power = 1.5, s.lost = 0;
+        yielded_.clear();
     }
     double work_lost() const override {
         double sum = 0;
@@ -103,6 +105,7 @@ public:
             const Flat now = flat(asperity[k], u[k]);
             const double f = s.H * now.area, spent = s.work + flow(s, s.start, now);
             const double x = 0.75 * f / (s.modulus * now.radius);  // a^2/r'
+            if (s.deepest == 0) yielded_.insert(std::lower_bound(yielded_.begin(), yielded_.end(), asperity[k]), asperity[k]);
             s.deepest = u[k];
             s.end = now;
             s.power = std::max(1.5, f * x / spent - 1);
@@ -186,6 +189,7 @@ private:
     bool sinks_;
     std::vector<int> place_;  // index of an asperity in summits_; -1: not prepared
     std::vector<Summit> summits_;
+    std::vector<int> yielded_;  // increasing
 };
 
 }  // namespace

@@ -81,6 +81,7 @@ public:
     virtual double work_lost() const { return 0; }
     // The history of an asperity: its largest accepted penetration, 0 if it never yielded. forget() removes the history.
     virtual double deepest(int asperity) const { return (void)asperity, 0.0; }
+    virtual std::span<const int> yielded() const { return {}; }  // the asperities that have, in increasing order
     virtual void forget() {}
 };
 

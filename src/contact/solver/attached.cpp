@@ -460,10 +460,18 @@ std::optional<AttachedSolver::Relaxed> AttachedSolver::relax(const WorkingSet& s
     return std::nullopt;
 }
 
+std::vector<double> AttachedSolver::elevations(const Vector& f) {
+    Vector phi(phi_.size()), lift;
+    products_->full(f.data(), phi.data());
+    for (const int k : products_->active()) lift.push_back(phi[static_cast<std::size_t>(k)]);
+    return lift;
+}
+
+// r'A^-1 r = 2 r'y - y'A y but for the square of the error of y, with a full product for A y.
 double AttachedSolver::clamped_stiffness(const std::vector<Sticking::State>& states) {
-    constexpr double accuracy = 1e-9;
+    constexpr double accuracy = 1e-5;
     const double shift = products_->kernel().shift();
-    Vector root, y;  // roots of the stiffnesses D in y + D^1/2 B D^1/2 y = D^1/2
+    Vector root, y, f;  // roots r of the stiffnesses D in A y = y + D^1/2 B D^1/2 y = D^1/2
     for (const Sticking::State& now : states) root.push_back(std::sqrt(now.clamped));
     in_.resize(root.size()), y.resize(root.size()), lifted_.resize(root.size());
     const auto multiply_clamped = [&](const Vector& v, Vector& image, Vector& lift) {
@@ -473,16 +481,21 @@ double AttachedSolver::clamped_stiffness(const std::vector<Sticking::State>& sta
         for (std::size_t k = 0; k < v.size(); ++k) image[k] = v[k] + root[k] * (lift[k] - shift * sum);
     };
     minres(multiply_clamped, root, accuracy * std::sqrt(dot(root, root)), y, lifted_);
-    return dot(root, y);
+    for (std::size_t k = 0; k < y.size(); ++k) f.push_back(root[k] * y[k]);
+    const double sum = std::accumulate(f.begin(), f.end(), 0.0);
+    return 2 * sum - dot(y, y) - dot(f, elevations(f)) + shift * sum * sum;
 }
 
-// N' = -b'A^-1 b with b = -p, and b'A^-1 b = 2 b'y - y'A y but for the square of the error of y.
-double AttachedSolver::slope() {
+// N' = -b'A^-1 b with b = -p, and b'A^-1 b = 2 b'y - y'A y but for the square of the error of y, with a full product for A y.
+double AttachedSolver::slope(const std::vector<Sticking::State>& states) {
     constexpr double accuracy = 1e-4;
-    Vector y, image(state_.size()), lift(state_.size());
-    solve_linear(Vector(state_.size(), -1.0), accuracy, y);
-    for (std::size_t k = 0; k < y.size(); ++k) y[k] /= to_s_[k];
-    multiply(y, image, lift);
+    std::vector<Sticking::State> last = std::exchange(state_, states);
+    Vector y, image(states.size());
+    weigh(0);
+    solve_linear(Vector(states.size(), -1.0), accuracy, y);
+    for (std::size_t k = 0; k < y.size(); ++k) y[k] /= to_s_[k], in_[k] = p_[k] * y[k];
+    complete(y, image, elevations(in_));
+    state_ = std::move(last), weighed_ = stepped_ = false;
     return 2 * dot(p_, y) + dot(y, image);
 }
 

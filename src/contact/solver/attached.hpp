@@ -82,9 +82,9 @@ public:
     };
     Change change(const std::vector<double>& rate, double accuracy);
 
-    // dN/dZ0 at the last stable equilibrium.
-    double slope();
-    // Force that a unit approach adds at fixed contact areas, those of the states of the attached: flat punches that interact.
+    // For the states of the attached at an equilibrium: dN/dZ0, and the force that a unit approach adds at fixed contact areas, as flat
+    // punches that interact.
+    double slope(const std::vector<Sticking::State>& states);
     double clamped_stiffness(const std::vector<Sticking::State>& states);
 
 private:
@@ -105,6 +105,7 @@ private:
     void step(const WorkingSet& set, double accuracy, std::vector<double>& s);  // Newton's method
     // Solves diag(u') ds + B diag(f') ds = right to the relative accuracy, starting from known_. pulled_ and lifted_ are then f' ds and B f' ds.
     void solve_linear(const std::vector<double>& right, double accuracy, std::vector<double>& ds, bool recycle = false);
+    std::vector<double> elevations(const std::vector<double>& f);  // B f of the attached, by a full product
     void multiply(const std::vector<double>& y, std::vector<double>& image, std::vector<double>& lift);
     void weigh(double mu);               // computes the coefficients of the symmetric systems
     bool apart(const WorkingSet& set);   // S is positive definite
