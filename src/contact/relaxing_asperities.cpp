@@ -30,7 +30,12 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) { return 
 
 RelaxingAsperities::RelaxingAsperities(const Asperities& asperities, const Indenter& indenter, RelaxingLaw& law, const Creep& creep,
                                        double tolerance)
-    : asperities_(asperities), indenter_(indenter), law_(law), creep_(creep), tolerance_(tolerance), lowered_(asperities.size(), kUnknown) {}
+    : asperities_(asperities),
+      indenter_(indenter),
+      law_(law),
+      creep_(creep),
+      tolerance_(tolerance),
+      lowered_(asperities.size(), kUnknown) {}
 
 void RelaxingAsperities::step(double dt) {
     law_.step(dt);

@@ -211,7 +211,8 @@ Job prepare(const Case& settings) {
                     "asperity model; use solver%%model = 'elements', which is valid up to full contact",
                     level * unit, full));
             if (!(level * unit < settings.solids.hardness))
-                bad_input(format("indentation: a nominal pressure of %.9g exceeds the hardness, %.9g", level * unit, settings.solids.hardness));
+                bad_input(
+                    format("indentation: a nominal pressure of %.9g exceeds the hardness, %.9g", level * unit, settings.solids.hardness));
         }
         job.level_unit = unit * job.indenter.period.area();
     }
