@@ -150,6 +150,7 @@ void AdhesiveContact::move_tip(double x0, double y0) {
         if (!my.move(x0, y0))
             throw Error(Failure::not_converged,
                         "the path of the attached asperities to the new position of the tip is lost; the tip stays where it was");
+        slope_ = 0, fresh_ = !my.active.empty();
         return;
     }
     const AdhesivePath::Past past = my.accepted;

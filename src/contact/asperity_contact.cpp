@@ -412,6 +412,7 @@ void AsperityContact::forget_levels() {
         return;
     }
     impl_->earlier = {};
+    impl_->proof = {};
     impl_->candidates = {};
     impl_->solution.clear();
     impl_->ranking.assign(impl_->asperities, impl_->indenter);

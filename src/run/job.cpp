@@ -234,6 +234,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     const auto& settings = job.settings;
     std::unique_ptr<Contact> contact;
     std::optional<ResolutionCheck> resolution;  // of elements, single runs only
+    double side = 0;                            // of their pixels
     SummitSearch search;
     SolverOptions solver = job.solver;
     if (by_elements(settings)) {
@@ -246,6 +247,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
             r.heights = std::move(surface.map);
         }
         const HeightMap& map = job.given ? *job.given_heights : *r.heights;
+        side = std::max(map.dx, map.dy);
         contact = make_element_contact(map, job.indenter, job.solver);
         if (settings.run.realizations == 1) resolution.emplace(job, number, threads, map);
     } else {
@@ -291,7 +293,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         if (resolution)
             resolution->judge(k, level);
         else if (by_elements(settings) && !(settings.solids.adhesion > 0))
-            judge_pixels(level, !job.spectrum);
+            judge_pixels(level, job, side);
         judge_filled(level, filled);
         if (level.force == 0 && level.separation < job.points_touch)  // contact at points that are no summits
             level.status = graver(level.status, LevelStatus::out_of_validity);

@@ -275,12 +275,11 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
     const double step = surface.theory ? 0 : measured ? measured->height_step : height_step(map);
     auto breaks = std::make_shared<Breaks>();
     if (!surface.theory) *breaks = measured ? measured->breaks : find_breaks(map, step);
-    auto seen = std::make_shared<HeightMap>();
-    if (step > 0 || !breaks->pits.empty() || detail_of(settings) == Detail::subgrid) *seen = map.copy();
+    auto seen = std::make_shared<HeightMap>(map.copy());
     if (!breaks->pits.empty()) raise_pits(*seen, *breaks);
     if (step > 0) smooth_rounded(*seen, step);
-    model.asperities = find_asperities(seen->data ? *seen : map, settings.asperities.curvature, &count, threads, detail_of(settings),
-                                       surface.points_per_wave, nullptr, breaks.get());
+    model.asperities = find_asperities(*seen, settings.asperities.curvature, &count, threads, detail_of(settings), surface.points_per_wave,
+                                       nullptr, breaks.get());
     if (measured) {
         drop_near_filled(model.asperities, count, map, measured->filled, measured->shortest_wave);
     }
@@ -294,12 +293,11 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
             if (measured) drop_near_filled(found.summits, unused, *kept, measured->filled, measured->shortest_wave);
             return found;
         };
-    if (seen->data)
-        model.domain.heights = [kept = std::shared_ptr<const HeightMap>(seen)](const std::vector<Vec2>& points) {
-            std::vector<double> z;
-            for (const Vec2& p : points) z.push_back(height_at(*kept, p.x, p.y));
-            return z;
-        };
+    model.domain.heights = [kept = std::shared_ptr<const HeightMap>(seen)](const std::vector<Vec2>& points) {
+        std::vector<double> z;
+        for (const Vec2& p : points) z.push_back(height_at(*kept, p.x, p.y));
+        return z;
+    };
     require_summits(model, surface.name, map.periodic ? "" : " inside the map");
     if (!surface.theory) model.domain.mean_spacing = std::sqrt(map.Lx() * map.Ly() / static_cast<double>(model.asperities.size()));
     if (!map.periodic) model.domain.marks = marks_of(map, *breaks);

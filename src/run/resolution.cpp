@@ -32,12 +32,16 @@ constexpr int kFewestPoints = 16;
 // check, whose contacts were smaller.
 constexpr double kGrown = 2, kShrunk = 0.75;
 
+double edge_share(const Job& job, double side) {
+    const double edge = job.indenter.shape->edge(side);
+    return edge > 0 ? kEdgeShare * side / edge : 0;
+}
+
 }  // namespace
 
 OtherGrid::OtherGrid(const Job& job, std::int64_t number, int threads, const HeightMap& map, double points_per_wave)
     : read_(!job.spectrum), by_force_(relaxes(job.settings) && job.settings.indentation.control != Control::separation) {
-    const double side = std::max(map.dx, map.dy), edge = job.indenter.shape->edge(side);
-    if (edge > 0) edge_ = kEdgeShare * side / edge;
+    edge_ = edge_share(job, std::max(map.dx, map.dy));
     if (job.settings.solids.adhesion > 0) return;  // its error is that of cohesive_resolution (contact/adhesive_elements.cpp)
     // Points of the map itself on its grid of half as many points, if there is one. Two flats need the rows in memory.
     const auto half = [&] { return job.indenter.period.finite() ? every_second_point(map) : every_second_point_of(map); };
@@ -112,9 +116,10 @@ void ResolutionCheck::judge(std::size_t step, Level& level) {
     if (last_->force > kUnresolved) level.status = graver(level.status, LevelStatus::out_of_validity);
 }
 
-void judge_pixels(Level& level, bool read) {
+void judge_pixels(Level& level, const Job& job, double side) {
     if (level.status == LevelStatus::not_converged || !(level.force > 0)) return;
-    level.force_error_expected = of_pixels(level.pixels_per_contact, read);
+    const bool read = !job.spectrum;
+    level.force_error_expected = of_pixels(level.pixels_per_contact, read) + edge_share(job, side);
     level.area_error_expected = level.force_error_expected + (read ? 1 : kPixelArea) * std::pow(level.pixels_per_contact, -0.75);
     if (level.force_error_expected > kUnresolved) level.status = graver(level.status, LevelStatus::out_of_validity);
 }
@@ -153,8 +158,10 @@ void judge_filled(Level& level, std::span<const FilledPoints> maps) {
     const FilledPoints& grid = maps.front();
     for (std::size_t c = 0; c < level.a.size() && pixels.index.empty(); ++c) {
         const double x = level.x[c] - grid.x0, y = level.y[c] - grid.y0, a = level.a[c];
-        for (double j = std::ceil((y - a) / grid.dy); j <= (y + a) / grid.dy; ++j)
-            for (double i = std::ceil((x - a) / grid.dx); i <= (x + a) / grid.dx; ++i)
+        const auto first = [&](double from) { return grid.periodic ? std::ceil(from) : std::max(std::ceil(from), 0.0); };
+        const auto last = [&](double to, int n) { return grid.periodic ? to : std::min(to, n - 1.0); };
+        for (double j = first((y - a) / grid.dy); j <= last((y + a) / grid.dy, grid.ny); ++j)
+            for (double i = first((x - a) / grid.dx); i <= last((x + a) / grid.dx, grid.nx); ++i)
                 if (std::hypot(i * grid.dx - x, j * grid.dy - y) <= a) count(grid.x0 + i * grid.dx, grid.y0 + j * grid.dy);
     }
     level.filled_share = all > 0 ? filled / all : 0.0;

@@ -349,7 +349,9 @@ bool LastingProof::holds(const Law& law, const Kernel& kernel, const std::vector
     const auto covered = [&](std::size_t k) {
         const auto i = static_cast<std::size_t>(asperity[k]);
         touching += i < bound_.size() && bound_[i] > 0;
-        return i < bound_.size() && v[k] <= bound_[i] && v[k] >= bound_[i] - spread_;
+        constexpr double rounding = 1e-9;
+        const auto same = [](double a, double b) { return std::abs(a - b) <= rounding * std::abs(b); };
+        return i < bound_.size() && v[k] <= bound_[i] && v[k] >= bound_[i] - spread_ && same(x_[i], x[k]) && same(y_[i], y[k]);
     };
     std::size_t k = 0;
     while (k < v.size() && covered(k)) ++k;
@@ -368,7 +370,11 @@ bool LastingProof::holds(const Law& law, const Kernel& kernel, const std::vector
             for (const int i : proved_) bound_[static_cast<std::size_t>(i)] = -kInfinity;
             bound_.resize(std::max(bound_.size(), static_cast<std::size_t>(*std::max_element(asperity.begin(), asperity.end())) + 1),
                           -kInfinity);
-            for (k = 0; k < high.size(); ++k) bound_[static_cast<std::size_t>(asperity[k])] = high[k];
+            x_.resize(bound_.size()), y_.resize(bound_.size());
+            for (k = 0; k < high.size(); ++k) {
+                const auto i = static_cast<std::size_t>(asperity[k]);
+                bound_[i] = high[k], x_[i] = x[k], y_[i] = y[k];
+            }
             proved_ = asperity, spread_ = 2 * width;
             touching_ = static_cast<std::size_t>(std::count_if(high.begin(), high.end(), [](double u) { return u > 0; }));
             return true;

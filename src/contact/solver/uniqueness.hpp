@@ -47,6 +47,7 @@ public:
 
 private:
     std::vector<double> bound_;  // upper bound by asperity; -Infinity: not in the proof
+    std::vector<double> x_, y_;  // their places: on a surface that repeats another image may have come near the tip
     double spread_ = 0;          // distance of the lower bounds
     std::size_t touching_ = 0;   // asperities whose upper bound is positive
     std::vector<int> proved_;    // asperities in the proof
