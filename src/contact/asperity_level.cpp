@@ -249,6 +249,10 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
         contacts.ellipses = contacts.ellipses && ellipse, some = some || ellipse;
         if (!ellipse || law.beyond(i, level.u[k])) contacts.outside.push_back(k);
         contacts.yielded += law.deepest(i) > 0;
+        constexpr double kMuchLarger = 4;  // than Hertz's area under the same force
+        const double hertz = std::cbrt(0.75 * std::max(level.f[k], 0.0) * asperities.radius[at(i)] / indenter.E_star);
+        if (ellipse && !law.path_dependent())
+            contacts.doubtful_area += std::numbers::pi * std::max(level.a[k] * level.a[k] - kMuchLarger * hertz * hertz, 0.0);
     }
     if (!some) contacts.outside.clear();
     // Those that yielded at another position of the tip are out of reach: lower than this level by more than any can recover.

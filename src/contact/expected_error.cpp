@@ -142,6 +142,7 @@ void expect_error(Level& level, const Asperities& asperities, const Indenter& in
     if (traits.ellipses) level.force_error_expected *= kEllipses;
     for (const std::size_t k : traits.outside)
         level.force_error_expected += kOutside * level.f[k] / level.force * elongation_of(asperities, level.asperity[k]);
+    if (traits.doubtful_area > 0) level.area_error_expected += traits.doubtful_area / level.area;
     if (traits.yielded_force > level.force) level.force_error_expected *= traits.yielded_force / level.force;
     if (traits.yielded_area > level.area) level.area_error_expected *= traits.yielded_area / level.area;
     const GridShare lost = grid_share(level, asperities, options);

@@ -27,6 +27,8 @@ struct ContactTraits {
     // Contacts of a level with ellipses that have none, or are beyond their last one: along a lay their spots grow together with those of
     // higher summits.
     std::vector<std::size_t> outside = {};
+    // Area of ellipses far larger than their force would make on a summit: a hardly loaded one may lie over several summits.
+    double doubtful_area = 0;
     // Contacts that have yielded, and the forces and areas of all asperities that have, each at its deepest accepted level: in unloading
     // their errors remain.
     std::int32_t yielded = 0;

@@ -261,6 +261,19 @@ TEST(far_more_elongated) {
     }
 }
 
+// A hardly loaded ellipse over several summits, as large as the contact that carries nearly all: its area is doubtful.
+TEST(doubtful_area) {
+    Case c;
+    c.run.seed = 7790;
+    c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16, c.surface.sigma = 3e-3, c.surface.n = 192;
+    c.solids.E[0] = c.solids.E[1] = 1e5, c.solids.nu[0] = 0.3, c.solids.nu[1] = 0.2, c.solids.R[1] = 3;
+    c.asperities.law = LawKind::fourth_order;
+    c.indentation.centre[0] = 0.35, c.indentation.centre[1] = 0.6, c.indentation.levels = {0.98, 0.82};
+    const std::vector<Level> asperities = pressed(c, Model::asperities), truth = pressed(c, Model::elements);
+    for (std::size_t k = 0; k < truth.size(); ++k)
+        CHECK(std::abs(truth[k].area / asperities[k].area - 1) <= asperities[k].area_error_expected);
+}
+
 // In unloading the errors of the level at which asperities yielded remain, while N decreases. Of these levels one has a bound that is
 // exceeded (nine of ten are promised).
 TEST(unloading) {
