@@ -151,6 +151,38 @@ double carried_by_edge(const Level& level, const ContactBodies& bodies) {
     return sum / static_cast<double>(bodies.edge.points.size());
 }
 
+// Options with the points on the border of a synthetic surface, which summits do not represent, if the indenter may touch them.
+std::optional<SolverOptions> with_rim(const Level& level, const ContactBodies& bodies) {
+    const SolverOptions& options = bodies.options;
+    const Indenter& indenter = bodies.indenter;
+    const Rectangle& s = options.surface;
+    if (options.marks || !options.heights || !s.known() || !(options.grid_step > 0) || indenter.period.finite() || indenter.around.finite())
+        return {};
+    constexpr double kHighest = 5;  // rms heights
+    const double west = s.x0 - indenter.x0, south = s.y0 - indenter.y0, east = west + s.Lx, north = south + s.Ly;
+    double lowest = std::numeric_limits<double>::infinity();
+    for (const Box& side :
+         {Box{west, west, south, north}, Box{east, east, south, north}, Box{west, east, south, south}, Box{west, east, north, north}})
+        lowest = std::min(lowest, indenter.shape->lowest(side));
+    if (!(kHighest * options.sigma - lowest > level.separation)) return {};
+    if (!bodies.rim) {
+        const auto nx = std::lround(s.Lx / options.grid_step), ny = std::lround(s.Ly / options.grid_step);
+        if (nx < 3 || ny < 3) return {};
+        std::vector<Vec2> places;
+        for (long j = 0; j < ny; ++j)
+            for (long i = 0; i<nx; i += j> 0 && j < ny - 1 ? nx - 1 : 1)
+                places.push_back({s.x0 + static_cast<double>(i) * options.grid_step, s.y0 + static_cast<double>(j) * options.grid_step});
+        const std::vector<double> z = options.heights(places);
+        auto marks = std::make_shared<MapMarks>();
+        for (std::size_t k = 0; k < z.size(); ++k) marks->border.push_back({places[k].x, places[k].y, z[k]});
+        marks->reach = options.grid_step;
+        bodies.rim = std::move(marks);
+    }
+    SolverOptions with = options;
+    with.marks = bodies.rim;
+    return with;
+}
+
 // Summits of the difference between surface and indenter; absent if the given asperities are to be used.
 std::optional<FoundSummits> summits_of_difference(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
                                                   const SummitSearch& search) {
@@ -274,7 +306,8 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
         }
         if (N > 0) level.force_error_expected += carried / N, level.area_error_expected += carried / N;
     }
-    judge_range(level, indenter, options);
+    const auto rim = with_rim(level, bodies);
+    judge_range(level, indenter, rim ? *rim : options);
     if (const auto [force, area] = stiffened(level, bodies); force > 0) {
         const auto also = [](double expected) { return std::isnan(expected) ? 0.0 : expected; };
         if (force > also(level.force_error_expected)) level.error_cause = kCurvedCause;

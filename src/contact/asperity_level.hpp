@@ -33,7 +33,8 @@ struct ContactBodies {
     std::optional<FoundSummits> of_difference;
     mutable FlankTouch flanks;
     mutable EdgePoints edge;
-    const Asperities& asperities;  // refers to one of the two above
+    mutable std::shared_ptr<const MapMarks> rim;  // border of a synthetic surface, once the indenter is near it
+    const Asperities& asperities;                 // refers to one of the two above
     Indenter indenter;
     SolverOptions options;
     std::shared_ptr<const Kernel> kernel;

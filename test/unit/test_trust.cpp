@@ -274,6 +274,22 @@ TEST(doubtful_area) {
         CHECK(std::abs(truth[k].area / asperities[k].area - 1) <= asperities[k].area_error_expected);
 }
 
+// A contact that the border of a synthetic surface cuts has no summit; it is counted, as on a measured map.
+TEST(cut_by_the_border) {
+    Case c;
+    c.run.seed = 6898;
+    c.surface.L_lambda_l = 2, c.surface.L_lambda_s = 16, c.surface.sigma = 3e-3, c.surface.n = 192, c.surface.aspect = 3;
+    c.surface.direction = 20;
+    c.solids.E[0] = c.solids.E[1] = 1e5, c.solids.R[1] = std::numeric_limits<double>::infinity();
+    set_key(c, "indenter%shape", "'punch'");
+    c.indenter.radius = 0.25, c.indenter.rim_radius = 3;
+    c.asperities.law = LawKind::fourth_order;
+    c.indentation.levels = {2.15, 2.01}, c.indentation.centre[0] = 0.35, c.indentation.centre[1] = 0.6;
+    for (const Level& level : pressed(c, Model::asperities)) CHECK(level.edge_contacts > 0 && level.status == LevelStatus::out_of_validity);
+    c.indentation.centre[0] = c.indentation.centre[1] = 0.5;
+    CHECK(pressed(c, Model::asperities).front().edge_contacts == 0);
+}
+
 // In unloading the errors of the level at which asperities yielded remain, while N decreases. Of these levels one has a bound that is
 // exceeded (nine of ten are promised).
 TEST(unloading) {

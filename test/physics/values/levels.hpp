@@ -233,8 +233,8 @@ inline void levels(CheckedFile& f, const Truth& t) {
         }
         return n;
     });
-    Vector with_border = edges;  // and the border points of a map that asperities leave out, where they would touch: test_map_marks
-    for (std::size_t i = 0; i < edges.size() && t.c.surface.source == Source::heights && !t.elements && !t.periodic; ++i)
+    Vector with_border = edges;  // and the border points that asperities leave out, where they would touch: test_map_marks, test_trust
+    for (std::size_t i = 0; i < edges.size() && t.c.surface.source != Source::asperities && !t.elements && !t.periodic; ++i)
         with_border[i] = std::max(edges[i], static_cast<double>(level(i / t.steps, i % t.steps).edge_contacts));
     f.same("edge_contacts", with_border);
     const Vector nominal = t.rows([&](std::size_t k, std::size_t s) {
