@@ -24,6 +24,9 @@ public:
     // floating-point resolution of Z0, and accepts the level. Intermediate trial separations have no effect on later levels.
     Level at_force(double N);
 
+    // Throws Error(bad_input) if the surfaces are in full contact under the force N, as at_force() would; where this is known in advance.
+    virtual void require_gap(double N) { (void)N; }
+
     // Sets the time of the following levels, used only if relaxes(). The separation, or under force control the force, changes linearly from
     // the last accepted level, in up to 16 steps; a tip that was moved is at its new place from the beginning of the first step. The first
     // level is applied instantaneously. Throws Error(bad_input) if the time is not finite or earlier than that of the last level.

@@ -280,6 +280,8 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     const std::vector<std::int32_t> field_steps = steps_of_fields(job);
     const std::vector<FilledPoints> filled = filled_points(job);
     std::vector<FieldLevel> fields;
+    if (settings.indentation.control != Control::separation && !job.levels.empty())  // before the levels below it are solved
+        contact->require_gap(*std::max_element(job.levels.begin(), job.levels.end()));
     for (std::size_t k = 0; k < job.levels.size(); ++k) {
         if (!job.times.empty()) contact->set_time(job.times[k]);
         if (settings.indentation.control != Control::separation) {

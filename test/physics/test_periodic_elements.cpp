@@ -36,6 +36,7 @@ HeightMap rough(int n, double L_lambda_s, double* slope = nullptr) {
 // The pressure that closes the gap, as the message tells a larger force.
 double closing(Contact& contact, double force) {
     const std::string said = refusal([&] { contact.at_force(force); });
+    CHECK(said == refusal([&] { contact.require_gap(force); }));
     CHECK(said.find("full contact") != std::string::npos && said.find("surface, ") != std::string::npos);
     return std::strtod(said.c_str() + said.find("surface, ") + 9, nullptr);
 }

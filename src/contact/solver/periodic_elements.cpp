@@ -320,12 +320,19 @@ std::vector<std::pair<Pixel, double>> PeriodicElements::press_out() {
     return lowered;
 }
 
+[[noreturn]] static void refuse_closing(double p, double closing) {
+    throw Error(Failure::bad_input, format("a nominal pressure of %.9g is above that of full contact on this surface, %.9g", p, closing));
+}
+
 ElementsOutcome PeriodicElements::press(double mean_pressure, double tolerance, int most_iterations) {
     const ElementsOutcome outcome = solve({true, mean_pressure / pressure_unit_}, tolerance, most_iterations, true);
     if (pixels_.size() == at(relief_.nx) * at(relief_.ny))
-        throw Error(Failure::bad_input, format("a nominal pressure of %.9g is above that of full contact on this surface, %.9g",
-                                               mean_pressure, closing_pressure()));
+        refuse_closing(mean_pressure, closing_pressure());
     return outcome;
+}
+
+void PeriodicElements::require_gap(double mean_pressure) {
+    if (const double closing = closing_pressure(); mean_pressure >= closing) refuse_closing(mean_pressure, closing);
 }
 
 ElementsOutcome PeriodicElements::approach(double Z0, double tolerance, int most_iterations) {

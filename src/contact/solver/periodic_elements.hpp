@@ -32,6 +32,9 @@ public:
     ElementsOutcome press(double mean_pressure, double tolerance, int most_iterations);
     ElementsOutcome approach(double Z0, double tolerance, int most_iterations);
 
+    // Throws as press() does, without a solution, if the mean pressure leaves no gap.
+    void require_gap(double mean_pressure);
+
     // Separation of full contact: the mean height, to rounding. None with a highest pressure, because pixels at this pressure can
     // penetrate.
     double closed() const;
