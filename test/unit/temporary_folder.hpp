@@ -3,11 +3,11 @@
 
 #include "std.hpp"
 
-#include <unistd.h>
-
 struct Folder {
-    std::filesystem::path path = std::filesystem::temp_directory_path() / ("rsc-test-" + std::to_string(::getpid()));
-    Folder() { std::filesystem::remove_all(path), std::filesystem::create_directories(path); }
+    std::string name = (std::filesystem::temp_directory_path() / "rsc-test-XXXXXX").string();
+    std::filesystem::path path = ::mkdtemp(name.data());
+    Folder() = default;
+    Folder(const Folder&) = delete;
     ~Folder() { std::filesystem::remove_all(path); }
     std::string operator/(const std::string& name) const { return (path / name).string(); }
     // The path of a new file.
