@@ -109,6 +109,12 @@ double length_factor(const std::string& from, const std::string& to, int power) 
     return factor;
 }
 
+double unit_factor(const std::string& from, const std::string& to) {
+    Session session;
+    const Unit unit = session.parse(from), wanted = session.parse(to);
+    return unit && wanted ? factor_between(unit, wanted) : 0;
+}
+
 std::string unit_of(const std::string& length_unit, int length_power, const std::string& force_unit, int force_power) {
     std::string text;
     const auto factor = [&text](const std::string& unit, int power) {

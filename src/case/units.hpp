@@ -16,6 +16,9 @@ std::string unit_problem(const std::string& text, Quantity quantity);
 // that names the wrong unit; the caller adds the file name.
 double length_factor(const std::string& from, const std::string& to, int power = 1);
 
+// 1 `from` in `to`; 0 if they measure different quantities.
+double unit_factor(const std::string& from, const std::string& to);
+
 // A unit in the spelling of UDUNITS: powers of a length and a force unit, unit_of("mm", -2, "N", 1) is "N mm-2"; "1" if both
 // powers are 0. A unit that is more than a plain name is put in parentheses.
 std::string unit_of(const std::string& length_unit, int length_power, const std::string& force_unit = "", int force_power = 0);

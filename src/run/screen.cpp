@@ -69,6 +69,12 @@ void print_case(std::ostream& out, const Job& job) {
         if (has_closed_forms(job.settings)) out << format(", transition force N* %.5g %s", transition_force(m, job.indenter.E_star), f);
         out << '\n';
     }
+    // Moduli in another unit than that of the case are a common mistake. No solid is stiffer than diamond, 1.2e12 Pa, or softer than a gel.
+    constexpr double stiffest = 2e12, softest = 100;
+    const double pascals = run.length_unit == "mm" && run.force_unit == "N" ? 1e6 : unit_factor(unit_of(l, -2, f, 1), "Pa");
+    for (const double E : job.settings.solids.E)
+        if (pascals > 0 && std::isfinite(E) && (E * pascals > stiffest || E * pascals < softest))
+            out << format("warning: solids%%E = %g %s/%s2 is %.2g Pa, which no solid has: is it in %s/%s2?\n", E, f, l, E * pascals, f, l);
 }
 
 // The treatment of a measured map, or of the first of several maps.

@@ -48,6 +48,22 @@ TEST(thresholds) {
     CHECK(std::string(slope_remark(0.5)).empty() && !std::string(slope_remark(std::nextafter(0.5, 1.0))).empty());
 }
 
+// The modulus of diamond, 1.2e12 Pa, in several units is plausible; ten times as much is not, nor are gigapascals in place of pascals.
+TEST(moduli) {
+    const auto warned = [](const std::string& units, double E) {
+        std::ostringstream out;
+        Case c = read_case_text("&run " + units + " / &surface n=64 L_lambda_l=2 L_lambda_s=8 /", "case.nml").settings;
+        c.solids.E[0] = E;
+        print_heading(out, prepare(c));
+        return out.str().find("warning: solids%E") != std::string::npos;
+    };
+    const std::string um = "length_unit='um' force_unit='mN'", m = "length_unit='m'", none = "length_unit='1' force_unit='1'";
+    CHECK(!warned("", 1.2e6) && warned("", 1.2e7));
+    CHECK(!warned(um, 1.2e3) && warned(um, 1.2e4));
+    CHECK(!warned(m, 1.2e12) && warned(m, 1.2e13) && warned(m, 70.0));
+    CHECK(!warned(none, 1.0) && !warned(none, 1e20));
+}
+
 // Surfaces beyond 0.02 in skewness or 0.05 in kurtosis are counted; for Gaussian heights nothing is said.
 TEST(heights_missed) {
     Job job;

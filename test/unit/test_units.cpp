@@ -30,6 +30,7 @@ TEST(factors) {
     CHECK(length_factor("mm-3", "um", -3) == 1e-9);
     CHECK(length_factor("1", "", 1) == 1);
     CHECK(length_factor("banana", "banana") == 1);  // equal texts are not looked up
+    CHECK(unit_factor("mN nm-2", "Pa") == 1e15 && unit_factor("1", "Pa") == 0 && unit_factor("N", "Pa") == 0);
 }
 
 TEST(refusals) {
