@@ -86,6 +86,9 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
                 100 * widest));
     tell(count([](const LevelValues& l) { return l.beyond_law > 0; }),
          "contacts beyond the range of validity of the contact law (beyond_law in the file).");
+    tell(count([](const LevelValues& l) { return std::isnan(l.stiffness) && l.contacts > 0 && l.status != LevelStatus::not_converged; }),
+         std::string("stiffness, conductance and resistance are missing: ") +
+             (elements ? "their iteration did not converge." : "contacts overlap too much for them; use solver%model = 'elements'."));
     tell_status(LevelStatus::overlapping,
                 "pairs of contact spots closer than the sum of their radii: spots that would merge are counted as two.");
     tell_status(

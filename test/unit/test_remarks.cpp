@@ -17,7 +17,7 @@ TEST(thresholds) {
     const auto remarks = [&](const std::function<void(V&)>& change) {
         std::vector<V> levels(2);
         for (V& level : levels)
-            level.contacts = 10, level.area = 1, level.nominal_area = 2, level.plastic_work = 0.25, level.separation = 1;
+            level.contacts = 10, level.area = 1, level.nominal_area = 2, level.plastic_work = 0.25, level.separation = 1, level.stiffness = -1;
         change(levels[1]);
         std::ostringstream out;
         print_remarks(out, levels, job);
@@ -33,6 +33,7 @@ TEST(thresholds) {
     CHECK(said("beyond", [](V& v) { v.beyond_law = 3; }) &&
           said("more than 10 %", [](V& v) { v.force_error_expected = 0.11, v.error_cause = 1; }));
     CHECK(!said("E*/10", [](V& v) { v.extreme_area_fraction = 0.01; }) && said("E*/10", [](V& v) { v.extreme_area_fraction = 0.0149; }));
+    CHECK(said("are missing", [](V& v) { v.stiffness = kNotComputed; }));
     CHECK(said("overlapping", [](V& v) { v.status = LevelStatus::overlapping; }));
     CHECK(said("not unique", [](V& v) { v.status = LevelStatus::not_unique; }));
     CHECK(said("NOT CONVERGED", [](V& v) { v.status = LevelStatus::not_converged; }));
