@@ -48,7 +48,7 @@ struct LevelValues {
     double force_error_expected = kNotComputed, area_error_expected = kNotComputed;
     std::int32_t error_cause = 0;        // asperities: predictor that increases it most (expected_error.hpp); 0: none
     double slope_ratio = kNotComputed;   // asperities: largest slope of the indenter at a contact over the rms slope of the surface
-    double filled_share = kNotComputed;  // share of the contact area on filled points of a measured map
+    double filled_share = kNotComputed;  // share of the contact area in holes of a measured map
     // Set by add_answers (contact/answers.hpp):
     double stiffness = kNotComputed;                            // dN/dZ0, negative [force/length]
     double energy = kNotComputed;                               // elastic energy W, dW/dZ0 = -N [force length]

@@ -63,7 +63,7 @@ constexpr LevelQuantity kQuantities[] = {
      .meaning = "largest slope of the indenter at a contact over the rms slope of the surface",
      .comment = "above 0.2 the surface also touches beside its summits", .always = false},
     {.name = "filled_share", .member = &V::filled_share, .unit = "1",
-     .meaning = "share of the contact area on filled points of the map", .always = false},
+     .meaning = "share of the contact area in holes of the map (missing points, except near measured ones), as it is or, if larger, as Gaussian heights would have it there", .always = false},
     {.name = "large_contacts", .member = &V::large_contacts, .meaning = "contacts with a > <d>/4",
      .comment = "<d> = 1/sqrt(density of summits); such contacts are not small compared with the distances between them"},
     {.name = "wide_contacts", .member = &V::wide_contacts, .meaning = "share of the contacts with a > h/5, h the top layer's thickness",

@@ -155,39 +155,19 @@ std::vector<std::uint8_t> fill_missing(HeightMap& map) {
     return filled;
 }
 
-void drop_near_filled(Asperities& a, SummitCount& count, const HeightMap& map, const std::vector<std::uint8_t>& filled, double distance) {
-    if (filled.empty()) return;
-    // Distance in columns to the nearest filled point of the same row; kNone if there is none.
-    constexpr int kNone = 1 << 30;
-    const auto nx = static_cast<std::size_t>(map.nx);
-    std::vector<int> along(filled.size(), kNone);
-    for (int j = 0; j < map.ny; ++j) {
-        const std::size_t row = static_cast<std::size_t>(j) * nx;
-        int gone = kNone;
-        const auto step = [&](std::size_t at) {
-            gone = filled[at] ? 0 : std::min(gone + 1, kNone);
-            along[at] = std::min(along[at], gone);
-        };
-        for (std::size_t i = 0; i < nx; ++i) step(row + i);
-        gone = kNone;
-        for (std::size_t i = nx; i-- > 0;) step(row + i);
+void keep_depths(std::vector<std::uint8_t>& filled, int nx, int ny, int steps) {
+    const auto width = static_cast<std::size_t>(nx);
+    for (int step = 0; step < steps && !filled.empty(); ++step) {
+        const std::vector<std::uint8_t> all = filled;
+        for (int j = 0; j < ny; ++j)
+            for (int i = 0; i < nx; ++i) {
+                const std::size_t at = static_cast<std::size_t>(j) * width + static_cast<std::size_t>(i);
+                if ((i > 0 && !all[at - 1]) || (i < nx - 1 && !all[at + 1]) || (j > 0 && !all[at - width]) ||
+                    (j < ny - 1 && !all[at + width]))
+                    filled[at] = 0;
+            }
     }
-    const int reach = static_cast<int>(std::min(std::ceil(distance / map.dy), static_cast<double>(map.ny)));
-    const auto near = [&](double x, double y) {
-        const double u = (x - map.x0) / map.dx, v = (y - map.y0) / map.dy;
-        const int i = std::clamp(static_cast<int>(std::lround(u)), 0, map.nx - 1),
-                  j = std::clamp(static_cast<int>(std::lround(v)), 0, map.ny - 1);
-        for (int d = std::max(-reach, -j); d <= std::min(reach, map.ny - 1 - j); ++d) {
-            const int columns = along[static_cast<std::size_t>(j + d) * nx + static_cast<std::size_t>(i)];
-            if (columns < kNone && std::hypot(columns * map.dx, d * map.dy) < distance) return true;
-        }
-        return false;
-    };
-    std::vector<std::size_t> kept;
-    for (std::size_t k = 0; k < a.size(); ++k)
-        if (!near(a.x[k], a.y[k])) kept.push_back(k);
-    a = selected(a, kept);
-    count = counted(a, count.saddles, count.repeated);
+    if (std::find(filled.begin(), filled.end(), 1) == filled.end()) filled.clear();
 }
 
 namespace {

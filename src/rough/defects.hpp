@@ -24,9 +24,9 @@ Outliers remove_outliers(HeightMap& map, double times);
 // filled points, 1 at j*nx + i, or an empty vector if no point is missing. Throws Error(bad_input) if all are missing.
 std::vector<std::uint8_t> fill_missing(HeightMap& map);
 
-// Removes asperities closer than `distance` to a filled point, because their curvatures depend on the filling, and updates the count.
-void drop_near_filled(Asperities& asperities, SummitCount& count, const HeightMap& map, const std::vector<std::uint8_t>& filled,
-                      double distance);
+// Leaves of a mask of filled points those more than `steps` steps along rows and columns away from all others, and empties it if there are
+// none. Nearer to measured points the filling follows the surface; deep in a hole its roughness is missing.
+void keep_depths(std::vector<std::uint8_t>& filled, int nx, int ny, int steps);
 
 // Rounding step of the heights: all differences of neighbouring heights are multiples of it. 0 unless many neighbours have equal heights.
 // Missing points (NaN) are ignored. To be called before a form is subtracted.

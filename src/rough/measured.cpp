@@ -127,6 +127,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
         m.fit = fit_self_affine(m.spectrum);
         m.shortest_wave = 2 * std::numbers::pi / m.fit->ks.value;
     }
+    keep_depths(m.filled, m.nx, m.ny, std::max(1, static_cast<int>(std::lround(m.shortest_wave / (8 * std::max(m.dx, m.dy))))));
     if (can_fit(stretched)) {
         m.fit = fit_self_affine(stretched);
         m.fit->aspect = aspect, m.fit->direction = slopes.direction;

@@ -36,7 +36,7 @@ struct Measured {
     double outlier_times = 0;          // MeasureOptions::outliers
     Outliers outliers;                 // of the points filled
     double missing_share = 0;          // of all points
-    std::vector<std::uint8_t> filled;  // 1 at j*nx + i where a point was filled; empty if none was
+    std::vector<std::uint8_t> filled;  // 1 at j*nx + i where a point deep in a hole was filled (keep_depths()); empty: none
     Form form;
     double filter_cutoff = 0;
     Roughness as_read, without_form, filtered;  // the last two are equal when there is no filter

@@ -296,7 +296,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
             resolution->judge(k, level);
         else if (by_elements(settings) && !(settings.solids.adhesion > 0))
             judge_pixels(level, job, side);
-        judge_filled(level, filled);
+        judge_filled(level, filled, job.indenter, job.sigma);
         if (level.force == 0 && level.separation < job.points_touch)  // contact at points that are no summits
             level.status = graver(level.status, LevelStatus::out_of_validity);
         if (curve) {

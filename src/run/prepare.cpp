@@ -280,9 +280,6 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
     if (step > 0) smooth_rounded(*seen, step);
     model.asperities = find_asperities(*seen, settings.asperities.curvature, &count, threads, detail_of(settings), surface.points_per_wave,
                                        nullptr, breaks.get());
-    if (measured) {
-        drop_near_filled(model.asperities, count, map, measured->filled, measured->shortest_wave);
-    }
     if (detail_of(settings) == Detail::subgrid)
         model.search = [kept = std::shared_ptr<const HeightMap>(seen), curvature = settings.asperities.curvature, threads,
                         waves = surface.points_per_wave, measured, breaks](const Indenter& indenter) {
@@ -290,7 +287,6 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
             SummitCount unused;
             FoundSummits found{{}, kept, waves, threads};
             found.summits = find_asperities(*kept, curvature, &unused, threads, Detail::subgrid, waves, &face, breaks.get());
-            if (measured) drop_near_filled(found.summits, unused, *kept, measured->filled, measured->shortest_wave);
             return found;
         };
     model.domain.heights = [kept = std::shared_ptr<const HeightMap>(seen)](const std::vector<Vec2>& points) {

@@ -38,7 +38,7 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
     tell(count([](const LevelValues& l) { return l.edge_contacts > 0; }),
          "contacts within <d> of the border of the surface - asperities beyond it are missing: N is too small.");
     tell(count([](const LevelValues& l) { return l.filled_share > kMuchFilled; }),
-         "more than 1 % of the contact area is on filled points, which were missing in the map (filled_share).");
+         "more than 1 % of the contact area would be in holes of the map, which are filled smoothly (filled_share): N is too small.");
     if (std::isfinite(job.points_touch) && std::all_of(levels.begin(), levels.end(), [](const auto& l) { return l.force == 0; }))
         out << format("  no level reaches contact: the first point of the map touches at Z0 = %g (%g sigma).\n", job.points_touch,
                       job.points_touch / sigma);

@@ -146,8 +146,28 @@ std::vector<FilledPoints> filled_points(const Job& job) {
     return maps;
 }
 
-void judge_filled(Level& level, std::span<const FilledPoints> maps) {
-    if (maps.empty() || level.contacts == 0) return;
+namespace {
+
+// Share of the filled points in the area where the heights reach the indenter, for Gaussian heights of rms sigma.
+double expected_share(double Z0, std::span<const FilledPoints> maps, const Indenter& indenter, double sigma) {
+    const FilledPoints& grid = maps.front();
+    constexpr int most = 512;  // points along a side, enough for a share
+    const int step_x = (grid.nx + most - 1) / most, step_y = (grid.ny + most - 1) / most;
+    double filled = 0, all = 0;
+    for (int j = 0; j < grid.ny; j += step_y)
+        for (int i = 0; i < grid.nx; i += step_x) {
+            const double x = grid.x0 + i * grid.dx, y = grid.y0 + j * grid.dy;
+            const double reached = std::erfc((Z0 - indenter.clearance(x, y, 0)) / (std::numbers::sqrt2 * sigma));
+            all += reached;
+            if (std::any_of(maps.begin(), maps.end(), [&](const FilledPoints& map) { return map.at(x, y); })) filled += reached;
+        }
+    return all > 0 ? filled / all : 0;
+}
+
+}  // namespace
+
+void judge_filled(Level& level, std::span<const FilledPoints> maps, const Indenter& indenter, double sigma) {
+    if (maps.empty()) return;
     double filled = 0, all = 0;
     const auto count = [&](double x, double y) {
         all += 1;
@@ -164,7 +184,7 @@ void judge_filled(Level& level, std::span<const FilledPoints> maps) {
             for (double i = first((x - a) / grid.dx); i <= last((x + a) / grid.dx, grid.nx); ++i)
                 if (std::hypot(i * grid.dx - x, j * grid.dy - y) <= a) count(grid.x0 + i * grid.dx, grid.y0 + j * grid.dy);
     }
-    level.filled_share = all > 0 ? filled / all : 0.0;
+    level.filled_share = std::max(all > 0 ? filled / all : 0.0, expected_share(level.separation, maps, indenter, sigma));
     if (level.filled_share > kMuchFilled) level.status = graver(level.status, LevelStatus::out_of_validity);
 }
 

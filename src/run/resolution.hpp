@@ -68,7 +68,7 @@ void judge_pixels(Level& level, const Job& job, double side);
 
 // The check of a level for missing points of its map, which are not part of the contact.
 
-// A level is out_of_validity if a larger share of the contact area than this is on filled points.
+// A level is out_of_validity if a larger share of the contact area than this is, or would be, on filled points.
 inline constexpr double kMuchFilled = 0.01;
 
 // The filled points of a map; x0, y0 is the position of its first point [length].
@@ -82,8 +82,9 @@ struct FilledPoints {
 // Those of the maps of both bodies, if any. The job must outlive them.
 std::vector<FilledPoints> filled_points(const Job& job);
 
-// Sets filled_share of a level on maps with filled points, and raises its status if it is too large. It counts the pixels under pressure of
-// elements, or the points of the first map within the contact spots of asperities.
-void judge_filled(Level& level, std::span<const FilledPoints> maps);
+// Sets filled_share of a level on maps with filled points, and raises its status if it is too large: their share of the pixels under pressure
+// of elements, or of the points of the first map within the contact spots of asperities, or, if that is larger, of the points where Gaussian
+// heights of rms sigma would reach the indenter: the filling is smooth and low, so that contact avoids it.
+void judge_filled(Level& level, std::span<const FilledPoints> maps, const Indenter& indenter, double sigma);
 
 }  // namespace rsc

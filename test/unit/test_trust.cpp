@@ -95,15 +95,20 @@ TEST(filled) {
     std::vector<std::uint8_t> missing(16);
     missing[5] = 1;  // the point (1, 1)
     const FilledPoints map{&missing, 4, 4, 1, 1, 0, 0, false};
+    Indenter ball{1e3, 1.0, 3, 3};
+    constexpr double low = 1e-3;  // heights that reach the ball at its lowest point only
     Level level;
     level.add_contact(0, 1, 1, 1, 1.2, 0);  // over (1, 1) and its four neighbours
-    judge_filled(level, {&map, 1});
+    judge_filled(level, {&map, 1}, ball, low);
     CHECK_RELATIVE(level.filled_share, 0.2, kRounding);
     CHECK(level.status == LevelStatus::out_of_validity);
     level = {};
     level.add_contact(0, 3, 3, 1, 0.5, 0);
-    judge_filled(level, {&map, 1});
+    judge_filled(level, {&map, 1}, ball, low);
     CHECK(level.filled_share == 0 && level.status == LevelStatus::converged);
+    level = {}, ball.x0 = ball.y0 = 1;  // no contact, because the ball is over the hole
+    judge_filled(level, {&map, 1}, ball, low);
+    CHECK(level.filled_share == 1 && level.status == LevelStatus::out_of_validity);
     // The same points on body 2, whose middle is above the tip: a cap with a hole at its top.
     const Folder folder;
     const auto write = [&](const std::string& name, auto&& height) {
