@@ -127,14 +127,18 @@ Outliers remove_outliers(HeightMap& map, double times) {
         for (int i = 0; i < map.nx; ++i) {
             if (std::isnan(map(i, j))) continue;
             around.clear();
-            for (int b = std::max(0, j - kReach); b <= std::min(map.ny - 1, j + kReach); ++b)
-                for (int a = std::max(0, i - kReach); a <= std::min(map.nx - 1, i + kReach); ++a)
+            const int up = std::min({kReach, j, map.ny - 1 - j}), across = std::min({kReach, i, map.nx - 1 - i});
+            for (int b = j - up; b <= j + up; ++b)
+                for (int a = i - across; a <= i + across; ++a)
                     if (!std::isnan(map(a, b))) around.push_back(map(a, b));
             distance[at(i, j)] = std::abs(map(i, j) - median(around));
             present.push_back(distance[at(i, j)]);
         }
     if (present.empty()) return {};
-    Outliers found{0, times * 1.4826 * median(present)};
+    // Of normal differences 90 % are below 1.645 standard deviations. Of those of smooth maps half may be 0.
+    const auto ninth = present.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(present.size() - 1));
+    std::nth_element(present.begin(), ninth, present.end());
+    Outliers found{0, times * *ninth / 1.645};
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i) {
             if (std::isnan(map(i, j)) || !(distance[at(i, j)] > found.threshold)) continue;

@@ -69,6 +69,10 @@ std::string stem(const std::string& result) { return result.ends_with(".nc") ? r
 std::string twins_text(const Job& job, const std::string& result) {
     const Measured& m = *job.measured;
     Case twins = job.settings;
+    const auto scale_levels = [&keys = twins.indentation](double factor) {
+        keys.start *= factor, keys.stop *= factor;
+        for (double& level : keys.levels) level *= factor;
+    };
     const double L = std::max(m.nx * m.dx, m.ny * m.dy);
     twins.run.title = "Surfaces with the spectrum of " + std::filesystem::path(job.settings.surface.file).filename().string();
     twins.run.realizations = kRealizations;
@@ -87,9 +91,11 @@ std::string twins_text(const Job& job, const std::string& result) {
     if (keys.sigma && twins.indentation.control == Control::separation && twins.indentation.unit == LevelUnit::sigma) {
         // For the map sigma was a unit of length; for twins it is the rms height.
         twins.indentation.unit = LevelUnit::length;
-        twins.indentation.start *= job.sigma;
-        twins.indentation.stop *= job.sigma;
-        for (double& level : twins.indentation.levels) level *= job.sigma;
+        scale_levels(job.sigma);
+    }
+    if (job.indenter.period.finite() && twins.indentation.control == Control::force) {  // the area of the twins may be another
+        twins.indentation.control = Control::pressure, twins.indentation.unit = LevelUnit::pressure;
+        scale_levels(1 / job.indenter.period.area());
     }
     // The square begins at 0 and has the longer side of the map; the tip keeps its distance from the middle.
     const Domain& d = job.domain;

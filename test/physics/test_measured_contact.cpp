@@ -45,30 +45,66 @@ TEST(twins_of_an_oblong_map) {
     CHECK(scaled.indentation.unit == LevelUnit::length && (scaled.indentation.levels == std::vector<double>{3 * 0.02, 1.5 * 0.02}));
     CHECK(scaled.indentation.start == 4 * 0.02 && scaled.indentation.stop == 0.02 && *scaled.surface.sigma == *twins.surface.sigma);
     CHECK(twins.indentation.unit == LevelUnit::sigma && twins.indentation.start == 4 && twins.indentation.stop == 1);
+    // Between flats forces are pressures of the map, on the twins' larger area, too.
+    for (const char* key : {"solids%R=Infinity,Infinity", "indentation%boundary='periodic'", "indentation%control='force'"})
+        set_key(settings, std::string(key, std::strchr(key, '=')), std::strchr(key, '=') + 1);
+    const Case flat = read_case_text(twins_text(prepare(settings), "oblong.nc"), "twins.nml").settings;
+    CHECK(flat.indentation.control == Control::pressure && flat.indentation.unit == LevelUnit::pressure);
+    CHECK_RELATIVE(flat.indentation.levels.at(0), 3 / (1.0 * 0.5), 1e-12);
 }
 
-// Filled points make no contact near them.
-TEST(filled_points) {
-    const Spectrum s{.L = 1, .L_lambda_l = 8, .L_lambda_s = 32, .sigma = 0.005};
-    const HeightMap surface = synthesize(s, 256, Normalise::sample, 4, 1);
+// A surface of 256 x 256 points as a map, whose point (i, j) `change` may alter.
+Case map_case(double L_lambda_s, const std::function<void(int, int, double&)>& change) {
+    const HeightMap surface = synthesize({.L = 1, .L_lambda_l = 4, .L_lambda_s = L_lambda_s, .sigma = 0.005}, 256, Normalise::sample, 4, 1);
     map_files::Map map{256, 256, 1e-3 / 256, 1e-3 / 256, {}};
     for (int j = 255; j >= 0; --j)
-        for (int i = 0; i < 256; ++i) map.z.push_back(std::hypot(i - 128, j - 128) < 20 ? std::nan("") : 1e-3 * surface(i, j));
-    const std::string file = folder.write("hole.gwy", map_files::gwy_file(map_files::gwy_channel(0, "T", map)));
+        for (int i = 0; i < 256; ++i) change(i, j, map.z.emplace_back(1e-3 * surface(i, j)));
     Case settings;
     set_key(settings, "surface%source", "'heights'");
-    set_key(settings, "surface%file", "'" + file + "'");
-    CHECK_THROWS(prepare(settings), Error);
-    set_key(settings, "surface%missing", "'fill'");
+    set_key(settings, "surface%file", "'" + folder.write("map.gwy", map_files::gwy_file(map_files::gwy_channel(0, "T", map))) + "'");
     set_key(settings, "solver%model", "'asperities'");
-    const Job job = prepare(settings);
-    CHECK(job.measured && job.measured->missing > 1200 && job.measured->missing < 1300);
-    const Asperities& a = job.given->asperities;
-    const double wave = job.measured->shortest_wave;
-    CHECK_RELATIVE(wave, 1.0 / 32, 0.1);
-    double nearest = 1;
-    for (std::size_t k = 0; k < a.size(); ++k) nearest = std::fmin(nearest, std::hypot(a.x[k] - 0.5, a.y[k] - 0.5));
-    CHECK(nearest > 19.0 / 256 + wave && nearest < 19.0 / 256 + 2.5 * wave);
+    set_key(settings, "asperities%law", "'fourth_order'");
+    set_key(settings, "indentation%levels", "1, 0, -1");
+    return settings;
+}
+
+// Levels at which the heights would reach a ball over a hole of the map are out of validity, and the hole hides no summit outside it.
+// One per cent of single missing points changes the force by no more than the filling changes heights: 1 %.
+TEST(holes) {
+    constexpr double middle = 128, radius = 20;
+    const auto hole = [](int i, int j, double& z) { z = std::hypot(i - middle, j - middle) < radius ? std::nan("") : z; };
+    const auto scattered = [](int i, int j, double& z) { z = (37 * i + 101 * j) % 100 == 0 ? std::nan("") : z; };
+    Case whole = map_case(24, [](int, int, double&) {});
+    const Job full = prepare(whole);
+    const std::vector<Level> levels = realize(full, 1, 1).levels;
+    Case holed = map_case(24, hole);
+    CHECK_THROWS(prepare(holed), Error);
+    set_key(holed, "surface%missing", "'fill'");
+    const Job job = prepare(holed);
+    CHECK(job.measured->missing > 1200 && job.measured->missing < 1300);
+    const auto outside = [&](const Asperities& a) {
+        long count = 0;
+        for (std::size_t k = 0; k < a.size(); ++k) count += std::hypot(a.x[k] - 0.5, a.y[k] - 0.5) > (radius + 5) / 256;
+        return count;
+    };
+    CHECK(outside(job.given->asperities) == outside(full.given->asperities));
+    for (const Level& level : realize(job, 1, 1).levels) CHECK(level.filled_share > 0.01 && level.status == LevelStatus::out_of_validity);
+    Case some = map_case(24, scattered);
+    set_key(some, "surface%missing", "'fill'");
+    const Realization r = realize(prepare(some), 1, 1);
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        CHECK_RELATIVE(r.levels[k].force, levels[k].force, 0.01);
+        CHECK(!(r.levels[k].filled_share > 0.01));
+    }
+}
+
+// Of a smooth map, 32 points in its shortest wave, no point is an outlier; of one with ten spikes these ten.
+TEST(outliers) {
+    for (const bool spikes : {false, true}) {
+        Case c = map_case(8, [&](int i, int j, double& z) { z += spikes && i % 50 == 7 && j % 100 == 60 ? 1e-5 : 0.0; });
+        set_key(c, "surface%outliers", "6");
+        CHECK(prepare(c).measured->outliers.count == (spikes ? 10 : 0));
+    }
 }
 
 }  // namespace
