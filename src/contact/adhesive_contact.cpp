@@ -94,8 +94,11 @@ Level AdhesiveContact::report() {
     // Where the zones that attract around the summits overlap, they would count twice.
     if (cohesive + l.area >
             static_cast<double>(my.now.asperity.size()) * 0.25 * std::numbers::pi * my.options.mean_spacing * my.options.mean_spacing &&
-        my.options.adhesion.range > 0 && my.options.mean_spacing > 0)
+        my.options.adhesion.range > 0 && my.options.mean_spacing > 0) {
         l.status = graver(l.status, LevelStatus::out_of_validity);
+        const double pulled = std::accumulate(l.tractions.pulled.begin(), l.tractions.pulled.end(), 0.0);
+        if (l.force != 0) l.force_error_expected = std::fmax(l.force_error_expected, std::abs(pulled / l.force));
+    }
     l.jumps = my.jumps + my.accepted.jumps;
     l.energy_lost = my.now.lost;
     l.least_force = my.now.least_force;

@@ -62,6 +62,15 @@ Predictors predictors(const Level& level, const Asperities& asperities, const In
             indenter.period.finite() ? 1.0 : 0.0};
 }
 
+// Factors of the bound of N for what the fit did not contain: with them it holds for nine of ten levels of each kind, on 157 surfaces with
+// random spectra, bodies and physics (520 levels; test/README).
+double beyond_fit(const Indenter& indenter) {
+    constexpr double layers = 1.3, flats = 1.15, cylinder = 1.7;
+    const double(&radii)[2] = indenter.shape->keys().radii;
+    return (indenter.layers.count > 0 ? layers : 1) * (indenter.period.finite() ? flats : 1) *
+           (std::isinf(radii[0]) != std::isinf(radii[1]) ? cylinder : 1);
+}
+
 // Additional errors of N and A on layers for contacts as wide as the top layer is thick.
 constexpr double kLayersForce = 0.5, kLayersArea = 0.4;
 
@@ -132,7 +141,7 @@ void expect_error(Level& level, const Asperities& asperities, const Indenter& in
     // contacts have as radius (test/README, asperities against elements on coated surfaces).
     const double deep = indenter.layers.count > 0 ? mean_radius(level) / indenter.layers.layer[0].thickness : 0;
     const double by_layers = kLayersForce * deep * deep * deep;
-    level.force_error_expected = bound(of_force) * (options.measured ? files_force : 1.0) + by_layers;
+    level.force_error_expected = bound(of_force) * (options.measured ? files_force : 1.0) * beyond_fit(indenter) + by_layers;
     level.area_error_expected = bound(of_area) * (options.measured ? files_area : 1.0) + kLayersArea * std::pow(deep, 1.5);
     const double alone = kAlone * std::sqrt(x[2]) / level.contacts;
     level.force_error_expected += alone, level.area_error_expected += alone;
