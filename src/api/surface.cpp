@@ -85,8 +85,8 @@ int32_t rsc_surface_copy(rsc_surface** surface, const rsc_surface* original) {
     return constructed(0, surface, "surface", [&] {
         require(original, 2, "original");
         const rsc::Surface& from = original->surface;
-        return new rsc_surface{{},
-                               {from.map.copy(), from.sigma, from.points_per_wave, from.theory, from.sampled, from.name, from.measured}};
+        return new rsc_surface{
+            {}, {from.map.copy(), from.sigma, from.points_per_wave, from.theory, from.sampled, from.differences, from.name, from.measured}};
     });
 }
 
@@ -106,6 +106,7 @@ int32_t rsc_surface_detrend(rsc_surface* surface, const char* how, double* rms_l
             }
         }();
         if (!surface->surface.theory) surface->surface.sigma = left;
+        surface->surface.differences.reset();
         put(rms_left, left);
     });
 }
@@ -114,6 +115,7 @@ int32_t rsc_surface_filter(rsc_surface* surface, double cutoff) {
     return on(surface, "surface", 0, [&] {
         if (!rsc::usable_positive(cutoff)) refuse(2, "cutoff", rsc::kPositiveBounds);
         rsc::gaussian_filter(surface->surface.map, cutoff);
+        surface->surface.differences.reset();
         if (!surface->surface.theory) surface->surface.sigma = rsc::roughness(surface->surface.map).height;
     });
 }

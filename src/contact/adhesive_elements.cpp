@@ -73,7 +73,7 @@ protected:
         std::int64_t products = 0;
         Level level;
         const auto look = [&](double Z) {
-            level = state_.solve(Z);
+            level = state_.step(Z);
             iterations += level.iterations, products += level.products;
             return level.status == LevelStatus::not_converged ? std::numeric_limits<double>::quiet_NaN() : level.force - N;
         };

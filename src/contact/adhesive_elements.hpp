@@ -22,10 +22,11 @@ void require_resolved(double range, double step);
 // the adhesion with a positive range. Throws Error(bad_input) for options that are not available with adhesion, and for a range below half a
 // pixel. Of the functions of Contact:
 //   energy()      elastic energy minus s0 (z0 - w) integrated over the attracting points; energy_lost of a level is the work done since the
-//                 first level (trapezoidal rule over the levels) minus the change of the energy
+//                 first level minus the change of the energy. The work is trapezoidal; steps between separations are divided where it is
+//                 uncertain, mostly by a jump (stiffness() does not help: sets of attracting points change within the step)
 //   stiffness()   dN/dZ0 for fixed attracting points
 //   at_force(N)   searches a separation with the force, towards the surface if it is larger than the present force, otherwise away. If there
-//                 is none, the level is that of the smallest force found, with Fallback::held
+//                 is none, the level is that of the smallest force found, with Fallback::held. These steps are not divided
 //   move_tip()    follows the state along the straight (on a surface that repeats, the shortest) way of the tip at the last separation, in
 //                 pieces of at most a quarter of a pixel; the work of a piece is that of the mean pressures of its ends. stiffness() and
 //                 energy() are then those of the new position. Edges of contact that move from pixel to pixel dissipate about 0.3 (h/z0) w

@@ -18,6 +18,9 @@ constexpr double kResolved = 2;    // smallest ratio of a level within the range
 constexpr double kEdgeError = 0.13;
 // Expected error of A: of w on the area, times h over the length E* z0^2/w in which the traction acts, and of edges, times h over the radius.
 constexpr double kWorkError = 1.0, kRadiusError = 0.8;
+// Largest error of the work of a step, relative to w times the area that attracts: beyond it the step is divided, at once into this number of
+// pieces at most, and never below this share of a level's way.
+constexpr double kWorkShare = 0.003, kMostPieces = 8, kShortest = 1.0 / 4096;
 constexpr double kJump = 0.1;         // least dissipated energy of a jump, relative to w times its area
 constexpr double kFewest = 8;         // and least number of its points
 constexpr double kInnerError = 1e-3;  // error of products in iterations
@@ -182,7 +185,7 @@ bool AdhesivePixels::renew(double Z, Level& level) {
     return false;
 }
 
-Level AdhesivePixels::solve(double Z) {
+Level AdhesivePixels::step(double Z) {
     now = accepted;
     std::fill(on.begin(), on.end(), char(0));
     for (const std::int32_t k : accepted.attracting) on[at(k)] = 1;
@@ -242,6 +245,67 @@ Level AdhesivePixels::solve(double Z) {
     return level;
 }
 
+// By point i between the accepted state and this one, per unit of area; see count_jumps().
+double AdhesivePixels::dissipated(std::size_t i) const {
+    const auto psi = [&](double w) { return -s0 * std::max(z0 - w, 0.0); };
+    return -0.5 * (p_before[i] + pressure(i)) * (gap[i] - gap_before[i]) - (psi(gap[i]) - psi(gap_before[i]));
+}
+
+// Largest error of the trapezoidal work of the step: what points that changed their state seem to have dissipated, an artefact unless they
+// jumped, or what the place of a jump within the step can change.
+double AdhesivePixels::work_error() const {
+    const double width = std::abs(accepted.separation - now.separation);
+    if (!(width < kInfinity)) return 0;
+    double sum = 0;
+    for (const std::int32_t k : reach) sum += std::abs(dissipated(at(k)));
+    return std::min(pixel * sum, 0.5 * width * std::abs(now.force - accepted.force));
+}
+
+// In as many steps as the work needs. The error of a step falls with the third power of its length, but in proportion to it if there is a jump.
+Level AdhesivePixels::solve(double Z) {
+    Level level = step(Z);
+    const double shortest = kShortest * std::abs(Z - accepted.separation);
+    const auto pieces = [&] {
+        const double most =
+            kWorkShare * options.adhesion.work * pixel * static_cast<double>(std::max(now.attracting.size(), accepted.attracting.size()));
+        const double error = level.status == LevelStatus::not_converged ? 0 : work_error();
+        if (!(error > most) || !(std::abs(now.separation - accepted.separation) > shortest)) return 1;
+        return static_cast<int>(std::ceil(std::min(std::sqrt(error / most), kMostPieces)));
+    };
+    if (pieces() == 1) return level;
+    const Past before = accepted;
+    const std::vector<double> gaps = gap_before, pressures = p_before;
+    std::vector<double> ends = {Z};  // of steps, the next one last
+    std::int32_t iterations = level.iterations;
+    std::int64_t products = level.products;
+    const auto restore = [&] { accepted = before, gap_before = gaps, p_before = pressures; };
+    try {
+        while (true) {
+            if (const int n = pieces(); n > 1) {
+                const double end = ends.back(), way = accepted.separation - end;
+                for (int k = 1; k < n; ++k) ends.push_back(end + way * k / n);
+            } else {
+                if (level.status == LevelStatus::not_converged) {  // in one step it converges
+                    restore();
+                    return step(Z);
+                }
+                ends.pop_back();
+                if (ends.empty()) break;
+                accepted = now, accepted.jumps = level.jumps;
+                keep();
+            }
+            level = step(ends.back());
+            iterations += level.iterations, products += level.products;
+        }
+    } catch (...) {
+        restore();
+        throw;
+    }
+    restore();
+    level.iterations = iterations, level.products = products;
+    return level;
+}
+
 // Number of connected sets of points that began or ceased to attract since the accepted level and dissipated energy by it. Between two states
 // point k dissipates -(p + p')(w' - w)/2 - (psi' - psi) a unit area, where psi = -s0 (z0 - w) if it attracts and 0 otherwise: with
 // trapezoidal work these add up exactly to energy_lost, because deflections are linear in the pressures. A point that crosses z0 smoothly
@@ -250,18 +314,17 @@ Level AdhesivePixels::solve(double Z) {
 std::int32_t AdhesivePixels::count_jumps() const {
     if (!(accepted.separation < kInfinity)) return 0;
     std::vector<Pixel> where;
-    std::vector<double> dissipated;
-    const auto psi = [&](double w) { return -s0 * std::max(z0 - w, 0.0); };
+    std::vector<double> lost;
     for (const std::int32_t k : reach) {
         const std::size_t i = at(k);
         if ((p_before[i] != 0) == on[i]) continue;
         where.push_back(pixel_at(k));
-        dissipated.push_back(-0.5 * (p_before[i] + pressure(i)) * (gap[i] - gap_before[i]) - (psi(gap[i]) - psi(gap_before[i])));
+        lost.push_back(dissipated(i));
     }
     std::vector<int> set;
     const int sets = connected_sets(where, set, flats ? heights.nx : 0, flats ? heights.ny : 0);
     std::vector<double> sum(at(sets)), points(at(sets));
-    for (std::size_t c = 0; c < where.size(); ++c) sum[at(set[c])] += dissipated[c], points[at(set[c])] += 1;
+    for (std::size_t c = 0; c < where.size(); ++c) sum[at(set[c])] += lost[c], points[at(set[c])] += 1;
     const double least = kJump * options.adhesion.work;
     std::int32_t jumps = 0;
     for (std::size_t c = 0; c < sum.size(); ++c) jumps += points[c] >= kFewest && sum[c] > least * points[c];

@@ -53,6 +53,9 @@ struct AdhesivePixels : CutMap {
     void move(double x0, double y0);
     void follow();
     std::vector<double> deflections(const std::vector<double>& p);
+    Level step(double Z);
+    double dissipated(std::size_t i) const;
+    double work_error() const;
     Level solve(double Z);
 };
 

@@ -50,16 +50,19 @@ std::array<Mean, count> mean_of_rows(int first, int end, const Rows& rows) {
 
 }  // namespace
 
-double* allocate_doubles(std::size_t n, const char* purpose) {
+double* allocate_doubles(std::size_t n, const char* purpose, bool zeros) {
     // Systems that overcommit memory may accept any size; sizes beyond the address space are rejected here.
     constexpr std::size_t kMost = std::size_t{1} << 44;
     void* p = nullptr;
     if (n < kMost) {
         const std::size_t bytes = std::max<std::size_t>(n, 1) * sizeof(double);
-        const std::size_t alignment = bytes >= 2 * kHugePage ? kHugePage : 64;
-        p = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+        const bool large = bytes >= 2 * kHugePage;
+        const std::size_t alignment = large ? kHugePage : 64;
+        p = zeros ? std::calloc(bytes, 1) : std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
 #if defined(__linux__)
-        if (p && alignment == kHugePage) madvise(p, bytes, MADV_HUGEPAGE);  // a hint, whose failure only costs time
+        constexpr std::size_t page = 4096;
+        void* const first = reinterpret_cast<void*>((reinterpret_cast<std::uintptr_t>(p) + page - 1) / page * page);
+        if (p && large) madvise(first, bytes - page, zeros ? MADV_NOHUGEPAGE : MADV_HUGEPAGE);  // a hint: failure costs time or memory
 #endif
     }
     if (!p) {
@@ -74,13 +77,13 @@ void HeightMap::Free::operator()(double* p) const noexcept {
     if (owned) std::free(p);
 }
 
-void HeightMap::allocate(int nx_, int ny_, std::ptrdiff_t stride_) {
+void HeightMap::allocate(int nx_, int ny_, std::ptrdiff_t stride_, bool zeros) {
     if (nx_ < 1 || ny_ < 1 || stride_ < nx_)
         bad_input("height map: " + std::to_string(nx_) + " x " + std::to_string(ny_) + " points with " + std::to_string(stride_) +
                   " a row");
     if (stride_ > (std::ptrdiff_t{1} << 44) / ny_)
         throw Error(Failure::no_memory, "no memory for a height map of " + std::to_string(nx_) + " x " + std::to_string(ny_) + " points");
-    data.reset(allocate_doubles(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(ny_), "a height map"));
+    data.reset(allocate_doubles(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(ny_), "a height map", zeros));
     nx = nx_;
     ny = ny_;
     stride = stride_;

@@ -6,7 +6,8 @@
 namespace rsc {
 
 // Allocates aligned memory for n doubles, in huge pages if available. Throws Error(no_memory) with the purpose.
-double* allocate_doubles(std::size_t n, const char* purpose);
+// `zeros`: set to 0, in small pages that take memory only when they are written.
+double* allocate_doubles(std::size_t n, const char* purpose, bool zeros = false);
 
 // Heights on a regular rectangular grid: point (i, j) is at x = i dx, y = j dy (+ origin), value z(i, j) = data[j*stride + i]. Every point
 // represents a cell: the map covers nx*dx by ny*dy. stride >= nx allows for the padding of in-place transforms.
@@ -26,7 +27,8 @@ struct HeightMap {
     std::unique_ptr<double[], Free> data;
 
     // Allocates (uninitialised, SIMD aligned); throws Error(no_memory) with the requested size.
-    void allocate(int nx_, int ny_, std::ptrdiff_t stride_);
+    // `zeros`: heights are 0, and pages take memory only when they are written.
+    void allocate(int nx_, int ny_, std::ptrdiff_t stride_, bool zeros = false);
     HeightMap copy() const;  // without padding between rows
     double* row(int j) { return data.get() + j * stride; }
     const double* row(int j) const { return data.get() + j * stride; }

@@ -21,9 +21,9 @@ using Buffer = std::unique_ptr<double[], HeightMap::Free>;
 // Distance of rows: aligned to 64 bytes, and not a power of two apart.
 std::ptrdiff_t row_distance(int n) { return (n + 7) / 8 * 8 + 8; }
 
-HeightMap empty_map(double L, int n) {
+HeightMap empty_map(double L, int n, bool zeros) {
     HeightMap map;
-    map.allocate(n, n, row_distance(n));
+    map.allocate(n, n, row_distance(n), zeros);
     map.dx = map.dy = L / n;
     map.periodic = true;
     return map;
@@ -292,9 +292,10 @@ void RowSource::rows(int j, int count, double* out, std::ptrdiff_t stride, Scrat
     }
 }
 
-HeightMap RowSource::all(int threads) const {
-    HeightMap map = empty_map(L_, n_);
-    const bool direct = shear_ == 0 && !exchanged_;
+HeightMap RowSource::all(int threads, const Wanted& wanted) const {
+    constexpr int piece = 64;  // a page of memory is taken if one of its pieces is wanted
+    const bool in_rows = shear_ == 0 && !exchanged_, direct = in_rows && !wanted;
+    HeightMap map = empty_map(L_, n_, in_rows && wanted);
     // So many rows at once that what they write to a row of an exchanged surface is whole lines of the cache.
     const int wide = direct ? 4 * kBlock : 2 * kBlock;
     const std::ptrdiff_t stride = map.stride;
@@ -309,7 +310,14 @@ HeightMap RowSource::all(int threads) const {
         const int first = b * wide, count = std::min(wide, n_ - first);
         double* const made = direct ? map.row(first) : block[worker].get();
         rows(first, count, made, stride, scratch[worker]);
-        if (shear_ != 0)
+        if (in_rows && wanted)
+            for (int r = 0; r < count; ++r)
+                for (int i = 0; i < n_; i += piece) {
+                    const double* const z = made + r * stride + i;
+                    if (const int points = std::min(piece, n_ - i); wanted(first + r, i, points, z))
+                        std::copy_n(z, points, map.row(first + r) + i);
+                }
+        else if (shear_ != 0)
             place_diagonals(made, first, count, shear_, map);
         else if (exchanged_)
             (static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_) > kCached ? transpose_past_cache : transpose_to_cache)(

@@ -213,7 +213,9 @@ double expected_megabytes(const Job& job, double workers) {
     // Bytes for each point of the surface (heights, modes; transforms of two flats), and for each point under the indenter or in
     // contact, from the peaks of a dozen runs.
     constexpr double program = 32e6, tables = 15e6, under = 170, adhesion = 49, record = 0.3e6;
-    const double sticking = job.settings.solids.adhesion > 0 ? adhesion : 0, free = 10 + sticking;
+    const bool high = reads_high_points(job.settings);  // few heights are kept, after the modes were
+    const double sticking = job.settings.solids.adhesion > 0 ? adhesion : 0, free = high ? 1 : 10 + sticking;
+    const double modes = high ? 16 / job.settings.elements.points_per_wave + 0.3 : 0;
     // From the second level on, two flats also keep the last level and its transform in double precision.
     const bool several = job.indenter.period.finite() && job.levels.size() > 1 && job.settings.solids.adhesion <= 0;
     const double flats = (several ? 36 : 28) + sticking, touching = several ? 240 : 150;
@@ -224,8 +226,9 @@ double expected_megabytes(const Job& job, double workers) {
     double most = 0;
     for (const double level : job.levels) {
         const double below = job.indenter.period.finite() ? 0 : points_under(job, likely_separation(job, level), points);
-        most = std::max(most, job.indenter.period.finite() ? points * (flats + touching * share_in_contact(job, level, force))
-                                                           : tables + free * points + (under + deep * below / points) * below);
+        most = std::max(most, job.indenter.period.finite()
+                                  ? points * (flats + touching * share_in_contact(job, level, force))
+                                  : tables + std::max(modes * points, free * points + (under + deep * below / points) * below));
     }
     return 1e-6 * (program + (several ? record * static_cast<double>(job.levels.size()) : 0.0) + most * contacts_at_once);
 }

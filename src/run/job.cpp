@@ -17,19 +17,6 @@
 namespace rsc {
 namespace {
 
-// Values between start and stop, both included.
-std::vector<double> spaced(const Case::Indentation& keys) {
-    if (!keys.levels.empty()) return keys.levels;
-    std::vector<double> values(static_cast<std::size_t>(keys.steps));
-    for (std::size_t k = 0; k < values.size(); ++k) {
-        const double t = keys.steps > 1 ? static_cast<double>(k) / (keys.steps - 1) : 0.0;
-        values[k] =
-            keys.spacing == Spacing::log ? keys.start * std::pow(keys.stop / keys.start, t) : keys.start + t * (keys.stop - keys.start);
-    }
-    if (keys.steps > 1) values.back() = keys.stop;  // exactly
-    return values;
-}
-
 // The times of the levels; empty if the case has none.
 std::vector<double> times_of(const Case::Indentation& keys, std::size_t levels) {
     if (!keys.duration) return keys.times;
@@ -241,7 +228,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         if (job.given) {
             r.statistics = job.given->statistics;
         } else {
-            Surface surface = make_element_surface(settings, number, threads);
+            Surface surface = make_element_surface(settings, number, threads, &job.indenter, job.levels);
             if (!job.spectrum) move_to(job.domain, surface.map, number);  // one of several maps
             r.statistics = make_bare_model(surface).statistics;
             r.heights = std::move(surface.map);

@@ -170,14 +170,15 @@ bool has_spectrum(const Case& settings) {
     return settings.surface.source == Source::synthetic || settings.surface.source == Source::spectrum;
 }
 
-Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads) {
+Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads, const RowSource::Wanted& wanted) {
     const auto& keys = settings.surface;
     Surface surface;
     surface.sigma = spectrum.sigma;
     surface.points_per_wave = keys.n / shortest_wave(spectrum);
     surface.theory = theoretical_moments(spectrum);
-    surface.sampled.emplace();
-    surface.map = synthesize(spectrum, keys.n, keys.normalise, settings.run.seed, number, &*surface.sampled, threads);
+    const RowSource source(spectrum, keys.n, keys.normalise, settings.run.seed, number, threads, 0, RowSource::Lines::narrowest);
+    surface.sampled = source.sampled(), surface.differences = source.differences();
+    surface.map = source.all(threads, wanted);
     return surface;
 }
 
@@ -204,7 +205,10 @@ std::string too_large_for_elements(const Case& settings, const Spectrum& spectru
     const int n = element_points(settings, spectrum);
     // Memory for two flats: heights, the pressures on some pixels, transforms in single and double precision.
     const bool periodic = settings.indentation.boundary == Boundary::periodic;
-    const double bytes = (periodic ? 28.0 : 8.0) * n * n,
+    const double bytes = (periodic                      ? 28.0
+                          : reads_high_points(settings) ? 3.0
+                                                        : 8.0) *
+                         n * n,
                  memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
     constexpr double beside = 1.5;  // first the modes during synthesis, later the pixels in contact
     if (!(memory > 0) || beside * bytes <= memory) return {};
@@ -214,13 +218,48 @@ std::string too_large_for_elements(const Case& settings, const Spectrum& spectru
         points_per_wave, periodic ? "heights and their transforms" : "the heights", n, n, 1e-9 * bytes, 1e-9 * memory);
 }
 
-Surface make_element_surface(const Case& settings, std::int64_t number, int threads) {
+// Values between start and stop, both included.
+std::vector<double> spaced(const Case::Indentation& keys) {
+    if (!keys.levels.empty()) return keys.levels;
+    std::vector<double> values(static_cast<std::size_t>(keys.steps));
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        const double t = keys.steps > 1 ? static_cast<double>(k) / (keys.steps - 1) : 0.0;
+        values[k] =
+            keys.spacing == Spacing::log ? keys.start * std::pow(keys.stop / keys.start, t) : keys.start + t * (keys.stop - keys.start);
+    }
+    if (keys.steps > 1) values.back() = keys.stop;  // exactly
+    return values;
+}
+
+bool reads_high_points(const Case& c) {
+    const std::vector<double> levels = spaced(c.indentation);
+    return has_spectrum(c) && !levels.empty() && c.indentation.boundary == Boundary::free && c.indentation.control == Control::separation &&
+           std::all_of(levels.begin(), levels.end(), [](double level) { return level > 0; }) && c.indenter.file.empty() &&
+           !std::isfinite(c.solids.hardness) && !(c.solids.adhesion > 0) && !relaxes(c) && !c.output.heights && c.output.fields.empty();
+}
+
+Surface make_element_surface(const Case& settings, std::int64_t number, int threads, const Indenter* indenter,
+                             std::span<const double> levels) {
     if (!has_spectrum(settings)) return make_surface(settings, number, threads);
     const Spectrum spectrum = spectrum_of(settings);
     if (const std::string why = too_large_for_elements(settings, spectrum); !why.empty()) bad_input(why);
     Case finer = settings;
     finer.surface.n = element_points(settings, spectrum);
-    return make_surface(finer, spectrum, number, threads);
+    if (!indenter || !reads_high_points(settings)) return make_surface(finer, spectrum, number, threads);
+    // Faces are nowhere below 0, so that a height of 0 lies below the indenter at every separation above 0. The highest point is kept.
+    const double step = spectrum.L / finer.surface.n, least = *std::min_element(levels.begin(), levels.end()) * (1 - 1e-9);
+    std::atomic<double> top = -std::numeric_limits<double>::infinity();
+    Surface surface = make_surface(finer, spectrum, number, threads, [&](int row, int first, int count, const double* z) {
+        double before = top, highest = -std::numeric_limits<double>::infinity();
+        const double from = std::min(least, before);
+        for (int k = 0; k < count; ++k)
+            if (z[k] > from) highest = std::max(highest, indenter->clearance((first + k) * step, row * step, z[k]));
+        while (highest > before && !top.compare_exchange_weak(before, highest)) {
+        }
+        return highest > from;
+    });
+    const bool complete = top == -std::numeric_limits<double>::infinity();  // made in another order, with all heights
+    return complete || top > 0 ? std::move(surface) : make_surface(finer, spectrum, number, threads);
 }
 
 SurfaceDomain synthetic_domain(const Spectrum& spectrum) {
@@ -314,7 +353,7 @@ SurfaceModel make_bare_model(const Surface& surface) {
     model.domain.step = std::max(map.dx, map.dy);
     if (surface.theory) model.domain.mean_spacing = surface.theory->mean_spacing();
     auto& s = model.statistics;
-    const Moments grid = grid_moments(map);
+    const Moments grid = surface.differences ? *surface.differences : grid_moments(map);
     s.sigma = surface.sigma;
     s.m2 = s.m2_grid = grid.m2;
     s.m4 = s.m4_grid = grid.m4;

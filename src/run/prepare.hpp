@@ -6,6 +6,7 @@
 #include "contact/contact.hpp"
 #include "contact/touching.hpp"
 #include "file/result.hpp"
+#include "rough/synthesis.hpp"
 
 namespace rsc {
 
@@ -24,6 +25,7 @@ struct Surface {
     double points_per_wave = 0;                // grid steps in the shortest wavelength of a synthetic surface; 0: not known
     std::optional<Moments> theory;             // of a synthetic surface: moments of its spectrum
     std::optional<Moments> sampled;            // of a synthetic surface: moments of its modes
+    std::optional<Moments> differences;        // and by finite differences of its heights
     std::string name = "the surface";          // for messages
     std::shared_ptr<const Measured> measured;  // preparation of a measured map; null for others
 };
@@ -31,7 +33,8 @@ struct Surface {
 // Realization `number` of the surface. A measured surface is the same for every number, unless surface%file is a pattern: then it is the
 // file of that number. Throws Error(bad_input) for source = 'asperities', and as synthesize and read_heights do.
 Surface make_surface(const Case& settings, std::int64_t number, int threads);
-Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads);  // of spectrum_of(settings)
+Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads,
+                     const RowSource::Wanted& wanted = {});  // of spectrum_of(settings)
 
 // Points along a side of the element grid of a synthetic surface: elements%points_per_wave in the shortest wavelength, or slightly more.
 int element_points(const Case& settings, const Spectrum& spectrum);
@@ -39,8 +42,17 @@ int element_points(const Case& settings, const Spectrum& spectrum);
 // Why that grid cannot be used: it is larger than allowed, or does not fit into memory. Empty if it can.
 std::string too_large_for_elements(const Case& settings, const Spectrum& spectrum);
 
-// Realization `number` of the surface on the element grid; a measured map keeps its own grid.
-Surface make_element_surface(const Case& settings, std::int64_t number, int threads);
+// The levels of a case, in its unit.
+std::vector<double> spaced(const Case::Indentation& keys);
+
+// True if elements read only points that are higher than the indenter at the lowest level: those of a synthetic surface pressed at given
+// separations above its mean plane, elastic and without adhesion, whose heights are not asked for.
+bool reads_high_points(const Case& settings);
+
+// Realization `number` of the surface on the element grid; a measured map keeps its own grid. With the indenter and its levels [length], if
+// reads_high_points(), heights below the indenter at all levels may be 0, except the first to be touched.
+Surface make_element_surface(const Case& settings, std::int64_t number, int threads, const Indenter* indenter = nullptr,
+                             std::span<const double> levels = {});
 
 // The rectangle of a surface, with the properties of the surface that a contact needs.
 struct SurfaceDomain : Domain {

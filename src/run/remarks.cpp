@@ -160,7 +160,8 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
     if (c.run.realizations == 1)
         out << format(
             "  adhesion: the smallest force is %.4g %s; jumps: %ld, energy lost: %.4g %s %s%s. Levels depend on the levels before.\n",
-            least, f, jumps, lost, f, l, by_elements(c) ? " (trapezoidal rule over the levels)" : "");
+            least, f, jumps, lost, f, l,
+            by_elements(c) && c.indentation.control != Control::separation ? " (trapezoidal rule over the levels)" : "");
     if (const double fine = levels.back().cohesive_resolution; fine < 2)
         out << format(
             "  adhesion_range is %.2g pixel sides (cohesive_resolution): below 2 the pull-off force is about 5 to 10 %% too high.\n", fine);

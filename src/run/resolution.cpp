@@ -54,7 +54,7 @@ OtherGrid::OtherGrid(const Job& job, std::int64_t number, int threads, const Hei
     } else {
         Case other = job.settings;
         other.elements.points_per_wave = (coarser_ ? 0.5 : 2.0) * points_per_wave;
-        map_ = make_element_surface(other, number, threads).map;
+        map_ = make_element_surface(other, number, threads, &job.indenter, job.levels).map;
         map_->x0 = map.x0, map_->y0 = map.y0;
     }
     SolverOptions options = job.solver;

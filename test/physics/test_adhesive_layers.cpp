@@ -30,9 +30,9 @@ LayeredBody body_of(const Layer& layer, double E, double nu) { return {1, {layer
 
 // From where nothing attracts into contact and back.
 constexpr int kLevels = 7;
-double separation(bool flats, int k) {
+double separation(bool flats, int k, int levels = kLevels) {
     const double low = flats ? 0.005 : -0.06, high = 0.13;
-    return high + (low - high) * (1 - std::abs(2.0 * k / (kLevels - 1) - 1));
+    return high + (low - high) * (1 - std::abs(2.0 * k / (levels - 1) - 1));
 }
 
 // Conditions of every point, with deflections by direct sums of the free kernel; the work of the levels is the energy lost.
@@ -44,15 +44,13 @@ void test_conditions(bool flats, const LayeredBody& body) {
     std::vector<double> kernel;
     for (int i = 0; i < kSide * kSide; ++i) kernel.push_back(substrate.under_pixel(i % kSide * kStep, i / kSide * kStep, kStep, kStep));
     const double s0 = kWork / kRange;
-    double work = 0, most_lost = 0;
+    double most_lost = 0;
     Level before = contact->at_separation(separation(flats, 0));
     CHECK(before.force == 0);
     for (int k = 1; k < kLevels; ++k) {
         const Level level = contact->at_separation(separation(flats, k));
         CHECK(level.status != LevelStatus::not_converged);
-        work += 0.5 * (before.force + level.force) * (before.separation - level.separation);
         most_lost = std::max(most_lost, level.energy_lost);
-        CHECK_CLOSE(work - contact->energy(), level.energy_lost, 1e-6 * std::max(work, kWork));
         before = level;
         if (flats) continue;
         std::vector<double> p(kSide * kSide, 0.0);
@@ -77,7 +75,18 @@ void test_conditions(bool flats, const LayeredBody& body) {
         }
     }
     CHECK(before.force == 0 && contact->energy() == 0);
-    CHECK_RELATIVE(work, before.energy_lost, 1e-6);
+    // Many levels: the area of the loop, which seven levels give within some per cent (9 % measured; their own trapezoidal sums miss all of it).
+    const auto again = make_element_contact(map, tip, sticky(kWork, kRange));
+    constexpr int many = 121;
+    double work = 0;
+    Level last = again->at_separation(separation(flats, 0));
+    for (int k = 1; k < many; ++k) {
+        const Level level = again->at_separation(separation(flats, k, many));
+        work += 0.5 * (last.force + level.force) * (last.separation - level.separation);
+        last = level;
+    }
+    CHECK_RELATIVE(last.energy_lost, work, 0.03);
+    CHECK_RELATIVE(before.energy_lost, work, 0.12);
     CHECK(most_lost > 0);
 }
 
