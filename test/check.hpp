@@ -11,22 +11,8 @@ namespace check {
 
 inline int failures = 0;
 inline int checks = 0;
-
-inline void that(bool ok, const char* what, const char* file, int line) {
-    ++checks;
-    if (ok) return;
-    ++failures;
-    std::printf("%s:%d: failed: %s\n", file, line, what);
-}
-
-// |a - b| <= tolerance.
-inline void close(double a, double b, double tolerance, const char* what, const char* file, int line) {
-    ++checks;
-    const double error = std::abs(a - b);
-    if (error <= tolerance) return;  // false for NaN
-    ++failures;
-    std::printf("%s:%d: failed: %s: %.17g against %.17g, error %.3g > %.3g\n", file, line, what, a, b, error, tolerance);
-}
+void that(bool ok, const char* what, const char* file, int line);
+void close(double a, double b, double tolerance, const char* what, const char* file, int line);  // |a - b| <= tolerance
 
 // The larger of two errors, and not a number if either is: std::max would drop it.
 inline double worse(double worst, double error) { return std::isnan(worst) || error <= worst ? worst : error; }
@@ -42,20 +28,7 @@ bool throws(Act&& act) try {
     return true;
 }
 
-// The tests of each file.
-inline std::map<std::string, std::vector<void (*)()>>& tests() {
-    static std::map<std::string, std::vector<void (*)()>> all;
-    return all;
-}
-inline bool add(const std::string& file, void (*run)()) {
-    const std::size_t begin = file.rfind("test_") + 5;
-    tests()[file.substr(begin, file.rfind('.') - begin)].push_back(run);
-    return true;
-}
-inline int summary() {
-    std::printf("%d checks, %d failed\n", checks, failures);
-    return failures == 0 ? 0 : 1;
-}
+bool add(const char* file, void (*run)());  // to the tests of the file
 
 }  // namespace check
 

@@ -17,7 +17,7 @@ ranks() {
 campaign() {
     cat > case.nml << END
 &run         realizations = $1  first_realization = 3 /
-&surface     n = 256  L_lambda_l = 8  L_lambda_s = 100  hurst = 0.7 /
+&surface     n = 128  L_lambda_l = 8  L_lambda_s = 50  hurst = 0.7 /
 &indentation steps = 20 /
 &output      file = 'out.nc'  map_cells = 20 /
 END
@@ -175,7 +175,7 @@ test_grow() {
     # A growth that is interrupted goes on from its own state, without the result.
     sed 's/= 30 /= 30000 /' ../case.nml > long.nml
     "$rsc" -q --resume long.nml 2> /dev/null &
-    until_state 3000000 $!
+    until_state 1000000 $!   # three times what the result had
     kill -s KILL $! && wait $!
     cp out.nc.checkpoint before
     rm out.nc

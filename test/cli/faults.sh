@@ -161,7 +161,7 @@ test_signal_writing() {
     slow "steps = 2" "heights = .true.  compression = 9"
     for signal in TERM INT; do
         rm -f work/*
-        stopped $signal 'ls work | grep -q part' env --default-signal=INT "$rsc" case.nml
+        stopped $signal 'ls work | grep -q part' env --default-signal=INT "$rsc" -s surface%n=1024 -s surface%L_lambda_s=256 case.nml
         [ $got -eq 0 ] || { cat said; fail "exit status $got"; }
         left work out.nc
         ncdump -h work/out.nc > /dev/null || fail "the file is not whole"

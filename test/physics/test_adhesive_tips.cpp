@@ -72,7 +72,7 @@ TEST(test_cycle) {
 
 // Over the border of a surface that repeats the tip takes the short way, as over the middle of a map that begins elsewhere.
 TEST(test_border) {
-    const HeightMap map = waves(48, 2, 0.02), other = waves(48, 2, 0.02, 24);
+    const HeightMap map = waves(36, 2, 0.02), other = waves(36, 2, 0.02, 18);
     const auto one = make_element_contact(map, sphere(1.9, 2), sticky(kWork, 0.1)),
                two = make_element_contact(other, sphere(1.9, 2), sticky(kWork, 0.1));
     for (Contact* contact : {one.get(), two.get()}) {
@@ -146,9 +146,9 @@ TEST(test_edge) {
 
 // A tip above a low half of a surface, where nothing attracts, moves over a high half: what it loses and what it does are counted.
 TEST(test_climb) {
-    HeightMap map = waves(40, 2, 0);
-    for (int j = 0; j < 40; ++j)
-        for (int i = 20; i < 40; ++i) map.row(j)[i] = 0.5;
+    HeightMap map = waves(28, 2, 0);
+    for (int j = 0; j < 28; ++j)
+        for (int i = 14; i < 28; ++i) map.row(j)[i] = 0.5;
     const auto contact = make_element_contact(map, {1.0, 1.0, 0.2, 1.0}, sticky(kWork, 0.1));
     CHECK(contact->at_separation(0.25).force == 0);
     contact->move_tip(1.5, 1.0);

@@ -219,7 +219,7 @@ TEST(bounds) {
     CHECK(std::isnan(level.force_error_expected));
 }
 
-// The errors expected of elements hold: four surfaces with 8 points in the shortest wave against the same with 32.
+// The errors expected of elements hold: three surfaces with 8 points in the shortest wave against the same with 32.
 TEST(finer) {
     Case c;
     c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16, c.surface.hurst = 1, c.surface.sigma = 2.4e-3;
@@ -227,7 +227,7 @@ TEST(finer) {
     c.solver.model = Model::elements;
     c.indentation.levels = {2, 1.5, 1, 0.5, 0};
     int levels = 0, force = 0, area = 0;
-    for (const int seed : {1, 2, 3, 4}) {
+    for (const int seed : {1, 2, 3}) {
         c.run.seed = seed;
         const auto pressed = [&](double points) {
             c.elements.points_per_wave = points;
