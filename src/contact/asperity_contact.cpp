@@ -97,6 +97,7 @@ struct AsperityContact::Impl : ContactBodies {
     double raised() const { return relaxing ? kernel->shift() * relaxing->rest() : 0.0; }
     long products_taken() const { return direct->count() + (mesh ? mesh->count() : 0); }
     void use(Method how);
+    void expect_repeats(bool expect) { newton.expect_repeats(expect), direct->expect_repeats(expect); }
     void select(double Z0);  // determines candidates and method
     NewtonOutcome solve_from(const Vector& start, bool rough_start);
     // True if the solution continues the branch of the accepted levels (path-dependent laws). For other laws solve_cold() selects among
@@ -385,6 +386,7 @@ void AsperityContact::recall(const std::vector<double>& memory, const Level* lev
         my.law->commit(static_cast<int>(yielded.size()), yielded.data(), deepest.data());
     }
     my.earlier = {};
+    my.expect_repeats(false);
     my.candidates = {};
     my.solution.clear();
     if (!level) return;
@@ -412,6 +414,7 @@ void AsperityContact::forget_levels() {
         return;
     }
     impl_->earlier = {};
+    impl_->expect_repeats(false);
     impl_->proof = {};
     impl_->candidates = {};
     impl_->solution.clear();
@@ -475,6 +478,7 @@ void AsperityContact::move_tip(double x0, double y0) {
         }
     }
     my.ranking.move(x0, y0);
+    my.expect_repeats(true);
 }
 
 // The summits of the difference are those of the new place. What the bodies keep of earlier loads is known by the number of the summit.

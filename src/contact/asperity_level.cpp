@@ -70,7 +70,8 @@ double beside(const Asperities& asperities, const Indenter& indenter, const Surf
         if (!std::isfinite(touch)) continue;  // beside the indenter
         flanks.push_back({touch, place, {-part * (u * c - v * s), -part * (u * s + v * c)}});
     }
-    std::sort(flanks.begin(), flanks.end(), [](const Flank& a, const Flank& b) { return a.touch > b.touch; });
+    std::partial_sort(flanks.begin(), flanks.begin() + static_cast<std::ptrdiff_t>(std::min(flanks.size(), kMost)), flanks.end(),
+                      [](const Flank& a, const Flank& b) { return a.touch > b.touch; });
     if (flanks.empty() || !heights || indenter.shape->flat())
         return flanks.empty() ? -std::numeric_limits<double>::infinity() : flanks[0].touch;
     flanks.resize(std::min(flanks.size(), kMost));

@@ -14,6 +14,7 @@ Candidates select_candidates(Ranking& ranking, const Asperities& asperities, con
     }
     Candidates candidates;
     WorkingSet& set = candidates.set;
+    candidates.rank.reserve(last), set.reserve(last);
     for (std::size_t r = 0; r < last; ++r) {
         const auto i = static_cast<std::size_t>(ranking[r].asperity);
         const Vec2 d = indenter.from_tip(asperities.x[i], asperities.y[i]), image = indenter.image(asperities.x[i], asperities.y[i]);
@@ -43,13 +44,14 @@ NewtonOutcome solve_candidates(const WorkingSet& candidates, Newton& newton, Pro
     v = start;
     NewtonOutcome total;
     WorkingSet working;
+    working.reserve(n);
     Vector working_v;
     std::vector<std::size_t> inside, outside;
     Vector xo, yo, phi;
     for (;;) {
         inside.clear();
         outside.clear();
-        working = {};
+        working.clear();
         working_v.clear();
         for (std::size_t k = 0; k < n; ++k) {
             if (!in[k]) {

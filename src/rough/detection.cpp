@@ -153,7 +153,7 @@ int summit_points(const Spectrum& spectrum, int n) {
 
 Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
                            Curvature curvature, SummitCount* count, Moments* sampled, int threads, Detail detail, Moments* differences,
-                           const BodyAbove* above) {
+                           const BodyAbove* above, std::shared_ptr<const RowSource>* rows) {
     const bool mirror = made_as_transpose(spectrum);
     const std::unique_ptr<BodyAbove> mirrored_above = mirror && above ? above->transposed() : nullptr;
     if (mirror && (!above || mirrored_above)) {  // no need to store the surface
@@ -165,7 +165,9 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
     threads = std::max(threads, 1);
     const bool refined = detail == Detail::subgrid;
     const int fine = refined ? summit_points(spectrum, n) : n;
-    RowSource source(spectrum, fine, normalise, seed, realization, threads, spectrum.L / n);
+    const auto kept = std::make_shared<const RowSource>(spectrum, fine, normalise, seed, realization, threads, spectrum.L / n);
+    const RowSource& source = *kept;
+    if (rows) *rows = kept;
     const double step = spectrum.L / fine;
     if (sampled) *sampled = source.sampled();
     if (differences) *differences = source.differences();

@@ -7,6 +7,8 @@
 
 namespace rsc {
 
+class RowSource;
+
 // Face of the body above a surface. It is subtracted before summits are detected, because contact depends only on the difference.
 class BodyAbove {
 public:
@@ -66,9 +68,11 @@ int summit_points(const Spectrum& spectrum, int n);
 // in half the memory, with bitwise the same result (with a lay nearer to the y axis: that of the transposed surface; with a lay near 45
 // degrees, where synthesize() adds up diagonals: to rounding). Throws as synthesize(). With fewer than 4 points in lambda_s,
 // Detail::subgrid uses the smallest multiple of n that has 4; the surface is the same. `differences` (optional) receives the moments by
-// finite differences on the n x n grid, as grid_moments(synthesize(...)), computed as exact sums over the modes.
+// finite differences on the n x n grid, as grid_moments(synthesize(...)), computed as exact sums over the modes; `rows` (optional) what the
+// heights were made of, or nothing for the transposed surface.
 Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
                            Curvature curvature, SummitCount* count = nullptr, Moments* sampled = nullptr, int threads = 1,
-                           Detail detail = Detail::grid, Moments* differences = nullptr, const BodyAbove* above = nullptr);
+                           Detail detail = Detail::grid, Moments* differences = nullptr, const BodyAbove* above = nullptr,
+                           std::shared_ptr<const RowSource>* rows = nullptr);
 
 }  // namespace rsc

@@ -49,6 +49,18 @@ private:
     std::weak_ptr<const HeightMap> map_;
 };
 
+// What the rows of a synthetic surface are made of, kept once it is made: to draw the modes again takes longer than hundreds of rows.
+struct KeptRows {
+    template <class Make>
+    std::shared_ptr<const RowSource> get(Make&& make) {
+        const std::lock_guard lock(mutex);
+        if (!made) made.reset(new const RowSource(make()));
+        return made;
+    }
+    std::mutex mutex;
+    std::shared_ptr<const RowSource> made;
+};
+
 double rms(const std::vector<double>& values) {
     double mean = 0, square = 0;
     for (double v : values) mean += v;
@@ -371,8 +383,10 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
     model.domain.step = spectrum.L / keys.n;
     SummitCount count;
     Moments sampled, differences;
+    const auto rows = std::make_shared<KeptRows>();
     model.asperities = make_asperities(spectrum, keys.n, keys.normalise, settings.run.seed, number, settings.asperities.curvature, &count,
-                                       &sampled, threads, detail_of(settings), &differences);
+                                       &sampled, threads, detail_of(settings), &differences, nullptr, &rows->made);
+    if (const int n = summit_points(spectrum, keys.n); n > kMostPointsKept || (rows->made && rows->made->n() != n)) rows->made.reset();
     require_summits(model, "the surface", "");
     auto& s = model.statistics;
     set_sampled(sampled, s);
@@ -380,21 +394,21 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
     s.m4_grid = differences.m4;
     count_summits(count, s);
     model.domain.rms_slope = std::sqrt(2 * s.m2);
-    model.domain.heights = [keys, spectrum, seed = settings.run.seed, number, threads](const std::vector<Vec2>& points) {
+    model.domain.heights = [keys, spectrum, seed = settings.run.seed, number, threads, rows](const std::vector<Vec2>& points) {
         const int n = summit_points(spectrum, keys.n);
-        RowSource source(spectrum, n, keys.normalise, seed, number, threads);
-        RowSource::Scratch scratch(source);
-        HeightMap rows;
-        rows.allocate(n, 2, (n + 7) / 8 * 8), rows.dx = rows.dy = spectrum.L / n, rows.periodic = true;
+        const auto source = rows->get([&] { return RowSource(spectrum, n, keys.normalise, seed, number, threads); });
+        RowSource::Scratch scratch(*source);
+        HeightMap two;
+        two.allocate(n, 2, (n + 7) / 8 * 8), two.dx = two.dy = spectrum.L / n, two.periodic = true;
         std::vector<double> z;
         int made = -1;  // the first of the two rows
         for (const Vec2& p : points) {
             stopping_point();
-            const double x = source.exchanged() ? p.y : p.x, y = source.exchanged() ? p.x : p.y;
-            const int j = static_cast<int>(std::floor(y / rows.dy));
-            if (z.empty() || j != made) source.rows(j, 2, rows.row(0), rows.stride, scratch), made = j;
-            rows.y0 = j * rows.dy;
-            z.push_back(height_at(rows, x, y));
+            const double x = source->exchanged() ? p.y : p.x, y = source->exchanged() ? p.x : p.y;
+            const int j = static_cast<int>(std::floor(y / two.dy));
+            if (z.empty() || j != made) source->rows(j, 2, two.row(0), two.stride, scratch), made = j;
+            two.y0 = j * two.dy;
+            z.push_back(height_at(two, x, y));
         }
         return z;
     };

@@ -87,7 +87,7 @@ std::size_t PairMatrix::Hash::operator()(const Place& place) const {
 }
 
 void PairMatrix::forget() {
-    points_.clear(), numbers_.clear(), active_.clear(), x_.clear(), y_.clear();
+    points_.clear(), numbers_.clear(), active_.clear(), summed_.clear(), x_.clear(), y_.clear();
     unit_ = 0, values_ = 0, small_ = 0;
 }
 
@@ -108,7 +108,7 @@ std::uint32_t PairMatrix::find(double x, double y) {
 // Computes the missing values of a point that is not a source.
 void PairMatrix::extend(Point& point) {
     constexpr std::size_t kBlock = SquareTable::kBlock;
-    double square[kBlock], value[kBlock];
+    double square[kBlock], value[kBlock] = {};
     const double self = kernel_->self();
     std::size_t from = point.exact.size();
     const std::size_t all = x_.size();
@@ -121,15 +121,15 @@ void PairMatrix::extend(Point& point) {
             const double dx = x_[from + k] - point.x, dy = y_[from + k] - point.y;
             square[k] = dx * dx + dy * dy;
         }
-        kernel_->smooth()->table().values(count, square, value);
+        if (kernel_->smooth()) kernel_->smooth()->table().values(count, square, value);
         if (!(unit_ > 0)) unit_ = kernel_->near() / std::sqrt(square[0] > 0 ? square[0] : 1);
         add_singular({count, square, value, kernel_->near(), kernel_->shift(), self, 1 / unit_, point.exact.data() + from,
                       point.rough.data() + from});
     }
 }
 
-void PairMatrix::set_active(const std::vector<std::uint32_t>& active) {
-    active_ = active;
+bool PairMatrix::set_active(const std::vector<std::uint32_t>& active) {
+    active_ = active, summed_.clear();
     for (const std::uint32_t k : active_) {
         Point& point = points_[k];
         if (point.source != kNone) continue;
@@ -142,6 +142,7 @@ void PairMatrix::set_active(const std::vector<std::uint32_t>& active) {
     order_.clear();
     for (const std::uint32_t k : place_)
         if (k != kNone) order_.push_back(k);
+    return order_.size() == active_.size();
 }
 
 // Sets the forces by source; returns their unit.
@@ -187,6 +188,7 @@ void PairMatrix::symmetric(Sums<Real>& sums, double* phi) {
 }
 
 void PairMatrix::among(bool single, const double* f, double* phi) {
+    summed_.assign(f, f + active_.size()), summed_single_ = single;
     const double unit = single ? begin(rough_, f) * unit_ : begin(exact_, f);
     if (single)
         symmetric(rough_, phi);
@@ -223,11 +225,13 @@ void PairMatrix::onto(bool single, const double* f, const std::vector<std::uint3
     bool sources = false;
     for (const std::uint32_t k : targets) {
         sources = sources || points_[k].source != kNone;
-        if (points_[k].source == kNone) extend(points_[k]);
+        if (points_[k].source == kNone && points_[k].exact.size() < x_.size()) extend(points_[k]);
     }
     const double unit = single ? begin(rough_, f) * unit_ : begin(exact_, f);
+    sources = sources && !(single == summed_single_ && std::equal(summed_.begin(), summed_.end(), f, f + active_.size()));
     if (sources && single) symmetric(rough_, nullptr);
     if (sources && !single) symmetric(exact_, nullptr);
+    if (sources) summed_.clear();
     if (single)
         rows_onto(rough_, unit, targets, phi);
     else

@@ -13,13 +13,13 @@ constexpr std::size_t kMostKeptValues = 8'000'000;
 // order of the sources, so their last bits depend on earlier calls.
 class PairMatrix {
 public:
-    // Only for kernels with a smooth part and without a lattice. The kernel must outlive this object.
+    // Only for kernels without a lattice. The kernel must outlive this object.
     explicit PairMatrix(const Kernel& kernel) : kernel_(&kernel) {}
 
     // Number of a point, valid until forget().
     std::uint32_t find(double x, double y);
-    // Sets the points that carry force.
-    void set_active(const std::vector<std::uint32_t>& active);
+    // Sets the points that carry force; false if two of them coincide, for which there are no products.
+    bool set_active(const std::vector<std::uint32_t>& active);
     // True if the values for the given numbers of active and other points take too much memory.
     bool too_large(std::size_t active, std::size_t others) const;
     // Called before set_active(). True if forget() pays: for some time few of the sources have carried force, so that products are slow, or
@@ -77,9 +77,11 @@ private:
     std::vector<std::uint32_t> order_;                        // places in active_, by source
     std::vector<double> x_, y_;                               // of the sources
     std::vector<double> total_;                               // by source
-    double unit_ = 0;                                         // of `rough` [length/force]
-    std::size_t values_ = 0;                                  // stored
-    int small_ = 0;                                           // consecutive sets of active points much smaller than that of the sources
+    std::vector<double> summed_;                              // the forces that total_ is of, if it is from among()
+    bool summed_single_ = false;
+    double unit_ = 0;         // of `rough` [length/force]
+    std::size_t values_ = 0;  // stored
+    int small_ = 0;           // consecutive sets of active points much smaller than that of the sources
     Sums<double> exact_;
     Sums<float> rough_;
 };

@@ -11,28 +11,40 @@ class Direct final : public Products {
 public:
     Direct(std::shared_ptr<const Kernel> kernel, bool many)
         : Products(std::move(kernel)), many_(many), sums_(*kernel_), all_sums_(*kernel_) {
-        if (!kernel_->none() && kernel_->smooth() && !kernel_->lattice()) matrix_.emplace(*kernel_);
+        if (!kernel_->none() && !kernel_->lattice()) matrix_.emplace(*kernel_);
     }
 
     void set_points(int n, const double* x, const double* y) override {
+        const bool same = repeats_ && std::equal(x, x + n, x_.begin(), x_.end()) && std::equal(y, y + n, y_.begin(), y_.end());
+        const bool kept = again_ > kOften;
+        again_ = std::clamp(again_ + (same ? 1 : -1), 0, 3 * kOften);
+        if (same && kept == (again_ > kOften)) return;
         x_.assign(x, x + n);
         y_.assign(y, y + n);
         fresh_ = true, whole_ = false;
+    }
+
+    void expect_repeats(bool expect) override {
+        repeats_ = expect;
+        if (expect || again_ == 0) return;
+        again_ = 0, fresh_ = true;
+        if (matrix_ && !kernel_->smooth()) matrix_->forget(), xo_.clear();
     }
 
     void set_active(const std::vector<int>& active) override {
         if (!fresh_ && active == active_) return;
         const bool moved = std::exchange(fresh_, false);
         divide(active);
-        stored_ = matrix_ && !matrix_->too_large(active_.size(), passive_.size());
+        stored_ = keeps_pairs(passive_.size());
         if (stored_) {
             const bool again = matrix_->stale(active_.size());
-            if (again) matrix_->forget();
+            if (again) matrix_->forget(), xo_.clear();
             if (moved || again || all_.size() != x_.size()) number(x_.size(), x_.data(), y_.data(), all_);
             select(active_, active_numbers_);
             select(passive_, passive_numbers_);
-            matrix_->set_active(active_numbers_);
-        } else {
+            stored_ = matrix_->set_active(active_numbers_);
+        }
+        if (!stored_) {
             all_.clear();
             gather(active_, xa_, ya_);
             sums_.assign(active_.size(), xa_.data(), ya_.data());
@@ -51,8 +63,9 @@ public:
 
     void elsewhere(const double* f, int n, const double* x, const double* y, double* phi) override {
         const auto count = static_cast<std::size_t>(n);
-        if (stored_ && !matrix_->too_large(active_.size(), count)) {
-            number(count, x, y, other_numbers_);
+        if (stored_ && keeps_pairs(count)) {
+            if (!std::equal(x, x + count, xo_.begin(), xo_.end()) || !std::equal(y, y + count, yo_.begin(), yo_.end()))
+                number(count, x, y, other_numbers_), xo_.assign(x, x + count), yo_.assign(y, y + count);
             return matrix_->onto(sums_.has_single(), f, other_numbers_, phi);
         }
         if (stored_) {
@@ -74,6 +87,13 @@ public:
     double inner_error() const override { return sums_.has_single() ? 1e-6 : full_error(); }
 
 private:
+    // True if the values at the pairs are stored: those of kernels that are expensive to evaluate, and 1/d where the same points come again
+    // and again, as in a time loop, if it stays in the cache.
+    bool keeps_pairs(std::size_t others) const {
+        if (!matrix_ || matrix_->too_large(active_.size(), others)) return false;
+        return kernel_->smooth() || (again_ > kOften && active_.size() * (active_.size() / 2 + others) < kCached);
+    }
+
     // Sums over all points, with their 1/d stored, if most are active.
     bool among_all(const double* f, double* phi) {
         constexpr double most = 0.7;
@@ -112,9 +132,13 @@ private:
         for (std::size_t k = 0; k < which.size(); ++k) to[k] = all_[static_cast<std::size_t>(which[k])];
     }
 
+    static constexpr int kOften = 4;
+    static constexpr std::size_t kCached = 200'000;
+    bool repeats_ = false;
+    int again_ = 0;        // how often points came again, less how often they did not
     bool fresh_ = true;    // true until set_active() is called for the current points
     bool stored_ = false;  // the matrix is used for the current points
-    std::vector<double> xa_, ya_, xp_, yp_, active_phi_, passive_phi_;
+    std::vector<double> xa_, ya_, xp_, yp_, xo_, yo_, active_phi_, passive_phi_;
     std::vector<std::uint32_t> all_, active_numbers_, passive_numbers_, other_numbers_;  // numbers of points in the matrix
     bool many_, whole_ = false;  // many products with a set of points are expected; all_sums_ is that of the present points
     std::vector<double> all_f_, all_phi_;

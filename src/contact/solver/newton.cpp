@@ -29,6 +29,11 @@ constexpr double kFlat = 1e-9;
 // preserves the order 3/2, at most kLoosest; not smaller than kLastShare of the accuracy required in the last step, nor than
 // kFinestForcing.
 constexpr double kLoosest = 0.1, kLastShare = 0.2, kFinestForcing = 1e-5, kMostForcing = 0.3;
+// In a time loop starts are extrapolated from two solutions, and errors near the tolerance would come again in each: every second solution
+// would take a step. From starts with a residual below kNear times the tolerance steps leave kLeft of it, and the next start is accepted
+// with kNextShare of it only. If the one after it is not that near, the motion is too fast for this: not again for kPause solutions.
+constexpr double kNear = 5, kLeft = 1e-3, kNextShare = 0.1;
+constexpr int kPause = 64;
 
 // Trust region with the usual parameters (Nocedal and Wright, Numerical Optimization, chapter 4). A step is accepted if the energy
 // decreases by at least kSufficient of the predicted decrease. Below kPoor the radius shrinks to kShrink of the step; above kGood it grows
@@ -186,12 +191,15 @@ void Newton::step(const WorkingSet& set, const State& state, double forcing, dou
 NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_iterations, Vector& v, bool ask_minimum) {
     NewtonOutcome outcome;
     now_.v = v;
-    evaluate(set, now_, !rough_will_do(1.0));
+    evaluate(set, now_, !rough_will_do(begun_));
+    if (repeats_) begun_ = now_.residual;
+    const bool near = repeats_ && stepped_ >= 0 && now_.residual < kNear * tolerance;
+    const double enough = !ask_minimum && stepped_ == 1 ? kNextShare : 1.0, left = near ? kLeft : kLastShare;
     double radius = std::numeric_limits<double>::infinity(), entering = 1.0;
     Step step_now;
     for (;; ++outcome.iterations) {
         outcome.residual = now_.residual;
-        if (now_.residual <= tolerance) {
+        if (now_.residual <= (outcome.iterations == 0 ? enough : 1.0) * tolerance) {
             Vector lowest;
             outcome.minimum = !ask_minimum || positive_definite(set, now_, lowest);
             if (outcome.minimum || outcome.iterations >= max_iterations) {
@@ -208,7 +216,7 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
             }
             break;
         }
-        const double forcing = std::clamp(std::max(std::min(kLoosest, std::sqrt(now_.residual)), kLastShare * tolerance / now_.residual),
+        const double forcing = std::clamp(std::max(std::min(kLoosest, std::sqrt(now_.residual)), left * tolerance / now_.residual),
                                           kFinestForcing, kMostForcing);
         double size2 = 0;  // |S v|^2, with v measured from where the force begins
         for (int k : now_.active) {
@@ -244,6 +252,11 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
         if (!accepted) break;
         std::swap(now_, trial_);
     }
+    outcome.converged = outcome.converged || (!ask_minimum && now_.residual <= tolerance);
+    if (stepped_ == 2 && begun_ > kNextShare * tolerance)
+        stepped_ = -kPause;
+    else
+        stepped_ = stepped_ < 0 || (near && outcome.iterations > 0) ? stepped_ + 1 : 0;
     v = now_.v;
     return outcome;
 }

@@ -20,6 +20,8 @@ struct WorkingSet {
     std::vector<int> asperity;
     std::vector<double> x, y, g0;
     int size() const { return static_cast<int>(asperity.size()); }
+    void reserve(std::size_t n) { asperity.reserve(n), x.reserve(n), y.reserve(n), g0.reserve(n); }
+    void clear() { asperity.clear(), x.clear(), y.clear(), g0.clear(); }
 };
 
 struct NewtonOutcome {
@@ -38,6 +40,12 @@ public:
 
     // Sets the products with B, which must remain valid.
     void use(Products& products) { products_ = &products; }
+
+    // For time loops: expects the next starts to be as near to the solution as the last one.
+    void expect_repeats(bool expect) {
+        repeats_ = expect;
+        if (!expect) begun_ = 1, stepped_ = 0;
+    }
 
     // Solves from the start v (size of the set); the solution is in v, force() and phi(). The products must have the points of the set.
     // ask_minimum = false omits the test for a minimum, for approximations or if uniqueness is tested afterwards.
@@ -90,6 +98,9 @@ private:
     const Law& law_;
     Products* products_ = nullptr;
     State now_, trial_;
+    double begun_ = 1;  // in time loops the residual from which the last solution began, about that of the next
+    bool repeats_ = false;
+    int stepped_ = 0;           // solutions in a row that took steps from near starts
     std::vector<double> root_;  // S over the active set
     std::vector<double> force_, phi_, r_, p_, mp_, df_, active_force_, error_, passive_;
 };
