@@ -24,7 +24,7 @@ def area(results, options):
         force, values = result.mean("force"), result.mean("contact_area")
         if alone and result.realizations > 2 and not pulls:
             _scatter(page, axis, result, look[1])
-        curve(page, axis, result, look, force, values, error="area_error_expected", alone=alone)
+        curve(page, axis, result, look, force, values, error="contact_area", alone=alone)
         if "compare_force" in result:
             axis.plot(np.ravel(result["compare_force"]), np.ravel(result["compare_contact_area"]), "D", color=look[1], mfc="w", ms=5, zorder=4, gid="compare")
             page.entry("the same by elements", color=look[1], ls="none", marker="D", mfc="w")

@@ -9,34 +9,51 @@ from plot_style import FEW, Page, STYLES, label, plt
 
 def curve(page, axis, result, look, x, y, scatter=None, error=None, alone=True):
     """Draws y over x, both over all levels, in the colour and line of `look`. scatter: name of the variable of which y is the mean; error:
-    name of its expected relative error, drawn as a band if the result has it and is the only one; alone: True for a single result."""
+    name of the variable whose expected error is drawn, if the result is the only one; alone: True for a single result."""
     line, colour, name = look
     status, meanings = result.level_status()
+    drawn = np.isfinite(x + y) & np.isin(np.arange(y.size), result.carrying()) & ((y > 0) | (result.pulls() & (y < 0)))
     for at, parting in result.branches():
-        at = at[np.isfinite(x[at]) & np.isfinite(y[at]) & ((y[at] > 0) | result.pulls())]
+        at = at[drawn[at]]
         axis.plot(x[at], y[at], ls=(0, (2, 1.5)) if parting and alone else ":" if parting else line, color=colour, lw=0.9 if parting else None, gid="unloading" if parting else "curve")
         if parting and at.size:
             page.entry("unloading", color=colour if alone else "0.3", ls=(0, (2, 1.5)) if alone else ":", lw=0.9)
         if alone and scatter and result.realizations > 2 and not parting:
-            low, high = np.nanpercentile(result[scatter][:, at], [16, 84], axis=0) * np.sign(np.nanmean(result[scatter]))
-            low, high = np.minimum(low, high), np.maximum(low, high)
-            band(page, axis, x[at], low, high, colour)
-        off = result.worst(error)[at] if alone and error in result else np.zeros(0)
-        if off.max(initial=0) > 0.03:  # less is not visible
-            axis.fill_between(x[at], y[at] * np.maximum(1 - off, 0.02), y[at] * (1 + off), color="#c1440e", alpha=0.18, lw=0, gid="error")
-            page.entry("expected error of the model", color="#c1440e", alpha=0.18, lw=5)
+            low, high = np.nanpercentile(result[scatter][:, at], [16, 84], axis=0) * np.sign(np.nansum(y * result.mean(scatter)))
+            band(page, axis, x[at], np.minimum(low, high), np.maximum(low, high), colour)
+        if alone and error:
+            error_band(page, axis, x[at], y[at], result.error(error)[at], "expected error of the model", color="#c1440e", alpha=0.18)
     if name:
         page.entry(name, color=colour, ls=line)
-    drawn = np.isin(np.arange(y.size), result.loaded()) & ((y > 0) | result.pulls())
     page.status(axis, x, np.where(drawn, y, np.nan), status, meanings, colour)
 
 
 def band(page, axis, x, low, high, colour):
     """The scatter over realizations, if it is wide enough to be visible."""
-    low = np.where(low > 0, low, np.nan)
-    if np.isfinite(low[1:] + low[:-1]).any() and np.nanmax(high / low, initial=1) > 1.06:
-        axis.fill_between(x, low, high, color=colour, alpha=0.25, lw=0, gid="scatter")
+    low = np.where(low != 0, low, np.nan)
+    if np.isfinite(low[1:] + low[:-1]).any() and np.nanmax((high - low) / abs(low), initial=0) > 0.06:
+        _fill(axis, x, low, high, color=colour, alpha=0.25, gid="scatter")
         page.entry("two thirds of the realizations", color=colour, alpha=0.25, lw=5)
+
+
+def error_band(page, axis, x, y, off, text, **looks):
+    """The band of the relative error `off` of y. It extends the axes by y at most, so that curves remain visible beside larger errors."""
+    if off.max(initial=0) > 0.03:  # less is not visible
+        limits, size = axis.dataLim.frozen(), abs(y)
+        ends = np.maximum(y - off * size, -np.inf if (y < 0).any() else 0.02 * y), y + off * size
+        _fill(axis, x, *ends, gid="error", **looks)
+        axis.dataLim.set(limits)
+        for end in ends:
+            axis.update_datalim(np.column_stack([x, np.clip(end, y - size, y + size)]))
+        page.entry(text, lw=5, **looks)
+
+
+def _fill(axis, x, low, high, **looks):
+    """Fills between low and high; where x turns back, draws bars, because bands of two branches would overlap."""
+    if {-1, 1} <= set(np.sign(np.round(np.diff(x) / (np.ptp(x) or 1), 3))):
+        axis.vlines(x, low, high, lw=4, **looks)
+    else:
+        axis.fill_between(x, low, high, lw=0, **looks)
 
 
 def begin(results, options, count=1, **how):
@@ -94,8 +111,9 @@ def load(results, options):
     alone = len(results) == 1
     for axis, name in zip(page.axes, (first, "contacts")):
         for result, look in zip(results, looks):
-            curve(page, axis, result, look, result.depth()[0], result.mean(name), scatter=name, error="force_error_expected" if name == first else None, alone=alone)
-        axis.set_yscale("log" if _many_decades([r.mean(name)[r.loaded()] for r in results]) else "linear")
+            curve(page, axis, result, look, result.depth()[0], result.mean(name), scatter=name, error="force" if name == first else None, alone=alone)
+        axis.dataLim.update_from_data_x(page.axes[0].dataLim.intervalx, ignore=False)  # both over the same separations
+        axis.set_yscale("log" if _many_decades([r.mean(name)[r.carrying()] for r in results]) else "linear")
         if name == "contacts" and axis.get_yscale() == "linear":
             axis.yaxis.get_major_locator().set_params(integer=True)
         axis.invert_xaxis()  # the bodies approach from left to right
@@ -113,7 +131,7 @@ def _against_force(results, options, name, sign, text, what):
     for result, look in zip(results, looks):
         curve(page, axis, result, look, result.mean("force"), sign * result.mean(name), scatter=name, alone=len(results) == 1)
     for which, values, by in (("x", "force", 1), ("y", name, sign)):
-        getattr(axis, f"set_{which}scale")("log" if _many_decades([by * r.mean(values)[r.loaded()] for r in results]) else "linear")
+        getattr(axis, f"set_{which}scale")("log" if _many_decades([by * r.mean(values)[r.carrying()] for r in results]) else "linear")
     label(axis, "x", "force $N$", results[0].dimension("force"))
     label(axis, "y", text, results[0].dimension(name))
     return page.finish(title(results, what))

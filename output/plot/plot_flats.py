@@ -8,7 +8,7 @@ from plot_style import GREY, label
 
 def flats(results, options):
     """kappa = A E* h'/N and the mean separation against the nominal pressure over E* h'."""
-    results = [r for r in results if "pressure" in r and "area_fraction" in r and (np.nan_to_num(r.mean("pressure")) > 0).any() and r.load_varies()]
+    results = [r for r in results if "pressure" in r and "area_fraction" in r and r.loaded().size and (r.mean("pressure")[r.carrying()] > 0).all() and r.load_varies()]
     if not results:
         return None
     page, looks = begin(results, options, 2)
@@ -22,7 +22,7 @@ def flats(results, options):
                 if name in result:
                     left.plot(relative[at], result.mean(name)[at] / relative[at], line, color=GREY, lw=1.0, label=text)
         with np.errstate(invalid="ignore", divide="ignore"):
-            curve(page, left, result, look, relative, result.mean("area_fraction") / relative, error="area_error_expected", alone=len(results) == 1)
+            curve(page, left, result, look, relative, result.mean("area_fraction") / relative, error="contact_area", alone=len(results) == 1)
         curve(page, right, result, look, relative, result.depth()[0], alone=len(results) == 1)
     for axis in page.axes:
         axis.set_xscale("log")

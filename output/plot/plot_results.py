@@ -61,6 +61,12 @@ class Result:
         """The maximum of a variable over realizations, for each step."""
         return np.nan_to_num(self[name].reshape(-1, self.steps)).max(axis=0)
 
+    def error(self, name):
+        """The largest expected error of a variable over realizations relative to its mean, for each step; 0 if the file has none."""
+        of, mean = ("area" if name == "contact_area" else name) + "_error_expected", abs(self.mean(name))
+        worst = np.nan_to_num(abs(self[of] * self[name]).reshape(-1, self.steps)).max(axis=0) if of in self else 0 * mean
+        return np.divide(worst, mean, out=np.zeros(self.steps), where=mean > 0)
+
     def unit(self, name):
         """The unit in the file; empty for a pure number."""
         text = getattr(self.file.variables[name], "units", "1")
@@ -125,6 +131,10 @@ class Result:
         """The levels with contact; with adhesion their forces may be negative."""
         return np.flatnonzero(np.nan_to_num(self.mean("contact_area" if self.pulls() else "force")) > 0) if "force" in self else np.array([], int)
 
+    def carrying(self):
+        """The levels with contact or force: adhesion with a range attracts without contact."""
+        return np.union1d(self.loaded(), np.flatnonzero(np.nan_to_num(self.mean("force")))) if self.pulls() else self.loaded()
+
     def pulls(self):
         """True for a contact with adhesion."""
         return "pull_off_force" in self
@@ -142,9 +152,9 @@ class Result:
         return sorted({int(s) for s in loaded[np.linspace(0, loaded.size - 1, count + 1).round().astype(int)[1:]]}) if loaded.size else []
 
     def branches(self):
-        """The levels with contact as branches of loading or unloading, [(levels, unloading)]. If levels do not depend on the levels before,
+        """The levels with a force as branches of loading or unloading, [(levels, unloading)]. If levels do not depend on the levels before,
         the levels in order of their separation are one branch."""
-        at, z = self.loaded(), self.mean("separation") if "separation" in self else self.depth()[0]
+        at, z = self.carrying(), self.mean("separation") if "separation" in self else self.depth()[0]
         remembers = self.case.get("solids%hardness", "Infinity") != "Infinity" or ("jumps" in self and self.worst("jumps").any()) or ("time" in self and "energy_lost" in self)
         if not remembers or at.size < 2:
             return [(at[np.argsort(-z[at], kind="stable")], False)]

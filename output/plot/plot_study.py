@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from plot_curves import title
+from plot_curves import error_band, title
 from plot_results import _in_order, axis_label, differing_keys, value_text
 from plot_style import FEW, Page, STYLES, colour_bar, label, short
 
@@ -28,20 +28,15 @@ def common_level(results, step):
     return [r.steps - 1 for r in results], "the last level of each"
 
 
-ERRORS = {"force": "force_error_expected", "contact_area": "area_error_expected"}
-
-
 def _curves(page, axis, quantity, results, values, levels, numbers, others):
-    """A quantity against the key of numbers, a curve for each set of values of the other keys, with the mean expected error as a band."""
+    """A quantity against the key of numbers, a curve for each set of values of the other keys, with the expected error as a band."""
     shown = dict.fromkeys(others)
     for (marker, line, colour), other in zip(STYLES, shown):
         at = [k for k in np.argsort(numbers, kind="stable") if others[k] == other]
         x, y = numbers[at], values[at]
         axis.plot(x, y, marker, ls=line, color=colour, ms=3.5, label=other or None)
-        off = np.array([results[k].mean(name)[levels[k]] if (name := ERRORS.get(quantity)) and name in results[k] else 0.0 for k in at])
-        if np.nanmax(off, initial=0) > 0.03:  # less is not visible
-            axis.fill_between(x, y * np.maximum(1 - off, 0.02), y * (1 + off), color=colour, alpha=0.15, lw=0, gid="error")
-            page.entry(f"expected error{' of ' + other if len(shown) > 1 else ''}", color=colour, alpha=0.15, lw=5)
+        off = np.array([results[k].error(quantity)[levels[k]] for k in at])
+        error_band(page, axis, x, y, off, f"expected error{' of ' + other if len(shown) > 1 else ''}", color=colour, alpha=0.15)
 
 
 def study(results, options):

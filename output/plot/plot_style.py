@@ -108,9 +108,11 @@ class _LogTicks(LogFormatterSciNotation):
 def label(axis, which, text, dimension=""):
     """Writes the label of an axis ('x' or 'y') and its numbers in a unit suitable for its range."""
     side = getattr(axis, which + "axis")
-    lo, hi = sorted(getattr(axis, f"get_{which}lim")())
-    drawn = getattr(axis.dataLim, "interval" + which)  # the axis extends a little beyond it
-    within = np.array([max(lo, drawn.min()), min(hi, drawn.max())]) if np.isfinite(drawn).all() else np.array([lo, hi])
+    within = []
+    for of in which if axis.get_aspect() == "auto" else "xy":  # both axes of a map have the same unit
+        lo, hi = sorted(getattr(axis, f"get_{of}lim")())
+        drawn = getattr(axis.dataLim, "interval" + of)  # the axis extends a little beyond it
+        within += [max(lo, drawn.min()), min(hi, drawn.max())] if np.isfinite(drawn).all() else [lo, hi]
     size, unit = (middle if side.get_scale() == "log" else fitting)(dimension, within)
     side.set_label_text(text + (f" [{unit}]" if unit else ""))
     if side.get_scale() == "log":

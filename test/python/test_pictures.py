@@ -43,6 +43,9 @@ CASES = {
     "cone": SMALL + "&solids hardness=1.5e4 / &indenter shape='cone' slope=0.05 / &indentation control='force' levels=0.1,1,10,1 /",
     "creep": SMALL + "&solids relaxation_share=0.5 relaxation_time=1.0 / &indentation control='force' levels=1,1,1,1 times=0,1,10,100 /",
     "keys": SMALL + "&indentation levels=1.0 / &study surface%sigma=0.01,0.02 surface%hurst=0.5,0.8 asperities%law='hertz','elliptic' /",
+    "stuck": SMALL.replace("0.01", "0.001") + "&solids E=2,Infinity R=Infinity,Infinity adhesion=2e-5 / &indentation boundary='periodic' levels=3.5,3,2.5,2,1.5,2,2.5,3,3.5 /",
+    "attracted": SMALL.replace("0.01", "0.001") + "&solids E=2,Infinity R=Infinity,5 adhesion=1e-5 adhesion_range=0.02 / &solver model='elements' / &indentation levels=3,2,1,0 / &run realizations=3 /",
+    "worn": SMALL.replace("0.01", "0.001") + "&solids E=210e3,Infinity nu=0.3,0.0 R=Infinity,Infinity hardness=3e3 / &asperities law='fourth_order' / &indentation boundary='periodic' levels=2,1.2,1.5,2 /",
     "map": "&surface source='heights' file='HEIGHTS' / &solids R=Infinity,9000.0 / &indentation levels=1.5,1.0,0.5 / &output heights=.true. /",
 }
 TO_SI = {"um": 1e-6, "mm": 1e-3, "mN": 1e-3, "N": 1.0, "ohm": 1.0, "radian": 1.0, "degree": np.pi / 180}
@@ -147,7 +150,7 @@ class Numbers(Drawn):
                 ends = next(c for c in load.axes[0].collections if c.get_gid() == "scatter").get_paths()[0].vertices
                 drawn = ends[np.isclose(ends[:, 0], z[at[-1]])][:, 1]
                 self.assertTrue(np.allclose([drawn.min(), drawn.max()], np.percentile(v["force"][:, at[-1]], [16, 84])))
-                self.assertTrue(np.allclose(results("many")[0].worst("force_error_expected")[at], np.nan_to_num(v["force_error_expected"]).max(axis=0)[at]))
+                self.assertTrue(np.allclose(results("many")[0].error("force")[at], np.nan_to_num(v["force_error_expected"] * v["force"]).max(axis=0)[at] / v["force"].mean(axis=0)[at]))
             self.has_curve(self.figure("stiffness", name), force[at], -v["stiffness"].mean(axis=0)[at])
         # R = (rho_1 + rho_2)/L by the electrical analogy.
         v, _ = raw("one")
@@ -205,6 +208,30 @@ class Numbers(Drawn):
             self.has_curve(area, v["force"].mean(axis=0), v[name] * 1e-6)  # shares of 1 mm2
         self.has_curve(figure, x, v["area_fraction"].mean(axis=0) / x)
         self.assertFalse(any("N^*" in line.get_label() or "A_I" in line.get_label() for line in area.axes[0].get_lines()))
+
+    def test_adhesion(self):
+        """Where the force turns back, errors are bars. Attraction without contact has a force. Theories of flats know no tension."""
+        v, _ = raw("stuck")
+        N, A, off = (v[name][0] for name in ("force", "contact_area", "area_error_expected"))
+        bars, _ = (c.get_segments() for c in self.figure("area", "stuck").axes[0].collections if c.get_gid() == "error")
+        down = np.flatnonzero(A[:5] > 0)
+        self.assertTrue(np.allclose(bars, [[[N[k], A[k] * max(1 - off[k], 0.02)], [N[k], A[k] * (1 + off[k])]] for k in down]))
+        self.assertIsNone(plot.PICTURES["flats"](results("stuck"), plot.Options()))
+        v, _ = raw("attracted")
+        self.assertTrue((v["force"] < 0).all() and not v["contact_area"][:, 0].any())
+        figure = self.figure("load", "attracted")
+        self.has_curve(figure, v["separation_sigma"], v["force"].mean(axis=0))
+        ends = next(c for c in figure.axes[0].collections if c.get_gid() == "scatter").get_paths()[0].vertices[:, 1]
+        self.assertTrue(np.allclose([ends.min(), ends.max()], [f(np.percentile(v["force"], q, axis=0)) for f, q in ((np.min, 16), (np.max, 84))]))
+
+    def test_large_errors(self):
+        """An error of many times the value goes out of the picture."""
+        v, _ = raw("worn")
+        axis = self.figure("flats", "worn").axes[0]
+        top = max(np.nanmax(line.get_ydata()) for line in axis.get_lines())
+        ends = [c.get_paths()[0].vertices[:, 1].max() for c in axis.collections if c.get_gid() == "error"]
+        self.assertGreater(np.nanmax(v["area_error_expected"]), 3)
+        self.assertTrue(axis.get_ylim()[1] < 2.2 * top < max(ends))
 
     def test_maps(self):
         v, _ = raw("one")
@@ -311,6 +338,12 @@ class Numbers(Drawn):
         self.assertEqual((len({tuple(colour) for _, colour, _ in looks.of}), looks.scale[1]), (12, [str(k) for k in range(1, 13)]))
 
     def test_units(self):
+        _, axis = plt.subplots()
+        axis.set(xlim=(0, 0.9e-3), ylim=(0, 1.1e-3), aspect="equal")
+        for which in "xy":  # both axes of a map
+            plot_style.label(axis, which, which, "m")
+        self.assertEqual((axis.get_xlabel(), axis.get_ylabel()), ("x [mm]", "y [mm]"))
+        plt.close(axis.figure)
         for text, factor, dimension in (("N mm-2", 1e6, "N m-2"), ("um2", 1e-12, "m2"), ("mN um-1", 1e3, "N m-1"), ("mN-1 um2", 1e-9, "N-1 m2"), ("1", 1.0, ""), ("inch", 1.0, "inch")):
             self.assertEqual((round(plot_style.si(text)[0] / factor, 12), plot_style.si(text)[1]), (1.0, dimension))
         for value, dimension, shown in ((2.5e-7, "m", "250 nm"), (3e-5, "m", "30 µm"), (4e9, "N m-2", "4 GPa"), (0.02, "N", "20 mN"), (0.5, "", "0.5"), (3e-10, "m2", "300 µm²")):
