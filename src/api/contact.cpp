@@ -47,7 +47,7 @@ void compute(rsc_contact& contact, Compute&& level) {
     auto& known = contact.known;
     known.x0 = indenter.x0, known.y0 = indenter.y0;
     known.energy = contact.contact.energy();
-    known.lateral = lateral_force(indenter, *known.level);
+    known.lateral = contact.contact.lateral(*known.level);
     known.moment = tip_moment(indenter, *known.level);
     contact.recalled = true;
 }

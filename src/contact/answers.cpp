@@ -39,6 +39,8 @@ Vec2 lateral_force(const Indenter& indenter, const Level& level) {
     return sum;
 }
 
+Vec2 Contact::lateral(const Level& level) { return lateral_force(indenter(), level); }
+
 Vec2 tip_moment(const Indenter& indenter, const Level& level) {
     Vec2 sum;
     for_each_force(indenter, level, [&](double dx, double dy, double f) {
@@ -66,7 +68,7 @@ void add_answers(Contact& contact, Level& level, const double (&resistivity)[2])
     const Indenter& indenter = contact.indenter();
     level.stiffness = contact.stiffness();
     level.energy = contact.energy();
-    const Vec2 force = lateral_force(indenter, level), moment = tip_moment(indenter, level);
+    const Vec2 force = contact.lateral(level), moment = tip_moment(indenter, level);
     level.lateral_x = force.x, level.lateral_y = force.y;
     level.moment_x = moment.x, level.moment_y = moment.y;
     level.conductance_length = conductance_length(contact, level.stiffness);

@@ -1,6 +1,7 @@
 #include "contact/asperity_contact.hpp"
 
 #include "contact/adhesive_contact.hpp"
+#include "contact/answers.hpp"
 #include "contact/asperity_level.hpp"
 #include "contact/candidates.hpp"
 #include "contact/interaction/products.hpp"
@@ -36,15 +37,20 @@ std::size_t count_reachable(const Asperities& asperities, const Indenter& indent
     return static_cast<std::size_t>(std::count_if(height.begin(), height.end(), [&](double h) { return h > highest - depth; }));
 }
 
+// True if the law is that of most loaded ellipses.
+bool of_ellipses(const ContactBodies& bodies) {
+    const SolverOptions& options = bodies.options;
+    const auto& found = bodies.of_difference;
+    return traits(options.law).needs_heights && found && found->map && !std::isfinite(options.hardness.H0) && options.relaxation.none() &&
+           bodies.indenter.layers.count == 0 && options.mean_spacing > 0 &&
+           count_reachable(bodies.asperities, bodies.indenter, kDeepest * options.sigma) <= kMostEllipses;
+}
+
 std::unique_ptr<Law> law_of(const ContactBodies& bodies, std::optional<RelaxingAsperities>& relaxing) {
     const Asperities& asperities = bodies.asperities;
     const SolverOptions& options = bodies.options;
     auto law = make_law(options.law, asperities, bodies.indenter.E_star);
-    const auto& found = bodies.of_difference;
-    if (traits(options.law).needs_heights && found && found->map && !std::isfinite(options.hardness.H0) && options.relaxation.none() &&
-        bodies.indenter.layers.count == 0 && options.mean_spacing > 0 &&
-        count_reachable(asperities, bodies.indenter, kDeepest * options.sigma) <= kMostEllipses)
-        law = make_ellipse_law(std::move(law), *found, bodies.indenter, options.mean_spacing);
+    if (of_ellipses(bodies)) law = make_ellipse_law(std::move(law), *bodies.of_difference, bodies.indenter, options.mean_spacing);
     law = make_yielding(std::move(law), asperities, options.hardness, traits(options.law).sinks);
     if (options.relaxation.none()) return law;
     const Creep creep(options.relaxation);
@@ -52,6 +58,13 @@ std::unique_ptr<Law> law_of(const ContactBodies& bodies, std::optional<RelaxingA
     relaxing.emplace(asperities, bodies.indenter, *relaxes, creep, options.tolerance);
     return relaxes;
 }
+
+// A tip beside the present one, with the summits it touches and their law.
+struct Beside {
+    Indenter indenter;
+    FoundSummits found;
+    std::unique_ptr<Law> law;
+};
 
 }  // namespace
 
@@ -78,6 +91,8 @@ struct AsperityContact::Impl : ContactBodies {
     std::unique_ptr<Products> direct, mesh;  // mesh: created on first use
     Products* products = nullptr;            // the products in use
     Newton newton;
+    std::deque<Beside> beside;  // west, east, south, north
+    double beside_lowest = 0;   // clearance down to which they were followed
 
     Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_)
         : ContactBodies(asperities_, indenter_, options_, std::move(search_)),
@@ -116,7 +131,30 @@ struct AsperityContact::Impl : ContactBodies {
         return proof.holds(*law, *kernel, set.asperity, set.x, set.y, v, force, slope, {set.g0.front(), indenter.x0, indenter.y0});
     }
     Level report(double Z0) const;
+    double step_beside() const { return 2e-3 * of_difference->map->dx; }
+    void look_beside(const Level& level);
 };
+
+// The depth is counted in half octaves, so that results do not depend on earlier levels.
+void AsperityContact::Impl::look_beside(const Level& level) {
+    constexpr double more = 1.1;  // nodes of the law's tables are up to a twentieth beyond the penetration
+    const double depth = more * (ranking.highest() - level.separation + kernel->shift() * level.force),
+                 lowest = ranking.highest() - std::exp2(0.5 * std::ceil(2 * std::log2(depth)));
+    if (!beside.empty() && lowest == beside_lowest) return;
+    beside.clear(), beside_lowest = lowest;
+    std::vector<std::size_t> which;
+    for (std::size_t i = 0; i < asperities.size(); ++i)
+        if (indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) > lowest) which.push_back(i);
+    const bool ellipses = of_ellipses(*this);
+    for (const Vec2 way : {Vec2{-1, 0}, Vec2{1, 0}, Vec2{0, -1}, Vec2{0, 1}}) {
+        Beside& to = beside.emplace_back(Beside{indenter, *of_difference, nullptr});
+        to.indenter.x0 += way.x * step_beside(), to.indenter.y0 += way.y * step_beside();
+        to.found.summits = follow_summits(*to.found.map, asperities, which, to.found.lay, to.found.threads, to.found.points_per_wave,
+                                          Face(to.indenter), to.found.breaks.get());
+        to.law = make_law(options.law, to.found.summits, indenter.E_star);
+        if (ellipses) to.law = make_ellipse_law(std::move(to.law), to.found, to.indenter, options.mean_spacing, law.get());
+    }
+}
 
 void AsperityContact::Impl::use(Method how) {
     method = how;
@@ -460,6 +498,42 @@ double AsperityContact::energy() const {
     double N = 0;
     for (double f : impl_->solution.force) N += f;
     return 0.0 - impl_->newton.energy() - 0.5 * shift() * N * N;
+}
+
+Vec2 AsperityContact::lateral(const Level& level) {
+    constexpr double jump = 1e-4, most = 0.1;  // difference of the slopes to both sides over N; largest change by summits
+    Impl& my = *impl_;
+    const Vec2 sum = lateral_force(my.indenter, level);
+    if (!my.of_difference || !my.of_difference->map || my.follows() || !(level.force > 0)) return sum;
+    const double Z0 = level.separation - shift() * level.force, W = energy();
+    my.look_beside(level);
+    const auto products = make_direct_products(my.kernel);
+    std::vector<double> W_beside;
+    for (Beside& to : my.beside) {
+        const Asperities& a = to.found.summits;
+        to.law->prepare(level.asperity);
+        WorkingSet set;
+        for (const int k : level.asperity) {
+            const std::size_t i = at(k);
+            const Vec2 place = to.indenter.image(a.x[i], a.y[i]);
+            set.asperity.push_back(k), set.x.push_back(place.x), set.y.push_back(place.y);
+            set.g0.push_back(to.indenter.clearance(a.x[i], a.y[i], a.z[i]) - Z0);
+        }
+        // At the penetrations of the present tip W is off by the square of the step, alike on both sides.
+        Newton newton(*to.law);
+        newton.use(*products);
+        products->set_points(set.size(), set.x.data(), set.y.data());
+        newton.take(set, level.u);
+        W_beside.push_back(0 - newton.energy() - 0.5 * shift() * level.force * level.force);
+    }
+    const auto slope = [&](double low, double high, double likely) {
+        const double before = (low - W) / my.step_beside(), after = (W - high) / my.step_beside();
+        double best = 0.5 * (before + after);
+        for (const double one : {before, after})
+            if (std::abs(after - before) > jump * level.force && std::abs(one - likely) < std::abs(best - likely)) best = one;
+        return std::abs(best - likely) < most * level.force ? best : likely;
+    };
+    return {slope(W_beside[0], W_beside[1], sum.x), slope(W_beside[2], W_beside[3], sum.y)};
 }
 
 void AsperityContact::move_tip(double x0, double y0) {

@@ -24,6 +24,11 @@ public:
     // square of the residual.
     double energy() const override;
 
+    // Central differences of W at fixed penetrations between tips beside the present one, with the summits that they touch, if the heights
+    // are kept and bodies neither yield nor relax. Where W jumps in between, because another summit carries a spot, the difference to one
+    // side if it is nearer to the sum over the contacts.
+    Vec2 lateral(const Level& level) override;
+
     // The last level is a starting point for the next if its solution is proved unique. Summits of the difference are those of a new contact
     // at this place if the heights are kept or the contact is path-dependent; otherwise they are detected again when the tip has moved by more
     // than a tenth of the size of a summit and by a distance that tilts the indenter by more than a fiftieth of the rms slope. Throws

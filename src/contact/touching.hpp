@@ -26,6 +26,8 @@ struct FoundSummits {
     std::shared_ptr<const HeightMap> map;  // null if the heights are not kept
     double points_per_wave = 0;            // of the map, in its shortest wave; 0: unknown
     int threads = 1;                       // for work on the heights
+    std::shared_ptr<const Breaks> breaks;  // of a measured map
+    double lay = 0;                        // as in SummitCount
     bool renumbered = false;               // their number and order are not those of the surface
 };
 

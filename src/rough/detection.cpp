@@ -41,6 +41,7 @@ Asperities join(std::vector<RefinedSummits>& parts, bool refined, int nx, int ny
     // With a lay, the quartic term continues along the long axis of an elongated summit. On isotropic surfaces summits are elongated by
     // chance in all directions; there the plain biharmonic agrees better with boundary elements (study in input/trust).
     const double share = lay_share(all.found);
+    if (count) count->lay = share;
     for (std::size_t i = 0; i < all.from.size(); ++i) all.found.biharmonic[i] += share * (all.from[i].elongated - all.found.biharmonic[i]);
     return std::move(all.found);
 }
@@ -96,7 +97,42 @@ Asperities mirrored(const Asperities& found, double L, int n) {
     return all;
 }
 
+// One stencil if the band is known, otherwise polynomials of all reaches.
+std::vector<Stencil> stencils_for(double points_per_wave) {
+    std::vector<Stencil> stencils;
+    if (points_per_wave != 0) stencils.push_back(Stencil::band_limited(points_per_wave));
+    for (int reach = 1; points_per_wave == 0 && reach <= kMeasuredReach; ++reach) stencils.push_back(Stencil::polynomial(reach));
+    return stencils;
+}
+
+// Row j + d of a map for SummitClimber; null beyond a border.
+SummitClimber::Rows rows_about(const HeightMap& map, int j) {
+    return [&map, j](int d) -> const double* {
+        if (map.periodic) return map.row(((j + d) % map.ny + map.ny) % map.ny);
+        return j + d >= 0 && j + d < map.ny ? map.row(j + d) : nullptr;
+    };
+}
+
 }  // namespace
+
+Asperities follow_summits(const HeightMap& map, Asperities summits, const std::vector<std::size_t>& which, double lay, int threads,
+                          double points_per_wave, const BodyAbove& above, const Breaks* breaks) {
+    constexpr double kNear = 0.1;  // grid steps
+    const std::vector<Stencil> stencils = stencils_for(points_per_wave);
+    const RowPlace place{map.nx, map.x0, map.dx, map.dy, 0.0, map.periodic};
+    parallel_for(which.size(), 16, threads, [&](std::size_t k) {
+        const std::size_t i = which[k];
+        const double u = (summits.x[i] - map.x0) / map.dx, v = (summits.y[i] - map.y0) / map.dy;
+        const int column = static_cast<int>(std::lround(u)) % map.nx, row = static_cast<int>(std::lround(v)) % map.ny;
+        SummitClimber climber(stencils, place, map.ny, map.y0, Curvature::geometric, &above, breaks);
+        RefinedSummits again;
+        climber.climb_from(column, row, true, rows_about(map, row), again);
+        if (again.from.empty() || std::hypot(again.from[0].u - u, again.from[0].v - v) > kNear) return;
+        again.found.biharmonic[0] += lay * (again.from[0].elongated - again.found.biharmonic[0]);
+        for (const AsperityColumn& column : kAsperityColumns) (summits.*column.values)[i] = (again.found.*column.values)[0];
+    });
+    return summits;
+}
 
 Asperities selected(const Asperities& all, const std::vector<std::size_t>& which) {
     Asperities some;
@@ -119,19 +155,14 @@ SummitCount counted(const Asperities& all, long saddles, long repeated) {
 Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count, int threads, Detail detail,
                            double points_per_wave, const BodyAbove* above, const Breaks* breaks) {
     const bool refined = detail == Detail::subgrid;
-    std::vector<Stencil> stencils;
-    if (refined && points_per_wave != 0) stencils.push_back(Stencil::band_limited(points_per_wave));
-    for (int reach = 1; refined && points_per_wave == 0 && reach <= kMeasuredReach; ++reach) stencils.push_back(Stencil::polynomial(reach));
+    const std::vector<Stencil> stencils = refined ? stencils_for(points_per_wave) : std::vector<Stencil>{};
     const int edge = map.periodic ? 0 : 1;
     const int rows = map.ny - 2 * edge;
     std::vector<RefinedSummits> parts = share_rows(rows, threads, [&](RefinedSummits& part, int first, int last) {
         RowPlace place{map.nx, map.x0, map.dx, map.dy, 0.0, map.periodic};
         SummitClimber climber(stencils, place, map.ny, map.y0, curvature, above, breaks);
         for (int j = first + edge; j < last + edge; ++j) {
-            const auto row = [&](int d) -> const double* {
-                if (map.periodic) return map.row(((j + d) % map.ny + map.ny) % map.ny);
-                return j + d >= 0 && j + d < map.ny ? map.row(j + d) : nullptr;
-            };
+            const SummitClimber::Rows row = rows_about(map, j);
             if (refined) {
                 climber.climb(j, row, part);
                 continue;

@@ -38,6 +38,7 @@ struct SummitCount {
     long repeated = 0;        // Detail::subgrid: grid maxima not kept because another one leads to the same summit
     double mean_kappa_g = 0;  // mean of the geometric mean curvature [1/length]
     double mean_kappa_a = 0;  // mean of the algebraic mean curvature [1/length]
+    double lay = 0;           // Detail::subgrid: share of the biharmonic that is that along a lay (Asperities::biharmonic)
 };
 
 // Detail::grid: summits are grid points strictly above their 8 neighbours, with curvatures from second differences. Maps that are not
@@ -60,6 +61,12 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
                            Detail detail = Detail::grid, double points_per_wave = 0, const BodyAbove* above = nullptr,
                            const Breaks* breaks = nullptr);
 inline constexpr int kMeasuredReach = 6;
+
+// Summits found by find_asperities() with Detail::subgrid after the body above has moved by a small part of a grid step to `above`: those
+// of the indices `which` are found again, with the share `lay` of SummitCount; the others, and those that are not within a tenth of a step,
+// remain. `map`, `points_per_wave` and `breaks` as there.
+Asperities follow_summits(const HeightMap& map, Asperities summits, const std::vector<std::size_t>& which, double lay, int threads,
+                          double points_per_wave, const BodyAbove& above, const Breaks* breaks);
 
 // Points along a side of the grid on which summits between the points are found: n, or its smallest multiple with 4 points in lambda_s.
 int summit_points(const Spectrum& spectrum, int n);

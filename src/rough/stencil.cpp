@@ -121,13 +121,13 @@ Stencil Stencil::band_limited(double points_per_wave) {
     if (!(points_per_wave >= 4 * (1 - 1e-12)))
         bad_input("summits between grid points require at least 4 points in the shortest wavelength, not " + text_of(points_per_wave));
     constexpr double kWanted = 1e-8;
-    for (int reach = 4;; ++reach) {
-        Stencil stencil(reach);
-        if (stencil.fit(2 * std::numbers::pi / points_per_wave) < kWanted || reach == kMostReach) {
-            stencil.band_known_ = true;
-            return stencil;
-        }
+    thread_local std::pair<double, Stencil> last{0, Stencil(0)};  // the same one is wanted for every place of a tip
+    for (int reach = 4; last.first != points_per_wave; ++reach) {
+        last.second = Stencil(reach);
+        last.second.band_known_ = true;
+        if (last.second.fit(2 * std::numbers::pi / points_per_wave) < kWanted || reach == kMostReach) last.first = points_per_wave;
     }
+    return last.second;
 }
 
 // The polynomial that is 1 at point i and 0 at the others is prod (t - v)/(i - v); its coefficients are products of integers.

@@ -221,31 +221,32 @@ void SummitClimber::climb(int j, const Rows& row, RefinedSummits& to) {
     } else {
         find_starts(place, seen(-1), seen(0), seen(1), starts_);
     }
-    const double dx2 = place_.dx * place_.dx, dy2 = place_.dy * place_.dy;
-    for (const auto [i, maximum] : starts_) {
-        if (!maximum && seen_from_maximum(place, i, j, seen)) continue;
-        const auto s = summit_from(i, j, maximum, row);
-        double u = 0, v = 0, lowered = 0;
-        bool kept = s.has_value();
-        if (kept) {
-            u = i + s->x, v = j + s->y;
-            if (goes_on_ && !(u >= 0 && u < place_.nx && v >= 0 && v < ny_))
-                continue;  // outside the map: its periodic image is found within
-            if (place_.periodic && !goes_on_) u = wrapped(u, place_.nx), v = wrapped(v, ny_);
-            const SecondOrder second{0.5 * s->zxx / dx2, 0.5 * s->zyy / dy2, 0.5 * s->zxy / (place_.dx * place_.dy)};
-            BodyAbove::Form under;
-            const double x = place_.x0 + u * place_.dx, y = y0_ + v * place_.dy;
-            if (above_) under = above_->at(x, y);
-            lowered = under.biharmonic;
-            kept = append_summit(x, y, s->z + under.height, second, curvature_, to.found);
-        }
-        if (!kept) {
-            to.saddles += maximum;
-            continue;
-        }
-        const double elongated = append_biharmonic(*s, lowered, to.found);
-        to.from.push_back({j, i, maximum, u, v, std::max(std::abs(s->x), std::abs(s->y)), elongated});
+    for (const auto [i, maximum] : starts_)
+        if (maximum || !seen_from_maximum(place, i, j, seen)) climb_from(i, j, maximum, row, to);
+}
+
+void SummitClimber::climb_from(int i, int j, bool maximum, const Rows& row, RefinedSummits& to) {
+    const auto s = summit_from(i, j, maximum, row);
+    double u = 0, v = 0, lowered = 0;
+    bool kept = s.has_value();
+    if (kept) {
+        u = i + s->x, v = j + s->y;
+        if (goes_on_ && !(u >= 0 && u < place_.nx && v >= 0 && v < ny_)) return;  // outside the map: its periodic image is found within
+        if (place_.periodic && !goes_on_) u = wrapped(u, place_.nx), v = wrapped(v, ny_);
+        const SecondOrder second{0.5 * s->zxx / (place_.dx * place_.dx), 0.5 * s->zyy / (place_.dy * place_.dy),
+                                 0.5 * s->zxy / (place_.dx * place_.dy)};
+        BodyAbove::Form under;
+        const double x = place_.x0 + u * place_.dx, y = y0_ + v * place_.dy;
+        if (above_) under = above_->at(x, y);
+        lowered = under.biharmonic;
+        kept = append_summit(x, y, s->z + under.height, second, curvature_, to.found);
     }
+    if (!kept) {
+        to.saddles += maximum;
+        return;
+    }
+    const double elongated = append_biharmonic(*s, lowered, to.found);
+    to.from.push_back({j, i, maximum, u, v, std::max(std::abs(s->x), std::abs(s->y)), elongated});
 }
 
 long drop_repeated(RefinedSummits& s, int nx, int ny, bool periodic) {

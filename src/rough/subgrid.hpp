@@ -38,6 +38,8 @@ public:
     using Rows = std::function<const double*(int)>;
     // Appends the summits reached from row j. row(d) returns row j + d, or null if there is none.
     void climb(int j, const Rows& row, RefinedSummits& to);
+    // Appends the summit reached from the point (i, j), a maximum or another start, if there is one.
+    void climb_from(int i, int j, bool maximum, const Rows& row, RefinedSummits& to);
 
 private:
     int clear_reach(int i, int j) const;

@@ -333,11 +333,12 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
                                        nullptr, breaks.get());
     if (detail_of(settings) == Detail::subgrid)
         model.search = [kept = std::shared_ptr<const HeightMap>(seen), curvature = settings.asperities.curvature, threads,
-                        waves = surface.points_per_wave, measured, breaks](const Indenter& indenter) {
+                        waves = surface.points_per_wave, breaks](const Indenter& indenter) {
             const Face face(indenter);
-            SummitCount unused;
-            FoundSummits found{{}, kept, waves, threads};
-            found.summits = find_asperities(*kept, curvature, &unused, threads, Detail::subgrid, waves, &face, breaks.get());
+            SummitCount count;
+            FoundSummits found{{}, kept, waves, threads, breaks};
+            found.summits = find_asperities(*kept, curvature, &count, threads, Detail::subgrid, waves, &face, breaks.get());
+            found.lay = count.lay;
             return found;
         };
     model.domain.heights = [kept = std::shared_ptr<const HeightMap>(seen)](const std::vector<Vec2>& points) {
@@ -413,15 +414,17 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
         return z;
     };
     if (detail_of(settings) == Detail::subgrid)
-        model.search = [keys, spectrum, seed = settings.run.seed, number, curvature = settings.asperities.curvature,
-                        law = settings.asperities.law, threads, kept = std::make_shared<KeptHeights>()](const Indenter& indenter) {
+        model.search = [keys, spectrum, seed = settings.run.seed, number, curvature = settings.asperities.curvature, threads,
+                        kept = std::make_shared<KeptHeights>()](const Indenter& indenter) {
             const Face face(indenter);
-            FoundSummits found{{}, nullptr, 0, threads};
+            FoundSummits found{{}, nullptr, 0, threads, nullptr};
+            SummitCount count;
             const int n = summit_points(spectrum, keys.n);
-            if (traits(law).needs_heights && n <= kMostPointsKept) {  // the same summits, with the heights
+            if (n <= kMostPointsKept) {  // the same summits, with the heights
                 found.map = kept->get([&] { return synthesize(spectrum, n, keys.normalise, seed, number, nullptr, threads); });
                 found.points_per_wave = n / shortest_wave(spectrum);
-                found.summits = find_asperities(*found.map, curvature, nullptr, threads, Detail::subgrid, found.points_per_wave, &face);
+                found.summits = find_asperities(*found.map, curvature, &count, threads, Detail::subgrid, found.points_per_wave, &face);
+                found.lay = count.lay;
             } else {
                 found.summits = make_asperities(spectrum, keys.n, keys.normalise, seed, number, curvature, nullptr, nullptr, threads,
                                                 Detail::subgrid, nullptr, &face);

@@ -266,8 +266,10 @@ TEST(far_more_elongated) {
     }
 }
 
-// A hardly loaded ellipse over several summits, as large as the contact that carries nearly all: its area is doubtful.
-TEST(doubtful_area) {
+// The share of a summit in an ellipse over two is softer than its own part was: at small loads, which the ellipse must not replace, it carried
+// a fifteenth (N -10 and -13 %, A +85 and +112 %).
+TEST(own_part) {
+    constexpr double kForce = 0.02, kArea = 0.15;  // elements of 8 points in a wave
     Case c;
     c.run.seed = 7790;
     c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16, c.surface.sigma = 3e-3, c.surface.n = 192;
@@ -276,7 +278,7 @@ TEST(doubtful_area) {
     c.indentation.centre[0] = 0.35, c.indentation.centre[1] = 0.6, c.indentation.levels = {0.98, 0.82};
     const std::vector<Level> asperities = pressed(c, Model::asperities), truth = pressed(c, Model::elements);
     for (std::size_t k = 0; k < truth.size(); ++k)
-        CHECK(std::abs(truth[k].area / asperities[k].area - 1) <= asperities[k].area_error_expected);
+        CHECK_RELATIVE(asperities[k].force, truth[k].force, kForce), CHECK_RELATIVE(asperities[k].area, truth[k].area, kArea);
 }
 
 // A contact that the border of a synthetic surface cuts has no summit; it is counted, as on a measured map.

@@ -77,17 +77,21 @@ private:
         return r;
     }
 
-    // Leaves out nodes below the tangent of another one: a local maximum of the load that is not the largest.
+    // Leaves out nodes below the tangent of another one: a local maximum of the load that is not the largest. Of two that are below each
+    // other's, where the share of the summit in a wide ellipse stiffens less than its own one did, the deeper one; no law is convex that has
+    // the origin below a tangent.
     void keep_convex() {
         constexpr double rounding = 1e-9;
         std::sort(node_.begin() + 1, node_.end(), [](const LoadedEllipse& a, const LoadedEllipse& b) { return a.u < b.u; });
-        std::vector<bool> below(node_.size(), false);
-        for (std::size_t k = 1; k < node_.size(); ++k)
-            for (std::size_t m = 1; m < node_.size() && !below[k]; ++m)
-                below[k] = m != k && node_[m].force + node_[m].stiffness * (node_[k].u - node_[m].u) > (1 + rounding) * node_[k].force;
+        const auto below = [](const LoadedEllipse& a, const LoadedEllipse& b) {
+            return b.force + b.stiffness * (a.u - b.u) > (1 + rounding) * a.force;
+        };
         std::vector<LoadedEllipse> kept;
-        for (std::size_t k = 0; k < node_.size(); ++k)
-            if (!below[k]) kept.push_back(node_[k]);
+        for (const LoadedEllipse& e : node_) {
+            if (below(node_[0], e)) continue;
+            while (!kept.empty() && below(kept.back(), e) && !below(e, kept.back())) kept.pop_back();
+            if (kept.empty() || !below(e, kept.back())) kept.push_back(e);
+        }
         node_ = std::move(kept);
     }
 
@@ -97,14 +101,16 @@ private:
 
 class EllipseLaw final : public Law {
 public:
-    EllipseLaw(std::unique_ptr<Law> other, const FoundSummits& found, const Indenter& indenter, double spacing)
+    EllipseLaw(std::unique_ptr<Law> other, const FoundSummits& found, const Indenter& indenter, double spacing, const EllipseLaw* like)
         : other_(std::move(other)),
           found_(found),
           asperities_(found.summits),
           indenter_(indenter),
           spacing_(spacing),
+          like_(like),
           stencil_(found.points_per_wave > 0 ? Stencil::band_limited(found.points_per_wave) : Stencil::polynomial(kMeasuredReach / 2)),
           state_(asperities_.size()),
+          own_(asperities_.size()),
           table_(asperities_.size()),
           widest_(asperities_.size()),
           clearance_(asperities_.size()) {
@@ -125,12 +131,14 @@ public:
             for (int i : next)
                 if (state_[at(i)] == State::unknown) state_[at(i)] = State::alone, fresh.push_back(i);
             next.clear();
-            parallel_for(fresh.size(), 4, found_.threads, [&](std::size_t k) { table_[at(fresh[k])] = alone(fresh[k]); });
+            parallel_for(fresh.size(), 4, found_.threads,
+                         [&](std::size_t k) { table_[at(fresh[k])] = Table(own_[at(fresh[k])] = alone(fresh[k])); });
             for (int i : fresh) {
+                if (like_) state_[at(i)] = like_->state_[at(i)];
                 widest_[at(i)] = table_[at(i)].nodes().back();
                 for (const LoadedEllipse& e : table_[at(i)].nodes())
                     for (int j : members(i, e, true)) next.push_back(j);
-                if (table_[at(i)].empty())
+                if (table_[at(i)].empty() && !like_)
                     near(i, 2 * spacing_, [&](int j) {
                         if (lower(i, j)) next.push_back(j);
                     });
@@ -139,7 +147,7 @@ public:
         }
         std::sort(added.begin(), added.end(), [&](int a, int b) { return lower(a, b); });
         for (int i : added)
-            if (table_[at(i)].empty())
+            if (table_[at(i)].empty() && !like_)
                 near(i, 2 * spacing_, [&](int j) {
                     const Vec2 d = between(j, i);
                     if (lower(i, j) && widest_[at(j)].spot.contains(d.x, d.y)) state_[at(i)] = State::covered;
@@ -182,18 +190,25 @@ private:
 
     bool lower(int a, int b) const { return std::tie(clearance_[at(a)], b) < std::tie(clearance_[at(b)], a); }
 
-    Table alone(int i) const {
+    // Ratio of the curvatures of a summit to those under the tip close by, and so of the penetrations in its table.
+    double steeper(int i) const {
+        const Asperities& a = like_->asperities_;
+        return std::sqrt(asperities_.kappa1[at(i)] * asperities_.kappa2[at(i)] / (a.kappa1[at(i)] * a.kappa2[at(i)]));
+    }
+
+    std::vector<LoadedEllipse> alone(int i) const {
         constexpr double window = 2, fine = 45;  // half width over the widest ellipse, whose centre may be off the summit; points in it
         const std::size_t k = at(i);
         const int steps = std::clamp(static_cast<int>(std::ceil(fine * std::max(found_.map->dx, found_.map->dy) / spacing_)), 1, 8);
         const HeightsAround heights(found_, stencil_, indenter_, asperities_.x[k], asperities_.y[k], window * spacing_, steps);
+        if (like_) return ellipses_like(heights, indenter_.E_star, steeper(i), like_->own_[k]);
         const double k1 = asperities_.kappa1[k], k2 = asperities_.kappa2[k];
         auto ellipses = most_loaded_ellipses(heights, indenter_.E_star, std::sqrt(k1 * k2), k1 / k2, asperities_.angle[k], spacing_);
         // A spot that contains a higher summit is that of the higher one.
         const auto end =
             std::find_if(ellipses.begin(), ellipses.end(), [&](const LoadedEllipse& e) { return !members(i, e, false).empty(); });
         ellipses.erase(end, ellipses.end());
-        return Table(std::move(ellipses));
+        return ellipses;
     }
 
     Vec2 between(int i, int j) const {
@@ -219,6 +234,13 @@ private:
     std::vector<int> members(int i, const LoadedEllipse& e, bool lower_ones) const {
         std::vector<int> found;
         if (!(e.u > 0)) return found;
+        if (like_) {
+            const auto& own = like_->own_[at(i)];
+            return like_->members(i,
+                                  *std::lower_bound(own.begin(), own.end(), (1 - 1e-6) * e.u / steeper(i),
+                                                    [](const LoadedEllipse& a, double u) { return a.u < u; }),
+                                  lower_ones);
+        }
         near(i, e.spot.major + std::hypot(e.spot.x, e.spot.y), [&](int j) {
             if (lower(j, i) != lower_ones || clearance_[at(i)] - e.u >= clearance_[at(j)]) return;
             const Vec2 d = between(i, j);
@@ -277,7 +299,13 @@ private:
                          u1 = shared(e.u + step, e.force + step * e.stiffness, group, high);
             nodes.back().u = 0.5 * (u0 + u1), nodes.back().force = 0.5 * (low[0] + high[0]);
             nodes.back().stiffness = (high[0] - low[0]) / (u1 - u0);
-            if (!(u0 > 0 && u1 > u0 && low[0] > 0 && high[0] > low[0])) nodes.pop_back();
+            const LoadedEllipse left = nodes.back();
+            nodes.pop_back();
+            constexpr double least = 0.1;  // share of the highest summit; with less, the others carry the ellipse by themselves
+            if (!(u0 > 0 && u1 > u0 && low[0] > least * e.force && high[0] > low[0])) continue;
+            // Smaller ellipses that carried more lay on the spots of these summits, beside their tops.
+            while (!nodes.empty() && !(nodes.back().force < left.force)) nodes.pop_back();
+            nodes.push_back(left);
         }
         if (changed) table_[at(i)] = Table(std::move(nodes));
     }
@@ -287,8 +315,10 @@ private:
     const Asperities& asperities_;
     Indenter indenter_;
     double spacing_;
+    const EllipseLaw* like_;
     Stencil stencil_;
     std::vector<State> state_;
+    std::vector<std::vector<LoadedEllipse>> own_;  // of each summit by itself
     std::vector<Table> table_;
     std::vector<LoadedEllipse> widest_;  // of each summit by itself
     std::vector<double> clearance_;
@@ -297,8 +327,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Law> make_ellipse_law(std::unique_ptr<Law> other, const FoundSummits& found, const Indenter& indenter, double spacing) {
-    return std::make_unique<EllipseLaw>(std::move(other), found, indenter, spacing);
+std::unique_ptr<Law> make_ellipse_law(std::unique_ptr<Law> other, const FoundSummits& found, const Indenter& indenter, double spacing,
+                                      const Law* like) {
+    return std::make_unique<EllipseLaw>(std::move(other), found, indenter, spacing, dynamic_cast<const EllipseLaw*>(like));
 }
 
 }  // namespace rsc

@@ -17,6 +17,10 @@ inline constexpr std::size_t kMostEllipses = 4000;
 //
 // Summits, heights and the tip are those of `found` and `indenter`; `asperities` are the summits. Tables are built by prepare() and
 // depend on neither the order of calls nor the number of threads. `spacing`: mean distance of the surface's summits.
-std::unique_ptr<Law> make_ellipse_law(std::unique_ptr<Law> other, const FoundSummits& found, const Indenter& indenter, double spacing);
+//
+// `like` (optional) is such a law of the same summits under a tip close by, with tables of all that are asked for: ellipses are found from
+// its ellipses, and share the same summits.
+std::unique_ptr<Law> make_ellipse_law(std::unique_ptr<Law> other, const FoundSummits& found, const Indenter& indenter, double spacing,
+                                      const Law* like = nullptr);
 
 }  // namespace rsc

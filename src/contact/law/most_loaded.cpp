@@ -75,9 +75,9 @@ Matrix first_inverse() {
 
 // Local maximum of the load by the method of Broyden, Fletcher, Goldfarb and Shanno, in units of the ellipse's size. Steps are short, so
 // that the maximum is that of the hill on which they begin. `inverse`: of the negative second derivatives, approximately.
-bool climb(const HeightsAround& heights, double E_star, double Z, Unknowns& e, Matrix& inverse, Load& load) {
+bool climb(const HeightsAround& heights, double E_star, double Z, Unknowns& e, Matrix& inverse, Load& load, double accuracy = 1e-6) {
     constexpr int most = 60;
-    constexpr double longest = 0.1, accuracy = 1e-6;
+    constexpr double longest = 0.1, rounding = 1e-14;
     const double unit = std::sqrt(e[2] * e[4] - e[3] * e[3]);
     if (!load_of(heights, E_star, Z, e, load) || !(load.force > 0)) return false;
     const double scale = 1 / load.force;
@@ -94,7 +94,7 @@ bool climb(const HeightsAround& heights, double E_star, double Z, Unknowns& e, M
         bool risen = false;
         for (int cut = 0; cut < 12 && !risen; ++cut, length *= 0.5) {
             for (std::size_t k = 0; k < kUnknowns; ++k) to[k] = e[k] + length * way[k] * unit;
-            risen = load_of(heights, E_star, Z, to, next) && (next.force - load.force) * scale >= 1e-4 * length * rate;
+            risen = load_of(heights, E_star, Z, to, next) && (next.force - load.force) * scale >= 1e-4 * length * rate - rounding;
         }
         if (!risen) break;
         length *= 2;
@@ -139,6 +139,29 @@ double missing_share(const HeightsAround& heights, const Unknowns& e, double dep
         sum += disc.weight[ring * n] * std::max(square, 0.0);
     }
     return std::min(factor * sum / (depth * depth), most);
+}
+
+// Adds the shares that the ellipses miss.
+void add_missing(std::vector<LoadedEllipse>& found, const std::vector<double>& missing) {
+    // The missing shares grow with u; their slope is the smaller of those to both sides, 0 at an extremum.
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        const auto slope = [&](std::size_t m) { return (missing[m] - missing[m - 1]) / (found[m].u - found[m - 1].u); };
+        const double before = k > 0 ? slope(k) : 0, after = k + 1 < found.size() ? slope(k + 1) : 0;
+        const double growth_of_share = before * after > 0 ? std::copysign(std::min(std::abs(before), std::abs(after)), before) : 0;
+        found[k].stiffness = (1 + missing[k]) * found[k].stiffness + growth_of_share * found[k].force;
+        found[k].force *= 1 + missing[k];
+    }
+}
+
+Unknowns unknowns_of(const Spot& spot) {
+    const double c = std::cos(spot.angle), s = std::sin(spot.angle);
+    return {spot.x, spot.y, spot.major * c * c + spot.minor * s * s, (spot.major - spot.minor) * c * s,
+            spot.major * s * s + spot.minor * c * c};
+}
+
+Spot spot_of(const Unknowns& e) {
+    const double t = 0.5 * (e[2] + e[4]), d = std::hypot(0.5 * (e[2] - e[4]), e[3]);
+    return {e[0], e[1], t + d, t - d, 0.5 * std::atan2(2 * e[3], e[2] - e[4])};
 }
 
 }  // namespace
@@ -236,8 +259,7 @@ std::vector<LoadedEllipse> most_loaded_ellipses(const HeightsAround& heights, do
     if (!heights.usable() || !heights.at(0, 0, top, zx, zy)) return found;
     const double a = first * widest, elongation = std::cbrt(std::min(ratio, 8.0)), major = a * std::sqrt(elongation),
                  minor = a / std::sqrt(elongation);
-    const double c = std::cos(angle), s = std::sin(angle);
-    Unknowns e = {0, 0, major * c * c + minor * s * s, (major - minor) * c * s, major * s * s + minor * c * c};
+    Unknowns e = unknowns_of({0, 0, major, minor, angle});
     const double growth = std::pow(step, 0.45);
     double u = curvature * a * a;
     Matrix inverse = first_inverse();
@@ -245,19 +267,33 @@ std::vector<LoadedEllipse> most_loaded_ellipses(const HeightsAround& heights, do
         for (std::size_t l = 2; l < kUnknowns && k > 0; ++l) e[l] *= growth;
         Load load;
         if (!climb(heights, E_star, top - u, e, inverse, load)) break;
-        const double t = 0.5 * (e[2] + e[4]), d = std::hypot(0.5 * (e[2] - e[4]), e[3]);
-        if (t + d > widest || load.highest > top + tolerance * u) break;
+        const Spot spot = spot_of(e);
+        if (spot.major > widest || load.highest > top + tolerance * u) break;
         missing.push_back(missing_share(heights, e, load.force / load.stiffness));
-        found.push_back({u, load.force, load.stiffness, {e[0], e[1], t + d, t - d, 0.5 * std::atan2(2 * e[3], e[2] - e[4])}});
+        found.push_back({u, load.force, load.stiffness, spot});
     }
-    // The missing shares grow with u; their slope is the smaller of those to both sides, 0 at an extremum.
-    for (std::size_t k = 0; k < found.size(); ++k) {
-        const auto slope = [&](std::size_t m) { return (missing[m] - missing[m - 1]) / (found[m].u - found[m - 1].u); };
-        const double before = k > 0 ? slope(k) : 0, after = k + 1 < found.size() ? slope(k + 1) : 0;
-        const double growth_of_share = before * after > 0 ? std::copysign(std::min(std::abs(before), std::abs(after)), before) : 0;
-        found[k].stiffness = (1 + missing[k]) * found[k].stiffness + growth_of_share * found[k].force;
-        found[k].force *= 1 + missing[k];
+    add_missing(found, missing);
+    return found;
+}
+
+std::vector<LoadedEllipse> ellipses_like(const HeightsAround& heights, double E_star, double ratio, std::span<const LoadedEllipse> like) {
+    std::vector<LoadedEllipse> found;
+    std::vector<double> missing;
+    double top, zx, zy;
+    if (!heights.usable() || !heights.at(0, 0, top, zx, zy)) return found;
+    Matrix inverse = first_inverse();
+    Unknowns change{};  // from those alike, about the same for the next
+    for (const LoadedEllipse& near : like) {
+        const Unknowns from = unknowns_of(near.spot);
+        Unknowns e;
+        for (std::size_t l = 0; l < kUnknowns; ++l) e[l] = from[l] + change[l];
+        Load load;
+        if (!climb(heights, E_star, top - ratio * near.u, e, inverse, load, 1e-7)) break;
+        for (std::size_t l = 0; l < kUnknowns; ++l) change[l] = e[l] - from[l];
+        missing.push_back(missing_share(heights, e, load.force / load.stiffness));
+        found.push_back({ratio * near.u, load.force, load.stiffness, spot_of(e)});
     }
+    add_missing(found, missing);
     return found;
 }
 

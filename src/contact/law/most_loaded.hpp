@@ -46,4 +46,7 @@ struct LoadedEllipse {
 std::vector<LoadedEllipse> most_loaded_ellipses(const HeightsAround& heights, double E_star, double curvature, double ratio, double angle,
                                                 double widest);
 
+// The same, found from the ellipses `like` of the same summit under a tip close by, whose mean curvature was smaller by the factor `ratio`.
+std::vector<LoadedEllipse> ellipses_like(const HeightsAround& heights, double E_star, double ratio, std::span<const LoadedEllipse> like);
+
 }  // namespace rsc

@@ -352,7 +352,9 @@ inline void levels(CheckedFile& f, const Truth& t) {
         return v;
     };
     const double most = *std::max_element(N.begin(), N.end());
-    f.same("lateral_force", pushed(false), kRounding, kRounding * most);
+    // Summits between points also move with the tip (physics/test_touching): shares of N.
+    constexpr double kMotion = 0.01;
+    f.same("lateral_force", pushed(false), kRounding, (t.elements || t.hertz ? kRounding : kMotion) * most);
     f.same("moment", pushed(true), kRounding, kRounding * most * t.Lx);
     f.same("component", {1, 2}), f.attribute("component", "flag_values", {1, 2});
     const Vector length = t.rows([&](std::size_t k, std::size_t s) { return -2 * S[k * t.steps + s] / t.E; });
