@@ -240,6 +240,14 @@ Level AdhesivePixels::step(double Z) {
         level.nominal_area = heights.Lx() * heights.Ly();
     else
         judge_edges(level, indenter, options);
+    const auto at_border = [&](std::int32_t k) {
+        const Pixel p = pixel_at(k);
+        return p.x == 0 || p.y == 0 || p.x == heights.nx - 1 || p.y == heights.ny - 1;
+    };
+    if (!flats && std::any_of(now.attracting.begin(), now.attracting.end(), at_border)) {  // attraction beyond the border is missing
+        level.edge_contacts = std::max(level.edge_contacts, 1);
+        level.status = graver(level.status, LevelStatus::out_of_validity);
+    }
     if (resolution() < kResolved && !now.attracting.empty()) level.status = graver(level.status, LevelStatus::out_of_validity);
     if (!converged) level.status = LevelStatus::not_converged;
     return level;

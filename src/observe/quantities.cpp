@@ -33,7 +33,7 @@ constexpr LevelQuantity kQuantities[] = {
      .comment = "without regularisation, over all candidates; boundary elements: rms of the gap under pressure and of "
                 "remaining penetrations, relative to the mean overlap under pressure", .heading = "residual", .width = 9},
     {.name = "status", .member = &V::status, .meaning = "outcome of the level",
-     .comment = "1: force_error_expected above 10 % (if unknown: large_contacts or beyond_law; boundary elements: above 1 %), contacts at "
+     .comment = "1: force_error_expected above 10 % (if unknown: large_contacts or beyond_law; boundary elements without adhesion: above 1 %), contacts at "
                 "the border (edge_contacts), contact_area above nominal_area, Z0 below -3 sigma, wide_contacts, cohesive_resolution below 2, filled_share above 1 %, or a first touch of elements between grid points; 2: "
                 "contacts overlap, d < a_i + a_j; 3: a local minimum of the energy, possibly not unique; 4: not converged, do not use. "
                 "4 overrides all others, 1 overrides 2 and 3, 3 overrides 2",

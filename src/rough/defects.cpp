@@ -127,11 +127,20 @@ Outliers remove_outliers(HeightMap& map, double times) {
         for (int i = 0; i < map.nx; ++i) {
             if (std::isnan(map(i, j))) continue;
             around.clear();
+            // Near the border as many on both sides: the median of those on one side would be off by the slope.
             const int up = std::min({kReach, j, map.ny - 1 - j}), across = std::min({kReach, i, map.nx - 1 - i});
             for (int b = j - up; b <= j + up; ++b)
                 for (int a = i - across; a <= i + across; ++a)
                     if (!std::isnan(map(a, b))) around.push_back(map(a, b));
-            distance[at(i, j)] = std::abs(map(i, j) - median(around));
+            double& d = distance[at(i, j)] = std::abs(map(i, j) - median(around));
+            if (up == 0 || across == 0) {  // on the border the straight line through two points in the direction that fits best
+                double best = HUGE_VAL;
+                for (int b = -1; b <= 1; ++b)
+                    for (int a = -1; a <= 1; ++a)
+                        if ((a != 0 || b != 0) && i + 2 * a >= 0 && i + 2 * a < map.nx && j + 2 * b >= 0 && j + 2 * b < map.ny)
+                            best = std::fmin(best, std::abs(map(i, j) - 2 * map(i + a, j + b) + map(i + 2 * a, j + 2 * b)));
+                if (best < HUGE_VAL) d = best;
+            }
             present.push_back(distance[at(i, j)]);
         }
     if (present.empty()) return {};

@@ -236,7 +236,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         const HeightMap& map = job.given ? *job.given_heights : *r.heights;
         side = std::max(map.dx, map.dy);
         contact = make_element_contact(map, job.indenter, job.solver);
-        if (settings.run.realizations == 1) resolution.emplace(job, number, threads, map);
+        if (settings.run.realizations == 1 && !(settings.solids.adhesion > 0)) resolution.emplace(job, number, threads, map);
     } else {
         if ((settings.output.heights || !settings.output.fields.empty()) && job.spectrum)
             r.heights = make_surface(settings, *job.spectrum, number, threads).map;
@@ -281,7 +281,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         add_answers(*contact, level, settings.solids.resistivity);
         if (resolution)
             resolution->judge(k, level);
-        else if (by_elements(settings) && !(settings.solids.adhesion > 0))
+        else if (by_elements(settings))
             judge_pixels(level, job, side);
         judge_filled(level, filled, job.indenter, job.sigma);
         if (level.force == 0 && level.separation < job.points_touch)  // contact at points that are no summits

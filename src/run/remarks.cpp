@@ -36,7 +36,7 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
     };
     // Reasons for status out_of_validity, reported also if a more serious status overrides it.
     tell(count([](const LevelValues& l) { return l.edge_contacts > 0; }),
-         "contacts within <d> of the border of the surface - asperities beyond it are missing: N is too small.");
+         "contacts, or their attraction, within <d> of the border of the surface - what lies beyond it is missing: |N| is too small.");
     tell(count([](const LevelValues& l) { return l.filled_share > kMuchFilled; }),
          "more than 1 % of the contact area would be in holes of the map, which are filled smoothly (filled_share): N is too small.");
     if (std::isfinite(job.points_touch) && std::all_of(levels.begin(), levels.end(), [](const auto& l) { return l.force == 0; }))

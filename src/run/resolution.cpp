@@ -1,6 +1,7 @@
 #include "run/resolution.hpp"
 
 #include "contact/element_contact.hpp"
+#include "contact/expected_error.hpp"
 #include "error.hpp"
 #include "rough/surface.hpp"
 
@@ -117,11 +118,17 @@ void ResolutionCheck::judge(std::size_t step, Level& level) {
 }
 
 void judge_pixels(Level& level, const Job& job, double side) {
-    if (level.status == LevelStatus::not_converged || !(level.force > 0)) return;
+    const Adhesion& adhesion = job.solver.adhesion;
+    const double pulled = adhesion.work > 0 ? adhesion.work / adhesion.range * (level.area + level.cohesive_area) : 0;
+    if (level.status == LevelStatus::not_converged || level.contacts == 0 || !(level.force + pulled > 0) || level.force == 0) return;
     const bool read = !job.spectrum;
-    level.force_error_expected = of_pixels(level.pixels_per_contact, read) + edge_share(job, side);
-    level.area_error_expected = level.force_error_expected + (read ? 1 : kPixelArea) * std::pow(level.pixels_per_contact, -0.75);
-    if (level.force_error_expected > kUnresolved) level.status = graver(level.status, LevelStatus::out_of_validity);
+    // The error of the force that presses; with adhesion N is its difference from the attraction, and has that of the attraction already.
+    const double error = of_pixels(level.pixels_per_contact, read) + edge_share(job, side);
+    level.force_error_expected = error * (level.force + pulled) / std::abs(level.force) + (pulled > 0 ? level.force_error_expected : 0);
+    level.area_error_expected =
+        error + (read ? 1 : kPixelArea) * std::pow(level.pixels_per_contact, -0.75) + (pulled > 0 ? level.area_error_expected : 0);
+    if (level.force_error_expected > (pulled > 0 ? kMuchError : kUnresolved))
+        level.status = graver(level.status, LevelStatus::out_of_validity);
 }
 
 bool FilledPoints::at(double x, double y) const {

@@ -62,8 +62,9 @@ private:
     double pixels_ = 0;  // pixels_per_contact of that check
 };
 
-// The same without a second grid, for campaigns: the part of the errors that contacts of few pixels, of the given side [length], have, and
-// those at the edge of the indenter.
+// The same without a second grid, for campaigns and with adhesion: the part of the errors that contacts of few pixels, of the given side
+// [length], have, and those at the edge of the indenter. With adhesion it is added to that of the attraction, and a level is out_of_validity
+// beyond kMuchError.
 void judge_pixels(Level& level, const Job& job, double side);
 
 // The check of a level for missing points of its map, which are not part of the contact.
