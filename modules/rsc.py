@@ -750,7 +750,8 @@ class Contact(_Object):
     @property
     def tip(self):
         """The position (x0, y0) of the tip [length]. Setting it moves the sphere sideways; results remain those of the last level until the next
-        one. Raises ArgumentError if it is not finite."""
+        one. Raises ArgumentError if it is not finite, or over asperities that are attached, yielded or relax, where laws 'elliptic' and
+        'fourth_order' have other summits at each place (an indenter of more than 0.2 of the surface's rms slope)."""
         return tuple(_numbers("rsc_contact_tip", self, _Tip))
 
     @tip.setter

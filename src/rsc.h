@@ -316,8 +316,9 @@ RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
  * With solids%adhesion the state of attached asperities, or of elements that attract, is followed while the tip moves on a straight line (the
  * shortest one on a periodic surface) at the last separation; the next level includes the jumps on this path. Near the edge of a body (a
  * punch) that attracts, the tip cannot be moved (-2). Errors: -1 null; -2, -3 not finite; -2 a position outside a surface that is
- * not periodic; -2 bodies that yielded or relax under an indenter of more than 0.2 of the surface's rms slope, with laws 'elliptic' and
- * 'fourth_order': their summits are others at each place; RSC_NOT_CONVERGED (adhesion: the path is lost); the tip is then not moved; RSC_NO_MEMORY. */
+ * not periodic; -2 bodies that yielded or relax, or attached asperities (pull the tip off first), under an indenter of more than 0.2 of the
+ * surface's rms slope, with laws 'elliptic' and 'fourth_order': their summits are others at each place; RSC_NOT_CONVERGED (adhesion: the path is
+ * lost); the tip is then not moved; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
 
 /* Stores the state for rsc_contact_rollback: the tip, the last level and the loading history (solids%hardness, solids%adhesion). A new

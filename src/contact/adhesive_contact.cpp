@@ -36,8 +36,7 @@ public:
 
 protected:
     void forget_levels() override {
-        const AdhesivePath& my = *path_;
-        path_ = std::make_unique<AdhesivePath>(my.of_surface, Indenter(my.indenter), SolverOptions(my.options), my.search);
+        path_ = path_at(path_->indenter.x0, path_->indenter.y0);
         slope_ = energy_ = 0, fresh_ = false;
     }
     Level solve(double Z0) override;
@@ -50,6 +49,13 @@ protected:
 
 private:
     Level report();
+    // A path without loads at another place, with the summits there.
+    std::unique_ptr<AdhesivePath> path_at(double x0, double y0) const {
+        const AdhesivePath& my = *path_;
+        Indenter tip = my.indenter;
+        if (x0 != tip.x0 || y0 != tip.y0) tip.move(x0, y0);
+        return std::make_unique<AdhesivePath>(my.of_surface, tip, SolverOptions(my.options), my.search);
+    }
 
     std::unique_ptr<AdhesivePath> path_;
     double slope_ = 0, energy_ = 0;  // of the last level
@@ -150,16 +156,32 @@ void AdhesiveContact::move_tip(double x0, double y0) {
     if (x0 == my.indenter.x0 && y0 == my.indenter.y0) return;
     (void)stiffness();
     if (!my.accepted.asperity.empty()) {
-        if (!my.move(x0, y0))
+        std::unique_ptr<AdhesivePath> there;  // with the summits of the difference at the new place, if the attached ones are among them
+        if (my.of_difference && !my.of_difference->renumbered) there = path_at(x0, y0);
+        if (my.of_difference && !(there && there->of_difference && !there->of_difference->renumbered))
+            throw Error(Failure::bad_input,
+                        "the tip cannot move while asperities are attached, where the slope of the indenter is above 0.2 of that of the "
+                        "surface: pull it off first, or use solver%model = 'elements' or asperities%law = 'hertz'");
+        AdhesivePath::Past before = my.accepted;
+        const Indenter old = my.indenter;
+        bool done = my.move(x0, y0);
+        if (done && there) {
+            there->accepted = std::exchange(my.accepted, std::move(before));
+            my.indenter = old;
+            my.ranking.assign(my.asperities, my.indenter);
+            done = there->stand();
+            if (done) path_ = std::move(there);
+        }
+        if (!done)
             throw Error(Failure::not_converged,
                         "the path of the attached asperities to the new position of the tip is lost; the tip stays where it was");
-        slope_ = 0, fresh_ = !my.active.empty();
+        slope_ = 0, fresh_ = !path_->active.empty();
         return;
     }
-    const AdhesivePath::Past past = my.accepted;
-    my.indenter.move(x0, y0);
-    forget_levels();
-    path_->accepted = past;
+    auto there = path_at(x0, y0);
+    there->accepted = my.accepted;
+    path_ = std::move(there);
+    slope_ = energy_ = 0, fresh_ = false;
 }
 
 std::vector<double> AdhesiveContact::memory() const {
@@ -174,12 +196,14 @@ std::vector<double> AdhesiveContact::memory() const {
 }
 
 void AdhesiveContact::recall(const std::vector<double>& memory, const Level* last) {
+    bool sound = memory.size() >= kBefore && (memory.size() - kBefore) % 2 == 0;
+    for (double value : memory) sound = sound && std::isfinite(value);
+    // The state belongs to the stored position of the tip, which may differ from that of the last level.
+    if (sound && (memory[0] != path_->indenter.x0 || memory[1] != path_->indenter.y0)) path_ = path_at(memory[0], memory[1]);
     AdhesivePath& my = *path_;
     my.accepted = {};
     if (!memory.empty()) {
         AdhesivePath::Past& past = my.accepted;
-        bool sound = memory.size() >= kBefore && (memory.size() - kBefore) % 2 == 0;
-        for (double value : memory) sound = sound && std::isfinite(value);
         if (sound)
             past.separation = memory[2], past.lost = memory[3], past.least_force = memory[4], past.jumps = static_cast<int>(memory[5]),
             past.margin = memory[6];
@@ -190,11 +214,6 @@ void AdhesiveContact::recall(const std::vector<double>& memory, const Level* las
         }
         if (!sound) throw Error(Failure::bad_input, "the state does not belong to these asperities");
         my.sticking.prepare(past.asperity);
-        // The state belongs to the stored position of the tip, which may differ from that of the last level.
-        if (memory[0] != my.indenter.x0 || memory[1] != my.indenter.y0) {
-            my.indenter.move(memory[0], memory[1]);
-            my.ranking.assign(my.asperities, my.indenter);
-        }
     }
     if (last) (void)solve(my.accepted.separation < kInfinity ? my.accepted.separation : last->separation);
 }

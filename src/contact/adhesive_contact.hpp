@@ -18,7 +18,9 @@ namespace rsc {
 // energy() is the elastic energy minus w A, with dW/dZ0 = -N; 0 if nothing is attached. If asperities are attached, move_tip() follows
 // their state while the tip moves on a straight line at the separation of the last accepted level; they attach and detach on the way as on
 // a path of separations. The next level includes these jumps. It throws Error(not_converged) if the path is lost; the tip then stays where
-// it was. If none is attached, the next level is approached from above.
+// it was. If none is attached, the next level is approached from above. The summits of the difference that `search` finds are those of the
+// new place: attached ones keep their numbers, and come to the equilibrium there at the end of the way; where numbers do not last
+// (FoundSummits::renumbered) move_tip() throws Error(bad_input).
 std::unique_ptr<Contact> make_adhesive_contact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
                                                SummitSearch search = {});
 

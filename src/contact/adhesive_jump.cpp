@@ -39,7 +39,7 @@ bool AdhesivePath::settle(double Z, Vector s) {
         }
         s = here.s;
         int touching = -1;
-        double deepest = 0;
+        double deepest = kTouching;
         for (std::size_t p = 0; p < here.u.size(); ++p) {
             const int position = products->passive()[p];
             if (const double u = here.u[p] / scale(position); u > deepest) deepest = u, touching = position;

@@ -77,6 +77,18 @@ bool AdhesivePath::move(double x0, double y0) {
     return done;
 }
 
+// Takes the accepted state, which is that of summits at another place of the tip, to the equilibrium of these. Returns false if none is found.
+// The difference is of second order in the slope of the indenter; its energy does not count as lost.
+bool AdhesivePath::stand() {
+    sticking.prepare(accepted.asperity);
+    begin(accepted.separation);
+    free_before.resize(asperities.size());
+    if (!settle(here.Z, here.s)) return false;
+    lost_way = false;
+    accepted = now = past();
+    return true;
+}
+
 bool AdhesivePath::move_piece(Vec2 from, Vec2 to) {
     begin(accepted.separation);
     if (lost_way) return false;

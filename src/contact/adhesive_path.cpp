@@ -7,8 +7,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Tolerances relative to the detachment penetration of an asperity: for touching, for the detachment point, and the shortest step.
-constexpr double kTouching = 1e-8, kFold = 1e-4, kShortest = 1e-9;
+// Tolerances relative to the detachment penetration of an asperity: for the detachment point, and the shortest step.
+constexpr double kFold = 1e-4, kShortest = 1e-9;
 // Distance from touching, relative to the difference of the penetrations at attachment and detachment, from which a free asperity attaches
 // within a level. The energies are extrapolated to the point of touching, so that the error of the loss is of second order in it.
 constexpr double kNearTouching = 1e-4;
@@ -269,11 +269,15 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
     const double direction = target > here.Z ? 1 : -1;
     Point before;  // previous state with the same attached asperities
     bool known = false, direct = true;
-    double shorter = 1;  // reduction of the step after a failure
-    double unstable_at = kInfinity;
-    long left_there = 0;  // number of asperities detached at this separation because no step was short enough
+    double shorter = 1;            // reduction of the step after a failure
+    double jumped_at = kInfinity;  // no way since then
+    int jumps_before = 0;
     for (long guard = 0; here.Z != target; ++guard) {
-        if (lost_way || guard > 1000000) return lost_way = true;
+        double smallest = kInfinity;
+        for (int p : active) smallest = std::min(smallest, scale(p));
+        if (std::abs(here.Z - jumped_at) > kShortest * smallest) jumped_at = here.Z, jumps_before = jumps;
+        // The same asperities attach and detach for ever where none of their states is stable, or it cannot be decided, because contacts overlap.
+        if (lost_way || guard > 1000000 || jumps - jumps_before > 10 + set.size()) return lost_way = true;
         if (active.empty() && direction > 0 && !motion) return false;
         // Attaches an asperity that touches.
         const auto& passive = products->passive();
@@ -342,8 +346,6 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
             step = std::min(step, toward > 0 ? std::min(1.01 * toward, 4 * reach) : reach);
         }
         step *= shorter;
-        double smallest = kInfinity;
-        for (int p : active) smallest = std::min(smallest, scale(p));
         if (step < kShortest * smallest && shorter < 1 && !active.empty()) {
             std::size_t fastest = 0;
             double most = -1;
@@ -351,9 +353,6 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
                 const double rate = std::abs(here.change.s[k]) / here.s[k];
                 if (here.states[k].df < 0 && rate > most) most = rate, fastest = k;
             }
-            // The same asperities attach again and detach again where stability cannot be decided, because contacts overlap.
-            if (std::abs(here.Z - unstable_at) > kShortest * smallest) unstable_at = here.Z, left_there = 0;
-            if (++left_there > 10 + static_cast<long>(active.size())) return lost_way = true;
             let_go(fastest, 0);
             known = false, shorter = 1;
             continue;
@@ -362,7 +361,8 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
         if (Z == here.Z) return lost_way = true;
         if (Z - margin < covered) {
             cover(std::min(Z, wanted ? Z - 0.1 * std::abs(ranking.highest() - Z) : target));
-            if (!find(here.Z, here.s, here)) return lost_way = true;
+            // One that has just attached, within the tolerance of touching, may have no exact state yet.
+            if (!find(here.Z, here.s, here) && !find(here.Z, here.s, here, kOnTheWay)) return lost_way = true;
             complete(here);
             known = false;
             continue;

@@ -12,6 +12,7 @@
 
 namespace rsc {
 
+constexpr double kTouching = 1e-8;         // tolerance for touching, relative to the detachment penetration of an asperity
 constexpr double kNoiseBeforeJump = 3e-7;  // error of the products of the state before a jump; it does not change in the jump
 
 struct AdhesivePath : ContactBodies {
@@ -124,6 +125,7 @@ struct AdhesivePath : ContactBodies {
     void hold_gaps();
     double clearance_at(int asperity, double share);  // with the tip at this share of its way
     bool move(double x0, double y0);
+    bool stand();
     bool move_piece(Vec2 from, Vec2 to);
     Point least_between(const Point& a, const Point& b);
     bool find_force(const Point& a, const Point& b, double wanted);

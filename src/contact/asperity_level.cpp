@@ -48,8 +48,8 @@ std::vector<std::size_t> wholes_of(const std::vector<Spot>& spots, const Level& 
 
 // Largest Z0 at which the flank of a summit touches the indenter: with the slope s of the indenter and the summit's curvatures H, at the place
 // H^-1 s beside it, or if the tip is nearer, there. `heights` (optional) are those of the surface at and around the places of the flanks that
-// are highest as paraboloids; without them the touch is that of the paraboloids.
-double beside(const Asperities& asperities, const Indenter& indenter, const SurfaceHeights& heights) {
+// are highest as paraboloids, and under a tip below which no summit need lie; without them the touch is that of the paraboloids.
+double beside(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options) {
     constexpr std::size_t kMost = 40;
     struct Flank {
         double touch;
@@ -72,22 +72,28 @@ double beside(const Asperities& asperities, const Indenter& indenter, const Surf
     }
     std::partial_sort(flanks.begin(), flanks.begin() + static_cast<std::ptrdiff_t>(std::min(flanks.size(), kMost)), flanks.end(),
                       [](const Flank& a, const Flank& b) { return a.touch > b.touch; });
-    if (flanks.empty() || !heights || indenter.shape->flat())
-        return flanks.empty() ? -std::numeric_limits<double>::infinity() : flanks[0].touch;
+    if (!options.heights || indenter.shape->flat()) return flanks.empty() ? -std::numeric_limits<double>::infinity() : flanks[0].touch;
     flanks.resize(std::min(flanks.size(), kMost));
     std::vector<Vec2> places;
+    constexpr int kRings = 8, kAround = 12;
+    const double wide = std::min(indenter.shape->reach(), options.mean_spacing);
+    for (int k = 0; k <= kRings * kAround; ++k) {  // under the tip, to the next summit
+        const double r = wide * ((k + kAround - 1) / kAround) / kRings, t = 2 * std::numbers::pi * k / kAround;
+        places.push_back({indenter.x0 + r * std::cos(t), indenter.y0 + r * std::sin(t)});
+    }
     for (const Flank& f : flanks)
         for (const double part : {0.6, 1.0, 1.4}) places.push_back({f.summit.x + part * f.way.x, f.summit.y + part * f.way.y});
     double highest = -std::numeric_limits<double>::infinity();
     Vec2 best{};
     const auto look = [&](std::vector<Vec2> at) {
         std::sort(at.begin(), at.end(), [](const Vec2& a, const Vec2& b) { return a.y < b.y; });  // rows are made one after the other
-        const std::vector<double> z = heights(at);
+        const std::vector<double> z = options.heights(at);
         for (std::size_t k = 0; k < z.size(); ++k)
             if (const double touch = indenter.clearance(at[k].x, at[k].y, z[k]); touch > highest) highest = touch, best = at[k];
     };
     look(std::move(places));
-    for (double step = 0.25 * std::hypot(flanks[0].way.x, flanks[0].way.y), last = 0.01 * step; step > last; step *= 0.6) {
+    const double far = flanks.empty() ? 0.0 : 0.25 * std::hypot(flanks[0].way.x, flanks[0].way.y);
+    for (double step = std::max(far, wide / kRings), last = 0.01 * step; step > last; step *= 0.6) {
         places.clear();
         for (const double y : {-step, 0.0, step})
             for (const double x : {-step, 0.0, step}) places.push_back({best.x + x, best.y + y});
@@ -194,7 +200,7 @@ std::optional<FoundSummits> summits_of_difference(const Asperities& asperities, 
         highest = std::max(highest, indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]));
     constexpr double kFlankSpacing = 0.4;
     const double steepest = steepest_above(asperities, indenter, highest - kDeepest * options.sigma);
-    if (steepest > kMostSlopeRatio * options.rms_slope || asperities.size() == 0) {
+    if (steepest > kMostSlopeRatio * options.rms_slope || !std::isfinite(highest)) {
         FoundSummits found = search(indenter);
         add_flanks(found.summits, asperities, kFlankSpacing * options.mean_spacing, indenter.around);
         found.renumbered = true;
@@ -316,15 +322,15 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
         level.area_error_expected = also(level.area_error_expected) + area;
         if (level.force_error_expected > kMuchError) level.status = graver(level.status, LevelStatus::out_of_validity);
     }
-    // Summits of the surface are the contact points only if the indenter is nearly flat beside them.
-    const bool of_surface = !bodies.of_difference;
+    // Summits of the surface are the contact points only if the indenter is nearly flat beside them, and a search may miss some.
+    const bool of_surface = !bodies.of_difference, elsewhere = of_surface || bodies.of_difference->renumbered;
     const auto flank_touches = [&] {
         FlankTouch& flanks = bodies.flanks;
         if (flanks.x0 != indenter.x0 || flanks.y0 != indenter.y0)
-            flanks = {indenter.x0, indenter.y0, beside(bodies.of_surface, indenter, options.heights)};
+            flanks = {indenter.x0, indenter.y0, beside(bodies.of_surface, indenter, options)};
         return level.separation < flanks.Z0;
     };
-    if ((of_surface && level.slope_ratio > kMostSlopeRatio) || (level.contacts == 0 && of_surface && flank_touches()))
+    if ((of_surface && level.slope_ratio > kMostSlopeRatio) || (level.contacts == 0 && elsewhere && flank_touches()))
         level.status = graver(level.status, LevelStatus::out_of_validity);
 }
 

@@ -78,4 +78,23 @@ TEST(test_work) {
     }
 }
 
+// Weak attraction over a long range: an asperity lets go where it attaches, within rounding, and the way up is the way down. The tolerance of
+// touching, 1e-8 of the range, leaves less than 1e-6 w in N.
+TEST(test_reversible) {
+    constexpr double w = 1e-8, range = 0.05;
+    constexpr std::size_t steps = 9;
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        const RandomAsperities system = random_asperities(12, seed, 0.1);
+        const auto contact = make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(w, range));
+        std::vector<double> down;
+        for (std::size_t k = 0; k < 2 * steps; ++k) {
+            const std::size_t place = std::min(k, 2 * steps - 1 - k);
+            const Level level = contact->at_separation(0.075 - 0.01 * static_cast<double>(place));
+            CHECK(level.status != LevelStatus::not_converged);
+            if (k < steps) down.push_back(level.force);
+            CHECK_CLOSE(level.force, down[place], 1e-9 * std::abs(level.force) + 1e-6 * w);
+        }
+    }
+}
+
 }  // namespace

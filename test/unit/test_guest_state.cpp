@@ -27,9 +27,9 @@ std::vector<double> known(rsc_contact* contact, const std::string& memory) {
 
 // A contact that has been moved and committed, its copy, and what a file gives back know the same and go on alike; a step that was tried leaves no
 // trace. `memory`: the value that tells of the path.
-void test_kept(const std::string& keys, const std::string& memory) {
+void test_kept(const std::string& keys, const std::string& memory, const std::string& surface = kSurface) {
     const Folder folder;
-    Made made(kSurface + keys + " / &compare levels='none' /");
+    Made made(surface + keys + " / &compare levels='none' /");
     rsc_contact* const contact = made.contact;
     const ContactHandle fresh = contact_on(made.asperities, made.c);
     ContactHandle copy, saved;
@@ -166,7 +166,7 @@ TEST(test_watched) {
 }  // namespace
 
 // Where the indenter is steep, a contact that is moved before its first load is one made at that place, and a trial there is undone by a
-// rollback; the results of a level outlast a move; bodies with a memory refuse one.
+// rollback; the results of a level outlast a move; bodies with a memory, and attached ones, refuse one.
 void test_steep(const std::string& memory) {
     const std::string text = "&surface n=128 L_lambda_l=4 L_lambda_s=16 sigma=1e-4 / &solids R=Infinity,0.5 E=1e5,1e5 " + memory +
                              " / &asperities law='elliptic' / ";
@@ -207,7 +207,9 @@ TEST(guest_state) {
     }
     for (const std::string& range : {std::string(), std::string("adhesion_range=2e-4"), "adhesion_range=0.02" + elements})
         test_kept("adhesion=0.5 " + range, "energy_lost");
+    // Attached summits of z - shape, at each place others: their numbers stay under a flat ball.
+    test_kept("adhesion=0.05 / &asperities law='elliptic'", "energy_lost", kSurface.substr(0, kSurface.rfind("2.5")) + "50 ");
     test_copied_between_levels("");
     test_copied_between_levels(relaxing + tight);
-    for (const char* memory : {"", "hardness=100", "relaxation_share=0.4 relaxation_time=1"}) test_steep(memory);
+    for (const char* memory : {"", "hardness=100", "relaxation_share=0.4 relaxation_time=1", "adhesion=1e-4"}) test_steep(memory);
 }

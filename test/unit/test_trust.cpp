@@ -359,6 +359,33 @@ TEST(flanks) {
         CHECK(truth[k].force > 0 && asperities[k].force == 0 && asperities[k].status == LevelStatus::out_of_validity);
 }
 
+// A ball smaller than the spacing of the summits, between them: summits of the difference are contacts, within 2 % of elements and what those
+// may differ themselves; law 'hertz' finds none, and does not promise that there is none.
+TEST(small_balls) {
+    Case c;
+    c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16, c.surface.sigma = 1e-3, c.surface.n = 128;
+    c.solids.R[1] = 0.03;
+    c.indentation.levels = {0, -1, -2, -3};
+    int touching = 0;
+    for (const double x : {0.5, 0.37}) {
+        c.indentation.centre[0] = x;
+        const std::vector<Level> truth = pressed(c, Model::elements);
+        for (const LawKind law : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order}) {
+            c.asperities.law = law;
+            const std::vector<Level> asperities = pressed(c, Model::asperities);
+            for (std::size_t k = 0; k < truth.size(); ++k) {
+                if (!(truth[k].force > 0)) continue;
+                ++touching;
+                if (law == LawKind::hertz)
+                    CHECK(asperities[k].force == 0 && asperities[k].status == LevelStatus::out_of_validity);
+                else
+                    CHECK_RELATIVE(asperities[k].force, truth[k].force, 0.02 + truth[k].force_error_expected);
+            }
+        }
+    }
+    CHECK(touching >= 15);
+}
+
 // Asperities that attract: N is a difference of forces that press and pull, and its error at least that of what presses.
 TEST(attracting) {
     Case c;
@@ -382,6 +409,17 @@ TEST(attracting) {
     c.indentation.levels = {0.5};
     for (const Level& edge : pressed(c, Model::asperities))
         CHECK(edge.force < 0 && edge.force_error_expected > 0 && edge.area_error_expected > 0);
+}
+
+// Far below the range of the model an asperity among others may be in equilibrium neither attached nor free: the level ends, and says so.
+TEST(no_state) {
+    Case c;
+    c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16, c.surface.sigma = 1e-3, c.surface.n = 128;
+    c.solids.E[0] = 2, c.solids.nu[0] = 0.3, c.solids.R[1] = 5, c.solids.adhesion = 2e-5, c.solids.adhesion_range = 5e-4;
+    c.asperities.law = LawKind::elliptic;
+    c.indentation.levels = {-4, -8};
+    const std::vector<Level> levels = pressed(c, Model::asperities);
+    CHECK(levels[0].force > 0 && levels[1].status == LevelStatus::not_converged);
 }
 
 // Elements in a campaign have no second grid: contacts of few pixels are out of validity, with an error that holds.
