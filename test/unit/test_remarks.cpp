@@ -17,7 +17,8 @@ TEST(thresholds) {
     const auto remarks = [&](const std::function<void(V&)>& change) {
         std::vector<V> levels(2);
         for (V& level : levels)
-            level.contacts = 10, level.area = 1, level.nominal_area = 2, level.plastic_work = 0.25, level.separation = 1, level.stiffness = -1;
+            level.contacts = 10, level.area = 1, level.nominal_area = 2, level.plastic_work = 0.25, level.separation = 1,
+            level.stiffness = -1;
         change(levels[1]);
         std::ostringstream out;
         print_remarks(out, levels, job);

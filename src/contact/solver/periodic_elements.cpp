@@ -326,8 +326,7 @@ std::vector<std::pair<Pixel, double>> PeriodicElements::press_out() {
 
 ElementsOutcome PeriodicElements::press(double mean_pressure, double tolerance, int most_iterations) {
     const ElementsOutcome outcome = solve({true, mean_pressure / pressure_unit_}, tolerance, most_iterations, true);
-    if (pixels_.size() == at(relief_.nx) * at(relief_.ny))
-        refuse_closing(mean_pressure, closing_pressure());
+    if (pixels_.size() == at(relief_.nx) * at(relief_.ny)) refuse_closing(mean_pressure, closing_pressure());
     return outcome;
 }
 
