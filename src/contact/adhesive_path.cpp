@@ -387,7 +387,8 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
             const double slope = direction * here.change.u[p] * length, bend = there.u[p] - here.u[p] - slope;
             const double root = std::sqrt(std::max(slope * slope - 4 * bend * here.u[p], 0.0));
             const double x = -2 * here.u[p] / (slope + root);
-            share = std::min(share, x > 0 && x < 1 ? x : -here.u[p] / (there.u[p] - here.u[p]));
+            // One that is free within the tolerance of touching has no such point before this one: another state was found.
+            share = std::min(share, here.u[p] > 0 ? 0.3 : x > 0 && x < 1 ? x : -here.u[p] / (there.u[p] - here.u[p]));
         }
         if (share < 1) {
             shorter *= std::max(share, 1e-3) * length / step;

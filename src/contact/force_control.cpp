@@ -141,6 +141,7 @@ void Contact::finish(Level& level) {
         nothing.status = level.status, nothing.method = level.method, nothing.fallback = level.fallback;
         level = std::move(nothing);
     }
+    if (!converged && level.fallback != Fallback::held) level.force_error_expected = level.area_error_expected = kNotComputed;
     if (relaxes()) level.time = time_;
     last_force_ = converged ? level.force : 0.0;
     if (const Period& period = indenter().period; period.finite()) {
