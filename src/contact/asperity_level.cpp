@@ -120,7 +120,7 @@ void find_edge(const ContactBodies& bodies, double radius) {
     for (std::size_t k = 0; k < z.size(); ++k) edge.points.push_back({places[k].x, places[k].y, z[k] - indenter.shape->height(radius, 0)});
 }
 
-// Error of the attraction within a range, of which the surface beside the summits has a part, too (chosen on 60 random surfaces by both models).
+// Error of the attraction within a range, of which the surface beside the summits has a part, too (chosen on some 30 random cases by both models, test/README).
 constexpr double kAttraction = 0.3;
 
 // Expected errors with adhesion: bounds were calibrated without it, so they are those of the forces that press, of which N is a part. What

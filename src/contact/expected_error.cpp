@@ -62,8 +62,8 @@ Predictors predictors(const Level& level, const Asperities& asperities, const In
             indenter.period.finite() ? 1.0 : 0.0};
 }
 
-// Factors of the bound of N for what the fit did not contain: with them it holds for nine of ten levels of each kind, on 157 surfaces with
-// random spectra, bodies and physics (520 levels; test/README).
+// Factors of the bound of N for what the fit did not contain, with which it holds for some nine of ten levels of each kind: chosen on 157 random
+// combinations of spectra, bodies and physics, checked on others (test/README).
 double beyond_fit(const Indenter& indenter) {
     constexpr double layers = 1.3, flats = 1.15, cylinder = 1.7;
     const double(&radii)[2] = indenter.shape->keys().radii;
