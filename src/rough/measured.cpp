@@ -144,7 +144,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     return m;
 }
 
-std::vector<std::string> report(const Measured& m, const std::string& length_unit, bool by_summits) {
+std::vector<std::string> report(const Measured& m, const std::string& length_unit) {
     const char* const l = length_unit.c_str();
     std::vector<std::string> lines;
     lines.push_back(
@@ -154,8 +154,8 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
             "outliers: %ld points differ by more than %.4g %s (%.3g standard deviations) from the median of the 5 x 5 points around them",
             m.outliers.count, m.outliers.threshold, l, m.outlier_times));
     if (m.missing > 0)
-        lines.push_back(format("missing points%s: %ld (%.3g %%) filled%s", m.outliers.count > 0 ? " and outliers" : "", m.missing,
-                               100 * m.missing_share, by_summits ? "; summits closer to them than the shortest wave are ignored" : ""));
+        lines.push_back(format("missing points%s: %ld (%.3g %%) filled", m.outliers.count > 0 ? " and outliers" : "", m.missing,
+                               100 * m.missing_share));
     if (m.missing > 0 && std::abs(m.without_form.height / m.form.rms - 1) > kMuchByFilled)
         lines.push_back(format(
             "warning: filled points change the rms height from %.4g to %.4g %s: they continue outliers at their border, a wide margin of "

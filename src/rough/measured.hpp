@@ -64,7 +64,7 @@ inline constexpr double kFewPointsPerWave = 4;
 // or if any is missing with Missing::refuse (the message states the first).
 Measured measure(HeightMap& map, const MeasureOptions& options);
 
-// Processing and properties of a map as lines of text; lengths are followed by `length_unit`. by_summits: the model uses its summits.
-std::vector<std::string> report(const Measured& measured, const std::string& length_unit, bool by_summits = false);
+// Processing and properties of a map as lines of text; lengths are followed by `length_unit`.
+std::vector<std::string> report(const Measured& measured, const std::string& length_unit);
 
 }  // namespace rsc

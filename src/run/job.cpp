@@ -222,6 +222,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     std::unique_ptr<Contact> contact;
     std::optional<ResolutionCheck> resolution;  // of elements, single runs only
     double side = 0;                            // of their pixels
+    std::shared_ptr<const Measured> measured = job.given ? job.measured : nullptr;
     SummitSearch search;
     SolverOptions solver = job.solver;
     if (by_elements(settings)) {
@@ -231,6 +232,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
             Surface surface = make_element_surface(settings, number, threads, &job.indenter, job.levels);
             if (!job.spectrum) move_to(job.domain, surface.map, number);  // one of several maps
             r.statistics = make_bare_model(surface).statistics;
+            measured = surface.measured;
             r.heights = std::move(surface.map);
         }
         const HeightMap& map = job.given ? *job.given_heights : *r.heights;
@@ -249,6 +251,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
             Surface surface = make_surface(settings, number, threads);
             move_to(job.domain, surface.map, number);
             model = make_surface_model(surface, settings, threads);
+            measured = surface.measured;
         }
         r.asperities = std::move(model.asperities);
         r.statistics = model.statistics;
@@ -265,7 +268,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     }
     r.levels.reserve(job.levels.size());
     const std::vector<std::int32_t> field_steps = steps_of_fields(job);
-    const std::vector<FilledPoints> filled = filled_points(job);
+    const std::vector<FilledPoints> filled = filled_points(job, measured.get());
     std::vector<FieldLevel> fields;
     if (settings.indentation.control != Control::separation && !job.levels.empty())  // before the levels below it are solved
         contact->require_gap(*std::max_element(job.levels.begin(), job.levels.end()));

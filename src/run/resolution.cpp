@@ -141,9 +141,9 @@ bool FilledPoints::at(double x, double y) const {
            (*filled)[static_cast<std::size_t>(j) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(i)];
 }
 
-std::vector<FilledPoints> filled_points(const Job& job) {
+std::vector<FilledPoints> filled_points(const Job& job, const Measured* m) {
     std::vector<FilledPoints> maps;
-    if (const auto& m = job.measured; m && job.given && !m->filled.empty())
+    if (m && !m->filled.empty())
         maps.push_back({&m->filled, m->nx, m->ny, m->dx, m->dy, job.domain.x0, job.domain.y0, job.indenter.period.finite()});
     if (const ShapeKeys& body = job.indenter.shape->keys(); !body.filled.empty()) {
         const HeightMap& m = *body.map;

@@ -80,8 +80,8 @@ struct FilledPoints {
     bool periodic;
     bool at(double x, double y) const;  // whether the nearest point is filled
 };
-// Those of the maps of both bodies, if any. The job must outlive them.
-std::vector<FilledPoints> filled_points(const Job& job);
+// Those of the maps of both bodies, if any; `measured`: of body 1, may be null. The job and it must outlive them.
+std::vector<FilledPoints> filled_points(const Job& job, const Measured* measured);
 
 // Sets filled_share of a level on maps with filled points, and raises its status if it is too large: their share of the pixels under pressure
 // of elements, or of the points of the first map within the contact spots of asperities, or, if that is larger, of the points where Gaussian

@@ -81,7 +81,7 @@ void print_case(std::ostream& out, const Job& job) {
 void print_measured(std::ostream& out, const Job& job) {
     if (!job.measured) return;
     if (!job.given) out << "the first of the maps:\n";
-    for (const std::string& line : report(*job.measured, job.settings.run.length_unit, !by_elements(job.settings))) out << line << '\n';
+    for (const std::string& line : report(*job.measured, job.settings.run.length_unit)) out << line << '\n';
     constexpr double most = 3;
     if (job.seam > most)
         out << format(

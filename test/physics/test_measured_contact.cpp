@@ -88,7 +88,19 @@ TEST(holes) {
         return count;
     };
     CHECK(outside(job.given->asperities) == outside(full.given->asperities));
-    for (const Level& level : realize(job, 1, 1).levels) CHECK(level.filled_share > 0.01 && level.status == LevelStatus::out_of_validity);
+    const auto judged = [](const Job& with, std::int64_t number) {
+        for (const Level& level : realize(with, number, 1).levels)
+            CHECK(level.filled_share > 0.01 && level.status == LevelStatus::out_of_validity);
+    };
+    judged(job, 1);
+    for (const char* name : {"hole_1.gwy", "hole_2.gwy"}) std::filesystem::copy_file(folder / "map.gwy", folder / name);
+    for (const char* model : {"'asperities'", "'elements'"}) {  // one of several maps
+        Case several = holed;
+        set_key(several, "surface%file", "'" + folder / "hole_*.gwy" + "'");
+        set_key(several, "run%realizations", "2");
+        set_key(several, "solver%model", model);
+        judged(prepare(several), 2);
+    }
     Case some = map_case(24, scattered);
     set_key(some, "surface%missing", "'fill'");
     const Realization r = realize(prepare(some), 1, 1);
