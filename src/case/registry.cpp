@@ -176,8 +176,8 @@ std::vector<Key> make_registry() {
                "x0, x1, y0, y1: use only this part of a height map, in the coordinates of the map", "the whole map"),
         number(
             RSC_KEY(surface, outliers), "1", between(0, kNoLimit),
-            "points of a height map that differ from the median of the 5 x 5 points around them by more than this number of standard "
-            "deviations (estimated from the 90 % quantile of the differences) are filled like missing ones; 0: none; 6 removes spikes and keeps roughness"),
+            "points of a height map that differ from the median of the means of opposite points around them (5 x 5 points) by more than this "
+            "number of standard deviations (estimated from the 90 % quantile of the differences) are filled like missing ones; 0: none; 6 removes spikes and keeps roughness"),
 
         choice(RSC_KEY(asperities, curvature), kCurvatureNames, "mean of the principal curvatures that defines the radius of an asperity"),
         choice(

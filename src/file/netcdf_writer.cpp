@@ -37,9 +37,7 @@ void ResultTable::measured() {
     const auto scalar = [&](const std::string& name, const std::string& units, const std::string& long_name, double value,
                             const std::string& note = "") { add(name, {}, units, long_name, std::vector<double>{value}, comment(note)); };
     add("filled_points", {}, "1", "missing points of the map that were filled", std::vector<std::int32_t>{clamped(m.missing)},
-        {{"share", std::vector<double>{m.missing_share}},
-         {"comment",
-          "with the harmonic function of the heights around them; summits closer to them than the shortest wavelength, 2 pi/ks, are excluded"}});
+        {{"share", std::vector<double>{m.missing_share}}, {"comment", "with the harmonic function of the heights around them"}});
     if (m.outlier_times > 0)
         add("outlier_points", {}, "1", "number of filled_points that were outliers", std::vector<std::int32_t>{clamped(m.outliers.count)},
             {{"threshold", std::vector<double>{m.outliers.threshold}},

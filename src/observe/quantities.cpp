@@ -89,7 +89,7 @@ constexpr LevelQuantity kQuantities[] = {
     {.name = "energy_lost", .member = &V::energy_lost, .length_power = 1, .force_power = 1,
      .meaning = "energy dissipated since the first level, by relaxation or in jumps",
      .comment = "relaxation: energy + energy_lost is the work done, int N d(-Z0); adhesion: over a cycle, the area of the hysteresis loop "
-                "of N and Z0 (boundary elements: 10 to 20 % may depend on the levels, more under given forces)", .always = false, .statistics = true, .plain = "energy lost"},
+                "of N and Z0 (boundary elements: losses below about 1 % of w times the attracting area are not resolved; under given forces by the trapezoidal rule over the levels)", .always = false, .statistics = true, .plain = "energy lost"},
     {.name = "jumps", .member = &V::jumps, .meaning = "number of jumps since the previous level",
      .comment = "adhesion: a contact forms or breaks at one separation, including the avalanche that it triggers; boundary "
                 "elements: connected sets of at least 8 points that began or ceased to attract and dissipated more than a tenth of w times their area "

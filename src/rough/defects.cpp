@@ -125,29 +125,31 @@ Outliers remove_outliers(HeightMap& map, double times) {
     std::vector<double> distance(at(0, map.ny)), around, present;
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i) {
-            if (std::isnan(map(i, j))) continue;
-            around.clear();
-            // Near the border as many on both sides: the median of those on one side would be off by the slope.
+            const double z = map(i, j);
+            if (std::isnan(z)) continue;
+            double& d = distance[at(i, j)];
             const int up = std::min({kReach, j, map.ny - 1 - j}), across = std::min({kReach, i, map.nx - 1 - i});
-            for (int b = j - up; b <= j + up; ++b)
-                for (int a = i - across; a <= i + across; ++a)
-                    if (!std::isnan(map(a, b))) around.push_back(map(a, b));
-            double& d = distance[at(i, j)] = std::abs(map(i, j) - median(around));
-            if (up == 0 || across == 0) {  // on the border the straight line through two points in the direction that fits best
+            if (up > 0 && across > 0) {
+                around.clear();
+                for (int b = 0; b <= up; ++b)
+                    for (int a = b > 0 ? -across : 1; a <= across; ++a)
+                        if (const double mean = 0.5 * (map(i + a, j + b) + map(i - a, j - b)); !std::isnan(mean)) around.push_back(mean);
+                if (!around.empty()) d = std::abs(z - median(around));
+            } else {  // on the border from the straight line through two points in the direction that fits best
                 double best = HUGE_VAL;
                 for (int b = -1; b <= 1; ++b)
                     for (int a = -1; a <= 1; ++a)
                         if ((a != 0 || b != 0) && i + 2 * a >= 0 && i + 2 * a < map.nx && j + 2 * b >= 0 && j + 2 * b < map.ny)
-                            best = std::fmin(best, std::abs(map(i, j) - 2 * map(i + a, j + b) + map(i + 2 * a, j + 2 * b)));
+                            best = std::fmin(best, std::abs(z - 2 * map(i + a, j + b) + map(i + 2 * a, j + 2 * b)));
                 if (best < HUGE_VAL) d = best;
             }
-            present.push_back(distance[at(i, j)]);
+            present.push_back(d);
         }
     if (present.empty()) return {};
-    // Of normal differences 90 % are below 1.645 standard deviations. Of those of smooth maps half may be 0.
+    // Of normal differences 90 % are below 1.645 standard deviations; rounding has 12^(-1/2) of its step.
     const auto ninth = present.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(present.size() - 1));
     std::nth_element(present.begin(), ninth, present.end());
-    Outliers found{0, times * *ninth / 1.645};
+    Outliers found{0, times * std::max(*ninth / 1.645, height_step(map) / std::sqrt(12.0))};
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i) {
             if (std::isnan(map(i, j)) || !(distance[at(i, j)] > found.threshold)) continue;

@@ -15,9 +15,9 @@ struct Outliers {
     double threshold = 0;  // [length]
 };
 
-// Sets outliers to NaN. An outlier differs from the median of the 5 x 5 points around it (near the border of the map fewer, as many on both
-// sides; on the border from the straight lines through two neighbours) by more than `times` the standard deviation of these differences,
-// estimated from their 90 % quantile. Missing points and neighbours are ignored.
+// Sets outliers to NaN. An outlier differs from what the 5 x 5 points around it (near the border of the map fewer) make likely, the median of
+// the mean heights of opposite points, by more than `times` the standard deviation of these differences, estimated from their 90 % quantile,
+// and of rounded heights. On the border straight lines through two neighbours take the place of the median. Missing points are ignored.
 Outliers remove_outliers(HeightMap& map, double times);
 
 // Fills missing points with the discrete harmonic function of the heights around them: every filled point is the mean of its neighbours

@@ -150,9 +150,9 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
     lines.push_back(
         format("map: %d x %d points of %.6g x %.6g %s, %.6g x %.6g %s", m.nx, m.ny, m.dx, m.dy, l, m.nx * m.dx, m.ny * m.dy, l));
     if (m.outlier_times > 0)
-        lines.push_back(format(
-            "outliers: %ld points differ by more than %.4g %s (%.3g standard deviations) from the median of the 5 x 5 points around them",
-            m.outliers.count, m.outliers.threshold, l, m.outlier_times));
+        lines.push_back(
+            format("outliers: %ld points differ by more than %.4g %s (%.3g standard deviations) from the 5 x 5 points around them",
+                   m.outliers.count, m.outliers.threshold, l, m.outlier_times));
     if (m.missing > 0)
         lines.push_back(format("missing points%s: %ld (%.3g %%) filled", m.outliers.count > 0 ? " and outliers" : "", m.missing,
                                100 * m.missing_share));

@@ -45,9 +45,10 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
     if (elements) {
         double worst = 0;
         for (const LevelValues& l : levels) worst = std::max(worst, l.force_error_expected);  // ignores NaN
-        tell(count([](const LevelValues& l) { return l.force_error_expected > kUnresolved; }),
-             format("a finer grid may change N by more than 1 %%, in nine of ten cases by less than %s (force_error_expected); ",
-                    percent(worst).c_str()) +
+        const double much = job.settings.solids.adhesion > 0 ? kMuchError : kUnresolved;
+        tell(count([much](const LevelValues& l) { return l.force_error_expected > much; }),
+             format("a finer grid may change N by more than %s, in nine of ten cases by at most %s (force_error_expected); ",
+                    percent(much).c_str(), percent(worst).c_str()) +
                  remedy);
         tell(count([](const LevelValues& l) { return l.force == 0 && l.status == LevelStatus::out_of_validity; }),
              "the bodies touch between the points of the grid, so that N is not 0; " + remedy);
@@ -154,14 +155,19 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
     if (!(c.solids.adhesion > 0) || levels.empty()) return;
     const char *l = c.run.length_unit.c_str(), *f = c.run.force_unit.c_str();
     long jumps = 0;
-    double lost = 0, least = 0;
+    double lost = 0, least = 0, attracting = 0;
     for (const LevelValues& level : levels)
-        jumps += level.jumps, lost = std::fmax(lost, level.energy_lost), least = std::fmin(least, level.least_force);
+        attracting = std::fmax(attracting, level.area + level.cohesive_area), jumps += level.jumps,
+        lost = std::fmax(lost, level.energy_lost), least = std::fmin(least, level.least_force);
+    constexpr double resolved = 0.01;  // of the work of adhesion: some steps, each divided at 0.003 (contact/adhesive_pixels.cpp)
+    std::string how;
+    if (by_elements(c))
+        how = c.indentation.control == Control::separation ? format(" (below %.1g not resolved)", resolved * c.solids.adhesion * attracting)
+                                                           : " (trapezoidal rule over the levels)";
     if (c.run.realizations == 1)
         out << format(
             "  adhesion: the smallest force is %.4g %s; jumps: %ld, energy lost: %.4g %s %s%s. Levels depend on the levels before.\n",
-            least, f, jumps, lost, f, l,
-            by_elements(c) && c.indentation.control != Control::separation ? " (trapezoidal rule over the levels)" : "");
+            least, f, jumps, lost, f, l, how.c_str());
     if (const double fine = levels.back().cohesive_resolution; fine < 2)
         out << format(
             "  adhesion_range is %.2g pixel sides (cohesive_resolution): below 2 the pull-off force is about 5 to 10 %% too high.\n", fine);

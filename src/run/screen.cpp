@@ -33,7 +33,9 @@ bool shown(const LevelQuantity& q, const Job& job) {
 
 }  // namespace
 
-std::string percent(double share) { return format(std::abs(share) < 0.995 ? "%.2g %%" : "%.0f %%", 100 * share); }
+std::string percent(double share) {
+    return std::abs(share) > 10 ? "more than 1000 %" : format(std::abs(share) < 0.995 ? "%.2g %%" : "%.0f %%", 100 * share);
+}
 
 std::string status_text(LevelStatus status) {
     std::string text = kLevelStatusNames[static_cast<std::size_t>(status)];
