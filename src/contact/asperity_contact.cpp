@@ -91,8 +91,9 @@ struct AsperityContact::Impl : ContactBodies {
     std::unique_ptr<Products> direct, mesh;  // mesh: created on first use
     Products* products = nullptr;            // the products in use
     Newton newton;
-    std::deque<Beside> beside;  // west, east, south, north
-    double beside_lowest = 0;   // clearance down to which they were followed
+    std::deque<Beside> beside;   // west, east, south, north
+    double beside_lowest = 0;    // with ellipses, clearance down to which summits were followed
+    std::vector<bool> followed;  // without, those that were
 
     Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_)
         : ContactBodies(asperities_, indenter_, options_, std::move(search_)),
@@ -135,22 +136,33 @@ struct AsperityContact::Impl : ContactBodies {
     void look_beside(const Level& level);
 };
 
-// The depth is counted in half octaves, so that results do not depend on earlier levels.
+// With ellipses all summits down to a depth are followed, which is counted in half octaves, so that results do not depend on earlier levels;
+// otherwise those in contact.
 void AsperityContact::Impl::look_beside(const Level& level) {
-    constexpr double more = 1.1;  // nodes of the law's tables are up to a twentieth beyond the penetration
-    const double depth = more * (ranking.highest() - level.separation + kernel->shift() * level.force),
-                 lowest = ranking.highest() - std::exp2(0.5 * std::ceil(2 * std::log2(depth)));
-    if (!beside.empty() && lowest == beside_lowest) return;
-    beside.clear(), beside_lowest = lowest;
-    std::vector<std::size_t> which;
-    for (std::size_t i = 0; i < asperities.size(); ++i)
-        if (indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) > lowest) which.push_back(i);
     const bool ellipses = of_ellipses(*this);
-    for (const Vec2 way : {Vec2{-1, 0}, Vec2{1, 0}, Vec2{0, -1}, Vec2{0, 1}}) {
-        Beside& to = beside.emplace_back(Beside{indenter, *of_difference, nullptr});
-        to.indenter.x0 += way.x * step_beside(), to.indenter.y0 += way.y * step_beside();
-        to.found.summits = follow_summits(*to.found.map, asperities, which, to.found.lay, to.found.threads, to.found.points_per_wave,
-                                          Face(to.indenter), to.found.breaks.get());
+    double lowest = 0;
+    if (ellipses) {
+        constexpr double more = 1.1;  // nodes of the law's tables are up to a twentieth beyond the penetration
+        const double depth = more * (ranking.highest() - level.separation + kernel->shift() * level.force);
+        lowest = ranking.highest() - std::exp2(0.5 * std::ceil(2 * std::log2(depth)));
+    }
+    std::vector<std::size_t> which;
+    if (beside.empty() || lowest != beside_lowest) {
+        beside.clear(), followed.assign(asperities.size(), false), beside_lowest = lowest;
+        for (const Vec2 way : {Vec2{-1, 0}, Vec2{1, 0}, Vec2{0, -1}, Vec2{0, 1}}) {
+            Beside& to = beside.emplace_back(Beside{indenter, *of_difference, nullptr});
+            to.indenter.x0 += way.x * step_beside(), to.indenter.y0 += way.y * step_beside();
+            to.found.summits = asperities;
+        }
+        for (std::size_t i = 0; i < asperities.size() && ellipses; ++i)
+            if (indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) > lowest) which.push_back(i);
+    }
+    for (const int k : level.asperity)
+        if (!ellipses && !followed[at(k)]) which.push_back(at(k)), followed[at(k)] = true;
+    if (which.empty()) return;
+    for (Beside& to : beside) {
+        to.found.summits = follow_summits(*to.found.map, std::move(to.found.summits), which, to.found.lay, to.found.threads,
+                                          to.found.points_per_wave, Face(to.indenter), to.found.breaks.get());
         to.law = make_law(options.law, to.found.summits, indenter.E_star);
         if (ellipses) to.law = make_ellipse_law(std::move(to.law), to.found, to.indenter, options.mean_spacing, law.get());
     }

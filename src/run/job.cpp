@@ -7,6 +7,7 @@
 #include "contact/contact_curve.hpp"
 #include "contact/element_contact.hpp"
 #include "contact/equivalent.hpp"
+#include "contact/expected_error.hpp"
 #include "contact/ranking.hpp"
 #include "error.hpp"
 #include "format.hpp"
@@ -287,6 +288,12 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         else if (by_elements(settings))
             judge_pixels(level, job, side);
         judge_filled(level, filled, job.indenter, job.sigma);
+        // Scattered missing points, filled by their neighbours: with 30 % missing N of elements was 1 to 3.4 % too low.
+        if (constexpr double part = 0.15; by_elements(settings) && measured && level.force_error_expected >= 0) {
+            level.force_error_expected += part * measured->missing_share;
+            if (level.force_error_expected > (settings.solids.adhesion > 0 ? kMuchError : kUnresolved))
+                level.status = graver(level.status, LevelStatus::out_of_validity);
+        }
         if (level.force == 0 && level.separation < job.points_touch)  // contact at points that are no summits
             level.status = graver(level.status, LevelStatus::out_of_validity);
         if (curve) {

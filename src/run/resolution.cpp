@@ -155,19 +155,31 @@ std::vector<FilledPoints> filled_points(const Job& job, const Measured* m) {
 
 namespace {
 
-// Share of the filled points in the area where the heights reach the indenter, for Gaussian heights of rms sigma.
+// Share of the filled points in the area where the heights reach the indenter, for Gaussian heights of rms sigma. The points in a hole count
+// like the others in their cell, because the face of body 2 is smooth in its own holes.
 double expected_share(double Z0, std::span<const FilledPoints> maps, const Indenter& indenter, double sigma) {
+    struct Cell {
+        double filled = 0, points = 0, reached = 0, reached_filled = 0;
+    };
     const FilledPoints& grid = maps.front();
+    const int side = indenter.period.finite() ? 1 : 8;  // cells along a side; two flats: one
+    std::vector<Cell> cells(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
     constexpr int most = 512;  // points along a side, enough for a share
     const int step_x = (grid.nx + most - 1) / most, step_y = (grid.ny + most - 1) / most;
-    double filled = 0, all = 0;
     for (int j = 0; j < grid.ny; j += step_y)
         for (int i = 0; i < grid.nx; i += step_x) {
+            Cell& cell = cells[static_cast<std::size_t>(j * side / grid.ny * side + i * side / grid.nx)];
             const double x = grid.x0 + i * grid.dx, y = grid.y0 + j * grid.dy;
             const double reached = std::erfc((Z0 - indenter.clearance(x, y, 0)) / (std::numbers::sqrt2 * sigma));
-            all += reached;
-            if (std::any_of(maps.begin(), maps.end(), [&](const FilledPoints& map) { return map.at(x, y); })) filled += reached;
+            const bool hole = std::any_of(maps.begin(), maps.end(), [&](const FilledPoints& map) { return map.at(x, y); });
+            cell.filled += hole, cell.points += 1, (hole ? cell.reached_filled : cell.reached) += reached;
         }
+    double filled = 0, all = 0;
+    for (const Cell& c : cells) {
+        const double there = c.points > c.filled ? c.reached * c.filled / (c.points - c.filled) : 0;
+        const double in_holes = std::max(there, c.reached_filled);
+        filled += in_holes, all += in_holes + c.reached;
+    }
     return all > 0 ? filled / all : 0;
 }
 
