@@ -134,6 +134,10 @@ Outliers remove_outliers(HeightMap& map, double times) {
                 for (int b = 0; b <= up; ++b)
                     for (int a = b > 0 ? -across : 1; a <= across; ++a)
                         if (const double mean = 0.5 * (map(i + a, j + b) + map(i - a, j - b)); !std::isnan(mean)) around.push_back(mean);
+                const bool island = around.empty();  // in a hole, where no pair is whole: the points that are there
+                for (int b = -up; b <= up && island; ++b)
+                    for (int a = -across; a <= across; ++a)
+                        if (const double other = map(i + a, j + b); !std::isnan(other) && (a != 0 || b != 0)) around.push_back(other);
                 if (!around.empty()) d = std::abs(z - median(around));
             } else {  // on the border from the straight line through two points in the direction that fits best
                 double best = HUGE_VAL;
