@@ -18,6 +18,7 @@
 #if defined(__GLIBC__)
 #include <malloc.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 #endif
 
@@ -195,6 +196,8 @@ int serve(Job& job, const std::string& command) {
 // memory is taken from the system in huge pages where it has them.
 void keep_memory() {
 #if defined(__GLIBC__)
+    for (const auto which : {RLIMIT_AS, RLIMIT_DATA})
+        if (rlimit limit{}; getrlimit(which, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY) return;  // memory is short
     constexpr int piece = 32 << 20;  // the largest threshold that is accepted
     mallopt(M_MMAP_THRESHOLD, piece);
     mallopt(M_TRIM_THRESHOLD, 4 * piece);

@@ -557,15 +557,13 @@ void AsperityContact::move_tip(double x0, double y0) {
     my.indenter.move(x0, y0);
     if (my.of_difference) {
         const double moved = std::hypot(my.indenter.around.nearest_x(x0 - my.found_x), my.indenter.around.nearest_y(y0 - my.found_y));
-        // With the most loaded ellipses the summits are those of the place of the tip, as in a new contact.
-        const bool exact = traits(my.options.law).needs_heights && my.of_difference->map;
-        if (opens || moved > (exact ? 0 : summits_keep(my.of_surface, my.indenter, my.options))) {
+        // With the heights at hand the summits are those of the place of the tip, as in a new contact.
+        if (opens || moved > (my.of_difference->map ? 0 : summits_keep(my.of_surface, my.indenter, my.options))) {
             forget();
             return;
         }
     }
     my.ranking.move(x0, y0);
-    my.beside.clear();
     my.expect_repeats(true);
 }
 

@@ -30,7 +30,7 @@ public:
     Vec2 lateral(const Level& level) override;
 
     // The last level is a starting point for the next if its solution is proved unique. Summits of the difference are those of a new contact
-    // at this place with most loaded ellipses or if the contact is path-dependent; otherwise they are detected again when the tip has moved by more
+    // at this place if the heights are kept or the contact is path-dependent; otherwise they are detected again when the tip has moved by more
     // than a tenth of the size of a summit and by a distance that tilts the indenter by more than a fiftieth of the rms slope. Throws
     // Error(bad_input) if bodies yielded or relax where the indenter is so steep that the summits of the two places do not correspond.
     void move_tip(double x0, double y0) override;

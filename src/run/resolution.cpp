@@ -144,41 +144,49 @@ bool FilledPoints::at(double x, double y) const {
 std::vector<FilledPoints> filled_points(const Job& job, const Measured* m) {
     std::vector<FilledPoints> maps;
     if (m && !m->filled.empty())
-        maps.push_back({&m->filled, m->nx, m->ny, m->dx, m->dy, job.domain.x0, job.domain.y0, job.indenter.period.finite()});
+        maps.push_back({&m->filled, m->nx, m->ny, m->dx, m->dy, job.domain.x0, job.domain.y0, job.indenter.period.finite(), false});
     if (const ShapeKeys& body = job.indenter.shape->keys(); !body.filled.empty()) {
         const HeightMap& m = *body.map;
         maps.push_back({&body.filled, m.nx, m.ny, m.dx, m.dy, job.indenter.x0 - 0.5 * (m.nx - 1) * m.dx,
-                        job.indenter.y0 - 0.5 * (m.ny - 1) * m.dy, m.periodic});
+                        job.indenter.y0 - 0.5 * (m.ny - 1) * m.dy, m.periodic, true});
     }
     return maps;
 }
 
 namespace {
 
-// Share of the filled points in the area where the heights reach the indenter, for Gaussian heights of rms sigma. The points in a hole count
-// like the others in their cell, because the face of body 2 is smooth in its own holes.
+// Share of the filled points in the area where the heights reach the indenter, for Gaussian heights of rms sigma. The points in a hole of body
+// 2, whose face is smooth there, count like the others in their cell.
 double expected_share(double Z0, std::span<const FilledPoints> maps, const Indenter& indenter, double sigma) {
     struct Cell {
-        double filled = 0, points = 0, reached = 0, reached_filled = 0;
+        double points = 0, reached = 0;  // outside the holes of body 2
+        double filled = 0;               // part of `reached` in those of body 1
+        double missing = 0, smooth = 0;  // points in holes of body 2, and their part of the area that is reached as they are
     };
     const FilledPoints& grid = maps.front();
     const int side = indenter.period.finite() ? 1 : 8;  // cells along a side; two flats: one
     std::vector<Cell> cells(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
-    constexpr int most = 512;  // points along a side, enough for a share
+    constexpr int most = 128;  // points along a side, enough for a share
     const int step_x = (grid.nx + most - 1) / most, step_y = (grid.ny + most - 1) / most;
     for (int j = 0; j < grid.ny; j += step_y)
         for (int i = 0; i < grid.nx; i += step_x) {
             Cell& cell = cells[static_cast<std::size_t>(j * side / grid.ny * side + i * side / grid.nx)];
             const double x = grid.x0 + i * grid.dx, y = grid.y0 + j * grid.dy;
             const double reached = std::erfc((Z0 - indenter.clearance(x, y, 0)) / (std::numbers::sqrt2 * sigma));
-            const bool hole = std::any_of(maps.begin(), maps.end(), [&](const FilledPoints& map) { return map.at(x, y); });
-            cell.filled += hole, cell.points += 1, (hole ? cell.reached_filled : cell.reached) += reached;
+            const auto in = [&](bool second) {
+                return std::any_of(maps.begin(), maps.end(), [&](const auto& map) { return map.second == second && map.at(x, y); });
+            };
+            if (in(true)) {
+                cell.missing += 1, cell.smooth += reached;
+            } else {
+                cell.points += 1, cell.reached += reached;
+                if (in(false)) cell.filled += reached;
+            }
         }
     double filled = 0, all = 0;
     for (const Cell& c : cells) {
-        const double there = c.points > c.filled ? c.reached * c.filled / (c.points - c.filled) : 0;
-        const double in_holes = std::max(there, c.reached_filled);
-        filled += in_holes, all += in_holes + c.reached;
+        const double there = std::max(c.points > 0 ? c.reached * c.missing / c.points : 0.0, c.smooth);
+        filled += c.filled + there, all += c.reached + there;
     }
     return all > 0 ? filled / all : 0;
 }
