@@ -78,7 +78,7 @@ struct FilledPoints {
     int nx, ny;
     double dx, dy, x0, y0;
     bool periodic;
-    bool second;  // of body 2
+    bool second;                        // of body 2
     bool at(double x, double y) const;  // whether the nearest point is filled
 };
 // Those of the maps of both bodies, if any; `measured`: of body 1, may be null. The job and it must outlive them.
