@@ -152,7 +152,7 @@ BRIEF = {
     "rsc_contact_level": 'Status and solver data of the last level.',
     "rsc_contact_answer": 'The results of the last level in one call.',
     "rsc_contact_value": 'One quantity of the last level by its name in the result file: "force", "contact_area", "contacts", "candidates", "iterations", "residual", "status", "products", "overlapping_pairs", "large_contacts", "beyond_law", ...',
-    "rsc_contact_stiffness": 'dN/dZ0 of the last level, negative, 0 without contact.',
+    "rsc_contact_stiffness": 'dN/dZ0 of the last level, negative, 0 without contact; with solids%hardness that of unloading.',
     "rsc_contact_energy": "Elastic energy of the last level, W = sum W_i + F'BF/2, the work of the asperities and of their interaction; dW/dZ0 = -N, so that kinetic plus elastic energy of a sphere moving on the surface is conserved.",
     "rsc_contact_asperities": "The asperities of a contact, to which the indices of rsc_contact_spots refer: those it was created from or, with law = 'elliptic' or 'fourth_order' on a surface, the summits of the difference between surface and indenter for the present position of the tip.",
     "rsc_contact_spots": 'The contacts of the last level, by increasing index of asperity.',

@@ -341,8 +341,8 @@ RSC_API int32_t rsc_contact_first_touch(const rsc_contact* contact, double* sepa
  * solids%adhesion also on the levels before (with adhesion it follows from the last level under prescribed separation). A level near
  * the last one is computed faster; the last one itself is not computed again, except with adhesion.
  * contact: the contact; separation: Z0, height of the tip above z = 0 [length]; force (out, may be null): N, 0 without contact
- * [force]. Errors: -1 null; -2 not finite; RSC_NOT_CONVERGED, with the results of the last iterate; RSC_NO_MEMORY,
- * RSC_INTERNAL, after which the contact has no result. */
+ * [force]. Errors: -1 null; -2 not finite; RSC_NOT_CONVERGED, with the results of the last iterate, not-a-number if there is no state
+ * (asperities with adhesion); RSC_NO_MEMORY, RSC_INTERNAL, after which the contact has no result. */
 RSC_API int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* force);
 
 /* Sets the time of the following levels, for a body that relaxes (solids%relaxation_share; without effect for others): between two levels
@@ -396,7 +396,7 @@ RSC_API int32_t rsc_contact_answer(rsc_contact* contact, double* separation, dou
  * is not finite; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_value(rsc_contact* contact, const char* name, double* value);
 
-/* dN/dZ0 of the last level, negative, 0 without contact. Costs one more solution of linear equations.
+/* dN/dZ0 of the last level, negative, 0 without contact; with solids%hardness that of unloading. Costs one more solution of linear equations.
  * contact: the contact; stiffness (out) [force/length]. Errors: -1, -2 null; RSC_NO_RESULT, also if the value is not finite;
  * RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_stiffness(rsc_contact* contact, double* stiffness);
