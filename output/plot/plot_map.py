@@ -3,7 +3,7 @@
 import numpy as np
 
 from plot_results import names
-from plot_style import COLOURS, amount, colour_bar, label, plt, _wrapped
+from plot_style import COLOURS, amount, colour_bar, label, plt, wrap_titles, wrapped
 
 MOST = 36  # maps of several results on one page
 
@@ -70,7 +70,7 @@ def maps(results, options):
                 axis.set(xticks=[], yticks=[])
             if q == 0 or beside:
                 force = f"\n$N$ = {amount(result.mean('force')[level], result.dimension('force'))}" if result.control() != "force" and not small else ""
-                axis.set_title("\n".join(_wrapped(name, int(size / 1.5))) + force, fontsize=7 if not small else 5.5)
+                axis.set_title(name + force, fontsize=7 if not small else 5.5)
     if small:  # one scale for all
         end = max(image.get_clim()[1] for image in images)
         for image in images:
@@ -78,8 +78,8 @@ def maps(results, options):
         colour_bar(figure, images[0], axes.ravel().tolist(), "pressure $p$", results[0].dimension("map_pressure"), extend="max", aspect=35)
     smooth = sorted({result.smooth() for result, level, _ in panels if np.isfinite(hertz_radius(result, level))})
     what = ("Area fraction and pressure" if one else "Pressure") + (f"; dashed: {', '.join(smooth)} under the same force" if smooth else "")
-    figure.canvas.draw()  # the layout uses the width of tick labels of the previous drawing
-    figure.suptitle("\n".join(part for line in (results[0].heading(what) if one else what).split("\n") if line for part in _wrapped(line, int(options.width / 1.65))))
+    figure.suptitle(wrapped(figure, results[0].heading(what) if one else what, options.width, "figure.titlesize"))
+    wrap_titles(figure)
     return figure
 
 

@@ -193,28 +193,49 @@ class Page:
             for handle, text in zip(*axis.get_legend_handles_labels()):
                 self.entries.setdefault(text, handle)
         self.entries = dict(sorted(self.entries.items(), key=lambda entry: entry[0].startswith("level ")))
-        columns = max(1, min(len(self.entries), int(self.width // (9 + 1.35 * max(map(len, self.entries), default=0)))))
-        strip = 4.0 * -(-len(self.entries) // columns) + 2 if self.entries else 0.1
-        chars = int(self.width / 1.65)
-        lines = [part for line in title.split("\n") if line for part in _wrapped(line, chars)]
-        self.figure.suptitle("\n".join(lines))
-        self.figure.set_size_inches(self.width / 25.4, (self.body + strip + 4.2 * len(lines)) / 25.4)
-        self.outer.set_height_ratios([self.body, strip])
-        if self.entries:
+        self.figure.suptitle(wrapped(self.figure, title, self.width, "figure.titlesize"))
+        strip, handles = 0.1, list(self.entries.values())
+        if handles:
             below = self.figure.add_subplot(self.outer[1])
             below.axis("off")
-            below.legend(self.entries.values(), self.entries.keys(), loc="center", ncol=columns, borderaxespad=0, frameon=False)
+            texts = [wrapped(self.figure, text, self.width - 10, "legend.fontsize") for text in self.entries]
+            for rows in range(1, len(texts) + 1):  # as few as fit the width
+                legend = below.legend(handles, texts, loc="center", ncol=-(-len(texts) // rows), borderaxespad=0, frameon=False)
+                box = legend.get_window_extent()
+                if box.width < self.figure.bbox.width:
+                    break
+            strip = box.height / self.figure.dpi * 25.4
+        self.figure.set_size_inches(self.width / 25.4, (self.body + strip + 4.2 * (1 + self.figure._suptitle.get_text().count("\n"))) / 25.4)
+        self.outer.set_height_ratios([self.body, strip])
+        wrap_titles(self.figure)
         return self.figure
 
 
-def _wrapped(line, columns):
-    """Parts of a line; text between dollars counts by its visible length."""
-    parts, used = [""], 0
-    for word in line.split(" "):
-        seen = len(re.sub(r"\\[a-z]+|[${}_^]", "", word)) + 1
-        if used and used + seen > columns:
-            parts.append("")
-            used = 0
-        parts[-1] += (" " if parts[-1] else "") + word
-        used += seen
-    return parts
+def wrapped(figure, text, width, size):
+    """The text in lines of at most `width` millimetres; formulas are not broken. size: name of the font size in rcParams, or points."""
+    probe = figure.text(0, 0, "", fontsize=plt.rcParams.get(size, size))
+    lines = []
+    for line in filter(None, text.split("\n")):
+        lines.append("")
+        for word in re.findall(r"(?:\$[^$]*\$|[^ ])+", line):
+            probe.set_text(f"{lines[-1]} {word}".strip())
+            fits = probe.get_window_extent().width < 0.98 * width / 25.4 * figure.dpi
+            lines[-1:] = [probe.get_text()] if fits or not lines[-1] else [lines[-1], word]
+    probe.remove()
+    return "\n".join(lines)
+
+
+def wrap_titles(figure):
+    """Wraps the titles of all axes to the widths of their columns, and makes the figure higher by the lines that this adds."""
+    figure.draw_without_rendering()  # for the positions of the axes; the next drawing also uses the widths of the tick labels of this one
+    added = {}
+    for axis in figure.axes:
+        if axis.get_title():
+            place, centre = axis.get_subplotspec(), sum(axis.get_position().intervalx) / 2
+            columns, column = place.get_gridspec().ncols, place.colspan.start
+            half = min(centre - column / columns, (column + 1) / columns - centre)
+            text = wrapped(figure, axis.get_title(), 50.8 * half * figure.get_figwidth(), axis.title.get_fontsize())
+            row = place.rowspan.start
+            added[row] = max(added.get(row, 0), text.count("\n") - axis.get_title().count("\n"))
+            axis.title.set_text(text)
+    figure.set_figheight(figure.get_figheight() + sum(added.values()) * 3.4 / 25.4)

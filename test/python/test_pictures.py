@@ -112,7 +112,23 @@ class Drawn(unittest.TestCase):
         figure = plot.PICTURES[picture](results(*files), plot.Options(step=step, say=lambda text: None))
         self.addCleanup(plt.close, figure)
         self.assertIsNotNone(figure)
+        self.check_texts(figure)
         return figure
+
+    def check_texts(self, figure):
+        """All texts that are drawn and the legends are within the figure, and no two texts overlap; a pixel of the rounded boxes is allowed."""
+        texts = []
+
+        def draw(text, renderer):
+            if text.get_visible() and text.get_text().strip():
+                texts.append((text.get_text(), text.get_window_extent(renderer).padded(-1)))
+
+        with unittest.mock.patch.object(plt.matplotlib.text.Text, "draw", draw):
+            figure.draw_without_rendering()
+        legends = [("legend", axis.get_legend().get_window_extent().padded(-1)) for axis in figure.axes if axis.get_legend()]
+        beyond = [name for name, box in texts + legends if box.x0 < 0 or box.y0 < 0 or box.x1 > figure.bbox.x1 or box.y1 > figure.bbox.y1]
+        over = [(name, other) for k, (name, box) in enumerate(texts) for other, place in texts[:k] if box.overlaps(place)]
+        self.assertEqual((beyond, over), ([], []))
 
 
 class Numbers(Drawn):
