@@ -54,7 +54,7 @@ def distributions(results, options):
         if results:
             options.say(f"distributions: fewer than {ENOUGH} contacts at every level of &output pdf_levels: not drawn")
         return None
-    page = Page(options, 3, aspect=0.85)
+    page = Page(options, 3, aspect=1.0)
     one = len(results) == 1
     looks = panel_looks(page, [r for r, _, _ in shown], [what + (_gamma(r, k, np.ones(1))[1] if one else "") for r, k, what in shown])
     for axis, (name, bins, text, law, fit) in zip(page.axes, PANELS):

@@ -226,16 +226,14 @@ def wrapped(figure, text, width, size):
 
 
 def wrap_titles(figure):
-    """Wraps the titles of all axes to the widths of their columns, and makes the figure higher by the lines that this adds."""
+    """Wraps the titles of axes half way to the next axes or at the edge of the figure, and makes the figure higher by the lines that this adds."""
     figure.draw_without_rendering()  # for the positions of the axes; the next drawing also uses the widths of the tick labels of this one
-    added = {}
-    for axis in figure.axes:
-        if axis.get_title():
-            place, centre = axis.get_subplotspec(), sum(axis.get_position().intervalx) / 2
-            columns, column = place.get_gridspec().ncols, place.colspan.start
-            half = min(centre - column / columns, (column + 1) / columns - centre)
-            text = wrapped(figure, axis.get_title(), 50.8 * half * figure.get_figwidth(), axis.title.get_fontsize())
-            row = place.rowspan.start
-            added[row] = max(added.get(row, 0), text.count("\n") - axis.get_title().count("\n"))
-            axis.title.set_text(text)
+    centres = {axis: sum(axis.get_position().intervalx) / 2 for axis in figure.axes if axis.get_title()}
+    added = {}  # lines of each row of axes
+    for axis, centre in centres.items():
+        half = min([centre, 1 - centre] + [abs(centre - other) / 2 for other in centres.values() if abs(centre - other) > 0.05])
+        text = wrapped(figure, axis.get_title(), 2 * half * 25.4 * figure.get_figwidth(), axis.title.get_fontsize())
+        row = axis.get_subplotspec().rowspan.start
+        added[row] = max(added.get(row, 0), text.count("\n") - axis.get_title().count("\n"))
+        axis.title.set_text(text)
     figure.set_figheight(figure.get_figheight() + sum(added.values()) * 3.4 / 25.4)

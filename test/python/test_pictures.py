@@ -108,8 +108,8 @@ def run(*words):
 
 
 class Drawn(unittest.TestCase):
-    def figure(self, picture, *files, step=None):
-        figure = plot.PICTURES[picture](results(*files), plot.Options(step=step, say=lambda text: None))
+    def figure(self, picture, *files, step=None, width=180.0):
+        figure = plot.PICTURES[picture](results(*files), plot.Options(width, step, say=lambda text: None))
         self.addCleanup(plt.close, figure)
         self.assertIsNotNone(figure)
         self.check_texts(figure)
@@ -261,7 +261,7 @@ class Numbers(Drawn):
         self.assertTrue(all(image.get_clim()[1] <= 1 for axis in self.figure("map", "back").axes[:3] for image in axis.get_images()))
         p, r = v["radial_pressure"][21], v["radius"]
         self.has_curve(self.figure("radial", "one", step=22), r[np.isfinite(p)], p[np.isfinite(p)])
-        many = self.figure("map", *members("forced", 12))
+        many = self.figure("map", *members("forced", 12), width=100.0)  # the titles have wider lines than the maps
         self.assertEqual(sum(bool(axis.get_images()) for axis in many.axes), 12)
 
     def test_spots(self):
@@ -307,7 +307,7 @@ class Numbers(Drawn):
 
     def test_distributions(self):
         v, _ = raw("one")
-        figure = self.figure("distributions", "one")
+        figure = self.figure("distributions", "one", width=85.0)  # the legend has wider lines than the figure
         for name in ("pressure_mean_pdf", "pressure_pdf", "spot_area_pdf"):
             p, density = v[name.replace("_pdf", "_bin")], v[name][0]
             self.has_curve(figure, p[density > 0], density[density > 0])
