@@ -31,8 +31,7 @@ look() {
     need zlib1g-dev header zlib.h
     need netcdf-bin command -v ncdump
     need python3 command -v python3
-    need python3-matplotlib plots
-    need python3-netcdf4 plots
+    need 'python3-matplotlib python3-netcdf4' plots
 }
 
 look

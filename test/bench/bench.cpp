@@ -14,7 +14,7 @@
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 using namespace rsc;
-using bench::kGold, bench::middle, bench::now, bench::peak_memory_mb, bench::shortest;
+using bench::kGold, bench::middle, bench::now, bench::shortest;
 
 namespace bench {
 
@@ -148,45 +148,6 @@ void bench_pairs() {
     }
 }
 
-void bench_many() {
-    std::printf("\nmany: one level cold on a jittered lattice, a third in contact, to a residual of 1e-6\n");
-    std::vector<double> number, times;
-    for (int n : {10000, 30000, 100000, 300000, 600000}) {
-        const Asperities a = bench::lattice(n);
-        const double sigma = 0.05 / std::sqrt(n);
-        SolverOptions options{.method = Method::mesh, .sigma = sigma};
-        Level level;
-        // The same fraction touches at every n when the mean pressure is the same: the depth grows like the interaction, as sqrt(n).
-        const double depth = -2.2 * sigma - 4.2 * sigma * (std::sqrt(n / 1e4) - 1);
-        const double time = shortest(1, [&] { level = AsperityContact(a, {1.0, 1e4, 0.5, 0.5}, options).at_separation(depth); });
-        std::printf("  N = %6d: %6zu contacts (%.0f %%), area %.2f %%, %d Newton steps, %ld products, residual %.1e, %s, %.2f s\n", n,
-                    level.f.size(), 100.0 * static_cast<double>(level.f.size()) / n, 100 * level.area, level.iterations, level.products,
-                    level.residual, level.status == LevelStatus::not_converged ? "NOT CONVERGED" : "converged", time);
-        number.push_back(n);
-        times.push_back(time);
-    }
-    std::printf("  time ~ N^%.2f (wanted: 1.2); peak memory %.0f MB (wanted: 8000)\n", bench::exponent(number, times), peak_memory_mb());
-}
-
-void bench_largest() {
-    std::printf("\nlargest: 8192^2, L/lambda_l = 4, L/lambda_s = 2048, all in\n");
-    Spectrum spectrum{.L_lambda_l = 4, .L_lambda_s = 2048};
-    SummitCount count;
-    Asperities a;
-    const double bare = bare_transform(8192);
-    const double make = shortest(1, [&] { a = make_asperities(spectrum, 8192, Normalise::sample, 1, 1, Curvature::geometric, &count); });
-    std::printf("  made and detected: %ld summits in %.2f s, %.2f of a bare transform (wanted: 15 s)\n", count.summits, make, make / bare);
-    SolverOptions options{.sigma = 0.01};
-    Level level;
-    const double time = shortest(1, [&] { level = AsperityContact(a, kGold, options).at_separation(0.01); });
-    std::printf(
-        "  Z0 = sigma: %d candidates, %zu contacts, %ld overlapping pairs, status %d, residual %.1e, %d Newton steps, %ld products: "
-        "%.2f s (wanted: 10 s)\n",
-        level.candidates, level.f.size(), level.overlapping_pairs, static_cast<int>(level.status), level.residual, level.iterations,
-        level.products, time);
-    std::printf("  peak memory %.0f MB (wanted: 2000; 512 MB of it the bare transform's)\n", peak_memory_mb());
-}
-
 // A loop of adhesive asperities, 100 levels from 3 sigma down to 1 sigma and 100 up, against the elastic levels down.
 void bench_adhesion() {
     const Asperities a = surface(0.01, 1);
@@ -220,17 +181,10 @@ const Part kParts[] = {
     {"pairs", bench_pairs},
     {"realization", bench_realization},
     {"solve", bench_solve},
-    {"largest", bench_largest},
-    {"many", bench_many},
     {"adhesion", bench_adhesion},
     {"calls", bench::calls},
-    {"made", bench::made},
-    {"layers", bench::layers},
-    {"coated_levels", bench::coated_levels, true},
     {"elements", bench::elements},
     {"element_flats", bench::element_flats, true},
-    {"observe", bench::observe},
-    {"flats", bench::flats},
     {"threads", bench::threads, true},
 };
 

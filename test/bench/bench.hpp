@@ -39,18 +39,6 @@ inline double peak_memory_mb() {
     return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-// The exponent b of y ~ x^b, by least squares of the logarithms.
-inline double exponent(const std::vector<double>& x, const std::vector<double>& y) {
-    const double n = static_cast<double>(x.size());
-    double mx = 0, my = 0, cov = 0, var = 0;
-    for (std::size_t k = 0; k < x.size(); ++k) mx += std::log(x[k]) / n, my += std::log(y[k]) / n;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-        const double dx = std::log(x[k]) - mx;
-        cov += dx * (std::log(y[k]) - my), var += dx * dx;
-    }
-    return cov / var;
-}
-
 inline const rsc::Indenter kGold{78.0e3 / (1 - 0.42 * 0.42), 2.5, 0.5, 0.5};
 
 // About n asperities on a jittered lattice in the unit square, Gaussian heights, lognormal radii.
@@ -61,15 +49,7 @@ void threads();
 // bench_elements.cpp
 void elements();
 void element_flats();
-// bench_made.cpp
-void made();
-void layers();
-// bench_coated.cpp
-void coated_levels();
 // bench_calls.cpp
 void calls();
-// bench_observe.cpp
-void observe();
-void flats();
 
 }  // namespace bench

@@ -7,7 +7,7 @@ set(valgrind ${RSC_VALGRIND} --quiet --error-exitcode=9 --leak-check=full --show
              --errors-for-leak-kinds=definite,indirect)
 add_test(NAME valgrind.api COMMAND ${valgrind} $<TARGET_FILE:test_api_fortran>)
 add_test(NAME valgrind.read_results COMMAND ${valgrind} $<TARGET_FILE:test_results> ${CMAKE_CURRENT_SOURCE_DIR}/test_results.f90
-                                            ${results})
+                                            result_one.nc result_measured.nc)
 # Programs of modules/example, which is read after this folder: paths, not targets.
 add_test(NAME valgrind.example_bouncing COMMAND ${valgrind} ${PROJECT_BINARY_DIR}/modules/example/example_bouncing 1)
 set(programs valgrind.api valgrind.read_results valgrind.example_bouncing)

@@ -47,9 +47,10 @@ if(shared)
   endif()
 endif()
 
+set(works -DCMAKE_C_COMPILER_WORKS=ON -DCMAKE_CXX_COMPILER_WORKS=ON -DCMAKE_Fortran_COMPILER_WORKS=ON)  # this build has used them
 # By CMake: the shared library from C, the static one from C, the module from Fortran.
 run(${CMAKE_COMMAND} -S ${SOURCE}/consumer -B ${FOLDER}/consumer "-DCMAKE_PREFIX_PATH=${prefix}" -DCMAKE_C_COMPILER=${C_COMPILER}
-    -DCMAKE_CXX_COMPILER=${CXX_COMPILER} "-DCMAKE_Fortran_COMPILER=${FORTRAN_COMPILER}" -DRSC_VERSION=${VERSION})
+    -DCMAKE_CXX_COMPILER=${CXX_COMPILER} "-DCMAKE_Fortran_COMPILER=${FORTRAN_COMPILER}" -DRSC_VERSION=${VERSION} ${works})
 run(${CMAKE_COMMAND} --build ${FOLDER}/consumer)
 must_run(${FOLDER}/consumer/consumer_c)
 must_run(${FOLDER}/consumer/consumer_static)
@@ -92,7 +93,7 @@ foreach(compiler ${FORTRAN_COMPILER} ${FLANG})
     set(results OFF)
   endif()
   run(${CMAKE_COMMAND} -S ${SOURCE}/fortran_only -B ${FOLDER}/only_${name} "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_Fortran_COMPILER=${compiler}"
-      -DRSC_VERSION=${VERSION} -DRESULTS=${results})
+      -DRSC_VERSION=${VERSION} -DRESULTS=${results} ${works})
   run(${CMAKE_COMMAND} --build ${FOLDER}/only_${name})
   must_run(${FOLDER}/only_${name}/only_shared)
   must_run(${FOLDER}/only_${name}/only_static)

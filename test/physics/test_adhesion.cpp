@@ -129,7 +129,7 @@ struct JkrEdge {
 };
 
 TEST(test_minimiser) {
-    for (unsigned seed = 1; seed <= 14; ++seed) {
+    for (unsigned seed = 1; seed <= 7; ++seed) {
         const RandomAsperities system = random_asperities(2 + static_cast<int>(seed % 7), seed, 0.2);
         PathMinimiser slow(system.asperities, kE, JkrEdge{system.asperities, system.w});
         const auto contact = make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
@@ -149,7 +149,7 @@ TEST(test_minimiser) {
 // A spherical tip that moves over attached asperities at one separation, to and fro.
 TEST(test_moves) {
     int jumps = 0;
-    for (unsigned seed = 1; seed <= 8; ++seed) {
+    for (unsigned seed = 1; seed <= 5; ++seed) {
         const RandomAsperities system = random_asperities(2 + static_cast<int>(seed % 5), seed, 0.2);
         const Indenter tip{kE, 10.0, 0.5, 0.5};
         const double length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
@@ -253,7 +253,7 @@ TEST(test_cutting) {
     for (const auto& [seed, indenter] : {std::pair{21u, Indenter{kE, kFlat, 0.5, 0.5}}, {22u, coated}}) {
         const RandomAsperities system = random_asperities(12, seed, 0.2);
         double force = 0, lost = 0;
-        for (int cuts : {1, 10, 100, 1000}) {
+        for (int cuts : {1, 10, 100}) {
             const auto contact = make_asperity_contact(system.asperities, indenter, sticky(system.w));
             Level level;
             for (int k = 1; k <= cuts; ++k) level = contact->at_separation(0.02 - 0.03 * k / cuts);
@@ -405,7 +405,7 @@ TEST(test_elastic_limit) {
     }
 }
 
-// Without interaction: caps of one radius with Gaussian heights, pulled off after all have attached. The mean force of 200 surfaces is the
+// Without interaction: caps of one radius with Gaussian heights, pulled off after all have attached. The mean force of 100 surfaces is the
 // integral over the heights of those that still hold on (Fuller and Tabor, Proc. R. Soc. A 345, 1975), within its standard error.
 TEST(test_fuller_tabor) {
     const Jkr jkr{0.5, 1e-3};
@@ -416,7 +416,7 @@ TEST(test_fuller_tabor) {
     std::normal_distribution<double> height(0, sigma);
     const auto force = [&](double u) { return u > -length ? jkr.f(root([&](double a) { return jkr.u(a) - u; }, jkr.least())) : 0.0; };
     for (double Z : {0.5 * sigma, 1.5 * sigma}) {
-        constexpr int surfaces = 200, caps = 25;
+        constexpr int surfaces = 100, caps = 25;
         double sum = 0, squares = 0;
         for (int k = 0; k < surfaces; ++k) {
             std::vector<double> x(caps), y(caps, 0.0), z(caps);

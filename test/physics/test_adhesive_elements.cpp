@@ -106,7 +106,6 @@ TEST(test_sphere) {
         CHECK(std::abs(fine) < 0.7 * std::abs(coarse) + 0.005);
         // So are the losses of edges that move from pixel to pixel; without them it is Maugis's loop, here by 20 levels.
         const double unit = pi * 0.01 * 0.1;
-        std::printf("lambda = %g: lost %g, %g of Maugis's %g\n", lambda, more, less, Sphere{{1, 0.01, lambda, 1}}.lost());
         CHECK_CLOSE(2 * less - more, (Sphere{{1, 0.01, lambda, 1}}.lost()), 0.08 * unit);
     }
 }
@@ -114,7 +113,7 @@ TEST(test_sphere) {
 // One wave between flats (Johnson, Int. J. Solids Structures 32, 1995): with 2a of every wavelength in contact, phi = pi a/lambda, the mean
 // pressure is pi E* D/lambda sin^2 phi - sqrt(2 E* w tan(phi)/lambda). The range is short beside a.
 TEST(test_wave) {
-    constexpr int n = 512, rows = 8;
+    constexpr int n = 512, rows = 4;
     constexpr double height = 0.1, w = 0.3 * 0.3 * pi * pi * height * height / 2, h = 1.0 / n;
     const HeightMap map = height_map(n, rows, h, h, [](int i, int) { return height * std::cos(2 * pi * (i + 0.5) * h); });
     const auto contact = make_element_contact(map, {1.0, kFlat, 0, 0, {1, rows * h}}, attracting(w, 4 * h));
@@ -140,15 +139,13 @@ TEST(test_wave_pull_off) {
     for (double phi = 1e-3; phi < 1; phi += 1e-4)
         truth = std::min(truth, full * (std::pow(std::sin(phi), 2) - alpha * std::sqrt(std::tan(phi))));
     double before = 0;
-    for (const int n : {128, 256, 512, 1024}) {
+    for (const int n : {128, 256, 512}) {
         const double h = 1.0 / n, zone = range * range / w;
         const HeightMap map = height_map(n, rows, h, h, [=](int i, int) { return height * std::cos(2 * pi * (i + 0.5) * h); });
         const auto contact = make_element_contact(map, {1.0, kFlat, 0, 0, {1, rows * h}}, attracting(w, range));
         Level level = contact->at_separation(0.09);
         for (double Z = 0.08; level.force != 0; Z += 5e-4) level = contact->at_separation(Z);
         const double error = level.least_force / (rows * h) / truth - 1;
-        std::printf("Johnson's wave, z0/h = %g, E* z0^2/(w h) = %.3g: separates at a tension %.2f %% too large\n", range / h, zone / h,
-                    100 * error);
         CHECK(error > -0.01 && error < 1.4 * h / zone);
         if (before > 0) CHECK_RELATIVE(error, 0.5 * before, 0.25);
         before = error;

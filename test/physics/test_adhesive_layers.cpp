@@ -36,7 +36,7 @@ double separation(bool flats, int k, int levels = kLevels) {
 }
 
 // Conditions of every point, with deflections by direct sums of the free kernel; the work of the levels is the energy lost.
-void test_conditions(bool flats, const LayeredBody& body) {
+void test_conditions(bool flats, const LayeredBody& body, bool fine) {
     const HeightMap map = bumps();
     const Indenter tip = over(body, flats);
     const auto contact = make_element_contact(map, tip, sticky(kWork, kRange));
@@ -74,7 +74,8 @@ void test_conditions(bool flats, const LayeredBody& body) {
                 CHECK(gap > kRange * (1 - 1e-5));
         }
     }
-    CHECK(before.force == 0 && contact->energy() == 0);
+    CHECK(before.force == 0 && contact->energy() == 0 && most_lost > 0);
+    if (!fine) return;
     // Many levels: the area of the loop, which seven levels give within some per cent (9 % measured; their own trapezoidal sums miss all of it).
     const auto again = make_element_contact(map, tip, sticky(kWork, kRange));
     constexpr int many = 121;
@@ -87,15 +88,14 @@ void test_conditions(bool flats, const LayeredBody& body) {
     }
     CHECK_RELATIVE(last.energy_lost, work, 0.03);
     CHECK_RELATIVE(before.energy_lost, work, 0.12);
-    CHECK(most_lost > 0);
 }
 
 }  // namespace
 
 TEST(adhesive_layers) {
     for (const bool flats : {false, true}) {
-        test_conditions(flats, body_of({0.1, 1, 0.3}, 10, 0.3));
-        test_conditions(flats, body_of({0.1, 10, 0.3}, 1, 0.3));
-        test_conditions(flats, body_of({0.1, 1, 0.5}, kInfinity, 0.3));  // bulges around pressure
+        test_conditions(flats, body_of({0.1, 1, 0.3}, 10, 0.3), false);
+        test_conditions(flats, body_of({0.1, 10, 0.3}, 1, 0.3), false);
+        test_conditions(flats, body_of({0.1, 1, 0.5}, kInfinity, 0.3), flats);  // bulges around pressure
     }
 }

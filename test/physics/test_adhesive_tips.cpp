@@ -52,8 +52,8 @@ Moved move(Contact& contact, double Z, double x, int steps) {
 
 // The state does not depend on how a way is cut; over a closed cycle of many steps the work of the lateral force is the energy lost.
 TEST(test_cycle) {
-    const HeightMap map = waves(48, 2, 0.02);
-    const SolverOptions options = sticky(kWork, 0.1);
+    const HeightMap map = waves(40, 2, 0.02);
+    const SolverOptions options = sticky(kWork, 0.12);
     std::vector<double> forces, losses;
     for (const int steps : {1, 32}) {
         const auto contact = make_element_contact(map, sphere(kPlace, 2), options);

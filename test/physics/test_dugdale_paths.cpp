@@ -50,7 +50,7 @@ TEST(test_minimiser) {
         unsigned seed;
         int n;
         double apart, lambda;
-    } cases[] = {{1, 3, 0.2, 0.1}, {2, 4, 0.2, 1}, {7, 2, 0.2, 3}, {10, 5, 0.2, 0.3}, {6, 8, 0.2, 1}, {102, 6, 0.08, 0.3}};
+    } cases[] = {{1, 3, 0.2, 0.1}, {2, 4, 0.2, 1}, {7, 2, 0.2, 3}, {102, 6, 0.08, 0.3}};
     for (const auto& [seed, n, apart, lambda] : cases) {
         const RandomAsperities system = random_asperities(n, seed, apart);
         const double range = range_of(system.w, lambda), length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
@@ -83,7 +83,7 @@ TEST(test_work) {
 TEST(test_reversible) {
     constexpr double w = 1e-8, range = 0.05;
     constexpr std::size_t steps = 9;
-    for (unsigned seed = 1; seed <= 20; ++seed) {
+    for (unsigned seed = 1; seed <= 8; ++seed) {
         const RandomAsperities system = random_asperities(12, seed, 0.1);
         const auto contact = make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(w, range));
         std::vector<double> down;

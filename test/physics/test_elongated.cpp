@@ -26,8 +26,6 @@ TEST(all_elongated) {
         const auto points = make_element_contact(map, ball, options);
         for (const double Z0 : {0.9 * height, 0.6 * height}) {
             const Level model = one.at_separation(Z0), truth = points->at_separation(Z0);
-            std::printf("1:%g, Z0 = %g: N %+.2g %%, A %+.2g %%\n", ratio, Z0, 100 * (model.force / truth.force - 1),
-                        100 * (model.area / truth.area - 1));
             // The round profile in place of the ellipse's carries 13 % too much, on an area 79 % too large, at 1:20.
             CHECK_RELATIVE(model.force, truth.force, 0.015);
             CHECK_RELATIVE(model.area, truth.area, 0.08);

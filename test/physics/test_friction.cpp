@@ -251,7 +251,6 @@ TEST(two_directions) {
         CHECK_CLOSE(path.work_lost() + path.tangential_energy(), work, 0.02 * work);  // steps of 2 % of full slip
     }
     // Where the path turns over lengths of ten full slips or more, the direction of each spring matters little.
-    std::printf("one direction of slip against each spring's own: %.3g of mu N at most\n", worst);
     CHECK(worst < 0.1);
 }
 

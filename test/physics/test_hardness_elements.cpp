@@ -1,5 +1,5 @@
-// Elements that yield (contact/element_contact.hpp): the elastic and the plastic limit, work and energy along a path, and a slow solver of
-// its own with the same bounds.
+// Elements that yield (contact/element_contact.hpp): the elastic and the plastic limit, work and energy along a path. Against a
+// slow solver: test_element_levels.
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
@@ -98,8 +98,6 @@ TEST(test_sphere) {
     for (const auto& [times, off] : bounds) {
         const double Z0 = -times * 2.25 * depth;
         const Level truth = contact->at_separation(Z0), model = asperity.at_separation(Z0);
-        std::printf("sphere at %.2f u_c: fourth_order over elements: N %+.2f %%, A %+.2f %%\n", times,
-                    100 * (model.force / truth.force - 1), 100 * (model.area / truth.area - 1));
         CHECK_RELATIVE(model.force, truth.force, off);
         CHECK_RELATIVE(model.area, truth.area, 0.06);
     }
@@ -131,8 +129,6 @@ TEST(test_work) {
         }
         if (half == 0) {
             spent = work;
-            std::printf("load: work %.8g, elastic %.8g + lost %.8g: %.1e apart\n", work, contact->energy(), lost,
-                        (contact->energy() + lost) / work - 1);
             // Simpson, with kinks where pixels touch and yield, and levels 1/200 of the way apart.
             CHECK_RELATIVE(work, contact->energy() + lost, 2e-4);
             CHECK(contact->energy() < 0.9 * work && contact->energy() > 0.1 * work);
@@ -143,7 +139,6 @@ TEST(test_work) {
             CHECK_RELATIVE((-1.5 * N + 2 * N1 - 0.5 * N2) / d, S, 1e-3);
         }
     }
-    std::printf("cycle: work %.8g, lost %.8g: %.1e of the work put in apart\n", work, lost, (work - lost) / spent);
     CHECK(work >= 0 && lost > 0.1 * spent);
     CHECK_CLOSE(work, lost, 2e-4 * spent);
     CHECK(contact->energy() == 0 && contact->stiffness() == 0);

@@ -104,7 +104,6 @@ TEST(against_slow_solver) {
         // The comparison is worth something only where most systems have one solution, and many contacts.
         CHECK(unique >= 9 * family.systems / 10);
         systems += unique;
-        std::printf("%-12s %3d of %3d systems unique\n", family.name, unique, family.systems);
     }
     CHECK(systems >= 450);
 }

@@ -128,7 +128,8 @@ TEST(transforms) {
     for (const LayeredBody& body : bodies) {
         const double E_1 = body.layer[0].E / (1 - body.layer[0].nu * body.layer[0].nu);
         const auto smooth = make_layers(body, E_1);
-        for (const double ratio : {0.0, 1e-4, 0.01, 0.3, 1.0, 4.0, 30.0, 300.0, 1e3, 1e4}) {
+        for (const double ratio : {0.0, 1e-4, 0.01, 0.3, 1.0, 4.0, 30.0, 300.0, 1e4}) {
+            if (ratio > 300 && &body != bodies) continue;                              // the quadrature takes long
             const double d = 0.3 * ratio, point = 1 / (kPi * E_1 * std::max(d, 0.3));  // what G is, about
             CHECK_CLOSE(smooth->at(d), transformed(body, d), 1e-9 * point);
         }
@@ -185,20 +186,18 @@ Pressed axisymmetric(const LayeredBody& body, double R, double a) {
 
 TEST(sphere_on_a_layer) {
     const double R = 50, a = 1;
-    const int n = 96;
+    const int n = 64;
     const double pixel = 2.6 * a / n;
     HeightMap map = flat_map(n, n, pixel, pixel);
     map.x0 = map.y0 = 0.5 * pixel;
     for (const double ratio : {10.0, 1.0, 0.1})  // of the layer's modulus to the base's
-        for (const double h : {0.2, 0.5, 1.0, 2.0, 5.0}) {
+        for (const double h : {0.2, 1.0, 5.0}) {
             const LayeredBody body = body_of({{h * a, 100 * ratio, 0.4}}, 100, 0.3);
             const Pressed truth = axisymmetric(body, R, a);
             Indenter sphere{100 * ratio / (1 - 0.16), R, 0.5 * n * pixel, 0.5 * n * pixel, {}};
             sphere.layers = body;
             const auto contact = make_element_contact(map, sphere, {.tolerance = 1e-5});
             const Level level = contact->at_separation(-truth.depth);
-            std::printf("sphere on a layer, E_1/E_2 = %4g, h/a = %3g: N %.6g, over the integral equation's %.5f; area over pi a^2 %.4f\n",
-                        ratio, h, level.force, level.force / truth.force, level.area / (kPi * a * a));
             CHECK_RELATIVE(level.force, truth.force, 0.005);
             CHECK_RELATIVE(level.area, kPi * a * a, 0.02);
         }

@@ -107,7 +107,6 @@ TEST(most_loaded) {
         double end = 1e-3;
         while (!law->beyond(0, 1.01 * end)) end *= 1.01;
         const auto spot = law->spot(0, end);
-        std::printf("a spot beside its summit: centre %.3g, semi-axis %.3g\n", spot->x, spot->major);
         CHECK(spot && spot->major > 0.9 * kSpacing && spot->x < -0.3 * kSpacing);
     }
 
@@ -172,7 +171,6 @@ TEST(most_loaded) {
         const double first = spot.force;
         const Vec2 true_side = lateral_force(ball, pixels), side = lateral_force(ball, spot);
         const double off = std::hypot(side.x - true_side.x, side.y - true_side.y) / pixels.force;
-        std::printf("one long spot: N %.5g against %.5g by elements, lateral force off by %.2g of N\n", first, pixels.force, off);
         CHECK_RELATIVE(first, pixels.force, kForce);
         CHECK(off < kLateral);
         for (const double Z : {4e-4, 1e-4}) {

@@ -61,8 +61,6 @@ TEST(westergaard) {
             // With s = p/p* the stiffness is p*/(Delta ln(1/s)): Z0 = Delta (1 - s + s ln s).
             const double Z0 = Delta * (1 - share + share * std::log(share)), error = level.separation / Z0 - 1;
             const double stiffness = closed * map.Ly() / (Delta * std::log(1 / share));
-            std::printf("Westergaard, %3d points a wave: A %.4f (%.4f), Z0 %.2e, stiffness %.2e\n", n, level.area_pixels / map.Ly(), width,
-                        error, -contact->stiffness() / stiffness - 1);
             CHECK(std::abs(error) < 2.0 / (n * n));
             if (before != 0) CHECK_CLOSE(std::log2(before / error), 2.0, 0.25);
             CHECK_RELATIVE(contact->stiffness(), -stiffness, 3.5 / n);
@@ -85,7 +83,6 @@ TEST(any_grid) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> uniform(-1, 1);
     const int sides[] = {2, 3, 5, 7, 16, 31, 64};
-    long levels = 0, rounds = 0, most = 0;
     for (int trial = 0; trial < 15; ++trial) {
         const int nx = sides[random() % 7], ny = sides[random() % 7];
         HeightMap map = empty(nx, ny, 1, std::pow(4.0, uniform(random)));
@@ -105,10 +102,8 @@ TEST(any_grid) {
             CHECK(level.status == LevelStatus::converged && again.status == LevelStatus::converged);
             CHECK_RELATIVE(again.force, N, 1e-4);
             CHECK(level.area_fraction > 0 && level.pixels.index.size() < static_cast<std::size_t>(nx * ny));
-            ++levels, rounds += level.iterations, most = std::max<long>(most, level.iterations);
         }
     }
-    std::printf("random heights: %.1f rounds a level, %ld at most\n", static_cast<double>(rounds) / static_cast<double>(levels), most);
 }
 
 TEST(threads_change_no_bit) {

@@ -16,7 +16,7 @@ constexpr double kE = 10, kFlat = std::numeric_limits<double>::infinity();
 const Relaxation kBody{{0.3, 0.4}, {0.9, 3}};  // levels closer than 0.9/16 are one step of time
 
 HeightMap waves() {
-    constexpr int n = 32;
+    constexpr int n = 24;
     return height_map(n, n, 1.0 / n, 1.0 / n, [](int i, int j) {
         const double x = 2 * std::numbers::pi * i / n, y = 2 * std::numbers::pi * j / n;
         return 0.01 * (std::cos(x) * std::cos(2 * y + 1) + 0.7 * std::cos(3 * x + 2 * y) + 0.4 * std::sin(5 * y - 2 * x));

@@ -66,7 +66,6 @@ void lateral(const char* name, const ShapeKeys& keys, double depth, double step,
                  fy = -(at(0, step, other) - at(0, -step, other)) / (2 * step);
     CHECK(level.contacts > 0);
     const double size = std::hypot(force.x, force.y);
-    std::printf("%s: lateral force %.6g %.6g, off by %.2g\n", name, force.x, force.y, std::hypot(force.x - fx, force.y - fy) / size);
     CHECK(std::hypot(force.x - fx, force.y - fy) <= tolerance * size);
 }
 
@@ -99,7 +98,6 @@ void turned(const Asperities& asperities, const ShapeKeys& keys) {
         round.R = round.radii[0] = round.radii[1] = R;
         const double square = 2 * R * (highest - depth), higher = R - std::sqrt(R * R - square) - square / (2 * R);
         const double N = force(asperities, "paraboloid", round, depth), sphere = force(asperities, "sphere", round, depth);
-        std::printf("paraboloid of equal radii %g: N %.2g more than of a sphere\n", R, N / sphere - 1);
         CHECK(N > sphere && N < force(asperities, "sphere", round, depth - higher));
         CHECK(N < (1 + square / (R * R)) * sphere);
     }
@@ -179,7 +177,6 @@ TEST(all_shapes) {
     // N' = pi E* b^2/(4 R) and N' = pi p0 b/2.
     const double b = 2 * sum / (std::numbers::pi * peak);
     CHECK_RELATIVE(peak, kE * b / 2, 1e-2);
-    std::printf("cylinder: p0 over E* b/(2 R) - 1 = %.2g\n", peak / (kE * b / 2) - 1);
 
     // Lateral forces of every shape, on asperities and on the points of a surface.
     keys.rim_radius = 0.5;

@@ -2,6 +2,7 @@
 
 usage: test_cases.py PROJECT        (RSC_PROGRAM in the environment)
 """
+import functools
 import glob
 import os
 import re
@@ -22,6 +23,7 @@ def read(*names):
         return file.read()
 
 
+@functools.cache
 def effective(text):
     """{group%key: value} that rsc --check tells of a case."""
     done = subprocess.run([RSC, "--check", "-q"], input=text, text=True, capture_output=True, cwd=PROJECT)

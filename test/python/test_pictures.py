@@ -261,8 +261,8 @@ class Numbers(Drawn):
         self.assertTrue(all(image.get_clim()[1] <= 1 for axis in self.figure("map", "back").axes[:3] for image in axis.get_images()))
         p, r = v["radial_pressure"][21], v["radius"]
         self.has_curve(self.figure("radial", "one", step=22), r[np.isfinite(p)], p[np.isfinite(p)])
-        many = self.figure("map", *members("forced", 12), width=100.0)  # the titles have wider lines than the maps
-        self.assertEqual(sum(bool(axis.get_images()) for axis in many.axes), 12)
+        many = self.figure("map", *members("forced", 12)[-5:], width=100.0)  # the titles have wider lines than the maps
+        self.assertEqual(sum(bool(axis.get_images()) for axis in many.axes), 5)
 
     def test_spots(self):
         v, _ = raw("one")

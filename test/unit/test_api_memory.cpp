@@ -104,7 +104,6 @@ TEST(api_memory) {
             CHECK(rsc_contact_indent(k, 0.0, &N) == 0);
             CHECK_RELATIVE(N, M, 1e-8);
         });
-    std::printf("%d allocations refused\n", refused);
     CHECK(refused > 100);
     rsc_contact_destroy(&k);
     rsc_contact_destroy(&fresh);

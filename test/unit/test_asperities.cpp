@@ -134,7 +134,6 @@ TEST(against_theory) {
         double sum = 0, square = 0;
         for (const double v : values) sum += v, square += v * v;
         const double n = static_cast<double>(values.size()), mean = sum / n, error = std::sqrt((square / n - mean * mean) / (n - 1));
-        std::printf("%s: %.4f +- %.4f, theory %.4f\n", what, mean, error, truth);
         CHECK_CLOSE(mean, truth, 4 * error + bias * truth);
         CHECK(error < 0.01 * truth);
     };

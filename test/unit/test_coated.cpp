@@ -1,4 +1,4 @@
-// Contacts with a body that carries layers, through the library: moved sideways, and yielding. Kept in files: test_guest_state.
+// Contacts with a body that carries layers, through the library: yielding. Kept in files: test_guest_state; forces and energies: physics/test_layers.
 #include "check.hpp"
 #include "physics/random_asperities.hpp"
 #include "unit/library.hpp"
@@ -18,21 +18,6 @@ struct Coated {
 };
 
 const std::string kBody = "E=1e5,Infinity nu=0.3,0 R=Infinity,2.5";
-
-// The lateral force is the gradient of the energy.
-TEST(lateral) {
-    Coated coated(kBody + " layer_thickness=0.05 layer_E=4e5 layer_nu=0.2");
-    const double Z0 = 0.004, step = 1e-4;
-    CHECK(force_at(coated.contact, Z0) > 0);
-    const double force = value(coated.contact, "lateral_force_x");
-    double energy[2];
-    for (const int side : {0, 1}) {
-        OK(rsc_contact_move_tip(coated.contact, 0.5 + (side ? step : -step), 0.5));
-        force_at(coated.contact, Z0);
-        energy[side] = value(coated.contact, "energy");
-    }
-    CHECK_CLOSE(std::abs(energy[1] - energy[0]) / (2 * step), std::abs(force), 1e-3 * std::abs(force));
-}
 
 // The hardness is that of what lies on top: no contact bears more. A stiff coating carries more than its base, and yields at the same pressure.
 TEST(yielding) {

@@ -78,7 +78,6 @@ void check_errors(const Points& p, const char* name, bool on_mesh = true) {
             CHECK_CLOSE(error, 0, wanted);
             largest = std::max(largest, error);
         }
-        std::printf("%-12s n %6zu wanted %.0e error %.1e, mesh %zu\n", name, p.size(), wanted, largest, potential.mesh_points());
     }
     if (check::failures > before) std::printf("  (in %s)\n", name);
 }

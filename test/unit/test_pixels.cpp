@@ -107,7 +107,6 @@ TEST(products) {
                 const double e = difference(w, exact_positive);
                 tree->apply(mixed.data(), w.data(), PixelProducts::Accuracy::full);
                 const double m = difference(w, exact_mixed);
-                std::printf("%5zu pixels, dy/dx %.1f, wanted %.0e: %.1e, both signs %.1e\n", n, dy / dx, wanted, e, m);
                 CHECK(e <= wanted);
                 CHECK(m <= 4 * wanted);
             }

@@ -99,7 +99,6 @@ void split(int nx, int ny, double aspect, double tolerance, const std::function<
     double worst = 0, largest = 0;
     for (std::size_t k = 0; k < truth.size(); ++k)
         worst = std::max(worst, std::abs(Kx[k] - truth[k])), largest = std::max(largest, std::abs(truth[k]));
-    std::printf("%d x %d, aspect %g: split products within %.1e of the largest\n", nx, ny, aspect, worst / largest);
     CHECK(worst < tolerance * largest);
     CHECK(again == Kx);
 }

@@ -103,10 +103,6 @@ TEST(against_the_fourier_sum) {
         SummitCount count;
         const Asperities a = make_asperities(s, n, Normalise::sample, 5, 2, Curvature::geometric, &count, nullptr, 1, Detail::subgrid);
         const auto e = errors(a, w);
-        std::printf(
-            "n = %4d: %4zu summits, %ld saddles, %ld repeated; errors: place %.1e (grid steps), height %.1e, curvatures %.1e, "
-            "biharmonic %.1e\n",
-            n, a.size(), count.saddles, count.repeated, e[0] * n / s.L, e[1], e[2], e[3]);
         CHECK(e[0] * n / s.L < 1e-7);
         CHECK(e[1] < 1e-9);
         CHECK(e[2] < 1e-7);  // the last step is not applied to the derivatives: kNear^2 and the stencil's 1e-9
@@ -204,7 +200,6 @@ TEST(once_each) {
                 ++tried;
             }
     }
-    std::printf("%ld of %ld moved summits found\n", moved, tried);
     CHECK(tried > 150 && 100 * moved >= 99 * tried);  // four points a wave miss one in 200
 }
 

@@ -53,8 +53,6 @@ TEST(proofs_are_true) {
         proved_with_overlaps += proof && count_overlapping(p.x, p.y, p.a) > 0;
         indefinite += !definite;
     }
-    std::printf("400 sets: %d indefinite, %d proved definite, %d of them with overlapping spots\n", indefinite, proved,
-                proved_with_overlaps);
     CHECK(indefinite > 50);            // the test meets what it is about
     CHECK(proved_with_overlaps > 20);  // overlapping spots alone do not defeat the proof
 }
@@ -165,8 +163,6 @@ TEST(told_only_where_it_is_so) {
             }
         }
     }
-    std::printf("4000 sets: %d with several solutions, %d with one, of which %d are told\n", several, unique, told);
-    std::printf("4000 sets of radii over decades: %d with several solutions\n", several_wide);
     CHECK(several > 200 && several_wide > 200);
     CHECK(told > 0.8 * unique && told_again > 0.7 * unique / 4);
 }

@@ -46,8 +46,6 @@ TEST(coverage) {
                         if (low == 1.0) CHECK(!fit.kl_seen || fit.kl.error > 0);
                     }
                 }
-    std::printf("%d windows: hurst %d, kl %d, ks %d within; hurst %+.4f in the mean; plateaus wrong %d\n", all, hurst, kl, ks, bias / all,
-                plateaus);
     CHECK(hurst >= kLeast * all && kl >= kLeast * all && ks >= kLeast * all);
     CHECK_CLOSE(bias / all, 0.0, 0.03);
     CHECK(plateaus == 0);
