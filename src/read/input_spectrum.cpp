@@ -29,7 +29,7 @@ InputSpectrum read_spectrum(const std::string& path, const std::string& length_u
                 const auto plane = read("psd_plane", 4, 2);
                 const std::size_t angles = file.find("psd_plane")->lengths[1];
                 const auto rings = read("plane_wavenumber", -1);
-                found.plane = std::make_shared<const PlaneSpectrum>(rings, angles, tilted(plane, rings, exponent("psd_plane")));
+                found.table = std::make_shared<const SpectrumTable>(rings, tilted(plane, rings, exponent("psd_plane")), angles);
             }
             if (heights)
                 found.heights = std::make_shared<const HeightDistribution>(
@@ -45,7 +45,9 @@ InputSpectrum read_spectrum(const std::string& path, const std::string& length_u
             const TextTable table = read_table(path, 2);
             for (std::size_t i = 0; i < table.rows; ++i) wavenumber.push_back(table.values[2 * i]), psd.push_back(table.values[2 * i + 1]);
         }
-        found.table = std::make_shared<const SpectrumTable>(std::move(wavenumber), std::move(psd));
+        const auto radial = std::make_shared<const SpectrumTable>(std::move(wavenumber), std::move(psd));
+        found.sigma = radial->sigma();
+        if (!found.table) found.table = radial;
     } catch (const Error& error) {
         const std::string what = error.what();
         throw Error(error.kind(), what.starts_with(path) ? what : path + ": " + what);
