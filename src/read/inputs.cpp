@@ -358,12 +358,4 @@ Asperities read_asperities(const std::string& path, const std::string& length_un
     return is_netcdf(path) ? read_netcdf_asperities(path, length_unit) : read_text_asperities(path);
 }
 
-Extent extent(const Asperities& a) {
-    Extent e;
-    if (a.size() == 0) return e;
-    const auto [x_min, x_max] = std::minmax_element(a.x.begin(), a.x.end());
-    const auto [y_min, y_max] = std::minmax_element(a.y.begin(), a.y.end());
-    return {*x_min, *x_max, *y_min, *y_max};
-}
-
 }  // namespace rsc
