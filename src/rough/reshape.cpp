@@ -1,4 +1,3 @@
-#include "rough/reshape.hpp"
 
 #include <boost/math/special_functions/erf.hpp>
 

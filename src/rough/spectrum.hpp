@@ -42,7 +42,7 @@ struct Spectrum {
     // k1^2 + k2^2/aspect)) with k1 along the direction and k2 across it.
     double aspect = 1.0;
     double direction = 0.0;  // direction of the long correlation length, from the x axis towards the y axis [degree]
-    // Non-Gaussian heights, by skewness and kurtosis, or by their distribution if it is set (rough/reshape.hpp).
+    // Non-Gaussian heights, by skewness and kurtosis, or by their distribution if it is set (rough/reshape.cpp).
     HeightShape shape = {};
     std::shared_ptr<const HeightDistribution> heights = nullptr;
     bool gaussian() const { return !heights && shape.skewness == 0 && shape.kurtosis == 3; }

@@ -10,7 +10,6 @@
 #include "observe/regimes.hpp"
 #include "read/inputs.hpp"
 #include "rough/parallel.hpp"
-#include "run/campaign.hpp"
 #include "run/compare.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"

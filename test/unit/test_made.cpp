@@ -6,7 +6,6 @@
 #include "rough/height_distribution.hpp"
 #include "rough/measured_spectrum.hpp"
 #include "rough/synthesis.hpp"
-#include "rough/texture.hpp"
 #include "unit/refused.hpp"
 
 using namespace rsc;
