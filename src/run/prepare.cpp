@@ -11,7 +11,6 @@
 #include "rough/defects.hpp"
 #include "rough/detection.hpp"
 #include "rough/parallel.hpp"
-#include "rough/synthesis.hpp"
 
 namespace rsc {
 namespace {

@@ -11,7 +11,6 @@
 #include "format.hpp"
 #include "run/checkpoint.hpp"
 #include "run/forecast.hpp"
-#include "run/run.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
 #include "version.h"
