@@ -1,6 +1,5 @@
 #include "rough/summits.hpp"
 
-
 namespace rsc {
 namespace {
 
