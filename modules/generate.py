@@ -396,7 +396,6 @@ def python(functions, constants):
     lines += [f"{name[4:]} = {value}" for name, value in constants]
     levels = ", ".join(f'"{name[10:].lower()}"' for name, _ in constants if name.startswith("RSC_LEVEL_"))
     lines += ["", "#: Names of the statuses of a level, by number, as in the variable `status` of a result file.", f"LEVELS = ({levels})"]
-    lines += ["", "#: Description of each function in one sentence.", "BRIEF = {"] + [f'    "{f.name}": {f.brief()!r},' for f in functions] + ["}"]
     return lines
 
 

@@ -497,25 +497,7 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     character(:), allocatable :: value
-    character(kind=c_char), allocatable :: buffer(:)
-    integer(c_int64_t) :: length
-    integer(c_int32_t) :: status, ignored
-    type(c_ptr) :: handle, defaults
-    value = ''
-    allocate (buffer(4096))
-    call case_as_is(self, handle, defaults, status)
-    do while (status == rsc_success)
-      status = rsc_case_get(handle, terminated(trim(name)), buffer, size(buffer, kind=c_int64_t), length)
-      if (status /= rsc_success) exit
-      if (length < size(buffer, kind=c_int64_t)) then
-        value = joined(buffer, length)
-        exit
-      end if
-      deallocate (buffer)
-      allocate (buffer(length + 1))
-    end do
-    ignored = rsc_case_destroy(defaults)
-    call finish(status, stat, errmsg)
+    value = case_as_text(self, name, stat, errmsg)
   end function
 
   !> Sets all keys from namelist text; keys that are not in it get their defaults.
@@ -550,22 +532,34 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     character(:), allocatable :: text
+    text = case_as_text(self, stat=stat, errmsg=errmsg)
+  end function
+
+  !> The value of the key `name`, or without a name all keys.
+  function case_as_text(self, name, stat, errmsg) result(text)
+    class(rsc_case), intent(in) :: self
+    character(*), intent(in), optional :: name
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    character(:), allocatable :: text
     character(kind=c_char), allocatable :: buffer(:)
     integer(c_int64_t) :: length
     integer(c_int32_t) :: status, ignored
     type(c_ptr) :: handle, defaults
     text = ''
-    allocate (buffer(16384))
+    length = 16383
     call case_as_is(self, handle, defaults, status)
     do while (status == rsc_success)
-      status = rsc_case_text(handle, buffer, size(buffer, kind=c_int64_t), length)
-      if (status /= rsc_success) exit
-      if (length < size(buffer, kind=c_int64_t)) then
-        text = joined(buffer, length)
-        exit
-      end if
-      deallocate (buffer)
+      if (allocated(buffer)) deallocate (buffer)
       allocate (buffer(length + 1))
+      if (present(name)) then
+        status = rsc_case_get(handle, terminated(trim(name)), buffer, size(buffer, kind=c_int64_t), length)
+      else
+        status = rsc_case_text(handle, buffer, size(buffer, kind=c_int64_t), length)
+      end if
+      if (status /= rsc_success .or. length >= size(buffer, kind=c_int64_t)) cycle
+      text = joined(buffer, length)
+      exit
     end do
     ignored = rsc_case_destroy(defaults)
     call finish(status, stat, errmsg)

@@ -1121,7 +1121,7 @@ def _plain(function):
         return tuple(o.value for o in made) if len(made) > 1 else made[0].value if made else None
 
     method.__name__ = function[4:].partition("_")[2]
-    method.__doc__ = f"{_rsc_h.BRIEF[function]} values: {', '.join(a.name for a in inputs) or 'none'}. Returns {', '.join(a.name for a in outputs) or 'nothing'}. Errors: see {function} in rsc.h."
+    method.__doc__ = f"{function} of rsc.h. values: {', '.join(a.name for a in inputs) or 'none'}. Returns {', '.join(a.name for a in outputs) or 'nothing'}; errors: see there."
     return method
 
 

@@ -8,7 +8,7 @@
 #include "file/whole_file.hpp"
 #include "format.hpp"
 #include "rough/parallel.hpp"
-#include "run/campaign.hpp"
+#include "run/run.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
 #include "run/study.hpp"

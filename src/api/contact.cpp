@@ -124,12 +124,6 @@ std::string known_values() {
     return names;
 }
 
-// A number of contacts or pairs by its name in the result file.
-std::int64_t count_of(const Level& level, std::string_view name) {
-    const LevelQuantity* quantity = find_quantity(name);
-    return quantity ? static_cast<std::int64_t>(quantity->of(level)) : 0;
-}
-
 }  // namespace
 }  // namespace rsc::api
 
@@ -297,7 +291,7 @@ int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* for
         put(overlapping_pairs, level.overlapping_pairs);
         put(large_contacts, level.large_contacts);
         put(beyond_law, level.beyond_law);
-        put(edge_contacts, count_of(level, "edge_contacts"));
+        put(edge_contacts, level.edge_contacts);
     });
 }
 

@@ -28,21 +28,6 @@ void require_positive(const std::vector<double>& values, int argument, const cha
     }
 }
 
-// Two summits at one position would count one contact twice.
-void require_apart(const Asperities& a) {
-    std::vector<std::size_t> order(a.size());
-    for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
-    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
-        return std::pair(a.x[i], a.y[i]) != std::pair(a.x[j], a.y[j]) ? std::pair(a.x[i], a.y[i]) < std::pair(a.x[j], a.y[j]) : i < j;
-    });
-    for (std::size_t k = 1; k < order.size(); ++k) {
-        const std::size_t i = order[k - 1], j = order[k];
-        if (a.x[i] == a.x[j] && a.y[i] == a.y[j]) {
-            refuse(3, "x", ("and y: entries " + std::to_string(i) + " and " + std::to_string(j) + " are at the same position").c_str());
-        }
-    }
-}
-
 }  // namespace
 }  // namespace rsc::api
 
@@ -197,7 +182,10 @@ int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double
             }
         }
         if (biharmonic) take(a.biharmonic, biharmonic, 10, "biharmonic");
-        require_apart(a);
+        if (const auto same = rsc::coincident(a))
+            refuse(3, "x",
+                   ("and y: entries " + std::to_string(same->first) + " and " + std::to_string(same->second) + " are at the same position")
+                       .c_str());
         model.domain = rsc::list_domain(a, {}, "the asperities");
         model.list = true;
         return share(std::move(model));

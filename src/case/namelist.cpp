@@ -1,7 +1,5 @@
 #include "case/namelist.hpp"
 
-#include "case/namelist_value.hpp"
-
 namespace rsc::namelist {
 namespace {
 

@@ -1,4 +1,3 @@
-#include "case/namelist_value.hpp"
 
 #include "case/namelist.hpp"
 

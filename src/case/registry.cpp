@@ -1,6 +1,5 @@
 #include "case/registry.hpp"
 
-#include "case/namelist_value.hpp"
 #include "contact/indenter/shapes.hpp"
 #include "error.hpp"
 #include "observe/fields.hpp"

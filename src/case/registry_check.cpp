@@ -1,7 +1,6 @@
 // The checks of a case, key by key and as a whole.
 
 #include "case/case.hpp"
-#include "case/namelist_value.hpp"
 #include "case/registry.hpp"
 #include "case/units.hpp"
 #include "contact/indenter/shapes.hpp"

@@ -1,6 +1,5 @@
 // Stores the assignments of a namelist in a Case, and returns values by name.
 
-#include "case/namelist_value.hpp"
 #include "case/registry.hpp"
 #include "error.hpp"
 

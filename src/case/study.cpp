@@ -1,6 +1,5 @@
 #include "case/study.hpp"
 
-#include "case/namelist_value.hpp"
 #include "case/registry.hpp"
 #include "error.hpp"
 

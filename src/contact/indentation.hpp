@@ -86,7 +86,7 @@ struct Adhesion {
 // Points of a measured map that asperities do not represent.
 struct MapMarks {
     std::vector<std::array<double, 3>> border;  // x, y, z of the outermost points of the map, where no summits are found [length]
-    std::vector<std::array<double, 2>> spikes;  // x, y of the spikes one point wide (rough/breaks.hpp) [length]
+    std::vector<std::array<double, 2>> spikes;  // x, y of the spikes one point wide (rough/defects.hpp) [length]
     double reach = 0;                           // a grid step [length]
 };
 

@@ -1,4 +1,4 @@
-#include "read/bytes.hpp"
+#include "read/formats.hpp"
 
 #include <unistd.h>
 

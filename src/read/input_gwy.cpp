@@ -3,7 +3,6 @@
 #include "case/units.hpp"
 #include "error.hpp"
 #include "format.hpp"
-#include "read/bytes.hpp"
 
 namespace rsc {
 namespace {

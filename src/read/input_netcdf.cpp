@@ -6,7 +6,7 @@
 #include "case/units.hpp"
 #include "error.hpp"
 #include "format.hpp"
-#include "read/bytes.hpp"
+#include "read/formats.hpp"
 
 // NetCDF queries attributes that may be missing, and HDF5 prints each failure on stderr; NetCDF suppresses this in the first thread only.
 extern "C" int H5Eset_auto2(std::int64_t stack, int (*print)(std::int64_t, void*), void* data) __attribute__((weak));

@@ -1,11 +1,9 @@
 #include "read/formats.hpp"
 
 #include "case/namelist.hpp"
-#include "case/namelist_value.hpp"
 #include "case/units.hpp"
 #include "error.hpp"
 #include "format.hpp"
-#include "read/bytes.hpp"
 
 namespace rsc {
 namespace {

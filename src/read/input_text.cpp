@@ -1,7 +1,6 @@
 #include "read/formats.hpp"
 
 #include "case/namelist.hpp"
-#include "case/namelist_value.hpp"
 #include "error.hpp"
 
 namespace rsc {

@@ -53,16 +53,10 @@ HeightMap read_heights(const std::string& path, std::optional<double> L, const s
 // At least one asperity; all values finite, radii positive, kappa1 >= kappa2 > 0, no two asperities at the same (x, y).
 Asperities read_asperities(const std::string& path, const std::string& length_unit = "mm");
 
-// The smallest rectangle that contains the summits of the asperities.
-struct Extent {
-    double x_min = 0, x_max = 0, y_min = 0, y_max = 0;
-};
-Extent extent(const Asperities& asperities);
-
 // Properties of a measured map that synthetic surfaces reproduce.
 struct InputSpectrum {
-    std::shared_ptr<const SpectrumTable> table;         // the radial spectrum
-    std::shared_ptr<const PlaneSpectrum> plane;         // by direction, if requested
+    std::shared_ptr<const SpectrumTable> table;         // by direction, if requested
+    double sigma = 0;                                   // rms height of the radial spectrum
     std::shared_ptr<const HeightDistribution> heights;  // if requested
 };
 

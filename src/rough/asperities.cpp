@@ -4,6 +4,16 @@
 
 namespace rsc {
 
+std::optional<std::pair<std::size_t, std::size_t>> coincident(const Asperities& a) {
+    std::vector<std::size_t> order(a.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto key = [&](std::size_t i) { return std::tuple(a.x[i], a.y[i], i); };
+    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return key(i) < key(j); });
+    const auto same = std::ranges::adjacent_find(order, [&](std::size_t i, std::size_t j) { return a.x[i] == a.x[j] && a.y[i] == a.y[j]; });
+    if (same == order.end()) return {};
+    return std::pair{same[0], same[1]};
+}
+
 void validate(const Asperities& a, const std::function<std::string(std::size_t)>& name) {
     const std::size_t n = a.size();
     const auto refuse = [](const std::string& message) { bad_input(message); };
@@ -32,15 +42,9 @@ void validate(const Asperities& a, const std::function<std::string(std::size_t)>
         if (!a.kappa1.empty() && !(a.kappa1[i] >= a.kappa2[i] && usable_positive(a.kappa2[i])))
             refuse(name(i) + ": kappa1 >= kappa2 > 0 was expected, not " + text(a.kappa1[i]) + " and " + text(a.kappa2[i]));
     }
-    std::vector<std::size_t> order(n);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto key = [&](std::size_t i) { return std::tuple(a.x[i], a.y[i], i); };
-    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return key(i) < key(j); });
-    for (std::size_t k = 1; k < n; ++k) {
-        const std::size_t i = order[k - 1], j = order[k];
-        if (a.x[i] == a.x[j] && a.y[i] == a.y[j])
-            refuse(name(j) + ": lies at the same point as " + name(i) + " (x = " + text(a.x[i]) + ", y = " + text(a.y[i]) + ")");
-    }
+    if (const auto same = coincident(a))
+        refuse(name(same->second) + ": lies at the same point as " + name(same->first) + " (x = " + text(a.x[same->first]) +
+               ", y = " + text(a.y[same->first]) + ")");
 }
 
 }  // namespace rsc

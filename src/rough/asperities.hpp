@@ -48,6 +48,9 @@ inline constexpr std::array<AsperityColumn, 8> kAsperityColumns{{
     {"biharmonic", &Asperities::biharmonic, false, -3, "biharmonic of the height at the summit, nabla^4 z"},
 }};
 
+// The indices, in order, of two asperities with the same (x, y), if there are any: they would count one contact twice.
+std::optional<std::pair<std::size_t, std::size_t>> coincident(const Asperities& asperities);
+
 // Checks asperities given by the user. Throws Error(bad_input) unless there is at least one asperity, all non-empty arrays have the same
 // length (kappa1, kappa2 and angle are given together), all values are finite, all radii are positive, kappa1 >= kappa2 > 0, and no two
 // asperities have the same (x, y). `name(i)` returns the name of asperity i for messages.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "rough/asperities.hpp"
-#include "rough/breaks.hpp"
+#include "rough/defects.hpp"
 #include "rough/surface.hpp"
 
 namespace rsc {

@@ -134,8 +134,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     }
     if (m.fit) {
         MeasuredSpectrum& s = m.spectrum;
-        const SpectrumTable table(s.wavenumber, s.psd);
-        const PlaneSpectrum plane(s.plane_wavenumber, MeasuredSpectrum::kAngles, s.plane_psd);
+        const SpectrumTable table(s.wavenumber, s.psd), plane(s.plane_wavenumber, s.plane_psd, MeasuredSpectrum::kAngles);
         const auto breaks = [](const Breaks::Found& found) { return found.points > 0; };
         const double most = std::any_of(m.breaks.found.begin(), m.breaks.found.end(), breaks) ? 0 : kMostExponent;
         s.exponent = twin_exponent([&](double kx, double ky) { return table(std::hypot(kx, ky)); }, s.wavenumber, map, m.parameters, most);

@@ -1,12 +1,10 @@
 // Preparation of a measured map: missing points, form, filter, and the properties of the result (physics, section 11).
 #pragma once
 
-#include "rough/breaks.hpp"
 #include "rough/defects.hpp"
 #include "rough/form.hpp"
 #include "rough/measured_spectrum.hpp"
 #include "rough/surface.hpp"
-#include "rough/texture.hpp"
 
 namespace rsc {
 

@@ -142,12 +142,12 @@ void draw_run(const Spectrum& spectrum, const Band& limits, const NoiseKey& key,
     alignas(64) double amplitude[kBatch], re[kBatch] = {}, im[kBatch] = {};
     for (int ky = first; ky <= last; ky += kBatch) {
         const int count = std::min(kBatch, last - ky + 1), whole = (count + kLanes - 1) / kLanes * kLanes;
-        if (spectrum.tabulated())
+        if (spectrum.table)
             for (int i = 0; i < count; ++i) amplitude[i] = std::sqrt(relative_psd(spectrum, kx, ky + i));
         else
             power_law(spectrum, limits.stretched, kx, ky, whole, amplitude);
         std::fill(amplitude + count, amplitude + whole, 0.0);
-        if (!spectrum.tabulated() && kx * static_cast<double>(kx) < limits.stretched.yy * limits.lowest_q2)
+        if (!spectrum.table && kx * static_cast<double>(kx) < limits.stretched.yy * limits.lowest_q2)
             for (int i = 0; i < count; ++i)
                 if (limits.stretched(kx, ky + i) < limits.lowest_q2) amplitude[i] = spectrum.plateau ? 1.0 : 0.0;
         column_noise(key, kx, ky, count, re, im);

@@ -1,4 +1,3 @@
-#include "rough/reshape.hpp"
 
 #include <boost/math/special_functions/erf.hpp>
 
@@ -414,8 +413,8 @@ Band ellipse(const Band& whole, const Stretch& stretched, double q2) {
 // The ellipses of equal power of a spectrum by direction are those of its second moments: k = A k' with k' isotropic has the moments A A^T.
 // They are exact if the spectrum is an isotropic one that is stretched.
 Stretch power_ellipse(const Spectrum& spectrum) {
-    if (!spectrum.plane) return stretch(spectrum);
-    const double xx = spectrum.plane->integral(2, 0), xy = spectrum.plane->integral(1, 1), yy = spectrum.plane->integral(0, 2);
+    if (!spectrum.by_direction()) return stretch(spectrum);
+    const double xx = spectrum.table->integral(2, 0), xy = spectrum.table->integral(1, 1), yy = spectrum.table->integral(0, 2);
     const double determinant = xx * yy - xy * xy;
     if (!(determinant > 1e-6 * xx * yy)) return {};  // all waves have one direction
     const double scale = 1 / std::sqrt(determinant);
@@ -446,7 +445,7 @@ std::pair<Band, double> long_waves(const Modes& modes, double share) {
 HeightShape reshape_heights(const Spectrum& spectrum, std::complex<double>* columns, std::ptrdiff_t stride, int n) {
     const Band whole = band(spectrum);
     Modes all{whole, whole, columns, stride, n};
-    if (spectrum.plane) {
+    if (spectrum.by_direction()) {
         // The table of a measured map ends with its grid, and its spectrum often before that.
         const Stretch form = power_ellipse(spectrum);
         all.band = ellipse(whole, form, whole.highest_q2 * (form.xx + form.yy));

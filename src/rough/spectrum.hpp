@@ -5,38 +5,20 @@
 
 namespace rsc {
 
-// A tabulated power spectral density: interpolated linearly in logarithms, zero outside the table and beside entries that are zero.
+// A power spectral density tabulated on rings of wavenumbers, and at equally spaced angles or for all directions. It is interpolated linearly
+// in logarithms between rings and linearly between angles, and is zero outside the table and beside entries that are zero.
 class SpectrumTable {
 public:
-    // wavenumber [1/length], psd [length^4], in any consistent unit. Throws Error(bad_input) with the number of the entry unless there are
-    // two or more of each, all are finite, wavenumbers are positive and increase, psd is not negative, and two adjacent entries are
-    // positive.
-    SpectrumTable(std::vector<double> wavenumber, std::vector<double> psd);
-    double operator()(double k) const;
+    // wavenumber [1/length]; psd [length^4], in any consistent unit, [ring][angle] at the angles 0, 180/angles, ... degrees from the x axis
+    // towards the y axis, with the other half plane as the mirror image. Throws Error(bad_input) with the number of the entry unless there
+    // are two rings or more, all values are finite, wavenumbers are positive and increase, psd is not negative, and two entries of adjacent
+    // rings are positive.
+    SpectrumTable(std::vector<double> wavenumber, std::vector<double> psd, std::size_t angles = 1);
+    double operator()(double kx, double ky = 0) const;
     double lowest() const { return k_.front(); }
     double highest() const { return k_.back(); }
-    double largest() const { return largest_; }  // largest psd
-    // Integral of k^power Phi(k) dk, exact for the interpolated table.
-    double integral(double power) const;
-    double sigma() const;  // rms height: the square root of the integral of 2 pi k Phi
-
-private:
-    std::vector<double> k_, psd_, log_k_, log_psd_;
-    double largest_ = 0;
-};
-
-// A power spectral density by direction, tabulated on rings of wavenumbers and at equally spaced angles. It is interpolated linearly in
-// logarithms between rings and linearly between angles, and is zero below the first ring and above the last.
-class PlaneSpectrum {
-public:
-    // wavenumber [1/length]; psd [length^4], [ring][angle] at the angles 0, 180/angles, ... degrees from the x axis towards the y axis,
-    // with the other half plane as the mirror image. Throws Error(bad_input) unless wavenumbers are positive and increase, densities are
-    // finite and not negative, there are at least two rings and two angles, and some density is positive.
-    PlaneSpectrum(std::vector<double> wavenumber, std::size_t angles, std::vector<double> psd);
-    double operator()(double kx, double ky) const;
-    double lowest() const { return k_.front(); }
-    double highest() const { return k_.back(); }
-    double largest() const { return largest_; }  // largest psd
+    double largest() const { return largest_; }        // largest psd
+    bool by_direction() const { return angles_ > 1; }  // otherwise the same in all directions
     // Integral of kx^p ky^q Phi over the plane, p + q even.
     double integral(int p, int q) const;
     double sigma() const;  // rms height
@@ -60,21 +42,19 @@ struct Spectrum {
     // k1^2 + k2^2/aspect)) with k1 along the direction and k2 across it.
     double aspect = 1.0;
     double direction = 0.0;  // direction of the long correlation length, from the x axis towards the y axis [degree]
-    // Non-Gaussian heights, by skewness and kurtosis, or by their distribution if it is set (rough/reshape.hpp).
+    // Non-Gaussian heights, by skewness and kurtosis, or by their distribution if it is set (rough/reshape.cpp).
     HeightShape shape = {};
     std::shared_ptr<const HeightDistribution> heights = nullptr;
     bool gaussian() const { return !heights && shape.skewness == 0 && shape.kurtosis == 3; }
-    // If set, the spectrum, scaled to sigma. hurst and plateau are then not used, and the cutoffs are the ends of the table.
+    // If set, the spectrum, scaled to sigma. hurst and plateau are then not used, and the cutoffs are the ends of the table; aspect and
+    // direction apply to a table that is not by direction.
     std::shared_ptr<const SpectrumTable> table = nullptr;
-    // If set, the spectrum by direction, in place of the table.
-    std::shared_ptr<const PlaneSpectrum> plane = nullptr;
-    bool tabulated() const { return table || plane; }
-    bool directional() const { return aspect != 1 || plane; }
+    bool by_direction() const { return table && table->by_direction(); }
+    bool directional() const { return aspect != 1 || by_direction(); }
 };
 
 // Parameters of a surface with a tabulated spectrum on a square of side L.
 Spectrum tabulated_spectrum(std::shared_ptr<const SpectrumTable> table, double L, double sigma);
-Spectrum tabulated_spectrum(std::shared_ptr<const PlaneSpectrum> plane, double L, double sigma);
 
 // Moments by direction: m_pq is the integral of kx^p ky^q Phi over the plane, m20 = <(dz/dx)^2>, m11 = <dz/dx dz/dy>, m40 = <(d2z/dx2)^2>,
 // ... [length^(2-p-q)].
@@ -105,9 +85,8 @@ struct Moments {
 // Moments by direction of an isotropic surface with moments m2, m4 after stretching and rotation.
 MomentTensor directional_moments(double m2, double m4, double aspect, double direction);
 
-// Throws Error(bad_input) with the name of the member unless all are finite, L > 0, 0 <= hurst <= 1, 1 <= L_lambda_l <= L_lambda_s
-// (strictly less without the plateau), sigma > 0, 0.01 <= aspect <= 100, a height distribution with the skewness and kurtosis exists, and
-// at least one mode lies in the band.
+// Throws Error(bad_input) unless the parameters, each within the bounds of its key, are possible together: a height distribution with the
+// skewness and kurtosis exists, at least one mode lies in the band, and wavevectors are not too large.
 void validate(const Spectrum& spectrum);
 
 // Moments of the continuous spectrum (tables included) in closed form, scaled so that m0 = sigma^2. For an anisotropic surface m2 and m4

@@ -1,7 +1,5 @@
 #include "rough/summits.hpp"
 
-#include "rough/dispatch.hpp"
-
 namespace rsc {
 namespace {
 

@@ -2,9 +2,9 @@
 
 #include "error.hpp"
 #include "rough/dispatch.hpp"
+#include "rough/height_distribution.hpp"
 #include "rough/modes.hpp"
 #include "rough/parallel.hpp"
-#include "rough/reshape.hpp"
 
 #if defined(__SSE2__)
 #include <emmintrin.h>

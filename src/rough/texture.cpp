@@ -1,4 +1,4 @@
-#include "rough/texture.hpp"
+#include "rough/measured_spectrum.hpp"
 
 #include "error.hpp"
 #include "rough/height_distribution.hpp"

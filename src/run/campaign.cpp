@@ -1,4 +1,4 @@
-#include "run/campaign.hpp"
+#include "run/run.hpp"
 
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
@@ -10,6 +10,7 @@
 #include "run/compare.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
+#include "run/team.hpp"
 
 namespace rsc {
 namespace fs = std::filesystem;

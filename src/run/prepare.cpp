@@ -11,7 +11,6 @@
 #include "rough/defects.hpp"
 #include "rough/detection.hpp"
 #include "rough/parallel.hpp"
-#include "rough/synthesis.hpp"
 
 namespace rsc {
 namespace {
@@ -33,32 +32,20 @@ Detail detail_of(const Case& settings) { return traits(settings.asperities.law).
 // Largest number of points along a side of a synthetic surface whose heights are kept for the law.
 constexpr int kMostPointsKept = 4096;
 
-// Heights of a surface while a contact uses them, so that a tip that moves needs no new synthesis.
-class KeptHeights {
-public:
+// What is made once for all places of a tip, and kept while a contact uses it, or always.
+template <class T>
+struct Kept {
     template <class Make>
-    std::shared_ptr<const HeightMap> get(Make&& make) {
-        const std::lock_guard lock(mutex_);
-        auto map = map_.lock();
-        if (!map) map_ = map = std::make_shared<const HeightMap>(make());
-        return map;
-    }
-
-private:
-    std::mutex mutex_;
-    std::weak_ptr<const HeightMap> map_;
-};
-
-// What the rows of a synthetic surface are made of, kept once it is made: to draw the modes again takes longer than hundreds of rows.
-struct KeptRows {
-    template <class Make>
-    std::shared_ptr<const RowSource> get(Make&& make) {
+    std::shared_ptr<const T> get(bool always, Make&& make) {
         const std::lock_guard lock(mutex);
-        if (!made) made.reset(new const RowSource(make()));
-        return made;
+        std::shared_ptr<const T> found = made ? made : used.lock();
+        if (!found) used = found = std::shared_ptr<const T>(new const T(make()));
+        if (always) made = found;
+        return found;
     }
     std::mutex mutex;
-    std::shared_ptr<const RowSource> made;
+    std::weak_ptr<const T> used;
+    std::shared_ptr<const T> made;
 };
 
 double rms(const std::vector<double>& values) {
@@ -161,9 +148,8 @@ Spectrum spectrum_of(const Case& settings) {
     if (keys.source == Source::spectrum) {
         const auto found = read_spectrum(keys.file, settings.run.length_unit, keys.twins == Twins::directional,
                                          keys.twin_heights == TwinHeights::measured);
-        const double lowest = found.plane ? found.plane->lowest() : found.table->lowest();
-        const double L = keys.L.value_or(2 * std::numbers::pi / lowest), sigma = keys.sigma.value_or(found.table->sigma());
-        Spectrum spectrum = found.plane ? tabulated_spectrum(found.plane, L, sigma) : tabulated_spectrum(found.table, L, sigma);
+        Spectrum spectrum = tabulated_spectrum(found.table, keys.L.value_or(2 * std::numbers::pi / found.table->lowest()),
+                                               keys.sigma.value_or(found.sigma));
         spectrum.aspect = keys.aspect, spectrum.direction = keys.direction;
         spectrum.shape = {keys.skewness, keys.kurtosis};
         spectrum.heights = found.heights;
@@ -283,17 +269,16 @@ SurfaceDomain synthetic_domain(const Spectrum& spectrum) {
 }
 
 SurfaceDomain list_domain(const Asperities& asperities, std::optional<double> L, const std::string& whose) {
-    const Extent box = extent(asperities);
-    const double extent = std::max(box.x_max - box.x_min, box.y_max - box.y_min);
-    if (L && extent > *L) {
-        bad_input("surface%L = " + text_of(*L) + " is less than the extent of " + whose + ", " + text_of(extent));
-    }
+    const auto [left, right] = std::ranges::minmax(asperities.x);
+    const auto [below, above] = std::ranges::minmax(asperities.y);
+    const double extent = std::max(right - left, above - below);
+    if (L && extent > *L) bad_input("surface%L = " + text_of(*L) + " is less than the extent of " + whose + ", " + text_of(extent));
     SurfaceDomain domain;
-    if (L && std::min(box.x_min, box.y_min) >= 0 && std::max(box.x_max, box.y_max) <= *L) {
+    if (L && std::min(left, below) >= 0 && std::max(right, above) <= *L) {
         domain = {0, 0, *L, *L};
     } else {
         const double side = L.value_or(extent > 0 ? extent : 1.0);
-        domain = {0.5 * (box.x_min + box.x_max) - 0.5 * side, 0.5 * (box.y_min + box.y_max) - 0.5 * side, side, side};
+        domain = {0.5 * (left + right) - 0.5 * side, 0.5 * (below + above) - 0.5 * side, side, side};
     }
     domain.sigma = rms(asperities.z);
     domain.guessed = !L;
@@ -384,7 +369,7 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
     model.domain.step = spectrum.L / keys.n;
     SummitCount count;
     Moments sampled, differences;
-    const auto rows = std::make_shared<KeptRows>();
+    const auto rows = std::make_shared<Kept<RowSource>>();  // to draw the modes again takes longer than hundreds of rows
     model.asperities = make_asperities(spectrum, keys.n, keys.normalise, settings.run.seed, number, settings.asperities.curvature, &count,
                                        &sampled, threads, detail_of(settings), &differences, nullptr, &rows->made);
     if (const int n = summit_points(spectrum, keys.n); n > kMostPointsKept || (rows->made && rows->made->n() != n)) rows->made.reset();
@@ -397,7 +382,7 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
     model.domain.rms_slope = std::sqrt(2 * s.m2);
     model.domain.heights = [keys, spectrum, seed = settings.run.seed, number, threads, rows](const std::vector<Vec2>& points) {
         const int n = summit_points(spectrum, keys.n);
-        const auto source = rows->get([&] { return RowSource(spectrum, n, keys.normalise, seed, number, threads); });
+        const auto source = rows->get(true, [&] { return RowSource(spectrum, n, keys.normalise, seed, number, threads); });
         RowSource::Scratch scratch(*source);
         HeightMap two;
         two.allocate(n, 2, (n + 7) / 8 * 8), two.dx = two.dy = spectrum.L / n, two.periodic = true;
@@ -415,13 +400,13 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
     };
     if (detail_of(settings) == Detail::subgrid)
         model.search = [keys, spectrum, seed = settings.run.seed, number, curvature = settings.asperities.curvature, threads,
-                        kept = std::make_shared<KeptHeights>()](const Indenter& indenter) {
+                        kept = std::make_shared<Kept<HeightMap>>()](const Indenter& indenter) {
             const Face face(indenter);
             FoundSummits found{{}, nullptr, 0, threads, nullptr};
             SummitCount count;
             const int n = summit_points(spectrum, keys.n);
             if (n <= kMostPointsKept) {  // the same summits, with the heights
-                found.map = kept->get([&] { return synthesize(spectrum, n, keys.normalise, seed, number, nullptr, threads); });
+                found.map = kept->get(false, [&] { return synthesize(spectrum, n, keys.normalise, seed, number, nullptr, threads); });
                 found.points_per_wave = n / shortest_wave(spectrum);
                 found.summits = find_asperities(*found.map, curvature, &count, threads, Detail::subgrid, found.points_per_wave, &face);
                 found.lay = count.lay;

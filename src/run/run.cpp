@@ -10,7 +10,6 @@
 #include "observe/regimes.hpp"
 #include "read/inputs.hpp"
 #include "rough/parallel.hpp"
-#include "run/campaign.hpp"
 #include "run/compare.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
@@ -125,12 +124,12 @@ static std::string other_slopes(const Measured& m) {
             "\nwarning: where the map is more than one rms height above its mean plane, its rms slope is %.2g times that of the whole; the twins "
             "do not keep this, and their contact area at a given force may differ from the map's by a factor of two and more",
             high);
-    const Spectrum twin =
-        directional ? tabulated_spectrum(std::make_shared<PlaneSpectrum>(s.plane_wavenumber, MeasuredSpectrum::kAngles,
-                                                                         tilted(s.plane_psd, s.plane_wavenumber, exponent)),
-                                         L, sigma)
-                    : tabulated_spectrum(std::make_shared<SpectrumTable>(s.wavenumber, tilted(s.psd, s.wavenumber, exponent)), L, sigma);
-    const double slope = theoretical_moments(twin).rms_slope(), held = (directional ? twin.plane->sigma() : twin.table->sigma()) / sigma;
+    const Spectrum twin = tabulated_spectrum(
+        directional ? std::make_shared<SpectrumTable>(s.plane_wavenumber, tilted(s.plane_psd, s.plane_wavenumber, exponent),
+                                                      MeasuredSpectrum::kAngles)
+                    : std::make_shared<SpectrumTable>(s.wavenumber, tilted(s.psd, s.wavenumber, exponent)),
+        L, sigma);
+    const double slope = theoretical_moments(twin).rms_slope(), held = twin.table->sigma() / sigma;
     if (std::abs(slope / m.parameters.sdq - 1) < kTold) return said;
     said += format("\nwarning: the rms slope of the twins is %.3g, the map's %.3g", slope, m.parameters.sdq);
     if (exponent != 0 && std::abs(exponent) < kMostExponent * (1 - 1e-9))  // which makes the slopes by first differences equal

@@ -1,7 +1,5 @@
 #include "run/study.hpp"
 
-#include <sys/stat.h>
-
 #include "archive.hpp"
 #include "case/registry.hpp"
 #include "case/units.hpp"
@@ -11,7 +9,6 @@
 #include "file/result.hpp"
 #include "file/whole_file.hpp"
 #include "format.hpp"
-#include "run/campaign.hpp"
 #include "run/checkpoint.hpp"
 #include "run/forecast.hpp"
 #include "run/screen.hpp"
@@ -147,9 +144,10 @@ Error named(const Error& error, const Member& member) {
 }
 
 // Checks everything that can be checked without preparing the case (prepare). Returns true if a result exists already.
-bool look_at(const Member& member, const RunOptions& options) {
+bool look_at(const Member& member, const RunOptions& options, const std::vector<std::string>& inputs) {
     const Case& settings = member.settings;
-    const bool there = check_result_path(settings, options);
+    (void)input_files(settings);  // refuses a pattern without files
+    const bool there = check_output(settings.output.file, inputs);
     contacts_kept(settings);
     if (settings.run.realizations > 1 && fs::exists(checkpoint_name(settings.output.file)))
         Checkpoint(settings.output.file, settings, options.resume);
@@ -162,16 +160,7 @@ void prepare_once(const Case& settings, std::set<std::vector<std::string>>& file
     if (settings.surface.source == Source::synthetic || files_read.insert(files).second) prepare(settings);
 }
 
-// Identities of files, whatever their names.
-using Files = std::set<std::pair<dev_t, ino_t>>;
-std::optional<Files::value_type> identity(const std::string& path) {
-    struct stat file {};
-    if (::stat(path.c_str(), &file) != 0 || !S_ISREG(file.st_mode)) return {};
-    return Files::value_type{file.st_dev, file.st_ino};
-}
-
-Files inputs_of(const std::vector<Member>& members, const RunOptions& options) {
-    Files files;
+std::vector<std::string> inputs_of(const std::vector<Member>& members, const RunOptions& options) {
     std::set<std::string> names(options.inputs.begin(), options.inputs.end());
     for (const Member& member : members) {
         try {
@@ -179,16 +168,16 @@ Files inputs_of(const std::vector<Member>& members, const RunOptions& options) {
         } catch (const Error&) {  // a pattern without files: told when that member is looked at
         }
     }
-    for (const std::string& name : names)
-        if (const auto file = identity(name)) files.insert(*file);
-    return files;
+    return {names.begin(), names.end()};
 }
 
 // Throws Error(bad_input) if the manifest must not be written.
-void check_manifest(const std::string& output_file, const Files& inputs) {
+void check_manifest(const std::string& output_file, const std::vector<std::string>& inputs) {
     const std::string path = manifest_file(output_file);
     std::string why = reason_to_leave(path, kManifest);
-    if (const auto file = identity(path); file && inputs.contains(*file)) why = "this is an input of the run";
+    std::error_code error;
+    for (const std::string& input : inputs)
+        if (fs::equivalent(input, path, error)) why = "this is an input of the run";
     if (!why.empty()) bad_input("the manifest of the study, '" + path + "': " + why + " (give &output file another name)");
 }
 
@@ -208,14 +197,11 @@ std::vector<const Member*> wanted_of(const ReadCase& read, const std::vector<Mem
 template <class Ready>
 void look_at_all(const ReadCase& read, const std::vector<Member>& all, const std::vector<const Member*>& wanted, const RunOptions& options,
                  Ready ready) {
-    const Files inputs = inputs_of(all, options);
+    const std::vector<std::string> inputs = inputs_of(all, options);
     if (read.study) check_manifest(read.settings.output.file, inputs);
     for (const Member* member : wanted) {
         try {
-            const std::string& file = member->settings.output.file;
-            if (const auto result = identity(file); result && inputs.contains(*result))
-                bad_input("&output file='" + file + "': this is an input of the run, which the result would overwrite; name another file");
-            ready(*member, look_at(*member, options));
+            ready(*member, look_at(*member, options, inputs));
         } catch (const Error& error) {
             throw named(error, *member);
         }

@@ -11,7 +11,6 @@
 #include "physics/values/levels.hpp"
 #include "physics/values/observed.hpp"
 #include "physics/values/single.hpp"
-#include "run/campaign.hpp"
 #include "run/run.hpp"
 #include "unit/netcdf_file.hpp"
 #include "unit/temporary_folder.hpp"

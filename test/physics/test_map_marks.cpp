@@ -3,7 +3,7 @@
 #include "height_maps.hpp"
 
 #include "contact/asperity_contact.hpp"
-#include "rough/breaks.hpp"
+#include "rough/defects.hpp"
 #include "rough/detection.hpp"
 #include "run/prepare.hpp"
 

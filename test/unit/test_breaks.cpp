@@ -1,6 +1,6 @@
 // Pits, spikes and steps of a map: found where they are, none where there are none; pits raised to the surface around.
 #include "check.hpp"
-#include "rough/breaks.hpp"
+#include "rough/defects.hpp"
 #include "rough/synthesis.hpp"
 
 using namespace rsc;

@@ -4,7 +4,7 @@
 #include <netcdf.h>
 #include <zlib.h>
 
-#include "case/namelist_value.hpp"
+#include "case/namelist.hpp"
 #include "case/registry.hpp"
 #include "check.hpp"
 #include "error.hpp"

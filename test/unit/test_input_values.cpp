@@ -155,11 +155,6 @@ TEST(lists) {
     const Asperities text = read_asperities(folder.write("l.txt", "# x y z r\n1.5 -2 3e-3 4 # first\n\n+5 6d0 7D-1 8\n"));
     CHECK((text.x == std::vector{1.5, 5.0} && text.y == std::vector{-2.0, 6.0} && text.z == std::vector{3e-3, 0.7} &&
            text.radius == std::vector{4.0, 8.0}));
-    const Extent e = extent(
-        Asperities{.x = {3, 1, 2}, .y = {7, 9, 5}, .z = {}, .radius = {}, .kappa1 = {}, .kappa2 = {}, .angle = {}, .biharmonic = {}});
-    CHECK(e.x_min == 1 && e.x_max == 3 && e.y_min == 5 && e.y_max == 9);
-    const Extent none = extent({});
-    CHECK(none.x_min == 0 && none.x_max == 0 && none.y_min == 0 && none.y_max == 0);
     // Spectra: wavenumbers and densities each in a unit of its own, in NetCDF and as two columns.
     const auto table = read_spectrum(netcdf("s.nc", {{"k", 3}},
                                             {{"wavenumber", NC_DOUBLE, {"k"}, {2, 3, 5}, {{"units", "um-1"}}},

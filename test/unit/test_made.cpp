@@ -6,7 +6,6 @@
 #include "rough/height_distribution.hpp"
 #include "rough/measured_spectrum.hpp"
 #include "rough/synthesis.hpp"
-#include "rough/texture.hpp"
 #include "unit/refused.hpp"
 
 using namespace rsc;
@@ -136,9 +135,9 @@ TEST(circle) {
             CHECK_CLOSE(fit.hurst.value, hurst, aspect > 3 ? 0.15 : 0.05);
             CHECK_CLOSE(fit.kl.value / tau, s.L_lambda_l, 2);  // the rings of long waves have few modes
             CHECK_RELATIVE(fit.ks.value / tau, s.L_lambda_s, aspect > 3 ? 0.1 : 0.01);
-            const PlaneSpectrum plane(measured.plane_wavenumber, MeasuredSpectrum::kAngles, measured.plane_psd);
+            const SpectrumTable plane(measured.plane_wavenumber, measured.plane_psd, MeasuredSpectrum::kAngles);
             CHECK_RELATIVE(plane.sigma(), 0.01, 0.2);  // straight lines between the few rings of long waves, nothing below the first
-            Spectrum twin = tabulated_spectrum(std::make_shared<PlaneSpectrum>(plane), s.L, s.sigma);
+            Spectrum twin = tabulated_spectrum(std::make_shared<SpectrumTable>(plane), s.L, s.sigma);
             Moments of_twin;
             const HeightMap again = synthesize(twin, 258, Normalise::sample, 5, 1, &of_twin);
             CHECK_RELATIVE(isotropy(again).ratio, isotropy(map).ratio, 0.2);
@@ -210,7 +209,7 @@ TEST(tabulated) {
                 psd.push_back(relative_psd(s, q * std::cos(angle), q * std::sin(angle)));
             }
         }
-        Spectrum table = tabulated_spectrum(std::make_shared<PlaneSpectrum>(rings, angles, psd), s.L, s.sigma);
+        Spectrum table = tabulated_spectrum(std::make_shared<SpectrumTable>(rings, psd, angles), s.L, s.sigma);
         table.shape = s.shape;
         const HeightMap stretched = made(s, 256), same = made(table, 256);
         double product = 0, squares = 0;

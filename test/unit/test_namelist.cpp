@@ -1,5 +1,5 @@
 // The namelist reader and the key registry: values, positions, messages, round trips, studies, the command line.
-#include "case/namelist_value.hpp"
+#include "case/namelist.hpp"
 #include "case/read_case.hpp"
 #include "check.hpp"
 #include "error.hpp"

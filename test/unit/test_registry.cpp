@@ -1,6 +1,6 @@
 // The keys: their defaults and bounds as the documentation promises them, each number taken up to its bounds and refused beyond them, and
 // the texts made of the registry (--describe, the manual page, the effective namelist), which name every key.
-#include "case/namelist_value.hpp"
+#include "case/namelist.hpp"
 #include "case/options.hpp"
 #include "case/registry.hpp"
 #include "check.hpp"
