@@ -40,13 +40,15 @@ double under_indenter(const Job& job, double Z0, double power) {
     return sum;
 }
 
-// Greenwood and Tripp's force of an indenter at Z0 on Gaussian summits without interaction, an upper bound.
+// Greenwood and Tripp's force of an indenter at Z0 on Gaussian summits without interaction, or the hardness times the area under the
+// indenter: upper bounds.
 double greenwood_force(const Job& job, double Z0) {
     const double r = job.theory ? job.theory->mean_radius() : 1.0;
     const double density = 1 / (job.domain.mean_spacing * job.domain.mean_spacing), k = 4.0 / 3.0 * job.indenter.E_star * std::sqrt(r);
     // Nayak's summits are on the average this much higher than the surface.
     const double higher = job.theory ? 4 * job.theory->m2 / std::sqrt(std::numbers::pi * job.theory->m4) : 0.0;
-    return density * k * under_indenter(job, Z0 - higher, 1.5);
+    const double elastic = density * k * under_indenter(job, Z0 - higher, 1.5), H = job.settings.solids.hardness;
+    return std::isfinite(H) ? std::min(elastic, H * under_indenter(job, Z0, 0)) : elastic;
 }
 
 // A separation with approximately this force.
@@ -113,7 +115,7 @@ double element_level_seconds(const Job& job, double level, double points, bool i
     const double under = points_under(job, is_force ? likely_separation(job, level) : level, points), share = punch_share(under, points);
     const bool yields = std::isfinite(job.settings.solids.hardness);
     const double products = (yields ? 3 : 1) * (is_force ? (yields ? 4 : 1.5) * (1 + 2 * share) : 1);
-    return 5e-5 * std::pow(under, 0.75) * (1 + kPunch * share) * products * (job.settings.solids.layer_thickness.empty() ? 1 : 4);
+    return 5e-5 * std::pow(under, 0.75) * (1 + kPunch * share) * products * (job.settings.solids.layer_thickness.empty() ? 1 : 2);
 }
 
 // Penetration of the smooth indenter under a force; 0 if no closed form is known.
