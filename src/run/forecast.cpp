@@ -40,11 +40,15 @@ double under_indenter(const Job& job, double Z0, double power) {
     return sum;
 }
 
-// Greenwood and Tripp's force of an indenter at Z0 on Gaussian summits without interaction, an upper bound.
+// Greenwood and Tripp's force of an indenter at Z0 on Gaussian summits without interaction, or the hardness times the area under the
+// indenter: upper bounds.
 double greenwood_force(const Job& job, double Z0) {
     const double r = job.theory ? job.theory->mean_radius() : 1.0;
     const double density = 1 / (job.domain.mean_spacing * job.domain.mean_spacing), k = 4.0 / 3.0 * job.indenter.E_star * std::sqrt(r);
-    return density * k * under_indenter(job, Z0, 1.5);
+    // Nayak's summits are on the average this much higher than the surface.
+    const double higher = job.theory ? 4 * job.theory->m2 / std::sqrt(std::numbers::pi * job.theory->m4) : 0.0;
+    const double elastic = density * k * under_indenter(job, Z0 - higher, 1.5), H = job.settings.solids.hardness;
+    return std::isfinite(H) ? std::min(elastic, H * under_indenter(job, Z0, 0)) : elastic;
 }
 
 // A separation with approximately this force.
@@ -94,9 +98,15 @@ double points_under(const Job& job, double Z0, double points) { return points * 
 constexpr double kPunch = 2.5;
 double punch_share(double under, double points) { return std::pow(under / points, 6); }
 
+// Elastic separations with half as many points again as the level before start from pressures that help little.
+constexpr double kCold = 1.7, kGrown = 1.5;
+
+// Seconds to make a point of a surface: all heights, or modes and the heights that can touch.
+double making_seconds(const Job& job) { return !job.spectrum ? 0 : reads_high_points(job.settings) ? 7e-9 : 3e-8; }
+
 // Seconds for a level by elements, a separation or a force, from trials on one core. Two flats: transforms of all points, and steps on those
-// in contact. Otherwise the time is that of the points under the indenter. A force takes some more products than a separation, and many
-// more where points yield.
+// in contact. Otherwise the time is that of the points under the indenter. A force takes some more products than a separation, and levels
+// where points yield many more.
 double element_level_seconds(const Job& job, double level, double points, bool is_force) {
     if (job.indenter.period.finite()) {
         const double share = share_in_contact(job, level, is_force);
@@ -104,8 +114,8 @@ double element_level_seconds(const Job& job, double level, double points, bool i
     }
     const double under = points_under(job, is_force ? likely_separation(job, level) : level, points), share = punch_share(under, points);
     const bool yields = std::isfinite(job.settings.solids.hardness);
-    const double force = is_force ? (yields ? 12 : 2.5) * (1 + 2 * share) : 1;
-    return 3.2e-6 * under * (1 + kPunch * share) * force * (job.settings.solids.layer_thickness.empty() ? 1 : 4);
+    const double products = (yields ? 3 : 1) * (is_force ? (yields ? 4 : 1.5) * (1 + 2 * share) : 1);
+    return 5e-5 * std::pow(under, 0.75) * (1 + kPunch * share) * products * (job.settings.solids.layer_thickness.empty() ? 1 : 2);
 }
 
 // Penetration of the smooth indenter under a force; 0 if no closed form is known.
@@ -116,7 +126,6 @@ double smooth_depth(const Job& job, double force) {
 
 // Seconds for a surface, including its summits.
 double surface_seconds(const Case& settings) {
-    using Clock = std::chrono::steady_clock;
     constexpr int small = 512;
     Case sample = settings;
     auto& keys = sample.surface;
@@ -126,12 +135,12 @@ double surface_seconds(const Case& settings) {
         keys.L_lambda_s = std::max(2.0, settings.surface.L_lambda_s / scale);
         keys.L_lambda_l = std::min(std::max(1.0, settings.surface.L_lambda_l / scale), 0.5 * keys.L_lambda_s);
     }
-    const auto start = Clock::now();
+    const std::clock_t start = std::clock();  // of the processor, which other programs may share
     try {
         make_surface_model(sample, 1, 1);
     } catch (const Error&) {  // the piece of surface is so small that it has no summit
     }
-    return std::chrono::duration<double>(Clock::now() - start).count() * scale * scale;
+    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC * scale * scale;
 }
 
 }  // namespace
@@ -148,15 +157,19 @@ double expected_candidates(const Job& job, double Z0) {
 
 double likely_separation(const Job& job, double level) {
     if (job.settings.indentation.control == Control::separation) return level;
-    // Roughness spreads the load, so that the body deflects less than under a smooth contact.
+    // Roughness spreads the load, so that the body deflects less than under a smooth contact: as under Hertz's pressures with the mean of those
+    // without interaction.
     constexpr double spread = 0.6;
-    return (job.given ? 0.0 : separation_at(job, level)) - spread * smooth_depth(job, level);
+    const double smooth = smooth_depth(job, level), Z0 = job.given ? 0.0 : separation_at(job, level);
+    if (job.given) return -spread * smooth;
+    const double area = under_indenter(job, Z0, 1.5) / mean_excess(Z0, job.sigma, 1.5);
+    return Z0 - spread * std::min(smooth, 0.75 * level / (job.indenter.E_star * std::sqrt(1.5 * area / std::numbers::pi)));
 }
 
 double element_seconds(const Job& job, double Z0, double points_per_wave) {
-    constexpr double making = 4e-8;  // for each point of a synthetic surface
+    constexpr double making = 3e-8;  // for each point of a synthetic surface
     const double points = points_of_elements(job, points_per_wave);
-    return (job.spectrum ? making * points : 0) + element_level_seconds(job, Z0, points, false);
+    return (job.spectrum ? making * points : 0) + kCold * element_level_seconds(job, Z0, points, false);
 }
 
 double expected_seconds(const Job& job, double workers) {
@@ -164,18 +177,16 @@ double expected_seconds(const Job& job, double workers) {
     const bool elements = by_elements(job.settings);
     const double points = elements ? points_of_elements(job, job.settings.elements.points_per_wave) : 0;
     const bool layers = !job.settings.solids.layer_thickness.empty();
-    constexpr double program = 0.1;
-    double one = elements ? 4e-8 * points : job.given ? 0 : surface_seconds(job.settings);
+    constexpr double program = 0.04;
+    double one = elements ? making_seconds(job) * points : job.given ? 0 : surface_seconds(job.settings);
     if (compares(job, true)) one += comparison_seconds(job);
-    // Elastic separations with half as many points again as the level before start from pressures that help little.
-    constexpr double cold = 2.5, grown = 1.5;
     const bool steps = elements && !force && !layers && !job.indenter.period.finite() && !std::isfinite(job.settings.solids.hardness);
     double before = 0, longest = 0, last_time = job.times.empty() ? 0.0 : job.times.front();
     for (std::size_t k = 0; k < job.levels.size(); ++k) {
         const double level = job.levels[k], begun = one;
         const double under = steps ? points_under(job, level, points) : 0;
         if (elements)
-            one += std::max(1.0, steps && under > grown * before ? cold / (1 + kPunch * punch_share(under, points)) : 0.0) *
+            one += std::max(1.0, steps && under > kGrown * before ? kCold / (1 + kPunch * punch_share(under, points)) : 0.0) *
                    element_level_seconds(job, level, points, force);
         else
             one += (force && !job.indenter.period.finite() ? 2.5 : 1) * (layers ? 2 : 1) * (job.indenter.period.finite() ? 8 : 1) *
@@ -211,26 +222,31 @@ double expected_megabytes(const Job& job, double workers) {
         return 1e-6 * (coated_program + std::min(bytes * values, most_bytes * 2.0 * kMostKeptValues) * contacts_at_once);
     }
     // Bytes for each point of the surface (heights, modes; transforms of two flats), and for each point under the indenter or in
-    // contact, from the peaks of a dozen runs.
-    constexpr double program = 32e6, tables = 15e6, under = 170, adhesion = 49, record = 0.3e6;
-    const bool high = reads_high_points(job.settings);  // few heights are kept, after the modes were
-    const double sticking = job.settings.solids.adhesion > 0 ? adhesion : 0, free = high ? 1 : 10 + sticking;
-    const double modes = high ? 16 / job.settings.elements.points_per_wave + 0.3 : 0;
-    // From the second level on, two flats also keep the last level and its transform in double precision.
-    const bool several = job.indenter.period.finite() && job.levels.size() > 1 && job.settings.solids.adhesion <= 0;
-    const double flats = (several ? 36 : 28) + sticking, touching = several ? 240 : 150;
+    // contact, from the peaks of some 40 runs; a single realization keeps the pixels of all its levels, and the result some numbers a level.
+    constexpr double program = 40e6, tables = 15e6, table = 1500, under = 170, adhesion = 49, yielding = 5, flats = 28, touching = 150,
+                     pixel = 24, record = 0.3e6;
+    const double sticking = job.settings.solids.adhesion > 0 ? adhesion : 0;
+    const double heights = 8.4 + sticking + (std::isfinite(job.settings.solids.hardness) ? yielding : 0.0);
+    // Of the heights that can touch whole pages are kept, after the modes were: of waves that are 8 points long, most in a row of 4096 points.
+    constexpr double in_pages = 32 * 8, row = 4096, modes = 8;
+    const bool high = reads_high_points(job.settings), force = job.settings.indentation.control != Control::separation;
     const double points = points_of_elements(job, job.settings.elements.points_per_wave);
-    const bool force = job.settings.indentation.control != Control::separation;
     // Where most of the surface is under the indenter, its far products take more.
     constexpr double deep = 50;
-    double most = 0;
+    double most = 0, kept = 0;
     for (const double level : job.levels) {
-        const double below = job.indenter.period.finite() ? 0 : points_under(job, likely_separation(job, level), points);
-        most = std::max(most, job.indenter.period.finite()
-                                  ? points * (flats + touching * share_in_contact(job, level, force))
-                                  : tables + std::max(modes * points, free * points + (under + deep * below / points) * below));
+        if (job.indenter.period.finite()) {
+            const double share = share_in_contact(job, level, force);
+            most = std::max(most, points * (flats + sticking + touching * share));
+            if (job.settings.run.realizations == 1) kept += pixel * share * points;
+            continue;
+        }
+        const double below = points_under(job, likely_separation(job, level), points);
+        const double stored = high ? std::min(8 * points, in_pages * below * std::min(1.0, row / std::sqrt(points))) : heights * points;
+        most = std::max({most, high ? modes / job.settings.elements.points_per_wave * points : 0.0,
+                         std::min(tables, table * below) + stored + (under + deep * below / points) * below});
     }
-    return 1e-6 * (program + (several ? record * static_cast<double>(job.levels.size()) : 0.0) + most * contacts_at_once);
+    return 1e-6 * (program + record * static_cast<double>(job.levels.size()) + kept + most * contacts_at_once);
 }
 
 }  // namespace rsc

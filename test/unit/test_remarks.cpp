@@ -140,12 +140,13 @@ TEST(forecast) {
     const double one = expected_seconds(job, 1);
     job.settings.run.realizations = 7;  // in three rounds of three, or in seven, beside the start of the program
     CHECK_RELATIVE(expected_seconds(job, 1) - expected_seconds(job, 3), 2 * (expected_seconds(job, 3) - one), 1e-9);
-    // Memory: of asperities only values that are kept for layers, in each of the parallel realizations, are estimated; elements store their heights, in each of the parallel realizations, and more at depth.
+    // Memory: of asperities only values that are kept for layers, in each of the parallel realizations, are estimated; elements that yield store all heights, in each of the parallel realizations, and more at depth.
     CHECK(expected_megabytes(job, 1) == 0);
     const auto elements = [&](int realizations, double level, double workers) {
         return expected_megabytes(
             job_of(std::string("&run realizations=") + std::to_string(realizations) +
-                   " / &surface n=1024 L_lambda_s=128 / &solver model='elements' / &indentation levels=" + std::to_string(level) + " /"),
+                   " / &solids hardness=1e9 / &surface n=1024 L_lambda_s=128 / &solver model='elements' / &indentation levels=" +
+                   std::to_string(level) + " /"),
             workers);
     };
     const Job coated = job_of("&run realizations=4 / &solids layer_thickness=0.1 layer_E=1 layer_nu=0.3 / &indentation levels=2 /");
