@@ -147,7 +147,7 @@ BRIEF = {
     "rsc_contact_first_touch": 'The separation of first contact.',
     "rsc_contact_indent": 'Computes the contact at a separation.',
     "rsc_contact_set_time": 'Sets the time of the following levels, for a body that relaxes (solids%relaxation_share; without effect for others): between two levels the separation (rsc_contact_press: the force) changes linearly with time, computed in up to 16 steps if the shortest relaxation time is not much longer, and the first level is reached at once.',
-    "rsc_contact_press": 'Finds the separation at which the sphere carries a force, and computes the contact there, to solver%tolerance of the force.',
+    "rsc_contact_press": 'Finds the separation at which the sphere carries a force, and computes the contact there, to solver%tolerance of the force (elements with adhesion: of the attraction, if that is larger).',
     "rsc_contact_result": 'The last level.',
     "rsc_contact_level": 'Status and solver data of the last level.',
     "rsc_contact_answer": 'The results of the last level in one call.',
