@@ -93,7 +93,7 @@ def _map(axis, result, level, name):
     if name == "map_area_fraction":
         end = min(end, 1.0)  # above 1: a spot larger than the cell of its centre
     image = axis.imshow(np.ma.masked_equal(field, 0), extent=[x[0] - side / 2, x[-1] + side / 2, y[0] - side / 2, y[-1] + side / 2],
-                        cmap="RdBu_r" if pulls else COLOURS, vmin=-end if pulls else 0, vmax=end, interpolation="nearest")
+                        cmap="coolwarm" if pulls else COLOURS, vmin=-end if pulls else 0, vmax=end, interpolation="nearest")
     image.extend = ("both" if field.min() < -end else "max") if field.max() > end else "min" if field.min() < -end else "neither"
     radius = hertz_radius(result, level)
     if np.isfinite(radius):

@@ -185,14 +185,18 @@ TEST(test_force) {
 
 // No force between states that press and that pull, by the difference of pressure and attraction, which is exact to the tolerance of these.
 TEST(test_no_force) {
-    const double h = 0.1 / 64, w = 5e-5, range = 1e-3;
-    const HeightMap map = height_map(64, 64, h, h, [=](int i, int j) { return 1e-4 * std::sin(250 * i * h) * std::cos(190 * j * h); });
-    const auto contact = make_element_contact(map, Indenter{10 / 0.75, 1.0, 0.05, 0.05}, attracting(w, range));
-    for (const double before : {1e-5, 1e-6, -1e-6, 1e-7, 3e-5}) {
-        CHECK(contact->at_force(before).status != LevelStatus::not_converged);
-        const Level level = contact->at_force(0);
-        CHECK(level.status != LevelStatus::not_converged && level.contacts > 0);
-        CHECK(std::abs(level.force) <= 1e-6 * w / range * (level.area + level.cohesive_area));
+    const double h = 0.1 / 32, w = 5e-5, range = 2e-3;
+    for (const double phase : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0}) {
+        const HeightMap map = height_map(32, 32, h, h, [=](int i, int j) {
+            return 1e-4 * (std::sin(250 * i * h + phase) * std::cos(190 * j * h) + std::sin(170 * i * h + 210 * j * h + 2 * phase));
+        });
+        const auto contact = make_element_contact(map, Indenter{10 / 0.75, 1.0, 0.05, 0.05}, attracting(w, range));
+        for (const double before : {1e-5, 1e-6, -1e-6, 1e-7, -1e-7, 3e-5}) {
+            CHECK(contact->at_force(before).status != LevelStatus::not_converged);
+            const Level level = contact->at_force(0);
+            CHECK(level.status != LevelStatus::not_converged && level.contacts > 0);
+            CHECK(std::abs(level.force) <= 1e-6 * w / range * (level.area + level.cohesive_area));
+        }
     }
 }
 
