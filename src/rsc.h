@@ -342,7 +342,7 @@ RSC_API int32_t rsc_contact_first_touch(const rsc_contact* contact, double* sepa
  * the last one is computed faster; the last one itself is not computed again, except with adhesion.
  * contact: the contact; separation: Z0, height of the tip above z = 0 [length]; force (out, may be null): N, 0 without contact
  * [force]. Errors: -1 null; -2 not finite; RSC_NOT_CONVERGED, with the results of the last iterate, not-a-number if there is no state
- * (asperities with adhesion); RSC_NO_MEMORY, RSC_INTERNAL, after which the contact has no result. */
+ * (asperities with adhesion, or two flats deeper than asperities bear); RSC_NO_MEMORY, RSC_INTERNAL, after which the contact has no result. */
 RSC_API int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* force);
 
 /* Sets the time of the following levels, for a body that relaxes (solids%relaxation_share; without effect for others): between two levels
@@ -352,7 +352,8 @@ RSC_API int32_t rsc_contact_indent(rsc_contact* contact, double separation, doub
  * -1 null; -2 not finite, or before the last level. */
 RSC_API int32_t rsc_contact_set_time(rsc_contact* contact, double time);
 
-/* Finds the separation at which the sphere carries a force, and computes the contact there, to solver%tolerance of the force.
+/* Finds the separation at which the sphere carries a force, and computes the contact there, to solver%tolerance of the force (elements with
+ * adhesion: of the attraction, if that is larger).
  * contact: the contact; force: N >= 0; 0 gives the separation of first touch [force]; separation (out, may be null): Z0 [length].
  * With solids%adhesion N may be negative, and the level is the first one with this force on the path from the last level, also for N = 0;
  * if there is none, the result is the level of smallest force, and the status is RSC_NOT_CONVERGED.
@@ -362,7 +363,7 @@ RSC_API int32_t rsc_contact_press(rsc_contact* contact, double force, double* se
 
 /* The last level. All outputs may be null. contact: the contact; separation: Z0 [length]; force: N = sum f [force]; area:
  * A = sum pi a^2, with elliptic spots the area of their union [length^2]; contacts: number of asperities in contact. Errors: -1 null;
- * RSC_NO_RESULT. */
+ * RSC_NO_RESULT, here and below also if the solver found no state; rsc_contact_level is available then, too. */
 RSC_API int32_t rsc_contact_result(const rsc_contact* contact, double* separation, double* force, double* area, int64_t* contacts);
 
 /* Status and solver data of the last level. All outputs may be null. contact: the contact; level_status: of RSC_LEVEL_LIST; candidates:

@@ -60,7 +60,7 @@ def compare(results, options):
     axis, line = page.axes[:2]
     image = np.full((2 * n + 1, 2 * n + 1), np.nan)
     image[((py[near] - y0) / hy).astype(int), ((px[near] - x0) / hx).astype(int)] = 1
-    axis.imshow(np.ma.masked_invalid(image), extent=(x0, x1, y0, y1), cmap=ListedColormap(["0.65"]), interpolation="nearest", aspect="auto", gid="pixels")
+    axis.imshow(np.ma.masked_invalid(image), extent=(x0, x1, y0, y1), cmap=ListedColormap(["0.65"]), interpolation="nearest", gid="pixels")
     page.entry("elements", color="0.65", marker="s", ls="none")
     values = np.zeros(2 * n + 1)
     at = near & (np.abs(py - py[peak]) < 0.25 * hy)

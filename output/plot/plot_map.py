@@ -22,8 +22,8 @@ def shown(results, options):
 
 
 def contact_window(x, y, field, side, margin=0.15):
-    """(x0, x1, y0, y1) of the smallest square that contains the cells where `field` is above zero, with a margin, within the map."""
-    rows, columns = np.nonzero(np.nan_to_num(field) > 0)
+    """(x0, x1, y0, y1) of the smallest square that contains the cells where `field` is not zero, with a margin, within the map."""
+    rows, columns = np.nonzero(np.nan_to_num(field))
     whole = (x[0] - side / 2, x[-1] + side / 2, y[0] - side / 2, y[-1] + side / 2)
     if rows.size == 0:
         return whole
@@ -74,7 +74,7 @@ def maps(results, options):
     if small:  # one scale for all
         end = max(image.get_clim()[1] for image in images)
         for image in images:
-            image.set_clim(0, end)
+            image.set_clim(-end if image.get_clim()[0] < 0 else 0, end)
         colour_bar(figure, images[0], axes.ravel().tolist(), "pressure $p$", results[0].dimension("map_pressure"), extend="max", aspect=35)
     smooth = sorted({result.smooth() for result, level, _ in panels if np.isfinite(hertz_radius(result, level))})
     what = ("Area fraction and pressure" if one else "Pressure") + (f"; dashed: {', '.join(smooth)} under the same force" if smooth else "")
@@ -86,12 +86,15 @@ def maps(results, options):
 def _map(axis, result, level, name):
     field, x, y, side = result.window(name, level), result["x"], result["y"], float(result["map_cell_side"])
     # One per cent of the cells may be above the end of the scale, because they would hide the variation of all others.
-    end = np.percentile(field[field > 0], 99) if (field > 0).any() else 1.0
+    # Tension, with adhesion, is blue.
+    field = np.nan_to_num(field)
+    end = np.percentile(np.abs(field[field != 0]), 99) if field.any() else 1.0
+    pulls = field.min() < 0
     if name == "map_area_fraction":
         end = min(end, 1.0)  # above 1: a spot larger than the cell of its centre
-    image = axis.imshow(np.ma.masked_where(~(field > 0), field), extent=[x[0] - side / 2, x[-1] + side / 2, y[0] - side / 2, y[-1] + side / 2], cmap=COLOURS, vmin=0, vmax=end,
-                        interpolation="nearest")
-    image.extend = "max" if np.nanmax(field, initial=0) > end else "neither"
+    image = axis.imshow(np.ma.masked_equal(field, 0), extent=[x[0] - side / 2, x[-1] + side / 2, y[0] - side / 2, y[-1] + side / 2],
+                        cmap="coolwarm" if pulls else COLOURS, vmin=-end if pulls else 0, vmax=end, interpolation="nearest")
+    image.extend = ("both" if field.min() < -end else "max") if field.max() > end else "min" if field.min() < -end else "neither"
     radius = hertz_radius(result, level)
     if np.isfinite(radius):
         axis.add_patch(plt.Circle((float(result["tip_x"]), float(result["tip_y"])), radius, fill=False, ls="--", lw=1.0, color="r"))

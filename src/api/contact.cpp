@@ -31,11 +31,20 @@ void require_model(const SurfaceModel& on, const Case& settings, int argument) {
         refuse(argument, "a_case", "has solver%model = 'asperities', but these were made with solver%model = 'elements'");
 }
 
-const Level& level_of(const rsc_contact* contact) {
+const char kNoState[] = "the solver found no state: there are no results";
+
+// The last level, also one for which the solver found no state, whose values are not-a-number.
+const Level& last_level_of(const rsc_contact* contact) {
     require(contact, 1, "contact");
     if (!contact->known.level)
         throw Outcome{RSC_NO_RESULT, "the contact has no result yet: call rsc_contact_indent or rsc_contact_press first"};
     return *contact->known.level;
+}
+
+const Level& level_of(const rsc_contact* contact) {
+    const Level& level = last_level_of(contact);
+    if (std::isnan(level.force)) throw Outcome{RSC_NO_RESULT, kNoState};
+    return level;
 }
 
 // Computes a level. After an exception the contact has no result; a level that did not converge is kept with that status.
@@ -63,7 +72,7 @@ void tell_convergence(const rsc_contact& contact) {
             throw Outcome{RSC_NOT_CONVERGED, "no state has this force: the result is the level of smallest force"};
         if (contact.known.level->fallback == rsc::Fallback::jump)
             throw Outcome{RSC_NOT_CONVERGED, "the force jumps over this one: the result is a state at one side of the jump"};
-        if (std::isnan(contact.known.level->force)) throw Outcome{RSC_NOT_CONVERGED, "the solver found no state: there are no results"};
+        if (std::isnan(contact.known.level->force)) throw Outcome{RSC_NOT_CONVERGED, kNoState};
         throw Outcome{RSC_NOT_CONVERGED, "the solver did not reach its tolerance; the results are those of its last iterate"};
     }
 }
@@ -246,7 +255,7 @@ int32_t rsc_contact_result(const rsc_contact* contact, double* separation, doubl
 int32_t rsc_contact_level(const rsc_contact* contact, int32_t* level_status, int64_t* candidates, int64_t* iterations,
                           int64_t* overlapping_pairs, double* residual) {
     return guarded(0, [&] {
-        const rsc::Level& level = level_of(contact);
+        const rsc::Level& level = last_level_of(contact);
         put(level_status, level.status);
         put(candidates, level.candidates);
         put(iterations, level.iterations);
@@ -297,7 +306,7 @@ int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* for
 
 int32_t rsc_contact_value(rsc_contact* contact, const char* name, double* value) {
     return guarded(0, [&] {
-        const rsc::Level& level = level_of(contact);
+        const rsc::Level& level = last_level_of(contact);
         require(name, 2, "name");
         require(value, 3, "value");
         const std::string_view asked = name;

@@ -77,8 +77,9 @@ protected:
             iterations += level.iterations, products += level.products;
             return level.status == LevelStatus::not_converged ? std::numeric_limits<double>::quiet_NaN() : level.force - N;
         };
+        // Near N = 0 the force is the difference of pressure and attraction, and no more exact than these.
         const auto precise = [&](double miss) {
-            return std::abs(miss) <= tolerance() * std::max(std::abs(N), 1e-3 * state_.s0 * state_.pixel);
+            return std::abs(miss) <= tolerance() * std::max(std::abs(N), state_.s0 * (level.area + level.cohesive_area));
         };
         double Z = state_.accepted.separation < kInfinity ? state_.accepted.separation : state_.top + state_.z0, miss = look(Z);
         const double way = miss < 0 ? -1 : 1;
@@ -102,15 +103,15 @@ protected:
         }
         if (!found && miss * before_miss < 0) {
             std::uintmax_t steps = 100;
-            const auto exact = [&](double z) {
-                const double m = look(z);
-                return precise(m) ? 0.0 : m;
+            const auto exact = [&](double z) {  // ends at the first level that is precise: a second one from another start may not be
+                if (!found) miss = look(z), found = precise(miss);
+                return found ? 0.0 : miss;
             };
             const bool rising = Z > before;
             const auto [low, high] =
                 boost::math::tools::toms748_solve(exact, rising ? before : Z, rising ? Z : before, rising ? before_miss : miss,
                                                   rising ? miss : before_miss, boost::math::tools::eps_tolerance<double>(50), steps);
-            found = precise(look(0.5 * (low + high)));
+            if (!found) found = precise(look(0.5 * (low + high)));
         }
         if (!found) {
             (void)look(least_at);

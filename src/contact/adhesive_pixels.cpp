@@ -240,9 +240,13 @@ Level AdhesivePixels::step(double Z) {
         level.nominal_area = heights.Lx() * heights.Ly();
     else
         judge_edges(level, indenter, options);
+    // The surface ends, and so does a map of the indenter.
+    const bool ends = indenter.shape->keys().map != nullptr;
     const auto at_border = [&](std::int32_t k) {
         const Pixel p = pixel_at(k);
-        return p.x == 0 || p.y == 0 || p.x == heights.nx - 1 || p.y == heights.ny - 1;
+        const auto beyond = [&](int i, int j) { return ends && std::isinf(clearance[at(place({i, j}))]); };
+        return p.x == 0 || p.y == 0 || p.x == heights.nx - 1 || p.y == heights.ny - 1 || beyond(p.x - 1, p.y) || beyond(p.x + 1, p.y) ||
+               beyond(p.x, p.y - 1) || beyond(p.x, p.y + 1);
     };
     if (!flats && std::any_of(now.attracting.begin(), now.attracting.end(), at_border)) {  // attraction beyond the border is missing
         level.edge_contacts = std::max(level.edge_contacts, 1);

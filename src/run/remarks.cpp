@@ -125,8 +125,11 @@ void print_bounds(std::ostream& out, std::span<const LevelValues> levels, const 
     const char *l = job.settings.run.length_unit.c_str(), *f = job.settings.run.force_unit.c_str();
     const std::string area =
         last->area_error_expected >= 0 ? format(", A = %.4g %s2 +- %s", last->area, l, percent(last->area_error_expected).c_str()) : "";
+    // Where adhesion nearly balances N, the error is many times N, and is printed as a force.
+    const double error = last->force_error_expected;
+    const std::string bound = error > 1 ? format("%.2g %s", error * std::abs(last->force), f) : percent(error);
     out << format("level %td: N = %.4g %s +- %s%s: bounds valid in nine of ten cases\n", levels.rend() - last, last->force, f,
-                  percent(last->force_error_expected).c_str(), area.c_str());
+                  bound.c_str(), area.c_str());
 }
 
 // The summary of plastic contacts for cases with hardness, and of the energy lost in bodies that relax.

@@ -123,7 +123,9 @@ void judge_pixels(Level& level, const Job& job, double side) {
     if (level.status == LevelStatus::not_converged || level.contacts == 0 || !(level.force + pulled > 0) || level.force == 0) return;
     const bool read = !job.spectrum;
     // The error of the force that presses; with adhesion N is its difference from the attraction, and has that of the attraction already.
-    const double error = of_pixels(level.pixels_per_contact, read) + edge_share(job, side);
+    // A contact that the border cuts off has an edge there like that of a punch.
+    const double cut = level.edge_contacts > 0 ? kEdgeShare * std::sqrt(std::numbers::pi / level.pixels_per_contact) : 0;
+    const double error = of_pixels(level.pixels_per_contact, read) + edge_share(job, side) + cut;
     level.force_error_expected = error * (level.force + pulled) / std::abs(level.force) + (pulled > 0 ? level.force_error_expected : 0);
     level.area_error_expected =
         error + (read ? 1 : kPixelArea) * std::pow(level.pixels_per_contact, -0.75) + (pulled > 0 ? level.area_error_expected : 0);

@@ -209,7 +209,6 @@ private:
         std::int32_t level = 0;
         if (!told(rsc_contact_result(c, &separation, &force, &area, &contacts))) return;
         PROMISE(told(rsc_contact_level(c, &level, &candidates, nullptr, &pairs, &residual)), "level");
-        if (level == RSC_LEVEL_NOT_CONVERGED && std::isnan(force) && contacts == 0) return;  // beyond all numbers: no state
         finite(separation, "separation");
         PROMISE(std::isfinite(force), "force " + std::to_string(force));  // negative with adhesion
         PROMISE(std::isfinite(area) && area >= 0, "area " + std::to_string(area));

@@ -2,6 +2,7 @@
 #include "adhesive_paths.hpp"
 #include "check.hpp"
 #include "contact/element_contact.hpp"
+#include "contact/indenter/shapes.hpp"
 #include "error.hpp"
 #include "height_maps.hpp"
 
@@ -177,6 +178,42 @@ TEST(test_force) {
     CHECK_CLOSE(same.force, 0.02, 2e-6);
     const Level held = one->at_force(-10);
     CHECK(held.status == LevelStatus::not_converged && held.fallback == Fallback::held && held.force < 0);
+}
+
+// No force between states that press and that pull, by the difference of pressure and attraction, which is exact to the tolerance of these.
+TEST(test_no_force) {
+    const double h = 0.1 / 32, w = 5e-5, range = 2e-3;
+    for (const double phase : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0}) {
+        const HeightMap map = height_map(32, 32, h, h, [=](int i, int j) {
+            return 1e-4 * (std::sin(250 * i * h + phase) * std::cos(190 * j * h) + std::sin(170 * i * h + 210 * j * h + 2 * phase));
+        });
+        const auto contact = make_element_contact(map, Indenter{10 / 0.75, 1.0, 0.05, 0.05}, attracting(w, range));
+        for (const double before : {1e-5, 1e-6, -1e-6, 1e-7, -1e-7, 3e-5}) {
+            CHECK(contact->at_force(before).status != LevelStatus::not_converged);
+            const Level level = contact->at_force(0);
+            CHECK(level.status != LevelStatus::not_converged && level.contacts > 0);
+            CHECK(std::abs(level.force) <= 1e-6 * w / range * (level.area + level.cohesive_area));
+        }
+    }
+}
+
+// A small map of body 2 in the middle of a flat one: its attraction ends at its border, which is told; that of a raised middle does not.
+TEST(test_cut_body) {
+    const HeightMap map = height_map(24, 24, 0.05, 0.05, [](int, int) { return 0.0; });
+    for (const double edge : {0.0, 1.0}) {
+        ShapeKeys keys;
+        keys.map = std::make_shared<HeightMap>(height_map(12, 12, 0.05, 0.05, [=](int i, int j) {
+            return std::min({i, j, 11 - i, 11 - j}) > 2 ? 0.0 : -edge;
+        }));
+        Indenter tip{100.0, kFlat, 0.6, 0.6};
+        tip.shape = make_shape(shape_number("map"), keys);
+        SolverOptions options = attracting(0.02, 0.15);
+        options.surface = {0, 0, 1.2, 1.2};
+        const auto contact = make_element_contact(map, tip, options);
+        const Level level = contact->at_separation(contact->first_touch() + 0.1);  // attracts without contact
+        CHECK(level.force < 0 && level.contacts == 0);
+        CHECK((level.edge_contacts > 0) == (edge == 0) && (edge > 0 || level.status == LevelStatus::out_of_validity));
+    }
 }
 
 // Whole periods of a surface that repeats do not count.

@@ -178,13 +178,34 @@ TEST(api_run) {
     for (const double status : Reader(folder / "unfinished.nc").values("status")) with_4 += status == 4;
     CHECK(failed > 0 && failed == with_4);
     // Flats pressed deeper than asperities bear: no state, and no numbers of one.
-    const CaseHandle deep = case_of(
+    const Made deep(
         "&surface n=64 L_lambda_l=2 L_lambda_s=8 sigma=0.02 / &solids R=Infinity,Infinity / &compare levels='none' / "
         "&indentation boundary='periodic' levels=1,-3 /");
-    CHECK(run_to(folder / "deep.nc", deep, &failed) == RSC_NOT_CONVERGED && failed == 1);
+    CHECK(run_to(folder / "deep.nc", deep.c, &failed) == RSC_NOT_CONVERGED && failed == 1);
     const Reader deep_file(folder / "deep.nc");
     const Values forces = deep_file.values("force");
     CHECK(deep_file.values("status")[1] == 4 && forces[0] > 0 && forces[0] < 1e6 && forces[1] == NC_FILL_DOUBLE);
+    const ContactHandle& flats = deep.contact;
+    double force = 0, area = 0;
+    std::int32_t level = 0;
+    CHECK(rsc_contact_indent(flats, -0.06, nullptr) == RSC_NOT_CONVERGED);
+    CHECK(rsc_contact_result(flats, nullptr, &force, &area, nullptr) == RSC_NO_RESULT && force == 0 && area == 0);
+    CHECK(says("no state") && rsc_contact_spots(flats, 0, nullptr, nullptr, nullptr, nullptr) == RSC_NO_RESULT);
+    CHECK(rsc_contact_level(flats, &level, nullptr, nullptr, nullptr, nullptr) == RSC_SUCCESS && level == RSC_LEVEL_NOT_CONVERGED);
+    // Contacts that the border cuts off: campaigns, which solve no second grid, give at least the change to a grid of half the step.
+    Values cut[2], bounds;
+    for (const char* grid : {"8", "16"}) {
+        const CaseHandle border = case_of(
+            std::string("&run realizations=2 / &surface n=128 L_lambda_l=1 L_lambda_s=4 sigma=1e-4 / &solids R=Infinity,20 / &indentation "
+                        "centre=0.5,0.01 levels=-20,-60 / &solver model='elements' / &compare levels='none' / &elements points_per_wave=") +
+            grid + " /");
+        OK(run_to(folder / "border.nc", border, nullptr));
+        const Reader file(folder / "border.nc");
+        cut[*grid == '1'] = file.values("force");
+        if (*grid == '8') bounds = file.values("force_error_expected");
+    }
+    for (std::size_t k = 0; k < bounds.size(); ++k) CHECK(std::abs(cut[0][k] / cut[1][k] - 1) <= bounds[k]);
+    CHECK(bounds.size() == 4);
     failed = -1;
     CHECK(run_to("/proc/no/such/folder.nc", c, &failed) == -1);
     CHECK(failed == -1);
