@@ -7,20 +7,8 @@
 namespace rsc {
 namespace {
 
-// (2 - 1/s^2) asin(s) + sqrt(1/s^2 - 1) = (4/3) s (1 + s^2/10 + 9 s^4/280 + ...), s = a/d: coefficients from the series of asin(s) and
-// sqrt(1 - s^2) with b_n = (2n)!/(4^n n!^2).
-constexpr int kTerms = 8;  // s^16 is below rounding for s < kFar
+constexpr int kTerms = 8;  // s^16 is below rounding for s = a/d < kFar
 constexpr double kFar = 0.1;
-constexpr std::array<double, kTerms> kSeries = [] {
-    std::array<double, kTerms> series{};
-    double before = 1;  // b_(n-1)
-    for (int n = 1; n <= kTerms; ++n) {
-        const double b = before * (2 * n - 1) / (2 * n);
-        series[static_cast<std::size_t>(n - 1)] = 0.75 * (2 * before / (2 * n - 1) - b * 4 * n / (4.0 * n * n - 1));
-        before = b;
-    }
-    return series;
-}();
 
 }  // namespace
 
@@ -34,8 +22,8 @@ double spot_deflection(double force, double radius, double distance, double E_st
         const double t2 = 1 / (s * s);
         return 0.75 * near * force / radius * ((2 - t2) * std::asin(s) + std::sqrt(t2 - 1));
     }
-    double sum = 0;  // series, because the two terms above cancel
-    for (std::size_t n = kTerms; n-- > 0;) sum = sum * s * s + kSeries[n];
+    double sum = 1;  // the hypergeometric series F(1/2, 1/2; 5/2; s^2), because the two terms above cancel
+    for (int n = kTerms - 1; n-- > 0;) sum = 1 + (n + 0.5) * (n + 0.5) / ((n + 2.5) * (n + 1)) * s * s * sum;
     return near * force / distance * sum;
 }
 

@@ -10,34 +10,6 @@ namespace {
 
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
-// Number of sides of each pixel without a neighbour under pressure, the borders of contacts. Sides on the border of the map are not
-// counted, since the contact may continue beyond.
-std::vector<int> open_sides(const std::vector<Pixel>& pixels, int nx, int ny, bool periodic) {
-    std::vector<int> open(pixels.size(), 4);
-    std::vector<std::size_t> begin(at(ny) + 1, 0);
-    for (const Pixel& q : pixels) ++begin[at(q.y) + 1];
-    for (int j = 0; j < ny; ++j) begin[at(j) + 1] += begin[at(j)];
-    for (int j = 0; j < ny; ++j) {
-        const std::size_t first = begin[at(j)], end = begin[at(j) + 1];
-        if (first == end) continue;
-        for (std::size_t k = first + 1; k < end; ++k)
-            if (pixels[k].x == pixels[k - 1].x + 1) --open[k - 1], --open[k];
-        if (periodic && pixels[first].x == 0 && pixels[end - 1].x == nx - 1) --open[first], --open[end - 1];
-        if (!periodic) {
-            if (pixels[first].x == 0) --open[first];
-            if (pixels[end - 1].x == nx - 1) --open[end - 1];
-            for (std::size_t k = first; k < end && (j == 0 || j == ny - 1); ++k) open[k] -= ny == 1 ? 2 : 1;
-        }
-        if (j == 0 && !periodic) continue;
-        const int above = j > 0 ? j - 1 : ny - 1;
-        for (std::size_t k = first, l = begin[at(above)]; k < end; ++k) {
-            while (l < begin[at(above) + 1] && pixels[l].x < pixels[k].x) ++l;
-            if (l < begin[at(above) + 1] && pixels[l].x == pixels[k].x) --open[l], --open[k];
-        }
-    }
-    return open;
-}
-
 // Number of pixels N such that half of all pixels belong to contacts of at most N pixels.
 template <class Sums>
 double median_by_area(const Sums& sums) {
@@ -73,8 +45,12 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
                 std::vector<double> pressure, double tension) {
     const bool periodic = indenter.period.finite();
     std::vector<int> label;
-    const int contacts = connected_sets(touching, label, periodic ? map.nx : 0, periodic ? map.ny : 0);
-    const std::vector<int> open = open_sides(touching, map.nx, map.ny, periodic);
+    const int period_x = periodic ? map.nx : 0, period_y = periodic ? map.ny : 0;
+    const int contacts = connected_sets(touching, label, period_x, period_y);
+    std::vector<int> open = open_sides(touching, period_x, period_y);  // the borders of contacts
+    if (!periodic)                                                     // beyond the border of the map the contact may continue
+        for (std::size_t k = 0; k < open.size(); ++k)
+            open[k] -= (touching[k].x == 0) + (touching[k].x == map.nx - 1) + (touching[k].y == 0) + (touching[k].y == map.ny - 1);
     struct Sum {
         double p = 0, weight = 0, px = 0, py = 0, highest = 0, own = 0;
         long pixels = 0, hard = 0, border = 0;  // hard: pixels at the hardness; border: sides without a neighbour of the other pixels

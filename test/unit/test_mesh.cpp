@@ -43,6 +43,8 @@ Vector random_forces(std::size_t n, unsigned seed, bool signs) {
     return f;
 }
 
+const auto kUnit = make_kernel(Interaction::point, 1 / std::numbers::pi);  // 1/d
+
 Vector product(MeshPotential& potential, const Vector& f) {
     Vector phi(f.size(), std::nan(""));
     potential.apply(f.data(), phi.data());
@@ -69,7 +71,7 @@ double error_of(const Points& p, const Vector& f, const Vector& phi) {
 void check_errors(const Points& p, const char* name, bool on_mesh = true) {
     const int before = check::failures;
     for (double wanted : {1e-3, 1e-6, 1e-9}) {
-        MeshPotential potential(p.size(), p.x.data(), p.y.data(), wanted);
+        MeshPotential potential(p.size(), p.x.data(), p.y.data(), wanted, kUnit);
         CHECK((potential.mesh_points() > 0) == on_mesh);
         double largest = 0;
         for (bool signs : {false, true}) {
@@ -104,7 +106,7 @@ TEST(shapes) {
 TEST(tiny) {
     for (std::size_t n : {0, 1, 2, 3, 100}) check_errors(uniform_points(n, 11), "tiny", false);
     const Points place{Vector(1000, 0.3), Vector(1000, -2.0)};
-    MeshPotential potential(1000, place.x.data(), place.y.data(), 1e-6);
+    MeshPotential potential(1000, place.x.data(), place.y.data(), 1e-6, kUnit);
     const Vector phi = product(potential, random_forces(1000, 12, true));
     CHECK(std::all_of(phi.begin(), phi.end(), [](double value) { return value == 0; }));
 }
@@ -115,7 +117,7 @@ TEST(same_bits_for_any_threads) {
         Vector first;
         for (int threads : {1, 2, 3}) {
             const rsc::LoopThreads loops(threads);
-            MeshPotential potential(p.size(), p.x.data(), p.y.data(), 1e-6);
+            MeshPotential potential(p.size(), p.x.data(), p.y.data(), 1e-6, kUnit);
             const Vector phi = product(potential, f), again = product(potential, f);
             if (first.empty()) first = phi;
             CHECK(phi == first);

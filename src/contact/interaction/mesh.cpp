@@ -95,12 +95,6 @@ Choice choose_spacing(const MeshDesign& design, std::size_t n, double length_x, 
     return best;
 }
 
-// The kernel 1/d.
-std::shared_ptr<const Kernel> unit_kernel() {
-    static const auto unit = make_kernel(Interaction::point, 1 / std::numbers::pi);
-    return unit;
-}
-
 }  // namespace
 
 int MeshPotential::threads() const { return n_ > kThreads ? 0 : 1; }
@@ -109,11 +103,7 @@ double MeshPotential::resolved() const { return kernel_->smooth() ? resolved_by(
 
 MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, std::shared_ptr<const Kernel> kernel,
                              FarFields* kept)
-    : n_(n),
-      kernel_(kernel ? std::move(kernel) : unit_kernel()),
-      lattice_(kernel_->lattice()),
-      direct_(*kernel_),
-      design_(&mesh_design(relative_error)) {
+    : n_(n), kernel_(std::move(kernel)), lattice_(kernel_->lattice()), direct_(*kernel_), design_(&mesh_design(relative_error)) {
     if (!(relative_error >= 1e-10 && relative_error <= 1e-2))
         throw Error(Failure::bad_input, "mesh product: relative error " + text_of(relative_error) + " is outside the range 1e-10 to 1e-2");
     if (n > std::numeric_limits<std::uint32_t>::max())

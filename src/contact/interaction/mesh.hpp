@@ -23,9 +23,9 @@ public:
     // n points with finite coordinates [length]. relative_error, from 1e-10 to 1e-2, is the bound of |phi - exact| / |phi| in the 2-norm
     // for forces of any sign (smaller for forces of one sign). Any positions are allowed, including coinciding points; clusters cost more.
     // Throws Error(bad_input) for coordinates that are not finite or an error out of range. A point acts on itself through periodic images
-    // and a smooth part. Without a kernel: 1/d. `kept`: stored far fields of the lattice of this kernel; missing ones are added, and all
-    // are removed when they take too much memory.
-    MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, std::shared_ptr<const Kernel> kernel = nullptr,
+    // and a smooth part. `kept`: stored far fields of the lattice of this kernel; missing ones are added, and all are removed when they take
+    // too much memory.
+    MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, std::shared_ptr<const Kernel> kernel,
                   FarFields* kept = nullptr);
 
     // phi[i] = sum_j f[j] G_ij, in the order the points were given. Uses threads (rough/parallel.hpp); the bits do not depend on their

@@ -1,6 +1,7 @@
 #include "contact/interaction/mesh_far.hpp"
 
 #include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/special_functions/bessel.hpp>
 
 #include "error.hpp"
 #include "rough/parallel.hpp"
@@ -11,17 +12,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-// I0(sqrt(z)) for z >= 0 by its power series, whose terms are all positive.
-double bessel_i0_of_root(double z) {
-    double term = 1, sum = 1;
-    for (int k = 1; term > 1e-18 * sum; ++k) {
-        term *= z / (4.0 * k * k);
-        sum += term;
-    }
-    return sum;
-}
-
-double bell(double beta, double t) { return bessel_i0_of_root(beta * beta * std::max(0.0, 1 - t * t)); }
+double bell(double beta, double t) { return boost::math::cyl_bessel_i(0, beta * std::sqrt(std::max(0.0, 1 - t * t))); }
 
 template <class Function>
 double integral(double a, double b, Function function) {

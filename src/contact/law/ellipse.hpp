@@ -14,7 +14,7 @@ struct EllipseFactors {
 EllipseFactors ellipse_factors(double ratio);
 
 // Complete elliptic integral K of the complementary modulus k' = sqrt(1 - k^2), 0 < k' <= 1: pi/2 over the arithmetic-geometric mean of 1
-// and k' (Abramowitz and Stegun 17.6). The C++ library and Boost take k, which is rounded to 1 for narrow ellipses.
+// and k'. (Functions of k are inaccurate for narrow ellipses, where k is rounded to 1.)
 double complete_K(double complementary);
 
 }  // namespace rsc

@@ -1,5 +1,7 @@
 #include "contact/law/hardness.hpp"
 
+#include <boost/math/tools/roots.hpp>
+
 #include "error.hpp"
 
 namespace rsc {
@@ -143,28 +145,18 @@ private:
         const double area = s.start.area + 2 * (spread.area - s.start.spread.area);
         return {depth, area, std::sqrt(area / pi), spread};
     }
-    // State beyond u_c. If summits sink, solves depth + sink [a(depth) - a(u_c)] = u, with the area linearised at each iterate.
+    // State beyond u_c. If summits sink, solves depth + sink [a(depth) - a(u_c)] = u.
     Flat flat(int asperity, double u) const {
         const Summit& s = summit(asperity);
         if (s.sink == 0) return flat_at(asperity, u);
-        Flat now = u > s.deepest && s.deepest > 0 ? s.end : s.start;
-        constexpr int most = 30;
-        constexpr double near = 1e-8;  // its square is below rounding, so that one more linear step is exact
-        for (int i = 0; i < most; ++i) {
-            const double rise = now.spread.slope / pi, b = s.sink * rise, left = u + s.sink * s.start.radius - now.depth;
-            const double radius = std::sqrt(b * b + now.radius * now.radius + 2 * rise * left) - b;
-            now = flat_at(asperity, u - s.sink * (radius - s.start.radius));
-            const double miss = s.sink * (now.radius - radius);  // residual in u
-            if (!(std::abs(now.radius - radius) <= near * radius)) continue;
-            const double shift = -miss / (1 + s.sink * now.spread.slope / (pi * now.radius));
-            now.depth += shift;
-            now.radius += now.spread.slope * shift / (pi * now.radius);
-            now.area += 2 * now.spread.slope * shift;
-            now.spread.integral += now.spread.area * shift;
-            now.spread.area += now.spread.slope * shift;
-            break;
-        }
-        return now;
+        const auto miss = [&](double depth) {
+            const Flat now = flat_at(asperity, depth);
+            return std::pair(depth + s.sink * (now.radius - s.start.radius) - u, 1 + s.sink * now.spread.slope / (pi * now.radius));
+        };
+        // The last step from half of all digits is exact.
+        std::uintmax_t steps = 50;
+        return flat_at(asperity, boost::math::tools::newton_raphson_iterate(miss, std::max(s.start.depth, s.end.depth), s.start.depth, u,
+                                                                            std::numeric_limits<double>::digits / 2, steps));
     }
     // Growth dA/du of the area.
     static double growth(const Summit& s, double spread_slope, double radius) {

@@ -1,5 +1,7 @@
 #include "contact/law/law.hpp"
 
+#include <boost/math/tools/toms748_solve.hpp>
+
 #include "contact/law/bessel_profile.hpp"
 #include "contact/law/ellipse.hpp"
 #include "error.hpp"
@@ -121,24 +123,13 @@ public:
     // The mean pressure increases up to t = kFlattest, then decreases, and increases again beyond `last`, where the area is constant.
     double yield_penetration(int asperity, double pressure) const override {
         const Summit& s = summit(asperity);
-        const auto reached = [&](double u) { return force(asperity, u) >= pressure * area(asperity, u); };
-        double low = 0, high = s.t > 0 ? kFlattest / s.t : s.r * std::pow(pressure / s.e, 2);
-        if (s.t > 0 && !reached(high)) low = high, high = s.last;
-        while (!reached(high)) low = high, high *= 2;
-        // Bracketed Newton's method in logarithms: d ln p/d ln u = u f'/f - u A'/A, which is 1/2 for a paraboloid.
-        double u = high;
-        for (int i = 0; i < 200; ++i) {
-            const Response now = response(asperity, u);
-            const double A = area(asperity, u), mean = now.force / A,
-                         rise = u * (now.slope / now.force - (u < s.last ? spread(asperity, u).slope / A : 0.0));
-            (mean >= pressure ? high : low) = u;
-            double next = u * std::exp(std::log(pressure / mean) / rise);
-            if (std::abs(next - u) <= 4 * std::numeric_limits<double>::epsilon() * u) break;
-            if (!(next > low && next < high)) next = 0.5 * (low + high);
-            if (!(next > low && next < high)) break;
-            u = next;
-        }
-        return u;
+        const auto excess = [&](double u) { return std::log(force(asperity, u) / (pressure * area(asperity, u))); };
+        double start = s.t > 0 ? kFlattest / s.t : s.r * std::pow(pressure / s.e, 2);
+        if (s.t > 0 && excess(start) < 0) start = s.last;
+        std::uintmax_t steps = 2000;
+        const auto [low, high] =
+            boost::math::tools::bracket_and_solve_root(excess, start, 2.0, true, boost::math::tools::eps_tolerance<double>(), steps);
+        return 0.5 * (low + high);
     }
 
 private:

@@ -1,5 +1,7 @@
 #include "contact/law/most_loaded.hpp"
 
+#include <boost/math/quadrature/gauss.hpp>
+
 #include "contact/law/ellipse.hpp"
 
 namespace rsc {
@@ -22,13 +24,13 @@ struct DiscPoints {
     static constexpr int kRings = 4, kOnRing = 12, kCount = kRings * kOnRing;
     double p[kCount], q[kCount], weight[kCount];
     DiscPoints() {
-        // Positive points and weights of Gauss's rule with 8 points on (-1, 1).
-        constexpr double point[kRings] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
-        constexpr double share[kRings] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
+        const auto &point = boost::math::quadrature::gauss<double, 2 * kRings>::abscissa(),
+                   &share = boost::math::quadrature::gauss<double, 2 * kRings>::weights();
         for (int k = 0; k < kCount; ++k) {
-            const double r = std::sqrt(1 - point[k / kOnRing] * point[k / kOnRing]);
+            const auto ring = static_cast<std::size_t>(k / kOnRing);
+            const double r = std::sqrt(1 - point[ring] * point[ring]);
             const double angle = 2 * std::numbers::pi * (k % kOnRing + 0.5) / kOnRing;
-            p[k] = r * std::cos(angle), q[k] = r * std::sin(angle), weight[k] = share[k / kOnRing] / kOnRing;
+            p[k] = r * std::cos(angle), q[k] = r * std::sin(angle), weight[k] = share[ring] / kOnRing;
         }
     }
 };

@@ -48,33 +48,40 @@ struct Sets {
     }
 };
 
-// First pixel at or after (x, y).
-int lower(const std::vector<Pixel>& pixels, int x, int y) {
-    return static_cast<int>(std::lower_bound(pixels.begin(), pixels.end(), Pixel{x, y},
-                                             [](const Pixel& a, const Pixel& b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); }) -
-                            pixels.begin());
+// Calls visit(k, l) for every pair of pixels with a common side.
+template <class Visit>
+void for_neighbours(const std::vector<Pixel>& pixels, int period_x, int period_y, Visit&& visit) {
+    const auto before = [](const Pixel& a, const Pixel& b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); };
+    const int n = static_cast<int>(pixels.size());
+    int above = 0;  // index that advances along the row above
+    for (int k = 0; k < n; ++k) {
+        const Pixel p = pixels[at(k)];
+        if (k > 0 && pixels[at(k - 1)] == Pixel{p.x - 1, p.y}) visit(k - 1, k);
+        while (above < k && before(pixels[at(above)], {p.x, p.y - 1})) ++above;
+        if (above < k && pixels[at(above)] == Pixel{p.x, p.y - 1}) visit(above, k);
+        const auto wrap = [&](int x, int y) {
+            const auto other = std::lower_bound(pixels.begin(), pixels.end(), Pixel{x, y}, before);
+            if (other != pixels.end() && *other == Pixel{x, y}) visit(static_cast<int>(other - pixels.begin()), k);
+        };
+        if (period_x > 0 && p.x == period_x - 1) wrap(0, p.y);
+        if (period_y > 0 && p.y == period_y - 1) wrap(p.x, 0);
+    }
 }
 
 }  // namespace
+
+std::vector<int> open_sides(const std::vector<Pixel>& pixels, int period_x, int period_y) {
+    std::vector<int> open(pixels.size(), 4);
+    for_neighbours(pixels, period_x, period_y, [&](int k, int l) { --open[at(k)], --open[at(l)]; });
+    return open;
+}
 
 int connected_sets(const std::vector<Pixel>& pixels, std::vector<int>& label, int period_x, int period_y) {
     const int n = static_cast<int>(pixels.size());
     Sets sets;
     sets.parent.resize(pixels.size());
     std::iota(sets.parent.begin(), sets.parent.end(), 0);
-    int above = 0;  // index that advances along the row above
-    for (int k = 0; k < n; ++k) {
-        const Pixel p = pixels[at(k)];
-        if (k > 0 && pixels[at(k - 1)] == Pixel{p.x - 1, p.y}) sets.join(k - 1, k);
-        while (above < k && (pixels[at(above)].y < p.y - 1 || (pixels[at(above)].y == p.y - 1 && pixels[at(above)].x < p.x))) ++above;
-        if (above < k && pixels[at(above)] == Pixel{p.x, p.y - 1}) sets.join(above, k);
-        const auto wrap = [&](int x, int y) {
-            const int other = lower(pixels, x, y);
-            if (other < n && pixels[at(other)] == Pixel{x, y}) sets.join(other, k);
-        };
-        if (period_x > 0 && p.x == period_x - 1) wrap(0, p.y);
-        if (period_y > 0 && p.y == period_y - 1) wrap(p.x, 0);
-    }
+    for_neighbours(pixels, period_x, period_y, [&](int k, int l) { sets.join(k, l); });
     label.resize(pixels.size());
     int count = 0;
     for (int k = 0; k < n; ++k) {

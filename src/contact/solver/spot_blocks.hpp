@@ -9,6 +9,9 @@ namespace rsc {
 // order of their first pixels. Returns the number of sets. With a period (columns, rows; 0: none) sets are joined across the edges.
 int connected_sets(const std::vector<Pixel>& pixels, std::vector<int>& label, int period_x = 0, int period_y = 0);
 
+// Number of sides of each pixel without a neighbour, for pixels and a period as above.
+std::vector<int> open_sides(const std::vector<Pixel>& pixels, int period_x, int period_y);
+
 // Block Jacobi preconditioner: the inverse of K on each connected set of pixels; sets of more than kMostPixels are divided along a lattice
 // of squares. Blocks of equal shape share their inverse, also with earlier sets.
 class SpotBlocks {
