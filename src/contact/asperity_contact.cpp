@@ -70,6 +70,7 @@ struct Beside {
 
 struct AsperityContact::Impl : ContactBodies {
     double found_x, found_y;  // position of the tip at which the summits were found
+    double keeps;             // distance from there up to which they are kept
     std::optional<RelaxingAsperities> relaxing;
     std::unique_ptr<Law> law;
     Ranking ranking;
@@ -99,8 +100,9 @@ struct AsperityContact::Impl : ContactBodies {
         : ContactBodies(asperities_, indenter_, options_, std::move(search_)),
           found_x(indenter_.x0),
           found_y(indenter_.y0),
+          keeps(of_difference && !of_difference->map ? summits_keep(of_surface, indenter, options) : 0),
           law(law_of(*this, relaxing)),
-          direct(make_direct_products(kernel)),
+          direct(make_direct_products(kernel, true)),
           newton(*law) {
         use(Method::direct);
         if (options.selection == Selection::paper && std::isnan(indenter.shape->hertz_radius()))
@@ -207,6 +209,8 @@ Level AsperityContact::Impl::report(double Z0) const {
         if (force[k] > 0) order.push_back(k);
     }
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return set.asperity[a] < set.asperity[b]; });
+    for (auto* list : {&level.x, &level.y, &level.f, &level.a, &level.u}) list->reserve(order.size());
+    level.asperity.reserve(order.size()), level.yields.reserve(order.size());
     double extreme = 0;
     for (std::size_t k : order) {
         const double area = law->area(set.asperity[k], v[k]);
@@ -558,7 +562,7 @@ void AsperityContact::move_tip(double x0, double y0) {
     if (my.of_difference) {
         const double moved = std::hypot(my.indenter.around.nearest_x(x0 - my.found_x), my.indenter.around.nearest_y(y0 - my.found_y));
         // With the heights at hand the summits are those of the place of the tip, as in a new contact.
-        if (opens || moved > (my.of_difference->map ? 0 : summits_keep(my.of_surface, my.indenter, my.options))) {
+        if (opens || moved > my.keeps) {
             forget();
             return;
         }

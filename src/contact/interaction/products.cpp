@@ -109,7 +109,7 @@ private:
     }
 
     void among(bool single, const double* f, double* phi) {
-        if (single && among_all(f, phi)) return;
+        if (single && !stored_ && among_all(f, phi)) return;
         if (stored_)
             matrix_->among(single, f, phi);
         else
