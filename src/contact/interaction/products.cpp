@@ -15,12 +15,13 @@ public:
     }
 
     void set_points(int n, const double* x, const double* y) override {
-        const bool same = repeats_ && std::equal(x, x + n, x_.begin(), x_.end()) && std::equal(y, y + n, y_.begin(), y_.end());
+        const bool same = std::equal(x, x + n, x_.begin(), x_.end()) && std::equal(y, y + n, y_.begin(), y_.end());
         const bool kept = again_ > kOften;
-        again_ = std::clamp(again_ + (same ? 1 : -1), 0, 3 * kOften);
-        if (same && kept == (again_ > kOften)) return;
         x_.assign(x, x + n);
         y_.assign(y, y + n);
+        const bool known = repeats_ && (same || mostly_known());
+        again_ = std::clamp(again_ + (known ? 1 : -1), 0, 3 * kOften);
+        if (same && known && kept == (again_ > kOften)) return;
         fresh_ = true, whole_ = false;
     }
 
@@ -39,7 +40,7 @@ public:
         if (stored_) {
             const bool again = matrix_->stale(active_.size());
             if (again) matrix_->forget(), xo_.clear();
-            if (moved || again || all_.size() != x_.size()) number(x_.size(), x_.data(), y_.data(), all_);
+            if ((moved && !repeats_) || again || all_.size() != x_.size()) number(x_.size(), x_.data(), y_.data(), all_);
             select(active_, active_numbers_);
             select(passive_, passive_numbers_);
             stored_ = matrix_->set_active(active_numbers_);
@@ -92,6 +93,14 @@ private:
     bool keeps_pairs(std::size_t others) const {
         if (!matrix_ || matrix_->too_large(active_.size(), others)) return false;
         return kernel_->smooth() || (again_ > kOften && active_.size() * (active_.size() / 2 + others) < kCached);
+    }
+
+    // True if most points are in the matrix; all are from then on.
+    bool mostly_known() {
+        if (!matrix_) return false;
+        const std::size_t before = matrix_->points();
+        number(x_.size(), x_.data(), y_.data(), all_);
+        return 8 * (matrix_->points() - before) <= x_.size();
     }
 
     // Sums over all points, with their 1/d stored, if most are active.
