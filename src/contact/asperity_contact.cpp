@@ -123,6 +123,7 @@ struct AsperityContact::Impl : ContactBodies {
     bool follows() const { return law->path_dependent(); }
     // Descends from the no-interaction start to a minimum of the energy. This defines the solution if there are several.
     NewtonOutcome solve_cold() { return solve_from(cold_start(*law, *products, candidates.set), true); }
+    double force_slope(double tolerance);  // dN/dZ0; the next level is predicted with what this takes
     Level level(double Z0, const NewtonOutcome& outcome, bool unique) const;
     NewtonOutcome solve_by_paper(Fallback& why_not);
     bool one_solution() {
@@ -226,6 +227,17 @@ Level AsperityContact::Impl::report(double Z0) const {
     if (level.area > 0) level.extreme_area_fraction = extreme / level.area;
     judge_asperities(level, *law, *this);
     return level;
+}
+
+// Where there is no contact the surface sinks as the contacts do on the average.
+double AsperityContact::Impl::force_slope(double tolerance) {
+    const double slope = newton.stiffness(tolerance);
+    const Vector sinking = newton.sinking();
+    Vector change(solution.force.size(), -1 - std::accumulate(sinking.begin(), sinking.end(), 0.0) / static_cast<double>(sinking.size()));
+    for (std::size_t k = 0, active = 0; k < change.size(); ++k)
+        if (solution.force[k] > 0) change[k] = -1 - sinking[active++];
+    if (!follows()) earlier.bend(candidates, change);
+    return slope / scale();
 }
 
 Level AsperityContact::Impl::level(double Z0, const NewtonOutcome& outcome, bool unique) const {
@@ -348,10 +360,12 @@ std::optional<double> AsperityContact::guessed_separation(double N) {
     for (double& v : start) v -= s;
     const NewtonOutcome outcome =
         solve_candidates(set, my.newton, *my.products, {rough, my.options.max_iterations, false}, start, my.solution);
-    const double sum = std::accumulate(my.solution.force.begin(), my.solution.force.end(), 0.0) / my.scale();
+    double sum = std::accumulate(my.solution.force.begin(), my.solution.force.end(), 0.0) / my.scale();
     if (outcome.converged && sum > 0) {
         my.earlier.remember(Z0, my.candidates, my.solution.v, false, true);
-        Z0 += std::log(N / sum) * sum / (my.newton.stiffness(slope) / my.scale());
+        const double rise = my.force_slope(slope);
+        sum += my.newton.missing_force() / my.scale();
+        Z0 += std::log(N / sum) * sum / rise;
     }
     my.guessing = my.products_taken() - products_before;
     return Z0;
@@ -499,7 +513,7 @@ std::size_t AsperityContact::levels_since_move() const { return impl_->earlier.s
 double AsperityContact::shift() const { return impl_->kernel->shift() * impl_->scale(); }
 
 // With Z0 = Z0' + c N, c the kernel's shift: dZ0/dN = 1/(dN/dZ0') + c.
-double AsperityContact::slope() { return impl_->solution.v.empty() ? 0 : impl_->newton.stiffness(1e-3) / impl_->scale(); }
+double AsperityContact::slope() { return impl_->solution.v.empty() ? 0 : impl_->force_slope(1e-3); }
 
 double AsperityContact::stiffness() {
     if (impl_->solution.v.empty()) return 0;
