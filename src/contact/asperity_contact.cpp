@@ -233,10 +233,12 @@ Level AsperityContact::Impl::report(double Z0) const {
 double AsperityContact::Impl::force_slope(double tolerance) {
     const double slope = newton.stiffness(tolerance);
     const Vector sinking = newton.sinking();
-    Vector change(solution.force.size(), -1 - std::accumulate(sinking.begin(), sinking.end(), 0.0) / static_cast<double>(sinking.size()));
+    if (follows() || sinking.empty()) return slope / scale();
+    const double mean = std::accumulate(sinking.begin(), sinking.end(), 0.0) / static_cast<double>(sinking.size());
+    Vector change(solution.force.size(), -1 - mean);
     for (std::size_t k = 0, active = 0; k < change.size(); ++k)
         if (solution.force[k] > 0) change[k] = -1 - sinking[active++];
-    if (!follows()) earlier.bend(candidates, change);
+    earlier.bend(candidates, change);
     return slope / scale();
 }
 

@@ -23,7 +23,7 @@ void EarlierLevels::remember(double Z0, const Candidates& candidates, const Vect
 }
 
 void EarlierLevels::bend(const Candidates& candidates, const Vector& slope) {
-    if (past_.empty()) return;
+    if (past_.empty() || past_.front().phi.size() != candidates.rank.back() + 1) return;
     Past& last = past_.front();
     last.slope.assign(last.phi.size(), 0.0);
     for (std::size_t k = 0; k < slope.size(); ++k) last.slope[candidates.rank[k]] = slope[k];
@@ -95,7 +95,7 @@ bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& sta
             phi = past_[0].phi[rank[k]];
             known = true;
         }
-        if (used == 1 && known && !past_[0].slope.empty()) phi += (Z0 - past_[0].separation) * past_[0].slope[rank[k]];
+        if (used == 1 && known && !past_[0].slope.empty()) phi = std::max(phi + (Z0 - past_[0].separation) * past_[0].slope[rank[k]], 0.0);
         start[k] = known && std::isfinite(phi) ? g0[k] - phi : -kInfinity;
         any = any || start[k] > 0;
     }

@@ -22,14 +22,14 @@ public:
         const bool known = repeats_ && (same || mostly_known());
         again_ = std::clamp(again_ + (known ? 1 : -1), 0, 3 * kOften);
         if (same && known && kept == (again_ > kOften)) return;
-        fresh_ = true, whole_ = false;
+        fresh_ = true, among_ = 0;
     }
 
     void expect_repeats(bool expect) override {
         repeats_ = expect;
         if (expect || again_ == 0) return;
         again_ = 0, fresh_ = true;
-        if (matrix_ && !kernel_->smooth()) matrix_->forget(), xo_.clear();
+        if (matrix_ && !kernel_->smooth()) matrix_->forget(), xo_.clear(), all_.clear();
     }
 
     void set_active(const std::vector<int>& active) override {
@@ -100,16 +100,22 @@ private:
         if (!matrix_) return false;
         const std::size_t before = matrix_->points();
         number(x_.size(), x_.data(), y_.data(), all_);
-        return 8 * (matrix_->points() - before) <= x_.size();
+        if (8 * (matrix_->points() - before) <= x_.size()) return true;
+        if (again_ <= kOften && !kernel_->smooth()) {
+            matrix_->forget(), xo_.clear();
+            number(x_.size(), x_.data(), y_.data(), all_);
+        }
+        return false;
     }
 
-    // Sums over all points, with their 1/d stored, if most are active.
+    // Sums over all points, with their 1/d stored, if most are active, from the second product on.
     bool among_all(const double* f, double* phi) {
         constexpr double most = 0.7;
         if (!many_ || kernel_->none() || kernel_->lattice() || kernel_->smooth() || x_.size() > PairSums::kMostStored ||
             static_cast<double>(active_.size()) < most * static_cast<double>(x_.size()))
             return false;
-        if (!std::exchange(whole_, true)) all_sums_.assign(x_.size(), x_.data(), y_.data()), all_sums_.store();
+        if (++among_ == 1) return false;
+        if (among_ == 2) all_sums_.assign(x_.size(), x_.data(), y_.data()), all_sums_.store();
         all_f_.assign(x_.size(), 0.0), all_phi_.resize(x_.size());
         for (std::size_t k = 0; k < active_.size(); ++k) all_f_[static_cast<std::size_t>(active_[k])] = f[k];
         all_sums_.among(true, all_f_.data(), all_phi_.data());
@@ -149,7 +155,8 @@ private:
     bool stored_ = false;  // the matrix is used for the current points
     std::vector<double> xa_, ya_, xp_, yp_, xo_, yo_, active_phi_, passive_phi_;
     std::vector<std::uint32_t> all_, active_numbers_, passive_numbers_, other_numbers_;  // numbers of points in the matrix
-    bool many_, whole_ = false;  // many products with a set of points are expected; all_sums_ is that of the present points
+    bool many_;                                                                          // many products with a set of points are expected
+    int among_ = 0;  // those so far; from the second on all_sums_ is of the present points
     std::vector<double> all_f_, all_phi_;
     PairSums sums_, all_sums_;
     std::optional<PairMatrix> matrix_;
