@@ -70,6 +70,7 @@ struct Beside {
 
 struct AsperityContact::Impl : ContactBodies {
     double found_x, found_y;  // position of the tip at which the summits were found
+    double keeps;             // distance from there up to which they are kept
     std::optional<RelaxingAsperities> relaxing;
     std::unique_ptr<Law> law;
     Ranking ranking;
@@ -99,8 +100,9 @@ struct AsperityContact::Impl : ContactBodies {
         : ContactBodies(asperities_, indenter_, options_, std::move(search_)),
           found_x(indenter_.x0),
           found_y(indenter_.y0),
+          keeps(of_difference && !of_difference->map ? summits_keep(of_surface, indenter, options) : 0),
           law(law_of(*this, relaxing)),
-          direct(make_direct_products(kernel)),
+          direct(make_direct_products(kernel, true)),
           newton(*law) {
         use(Method::direct);
         if (options.selection == Selection::paper && std::isnan(indenter.shape->hertz_radius()))
@@ -121,6 +123,7 @@ struct AsperityContact::Impl : ContactBodies {
     bool follows() const { return law->path_dependent(); }
     // Descends from the no-interaction start to a minimum of the energy. This defines the solution if there are several.
     NewtonOutcome solve_cold() { return solve_from(cold_start(*law, *products, candidates.set), true); }
+    double force_slope(double tolerance);  // dN/dZ0; the next level is predicted with what this takes
     Level level(double Z0, const NewtonOutcome& outcome, bool unique) const;
     NewtonOutcome solve_by_paper(Fallback& why_not);
     bool one_solution() {
@@ -207,6 +210,8 @@ Level AsperityContact::Impl::report(double Z0) const {
         if (force[k] > 0) order.push_back(k);
     }
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return set.asperity[a] < set.asperity[b]; });
+    for (auto* list : {&level.x, &level.y, &level.f, &level.a, &level.u}) list->reserve(order.size());
+    level.asperity.reserve(order.size()), level.yields.reserve(order.size());
     double extreme = 0;
     for (std::size_t k : order) {
         const double area = law->area(set.asperity[k], v[k]);
@@ -222,6 +227,19 @@ Level AsperityContact::Impl::report(double Z0) const {
     if (level.area > 0) level.extreme_area_fraction = extreme / level.area;
     judge_asperities(level, *law, *this);
     return level;
+}
+
+// Where there is no contact the surface sinks as the contacts do on the average.
+double AsperityContact::Impl::force_slope(double tolerance) {
+    const double slope = newton.stiffness(tolerance);
+    const Vector sinking = newton.sinking();
+    if (follows() || sinking.empty()) return slope / scale();
+    const double mean = std::accumulate(sinking.begin(), sinking.end(), 0.0) / static_cast<double>(sinking.size());
+    Vector change(solution.force.size(), -1 - mean);
+    for (std::size_t k = 0, active = 0; k < change.size(); ++k)
+        if (solution.force[k] > 0) change[k] = -1 - sinking[active++];
+    earlier.bend(candidates, change);
+    return slope / scale();
 }
 
 Level AsperityContact::Impl::level(double Z0, const NewtonOutcome& outcome, bool unique) const {
@@ -344,10 +362,12 @@ std::optional<double> AsperityContact::guessed_separation(double N) {
     for (double& v : start) v -= s;
     const NewtonOutcome outcome =
         solve_candidates(set, my.newton, *my.products, {rough, my.options.max_iterations, false}, start, my.solution);
-    const double sum = std::accumulate(my.solution.force.begin(), my.solution.force.end(), 0.0) / my.scale();
+    double sum = std::accumulate(my.solution.force.begin(), my.solution.force.end(), 0.0) / my.scale();
     if (outcome.converged && sum > 0) {
         my.earlier.remember(Z0, my.candidates, my.solution.v, false, true);
-        Z0 += std::log(N / sum) * sum / (my.newton.stiffness(slope) / my.scale());
+        const double rise = my.force_slope(slope);
+        sum += my.newton.missing_force() / my.scale();
+        Z0 += std::log(N / sum) * sum / rise;
     }
     my.guessing = my.products_taken() - products_before;
     return Z0;
@@ -495,7 +515,7 @@ std::size_t AsperityContact::levels_since_move() const { return impl_->earlier.s
 double AsperityContact::shift() const { return impl_->kernel->shift() * impl_->scale(); }
 
 // With Z0 = Z0' + c N, c the kernel's shift: dZ0/dN = 1/(dN/dZ0') + c.
-double AsperityContact::slope() { return impl_->solution.v.empty() ? 0 : impl_->newton.stiffness(1e-3) / impl_->scale(); }
+double AsperityContact::slope() { return impl_->solution.v.empty() ? 0 : impl_->force_slope(1e-3); }
 
 double AsperityContact::stiffness() {
     if (impl_->solution.v.empty()) return 0;
@@ -558,7 +578,7 @@ void AsperityContact::move_tip(double x0, double y0) {
     if (my.of_difference) {
         const double moved = std::hypot(my.indenter.around.nearest_x(x0 - my.found_x), my.indenter.around.nearest_y(y0 - my.found_y));
         // With the heights at hand the summits are those of the place of the tip, as in a new contact.
-        if (opens || moved > (my.of_difference->map ? 0 : summits_keep(my.of_surface, my.indenter, my.options))) {
+        if (opens || moved > my.keeps) {
             forget();
             return;
         }

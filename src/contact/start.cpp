@@ -22,6 +22,13 @@ void EarlierLevels::remember(double Z0, const Candidates& candidates, const Vect
     if (past_.size() > 4) past_.pop_back();
 }
 
+void EarlierLevels::bend(const Candidates& candidates, const Vector& slope) {
+    if (past_.empty() || past_.front().phi.size() != candidates.rank.back() + 1) return;
+    Past& last = past_.front();
+    last.slope.assign(last.phi.size(), 0.0);
+    for (std::size_t k = 0; k < slope.size(); ++k) last.slope[candidates.rank[k]] = slope[k];
+}
+
 void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::size_t asperities, Vec2 from, Vec2 to) {
     if (!past_.empty()) {  // otherwise moved twice without a level between; the carried state is kept
         std::swap(carried_, before_);
@@ -88,6 +95,7 @@ bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& sta
             phi = past_[0].phi[rank[k]];
             known = true;
         }
+        if (used == 1 && known && !past_[0].slope.empty()) phi = std::max(phi + (Z0 - past_[0].separation) * past_[0].slope[rank[k]], 0.0);
         start[k] = known && std::isfinite(phi) ? g0[k] - phi : -kInfinity;
         any = any || start[k] > 0;
     }

@@ -14,6 +14,9 @@ public:
     // intermediate solution, which is replaced by the next one and need not be unique.
     void remember(double Z0, const Candidates& candidates, const std::vector<double>& v, bool unique, bool passed = false);
 
+    // Sets dphi/dZ0 of the last level stored, over its candidates, which serves until there is another level.
+    void bend(const Candidates& candidates, const std::vector<double>& slope);
+
     // To be called when the tip moves from one place to another and ranks become invalid: stores the last level by asperity as the start of
     // the next level. On a way straight on, the next level is extrapolated from the last levels of two places.
     void carry(const Candidates& candidates, const std::vector<double>& v, std::size_t asperities, Vec2 from, Vec2 to);
@@ -32,6 +35,7 @@ private:
         double separation;
         std::vector<double> phi;  // B F by rank; NaN: unknown
         bool passed;
+        std::vector<double> slope = {};  // d phi/dZ0; empty: unknown
     };
     std::deque<Past> past_;
     std::size_t solved_ = 0;

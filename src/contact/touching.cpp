@@ -105,12 +105,13 @@ double steepest_above(const Asperities& asperities, const Indenter& indenter, do
 }
 
 double steepest_contact(const Level& level, const Indenter& indenter) {
-    double steepest = 0;
+    Vec2 steepest;
+    double square = 0;
     for (std::size_t k = 0; k < level.x.size(); ++k) {
         const Vec2 slope = indenter.shape->gradient(level.x[k] - indenter.x0, level.y[k] - indenter.y0);
-        steepest = std::max(steepest, std::hypot(slope.x, slope.y));
+        if (const double here = slope.x * slope.x + slope.y * slope.y; here > square) square = here, steepest = slope;
     }
-    return steepest;
+    return std::hypot(steepest.x, steepest.y);
 }
 
 }  // namespace rsc

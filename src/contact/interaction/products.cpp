@@ -15,20 +15,21 @@ public:
     }
 
     void set_points(int n, const double* x, const double* y) override {
-        const bool same = repeats_ && std::equal(x, x + n, x_.begin(), x_.end()) && std::equal(y, y + n, y_.begin(), y_.end());
+        const bool same = std::equal(x, x + n, x_.begin(), x_.end()) && std::equal(y, y + n, y_.begin(), y_.end());
         const bool kept = again_ > kOften;
-        again_ = std::clamp(again_ + (same ? 1 : -1), 0, 3 * kOften);
-        if (same && kept == (again_ > kOften)) return;
         x_.assign(x, x + n);
         y_.assign(y, y + n);
-        fresh_ = true, whole_ = false;
+        const bool known = repeats_ && (same || mostly_known());
+        again_ = std::clamp(again_ + (known ? 1 : -1), 0, 3 * kOften);
+        if (same && known && kept == (again_ > kOften)) return;
+        fresh_ = true, among_ = 0;
     }
 
     void expect_repeats(bool expect) override {
         repeats_ = expect;
         if (expect || again_ == 0) return;
         again_ = 0, fresh_ = true;
-        if (matrix_ && !kernel_->smooth()) matrix_->forget(), xo_.clear();
+        if (matrix_ && !kernel_->smooth()) matrix_->forget(), xo_.clear(), all_.clear();
     }
 
     void set_active(const std::vector<int>& active) override {
@@ -39,7 +40,7 @@ public:
         if (stored_) {
             const bool again = matrix_->stale(active_.size());
             if (again) matrix_->forget(), xo_.clear();
-            if (moved || again || all_.size() != x_.size()) number(x_.size(), x_.data(), y_.data(), all_);
+            if ((moved && !repeats_) || again || all_.size() != x_.size()) number(x_.size(), x_.data(), y_.data(), all_);
             select(active_, active_numbers_);
             select(passive_, passive_numbers_);
             stored_ = matrix_->set_active(active_numbers_);
@@ -94,13 +95,27 @@ private:
         return kernel_->smooth() || (again_ > kOften && active_.size() * (active_.size() / 2 + others) < kCached);
     }
 
-    // Sums over all points, with their 1/d stored, if most are active.
+    // True if most points are in the matrix; all are from then on.
+    bool mostly_known() {
+        if (!matrix_) return false;
+        const std::size_t before = matrix_->points();
+        number(x_.size(), x_.data(), y_.data(), all_);
+        if (8 * (matrix_->points() - before) <= x_.size()) return true;
+        if (again_ <= kOften && !kernel_->smooth()) {
+            matrix_->forget(), xo_.clear();
+            number(x_.size(), x_.data(), y_.data(), all_);
+        }
+        return false;
+    }
+
+    // Sums over all points, with their 1/d stored, if most are active, from the second product on.
     bool among_all(const double* f, double* phi) {
         constexpr double most = 0.7;
         if (!many_ || kernel_->none() || kernel_->lattice() || kernel_->smooth() || x_.size() > PairSums::kMostStored ||
             static_cast<double>(active_.size()) < most * static_cast<double>(x_.size()))
             return false;
-        if (!std::exchange(whole_, true)) all_sums_.assign(x_.size(), x_.data(), y_.data()), all_sums_.store();
+        if (++among_ == 1) return false;
+        if (among_ == 2) all_sums_.assign(x_.size(), x_.data(), y_.data()), all_sums_.store();
         all_f_.assign(x_.size(), 0.0), all_phi_.resize(x_.size());
         for (std::size_t k = 0; k < active_.size(); ++k) all_f_[static_cast<std::size_t>(active_[k])] = f[k];
         all_sums_.among(true, all_f_.data(), all_phi_.data());
@@ -109,7 +124,7 @@ private:
     }
 
     void among(bool single, const double* f, double* phi) {
-        if (single && among_all(f, phi)) return;
+        if (single && !stored_ && among_all(f, phi)) return;
         if (stored_)
             matrix_->among(single, f, phi);
         else
@@ -140,7 +155,8 @@ private:
     bool stored_ = false;  // the matrix is used for the current points
     std::vector<double> xa_, ya_, xp_, yp_, xo_, yo_, active_phi_, passive_phi_;
     std::vector<std::uint32_t> all_, active_numbers_, passive_numbers_, other_numbers_;  // numbers of points in the matrix
-    bool many_, whole_ = false;  // many products with a set of points are expected; all_sums_ is that of the present points
+    bool many_;                                                                          // many products with a set of points are expected
+    int among_ = 0;  // those so far; from the second on all_sums_ is of the present points
     std::vector<double> all_f_, all_phi_;
     PairSums sums_, all_sums_;
     std::optional<PairMatrix> matrix_;

@@ -328,7 +328,9 @@ double Newton::stiffness(double tolerance) {
     products_->set_active(now_.active);
     scale_active(now_);
     const std::size_t n = root_.size();
-    Vector b(n), r, w(n, 0.0), more, all(now_.phi.size());
+    Vector b(n), r, more, all(now_.phi.size());
+    Vector& w = sinking_;
+    w.assign(n, 0.0);
     for (std::size_t k = 0; k < n; ++k) b[k] = -root_[k];
     r = b;
     const double goal = std::sqrt(tolerance * dot(b, b));
@@ -348,6 +350,19 @@ double Newton::stiffness(double tolerance) {
         if (left <= goal || !(left < 0.5 * before)) break;
     }
     return -dot(b, w) - dot(r, w);
+}
+
+std::vector<double> Newton::sinking() const {
+    Vector change(sinking_);
+    for (std::size_t k = 0; k < change.size(); ++k) change[k] /= root_[k];
+    return change;
+}
+
+// With J = I + B D, dv = -J^-1 res and D J^-1 symmetric: sum D dv = sum D (dv/dZ0) res.
+double Newton::missing_force() const {
+    double sum = 0;
+    for (std::size_t k = 0; k < sinking_.size(); ++k) sum += root_[k] * sinking_[k] * now_.res[at(now_.active[k])];
+    return sum;
 }
 
 }  // namespace rsc

@@ -68,6 +68,10 @@ public:
     // dN/dZ0 = sum D dv at the solution, where (I + B D) dv = -1 on the active set, to the tolerance or the accuracy of full products.
     double stiffness(double tolerance);
 
+    // After stiffness(): dv/dZ0 at the active points, and what is missing in sum F by the residual of the solution, to first order.
+    std::vector<double> sinking() const;
+    double missing_force() const;
+
 private:
     struct State {
         std::vector<double> v, force, slope, work, phi, res;
@@ -100,8 +104,8 @@ private:
     State now_, trial_;
     double begun_ = 1;  // in time loops the residual from which the last solution began, about that of the next
     bool repeats_ = false;
-    int stepped_ = 0;           // solutions in a row that took steps from near starts
-    std::vector<double> root_;  // S over the active set
+    int stepped_ = 0;                     // solutions in a row that took steps from near starts
+    std::vector<double> root_, sinking_;  // S over the active set; S dv/dZ0
     std::vector<double> force_, phi_, r_, p_, mp_, df_, active_force_, error_, passive_;
 };
 
