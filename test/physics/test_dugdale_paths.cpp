@@ -64,6 +64,10 @@ TEST(test_minimiser) {
             const Level level = contact->at_separation(Z);
             CHECK(level.status != LevelStatus::not_converged);
             CHECK((level.cohesive_area > 0) == (slow.attached() > 0));
+            double rings = 0;  // of radii a to c, which attract without touching
+            const LevelTractions& t = level.tractions;
+            for (std::size_t i = 0; i < t.a.size(); ++i) rings += pi * (t.c[i] * t.c[i] - t.a[i] * t.a[i]);
+            CHECK_CLOSE(level.cohesive_area, rings, 1e-12);
             CHECK_CLOSE(level.force, slow.force(), 1e-8 * std::max(std::abs(level.force), system.w));
         }
     }

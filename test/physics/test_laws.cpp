@@ -163,6 +163,8 @@ TEST(everything_of_every_law) {
                     const double h = 1e-4 * u;
                     if (u < flattest) CHECK_RELATIVE(now.area, r.area, 1e-12);
                     if (u > flattest) CHECK_RELATIVE(now.slope, law->spread(i, flattest).slope, 1e-12);
+                    // The radius grows like the root of the area: d ln(a)/du.
+                    if (u < std::min(flattest, last)) CHECK_RELATIVE(law->widening(i, u), 0.5 * now.slope / now.area, 1e-12);
                     const Spread low = law->spread(i, u - h), high = law->spread(i, u + h);
                     CHECK_RELATIVE(now.slope, (high.area - low.area) / (2 * h), 1e-6);
                     CHECK_RELATIVE(now.area, (high.integral - low.integral) / (2 * h), 1e-6);

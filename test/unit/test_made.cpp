@@ -175,6 +175,7 @@ double amplitude(const HeightMap& map, int kx, int ky) {
 }
 
 TEST(heights) {
+    CHECK(quantiles({3, 1, 0, 2}, {-9, 0, 9}) == (std::vector<double>{0, 1.5, 3}));  // the median is in the middle
     for (const auto& [skewness, kurtosis, aspect] : {std::tuple{-1.0, 4.5, 1.0}, {0.0, 2.0, 3.0}, {0.6, 3.5, 1.0}}) {
         Spectrum s = model(aspect, 25);
         const HeightMap gaussian = made(s, 256);
