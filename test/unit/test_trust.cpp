@@ -4,6 +4,7 @@
 #include "contact/asperity_contact.hpp"
 #include "contact/element_contact.hpp"
 #include "contact/expected_error.hpp"
+#include "contact/pixel_spots.hpp"
 #include "contact/spots.hpp"
 #include "height_maps.hpp"
 #include "observe/map.hpp"
@@ -125,6 +126,14 @@ TEST(filled) {
     c.indentation.unit = LevelUnit::length, c.indentation.levels = {-0.01};
     for (const Level& pressed : realize(prepare(c), 1, 1).levels)
         CHECK(pressed.filled_share > 0.1 && pressed.status == LevelStatus::out_of_validity);
+}
+
+// Half of the contact area is that of contacts of at most pixels_per_contact: here of the block of nine beside three single ones.
+TEST(pixels_of_contacts) {
+    const std::vector<Pixel> touching{{6, 0}, {1, 1}, {2, 1}, {3, 1}, {1, 2}, {2, 2}, {3, 2}, {1, 3}, {2, 3}, {3, 3}, {5, 5}, {0, 7}};
+    Level level;
+    add_pixels(level, flat_map(8, 8, 1, 1), {1.0, 2.0, 0, 0}, HUGE_VAL, touching, std::vector<double>(touching.size(), 1.0));
+    CHECK(level.contacts == 4 && level.pixels_per_contact == 9);
 }
 
 TEST(resolution) {
