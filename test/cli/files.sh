@@ -113,6 +113,8 @@ test_study() {
             'surface_sigma = 0.01, 0.01, 0.02, 0.02 ;' 'solids_R_2:key = "solids%R(2)"' '"Infinity",'; do
             grep -qF -- "$words" cdl || fail "the manifest lacks $words: $(cat cdl)"
         done
+        mkdir elsewhere; expect 0 "$rsc" case.nml -q -o elsewhere/out.nc; ncdump -v file elsewhere/out_manifest.nc > cdl
+        grep -qF '"out_001.nc",' cdl || fail "files beside the manifest are not named as such: $(cat cdl)"
     fi
     expect 0 "$rsc" case.nml -q -s "run%length_unit='um'"; says "4 of the members.*replaced"
     expect 0 "$rsc" case.nml -q --resume --member 2 -s "run%length_unit='um'"; says "member 2.*complete"

@@ -112,6 +112,18 @@ HeightMap map_of(int n, double step, double r) {
 
 constexpr FieldsAsked kAll{true, true, true, false, {}};
 
+// On oblong pixels: a point that yielded is lower by its residual depth where nothing touches, and pressures add up to the force.
+TEST(test_oblong) {
+    const HeightMap map = height_map(4, 3, 0.5, 2, [](int i, int j) { return 0.1 * i - 0.2 * j; });
+    const Indenter tip{kE, kFlat, 1.0, 2.0};
+    Level open, pressed;
+    open.separation = 5;
+    pressed.add_contact(0, 0.8, 2.1, 1.5, 1.0, 0.1);
+    const Fields f = fields_of(map, tip, Interaction::point, {{0, &open, {{0.5}, {4.0}, {0.03}}}, {1, &pressed, {}}}, kAll);
+    for (int k = 0; k < 12; ++k) CHECK_CLOSE(f.gap[k], 5 - map(k % 4, k / 4) + (k == 9 ? 0.03 : 0), 1e-14);
+    CHECK_RELATIVE(std::accumulate(f.pressure.begin() + 12, f.pressure.end(), 0.0) * 0.5 * 2, 1.5, 1e-14);
+}
+
 // Fields of one asperity: the pressures at the points are those of the closed form and add up to the force, the points in contact to the area.
 TEST(test_asperity_fields) {
     const Indenter tip{kE, kFlat, 0.5, 0.5};

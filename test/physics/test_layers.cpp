@@ -234,6 +234,9 @@ TEST(limits) {
     const LayeredBody base = body_of({}, 3, 0.3), thick = body_of({{1e7, 3, 0.3}}, 50, 0.1), alike = body_of({{0.2, 3, 0.3}}, 3, 0.3),
                       thin = body_of({{1e-9, 50, 0.1}}, 3, 0.3), bulging = body_of({{0.2, 3, 0.5}}, kInfinity, 0.3);
     SolverOptions options{.law = LawKind::hertz, .tolerance = 1e-9};
+    // Shifted by its bulge, a soft layer's kernel is negative nowhere.
+    const auto kernel = make_kernel(Interaction::point, substrate_of(layered(bulging, 3, 0, 0)));
+    for (double d = 1e-3; d < 1e3; d *= 1.1) CHECK(kernel->at(d, 0) >= 0);
     const auto contact = [&](const LayeredBody& body, int model) -> std::unique_ptr<Contact> {
         Indenter tip = layered(body, model == 2 ? kInfinity : 3.0, 0.5, 0.5);
         if (model == 2) tip.period = {map.Lx(), map.Ly()};

@@ -132,6 +132,9 @@ class Fields(Program):
         arrays = {a.get("Name").split()[0]: np.frombuffer(base64.b64decode(a.text)[8:]) for a in piece.iter("DataArray")}
         np.testing.assert_array_equal(arrays["pressure"], r["field_pressure"][1].ravel())
         np.testing.assert_array_equal(arrays["height"], r["field_height"].ravel())
+        fields.write_vti(self.path("oblong.vti"), np.array([1.0, 1.5, 2.0]), np.array([-2.0, 0.0]), {})
+        image = xml.etree.ElementTree.parse(self.path("oblong.vti")).getroot().find("ImageData")
+        self.assertEqual([float(v) for v in image.get("Spacing").split() + image.get("Origin").split()], [0.5, 2, 1, 1, -2, 0])
         fields.main([self.path("r.nc"), "--format", "csv"])
         columns = np.loadtxt(self.path("r_fields_1.csv"), delimiter=",", skiprows=1)
         np.testing.assert_allclose(columns[:, :4], np.column_stack([*(v.ravel() for v in np.meshgrid(r["field_x"], r["field_y"])), r["field_pressure"][0].ravel(), r["field_gap"][0].ravel()]), rtol=1e-8)

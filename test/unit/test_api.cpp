@@ -105,6 +105,14 @@ void test_press_after() {
         CHECK_CLOSE(Z, Z_fresh, 1e-9);
         CHECK(value(k, "iterations") <= 4 * steps);
     }
+    // The same separation at another place of the tip is another level.
+    double moved = 0, again = 0;
+    OK(rsc_contact_indent(fresh, Z_fresh, nullptr));
+    OK(rsc_contact_move_tip(fresh, 0.43, 0.6));
+    OK(rsc_contact_indent(fresh, Z_fresh, &moved));
+    OK(rsc_contact_indent(fresh, Z_fresh + 1e-3, nullptr));
+    OK(rsc_contact_indent(fresh, Z_fresh, &again));
+    CHECK_RELATIVE(moved, again, 1e-9);
 }
 
 }  // namespace

@@ -38,6 +38,16 @@ TEST(test_nearest_level) {
     CHECK(nearest_level({3, 2, 1}, 2.4) == 1 && nearest_level({3, 2, 1}, 2.6) == 0 && nearest_level({}, 1) == -1);
 }
 
+// A point on the border of two cells, as grid points are, belongs to the upper one, whatever its coordinate rounds to.
+TEST(test_borders_of_cells) {
+    for (const double L : {0.3, 0.7, 1.1, 2.9})
+        for (const int cells : {7, 12, 49}) {
+            const MapGrid grid = make_map_grid(0, 0, L, L, cells);
+            const double dx = L / (3 * cells);
+            for (int i = 0; i < 3 * cells; ++i) CHECK(grid.cell(i * dx, 0) == i / 3);
+        }
+}
+
 // n values at the quantiles (i - 1/2)/n, through the same counting as contacts.
 Distributions quantiles(const PdfBins& bins, int n, bool pressure, double scale) {
     Level level;

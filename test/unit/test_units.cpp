@@ -61,6 +61,7 @@ TEST(every_variable) {
     };
     const Reader mm(result("length_unit='mm' force_unit='N'", "L=2.0 sigma=0.01 / &solids R=3.0,5.0", "E=1e3,3e3 resistivity=1e-5,3e-5")),
         um(result("length_unit='um' force_unit='mN'", "L=2e3 sigma=10.0 / &solids R=3e3,5e3", "E=1.0,3.0 resistivity=1e-2,3e-2"));
+    CHECK(mm.text("radial_pressure", "units") == "N mm-2" && mm.text("map_pressure", "units") == "N mm-2");
     int variables = 0;
     nc_inq_nvars(mm.id(), &variables);
     CHECK(variables > 80);
