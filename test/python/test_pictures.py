@@ -260,7 +260,10 @@ class Numbers(Drawn):
         self.assertGreater(raw("back")[0]["map_area_fraction"].max(), 1)  # spots larger than the cell of their centre
         self.assertTrue(all(image.get_clim()[1] <= 1 for axis in self.figure("map", "back").axes[:3] for image in axis.get_images()))
         p, r = v["radial_pressure"][21], v["radius"]
-        self.has_curve(self.figure("radial", "one", step=22), r[np.isfinite(p)], p[np.isfinite(p)])
+        figure = self.figure("radial", "one", step=22)
+        self.has_curve(figure, r[np.isfinite(p)], p[np.isfinite(p)])
+        r, p = next(line for line in figure.axes[0].get_lines() if line.get_gid() == "hertz").get_data()
+        np.testing.assert_allclose(np.trapz(2 * np.pi * r * p, r), v["force"][0, 21], rtol=1e-3)  # the smooth sphere carries the same force
         many = self.figure("map", *members("forced", 12)[-5:], width=100.0)  # the titles have wider lines than the maps
         self.assertEqual(sum(bool(axis.get_images()) for axis in many.axes), 5)
 
