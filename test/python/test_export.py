@@ -17,6 +17,7 @@ import numpy as np
 EXPORT = sys.argv.pop(1)
 sys.path[:0] = [EXPORT, os.path.join(EXPORT, "..", "plot")]
 import cube  # noqa: E402
+import plot_results  # noqa: E402
 import report  # noqa: E402
 import rsc  # noqa: E402
 import table  # noqa: E402
@@ -45,6 +46,10 @@ class Tables(InFolder):
         columns, status = read.at(between)
         np.testing.assert_allclose(columns["contact_area"], 0.3 * between**0.9, rtol=1e-12)
         np.testing.assert_array_equal(status, [0, 2, 1])
+        # Over realizations the gravest: 4 before 1 before 3 before 2.
+        path = result(self.folder, "grave", [(1, 2, 0, 3), (2, 3, 1, 4)], area=np.ones((2, 4)))
+        for worst in (table.Table(path).status, plot_results.Result(path).level_status()[0]):
+            np.testing.assert_array_equal(worst, [1, 3, 1, 4])
         self.assertTrue(np.all((columns["separation"] < read.columns["separation"][:-1]) & (columns["separation"] > read.columns["separation"][1:])))
         columns, _ = read.at([0.01], "separation")
         self.assertAlmostEqual(columns["force"][0], 1.0, 12)
