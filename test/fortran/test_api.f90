@@ -8,6 +8,7 @@ program test_api
 
   call options_by_name()
   call lifetimes()
+  call given_surface()
   print '(i0,a)', failures, ' failed'
   if (failures > 0) error stop 'test_api'
 
@@ -85,5 +86,18 @@ contains
     call contact%indent(-u, N)
     call other%indent(-u, M)
     call check(abs(M - N) <= 1e-10_dp * N, 'copies outlive what they came from')
+  end subroutine
+
+  subroutine given_surface()
+    type(rsc_surface) :: surface
+    real(dp) :: z(3, 4), back(3, 4), g(4)
+    integer :: n(2)
+    logical :: periodic
+    call random_number(z)
+    call surface%take(z, 0.5_dp, dy=2.0_dp, x0=1.0_dp, y0=-3.0_dp, periodic=.true.)
+    call surface%grid(n(1), n(2), g(1), g(2), g(3), g(4), periodic)
+    call surface%heights(back)
+    call check(all(n == [3, 4]) .and. all(abs(g - [0.5_dp, 2.0_dp, 1.0_dp, -3.0_dp]) <= 0) .and. periodic, 'the grid of a surface')
+    call check(all(abs(back - z) <= 0), 'its heights')
   end subroutine
 end program
