@@ -25,7 +25,7 @@ if __name__ == "__main__":
 import netCDF4
 import numpy as np
 
-NOT_CONVERGED = 4  # of the variable status
+from table import GRAVITY, NOT_CONVERGED
 
 
 class Refused(Exception):
@@ -68,7 +68,8 @@ class Law:
         self.later, bad, z, n, a = int(later.sum()), bad[~later], z[:, ~later], n[:, ~later], a[:, ~later]
         table["status"] = table["status"][:, ~later]
         self.unconverged = int(bad.sum())
-        worst = table["status"].max(axis=0).astype(int)[~bad & (n.mean(axis=0) > 0)]
+        status = table["status"].astype(int)
+        worst = status[GRAVITY[status].argmax(axis=0), np.arange(status.shape[1])][~bad & (n.mean(axis=0) > 0)]
         self.statuses = ", ".join(f"{(worst == k).sum()} {word}" for k, word in enumerate(meanings) if (worst == k).any())
         self._points(z[:, ~bad], n[:, ~bad], a[:, ~bad])
 

@@ -89,7 +89,7 @@ void ResultTable::levels() {
     for (std::size_t k = 0; k < pull_off.size(); ++k)
         for (std::size_t s = 0; s < o_.steps; ++s) pull_off[k] = std::fmin(pull_off[k], o_.row(k, s).least_force);
     if (computed(pull_off))
-        add_absent("pull_off_force", {"realization"}, r_.settings.run.force_unit, "smallest force since the first level", pull_off,
+        add_absent("pull_off_force", {"realization"}, unit(0, 1), "smallest force since the first level", pull_off,
                    "adhesion: including forces between levels; negative if separating the bodies takes a tensile force");
 }
 
