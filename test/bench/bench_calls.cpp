@@ -52,35 +52,6 @@ void calls(const char* law, double step, bool force) {
     check(rsc_case_destroy(&c));
 }
 
-// A level of a new contact under a force, and at the separation it has.
-void cold(const char* keys) {
-    rsc_case* c = nullptr;
-    rsc_asperities* asperities = nullptr;
-    check(rsc_case_create(&c));
-    check(rsc_case_read(c, keys));
-    check(rsc_asperities_make(&asperities, c, 1));
-    for (const double wanted : {0.025, 0.0173, 0.01}) {
-        std::vector<double> times[2], products[2];
-        double N = 0, Z0 = wanted;
-        for (int k = -1; k < 10; ++k) {
-            rsc_contact* contact = nullptr;
-            check(rsc_contact_create_from_case(&contact, asperities, c));
-            const double start = thread_time();
-            const int force = k >= 0 && k % 2;
-            check(force ? rsc_contact_press(contact, N, &Z0) : rsc_contact_indent(contact, wanted, &N));
-            times[force].push_back(thread_time() - start);
-            double count = 0;
-            check(rsc_contact_value(contact, "products", &count)), products[force].push_back(count);
-            check(rsc_contact_destroy(&contact));
-        }
-        for (auto& t : times) std::sort(t.begin(), t.end());
-        std::printf("  %-60s Z0 = %.4f: force %5.1f ms, %.0f products; separation %5.1f ms, %.0f products: %.2f (wanted: 1.3)\n", keys,
-                    wanted, 1e3 * times[1][2], products[1][0], 1e3 * times[0][2], products[0][1], times[1][2] / times[0][2]);
-    }
-    check(rsc_asperities_destroy(&asperities));
-    check(rsc_case_destroy(&c));
-}
-
 }  // namespace
 
 void calls() {
@@ -88,10 +59,6 @@ void calls() {
     for (const char* law : {"fourth_order", "hertz"})
         for (const bool force : {true, false})
             for (const double step : {1e-6, 1e-4, 0.0}) calls(law, step, force);
-    std::printf("  one level of a new contact\n");
-    for (const char* keys : {"&asperities law = 'fourth_order' /", "&asperities law = 'hertz' /",
-                             "&asperities law = 'fourth_order' / &run seed = 2 /", "&solver model = 'elements' /"})
-        cold(keys);
 }
 
 }  // namespace bench

@@ -91,8 +91,7 @@ accepts_null = []  # what does not refuse NULL, and names no argument then
 C_TYPES = {"double": ctypes.c_double, "int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64}
 
 
-def by_c(calls, arrays, lengths):
-    """lengths: filled with the n of every call that has one."""
+def by_c(calls, arrays):
     sometimes_none = {(name, a.name) for name, words, _, _ in calls for a, w in zip(inputs_of(FUNCTIONS[name]), words) if w == "None"}
     without_null = set()
     library, objects, counts, rows = ctypes.CDLL(os.environ["RSC_LIBRARY"]), {}, {}, Rows()
@@ -122,7 +121,6 @@ def by_c(calls, arrays, lengths):
                 n = count.value
             else:
                 n = counts[words[0]] if name == "contact_per_asperity" else number("rsc_contact_result", objects[words[0]], 3)
-            lengths[k] = n
         for a in f.arguments:
             word = given.get(a.name)
             if a.role == "new":
@@ -582,7 +580,7 @@ def main():
         os.chdir(folder)
         with open("calls.nml", "w", encoding="utf-8") as out:
             out.write(CASE)
-        reference = by_c(calls, arrays, {})
+        reference = by_c(calls, arrays)
         wrong += accepts_null
         for k, (name, words, status, word) in enumerate(calls):
             found = reference.get((k, "code"), "0 ")

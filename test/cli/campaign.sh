@@ -75,26 +75,6 @@ test_ranks() {
     diff -r study1/out study3/out || fail "the study differs"
 }
 
-# Killed again and again, as soon as some more work is in the state: what is under the final name is whole at any time, and the same at the end.
-# What a kill at any byte leaves: unit/test_campaign.
-test_kills() {
-    campaign 250
-    expect 0 in_folder whole "$rsc" -q ../case.nml
-    mkdir killed && cd killed
-    for signal in KILL TERM KILL; do
-        local size
-        size=$(stat -c %s out.nc.checkpoint 2> /dev/null || echo 0)
-        "$rsc" -q --resume -s run%threads=2 ../case.nml 2> /dev/null &
-        until_state $((size + 20000)) $!
-        kill -s $signal $! 2> /dev/null
-        wait $!
-        [ ! -e out.nc ] || same ../whole/out.nc out.nc
-    done
-    expect 0 "$rsc" --resume ../case.nml
-    same ../whole/out.nc out.nc
-    [ "$(ls)" = out.nc ] || fail "something is left beside out.nc: $(ls)"
-}
-
 # A signal leaves a state, says how to go on, and has its exit status; one realization leaves nothing (faults.sh).
 test_signals() {
     campaign 20000
@@ -109,7 +89,8 @@ test_signals() {
     done
 }
 
-# Starts the command and kills it as soon as some work is in its state, however slow the machine is.
+# Starts the command and kills it as soon as some work is in its state, however slow the machine is. What a kill at any byte leaves:
+# unit/test_campaign.
 kill_with_state() {
     "$@" &
     until_state 20000 $!
@@ -271,13 +252,13 @@ test_study() {
 # No room for the state: the work so far is kept, and goes on once there is room. Here the limit of file sizes stands for the disk.
 test_limit() {
     campaign 300
-    expect 0 in_folder whole "$rsc" -q ../case.nml
+    expect 0 in_folder whole "$rsc" -q -s run%realizations=310 ../case.nml
     expect 1 bash -c 'ulimit -f 256; exec "$0" -q case.nml' "$rsc"
     says "cannot write 'out.nc.checkpoint'"
     says "of 300 realizations are finished and saved.*--resume"
     [ ! -e out.nc ] || fail "there is a file under the final name"
     [ "$(stat -c %s out.nc.checkpoint)" -gt 200000 ] || fail "the work is lost"
-    expect 0 "$rsc" --resume case.nml
+    expect 0 "$rsc" --resume -s run%realizations=310 case.nml   # and as a larger one
     same whole/out.nc out.nc
 }
 

@@ -85,8 +85,7 @@ private:
             {"run%realizations", "1"}, {"solver%max_iterations", "50"}, {"surface%source", "'synthetic'"}};
         for (std::size_t k = 0; k < (run ? std::size(small) : 4); ++k) told(rsc_case_set(case_, small[k][0], small[k][1]));
         told(rsc_case_set(case_, "solver%max_iterations", "50"));
-        const char* const folder = std::getenv("RSC_FUZZ_FOLDER");
-        const std::string file = "'" + std::string(folder ? folder : "/dev/shm") + "/fuzz_api.nc'";
+        const std::string file = "'" + scratch("fuzz_api.nc") + "'";
         told(rsc_case_set(case_, "output%file", file.c_str()));
     }
 

@@ -50,10 +50,7 @@ void attribute(FuzzedDataProvider& in, int file, int variable) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const std::string path = [] {
-        const char* const folder = std::getenv("RSC_FUZZ_FOLDER");
-        return std::string(folder ? folder : "/dev/shm") + "/fuzz_netcdf.nc";
-    }();
+    static const std::string path = scratch("fuzz_netcdf.nc");
     FuzzedDataProvider in(data, size);
     static const int kFormats[] = {0, NC_64BIT_OFFSET, NC_64BIT_DATA, NC_NETCDF4, NC_NETCDF4 | NC_CLASSIC_MODEL};
     int file = -1;

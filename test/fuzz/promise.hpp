@@ -3,6 +3,12 @@
 
 #include "std.hpp"
 
+// A file for this fuzzer alone.
+inline std::string scratch(const char* name) {
+    const char* const folder = std::getenv("RSC_FUZZ_FOLDER");
+    return std::string(folder ? folder : "/dev/shm") + "/" + name;
+}
+
 #define PROMISE(condition, what)                                                                                        \
     do {                                                                                                                \
         if (!(condition)) {                                                                                             \

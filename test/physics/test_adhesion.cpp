@@ -36,19 +36,13 @@ double root(const std::function<double(double)>& rising, double low) {
     return 0.5 * (low + high);
 }
 
-Asperities of(std::vector<double> x, std::vector<double> y, std::vector<double> z, std::vector<double> r) {
-    Asperities a;
-    a.x = std::move(x), a.y = std::move(y), a.z = std::move(z), a.radius = std::move(r);
-    return a;
-}
-
 SolverOptions sticky(double w, LawKind law = LawKind::hertz) { return {.law = law, .adhesion = {.work = w}, .tolerance = 1e-12}; }
 
 // The whole loop of one asperity: it attaches where it touches and lets go at u_c, neither sooner nor later.
 TEST(test_one) {
     for (double w : {1e-6, 0.01, 0.3}) {
         const Jkr jkr{0.7, w};
-        const Asperities a = of({0.5}, {0.5}, {0.1}, {jkr.r});
+        const Asperities a{{0.5}, {0.5}, {0.1}, {jkr.r}, {}, {}, {}, {}};
         const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(w));
         const double unit = pi * w * jkr.r, length = -jkr.u(jkr.least());
         const auto check = [&](double u, bool attached, const char*) {
@@ -88,7 +82,7 @@ TEST(test_groups) {
             double c = 0;
             for (int k = 1; k < n; ++k) c += 1 / (pi * kE * std::hypot(x[std::size_t(k)] - x[0], y[std::size_t(k)] - y[0]));
             const auto one = static_cast<std::size_t>(n);
-            const Asperities a = of(x, y, std::vector<double>(one, 0.0), std::vector<double>(one, jkr.r));
+            const Asperities a{x, y, std::vector<double>(one, 0.0), std::vector<double>(one, jkr.r), {}, {}, {}, {}};
             const auto contact = make_asperity_contact(a, {kE, kFlat, 0, 0}, sticky(jkr.w));
             const auto g0 = [&](double radius) { return jkr.u(radius) + c * jkr.f(radius); };
             // Where they let go together: the smallest g0.
@@ -213,7 +207,7 @@ TEST(test_moves_cut) {
     CHECK(second->indenter().x0 == 0.8);
     CHECK_RELATIVE(second->at_separation(-0.005).force, whole.force, 1e-8);
     CHECK_THROWS(second->recall({1.0, 2.0}, nullptr), Error);
-    const Asperities two = of({0.3, 0.7}, {0.5, 0.5}, {0.0, 0.001}, {0.5, 0.5});
+    const Asperities two{{0.3, 0.7}, {0.5, 0.5}, {0.0, 0.001}, {0.5, 0.5}, {}, {}, {}, {}};
     SolverOptions alone = sticky(1e-3);
     alone.interaction = Interaction::none;
     const auto moved = make_asperity_contact(two, {kE, 10.0, 0.3, 0.5}, alone);
@@ -229,7 +223,7 @@ TEST(test_moves_cut) {
 
 // Past the smallest force of two that interact, found on the way between two of its steps, the stiffness is that of the state at its end.
 TEST(test_stiffness_past_the_fold) {
-    const Asperities two = of({0.25, 0.75}, {0.5, 0.5}, {0.0, 0.0}, {1.0, 1.0});
+    const Asperities two{{0.25, 0.75}, {0.5, 0.5}, {0.0, 0.0}, {1.0, 1.0}, {}, {}, {}, {}};
     const auto contact = make_asperity_contact(two, {kE, kFlat, 0.5, 0.5}, sticky(0.05 * kE / 1e3));
     for (double Z = 1e-3; Z < 1e-2; Z += 3e-4) {
         contact->forget();
@@ -347,7 +341,7 @@ TEST(test_lost) {
 // Two flats that repeat: one asperity a period feels its images, c f with c = 2.28472/(pi E* L) from the mean plane up.
 TEST(test_periodic) {
     const Jkr jkr{0.5, 0.01};
-    const Asperities a = of({0.5}, {0.5}, {0.0}, {jkr.r});
+    const Asperities a{{0.5}, {0.5}, {0.0}, {jkr.r}, {}, {}, {}, {}};
     const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5, {1, 1}}, sticky(jkr.w));
     const double c = -3.90026492 / (pi * kE);  // of what a force does to its own place
     for (double g0 : {0.004, 0.01, 0.0, -0.004}) {
@@ -362,7 +356,7 @@ TEST(test_periodic) {
 // Under a given force, in either direction; beyond the smallest one it holds there and says so, and goes on from there.
 TEST(test_force) {
     const Jkr jkr{0.7, 0.01};
-    const Asperities a = of({0.5}, {0.5}, {0.1}, {jkr.r});
+    const Asperities a{{0.5}, {0.5}, {0.1}, {jkr.r}, {}, {}, {}, {}};
     const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(jkr.w));
     const double unit = pi * jkr.w * jkr.r;
     for (double N : {2.0, 20.0, 0.0, -1.0, -1.499, 0.5}) {
@@ -423,7 +417,7 @@ TEST(test_fuller_tabor) {
             double own = 0;
             for (int i = 0; i < caps; ++i)
                 x[std::size_t(i)] = i, z[std::size_t(i)] = height(generator), own += force(z[std::size_t(i)] - Z);
-            const Asperities a = of(x, y, z, std::vector<double>(caps, jkr.r));
+            const Asperities a{x, y, z, std::vector<double>(caps, jkr.r), {}, {}, {}, {}};
             const auto contact = make_asperity_contact(a, {kE, kFlat, 0, 0}, options);
             (void)contact->at_separation(-8 * sigma);
             const double N = contact->at_separation(Z).force;

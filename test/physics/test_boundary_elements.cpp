@@ -56,7 +56,6 @@ void elements(double E_star) {
             worst_A = check::worse(worst_A, std::abs(level.area_pixels / row.counted - 1));
             CHECK_RELATIVE(level.area, row.A, 1e-3);
         }
-        std::printf("elements, L/lambda_s %3d, the same %d^2 pixels: N %.1e, counted A %.1e at most\n", ratio, kCoarse, worst_N, worst_A);
         CHECK(worst_N < 1e-6);
         CHECK(worst_A < 1e-4);
     }
@@ -81,7 +80,6 @@ TEST(all_boundary_elements) {
             const Level level = contact.at_separation(row.separation * spectrum.sigma);
             CHECK(level.status != LevelStatus::not_converged);
             const double N = 100 * (level.force / row.N - 1), A = 100 * (level.area / row.A - 1);
-            std::printf("L/lambda_s %3d, seed %d, %.1f sigma: N %+.2f %%, A %+.2f %%\n", ratio, seed, row.separation, N, A);
             if (row.separation > 2.75) continue;
             CHECK(std::abs(N) <= wanted_N(ratio));
             CHECK(std::abs(A) <= kWantedA);

@@ -64,7 +64,6 @@ TEST(matrix) {
             if (i != j) largest = std::max(largest, std::abs(K[j * n + i]));
         }
     }
-    std::printf("K: largest off the diagonal %.3g, worst difference %.1e\n", largest, worst);
     CHECK(worst <= 1e-5 * largest);
 }
 

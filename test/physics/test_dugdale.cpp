@@ -11,20 +11,13 @@ namespace {
 
 constexpr double kE = 5.0, kFlat = std::numeric_limits<double>::infinity();
 
-Asperities of(std::vector<double> x, std::vector<double> y, double r) {
-    Asperities a;
-    a.z.assign(x.size(), 0.0), a.radius.assign(x.size(), r);
-    a.x = std::move(x), a.y = std::move(y);
-    return a;
-}
-
 // The loop of one asperity: at the penetrations of Maugis's states it carries his force; the energy's derivative is the force; it attaches
 // at u = -z0; the work of a cycle is the energy lost.
 TEST(test_one) {
     for (double lambda : {0.1, 1.0, 5.0}) {
         const Maugis truth{0.7, 0.01, lambda, kE};
         const double unit = pi * truth.w * truth.r, range = truth.range();
-        const Asperities a = of({0.5}, {0.5}, truth.r);
+        const Asperities a{{0.5}, {0.5}, {0.0}, {truth.r}, {}, {}, {}, {}};
         const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(truth.w, range));
         CHECK(contact->at_separation(range * (1 + 1e-7)).force == 0);
         CHECK(contact->at_separation(range * (1 - 1e-7)).force < 0);
@@ -49,7 +42,7 @@ TEST(test_one) {
 // difference: it attached again at once, a thousand times.)
 TEST(test_narrow_loop) {
     const Maugis weak{0.7, 0.01, 0.04, kE};
-    const Asperities a = of({0.5}, {0.5}, weak.r);
+    const Asperities a{{0.5}, {0.5}, {0.0}, {weak.r}, {}, {}, {}, {}};
     const double range = weak.range();
     std::vector<double> lost;
     for (const int levels : {1, 7, 200}) {

@@ -2,7 +2,6 @@
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
 #include "contact/law/hardness.hpp"
-#include "error.hpp"
 #include "physics/random_asperities.hpp"
 #include "rough/detection.hpp"
 
@@ -201,7 +200,6 @@ TEST(test_independent) {
             ++compared;
         }
     }
-    std::printf("%d levels of asperities that yield, largest difference from the slow solver %.1e\n", compared, worst);
     CHECK(compared > 300 && worst < 1e-10);  // tolerance 1e-11 to 1e-13 of the residual, six levels of history
 }
 
@@ -265,8 +263,6 @@ TEST(test_limits) {
         // All that touches yields at once: A = N/H on the way down.
         if (s.plastic_contacts > 0 && s.plastic_contacts == s.contacts) CHECK_RELATIVE(s.area, s.force / 1e-3, 1e-12);
     }
-    CHECK_THROWS(AsperityContact(a, tip, options_with(0)), Error);
-    CHECK_THROWS(AsperityContact(a, tip, options_with(2000, -1)), Error);
 }
 
 }  // namespace

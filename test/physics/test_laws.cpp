@@ -84,30 +84,6 @@ TEST(ellipse_limits) {
     CHECK_THROWS(ellipse_factors(0.5), Error);
 }
 
-// Circle and b = 0: all laws are Hertz.
-TEST(limits_are_hertz) {
-    const Asperities round = summit(5000, 5000, 0);
-    const auto hertz = make_law(LawKind::hertz, round, kE);
-    for (LawKind kind : {LawKind::elliptic, LawKind::fourth_order}) {
-        const auto law = make_law(kind, round, kE);
-        for (double u : {1e-9, 1e-4, 0.02}) {
-            const Answer a = ask(*law, u), h = ask(*hertz, u);
-            CHECK_RELATIVE(a.force, h.force, 1e-12);
-            CHECK_RELATIVE(a.slope, h.slope, 1e-12);
-            CHECK_RELATIVE(a.work, h.work, 1e-12);
-            CHECK_RELATIVE(a.area, h.area, 1e-12);
-        }
-        CHECK(ask(*law, -1.0).force == 0 && ask(*law, 0.0).slope == 0);
-    }
-    // b -> 0 continuously, from both sides.
-    const Asperities oval = summit(9000, 4000, 0);  // a law refers to its asperities
-    const auto elliptic = make_law(LawKind::elliptic, oval, kE);
-    for (double b : {1e-3, -1e-3}) {
-        const Asperities s = summit(9000, 4000, b);
-        CHECK_RELATIVE(ask(*make_law(LawKind::fourth_order, s, kE), 1e-3).force, ask(*elliptic, 1e-3).force, 1e-9);
-    }
-}
-
 // Every function of every law against the others: force and work are integrals of the slope and of the force, the slope is 2 E* a/(F1 F2) of
 // the equivalent radius, a^2 pi the area; the spread is that area and goes on straight; the penetration where a mean pressure is reached is
 // the first. Nothing before touching. Of two summits, so that each is asked for its own.
@@ -199,27 +175,6 @@ TEST(fourth_order_to_the_last_digits) {
             CHECK_RELATIVE(r.force, law->force(0, static_cast<double>(2 * A * half * half)), kRounding);
         }
     }
-}
-
-// To fourth order the profile is r^2/(2 R) - b r^4, b = biharmonic/64, whose law is known in powers of a (Galin): what is left is of
-// sixth order, (q a)^4/360 of delta and less of P. With unequal curvatures b is that of the angular mean times kappa_g/kappa_a.
-TEST(fourth_order_in_powers) {
-    for (double ratio : {1.0, 4.0})
-        for (double biharmonic : {-2e9, 2e9}) {
-            const double kappa = 6000, kappa1 = kappa * std::sqrt(ratio), kappa2 = kappa / std::sqrt(ratio);
-            const Asperities s = summit(kappa1, kappa2, biharmonic);
-            const auto law = make_law(LawKind::fourth_order, s, kE);
-            const EllipseFactors f = ellipse_factors(ratio);
-            const double b = biharmonic / 64 * kappa / (0.5 * (kappa1 + kappa2)), q2 = 32 * b / kappa;
-            for (double x : {0.1, 0.3, 0.6}) {  // |q| a
-                const double a = x / std::sqrt(std::abs(q2)), a2 = a * a;
-                const double d = kappa * a2 - 8.0 / 3 * b * a2 * a2, P = kE * a * a2 * (4.0 / 3 * kappa - 64.0 / 15 * b * a2);
-                const double next = x * x * x * x / 180;
-                const Answer r = ask(*law, d * f.F2);
-                CHECK_RELATIVE(r.force, P, next);
-                CHECK_RELATIVE(r.area, std::numbers::pi * a2 * f.F1 * f.F1, next);
-            }
-        }
 }
 
 }  // namespace

@@ -283,6 +283,10 @@ TEST(methods) {
     const Level deep =
         AsperityContact(asperities, layered(body_of({{0.01, 3, 0.4}}, 1, 0.3), 100.0, 0.5, 0.5), options).at_separation(0.012);
     CHECK(deep.wide_contacts > 0 && deep.wide_contacts <= 1 && deep.status != LevelStatus::converged);
+    // The hardness is that of what lies on top: no contact bears more.
+    options.hardness.H0 = 1e-2 * truth.force / truth.area;
+    const Level yields = AsperityContact(asperities, tip, options).at_separation(0.012);
+    CHECK(yields.force > 0 && yields.force < truth.force && yields.force <= options.hardness.H0 * yields.area * (1 + 1e-9));
     // The same table for the same body, as long as it is in use.
     CHECK(layers_of(tip.layers, tip.E_star) == layers_of(tip.layers, tip.E_star));
 }

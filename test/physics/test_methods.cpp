@@ -2,7 +2,6 @@
 // takes. That all methods give one answer: test_independent, test_edges.
 #include "check.hpp"
 #include "contact/asperity_contact.hpp"
-#include "error.hpp"
 #include "physics/random_asperities.hpp"
 
 using namespace rsc;
@@ -94,11 +93,6 @@ TEST(auto_chooses) {
     CHECK(method_of(900, Method::mesh, Interaction::point, {}) == Method::mesh);
     CHECK(method_of(900, Method::direct, Interaction::point, {1, 1}) == Method::direct);
     CHECK(method_of(900, Method::mesh, Interaction::none, {1, 1}) == Method::direct);
-}
-
-TEST(refused) {
-    CHECK_THROWS(AsperityContact(Asperities{}, {-1.0, 2.5, 0, 0}, SolverOptions{}), Error);
-    CHECK_THROWS(AsperityContact(Asperities{}, {1.0, 0.0, 0, 0}, SolverOptions{}), Error);
 }
 
 }  // namespace

@@ -7,30 +7,35 @@ using namespace rsc;
 
 namespace {
 
+// Under a large ball, a flat, and a small ball that leaves most asperities outside, to which a high one comes up on the way; deep and shallow.
 TEST(test_way) {
-    const Asperities asperities = random_asperities(800, 0.01, 0.01, 0.05, 0.3, 7);
-    SolverOptions options;
-    const Indenter tip{1, 2, 0.5, 0.5};
-    const auto moving = make_asperity_contact(asperities, tip, options);
+    Asperities asperities = random_asperities(800, 0.01, 0.01, 0.05, 0.3, 7);
+    const SolverOptions options;
     // Straight on with equal and other steps, aside, back, far away, and without a move.
     const double way[][2] = {{0.5, 0.5},     {0.5001, 0.5001}, {0.5002, 0.5002}, {0.5003, 0.5003}, {0.5005, 0.5005}, {0.5005, 0.502},
                              {0.503, 0.502}, {0.501, 0.502},   {0.7, 0.3},       {0.7, 0.3},       {0.71, 0.3},      {0.72, 0.3}};
-    for (const bool forces : {false, true}) {
-        const double value = forces ? moving->at_separation(-0.02).force : -0.02;
-        for (const auto& place : way) {
-            Indenter there = tip;
-            there.move(place[0], place[1]);
-            moving->move_tip(place[0], place[1]);
-            const auto fresh = make_asperity_contact(asperities, there, options);
-            const Level a = forces ? moving->at_force(value) : moving->at_separation(value);
-            const Level b = forces ? fresh->at_force(value) : fresh->at_separation(value);
-            CHECK(a.status == b.status && a.contacts > 5);
-            CHECK(a.asperity == b.asperity);
-            CHECK_RELATIVE(a.force, b.force, 10 * options.tolerance);
-            CHECK_RELATIVE(a.area, b.area, 10 * options.tolerance);
-            for (std::size_t k = 0; k < std::min(a.f.size(), b.f.size()); ++k)
-                CHECK(std::abs(a.f[k] - b.f[k]) < 10 * options.tolerance * b.force);
-        }
+    for (const double R : {2.0, std::numeric_limits<double>::infinity(), 0.3}) {
+        if (R < 1) asperities.x[17] = asperities.y[17] = 0.49, asperities.z[17] = 0.05;
+        const Indenter tip{1, R, 0.5, 0.5};
+        const auto moving = make_asperity_contact(asperities, tip, options);
+        for (const bool forces : {false, true})
+            for (const double depth : {0.02, 0.002}) {
+                const double value = forces ? moving->at_separation(-depth).force : -depth;
+                for (const auto& place : way) {
+                    Indenter there = tip;
+                    there.move(place[0], place[1]);
+                    moving->move_tip(place[0], place[1]);
+                    const auto fresh = make_asperity_contact(asperities, there, options);
+                    const Level a = forces ? moving->at_force(value) : moving->at_separation(value);
+                    const Level b = forces ? fresh->at_force(value) : fresh->at_separation(value);
+                    CHECK(a.status == b.status && a.contacts > 0 && a.candidates == b.candidates && a.asperity == b.asperity);
+                    CHECK(moving->first_touch() == fresh->first_touch());
+                    CHECK_RELATIVE(a.force, b.force, 10 * options.tolerance);
+                    CHECK_RELATIVE(a.area, b.area, 10 * options.tolerance);
+                    for (std::size_t k = 0; k < std::min(a.f.size(), b.f.size()); ++k)
+                        CHECK(std::abs(a.f[k] - b.f[k]) < 10 * options.tolerance * b.force);
+                }
+            }
     }
 }
 

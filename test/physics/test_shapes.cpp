@@ -45,7 +45,6 @@ void closed_form(const char* name, const ShapeKeys& keys, double depth, double s
         }
     }
     if (order > 0) CHECK(errors[1] <= std::max(errors[0] * std::pow(0.25, order), 0.2 * force_error));
-    std::printf("%s: N off by %.2g, then %.2g\n", name, errors[0], errors[1]);
 }
 
 // F = -dW/d(x0, y0) by central differences.

@@ -250,8 +250,6 @@ TEST(lateral_of_summits) {
                 ++all, smooth += agree <= kAgree;
                 if (agree <= kAgree) CHECK(off <= (law == LawKind::elliptic ? kForce : kSeldom)), right += off <= kForce;
                 most = std::max(most, std::hypot(force.x - sum.x, force.y - sum.y) / level.force);
-                std::printf("%s, %s, %d contacts, slope ratio %.2f: lateral force off by %.1e of N (differences agree to %.1e)\n", name,
-                            law == LawKind::elliptic ? "elliptic" : "fourth_order", level.contacts, level.slope_ratio, off, agree);
                 const auto moved = made(0.1, -0.05);
                 (void)moved->at_separation(Z0);
                 moved->move_tip(tip.x0, tip.y0);

@@ -85,7 +85,6 @@ class Values(unittest.TestCase):
             contact.curve()
 
 
-
 class Lifetimes(unittest.TestCase):
     def test_close(self):
         case = rsc.Case()
@@ -201,10 +200,6 @@ class Files(InFolder):
         with self.assertRaises(rsc.NotConverged) as caught:
             self.case.run()
         self.assertGreater(caught.exception.failed_levels, 0)
-        self.assertTrue((rsc.read(self.case["output%file"], xarray=False)["status"] == 4).any())
-        self.case["surface%n"] = 32  # a relation between keys is looked at where the case is used
-        with self.assertRaisesRegex(rsc.ArgumentError, "surface"):
-            self.case.run()
 
     def test_study(self):
         calls = []
@@ -213,14 +208,11 @@ class Files(InFolder):
             return rsc.Contact.from_case(rsc.Asperities.make(case), case).indent(0.01)
 
         over = {"surface%sigma": [0.005, 0.01], "solids%R(2)": [1.0, 2.0, 4.0]}
-        members = rsc.study(self.case, over, force, progress=lambda done, n, values: calls.append((done, n)))
+        members = rsc.study(self.case, over, force, progress=lambda done, n, values: calls.append((done, n, values)))
         self.assertEqual([tuple(v.values()) for v, _ in members], [(s, r) for s in over["surface%sigma"] for r in over["solids%R(2)"]])
-        self.assertEqual(calls, [(k, 6) for k in range(1, 7)])
+        self.assertEqual(calls, [(k + 1, 6, members[k][0]) for k in range(6)])
         self.assertEqual(rsc.study(self.case, over, force, threads=2), members)
         self.assertEqual(members[3][1], force(rsc.Case({**SMALL, "solids%R(2)": 1.0})))
-        told = []
-        rsc.study(self.case, {"surface%sigma": [0.005, 0.01]}, force, progress=lambda done, n, values: told.append((done, n, values)))
-        self.assertEqual(told, [(1, 2, {"surface%sigma": 0.005}), (2, 2, {"surface%sigma": 0.01})])
         pairs = rsc.study(self.case, {"surface%sigma": [0.005, 0.01], "surface%hurst": [0.5, 0.8]}, force, mode="zip")
         self.assertEqual(len(pairs), 2)
         self.assertEqual(self.case["surface%sigma"], 0.01)

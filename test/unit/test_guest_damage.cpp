@@ -50,21 +50,16 @@ void test_damage(const Folder& folder, Format format) {
     CHECK(read == 0 && refused == 450);
 }
 
-// A surface data file with 3 x 3 heights, and what follows them.
-std::string sdf(double scale, const std::string& more) {
-    std::string text = "bISO-1.0" + std::string(34, ' ');
-    map_files::put(text, std::uint16_t{3}), map_files::put(text, std::uint16_t{3});
-    for (const double x : {1e-6, 1e-6, scale, 1e-9}) map_files::put(text, x);
-    text += std::string("\0\7\0", 3);
-    for (double z = 0; z < 9; ++z) map_files::put(text, z);
-    return text + more;
+// A surface data file with 3 x 3 heights.
+std::string sdf(double scale) {
+    return map_files::sdf_binary({3, 3, 1e-6, 1e-6, {}}, 7, scale, std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8});
 }
 
 TEST(test_inputs) {
     const Folder folder;
-    CHECK(read_heights(folder.write("good.sdf", sdf(1e-6, "trailer")), {}, "mm", "", Missing::refuse).nx == 3);
-    REFUSED(heights_in(folder.write("down.sdf", sdf(-1e-6, ""))), "Zscale");
-    REFUSED(heights_in(folder.write("long.sdf", sdf(1e-6, std::string(1 << 20, 'x')))), "follow");
+    CHECK(read_heights(folder.write("good.sdf", sdf(1e-6) + "trailer"), {}, "mm", "", Missing::refuse).nx == 3);
+    REFUSED(heights_in(folder.write("down.sdf", sdf(-1e-6))), "Zscale");
+    REFUSED(heights_in(folder.write("long.sdf", sdf(1e-6) + std::string(1 << 20, 'x'))), "follow");
     const std::string fifo = folder / "fifo";
     CHECK(mkfifo(fifo.c_str(), 0600) == 0);
     REFUSED(heights_in(fifo), "FIFO");

@@ -127,16 +127,15 @@ TEST(all_indenter) {
         CHECK(map->height((5 - 15.5) / 32.0, (20 - 15.5) / 32.0) == -(*k.map)(5, 20));
         CHECK(std::isinf(map->height(0.6, 0)) == !periodic && map->repeats(1, 1) == periodic && !map->repeats(1, 2));
     }
-    // What none of them can be.
-    for (const auto& [name, wrong] :
-         {std::pair{"sphere", 0}, {"paraboloid", 1}, {"cone", 2}, {"punch", 3}, {"map", 4}, {"paraboloid", 5}}) {
-        k = keys();
-        if (wrong == 0) k.R = 0;
-        if (wrong == 1) k.radii[1] = -1;
-        if (wrong == 2) k.slope = 0;
-        if (wrong == 3) k.radius = 0;
-        if (wrong == 4) k.map = nullptr;
-        if (wrong == 5) k.radii[0] = k.radii[1] = kInfinity;
-        CHECK_THROWS(shape(name, k), Error);
+    // The sphere ends at its rim, which belongs to it.
+    for (const auto& [x, y] : {std::pair{1.0, -2.0}, {0.5, -1.5}, {0.0, -2.0}, {0.5, -2.5}}) {
+        const Indenter small{1.0, 0.5, 0.5, -2.0};
+        CHECK(small.clearance(x, y, 2.0) == 1.5);
+        CHECK(small.clearance(0.5 + (x - 0.5) * (1 + 1e-15), -2 + (y + 2) * (1 + 1e-15), 2.0) == -kInfinity);
     }
+    // What none of them can be, beside numbers beyond the bounds of their keys (test_registry).
+    k = keys();
+    k.radii[0] = k.radii[1] = kInfinity, k.map = nullptr;
+    CHECK_THROWS(shape("paraboloid", k), Error);
+    CHECK_THROWS(shape("map", k), Error);
 }

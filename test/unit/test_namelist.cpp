@@ -20,7 +20,6 @@ void expect_text(const std::string& got, const std::string& expected, int line) 
 }
 #define CHECK_TEXT(got, expected) expect_text((got), (expected), __LINE__)
 TEST(test_values) {
-    // More of them against the Fortran runtime's own: fortran/test_namelist.f90.
     const std::pair<const char*, double> reals[] = {
         {"1.5+3", 1500}, {"1.5-3", 1.5e-3}, {"1Q0", 1.0}, {"-Infinity", -Case::kInfinity}, {"1e999", Case::kInfinity},
         {"1d-999", 0.0}, {"0.1", 0.1}};
@@ -38,43 +37,16 @@ TEST(test_values) {
     for (const char* word : {"", ".", "1", "yes", "..t"}) CHECK(!namelist::to_logical(word));
 }
 
+// Against the Fortran runtime's own reader: fortran/test_namelist.f90.
 TEST(test_syntax) {
     const auto read = [](const std::string& text) { return read_case_text(text, "case.nml").settings; };
-    const Case c = read(
-        "A rough sphere, after Smith & Wesson\n"
-        "! &surface sigma = 7 /\n"
-        "&SURFACE  Sigma = 2d-2  ! rms height\n  hurst=.75, n = 1024; plateau = T\n l_lambda_s = 1.28+2 /\n"
-        "$solids r = 5, 1*, nu(2) = .3  e(2:1:-1) = 2.1d5, 7.8d4 $end\n"
-        "&run title = 'it''s\n two lines' &END\n"
-        "&output pdf_levels = 3*1.5 /\n");
-    CHECK(c.surface.sigma == 0.02 && c.surface.hurst == 0.75 && c.surface.n == 1024 && c.surface.plateau && c.surface.L_lambda_s == 128);
-    CHECK(c.solids.R[0] == 5.0 && c.solids.R[1] == 2.5 && c.solids.nu[0] == 0.42 && c.solids.nu[1] == 0.3);
-    CHECK(c.solids.E[0] == 7.8e4 && c.solids.E[1] == 2.1e5);
-    CHECK(c.run.title == "it's two lines");
-    CHECK((c.output.pdf_levels == std::vector<double>{1.5, 1.5, 1.5}));
     CHECK((read("&output pdf_levels = 1.0 /").output.pdf_levels == std::vector<double>{1.0}));
     CHECK((read("&output pdf_levels(2) = 2.25 /").output.pdf_levels == std::vector<double>{2.0, 2.25, 3.0}));
     CHECK(read("&run title(3:4) = 'cd' title(1:2) = 'ab' /").run.title == "abcd");
     CHECK(read("&surface sigma = , /").surface.sigma == std::nullopt);
-    CHECK(read("&solver method = 'DIRECT ' /").solver.method == Method::direct);
-}
-
-// Values left out between commas keep what stands there, however many follow each other.
-TEST(test_nulls) {
-    const auto pdf = [](const std::string& text) {
-        return read_case_text("&output pdf_levels = " + text + " /", "case.nml").settings.output.pdf_levels;
-    };
-    CHECK((pdf(",,9.5") == std::vector<double>{2.0, 2.5, 9.5}));
-    CHECK((pdf("1.5,,9.5") == std::vector<double>{1.5, 2.5, 9.5}));
-    CHECK((pdf("2*,9.5") == std::vector<double>{2.0, 2.5, 9.5}));
-    CHECK((pdf(" , , , 9.5") == std::vector<double>{2.0, 2.5, 3.0, 9.5}));
-    // Nothing at all, and a list that cannot be read, which is told once.
-    CHECK((pdf("") == std::vector<double>{2.0, 2.5, 3.0}));
-    CHECK((pdf(",,,") == std::vector<double>{2.0, 2.5, 3.0}));
+    CHECK((read("&output pdf_levels = , , , 9.5 /").output.pdf_levels == std::vector<double>{2.0, 2.5, 3.0, 9.5}));
     CHECK_TEXT(complaint("&indentation levels(2) = x /"), "case.nml:1:26: &indentation: levels: expected a real number, found 'x'");
-    const Case c = read_case_text("&solids E = ,7.5  nu = , 0.25  R = 3.5,, /", "case.nml").settings;
-    CHECK(c.solids.E[0] == 78.0e3 && c.solids.E[1] == 7.5 && c.solids.nu[0] == 0.42 && c.solids.nu[1] == 0.25);
-    CHECK(c.solids.R[0] == 3.5 && c.solids.R[1] == 2.5);
+    CHECK(read("&solver method = 'DIRECT ' /").solver.method == Method::direct);
 }
 
 // A value for a key that is not its default.

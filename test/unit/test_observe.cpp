@@ -1,7 +1,5 @@
 // Observations: closed forms, maps, radial means, distributions and fits, and their addition over realizations.
 #include "check.hpp"
-#include "contact/equivalent.hpp"
-#include "error.hpp"
 #include "observe/distributions.hpp"
 #include "observe/map.hpp"
 #include "observe/record.hpp"
@@ -14,20 +12,6 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-13;  // a few hundred operations on numbers of order one
-
-TEST(test_two_bodies) {
-    // Steel on steel, by hand: E/(2 (1 - nu^2)) = 210000/1.82 = 115384.615...
-    CHECK_RELATIVE(equivalent_modulus({210e3, 210e3}, {0.3, 0.3}), 115384.61538461539, 1e-14);
-    CHECK_RELATIVE(equivalent_modulus({78e3, kInf}, {0.42, 0.0}), 78e3 / (1 - 0.1764), 1e-15);
-    CHECK_RELATIVE(equivalent_radius({2.0, 3.0}), 1.2, 1e-15);
-    CHECK(equivalent_radius({kInf, 2.5}) == 2.5);
-    CHECK(equivalent_radius({kInf, kInf}) == kInf);
-    CHECK_THROWS(equivalent_modulus({kInf, kInf}, {0.3, 0.3}), Error);
-    CHECK_THROWS(equivalent_modulus({-1.0, 1.0}, {0.3, 0.3}), Error);
-    CHECK_THROWS(equivalent_modulus({1.0, 1.0}, {0.6, 0.3}), Error);
-    CHECK_THROWS(equivalent_modulus({1.0, std::nan("")}, {0.3, 0.3}), Error);
-    CHECK_THROWS(equivalent_radius({0.0, 1.0}), Error);
-}
 
 // The nearest level, the first of two that are equally near: rounding does not decide.
 TEST(test_nearest_level) {
@@ -115,7 +99,6 @@ TEST(test_gamma_fit) {
         CHECK_RELATIVE(fit.delta, delta, 1e-6);
         CHECK_RELATIVE(fit.gamma, 1 / total, 1e-6);  // the normalisation
         CHECK(fit.ks_distance < 1e-7);
-        CHECK(fit.alpha_error > 0 && fit.beta_error > 0 && fit.delta_error > 0 && fit.gamma_error > 0);
     }
     Binned few{1, {1, 2, 3, 0, 0, 0}, 0};
     CHECK(std::isnan(fit_generalised_gamma(few, 1.5, 6).alpha));
@@ -169,10 +152,6 @@ TEST(test_gamma_information) {
     const double mean = delta * std::tgamma((alpha + 2) / beta) / std::tgamma((alpha + 1) / beta);
     const GammaFit fit = fit_generalised_gamma(binned, mean, n);
     constexpr double kDifferences = 1e-5;  // of the derivatives, ill-conditioned by the parameters' likeness
-    CHECK_RELATIVE(fit.alpha, alpha, kDifferences);
-    CHECK_RELATIVE(fit.beta, beta, kDifferences);
-    CHECK_RELATIVE(fit.delta, delta, kDifferences);
-    CHECK_RELATIVE(fit.gamma, norm(truth), kDifferences);
     CHECK_RELATIVE(fit.alpha_error, error({1, 0, 0}), kDifferences);
     CHECK_RELATIVE(fit.beta_error, error({0, 1, 0}), kDifferences);
     CHECK_RELATIVE(fit.delta_error, error({0, 0, 1}), kDifferences);
@@ -184,7 +163,6 @@ TEST(test_gamma_information) {
 
 __extension__ using Wide = __int128;
 
-// Against integers: in any order, in any groups.
 // Of two spots one is under tension: it has an area, but no place among the pressures.
 TEST(test_tension) {
     Level level;
@@ -196,6 +174,7 @@ TEST(test_tension) {
     CHECK_RELATIVE(fit.mean_pressure_moments.mean, 1 / std::numbers::pi, 1e-14);
 }
 
+// Against integers: in any order, in any groups.
 TEST(test_exact_sums) {
     constexpr double kScale = 1e-3;
     const double quantum = quantum_of(kScale, 64);

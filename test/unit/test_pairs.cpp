@@ -1,4 +1,4 @@
-// Direct pair sums against sums in long double, for every instruction set this machine has.
+// Direct pair sums against sums in long double, for every instruction set this machine has. The loops of the mesh, compiled with them: test_mesh.
 #include "check.hpp"
 #include "contact/interaction/pairs.hpp"
 #include "contact/interaction/pairs_kernel.hpp"
@@ -127,79 +127,6 @@ TEST(coincident) {
     CHECK(std::all_of(phi.begin(), phi.end(), [](double v) { return v == 0; }));
 }
 
-// Two strips by increasing x with a short-range kernel, against the same sums written down plainly. Points that coincide, one
-// with itself included, get the smooth part alone.
-void near_field(const PairKernels& k) {
-    constexpr std::size_t room = kPairPadding;
-    constexpr std::size_t ni = 45, nj = 77, begin_j = ni + room, n = begin_j + nj + room;
-    Points p = random_points(n, 16);
-    std::fill(p.x.begin(), p.x.end(), 4.0), std::fill(p.y.begin(), p.y.end(), 0.0);
-    const Points inside = random_points(n, 17);
-    for (std::size_t i = 0; i < n; ++i) {
-        const bool first = i < ni, second = i >= begin_j && i < begin_j + nj;
-        if (first || second)
-            p.x[i] = inside.x[i], p.y[i] = 0.1 * inside.y[i] + (second ? 0.1 : 0.0);
-        else
-            p.f[i] = 0;
-    }
-    std::sort(p.x.begin(), p.x.begin() + ni);
-    std::sort(p.x.begin() + begin_j, p.x.begin() + begin_j + nj);
-    p.x[begin_j + 5] = p.x[begin_j + 4], p.y[begin_j + 5] = p.y[begin_j + 4];
-    NearKernel near;
-    near.reach = 0.15, near.cutoff2 = near.reach * near.reach, near.degree = 3;
-    const double c[] = {6.0, 100.0, -3000.0, 2e4};
-    std::copy(c, c + 4, near.c);
-    std::vector<double> exact(n, 0.0), size(n, 0.0), phi(n, 0.0);
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j) {
-            const double d2 = std::pow(p.x[i] - p.x[j], 2) + std::pow(p.y[i] - p.y[j], 2), s = near.cutoff2 - d2;
-            if (s <= 0) continue;
-            const double w = (d2 > 0 ? 1 / std::sqrt(d2) : 0) - (((c[3] * s + c[2]) * s + c[1]) * s + c[0]);
-            exact[i] += p.f[j] * w;
-            size[i] += std::abs(p.f[j]) * (std::abs(w) + 6);
-        }
-    const double *x = p.x.data(), *y = p.y.data(), *f = p.f.data();
-    k.near_own(near, ni, x, y, f, phi.data());
-    k.near_own(near, nj, x + begin_j, y + begin_j, f + begin_j, phi.data() + begin_j);
-    k.near_strips(near, ni, x, y, f, phi.data(), nj, x + begin_j, y + begin_j, f + begin_j, phi.data() + begin_j);
-    for (std::size_t i = 0; i < n; ++i)
-        if (p.x[i] == 4.0) phi[i] = exact[i];  // what pads get is nobody's
-    CHECK_CLOSE(distance(phi, exact, size), 0, kDouble);
-}
-
-// Spreading is the transpose of interpolating, and both use the products of the weights as documented.
-void mesh_window_loops(const PairKernels& k) {
-    for (int width : {3, 4, 7, 8, 11, 16}) {
-        MeshWindow window;
-        window.width = width, window.degree = 2;
-        for (int m = 0; m < width; ++m)
-            for (int d = 0; d <= window.degree; ++d) window.c[d][m] = 1.0 / (1 + m + 2 * d);
-        constexpr std::size_t stride = 48, rows = 40, n = 9;
-        Points p = random_points(n, 18, 20.0, 0);
-        p.x[3] = 5.0, p.y[3] = 7.5;  // on mesh lines
-        for (std::size_t i = 0; i < n; ++i) p.x[i] += 0.5 * width, p.y[i] += 0.5 * width;
-        std::vector<double> mesh(stride * rows, 0.0), exact = mesh;
-        for (std::size_t i = 0; i < n; ++i) {
-            const double u = p.x[i] - 0.5 * width, v = p.y[i] - 0.5 * width;
-            const auto column = static_cast<std::size_t>(std::floor(u)) + 1, row = static_cast<std::size_t>(std::floor(v)) + 1;
-            const double s = 2 * (static_cast<double>(column) - u) - 1, t = 2 * (static_cast<double>(row) - v) - 1;
-            const auto weight = [&](std::size_t m, double z) { return window.c[0][m] + z * (window.c[1][m] + z * window.c[2][m]); };
-            for (std::size_t r = 0; r < static_cast<std::size_t>(width); ++r)
-                for (std::size_t m = 0; m < static_cast<std::size_t>(width); ++m)
-                    exact[(row + r) * stride + column + m] += p.f[i] * weight(m, s) * weight(r, t);
-        }
-        k.spread(window, n, p.x.data(), p.y.data(), p.f.data(), mesh.data(), stride);
-        CHECK_CLOSE(distance(mesh, exact, std::vector<double>(mesh.size(), 1.0)), 0, 1e-13);
-        const Points values = random_points(stride * rows, 19);
-        std::vector<double> phi(n);
-        k.interpolate(window, n, p.x.data(), p.y.data(), phi.data(), values.f.data(), stride);
-        double there = 0, back = 0;
-        for (std::size_t m = 0; m < mesh.size(); ++m) there += mesh[m] * values.f[m];
-        for (std::size_t i = 0; i < n; ++i) back += p.f[i] * phi[i];
-        CHECK_CLOSE(there, back, 1e-12);
-    }
-}
-
 // Every table against plain sums, the loops by themselves: 48 points i, 80 points j, already padded.
 TEST(instruction_sets) {
     constexpr std::size_t ni = 48, nj = 80, n = ni + nj;
@@ -215,7 +142,6 @@ TEST(instruction_sets) {
         const PairKernels* k = pair_kernels(name);
         if (!k) continue;
         ++found;
-        std::printf("instruction set %s\n", k->name);
         std::vector<double> phi(n, 0.0);
         k->exact.self(n, p.x.data(), p.y.data(), p.f.data(), phi.data());
         CHECK_CLOSE(distance(phi, exact, size), 0, kDouble);
@@ -244,9 +170,6 @@ TEST(instruction_sets) {
         single.assign(n, 0.0f);
         k->single.onto(n, x.data(), y.data(), single.data(), n, x.data(), y.data(), f.data());
         CHECK_CLOSE(distance(scaled(single), exact, size), 0, kSingle);
-
-        near_field(*k);
-        mesh_window_loops(*k);
     }
     // What this machine has is there, and the widest of it is the one in use.
     const char* widest = "generic";

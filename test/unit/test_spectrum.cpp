@@ -149,12 +149,6 @@ TEST(tables) {
         CHECK_RELATIVE(d.m2, scale * (m20 + m02) / 2, 1e-12);
         CHECK_RELATIVE(d.m4, scale * (m40 + m04 + 3 * m22) / 3, 1e-12);
     }
-    const Moments named{2, 3, 5};
-    CHECK_RELATIVE(named.nayak(), 10.0 / 9, 1e-15);
-    CHECK_RELATIVE(named.rms_slope(), std::sqrt(6.0), 1e-15);
-    CHECK_RELATIVE(named.summit_density(), std::sqrt(3.0) * 5 / (54 * kPi), 1e-15);
-    CHECK_RELATIVE(named.mean_spacing(), std::sqrt(54 * kPi / (5 * std::sqrt(3.0))), 1e-15);
-    CHECK_RELATIVE(named.mean_radius(), 0.737 / std::sqrt(5.0), 1e-15);
 }
 
 TEST(elementary_functions) {

@@ -1,10 +1,9 @@
-// Synthetic surfaces against a slow sum of cosines, and their invariances: grid, band, threads, normalisation.
+// Synthetic surfaces against a slow sum of cosines, and their normalisation. Moments: physics/test_every_value; grids and threads: test_made.
 #include "rough/surface.hpp"
 #include "rough/synthesis.hpp"
 
 #include "check.hpp"
 #include "height_maps.hpp"
-#include "rough/form.hpp"
 #include "rough/modes.hpp"
 
 using namespace rsc;
@@ -18,13 +17,6 @@ double rms(const HeightMap& map) {
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i) sum += map(i, j) * map(i, j);
     return std::sqrt(sum / (static_cast<double>(map.nx) * map.ny));
-}
-
-double largest_difference(const HeightMap& a, const HeightMap& b) {
-    double worst = 0;
-    for (int j = 0; j < a.ny; ++j)
-        for (int i = 0; i < a.nx; ++i) worst = check::worse(worst, std::abs(a(i, j) - b(i, j)));
-    return worst;
 }
 
 // z = sum over the half plane of 2 Re[c exp(i K.x)], mode by mode and point by point.
@@ -88,14 +80,6 @@ TEST(against_cosines) {
     }
 }
 
-// Amplitude of cos(2 pi (kx x + ky y)/L + phase) of the map, by a projection.
-std::complex<double> project(const HeightMap& map, int kx, int ky) {
-    std::complex<double> sum = 0;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) sum += map(i, j) * std::polar(1.0, -2 * kPi * (kx * i + ky * j) / map.nx);
-    return sum / (static_cast<double>(map.nx) * map.ny);
-}
-
 TEST(normalisation) {
     const Spectrum s{.L_lambda_l = 3, .L_lambda_s = 32, .sigma = 0.02};
     Moments sampled;
@@ -120,34 +104,6 @@ TEST(normalisation) {
     const double mean = sum / surfaces, error = std::sqrt((square / surfaces - mean * mean) / surfaces);
     CHECK_CLOSE(mean, 1.0, 5 * error);
     CHECK(error > 1e-3);  // the surfaces do differ
-}
-
-TEST(sampled_moments) {
-    // Exact sums over modes against the heights themselves: derivatives of a band-limited map by projection on its modes.
-    const Spectrum s{.L = 3.0, .L_lambda_l = 2, .L_lambda_s = 9, .sigma = 0.5};
-    Moments sampled;
-    const HeightMap map = synthesize(s, 20, Normalise::sample, 5, 6, &sampled);
-    double m20 = 0, m02 = 0, m40 = 0, m04 = 0, m22 = 0;
-    for (int kx = -9; kx <= 9; ++kx)
-        for (int ky = -9; ky <= 9; ++ky) {
-            const double e = std::norm(project(map, kx, ky)), x = 2 * kPi * kx / 3.0, y = 2 * kPi * ky / 3.0;
-            m20 += e * x * x, m02 += e * y * y, m40 += e * x * x * x * x, m04 += e * y * y * y * y, m22 += e * x * x * y * y;
-        }
-    CHECK_RELATIVE(sampled.m2, (m20 + m02) / 2, 1e-12);
-    CHECK_RELATIVE(sampled.m4, (m40 + m04 + 3 * m22) / 3, 1e-12);
-}
-
-TEST(threads_give_the_same_bits) {
-    const Spectrum s{.L_lambda_l = 5, .L_lambda_s = 90};
-    Moments m1, mt;
-    const HeightMap one = synthesize(s, 250, Normalise::sample, 77, 8, &m1, 1);
-    for (const int threads : {2, 3, 16}) {
-        const HeightMap many = synthesize(s, 250, Normalise::sample, 77, 8, &mt, threads);
-        CHECK(largest_difference(one, many) == 0.0);
-        CHECK(std::memcmp(&m1, &mt, sizeof m1) == 0);
-    }
-    CHECK(largest_difference(one, synthesize(s, 250, Normalise::sample, 77, 9)) > 0.01);
-    CHECK(largest_difference(one, synthesize(s, 250, Normalise::sample, 78, 8)) > 0.01);
 }
 
 }  // namespace

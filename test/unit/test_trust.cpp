@@ -353,21 +353,6 @@ TEST(yielded_elsewhere) {
     CHECK(there.force_error_expected == alone.force_error_expected);
 }
 
-// Where the flank of an elongated ridge touches a cone, and no summit does, law 'hertz' has no contact, and does not promise that there is none.
-TEST(flanks) {
-    Case c;
-    c.run.seed = 6;
-    c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16, c.surface.sigma = 2e-3, c.surface.aspect = 4, c.surface.direction = 30;
-    c.surface.n = 256;
-    c.solids.R[1] = std::numeric_limits<double>::infinity();
-    set_key(c, "indenter%shape", "'cone'");
-    c.indenter.slope = 0.03;
-    c.indentation.levels = {1.2, 1.1, 1};
-    const std::vector<Level> asperities = pressed(c, Model::asperities), truth = pressed(c, Model::elements);
-    for (std::size_t k = 0; k < truth.size(); ++k)
-        CHECK(truth[k].force > 0 && asperities[k].force == 0 && asperities[k].status == LevelStatus::out_of_validity);
-}
-
 // A ball smaller than the spacing of the summits, between them: summits of the difference are contacts, within 2 % of elements and what those
 // may differ themselves; law 'hertz' finds none, and does not promise that there is none.
 TEST(small_balls) {

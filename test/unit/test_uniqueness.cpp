@@ -57,24 +57,6 @@ TEST(proofs_are_true) {
     CHECK(proved_with_overlaps > 20);  // overlapping spots alone do not defeat the proof
 }
 
-// Two equal spots are definite down to d = (2/pi) a; the proof holds to within 10 % of that.
-TEST(pair_is_nearly_sharp) {
-    const double a = 1, edge = 2 / std::numbers::pi;
-    CHECK(positive_definite_by_shells({0, 1.1 * edge}, {0, 0}, {a, a}));
-    CHECK(!positive_definite_by_shells({0, 0.999 * edge}, {0, 0}, {a, a}));
-    CHECK(!positive_definite_by_shells({0, 0}, {0, 0}, {a, a}));  // coincident
-    CHECK(positive_definite_by_shells({}, {}, {}));
-}
-
-// Very many spots in one cluster: a row of spots of radius a at distances d is indefinite, because the quadratic form of forces of
-// alternating sign is near 1 - (4 log(2)/pi) a/d for each spot.
-TEST(long_row_is_indefinite) {
-    const std::size_t n = 500;
-    Vector x;
-    for (std::size_t k = 0; k < n; ++k) x.push_back(0.5 * static_cast<double>(k));
-    CHECK(!positive_definite_by_shells(x, Vector(n, 0.0), Vector(n, 1.0)));
-}
-
 // All solutions that are minima along every force, from all 2^n subsets at work at first: coordinate descent on the energy, which is
 // convex in each force alone.
 std::vector<Vector> all_minima(const Law& law, double E_star, const Asperities& p, const Vector& g0) {

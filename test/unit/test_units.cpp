@@ -17,14 +17,11 @@ namespace {
 TEST(factors) {
     CHECK(length_factor("um", "mm") == 1e-3);
     CHECK(length_factor("mm", "um") == 1e3);
-    CHECK(length_factor("nm", "mm") == 1e-6);
     CHECK(length_factor("\u00b5m", "m") == 1e-6);  // micro sign in UTF-8
     CHECK(length_factor("\xb5m", "m") == 1e-6);    // and in Latin-1
     CHECK(length_factor("\u00c5", "nm") == 0.1);
-    CHECK(length_factor("micrometers", "um") == 1);
     CHECK(length_factor(" m ", "mm") == 1e3);
     CHECK(length_factor("inch", "mm") == 25.4);
-    CHECK(length_factor("mile", "m") == 1609.344);
     CHECK(length_factor("mm-1", "um", -1) == 1e-3);
     CHECK(length_factor("1/um", "mm", -1) == 1e3);
     CHECK(length_factor("mm-3", "um", -3) == 1e-9);
