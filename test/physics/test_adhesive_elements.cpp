@@ -113,7 +113,8 @@ TEST(test_sphere) {
 
 // One wave between flats (Johnson, Int. J. Solids Structures 32, 1995): with 2a of every wavelength in contact, phi = pi a/lambda, the mean
 // pressure is pi E* D/lambda sin^2 phi - sqrt(2 E* w tan(phi)/lambda). The tension at which it separates is the smallest of these. It is too
-// large by the error of edges that rest on pixels, of first order in h over the length E* z0^2/w in which the traction acts, here with the range fixed, so that halving h halves it.
+// large by the error of edges that rest on pixels, of first order in h over the length E* z0^2/w in which the traction acts, here with the
+// range fixed, so that halving h halves it.
 TEST(test_wave_pull_off) {
     constexpr int rows = 4;
     constexpr double height = 0.1, range = 1.0 / 64, alpha = 0.3, full = pi * height, w = alpha * alpha * full * full / 2;

@@ -57,6 +57,36 @@ TEST(hertz) {
     }
 }
 
+// What is touched first and what may touch at all are found as by a search through all pixels: for a sphere that is small against the
+// blocks of pixels which are looked at together, anywhere, and moved from one place to the other.
+TEST(selection) {
+    const HeightMap map = rough(96, 32, 5);
+    const double R = 0.1;
+    const auto moved = make_element_contact(map, {kE, R, 0.5, 0.5}, options(1e-4));
+    for (const auto& [x0, y0] : {std::pair{0.335, 0.49}, {0.49, 0.335}, {0.66, 0.7}, {0.51, 0.01}}) {
+        const Indenter tip{kE, R, x0, y0};
+        const auto count = [&](double Z0, double& top) {
+            int places = 0;
+            top = -1;
+            for (int j = 0; j < map.ny; ++j)
+                for (int i = 0; i < map.nx; ++i) {
+                    const double z = tip.clearance(i * map.dx, j * map.dy, map(i, j));
+                    if (z > top) top = z;
+                    places += z > Z0;
+                }
+            return places;
+        };
+        double top = 0;
+        count(0, top);
+        const double Z0 = top - 0.02;
+        const int places = count(Z0, top);
+        const auto fresh = make_element_contact(map, tip, options(1e-4));
+        moved->move_tip(x0, y0);
+        CHECK(fresh->first_touch() == top && moved->first_touch() == top);
+        CHECK(places > 10 && fresh->at_separation(Z0).candidates == places && moved->at_separation(Z0).candidates == places);
+    }
+}
+
 // Levels keep the tolerance that is asked for: N and A beside those of one a thousand times as tight, under a sphere and between flats. A pixel
 // more or less counts in A.
 TEST(tolerances) {

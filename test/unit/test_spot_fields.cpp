@@ -1,5 +1,6 @@
-// The lowering of the surface around the contact spots. Lateral force and moment: physics/test_every_value.
+// What the contact spots do beside N: the lowering of the surface around them, and the lateral force on the sphere.
 #include "check.hpp"
+#include "contact/answers.hpp"
 #include "contact/deflection.hpp"
 #include "contact/interaction/lattice.hpp"
 
@@ -8,9 +9,25 @@ using std::numbers::pi;
 
 namespace {
 
-// In and around the spot: test_api, physics/test_adhesive_fields.
+// Boussinesq's integral of the Hertz pressure: along a chord at distance h from the centre the pressure adds up to
+// p0 pi (a^2 - h^2)/(2a), and all chords through the point at distance d make w = 1/(pi E*) int p dl dphi. Midpoint rule, exact but
+// for the ends of the range outside the spot, where it is of order n^-2.
+double boussinesq(double f, double a, double d, double E_star) {
+    const double p0 = 1.5 * f / (pi * a * a), half = d > a ? std::asin(a / d) : pi / 2;
+    const int n = 200000;
+    double sum = 0;
+    for (int k = 0; k < n; ++k) {
+        const double h = d * std::sin(half * ((2 * k + 1.0) / n - 1));
+        sum += a * a - h * h;
+    }
+    return p0 / (2 * a * E_star) * sum * 2 * half / n;
+}
+
 TEST(test_one_spot) {
     const double f = 3.0, a = 0.02, E_star = 7e4;
+    for (const double ratio : {0.0, 0.3, 0.9, 0.999, 1.0, 1.001, 1.1, 2.0, 5.0, 9.9, 10.1, 30.0}) {
+        CHECK_RELATIVE(spot_deflection(f, a, ratio * a, E_star), boussinesq(f, a, ratio * a, E_star), 1e-9);
+    }
     // No jump at the border of the spot, nor where the series takes over; and no noise from terms that cancel, however far away.
     const double edge = spot_deflection(f, a, a, E_star);
     CHECK_RELATIVE(spot_deflection(f, a, a * (1 + 1e-12), E_star), edge, 1e-11);
@@ -46,6 +63,20 @@ TEST(test_fields) {
         for (const auto& [m, n] : {std::pair{1, 0}, {0, 1}, {0, -1}, {-2, 3}})
             CHECK_RELATIVE(deflection(level, *kernel, x + 2 * m, y + n), here, 1e-11);
     }
+}
+
+// The moment about the tip: a force beside it turns the flat about the other axis; a flat is a sphere without end.
+TEST(test_moment) {
+    Level level;
+    level.add_contact(0, 0.6, 0.2, 3.0, 0.01, 1e-3);
+    const Indenter flat{7e4, std::numeric_limits<double>::infinity(), 0.5, 0.5}, beside{7e4, flat.shape->hertz_radius(), 0.6, 0.5},
+        large{7e4, 1e7, 0.5, 0.5};
+    const Vec2 both = tip_moment(flat, level), one = tip_moment(beside, level), sphere = tip_moment(large, level);
+    CHECK_RELATIVE(both.x, 3.0 * (0.2 - 0.5), 1e-14);
+    CHECK_RELATIVE(both.y, -3.0 * (0.6 - 0.5), 1e-14);
+    CHECK(one.y == 0 && one.x == both.x);
+    CHECK_RELATIVE(sphere.x, both.x, 1e-12);
+    CHECK_RELATIVE(sphere.y, both.y, 1e-12);
 }
 
 }  // namespace
