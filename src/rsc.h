@@ -342,7 +342,7 @@ RSC_API int32_t rsc_contact_first_touch(const rsc_contact* contact, double* sepa
  * the last one is computed faster; the last one itself is not computed again, except with adhesion.
  * contact: the contact; separation: Z0, height of the tip above z = 0 [length]; force (out, may be null): N, 0 without contact
  * [force]. Errors: -1 null; -2 not finite; RSC_NOT_CONVERGED, with the results of the last iterate, not-a-number if there is no state
- * (asperities with adhesion, or two flats deeper than asperities bear); RSC_NO_MEMORY, RSC_INTERNAL, after which the contact has no result. */
+ * (with adhesion, or two flats deeper than asperities bear); RSC_NO_MEMORY, RSC_INTERNAL, after which the contact has no result. */
 RSC_API int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* force);
 
 /* Sets the time of the following levels, for a body that relaxes (solids%relaxation_share; without effect for others): between two levels

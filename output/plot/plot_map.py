@@ -72,10 +72,10 @@ def maps(results, options):
                 force = f"\n$N$ = {amount(result.mean('force')[level], result.dimension('force'))}" if result.control() != "force" and not small else ""
                 axis.set_title(name + force, fontsize=7 if not small else 5.5)
     if small:  # one scale for all
-        end = max(image.get_clim()[1] for image in images)
+        lows, highs = zip(*(image.get_clim() for image in images))
         for image in images:
-            image.set_clim(-end if image.get_clim()[0] < 0 else 0, end)
-        colour_bar(figure, images[0], axes.ravel().tolist(), "pressure $p$", results[0].dimension("map_pressure"), extend="max", aspect=35)
+            image.set(cmap="coolwarm" if min(lows) < 0 else COLOURS, clim=(-max(highs) if min(lows) < 0 else 0, max(highs)))
+        colour_bar(figure, images[0], axes.ravel().tolist(), "pressure $p$", results[0].dimension("map_pressure"), extend="both" if min(lows) < 0 else "max", aspect=35)
     smooth = sorted({result.smooth() for result, level, _ in panels if np.isfinite(hertz_radius(result, level))})
     what = ("Area fraction and pressure" if one else "Pressure") + (f"; dashed: {', '.join(smooth)} under the same force" if smooth else "")
     figure.suptitle(wrapped(figure, results[0].heading(what) if one else what, options.width, "figure.titlesize"))

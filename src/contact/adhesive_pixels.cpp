@@ -253,7 +253,7 @@ Level AdhesivePixels::step(double Z) {
         level.status = graver(level.status, LevelStatus::out_of_validity);
     }
     if (resolution() < kResolved && !now.attracting.empty()) level.status = graver(level.status, LevelStatus::out_of_validity);
-    if (!converged) level.status = LevelStatus::not_converged;
+    if (!converged) level.status = LevelStatus::not_converged, level.residual = 1;  // no state: Contact::finish() leaves no values
     return level;
 }
 

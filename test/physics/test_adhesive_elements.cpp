@@ -161,6 +161,10 @@ TEST(test_force) {
     CHECK_CLOSE(same.force, 0.02, 2e-6);
     const Level held = one->at_force(-10);
     CHECK(held.status == LevelStatus::not_converged && held.fallback == Fallback::held && held.force < 0);
+    SolverOptions few = attracting(0.02, 0.15);
+    few.max_iterations = 1;
+    const Level none = make_element_contact(map, tip, few)->at_separation(carried.separation);
+    CHECK(none.status == LevelStatus::not_converged && std::isnan(none.force) && std::isnan(none.area));
 }
 
 // No force between states that press and that pull, by the difference of pressure and attraction, which is exact to the tolerance of these.

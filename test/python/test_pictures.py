@@ -266,6 +266,8 @@ class Numbers(Drawn):
         np.testing.assert_allclose(np.trapz(2 * np.pi * r * p, r), v["force"][0, 21], rtol=1e-3)  # the smooth sphere carries the same force
         many = self.figure("map", *members("forced", 12)[-5:], width=100.0)  # the titles have wider lines than the maps
         self.assertEqual(sum(bool(axis.get_images()) for axis in many.axes), 5)
+        images = [image for axis in self.figure("map", *members("forced", 4), "attracted", width=120.0).axes for image in axis.get_images()]
+        self.assertEqual({(image.get_cmap().name, image.get_clim()) for image in images}, {("coolwarm", (-images[0].get_clim()[1], images[0].get_clim()[1]))})
 
     def test_spots(self):
         v, _ = raw("one")

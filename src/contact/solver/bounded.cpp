@@ -207,8 +207,8 @@ ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool e
             continue;
         }
         if (judged) outcome.converged = complete(small, outcome.residual);
-        if (outcome.converged || outcome.iterations >= most_rounds) break;
         if (w_.size() != p_.size()) evaluate(exact);  // the set has changed
+        if (outcome.converged || outcome.iterations >= most_rounds) break;
         ++outcome.iterations;
         renew();
         find_free();
