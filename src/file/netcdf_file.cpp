@@ -140,9 +140,7 @@ std::vector<std::size_t> chunks(const std::vector<std::size_t>& shape) {
     return chunk;
 }
 
-// Bytes of nearly empty maps are deflated in less time, and to less, if they are not shuffled first, and in half the time, and to as many, if
-// zlib does not search for better matches (levels above 3).
-constexpr int kGreedy = 3;
+// Bytes of nearly empty maps are deflated in less time, and to less, if they are not shuffled first.
 bool mostly_zero(const NetcdfVariable& v) {
     const auto* values = std::get_if<std::vector<double>>(&v.values);
     return values && 2 * static_cast<std::size_t>(std::count(values->begin(), values->end(), 0.0)) > values->size();
@@ -235,9 +233,7 @@ void NetcdfFile::define_and_put(int ncid, Format format, int compression, const 
         if (v.may_be_absent) put_attribute(ncid, varid, "_FillValue", std::vector<double>{NC_FILL_DOUBLE}, path);
         if (format == Format::netcdf4 && !ids.empty() && values_of(shape(v)) >= kChunked) {
             check(nc_def_var_chunking(ncid, varid, NC_CHUNKED, chunks(shape(v)).data()), path);
-            const bool empty = mostly_zero(v);
-            if (compression > 0 && !v.disorder)
-                check(nc_def_var_deflate(ncid, varid, empty ? 0 : 1, 1, empty ? std::min(compression, kGreedy) : compression), path);
+            if (compression > 0 && !v.disorder) check(nc_def_var_deflate(ncid, varid, mostly_zero(v) ? 0 : 1, 1, compression), path);
         }
         put_attribute(ncid, varid, "long_name", v.long_name, path);
         if (!v.units.empty()) put_attribute(ncid, varid, "units", v.units, path);  // texts have none

@@ -201,11 +201,12 @@ bool check_output(const std::string& path, const std::vector<std::string>& input
         refuse("folder '" + folder.string() + "' does not exist; create it first");
     if (::access(ancestor.c_str(), W_OK | X_OK) != 0)
         refuse("folder '" + ancestor.string() + "' cannot be written to: " + std::error_code(errno, std::generic_category()).message());
-    for (const std::string& input : inputs)
-        if (fs::is_regular_file(input, error) && fs::equivalent(input, path, error))
+    const bool there = fs::exists(path, error);
+    for (std::size_t k = 0; there && k < inputs.size(); ++k)
+        if (const std::string& input = inputs[k]; fs::is_regular_file(input, error) && fs::equivalent(input, path, error))
             refuse("this is an input of the run ('" + input + "'), which the result would overwrite; name another file");
     if (const std::string why = reason_to_leave(path, kResultFile); !why.empty()) refuse(why);
-    return fs::exists(path, error);
+    return there;
 }
 
 }  // namespace rsc
