@@ -6,7 +6,7 @@ namespace {
 using Predictors = std::array<double, kErrorPredictors + 1>;  // the first is the constant 1
 
 // Descriptions of the predictors in the order of the table, as in input/trust/trust.py.
-constexpr const char* kCauses[kCurvedCause + 1] = {
+constexpr const char* kCauses[kBorderCause + 1] = {
     "",
     "the slope of the indenter at the contacts, which touches points beside summits (slope_ratio)",
     "contacts as wide as the waves of the surface: the law describes a summit, not its surroundings",
@@ -21,6 +21,7 @@ constexpr const char* kCauses[kCurvedCause + 1] = {
     "contacts not much smaller than the top layer is thick",
     "the sharp edge of the indenter, which presses between the summits of the model; use solver%model = 'elements'",
     "the curvature of the indenter, not much less than that of the asperities, whose law takes it for flat",
+    "the border of the surface, which touches where no summit represents it",
 };
 
 // Mean contact radius, weighted by the forces.

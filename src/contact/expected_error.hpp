@@ -16,6 +16,8 @@ inline constexpr double kMuchError = 0.1;
 inline constexpr std::int32_t kEdgeCause = kErrorPredictors + 3;
 // ... and of one in which the curvature of the indenter at the contacts matters, which a list of asperities leaves out.
 inline constexpr std::int32_t kCurvedCause = kErrorPredictors + 4;
+// ... and of one in which the border of the surface touches where no summit represents it.
+inline constexpr std::int32_t kBorderCause = kErrorPredictors + 5;
 
 // Description of LevelValues::error_cause; empty for 0.
 const char* error_cause(std::int32_t cause);

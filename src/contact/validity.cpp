@@ -23,8 +23,9 @@ double nominal_area(const Level& level, const Indenter& indenter, const Rectangl
     return surface.known() ? std::min(disc, surface.Lx * surface.Ly) : disc;
 }
 
-// Counts border points of a measured map that would touch but are not represented by asperities; neighbouring points count once.
-std::int32_t border_contacts(const Level& level, const Indenter& indenter, const MapMarks& marks) {
+// Counts border points that would touch but are not represented by asperities; neighbouring points count once. `carried`: what they may carry, E*
+// times the sum of their penetrations and their width; a paraboloid cut in halves carries 0.35 of it.
+std::int32_t border_contacts(const Level& level, const Indenter& indenter, const MapMarks& marks, double& carried) {
     std::vector<Vec2> touching;
     std::int32_t count = 0;
     for (const auto& point : marks.border) {
@@ -35,6 +36,7 @@ std::int32_t border_contacts(const Level& level, const Indenter& indenter, const
             gap -= level.f[k] / (std::numbers::pi * indenter.E_star * distance);
         }
         if (!(gap > 0)) continue;
+        carried += indenter.E_star * gap * marks.reach;
         count +=
             std::none_of(touching.begin(), touching.end(), [&](const Vec2& t) { return std::hypot(t.x - x, t.y - y) < 1.5 * marks.reach; });
         touching.push_back({x, y});
@@ -68,7 +70,12 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
             cut[static_cast<std::size_t>(p.contact[k])] = true;
     }
     level.edge_contacts = static_cast<std::int32_t>(std::count(cut.begin(), cut.end(), true));
-    if (options.marks && p.index.empty()) level.edge_contacts += border_contacts(level, indenter, *options.marks);
+    if (!options.marks || !p.index.empty()) return;
+    double carried = 0;
+    level.edge_contacts += border_contacts(level, indenter, *options.marks, carried);
+    if (carried > kMuchError * level.force) level.error_cause = kBorderCause;
+    if (level.force > 0 && !std::isnan(level.force_error_expected))
+        level.force_error_expected += carried / level.force, level.area_error_expected += carried / level.force;
 }
 
 // Sets large_contacts, edge_contacts and nominal_area.

@@ -3,6 +3,8 @@
 #include "height_maps.hpp"
 
 #include "contact/asperity_contact.hpp"
+#include "contact/element_contact.hpp"
+#include "contact/expected_error.hpp"
 #include "rough/defects.hpp"
 #include "rough/detection.hpp"
 #include "run/prepare.hpp"
@@ -12,6 +14,7 @@ using namespace rsc;
 namespace {
 
 constexpr int kPoints = 64;
+const Indenter kTip{1e5, std::numeric_limits<double>::infinity(), 0.5, 0.5};
 
 HeightMap hills(double at_border, double spike, double x_of_it = 20, double y_of_it = -2) {
     HeightMap map = height_map(kPoints, kPoints, 1.0 / kPoints, 1.0 / kPoints, [=](int i, int j) {
@@ -32,7 +35,7 @@ Level press(const HeightMap& map, double separation) {
                           .rms_slope = 0.01,
                           .surface = {0, 0, 1, 1},
                           .marks = marks_of(map, breaks)};
-    const auto contact = make_asperity_contact(a, Indenter{1e5, std::numeric_limits<double>::infinity(), 0.5, 0.5}, options);
+    const auto contact = make_asperity_contact(a, kTip, options);
     return contact->at_separation(separation);
 }
 
@@ -41,6 +44,14 @@ TEST(border) {
     const Level cut = press(hills(1.5, 0), 5e-4);  // the hill behind the border stands higher than the one inside
     CHECK(cut.edge_contacts == 1 && cut.status == LevelStatus::out_of_validity);
     for (const auto& [x, y] : {std::pair{20, 65}, {-2, 20}, {65, 20}}) CHECK(press(hills(1.5, 0, x, y), 5e-4).edge_contacts == 1);
+    // The expected error contains what elements carry there.
+    for (const double at_border : {1.1, 1.5, 4.0}) {
+        const HeightMap map = hills(at_border, 0);
+        const Level told = press(map, 5e-4), truth = make_element_contact(map, kTip, {.sigma = 2e-4})->at_separation(5e-4);
+        CHECK(std::abs(truth.force / told.force - 1) > 0.1);
+        CHECK(std::abs(truth.force - told.force) < told.force_error_expected * told.force);
+        CHECK(told.error_cause == kBorderCause);
+    }
     CHECK(press(hills(0.3, 0), 5e-4).edge_contacts == 0);    // too low to touch
     CHECK(press(hills(1.5, 0), 1.2e-3).edge_contacts == 1);  // nothing else touches
 }
