@@ -91,6 +91,8 @@ class WholeText(unittest.TestCase):
         rows = self.points(self.Z, self.N, self.A)
         self.assertTrue(np.allclose(self.rows(file), np.vstack([np.zeros(6), rows]), rtol=1e-11))
         self.assertIn("1 levels not converged", run(file, "--calculix"))
+        grave = made("grave", self.Z, self.N, self.A, np.where(self.N > 0, [[1], [2], [0]], 0))
+        self.assertEqual(law.Law(grave).statuses, "7 out of validity")  # graver than overlapping
         spring = [[-row[1], -row[0]] for row in rows[::-1]] + [[0, 0], [0, 7]]
         for flag in ("--calculix", "--abaqus"):
             self.assertTrue(np.allclose(points(run(file, flag)), spring, rtol=1e-9))
