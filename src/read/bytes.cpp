@@ -4,6 +4,8 @@
 
 namespace rsc {
 
+std::string shown(std::string_view word) { return format("'%s%s'", printable(word, 40).c_str(), word.size() > 40 ? "..." : ""); }
+
 void check_memory(const std::string& path, const std::string& what, double count) {
     const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
     const double machine = pages > 0 && page > 0 ? static_cast<double>(pages) * static_cast<double>(page) : 1e15;

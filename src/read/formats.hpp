@@ -40,7 +40,7 @@ TextTable read_table(const std::string& path, std::size_t columns, bool missing 
 std::optional<double> number_in_file(std::string_view word);
 
 // A word of a file for a message, in quotes.
-inline std::string shown(std::string_view word) { return "'" + printable(word, 40) + (word.size() > 40 ? "...'" : "'"); }
+std::string shown(std::string_view word);
 
 // Checks of the size of a height map before its memory is allocated, and a reader of binary files.
 
