@@ -1,5 +1,6 @@
 // Shapes of the indenter against their definitions: derivatives by differences, bounds by sampling, symmetries.
 #include "check.hpp"
+#include "contact/indentation.hpp"
 #include "contact/indenter/shapes.hpp"
 #include "error.hpp"
 #include "height_maps.hpp"
