@@ -126,7 +126,7 @@ Vec2 AdhesiveContact::lateral(const Level& level) {
     std::vector<double> f;
     for (std::size_t k = 0; k < which.size(); ++k) here.push_back(my.sticking.at(which[k], my.now.s[k])), f.push_back(here[k].f);
     std::optional<Sticking> sticking;
-    return my.beside.lateral(which, f, {}, false, [&](SummitsBeside::Tip& tip, std::size_t k) {
+    return my.beside.lateral(which, f, false, [&](SummitsBeside::Tip& tip, std::size_t k) {
         if (k == 0) sticking.emplace(*tip.law, my.options.adhesion.work, my.options.adhesion.range), sticking->prepare(which);
         const Sticking::State there = sticking->at(which[k], my.now.s[k]);
         return Response{f[k], 0, there.energy + there.f * (here[k].u - there.u)};

@@ -13,8 +13,6 @@ namespace {
 
 using Vector = std::vector<double>;
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
 // Distance that the tip may move before the summits of the difference are detected again.
 double summits_keep(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options) {
     double curvature = 0;
@@ -71,7 +69,7 @@ AsperityContact::Impl::Impl(const Asperities& asperities_, const Indenter& inden
       law(law_of(*this, ellipses, relaxing)),
       direct(make_direct_products(kernel, true)),
       newton(*law),
-      beside(*this) {
+      beside(*this, ellipses) {
     use(Method::direct);
     if (options.selection == Selection::paper && std::isnan(indenter.shape->hertz_radius()))
         throw Error(Failure::bad_input, "indentation%selection = 'paper' is defined for a sphere only");
@@ -340,9 +338,7 @@ Vec2 AsperityContact::lateral(const Level& level) {
     Impl& my = *impl_;
     if (!my.beside.known() || !(level.force > 0)) return lateral_force(my.indenter, level);
     my.look_beside(level);
-    Vector here;
-    for (std::size_t k = 0; k < level.u.size() && my.ellipses; ++k) here.push_back(my.law->response(level.asperity[k], level.u[k]).work);
-    return my.beside.lateral(level.asperity, level.f, here, relaxes(), [&](SummitsBeside::Tip& tip, std::size_t k) {
+    return my.beside.lateral(level.asperity, level.f, relaxes(), [&](SummitsBeside::Tip& tip, std::size_t k) {
         return tip.law->response(level.asperity[k], my.law->first_loading(level.asperity[k], level.u[k]));
     });
 }

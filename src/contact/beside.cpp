@@ -5,11 +5,11 @@
 namespace rsc {
 
 void SummitsBeside::follow(std::span<const int> asperities, const LawOf& law_of) {
-    const Asperities& here = bodies_.asperities;
     const Indenter& indenter = bodies_.indenter;
     if (tips_.empty() || x0_ != indenter.x0 || y0_ != indenter.y0) {
-        tips_.clear(), followed_.assign(here.size(), false), x0_ = indenter.x0, y0_ = indenter.y0;
-        for (const Vec2 way : {Vec2{-1, 0}, Vec2{1, 0}, Vec2{0, -1}, Vec2{0, 1}}) {
+        tips_.clear(), followed_.assign(bodies_.asperities.size(), false), x0_ = indenter.x0, y0_ = indenter.y0;
+        for (const Vec2 way : {Vec2{-1, 0}, Vec2{1, 0}, Vec2{0, -1}, Vec2{0, 1}, Vec2{0, 0}}) {
+            if (tips_.size() == 4 && !jumps_) break;
             Tip& to = tips_.emplace_back(Tip{indenter, *bodies_.of_difference, nullptr});
             to.indenter.x0 += way.x * step(), to.indenter.y0 += way.y * step();
         }
@@ -24,18 +24,11 @@ void SummitsBeside::follow(std::span<const int> asperities, const LawOf& law_of)
                                               to.found.points_per_wave, Face(to.indenter), to.found.breaks.get());
         else
             replace(to.found.summits, which, moved_summits(selected(bodies_.of_surface, which), to.indenter));
-    }
-    // What is not found under all tips, as flanks, which are summits of the surface, stays where it is.
-    std::erase_if(which, [&](std::size_t i) {
-        return std::all_of(tips_.begin(), tips_.end(), [&](const Tip& to) { return std::isfinite(to.found.summits.x[i]); });
-    });
-    for (Tip& to : tips_) {
-        replace(to.found.summits, which, selected(here, which));
         to.law = law_of(to.found, to.indenter);
     }
 }
 
-Vec2 SummitsBeside::lateral(const std::vector<int>& asperities, const std::vector<double>& f, const std::vector<double>& here, bool lasting,
+Vec2 SummitsBeside::lateral(const std::vector<int>& asperities, const std::vector<double>& f, bool lasting,
                             const std::function<Response(Tip&, std::size_t)>& work) {
     const std::size_t n = f.size();
     std::vector<Response> there;
@@ -61,16 +54,16 @@ Vec2 SummitsBeside::lateral(const std::vector<int>& asperities, const std::vecto
     std::iota(all.begin(), all.end(), 0);
     const std::vector<double>& load = lasting ? first : f;
     // Where the work jumps between two tips, because several ellipses carry nearly the same load, the smaller difference to one side.
-    constexpr double rough = 0.1, jump = 1e-4;  // of the first differences; of N
+    constexpr double rough = 0.5, jump = 1e-3;  // of the first differences; of N
     double N = 0, W[4] = {};
     for (const double force : f) N += std::abs(force);
-    for (std::size_t k = 0; k < here.size(); ++k)
+    for (std::size_t k = 0; k < n && jumps_; ++k)
         for (const std::size_t t : {0u, 2u}) {
             double &low = there[t * n + k].work, &high = there[(t + 1) * n + k].work;
-            const double before = low - here[k], after = here[k] - high, bend = std::abs(before - after);
+            const double here = there[4 * n + k].work, before = low - here, after = here - high, bend = std::abs(before - after);
             if (!(bend > rough * std::abs(before + after)) || bend < jump * step() * N) continue;
             const double less = std::abs(before) < std::abs(after) ? before : after;
-            low = here[k] + less, high = here[k] - less;
+            low = here + less, high = here - less;
         }
     for (std::size_t t = 0; t < 4; ++t) {
         products->set_points(static_cast<int>(n), sets[t].x.data(), sets[t].y.data());

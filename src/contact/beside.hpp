@@ -19,8 +19,8 @@ public:
     };
     using LawOf = std::function<std::unique_ptr<Law>(const FoundSummits&, const Indenter&)>;
 
-    // The bodies must outlive this object.
-    explicit SummitsBeside(const ContactBodies& bodies) : bodies_(bodies) {}
+    // The bodies must outlive this object. `jumps`: the work may jump between the tips (most loaded ellipses).
+    explicit SummitsBeside(const ContactBodies& bodies, bool jumps = false) : bodies_(bodies), jumps_(jumps) {}
 
     // True if summits change with the tip in a way that can be followed: those of the difference, if they were moved or their heights are kept.
     bool known() const { return bodies_.of_difference && (bodies_.of_difference->map || !bodies_.of_difference->renumbered); }
@@ -30,17 +30,17 @@ public:
     void forget() { tips_.clear(); }
 
     // -dW/d(x0, y0) for the forces f of `asperities`, which are followed. work(tip, k): W_k beside the present tip, and the force that
-    // belongs to it; f_k may be a share of it, of a pressure of the same kind. `here`: all W_k under the present tip, if they may jump between
-    // the tips (most loaded ellipses); otherwise empty. `lasting`: the instantaneous loads on other asperities are those forces, not f
-    // (relaxing bodies).
-    Vec2 lateral(const std::vector<int>& asperities, const std::vector<double>& f, const std::vector<double>& here, bool lasting,
+    // belongs to it; f_k may be a share of it, of a pressure of the same kind. `lasting`: the instantaneous loads on other asperities are
+    // those forces, not f (relaxing bodies).
+    Vec2 lateral(const std::vector<int>& asperities, const std::vector<double>& f, bool lasting,
                  const std::function<Response(Tip&, std::size_t)>& work);
 
 private:
     double step() const { return 2e-3 * (bodies_.of_difference->map ? bodies_.of_difference->map->dx : bodies_.options.grid_step); }
 
     const ContactBodies& bodies_;
-    std::deque<Tip> tips_;    // west, east, south, north; laws refer to them
+    bool jumps_;
+    std::deque<Tip> tips_;    // west, east, south, north, and if the work jumps the present one; laws refer to them
     double x0_ = 0, y0_ = 0;  // the tip between them
     std::vector<bool> followed_;
 };

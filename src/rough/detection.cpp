@@ -128,7 +128,6 @@ Asperities follow_summits(const HeightMap& map, Asperities summits, const std::v
         SummitClimber climber(stencils, place, map.ny, map.y0, Curvature::geometric, &above, breaks);
         RefinedSummits again;
         climber.climb_from(column, row, true, rows_about(map, row), again);
-        summits.x[i] = std::numeric_limits<double>::quiet_NaN();
         if (again.from.empty() || std::hypot(again.from[0].u - u, again.from[0].v - v) > kNear) return;
         again.found.biharmonic[0] += lay * (again.from[0].elongated - again.found.biharmonic[0]);
         for (const AsperityColumn& column : kAsperityColumns) (summits.*column.values)[i] = (again.found.*column.values)[0];

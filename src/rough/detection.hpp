@@ -65,8 +65,8 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
 inline constexpr int kMeasuredReach = 6;
 
 // Summits found by find_asperities() with Detail::subgrid after the body above has moved by a small part of a grid step to `above`: those
-// of the indices `which` are found again, with the same share `lay`; x of those not found within a tenth of a step becomes NaN, and the
-// others remain. `map`, `points_per_wave` and `breaks` as there.
+// of the indices `which` are found again, with the same share `lay`; the others, and those that are not within a tenth of a step, remain.
+// `map`, `points_per_wave` and `breaks` as there.
 Asperities follow_summits(const HeightMap& map, Asperities summits, const std::vector<std::size_t>& which, double lay, int threads,
                           double points_per_wave, const BodyAbove& above, const Breaks* breaks);
 
