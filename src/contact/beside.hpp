@@ -36,7 +36,7 @@ public:
                  const std::function<Response(Tip&, std::size_t)>& work);
 
 private:
-    double step() const { return 2e-3 * (bodies_.of_difference->map ? bodies_.of_difference->map->dx : bodies_.options.grid_step); }
+    double step() const { return 5e-4 * (bodies_.of_difference->map ? bodies_.of_difference->map->dx : bodies_.options.grid_step); }
 
     const ContactBodies& bodies_;
     bool jumps_;
