@@ -24,7 +24,7 @@ void SummitsBeside::follow(std::span<const int> asperities, const LawOf& law_of)
                                               to.found.points_per_wave, Face(to.indenter), to.found.breaks.get());
         else
             replace(to.found.summits, which, moved_summits(selected(bodies_.of_surface, which), to.indenter));
-        to.law = law_of(to.found, to.indenter);
+        if (!to.law || jumps_) to.law = law_of(to.found, to.indenter);  // others read a summit when they are prepared for it
     }
 }
 
