@@ -42,7 +42,8 @@ Vec2 SummitsBeside::lateral(const std::vector<int>& asperities, const std::vecto
             const auto i = static_cast<std::size_t>(asperities[k]);
             const Vec2 place = to.indenter.image(a.x[i], a.y[i]);
             set.asperity.push_back(asperities[k]), set.x.push_back(place.x), set.y.push_back(place.y);
-            set.g0.push_back(to.indenter.clearance(a.x[i], a.y[i], a.z[i]));
+            const double clearance = to.indenter.clearance(a.x[i], a.y[i], a.z[i]);
+            set.g0.push_back(std::isfinite(clearance) ? clearance : a.z[i]);  // at a sharp edge
             there.push_back(work(to, k));
             first[k] += there.back().force / static_cast<double>(tips_.size());
         }
@@ -70,7 +71,7 @@ Vec2 SummitsBeside::lateral(const std::vector<int>& asperities, const std::vecto
         products->set_active(all);
         products->full(load.data(), phi.data());
         for (std::size_t k = 0; k < n; ++k)
-            if (first[k] != 0) W[t] += f[k] * (sets[t].g0[k] - 0.5 * phi[k] + there[t * n + k].work / first[k]);
+            W[t] += f[k] * (sets[t].g0[k] - 0.5 * phi[k] + (first[k] != 0 ? there[t * n + k].work / first[k] : 0.0));
     }
     return {(W[0] - W[1]) / (2 * step()), (W[2] - W[3]) / (2 * step())};
 }
