@@ -1,6 +1,7 @@
 #include "contact/adhesive_contact.hpp"
 
 #include "contact/adhesive_path.hpp"
+#include "contact/answers.hpp"
 #include "error.hpp"
 
 namespace rsc {
@@ -24,6 +25,7 @@ public:
         return std::isnan(stiffness()) || path_->active.empty() ? slope_ : path_->solver.clamped_stiffness(path_->here.states);
     }
     double energy() const override { return energy_; }
+    Vec2 lateral(const Level& level) override;
     void move_tip(double x0, double y0) override;
     double first_touch() const override { return path_->ranking.highest(); }
     const Indenter& indenter() const override { return path_->indenter; }
@@ -111,6 +113,24 @@ Level AdhesiveContact::report() {
     slope_ = 0, fresh_ = !my.active.empty();
     energy_ = my.active.empty() ? 0.0 : my.here.energy;
     return l;
+}
+
+// At the areas of the present tip, from the state with this area and the force that belongs to it.
+Vec2 AdhesiveContact::lateral(const Level& level) {
+    AdhesivePath& my = *path_;
+    const std::vector<int>& which = my.now.asperity;
+    if (!my.beside.known() || which.empty() || std::isnan(level.force)) return lateral_force(my.indenter, level);
+    my.beside.follow(
+        which, [&](const FoundSummits& found, const Indenter&) { return make_law(my.options.law, found.summits, my.indenter.E_star); });
+    std::vector<Sticking::State> here;
+    std::vector<double> f;
+    for (std::size_t k = 0; k < which.size(); ++k) here.push_back(my.sticking.at(which[k], my.now.s[k])), f.push_back(here[k].f);
+    std::optional<Sticking> sticking;
+    return my.beside.lateral(which, f, false, [&](SummitsBeside::Tip& tip, std::size_t k) {
+        if (k == 0) sticking.emplace(*tip.law, my.options.adhesion.work, my.options.adhesion.range), sticking->prepare(which);
+        const Sticking::State there = sticking->at(which[k], my.now.s[k]);
+        return Response{f[k], 0, there.energy + there.f * (here[k].u - there.u)};
+    });
 }
 
 Level AdhesiveContact::solve(double Z0) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "contact/asperity_level.hpp"
+#include "contact/beside.hpp"
 #include "contact/contact.hpp"
 #include "contact/interaction/products.hpp"
 #include "contact/law/sticking.hpp"
@@ -35,6 +36,7 @@ struct AdhesivePath : ContactBodies {
     std::unique_ptr<Products> direct, mesh;
     Products* products = nullptr;
     AttachedSolver solver;
+    SummitsBeside beside{*this};
     double goal = 1e-9;  // tolerance of the relative residual
 
     Past accepted, now;

@@ -2,24 +2,16 @@
 
 #include "contact/adhesive_contact.hpp"
 #include "contact/answers.hpp"
-#include "contact/asperity_level.hpp"
-#include "contact/candidates.hpp"
-#include "contact/interaction/products.hpp"
+#include "contact/asperity_impl.hpp"
 #include "contact/law/ellipse_law.hpp"
 #include "contact/law/hardness.hpp"
-#include "contact/ranking.hpp"
-#include "contact/relaxing_asperities.hpp"
 #include "contact/solver/dgesv.hpp"
-#include "contact/solver/uniqueness.hpp"
-#include "contact/start.hpp"
 #include "error.hpp"
 
 namespace rsc {
 namespace {
 
 using Vector = std::vector<double>;
-
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 // Distance that the tip may move before the summits of the difference are detected again.
 double summits_keep(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options) {
@@ -46,129 +38,60 @@ bool of_ellipses(const ContactBodies& bodies) {
            count_reachable(bodies.asperities, bodies.indenter, kDeepest * options.sigma) <= kMostEllipses;
 }
 
-std::unique_ptr<Law> law_of(const ContactBodies& bodies, std::optional<RelaxingAsperities>& relaxing) {
-    const Asperities& asperities = bodies.asperities;
+// The law of these summits under a tip, without what relaxing bodies remember. With `found` (optional) that of ellipses, which are like those
+// of `like` (optional).
+std::unique_ptr<Law> law_under(const Asperities& asperities, const Indenter& indenter, const ContactBodies& bodies,
+                               const FoundSummits* found, const Law* like = nullptr) {
     const SolverOptions& options = bodies.options;
-    auto law = make_law(options.law, asperities, bodies.indenter.E_star);
-    if (of_ellipses(bodies)) law = make_ellipse_law(std::move(law), *bodies.of_difference, bodies.indenter, options.mean_spacing);
-    law = make_yielding(std::move(law), asperities, options.hardness, traits(options.law).sinks);
+    auto law = make_law(options.law, asperities, indenter.E_star);
+    if (found) law = make_ellipse_law(std::move(law), *found, indenter, options.mean_spacing, like);
+    return make_yielding(std::move(law), asperities, options.hardness, traits(options.law).sinks);
+}
+
+std::unique_ptr<Law> law_of(const ContactBodies& bodies, bool ellipses, std::optional<RelaxingAsperities>& relaxing) {
+    const SolverOptions& options = bodies.options;
+    auto law = law_under(bodies.asperities, bodies.indenter, bodies, ellipses ? &*bodies.of_difference : nullptr);
     if (options.relaxation.none()) return law;
     const Creep creep(options.relaxation);
-    auto relaxes = make_relaxing(std::move(law), asperities.size(), creep);
-    relaxing.emplace(asperities, bodies.indenter, *relaxes, creep, options.tolerance);
+    auto relaxes = make_relaxing(std::move(law), bodies.asperities.size(), creep);
+    relaxing.emplace(bodies.asperities, bodies.indenter, *relaxes, creep, options.tolerance);
     return relaxes;
 }
 
-// A tip beside the present one, with the summits it touches and their law.
-struct Beside {
-    Indenter indenter;
-    FoundSummits found;
-    std::unique_ptr<Law> law;
-};
-
 }  // namespace
 
-struct AsperityContact::Impl : ContactBodies {
-    double found_x, found_y;  // position of the tip at which the summits were found
-    double keeps;             // distance from there up to which they are kept
-    std::optional<RelaxingAsperities> relaxing;
-    std::unique_ptr<Law> law;
-    Ranking ranking;
-
-    // The current level and its solution.
-    Candidates candidates;
-    Solution solution;
-    Method method = Method::direct;
-    NewtonOutcome outcome;  // outcome of pass() and settle()
-    bool passed = false;    // the solution is that of pass() and has not been settled
-    long guessing = 0;      // products taken by guessed_separation() and not yet told
-    struct {
-        double separation = 0;
-        bool unique = true;  // the solution is proved to be unique
-    } solved;                // last result of solve()
-
-    EarlierLevels earlier;
-    LastingProof proof;
-    std::unique_ptr<Products> direct, mesh;  // mesh: created on first use
-    Products* products = nullptr;            // the products in use
-    Newton newton;
-    std::deque<Beside> beside;   // west, east, south, north
-    double beside_lowest = 0;    // with ellipses, clearance down to which summits were followed
-    std::vector<bool> followed;  // without, those that were
-
-    Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_)
-        : ContactBodies(asperities_, indenter_, options_, std::move(search_)),
-          found_x(indenter_.x0),
-          found_y(indenter_.y0),
-          keeps(of_difference && !of_difference->map ? summits_keep(of_surface, indenter, options) : 0),
-          law(law_of(*this, relaxing)),
-          direct(make_direct_products(kernel, true)),
-          newton(*law) {
-        use(Method::direct);
-        if (options.selection == Selection::paper && std::isnan(indenter.shape->hertz_radius()))
-            throw Error(Failure::bad_input, "indentation%selection = 'paper' is defined for a sphere only");
-        ranking.assign(asperities, indenter);
-    }
-
-    double scale() const { return relaxing ? relaxing->scale() : 1.0; }  // ratio of the forces of the law to the true ones
-    // Shift of the separation used by solve() due to earlier loads of a relaxing body (periodic flats).
-    double raised() const { return relaxing ? kernel->shift() * relaxing->rest() : 0.0; }
-    long products_taken() const { return direct->count() + (mesh ? mesh->count() : 0); }
-    void use(Method how);
-    void expect_repeats(bool expect) { newton.expect_repeats(expect), direct->expect_repeats(expect); }
-    void select(double Z0);  // determines candidates and method
-    NewtonOutcome solve_from(const Vector& start, bool rough_start);
-    // True if the solution continues the branch of the accepted levels (path-dependent laws). For other laws solve_cold() selects among
-    // several solutions.
-    bool follows() const { return law->path_dependent(); }
-    // Descends from the no-interaction start to a minimum of the energy. This defines the solution if there are several.
-    NewtonOutcome solve_cold() { return solve_from(cold_start(*law, *products, candidates.set), true); }
-    double force_slope(double tolerance);  // dN/dZ0; the next level is predicted with what this takes
-    Level level(double Z0, const NewtonOutcome& outcome, bool unique) const;
-    NewtonOutcome solve_by_paper(Fallback& why_not);
-    bool one_solution() {
-        const auto& [v, force, slope] = solution;
-        // On a soft layer self() < 0: a spot wider than the layer can be unstable by itself (no minimum of the energy).
-        if (std::any_of(slope.begin(), slope.end(), [&](double rate) { return 1 + rate * kernel->self() <= 0; })) return false;
-        const WorkingSet& set = candidates.set;
-        if (follows()) return has_one_solution(*law, *kernel, set.asperity, set.x, set.y, v, force, slope);
-        return proof.holds(*law, *kernel, set.asperity, set.x, set.y, v, force, slope, {set.g0.front(), indenter.x0, indenter.y0});
-    }
-    Level report(double Z0) const;
-    double step_beside() const { return 2e-3 * of_difference->map->dx; }
-    void look_beside(const Level& level);
-};
+AsperityContact::Impl::Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_)
+    : ContactBodies(asperities_, indenter_, options_, std::move(search_)),
+      found_x(indenter_.x0),
+      found_y(indenter_.y0),
+      keeps(of_difference && !of_difference->map ? summits_keep(of_surface, indenter, options) : 0),
+      ellipses(of_ellipses(*this)),
+      law(law_of(*this, ellipses, relaxing)),
+      direct(make_direct_products(kernel, true)),
+      newton(*law),
+      beside(*this, ellipses) {
+    use(Method::direct);
+    if (options.selection == Selection::paper && std::isnan(indenter.shape->hertz_radius()))
+        throw Error(Failure::bad_input, "indentation%selection = 'paper' is defined for a sphere only");
+    ranking.assign(asperities, indenter);
+}
 
 // With ellipses all summits down to a depth are followed, which is counted in half octaves, so that results do not depend on earlier levels;
 // otherwise those in contact.
 void AsperityContact::Impl::look_beside(const Level& level) {
-    const bool ellipses = of_ellipses(*this);
-    double lowest = 0;
+    std::vector<int> which = level.asperity;
     if (ellipses) {
         constexpr double more = 1.1;  // nodes of the law's tables are up to a twentieth beyond the penetration
         const double depth = more * (ranking.highest() - level.separation + kernel->shift() * level.force);
-        lowest = ranking.highest() - std::exp2(0.5 * std::ceil(2 * std::log2(depth)));
+        const double lowest = ranking.highest() - std::exp2(0.5 * std::ceil(2 * std::log2(depth)));
+        if (lowest != std::exchange(beside_lowest, lowest)) beside.forget();
+        which.clear();
+        for (std::size_t i = 0; i < asperities.size(); ++i)
+            if (indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) > lowest) which.push_back(static_cast<int>(i));
     }
-    std::vector<std::size_t> which;
-    if (beside.empty() || lowest != beside_lowest) {
-        beside.clear(), followed.assign(asperities.size(), false), beside_lowest = lowest;
-        for (const Vec2 way : {Vec2{-1, 0}, Vec2{1, 0}, Vec2{0, -1}, Vec2{0, 1}}) {
-            Beside& to = beside.emplace_back(Beside{indenter, *of_difference, nullptr});
-            to.indenter.x0 += way.x * step_beside(), to.indenter.y0 += way.y * step_beside();
-            to.found.summits = asperities;
-        }
-        for (std::size_t i = 0; i < asperities.size() && ellipses; ++i)
-            if (indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) > lowest) which.push_back(i);
-    }
-    for (const int k : level.asperity)
-        if (!ellipses && !followed[at(k)]) which.push_back(at(k)), followed[at(k)] = true;
-    if (which.empty()) return;
-    for (Beside& to : beside) {
-        to.found.summits = follow_summits(*to.found.map, std::move(to.found.summits), which, to.found.lay, to.found.threads,
-                                          to.found.points_per_wave, Face(to.indenter), to.found.breaks.get());
-        to.law = make_law(options.law, to.found.summits, indenter.E_star);
-        if (ellipses) to.law = make_ellipse_law(std::move(to.law), to.found, to.indenter, options.mean_spacing, law.get());
-    }
+    beside.follow(which, [&](const FoundSummits& found, const Indenter& there) {
+        return law_under(found.summits, there, *this, ellipses ? &found : nullptr, law.get());
+    });
 }
 
 void AsperityContact::Impl::use(Method how) {
@@ -323,56 +246,6 @@ Level AsperityContact::pass(double Z0) {
     return level;
 }
 
-// Without interaction the force N belongs to a depth, which the interaction increases by s, the mean of B F. There a solution to some per
-// cent shows by its slope where the force is N.
-std::optional<double> AsperityContact::guessed_separation(double N) {
-    Impl& my = *impl_;
-    if (my.follows() || my.options.method == Method::dgesv) return {};
-    constexpr double near = 0.05, rough = 0.02, slope = 1e-2;
-    constexpr double shallow = 0.25, shrink = 0.125, grow = 3;  // in rms heights; the ranking is extended seldom
-    constexpr int depths = 200;
-    double depth = std::max(shallow * my.options.sigma, std::numeric_limits<double>::epsilon() * std::abs(first_touch()));
-    double force_there = force_at_most(depth), power = 5;
-    for (int i = 0; i < depths && std::abs(force_there / N - 1) > near; ++i) {  // secants of logarithms
-        const double ratio = force_there > 0 ? std::clamp(std::pow(N / force_there, 1 / power), shrink, grow) : grow;
-        const double next = force_at_most(depth *= ratio);
-        if (next > 0 && force_there > 0 && ratio != 1) power = std::max(std::log(next / force_there) / std::log(ratio), 1.0);
-        force_there = next;
-    }
-    if (!(force_there > 0)) return {};
-    const long products_before = my.products_taken();
-    my.select(first_touch() - depth);
-    const WorkingSet& set = my.candidates.set;
-    Vector force, phi(at(set.size()));
-    for (std::size_t k = 0; k < phi.size(); ++k) force.push_back(my.law->force(set.asperity[k], set.g0[k]));
-    std::vector<int> all(phi.size());
-    std::iota(all.begin(), all.end(), 0);
-    my.products->set_points(set.size(), set.x.data(), set.y.data());
-    my.products->set_active(all);
-    my.products->inner(force.data(), phi.data());
-    // Forces in proportion to those without interaction raise the surface more than the true ones do: by 1.4 to 1.8 times on the default
-    // surface at any depth.
-    constexpr double screened = 0.67;
-    const double s =
-        screened * std::inner_product(force.begin(), force.end(), phi.begin(), 0.0) / std::accumulate(force.begin(), force.end(), 0.0);
-    double Z0 = first_touch() - depth - s;
-    if (!std::isfinite(Z0)) return {};
-    my.select(Z0);
-    Vector start(set.g0);
-    for (double& v : start) v -= s;
-    const NewtonOutcome outcome =
-        solve_candidates(set, my.newton, *my.products, {rough, my.options.max_iterations, false}, start, my.solution);
-    double sum = std::accumulate(my.solution.force.begin(), my.solution.force.end(), 0.0) / my.scale();
-    if (outcome.converged && sum > 0) {
-        my.earlier.remember(Z0, my.candidates, my.solution.v, false, true);
-        const double rise = my.force_slope(slope);
-        sum += my.newton.missing_force() / my.scale();
-        Z0 += std::log(N / sum) * sum / rise;
-    }
-    my.guessing = my.products_taken() - products_before;
-    return Z0;
-}
-
 Level AsperityContact::settle(const Level& passed) {
     Impl& my = *impl_;
     if (!my.passed) return Contact::settle(passed);
@@ -415,68 +288,6 @@ double AsperityContact::shortest_time() const { return impl_->options.relaxation
 
 void AsperityContact::step(double dt) { impl_->relaxing->step(dt); }
 
-std::vector<double> AsperityContact::residual_depths() const {
-    std::vector<double> depths;
-    if (!path_dependent() || relaxes()) return depths;
-    for (std::size_t i = 0; i < impl_->asperities.size(); ++i) depths.push_back(impl_->law->residual_depth(static_cast<int>(i)));
-    return depths;
-}
-
-std::optional<Level> AsperityContact::lasting_loads(const Level& level) const {
-    if (!relaxes()) return {};
-    return impl_->relaxing->lasting(level);
-}
-
-// Pairs of the index of a yielded asperity and its largest penetration; for relaxing bodies the time, followed by their state.
-std::vector<double> AsperityContact::memory() const {
-    std::vector<double> pairs;
-    if (relaxes()) {
-        pairs = last_accepted();
-        impl_->relaxing->write(pairs);
-        return pairs;
-    }
-    for (const int i : impl_->law->yielded()) pairs.insert(pairs.end(), {static_cast<double>(i), impl_->law->deepest(i)});
-    return pairs;
-}
-
-void AsperityContact::recall(const std::vector<double>& memory, const Level* level) {
-    Impl& my = *impl_;
-    if (relaxes()) {
-        my.relaxing->read(recall_accepted(memory));
-    } else {
-        std::vector<int> yielded;
-        Vector deepest;
-        for (std::size_t k = 0; k + 1 < memory.size(); k += 2) {
-            if (!(memory[k] >= 0 && memory[k] < static_cast<double>(my.asperities.size()) && std::isfinite(memory[k + 1])))
-                throw Error(Failure::bad_input, "the state does not belong to a contact of these asperities");
-            yielded.push_back(static_cast<int>(memory[k])), deepest.push_back(memory[k + 1]);
-        }
-        my.law->forget();
-        my.law->prepare(yielded);
-        my.law->commit(static_cast<int>(yielded.size()), yielded.data(), deepest.data());
-    }
-    my.earlier = {};
-    my.expect_repeats(false);
-    my.candidates = {};
-    my.solution.clear();
-    if (!level) return;
-    const double Z0 = level->separation - shift() * level->force;  // separation as defined for solve()
-    if (!my.follows()) return (void)solve(Z0);
-    my.select(Z0);
-    Vector start(at(my.candidates.size()), -1e300);  // no contact
-    const auto& known = level->asperity;
-    for (std::size_t k = 0; k < start.size(); ++k) {
-        const auto found = std::lower_bound(known.begin(), known.end(), my.candidates.set.asperity[k]);
-        if (found != known.end() && *found == my.candidates.set.asperity[k])
-            start[k] = level->u[at(static_cast<int>(found - known.begin()))];
-    }
-    my.solution.clear();
-    if (start.empty()) return;
-    my.solve_from(start, false);
-    my.solved = {Z0, level->status != LevelStatus::not_unique};
-    my.earlier.remember(Z0, my.candidates, my.solution.v, my.solved.unique);
-}
-
 void AsperityContact::forget_levels() {
     const Impl& my = *impl_;
     if (my.of_difference && (my.law->path_dependent() || my.indenter.x0 != my.found_x || my.indenter.y0 != my.found_y)) {
@@ -494,16 +305,6 @@ void AsperityContact::forget_levels() {
 bool AsperityContact::path_dependent() const { return impl_->law->path_dependent(); }
 
 double AsperityContact::tolerance() const { return impl_->options.tolerance; }
-
-// The force without interaction, which is an upper bound.
-double AsperityContact::force_at_most(double depth) {
-    Impl& my = *impl_;
-    const double Z0 = first_touch() - depth;
-    const WorkingSet set = select_candidates(my.ranking, my.asperities, my.indenter, my.options, *my.law, Z0).set;
-    double sum = 0;
-    for (std::size_t k = 0; k < set.g0.size(); ++k) sum += my.law->force(set.asperity[k], set.g0[k]);
-    return sum / my.scale();
-}
 
 std::optional<double> AsperityContact::likely_separation() const {
     if (impl_->solution.force.empty()) return std::nullopt;
@@ -532,40 +333,14 @@ double AsperityContact::energy() const {
     return 0.0 - impl_->newton.energy() - 0.5 * shift() * N * N;
 }
 
+// Spots that were unloaded, or relax, have the pressures of a first loading at a smaller scale.
 Vec2 AsperityContact::lateral(const Level& level) {
-    constexpr double jump = 1e-4, most = 0.1;  // difference of the slopes to both sides over N; largest change by summits
     Impl& my = *impl_;
-    const Vec2 sum = lateral_force(my.indenter, level);
-    if (!my.of_difference || !my.of_difference->map || my.follows() || !(level.force > 0)) return sum;
-    const double Z0 = level.separation - shift() * level.force, W = energy();
+    if (!my.beside.known() || !(level.force > 0)) return lateral_force(my.indenter, level);
     my.look_beside(level);
-    const auto products = make_direct_products(my.kernel);
-    std::vector<double> W_beside;
-    for (Beside& to : my.beside) {
-        const Asperities& a = to.found.summits;
-        to.law->prepare(level.asperity);
-        WorkingSet set;
-        for (const int k : level.asperity) {
-            const std::size_t i = at(k);
-            const Vec2 place = to.indenter.image(a.x[i], a.y[i]);
-            set.asperity.push_back(k), set.x.push_back(place.x), set.y.push_back(place.y);
-            set.g0.push_back(to.indenter.clearance(a.x[i], a.y[i], a.z[i]) - Z0);
-        }
-        // At the penetrations of the present tip W is off by the square of the step, alike on both sides.
-        Newton newton(*to.law);
-        newton.use(*products);
-        products->set_points(set.size(), set.x.data(), set.y.data());
-        newton.take(set, level.u);
-        W_beside.push_back(0 - newton.energy() - 0.5 * shift() * level.force * level.force);
-    }
-    const auto slope = [&](double low, double high, double likely) {
-        const double before = (low - W) / my.step_beside(), after = (W - high) / my.step_beside();
-        double best = 0.5 * (before + after);
-        for (const double one : {before, after})
-            if (std::abs(after - before) > jump * level.force && std::abs(one - likely) < std::abs(best - likely)) best = one;
-        return std::abs(best - likely) < most * level.force ? best : likely;
-    };
-    return {slope(W_beside[0], W_beside[1], sum.x), slope(W_beside[2], W_beside[3], sum.y)};
+    return my.beside.lateral(level.asperity, level.f, relaxes(), [&](SummitsBeside::Tip& tip, std::size_t k) {
+        return tip.law->response(level.asperity[k], my.law->first_loading(level.asperity[k], level.u[k]));
+    });
 }
 
 void AsperityContact::move_tip(double x0, double y0) {
@@ -585,24 +360,6 @@ void AsperityContact::move_tip(double x0, double y0) {
     }
     my.ranking.move(x0, y0);
     my.expect_repeats(true);
-}
-
-// The summits of the difference are those of the new place. What the bodies keep of earlier loads is known by the number of the summit.
-void AsperityContact::move_with_memory(double x0, double y0) {
-    const Impl& my = *impl_;
-    const std::vector<double> kept = memory();
-    Indenter there = my.indenter;
-    there.move(x0, y0);
-    auto moved = std::make_unique<Impl>(my.of_surface, there, SolverOptions(my.options), my.search);
-    const bool nothing = kept.empty() || (relaxes() && my.relaxing->stored() == 0 && my.relaxing->lost() == 0);
-    if (!nothing && (my.of_difference->renumbered || !moved->of_difference || moved->of_difference->renumbered))
-        throw Error(Failure::bad_input,
-                    "the tip cannot move over bodies that yielded or relax, where the slope of the indenter is above 0.2 of that of the "
-                    "surface: use solver%model = 'elements' or asperities%law = 'hertz'");
-    impl_ = std::move(moved);
-    const double now = time();
-    if (!nothing) recall(kept, nullptr);
-    set_time(now);
 }
 
 double AsperityContact::first_touch() const { return impl_->ranking.highest() + impl_->raised(); }

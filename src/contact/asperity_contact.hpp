@@ -24,9 +24,8 @@ public:
     // square of the residual.
     double energy() const override;
 
-    // Central differences of W at fixed penetrations between tips beside the present one, with the summits that they touch, if the heights
-    // are kept and bodies neither yield nor relax. Where W jumps in between, because another summit carries a spot, the difference to one
-    // side if it is nearer to the sum over the contacts.
+    // The gradient of W at fixed forces (beside.hpp), of summits of the difference that can be followed; otherwise lateral_force(). W is that
+    // of a first loading, with the plastic work; the force of a spot that is unloaded, or relaxes, keeps its direction.
     Vec2 lateral(const Level& level) override;
 
     // The last level is a starting point for the next if its solution is proved unique. Summits of the difference are those of a new contact

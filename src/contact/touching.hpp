@@ -27,7 +27,7 @@ struct FoundSummits {
     double points_per_wave = 0;            // of the map, in its shortest wave; 0: unknown
     int threads = 1;                       // for work on the heights
     std::shared_ptr<const Breaks> breaks;  // of a measured map
-    double lay = 0;                        // as in SummitCount
+    double lay = 0;                        // of the surface, as in SummitCount
     bool renumbered = false;               // their number and order are not those of the surface
 };
 

@@ -4,6 +4,20 @@
 
 namespace rsc {
 
+Asperities selected(const Asperities& all, const std::vector<std::size_t>& which) {
+    Asperities some;
+    for (const AsperityColumn& column : kAsperityColumns)
+        if (const std::vector<double>& from = all.*column.values; !from.empty())
+            for (const std::size_t k : which) (some.*column.values).push_back(from[k]);
+    return some;
+}
+
+void replace(Asperities& all, const std::vector<std::size_t>& which, const Asperities& some) {
+    for (const AsperityColumn& column : kAsperityColumns)
+        for (std::size_t k = 0; k < which.size() && !(some.*column.values).empty(); ++k)
+            (all.*column.values)[which[k]] = (some.*column.values)[k];
+}
+
 std::optional<std::pair<std::size_t, std::size_t>> coincident(const Asperities& a) {
     std::vector<std::size_t> order(a.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -48,6 +48,10 @@ inline constexpr std::array<AsperityColumn, 8> kAsperityColumns{{
     {"biharmonic", &Asperities::biharmonic, false, -3, "biharmonic of the height at the summit, nabla^4 z"},
 }};
 
+// The asperities with these indices, in this order; and their replacement by others.
+Asperities selected(const Asperities& all, const std::vector<std::size_t>& which);
+void replace(Asperities& all, const std::vector<std::size_t>& which, const Asperities& some);
+
 // The indices, in order, of two asperities with the same (x, y), if there are any: they would count one contact twice.
 std::optional<std::pair<std::size_t, std::size_t>> coincident(const Asperities& asperities);
 

@@ -27,7 +27,8 @@ double lay_share(const Asperities& summits) {
 }
 
 // Concatenates the parts in order. Those between grid points (`refined`) lose what was found several times.
-Asperities join(std::vector<RefinedSummits>& parts, bool refined, int nx, int ny, bool periodic, SummitCount* count) {
+Asperities join(std::vector<RefinedSummits>& parts, bool refined, int nx, int ny, bool periodic, SummitCount* count,
+                std::optional<double> lay) {
     RefinedSummits all = std::move(parts[0]);
     const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
     for (std::size_t t = 1; t < parts.size(); ++t) {
@@ -40,7 +41,7 @@ Asperities join(std::vector<RefinedSummits>& parts, bool refined, int nx, int ny
     if (!refined) return std::move(all.found);
     // With a lay, the quartic term continues along the long axis of an elongated summit. On isotropic surfaces summits are elongated by
     // chance in all directions; there the plain biharmonic agrees better with boundary elements (study in input/trust).
-    const double share = lay_share(all.found);
+    const double share = lay ? *lay : lay_share(all.found);
     if (count) count->lay = share;
     for (std::size_t i = 0; i < all.from.size(); ++i) all.found.biharmonic[i] += share * (all.from[i].elongated - all.found.biharmonic[i]);
     return std::move(all.found);
@@ -134,14 +135,6 @@ Asperities follow_summits(const HeightMap& map, Asperities summits, const std::v
     return summits;
 }
 
-Asperities selected(const Asperities& all, const std::vector<std::size_t>& which) {
-    Asperities some;
-    for (const AsperityColumn& column : kAsperityColumns)
-        if (const std::vector<double>& from = all.*column.values; !from.empty())
-            for (const std::size_t k : which) (some.*column.values).push_back(from[k]);
-    return some;
-}
-
 SummitCount counted(const Asperities& all, long saddles, long repeated) {
     double sum_g = 0, sum_a = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -153,7 +146,7 @@ SummitCount counted(const Asperities& all, long saddles, long repeated) {
 }
 
 Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count, int threads, Detail detail,
-                           double points_per_wave, const BodyAbove* above, const Breaks* breaks) {
+                           double points_per_wave, const BodyAbove* above, const Breaks* breaks, std::optional<double> lay) {
     const bool refined = detail == Detail::subgrid;
     const std::vector<Stencil> stencils = refined ? stencils_for(points_per_wave) : std::vector<Stencil>{};
     const int edge = map.periodic ? 0 : 1;
@@ -171,7 +164,7 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
             part.saddles += append_summits(place, row(-1), row(0), row(1), curvature, part.found);
         }
     });
-    return join(parts, refined, map.nx, map.ny, map.periodic && (!above || above->periodic()), count);
+    return join(parts, refined, map.nx, map.ny, map.periodic && (!above || above->periodic()), count, lay);
 }
 
 int summit_points(const Spectrum& spectrum, int n) {
@@ -184,12 +177,12 @@ int summit_points(const Spectrum& spectrum, int n) {
 
 Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
                            Curvature curvature, SummitCount* count, Moments* sampled, int threads, Detail detail, Moments* differences,
-                           const BodyAbove* above, std::shared_ptr<const RowSource>* rows) {
+                           const BodyAbove* above, std::shared_ptr<const RowSource>* rows, std::optional<double> lay) {
     const bool mirror = made_as_transpose(spectrum);
     const std::unique_ptr<BodyAbove> mirrored_above = mirror && above ? above->transposed() : nullptr;
     if (mirror && (!above || mirrored_above)) {  // no need to store the surface
         const Asperities found = make_asperities(transposed(spectrum), n, normalise, seed, realization, curvature, count, sampled, threads,
-                                                 detail, differences, mirrored_above.get());
+                                                 detail, differences, mirrored_above.get(), nullptr, lay);
         if (sampled) sampled->tensor = sampled->tensor.transposed();
         return mirrored(found, spectrum.L, n);
     }
@@ -202,7 +195,8 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
     const double step = spectrum.L / fine;
     if (sampled) *sampled = source.sampled();
     if (differences) *differences = source.differences();
-    if (mirror) return find_asperities(source.all(threads), curvature, count, threads, detail, fine / shortest_wave(spectrum), above);
+    if (mirror)
+        return find_asperities(source.all(threads), curvature, count, threads, detail, fine / shortest_wave(spectrum), above, nullptr, lay);
     std::vector<Stencil> stencils;
     if (refined) stencils.push_back(Stencil::band_limited(fine / shortest_wave(spectrum)));
     std::vector<RefinedSummits> parts = share_rows(fine, threads, [&](RefinedSummits& part, int first, int last) {
@@ -219,7 +213,7 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
                 part.saddles += append_summits(place, z - stride, z, z + stride, curvature, part.found);
         });
     });
-    return join(parts, refined, fine, fine, !above || above->periodic(), count);
+    return join(parts, refined, fine, fine, !above || above->periodic(), count, lay);
 }
 
 }  // namespace rsc

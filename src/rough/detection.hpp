@@ -56,15 +56,17 @@ struct SummitCount {
 //
 // With a body above (Detail::subgrid only), the summits are those of the map minus its face. x, y and z are the place and the surface
 // height there; curvatures and biharmonic are those of the difference. If the map is periodic and the body is not, only summits within the
-// map are returned. With a lay, the biharmonic is the one described at Asperities::biharmonic.
+// map are returned. With a lay, the biharmonic is the one described at Asperities::biharmonic; `lay` is its share if known, otherwise it is
+// estimated from the summits found. It is a property of the surface: of the few summits that a steep body leaves it would be chance, and
+// change as the body moves.
 Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count = nullptr, int threads = 1,
                            Detail detail = Detail::grid, double points_per_wave = 0, const BodyAbove* above = nullptr,
-                           const Breaks* breaks = nullptr);
+                           const Breaks* breaks = nullptr, std::optional<double> lay = {});
 inline constexpr int kMeasuredReach = 6;
 
 // Summits found by find_asperities() with Detail::subgrid after the body above has moved by a small part of a grid step to `above`: those
-// of the indices `which` are found again, with the share `lay` of SummitCount; the others, and those that are not within a tenth of a step,
-// remain. `map`, `points_per_wave` and `breaks` as there.
+// of the indices `which` are found again, with the same share `lay`; the others, and those that are not within a tenth of a step, remain.
+// `map`, `points_per_wave` and `breaks` as there.
 Asperities follow_summits(const HeightMap& map, Asperities summits, const std::vector<std::size_t>& which, double lay, int threads,
                           double points_per_wave, const BodyAbove& above, const Breaks* breaks);
 
@@ -80,6 +82,6 @@ int summit_points(const Spectrum& spectrum, int n);
 Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed, std::int64_t realization,
                            Curvature curvature, SummitCount* count = nullptr, Moments* sampled = nullptr, int threads = 1,
                            Detail detail = Detail::grid, Moments* differences = nullptr, const BodyAbove* above = nullptr,
-                           std::shared_ptr<const RowSource>* rows = nullptr);
+                           std::shared_ptr<const RowSource>* rows = nullptr, std::optional<double> lay = {});
 
 }  // namespace rsc

@@ -108,9 +108,6 @@ private:
 // If several starts lead to the same summit, keeps one that is a maximum, else the nearest one. Returns the number of maxima removed.
 long drop_repeated(RefinedSummits& summits, int nx, int ny, bool periodic);
 
-// The asperities with these indices, in this order.
-Asperities selected(const Asperities& all, const std::vector<std::size_t>& which);
-
 // Counts and means of asperities with curvatures, summed in order, so that they do not depend on how the search was divided.
 SummitCount counted(const Asperities& all, long saddles, long repeated);
 

@@ -318,12 +318,10 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
                                        nullptr, breaks.get());
     if (detail_of(settings) == Detail::subgrid)
         model.search = [kept = std::shared_ptr<const HeightMap>(seen), curvature = settings.asperities.curvature, threads,
-                        waves = surface.points_per_wave, breaks](const Indenter& indenter) {
+                        waves = surface.points_per_wave, breaks, lay = count.lay](const Indenter& indenter) {
             const Face face(indenter);
-            SummitCount count;
-            FoundSummits found{{}, kept, waves, threads, breaks};
-            found.summits = find_asperities(*kept, curvature, &count, threads, Detail::subgrid, waves, &face, breaks.get());
-            found.lay = count.lay;
+            FoundSummits found{{}, kept, waves, threads, breaks, lay};
+            found.summits = find_asperities(*kept, curvature, nullptr, threads, Detail::subgrid, waves, &face, breaks.get(), lay);
             return found;
         };
     model.domain.heights = [kept = std::shared_ptr<const HeightMap>(seen)](const std::vector<Vec2>& points) {
@@ -400,19 +398,18 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
     };
     if (detail_of(settings) == Detail::subgrid)
         model.search = [keys, spectrum, seed = settings.run.seed, number, curvature = settings.asperities.curvature, threads,
-                        kept = std::make_shared<Kept<HeightMap>>()](const Indenter& indenter) {
+                        lay = count.lay, kept = std::make_shared<Kept<HeightMap>>()](const Indenter& indenter) {
             const Face face(indenter);
-            FoundSummits found{{}, nullptr, 0, threads, nullptr};
-            SummitCount count;
+            FoundSummits found{{}, nullptr, 0, threads, nullptr, lay};
             const int n = summit_points(spectrum, keys.n);
             if (n <= kMostPointsKept) {  // the same summits, with the heights
                 found.map = kept->get(false, [&] { return synthesize(spectrum, n, keys.normalise, seed, number, nullptr, threads); });
                 found.points_per_wave = n / shortest_wave(spectrum);
-                found.summits = find_asperities(*found.map, curvature, &count, threads, Detail::subgrid, found.points_per_wave, &face);
-                found.lay = count.lay;
+                found.summits =
+                    find_asperities(*found.map, curvature, nullptr, threads, Detail::subgrid, found.points_per_wave, &face, nullptr, lay);
             } else {
                 found.summits = make_asperities(spectrum, keys.n, keys.normalise, seed, number, curvature, nullptr, nullptr, threads,
-                                                Detail::subgrid, nullptr, &face);
+                                                Detail::subgrid, nullptr, &face, nullptr, lay);
             }
             return found;
         };

@@ -15,9 +15,11 @@ std::size_t at(int k) { return static_cast<std::size_t>(k); }
 class Table {
 public:
     Table() = default;
-    explicit Table(std::vector<LoadedEllipse> ellipses) : node_(std::move(ellipses)) {
+    // `all`: also those with which it is not convex.
+    explicit Table(std::vector<LoadedEllipse> ellipses, bool all) : node_(std::move(ellipses)) {
         node_.insert(node_.begin(), LoadedEllipse{});
-        keep_convex();
+        std::sort(node_.begin() + 1, node_.end(), [](const LoadedEllipse& a, const LoadedEllipse& b) { return a.u < b.u; });
+        if (!all) keep_convex();
         work_.assign(node_.size(), 0.0);
         for (std::size_t k = 1; k < node_.size(); ++k) work_[k] = within(k, 1).work;
     }
@@ -82,7 +84,6 @@ private:
     // the origin below a tangent.
     void keep_convex() {
         constexpr double rounding = 1e-9;
-        std::sort(node_.begin() + 1, node_.end(), [](const LoadedEllipse& a, const LoadedEllipse& b) { return a.u < b.u; });
         const auto below = [](const LoadedEllipse& a, const LoadedEllipse& b) {
             return b.force + b.stiffness * (a.u - b.u) > (1 + rounding) * a.force;
         };
@@ -131,8 +132,9 @@ public:
             for (int i : next)
                 if (state_[at(i)] == State::unknown) state_[at(i)] = State::alone, fresh.push_back(i);
             next.clear();
-            parallel_for(fresh.size(), 4, found_.threads,
-                         [&](std::size_t k) { table_[at(fresh[k])] = Table(own_[at(fresh[k])] = alone(fresh[k])); });
+            parallel_for(fresh.size(), 4, found_.threads, [&](std::size_t k) {
+                own_[at(fresh[k])] = alone(fresh[k]), table_[at(fresh[k])] = Table(nodes(fresh[k]), like_);
+            });
             for (int i : fresh) {
                 if (like_) state_[at(i)] = like_->state_[at(i)];
                 widest_[at(i)] = table_[at(i)].nodes().back();
@@ -209,6 +211,18 @@ private:
             std::find_if(ellipses.begin(), ellipses.end(), [&](const LoadedEllipse& e) { return !members(i, e, false).empty(); });
         ellipses.erase(end, ellipses.end());
         return ellipses;
+    }
+
+    // The ellipses of i for its table: all, or those that the law alike has in its own.
+    std::vector<LoadedEllipse> nodes(int i) const {
+        if (!like_) return own_[at(i)];
+        std::vector<LoadedEllipse> kept;
+        const auto& its = like_->own_[at(i)];
+        for (std::size_t k = 0; k < its.size(); ++k)
+            if (std::ranges::any_of(like_->table_[at(i)].nodes(),
+                                    [&](const LoadedEllipse& e) { return e.spot.x == its[k].spot.x && e.spot.major == its[k].spot.major; }))
+                kept.push_back(own_[at(i)][k]);
+        return kept;
     }
 
     Vec2 between(int i, int j) const {
@@ -302,12 +316,12 @@ private:
             const LoadedEllipse left = nodes.back();
             nodes.pop_back();
             constexpr double least = 0.1;  // share of the highest summit; with less, the others carry the ellipse by themselves
-            if (!(u0 > 0 && u1 > u0 && low[0] > least * e.force && high[0] > low[0])) continue;
+            if (!like_ && !(u0 > 0 && u1 > u0 && low[0] > least * e.force && high[0] > low[0])) continue;
             // Smaller ellipses that carried more lay on the spots of these summits, beside their tops.
-            while (!nodes.empty() && !(nodes.back().force < left.force)) nodes.pop_back();
+            while (!like_ && !nodes.empty() && !(nodes.back().force < left.force)) nodes.pop_back();
             nodes.push_back(left);
         }
-        if (changed) table_[at(i)] = Table(std::move(nodes));
+        if (changed) table_[at(i)] = Table(std::move(nodes), like_);
     }
 
     std::unique_ptr<Law> other_;

@@ -19,7 +19,7 @@ inline constexpr std::size_t kMostEllipses = 4000;
 // depend on neither the order of calls nor the number of threads. `spacing`: mean distance of the surface's summits.
 //
 // `like` (optional) is such a law of the same summits under a tip close by, with tables of all that are asked for: ellipses are found from
-// its ellipses, and share the same summits.
+// its ellipses, share the same summits, and tables have the same nodes.
 std::unique_ptr<Law> make_ellipse_law(std::unique_ptr<Law> other, const FoundSummits& found, const Indenter& indenter, double spacing,
                                       const Law* like = nullptr);
 

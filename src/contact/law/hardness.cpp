@@ -83,6 +83,7 @@ public:
                         s.H * growth(s, std::max(from.spread.slope, to.spread.slope), to.radius));
     }
 
+    double first_loading(int asperity, double u) const override { return std::max(u, summit(asperity).deepest); }
     bool yields(int asperity, double u) const override {
         const Summit& s = summit(asperity);
         return u > s.yield && u >= s.deepest;

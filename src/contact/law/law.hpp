@@ -74,7 +74,9 @@ public:
 
     // Non-convex laws: upper bound of the secant slopes between penetrations up to `high`.
     virtual double steepest(int asperity, double high) const { return (void)asperity, (void)high, 0.0; }
-    // Path-dependent laws: true if the asperity yields at u; residual depth after unloading [length]; dissipated work of all asperities
+    // Path-dependent laws: the penetration of a first loading that gives the spot of u, or from which it was unloaded.
+    virtual double first_loading(int asperity, double u) const { return (void)asperity, u; }
+    // True if the asperity yields at u; residual depth after unloading [length]; dissipated work of all asperities
     // [force length].
     virtual bool yields(int asperity, double u) const { return (void)asperity, (void)u, false; }
     virtual double residual_depth(int asperity) const { return (void)asperity, 0.0; }

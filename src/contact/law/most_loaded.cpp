@@ -282,7 +282,7 @@ std::vector<LoadedEllipse> ellipses_like(const HeightsAround& heights, double E_
     std::vector<LoadedEllipse> found;
     std::vector<double> missing;
     double top, zx, zy;
-    if (!heights.usable() || !heights.at(0, 0, top, zx, zy)) return found;
+    if (!heights.usable() || !heights.at(0, 0, top, zx, zy)) return {like.begin(), like.end()};
     Matrix inverse = first_inverse();
     Unknowns change{};  // from those alike, about the same for the next
     for (const LoadedEllipse& near : like) {
@@ -290,7 +290,9 @@ std::vector<LoadedEllipse> ellipses_like(const HeightsAround& heights, double E_
         Unknowns e;
         for (std::size_t l = 0; l < kUnknowns; ++l) e[l] = from[l] + change[l];
         Load load;
-        if (!climb(heights, E_star, top - ratio * near.u, e, inverse, load, 1e-7)) break;
+        if (!climb(heights, E_star, top - ratio * near.u, e, inverse, load, 1e-7) &&
+            !climb(heights, E_star, top - ratio * near.u, e = from, inverse, load, 1e-7))
+            return {like.begin(), like.end()};
         for (std::size_t l = 0; l < kUnknowns; ++l) change[l] = e[l] - from[l];
         missing.push_back(missing_share(heights, e, load.force / load.stiffness));
         found.push_back({ratio * near.u, load.force, load.stiffness, spot_of(e)});

@@ -46,7 +46,8 @@ struct LoadedEllipse {
 std::vector<LoadedEllipse> most_loaded_ellipses(const HeightsAround& heights, double E_star, double curvature, double ratio, double angle,
                                                 double widest);
 
-// The same, found from the ellipses `like` of the same summit under a tip close by, whose mean curvature was smaller by the factor `ratio`.
+// The same, found from the ellipses `like` of the same summit under a tip close by, whose mean curvature was smaller by the factor `ratio`:
+// one for each of them, or these themselves if one is not found.
 std::vector<LoadedEllipse> ellipses_like(const HeightsAround& heights, double E_star, double ratio, std::span<const LoadedEllipse> like);
 
 }  // namespace rsc

@@ -76,6 +76,7 @@ public:
     double area(int asperity, double u) const override { return elastic_->area(asperity, edge_of(asperity, u)); }
     double axes(int asperity) const override { return elastic_->axes(asperity); }
     bool beyond(int asperity, double u) const override { return elastic_->beyond(asperity, edge_of(asperity, u)); }
+    double first_loading(int asperity, double u) const override { return edge_of(asperity, u); }
     double residual_depth(int asperity) const override {
         const Summit* s = summit(asperity);
         return s ? s->nodes[0].release : 0.0;
