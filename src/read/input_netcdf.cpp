@@ -8,7 +8,6 @@
 #include "format.hpp"
 #include "read/formats.hpp"
 
-// NetCDF queries attributes that may be missing, and HDF5 prints each failure on stderr; NetCDF suppresses this in the first thread only.
 extern "C" int H5Eset_auto2(std::int64_t stack, int (*print)(std::int64_t, void*), void* data) __attribute__((weak));
 
 namespace rsc {
@@ -240,8 +239,12 @@ bool is_netcdf(const std::string& path) {
     return false;
 }
 
-NetcdfInput::NetcdfInput(const std::string& path) : alone_(library_lock()), path_(path) {
+void suppress_hdf5_messages() {
     if (H5Eset_auto2) H5Eset_auto2(0, nullptr, nullptr);
+}
+
+NetcdfInput::NetcdfInput(const std::string& path) : alone_(library_lock()), path_(path) {
+    suppress_hdf5_messages();
     require_sound(path);
     check_classic_length(path);  // the library reads zeros beyond the end of a classic file
     const int status = nc_open(path.c_str(), NC_NOWRITE, &id_);
