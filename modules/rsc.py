@@ -510,7 +510,8 @@ class Case(_Object):
             finally:
                 done.set()
 
-        threading.Thread(target=work).start()
+        with lock():  # NetCDF suppresses HDF5's messages in the first thread that uses it, the lock in this one, which may read the result
+            threading.Thread(target=work).start()
         try:
             while not done.wait(0.05):
                 if progress is not None and seen:

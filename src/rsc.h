@@ -179,7 +179,7 @@ RSC_API int32_t rsc_case_run_watched(const rsc_case* a_case, rsc_watch watch, vo
 
 /* Takes the lock under which rsc calls NetCDF, HDF5 and the planner of FFTW, for programs in which other threads call these libraries.
  * Waits until no other thread holds it. A thread that holds the lock may call rsc and take the lock again; it must release it as often as
- * it took it. Hold it as briefly as possible: other threads in rsc wait for it. */
+ * it took it. Hold it as briefly as possible: other threads in rsc wait for it. HDF5 prints no messages in this thread afterwards. */
 RSC_API int32_t rsc_lock(void);
 
 /* Releases the lock. Errors: RSC_NO_RESULT if this thread does not hold it. */

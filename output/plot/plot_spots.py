@@ -16,12 +16,12 @@ def heights(result, axis, window=None, bright=0.0, most=900):
         return None
     hx, hy = (result[next(n for n in found if n in result)] for found in (("height_x", "x"), ("height_y", "y")))
     window = window or (hx[0], hx[-1], hy[0], hy[-1])
-    i, j = np.flatnonzero((hx >= window[0]) & (hx <= window[1])), np.flatnonzero((hy >= window[2]) & (hy <= window[3]))
+    dx, dy = hx[1] - hx[0], hy[1] - hy[0]
+    i, j = np.flatnonzero((hx > window[0] - dx) & (hx < window[1] + dx)), np.flatnonzero((hy > window[2] - dy) & (hy < window[3] + dy))
     if i.size < 2 or j.size < 2:
         return None
     stride = max(1, max(i.size, j.size) // most)
     z = result.window("height", slice(j[0], j[-1] + 1, stride), slice(i[0], i[-1] + 1, stride))
-    dx, dy = hx[1] - hx[0], hy[1] - hy[0]
     low, high = float(np.nanmin(z)), float(np.nanmax(z))
     return axis.imshow(z, vmin=low - bright * (high - low), vmax=high, extent=[hx[i[0]] - dx / 2, hx[i[-1]] + dx / 2, hy[j[0]] - dy / 2, hy[j[-1]] + dy / 2], cmap="gray", interpolation="nearest")
 
@@ -95,7 +95,10 @@ def spots(results, options):
     page = Page(options, 2, aspect=0.86)
     pixels = pixels_of(result, step)
     most = pixels[1].max() if pixels else 1.0  # cells much larger than spots would be pale
-    near = half / 4 if pixels else min(max(14 * np.median(a), 4 * a[big]), half)
+    if pixels:  # at least some points around few ones
+        side = (pixels[0][1] - pixels[0][0]) / pixels[1].shape[1]
+        half = max(half, 6 * side)
+    near = max(half / 4, 4 * side) if pixels else min(max(14 * np.median(a), 4 * a[big]), half)
     rim = bool(pixels) and a[big] > near  # the inside of the largest would have one colour
     image = None
     for axis, centre, h in zip(page.axes, ((low + high) / 2, np.array([x[big] + rim * a[big], y[big]])), (half, near)):

@@ -311,7 +311,10 @@ int32_t rsc_contact_value(rsc_contact* contact, const char* name, double* value)
         require(value, 3, "value");
         const std::string_view asked = name;
         for (const Derived& quantity : kDerived)
-            if (quantity.name == asked) return put_finite(value, quantity.of(*contact));
+            if (quantity.name == asked) {
+                if (asked != "separation") (void)level_of(contact);
+                return put_finite(value, quantity.of(*contact));
+            }
         const rsc::LevelQuantity* quantity = rsc::find_quantity(asked);
         if (!quantity || of_map(asked)) refuse(2, "name", ("must be one of " + known_values()).c_str());
         put_finite(value, quantity->of(level));

@@ -1,5 +1,6 @@
 #include "api/guard.hpp"
 
+#include "read/input_netcdf.hpp"
 #include "rough/asperities.hpp"
 #include "rough/library_lock.hpp"
 #include "version.h"
@@ -84,7 +85,10 @@ int32_t rsc_version(char* buffer, int64_t size, int64_t* length) {
 }
 
 int32_t rsc_lock(void) {
-    return guarded(0, [] { rsc::library_lock().lock(); });
+    return guarded(0, [] {
+        rsc::library_lock().lock();
+        rsc::suppress_hdf5_messages();
+    });
 }
 
 int32_t rsc_unlock(void) {

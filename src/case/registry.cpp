@@ -200,8 +200,9 @@ std::vector<Key> make_registry() {
                "shape = 'punch': radius of the rounded rim around the flat end; 0: sharp"),
         text(
             RSC_KEY(indenter, file), 4096,
-            "shape = 'map': file with the heights of body 2, upwards positive, as for surface%file; its centre lies at indentation%centre, and "
-            "surface%detrend, missing, outliers, filter_cutoff, height_unit and pixel apply to it, too"),
+            "shape = 'map': file with the heights of body 2, positive towards body 1, at the x and y of body 1 (those of a body that is measured and "
+            "then turned over are mirrored: not done here); its centre lies at indentation%centre, and surface%detrend, missing, outliers, "
+            "filter_cutoff, height_unit and pixel apply to it, too"),
         text(RSC_KEY(indenter, channel), 1024, "shape = 'map': channel or variable of that file, as surface%channel"),
 
         choice(

@@ -206,6 +206,8 @@ Level Contact::solve_between_planes(double Z0) {
         begin, -kInfinity, Z0, most, [&](double z, bool passing) { return passing ? pass(z) : solve(z); },
         [&](const Level& passed) { return settle(passed); }, judge, reach, stuck);
     if (stuck) level.status = LevelStatus::not_converged;
+    // Without a solution the search goes on to forces without bounds: a level far from Z0 is no state of it.
+    if (level.status == LevelStatus::not_converged) level.residual = std::max(level.residual, std::abs(miss) / (first_touch() - Z0));
     level.separation = Z0;
     return level;
 }

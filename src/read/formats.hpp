@@ -26,6 +26,7 @@ struct TextTable {
     std::size_t rows = 0, columns = 0;
     std::vector<double> values;
     std::vector<long> line;
+    std::string unit;  // in a comment `# Value units: m`, as Gwyddion writes it
 };
 
 // Numbers in columns from a text file, separated by blanks or tabs, by a comma, or by a semicolon (adjacent blanks are ignored); the

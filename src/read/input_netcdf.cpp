@@ -8,7 +8,6 @@
 #include "format.hpp"
 #include "read/formats.hpp"
 
-// NetCDF queries attributes that may be missing, and HDF5 prints each failure on stderr; NetCDF suppresses this in the first thread only.
 extern "C" int H5Eset_auto2(std::int64_t stack, int (*print)(std::int64_t, void*), void* data) __attribute__((weak));
 
 namespace rsc {
@@ -240,8 +239,12 @@ bool is_netcdf(const std::string& path) {
     return false;
 }
 
-NetcdfInput::NetcdfInput(const std::string& path) : alone_(library_lock()), path_(path) {
+void suppress_hdf5_messages() {
     if (H5Eset_auto2) H5Eset_auto2(0, nullptr, nullptr);
+}
+
+NetcdfInput::NetcdfInput(const std::string& path) : alone_(library_lock()), path_(path) {
+    suppress_hdf5_messages();
     require_sound(path);
     check_classic_length(path);  // the library reads zeros beyond the end of a classic file
     const int status = nc_open(path.c_str(), NC_NOWRITE, &id_);
@@ -342,16 +345,27 @@ void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) con
         return values->front();
     };
     const double scale = factor("scale_factor", 1.0), offset = factor("add_offset", 0.0);
+    // A value of the variable's type; the classic formats mark unsigned integers by an attribute.
+    const bool is_unsigned = v.type <= NC_INT && text_attribute(v, "_Unsigned").value_or("") == "true";
+    const double wrap = v.type == NC_BYTE ? 0x1p8 : v.type == NC_SHORT ? 0x1p16 : 0x1p32;
+    const auto typed = [&](double value) {
+        return is_unsigned && value < 0 ? value + wrap : v.type == NC_FLOAT ? static_cast<double>(static_cast<float>(value)) : value;
+    };
+    for (double& value : missing) value = typed(value);
+    constexpr double all = std::numeric_limits<double>::infinity();
+    double least = typed(factor("valid_min", -all)), most = typed(factor("valid_max", all));
+    if (const auto range = numbers_attribute(v, "valid_range"); range && range->size() == 2)
+        least = typed((*range)[0]), most = typed((*range)[1]);
     for (std::size_t i = 0; i < v.count(); ++i) {
-        const double stored = out[i];
-        const bool filled = std::find(missing.begin(), missing.end(), stored) != missing.end();
+        const double stored = typed(out[i]);
+        const bool filled = std::find(missing.begin(), missing.end(), stored) != missing.end() || stored < least || stored > most;
         if (missing_allowed && (std::isnan(stored) || filled)) {
             out[i] = std::nan("");
             continue;
         }
         if (filled)
-            bad_input(path_ + ": " + indices(v, i) + " is missing (it has the fill value " + text_of(stored) +
-                      "); every value must be known");
+            bad_input(path_ + ": " + indices(v, i) + " is missing (" + text_of(stored) +
+                      " is a fill value or not valid); every value must be known");
         out[i] = stored * scale + offset;
         if (!std::isfinite(out[i])) bad_input(path_ + ": " + indices(v, i) + " is not finite; every value must be known");
     }

@@ -27,6 +27,10 @@ void check_classic_length(const std::string& path);
 // Error(no_memory): "not enough memory PURPOSE (some 34 MB)REMEDY".
 void require_memory(double bytes, const std::string& purpose, const char* remedy = "");
 
+// NetCDF queries attributes that may be missing, and HDF5 prints each failure on stderr. NetCDF suppresses this in the first thread only, this
+// function in the calling one.
+void suppress_hdf5_messages();
+
 // A NetCDF file open for reading; errors name the file and the variable. Holds library_lock() during its lifetime, because the library
 // is not thread-safe.
 class NetcdfInput {

@@ -112,6 +112,8 @@ TextTable read_table(const std::string& path, std::size_t columns, bool missing)
         if (line == 1 && (view.substr(0, 2) == "\xff\xfe" || view.substr(0, 2) == "\xfe\xff"))
             bad_input(path + ": is text in UTF-16; save it as UTF-8 or plain ASCII");
         if (view.find('\0') != std::string_view::npos) refuse(path, line, "neither text nor a NetCDF file (there is a zero byte)");
+        constexpr std::string_view told = "# Value units: ";
+        if (view.starts_with(told)) table.unit = view.substr(told.size(), view.find('\r') - told.size());
         const std::size_t count = parse(view, path, line, style, missing, table.values);
         if (count == 0) continue;
         if (table.columns == 0) table.columns = count;

@@ -115,8 +115,7 @@ HeightMap read_text_triples(const std::string& path, const TextTable& table, std
     return map;
 }
 
-HeightMap read_text_points(const std::string& path, std::optional<double> L, bool missing, const TextMap& text) {
-    const TextTable table = read_table(path, 0, missing);
+HeightMap read_text_points(const std::string& path, const TextTable& table, std::optional<double> L, bool missing, const TextMap& text) {
     if (table.columns == 3) return read_text_triples(path, table, L, missing, text);
     if (table.columns == 4) bad_input(path + ": four columns are a list of asperities x y z r (surface%source='asperities'), not a map");
     if (!L && !text.pixel)
@@ -132,7 +131,10 @@ HeightMap read_text_points(const std::string& path, std::optional<double> L, boo
 
 HeightMap read_text_heights(const std::string& path, std::optional<double> L, bool missing, const TextMap& text,
                             const std::string& length_unit) {
-    HeightMap map = read_text_points(path, L, missing, text);
+    const TextTable table = read_table(path, 0, missing);
+    HeightMap map = read_text_points(path, table, L, missing, text);
+    if (text.height_unit.empty() && !table.unit.empty() && table.unit != length_unit)
+        bad_input(path + ": its heights are in '" + table.unit + "', says a comment; surface%height_unit must be given");
     if (!text.height_unit.empty()) scale_heights(map, length_factor(text.height_unit, length_unit, 1));
     return map;
 }
@@ -217,6 +219,8 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L, 
     const NetcdfInput file(path);
     const auto variable = find_heights(file, channel);
     check_grid(path, variable.lengths[1], variable.lengths[0]);
+    if (variable.axes[0] == "x" && variable.axes[1] == "y")
+        bad_input(path + ": " + variable.shape() + " has y running fastest; (y, x) was expected (ncpdq -a y,x makes it so)");
     const auto x = read_axis(file, variable, 1), y = read_axis(file, variable, 0);
     if (x.has_value() != y.has_value())
         bad_input(path + ": " + variable.shape() + " has a coordinate variable for only one dimension; both or none were expected");

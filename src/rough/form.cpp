@@ -37,7 +37,7 @@ struct Normal {
                 double sum = a[j][i];
                 for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
                 if (i == j && !(sum > kSingular * a[j][j]))
-                    refuse("the points of the map do not determine a" + std::string(form) + ": too few of them, or all on one line");
+                    refuse("the points of the map do not determine a " + std::string(form) + ": too few of them, or all on one line");
                 l[i][j] = i == j ? std::sqrt(sum) : sum / l[j][j];
             }
         for (int i = 0; i < kUnknowns; ++i) {

@@ -113,8 +113,9 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
                           "that is beyond the asperity model; use model = 'elements'.");
     tell(count([&](const LevelValues& l) { return failed(l) && !lost(l); }),
          status_text(LevelStatus::not_converged) + " - the residual is above solver%tolerance: do not use these values; " +
-             (!elements && !job.settings.solids.layer_thickness.empty()
-                  ? "with contacts wider than the top layer the asperity model may have no solution: use solver%model = 'elements'."
+             (!elements && (!job.settings.solids.layer_thickness.empty() || job.settings.indentation.boundary == Boundary::periodic)
+                  ? "with contacts wider than the top layer, or between flats pressed deep, the asperity model may have no solution: use "
+                    "solver%model = 'elements'."
                   : "raise solver%max_iterations or the tolerance."));
 }
 

@@ -196,6 +196,9 @@ class Maps(Program):
         r = self.heights("height_unit = 'nm' pixel = 0.02 window = 0.1, 0.5, 0.19, 0.7")
         np.testing.assert_allclose(r["height"], self.z[10:36, 5:26], rtol=1e-12)
         np.testing.assert_allclose([r["height_x"][0], r["height_y"][0]], [0.1, 0.2], rtol=1e-12)
+        # Points on the border of the window belong to it: 0.14/0.02 is above 7, 0.58/0.02 below 29.
+        r = self.heights("height_unit = 'nm' pixel = 0.02 window = 0.14, 0.58, 0.14, 0.58")
+        np.testing.assert_allclose(r["height"], self.z[7:30, 7:30], rtol=1e-12)
         self.assertIn("window", self.run_case(self.CASE.format(keys="height_unit = 'nm' pixel = 0.02 window = 5, 6, 5, 6", level=1e-3), status=2))
 
     def test_outliers(self):

@@ -51,10 +51,10 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             for command in commands(language, program, folder):
                 done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-                # An example shows something: it prints, and nothing that is no number.
+                # An example shows something: it prints, nothing that is no number, and no messages of HDF5.
                 shown = done.stdout.strip() or command[0] != command[-1] and language != "python"
                 made = len(os.listdir(folder)) > 1
-                if done.returncode != 0 or not (shown or made) or re.search(r"\bnan\b", done.stdout, re.I):
+                if done.returncode != 0 or not (shown or made) or re.search(r"\bnan\b", done.stdout, re.I) or "HDF5" in done.stderr:
                     print(f"line {number}, {language}: status {done.returncode}\n{done.stdout}{done.stderr}")
                     failed += 1
                     break

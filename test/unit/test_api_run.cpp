@@ -178,9 +178,16 @@ TEST(api_run) {
     for (const double status : Reader(folder / "unfinished.nc").values("status")) with_4 += status == 4;
     CHECK(failed > 0 && failed == with_4);
     // Flats pressed deeper than asperities bear: no state, and no numbers of one.
-    const Made deep(
+    const std::string flat =
         "&surface n=64 L_lambda_l=2 L_lambda_s=8 sigma=0.02 / &solids R=Infinity,Infinity / &compare levels='none' / "
-        "&indentation boundary='periodic' levels=1,-3 /");
+        "&indentation boundary='periodic' levels=1,-3 /";
+    const Made deep(flat.c_str());
+    for (const char* hardness : {"3e4", "6e4"}) {  // there the iteration goes on without bounds
+        const CaseHandle hard = case_of(flat.c_str());
+        OK(rsc_case_set(hard, "solids%hardness", hardness));
+        CHECK(run_to(folder / "deep.nc", hard, &failed) == RSC_NOT_CONVERGED);
+        CHECK(Reader(folder / "deep.nc").values("force")[1] == NC_FILL_DOUBLE);
+    }
     CHECK(run_to(folder / "deep.nc", deep.c, &failed) == RSC_NOT_CONVERGED && failed == 1);
     const Reader deep_file(folder / "deep.nc");
     const Values forces = deep_file.values("force");
@@ -190,6 +197,8 @@ TEST(api_run) {
     std::int32_t level = 0;
     CHECK(rsc_contact_indent(flats, -0.06, nullptr) == RSC_NOT_CONVERGED);
     CHECK(rsc_contact_result(flats, nullptr, &force, &area, nullptr) == RSC_NO_RESULT && force == 0 && area == 0);
+    for (const char* name : {"force", "energy", "stiffness", "lateral_force_x", "moment_y"})
+        CHECK(rsc_contact_value(flats, name, &force) == RSC_NO_RESULT && force == 0);
     CHECK(says("no state") && rsc_contact_spots(flats, 0, nullptr, nullptr, nullptr, nullptr) == RSC_NO_RESULT);
     CHECK(rsc_contact_level(flats, &level, nullptr, nullptr, nullptr, nullptr) == RSC_SUCCESS && level == RSC_LEVEL_NOT_CONVERGED);
     // Contacts that the border cuts off: campaigns, which solve no second grid, give at least the change to a grid of half the step.

@@ -18,6 +18,8 @@ std::string netcdf(const std::string& name, const Dimensions& dimensions, const 
     return netcdf_file::write(folder / name, dimensions, variables);
 }
 
+using Values = std::vector<double>;
+
 // height(y = 3, x = 4): 10 row + column.
 std::vector<double> heights() {
     std::vector<double> z;
@@ -90,6 +92,21 @@ TEST(types) {
         CHECK(std::isnan(m(2, 1)) == !own && std::isnan(m(3, 1)) == own && m(0, 1) == 30);
         CHECK(std::isnan(m(0, 2)) == false && m(0, 2) == 60);
     }
+    // Values marked in another type, or by their range, and unsigned ones of the classic formats, of which 65535 is marked.
+    for (const auto& [name, numbers] :
+         {std::pair{"missing_value", Values{0.1}}, {"valid_max", {30}}, {"valid_range", {-9, 30}}, {"valid_min", {1}}}) {
+        Values z = heights();
+        z[6] = numbers == Values{1} ? 0.5 : numbers.back() + (numbers.back() > 1 ? 10 : 0);
+        const HeightMap m = read_heights(netcdf("t.nc", {{"y", 3}, {"x", 4}}, {{"height", NC_FLOAT, {"y", "x"}, z, {}, {{name, numbers}}}}),
+                                         2.0, "mm", "", Missing::fill);
+        CHECK(std::isnan(m(2, 1)) && m(1, 1) == 11 && m(3, 2) == 23);
+    }
+    Values z = heights();
+    z[5] = -25536, z[6] = -1;
+    const HeightMap u = read_heights(
+        netcdf("t.nc", {{"y", 3}, {"x", 4}}, {{"height", NC_SHORT, {"y", "x"}, z, {{"_Unsigned", "true"}}, {{"_FillValue", {-1}}}}}), 2.0,
+        "mm", "", Missing::fill);
+    CHECK(u(1, 1) == 40000 && std::isnan(u(2, 1)) && u(3, 2) == 23);
     // Coordinates in single precision are as uniform as that allows, no less.
     for (const auto& [off, even] : {std::pair{0.0, true}, {1e-5, true}, {1e-3, false}}) {
         std::vector<double> x = counted(4, 100, 0.1);

@@ -54,6 +54,8 @@ TEST(bad_heights_from_netcdf) {
             "there is no variable height(y, x), and");
     REFUSED(read_heights(of({{"t", 2}, {"y", 4}, {"x", 4}}, {{"height", NC_DOUBLE, {"t", "y", "x"}}}), 1.0),
             ": height(y, x), numeric, was expected, not height(t = 2, y = 4, x = 4)");
+    REFUSED(read_heights(of({{"x", 4}, {"y", 4}}, {{"height", NC_DOUBLE, {"x", "y"}}}), 1.0),
+            "height(x = 4, y = 4) has y running fastest;");
     REFUSED(read_heights(of({{"y", 4}, {"x", 4}}, {{"height", NC_DOUBLE, {"y", "x"}, counted(16, 0, 1), {{"scale_factor", "2"}}}}), 1.0),
             "attribute height:scale_factor is text; a number was expected");
     REFUSED(read_asperities(of({{"y", 4}, {"x", 4}}, {{"asperity_x", NC_DOUBLE, {"y", "x"}, counted(16, 0, 1)}})),
@@ -94,6 +96,10 @@ TEST(heights_from_text) {
                 folder / "t" + "' makes one that rsc reads");
     REFUSED(read_heights(write("t", std::string("\xff\xfe") + "1"), 1.0), "t: is text in UTF-16; save it as UTF-8 or plain ASCII");
     REFUSED(read_heights(write("t", "1 2 3 1\n4 5 6 1\n7 8 9 1\n"), 1.0), "four columns are a list of asperities x y z");
+    // The header of Gwyddion's text exports: the unit of the heights.
+    const std::string told = write("t", "# Channel: Height\r\n# Width: 5 mm\r\n# Value units: m\r\n1 2 3 4 5\n1 2 3 4 5\n1 2 3 4 5\n");
+    REFUSED(read_heights(told, 5.0), "t: its heights are in 'm', says a comment; surface%height_unit must be given");
+    CHECK(read_heights(told, 5.0, "m")(1, 2) == 2 && read_heights(told, 5.0, "mm", "", Missing::refuse, {"m", {}})(1, 2) == 2000);
     REFUSED(read_heights((folder / "absent"), 1.0), "absent: No such file or directory");
     REFUSED(read_heights(folder.path.string(), 1.0), ": is a directory, not a file");
     REFUSED(read_heights(write("t.nc", "1 2 3\n4 5 x\n"), 1.0), "t.nc:2: 'x'");  // by content, not by name
