@@ -171,15 +171,19 @@ class _Object:
     def __init__(self):
         raise TypeError(f"rsc.{type(self).__name__}: use one of its class methods")
 
+    def _create(self, function, *arguments):
+        self._handle, self._lock = ctypes.c_void_p(), _Lock()
+        _call(function, ctypes.byref(self._handle), *arguments)
+
     @classmethod
     def _make(cls, function, *arguments):
         self = cls.__new__(cls)
-        self._handle, self._lock = ctypes.c_void_p(), _Lock()
-        _call(function, ctypes.byref(self._handle), *arguments)
+        self._create(function, *arguments)
         return self
 
     def copy(self):
-        """An independent copy of this object, for example for another thread. Raises Error (no memory), ValueError (closed)."""
+        """An independent copy of this object, that of a contact with its last level, path and committed state. Raises Error (no memory),
+        ValueError (closed)."""
         return type(self)._make(f"rsc_{self._kind}_copy", self)
 
     def close(self):
@@ -432,11 +436,9 @@ class Case(_Object):
 
     def __init__(self, source=None):
         if isinstance(source, Case):
-            self._handle, self._lock = ctypes.c_void_p(), _Lock()
-            _call("rsc_case_copy", ctypes.byref(self._handle), source)
+            self._create("rsc_case_copy", source)
             return
-        self._handle, self._lock = ctypes.c_void_p(), _Lock()
-        _call("rsc_case_create", ctypes.byref(self._handle))
+        self._create("rsc_case_create")
         if isinstance(source, str):
             self.read(source)
         elif source is not None:
@@ -641,8 +643,7 @@ class Contact(_Object):
     _kind = "contact"
 
     def __init__(self, asperities, E_star, R, x0=0.0, y0=0.0, case=None):
-        self._handle, self._lock = ctypes.c_void_p(), _Lock()
-        _call("rsc_contact_create", ctypes.byref(self._handle), _given("asperities", asperities), E_star, R, x0, y0, case)
+        self._create("rsc_contact_create", _given("asperities", asperities), E_star, R, x0, y0, case)
 
     @classmethod
     def from_case(cls, asperities, case=None):
@@ -655,11 +656,6 @@ class Contact(_Object):
         'fourth_order' on a surface, the summits of the difference between surface and indenter for the present position of the tip. Raises
         ArgumentError for a contact of elements, ValueError (closed)."""
         return Asperities._make("rsc_contact_asperities", self)
-
-    def copy(self):
-        """An independent copy of this contact, with its last level, its path and its committed state. Raises Error (no memory), ValueError
-        (closed)."""
-        return super().copy()
 
     def indent(self, separation, time=None):
         """Computes the contact at a separation and returns the force [force]. The result depends on the separation and the tip only, unless
@@ -819,8 +815,7 @@ class Friction(_Object):
     _kind = "friction"
 
     def __init__(self, contact, mu, ratio):
-        self._handle, self._lock = ctypes.c_void_p(), _Lock()
-        _call("rsc_friction_create", ctypes.byref(self._handle), _given("contact", contact), mu, ratio)
+        self._create("rsc_friction_create", _given("contact", contact), mu, ratio)
 
     @classmethod
     def from_case(cls, contact, case=None):

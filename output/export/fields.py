@@ -20,23 +20,16 @@ if __name__ == "__main__":
 
     needs("numpy", "netCDF4", *(["matplotlib"] if "png" in sys.argv[1:] or "--format=png" in sys.argv[1:] else []))
 
-import netCDF4
 import numpy as np
+
+from table import Refused, open_result
 
 NAMES = {"field_pressure": "pressure", "field_gap": "gap", "field_contact": "contact", "field_height": "height"}
 
 
-class Refused(Exception):
-    """The file has no fields, as stated in the message."""
-
-
 def read(path):
     """(x, y, {number of the level: {name: (values [y][x], unit)}}, unit of length)"""
-    try:
-        file = netCDF4.Dataset(path)
-    except OSError as error:
-        raise Refused(f"cannot read {path!r}: {error.strerror or error}") from None
-    with file:
+    with open_result(path) as file:
         if "field_step" not in file.variables:
             raise Refused(f"{path!r} has no fields; a case with &output fields = 'pressure', 'gap' writes them")
         at = lambda name, k: np.ma.filled(file[name][k].astype(float), np.nan) if "field_step" in file[name].dimensions else file[name][:]

@@ -22,14 +22,9 @@ if __name__ == "__main__":
 
     needs("numpy", "netCDF4")
 
-import netCDF4
 import numpy as np
 
-from table import GRAVITY, NOT_CONVERGED
-
-
-class Refused(Exception):
-    """The file has no law, for the reason in the message."""
+from table import GRAVITY, NOT_CONVERGED, Refused, open_result
 
 
 class Law:
@@ -37,11 +32,7 @@ class Law:
     separation where the approach is 0; numbers of excluded levels."""
 
     def __init__(self, path):
-        try:
-            file = netCDF4.Dataset(path)
-        except OSError as error:
-            raise Refused(f"cannot read {path!r}: {error.strerror or error}") from None
-        with file:
+        with open_result(path) as file:
             self.path, self.title, self.source = path, getattr(file, "title", ""), getattr(file, "source", "")
             variables = file.variables
             for name in ("separation", "force", "status"):

@@ -32,7 +32,7 @@ EXPECTED = {"force": "force_error_expected", "contact_area": "area_error_expecte
 
 
 class Refused(Exception):
-    """There is no such table, for the reason in the message."""
+    """The file does not have what is asked for, for the reason in the message."""
 
 
 class Table:
@@ -40,7 +40,7 @@ class Table:
 
     def __init__(self, path):
         self.path = path
-        with _open(path) as file:
+        with open_result(path) as file:
             variables = file.variables
             if "force" not in variables or "status" not in variables:
                 raise Refused(f"{path!r} is no result of indentation: it lacks the variable 'force' or 'status'")
@@ -115,7 +115,7 @@ class Table:
         return columns, np.where(share == 0, status[:, 0], np.where(share == 1, status[:, 1], graver))
 
 
-def _open(path):
+def open_result(path):
     try:
         return netCDF4.Dataset(path)
     except OSError as error:
@@ -133,7 +133,7 @@ def _mean(values):
 
 def members(path):
     """[(path, {key: value as text})] of a manifest of a study; None for another file."""
-    with _open(path) as file:
+    with open_result(path) as file:
         if "member" not in file.dimensions or "file" not in file.variables:
             return None
         texts = lambda variable: [str(t).strip("\0 ") for t in np.atleast_1d(netCDF4.chartostring(variable[:]))]

@@ -15,16 +15,15 @@ struct Halves {
 };
 
 RSC_ALWAYS_INLINE void add_series_body(const double (*centre)[kHalf], int derivatives, const double* power, int orders, Halves& halves) {
-    for (int o = 0; o < orders; ++o) {
-        const int p = Stencil::kOrder[o];
+    for (int p = 0; p < orders; ++p) {
         double even[kHalf] = {}, odd[kHalf] = {};
         for (int q = (p + 1) / 2 * 2; q < derivatives; q += 2)
             for (int i = 0; i < kHalf; ++i) even[i] += power[q - p] * centre[q][i];
         for (int q = p / 2 * 2 + 1; q < derivatives; q += 2)
             for (int i = 0; i < kHalf; ++i) odd[i] += power[q - p] * centre[q][i];
         for (int i = 0; i < kHalf; ++i) {
-            halves.part[0][o][i] = even[i] + odd[i];
-            halves.part[1][o][i] = even[i] - odd[i];
+            halves.part[0][p][i] = even[i] + odd[i];
+            halves.part[1][p][i] = even[i] - odd[i];
         }
     }
 }

@@ -10,8 +10,7 @@ public:
     static constexpr int kMostReach = 15;
     static constexpr int kHalf = kMostReach + 1;      // weights W_q of the points 0 ... reach, padded with zeros
     static constexpr int kTaps = 2 * kMostReach + 2;  // weights of the points -reach ... reach, padded with zeros
-    static constexpr int kOrders = 5;
-    static constexpr int kOrder[kOrders] = {0, 1, 2, 3, 4};  // derivatives available from weights()
+    static constexpr int kOrders = 5;                 // derivatives 0 ... 4 are available from weights()
 
     // For lines without waves shorter than `points_per_wave` >= 4 steps: least-squares error over that band, weighted by the spectrum of a
     // self-affine surface. The reach is the shortest for which the relative rms error of the fourth derivative is below 1e-8; lower
@@ -24,7 +23,7 @@ public:
     int reach() const { return reach_; }
     bool band_known() const { return band_known_; }  // made by band_limited(), which is exact between points up to its error
 
-    // weight[o][reach + i] of point i for derivative kOrder[o] at t, |t| <= 1/2, o < orders; zero after i = reach.
+    // weight[o][reach + i] of point i for derivative o at t, |t| <= 1/2, o < orders; zero after i = reach.
     void weights(double t, int orders, double (*weight)[kTaps]) const;
 
 private:

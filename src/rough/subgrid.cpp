@@ -9,7 +9,7 @@ constexpr int kTaps = Stencil::kTaps;
 constexpr int kOrders = Stencil::kOrders;
 constexpr int kLanes = 8;  // partial sums, fixed so that a sum has the same bits on every machine
 
-// derivative[p][q]: orders p in x and q in y (indices into Stencil::kOrder) from a square of `points` x `points` heights at `corner`.
+// derivative[p][q]: orders p in x and q in y from a square of `points` x `points` heights at `corner`.
 RSC_ALWAYS_INLINE void contract_body(const double* corner, int points, int orders, const double (*wx)[kTaps], const double (*wy)[kTaps],
                                      double (*derivative)[kOrders]) {
     for (int q = 0; q < orders; ++q) {
