@@ -83,6 +83,20 @@ TEST(all_touching) {
         CHECK(missed > 0);
     }
 
+    // The summits of law 'hertz' are grid points below the tops between them: where only these touch, N = 0 is no promise.
+    for (const bool flat : {false, true}) {
+        Case c = polished(1e-3, "asperities");
+        c.surface.n = 128;  // four points in the shortest wave
+        if (flat) c.solids.R[1] = std::numeric_limits<double>::infinity(), c.indentation.boundary = Boundary::periodic;
+        c.asperities.law = LawKind::elliptic;
+        const SurfaceModel between = make_surface_model(c, 1, 1);
+        const double top = make_contact(between, indenter_of(c, between.domain), solver_of(c, between.domain))->first_touch();
+        c.asperities.law = LawKind::hertz;
+        const SurfaceModel points = make_surface_model(c, 1, 1);
+        CHECK(at(c, points, top - 1e-6).force == 0 && at(c, points, top - 1e-6).status == LevelStatus::out_of_validity);
+        CHECK(at(c, points, top + 1e-3).status == LevelStatus::converged);
+    }
+
     // The tip of a cone and the edge of a punch press between summits: a level that is told as converged has N within its expected error, or a
     // little more, which is exceeded in one of ten cases. Where a blunt cone rests on many summits it stays converged.
     for (const char* name : {"cone", "punch"}) {
