@@ -48,7 +48,8 @@ std::vector<std::size_t> wholes_of(const std::vector<Spot>& spots, const Level& 
 
 // Largest Z0 at which the flank of a summit touches the indenter: with the slope s of the indenter and the summit's curvatures H, at the place
 // H^-1 s beside it, or if the tip is nearer, there. `heights` (optional) are those of the surface at and around the places of the flanks that
-// are highest as paraboloids, and under a tip below which no summit need lie; without them the touch is that of the paraboloids.
+// are highest as paraboloids, and under a tip below which no summit need lie; without them the touch is that of the paraboloids. Summits that
+// are grid points lie below their tops, which are within half a step in both directions.
 double beside(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options) {
     constexpr std::size_t kMost = 40;
     struct Flank {
@@ -56,6 +57,8 @@ double beside(const Asperities& asperities, const Indenter& indenter, const Solv
         Vec2 summit, way;
     };
     std::vector<Flank> flanks;
+    const double below_top = traits(options.law).between_points ? 0.0 : 0.125 * options.grid_step * options.grid_step;
+    double highest = -std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < asperities.size(); ++i) {
         const Vec2 place = indenter.image(asperities.x[i], asperities.y[i]), d = indenter.from_tip(asperities.x[i], asperities.y[i]);
         const Vec2 slope = indenter.shape->gradient(d.x, d.y);
@@ -66,13 +69,15 @@ double beside(const Asperities& asperities, const Indenter& indenter, const Solv
         const double v = across * (round ? asperities.radius[i] : 1 / asperities.kappa1[i]);
         const double way = std::hypot(u, v), part = way > 0 ? std::min(std::hypot(d.x, d.y) / way, 1.0) : 0.0;
         const double nearer = (part - 0.5 * part * part) * (along * u + across * v);
-        const double touch = indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) + nearer;
+        const double bend = round ? 2 / asperities.radius[i] : asperities.kappa1[i] + asperities.kappa2[i];
+        const double clear = indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]), touch = clear + nearer;
+        highest = std::max(highest, clear + below_top * bend);
         if (!std::isfinite(touch)) continue;  // beside the indenter
         flanks.push_back({touch, place, {-part * (u * c - v * s), -part * (u * s + v * c)}});
     }
     std::partial_sort(flanks.begin(), flanks.begin() + static_cast<std::ptrdiff_t>(std::min(flanks.size(), kMost)), flanks.end(),
                       [](const Flank& a, const Flank& b) { return a.touch > b.touch; });
-    if (!options.heights || indenter.shape->flat()) return flanks.empty() ? -std::numeric_limits<double>::infinity() : flanks[0].touch;
+    if (!options.heights || indenter.shape->flat()) return flanks.empty() ? highest : std::max(highest, flanks[0].touch);
     flanks.resize(std::min(flanks.size(), kMost));
     std::vector<Vec2> places;
     constexpr int kRings = 8, kAround = 12;
@@ -83,7 +88,6 @@ double beside(const Asperities& asperities, const Indenter& indenter, const Solv
     }
     for (const Flank& f : flanks)
         for (const double part : {0.6, 1.0, 1.4}) places.push_back({f.summit.x + part * f.way.x, f.summit.y + part * f.way.y});
-    double highest = -std::numeric_limits<double>::infinity();
     Vec2 best{};
     const auto look = [&](std::vector<Vec2> at) {
         std::sort(at.begin(), at.end(), [](const Vec2& a, const Vec2& b) { return a.y < b.y; });  // rows are made one after the other

@@ -213,17 +213,21 @@ double SummitClimber::difference(int i, int j, int di, int dj) const {
     return above_ ? z - above_->at(place_.x0 + (i + di) * place_.dx, y0_ + (j + dj) * place_.dy).height : z;
 }
 
-// Typical second difference around the middle of the patch: the sum of the medians along x and along y. Pits, grooves and steps affect a
-// minority of the points and do not change it.
-double SummitClimber::usual_bend() const {
-    constexpr int reach = 3, points = (2 * reach + 1) * (2 * reach + 1), m = Patch::kMargin;
-    double along_x[points], along_y[points];
+// Typical second difference, without the face of the body above, around the middle (i, j) of the patch: the sum of the medians along x and
+// along y. Pits, grooves and steps affect a minority of the points and do not change it.
+double SummitClimber::usual_bend(int i, int j) const {
+    constexpr int reach = 3, around = reach + 1, side = 2 * around + 1, points = (2 * reach + 1) * (2 * reach + 1), m = Patch::kMargin;
+    double along_x[points], along_y[points], z[side][side];
+    for (int l = 0; l < side; ++l) {
+        double face[side] = {};
+        if (above_) above_->row(side, place_.x0 + (i - around) * place_.dx, place_.dx, y0_ + (j + l - around) * place_.dy, face);
+        for (int k = 0; k < side; ++k) z[l][k] = patch_.z[m + l - around][m + k - around] - (std::isfinite(face[k]) ? face[k] : 0);
+    }
     int n = 0;
-    for (int dj = -reach; dj <= reach; ++dj)
-        for (int di = -reach; di <= reach; ++di, ++n) {
-            const auto z = [&](int i, int j) { return patch_.z[m + j][m + i]; };
-            along_x[n] = std::abs(z(di - 1, dj) - 2 * z(di, dj) + z(di + 1, dj));
-            along_y[n] = std::abs(z(di, dj - 1) - 2 * z(di, dj) + z(di, dj + 1));
+    for (int l = 1; l + 1 < side; ++l)
+        for (int k = 1; k + 1 < side; ++k, ++n) {
+            along_x[n] = std::abs(z[l][k - 1] - 2 * z[l][k] + z[l][k + 1]);
+            along_y[n] = std::abs(z[l - 1][k] - 2 * z[l][k] + z[l + 1][k]);
         }
     std::nth_element(along_x, along_x + points / 2, along_x + points);
     std::nth_element(along_y, along_y + points / 2, along_y + points);
@@ -277,7 +281,7 @@ std::optional<RefinedSummit> SummitClimber::summit_from(int i, int j, bool maxim
         return refine(longest, patch_, travel, less);
     }
     cut_out(i, j, row);
-    const double bend = usual_bend();
+    const double bend = usual_bend(i, j);
     bool broken = clear == 0;
     for (int reach = clear; reach > 0; --reach) {
         keep_within(i, j, reach);

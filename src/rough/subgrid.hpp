@@ -79,7 +79,7 @@ private:
     const double* difference_row(int j, const double* z);
     double difference(int i, int j, int di, int dj) const;
     bool smooth_around(int i, int j, const RefinedSummit& summit, double bend) const;
-    double usual_bend() const;
+    double usual_bend(int i, int j) const;
     RefinedSummit of_grid(int i, int j, double bend, bool& broken) const;
     double append_biharmonic(const RefinedSummit& s, double lowered, Asperities& a) const;
 

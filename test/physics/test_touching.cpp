@@ -6,6 +6,7 @@
 #include "contact/element_contact.hpp"
 #include "contact/indenter/shapes.hpp"
 #include "contact/touching.hpp"
+#include "height_maps.hpp"
 #include "rough/defects.hpp"
 #include "rough/detection.hpp"
 #include "rough/synthesis.hpp"
@@ -80,6 +81,20 @@ TEST(all_touching) {
             CHECK(Z < 4 || model.status == LevelStatus::converged);
         }
         CHECK(missed > 0);
+    }
+
+    // The summits of law 'hertz' are grid points below the tops between them: where only these touch, N = 0 is no promise.
+    for (const bool flat : {false, true}) {
+        Case c = polished(1e-3, "asperities");
+        c.surface.n = 128;  // four points in the shortest wave
+        if (flat) c.solids.R[1] = std::numeric_limits<double>::infinity(), c.indentation.boundary = Boundary::periodic;
+        c.asperities.law = LawKind::elliptic;
+        const SurfaceModel between = make_surface_model(c, 1, 1);
+        const double top = make_contact(between, indenter_of(c, between.domain), solver_of(c, between.domain))->first_touch();
+        c.asperities.law = LawKind::hertz;
+        const SurfaceModel points = make_surface_model(c, 1, 1);
+        CHECK(at(c, points, top - 1e-6).force == 0 && at(c, points, top - 1e-6).status == LevelStatus::out_of_validity);
+        CHECK(at(c, points, top + 1e-3).status == LevelStatus::converged);
     }
 
     // The tip of a cone and the edge of a punch press between summits: a level that is told as converged has N within its expected error, or a
@@ -180,6 +195,20 @@ TEST(all_touching) {
         forces(map, LawKind::fourth_order, model, truth);
         CHECK(above < 0.1e-3);
         CHECK_RELATIVE(model, truth, 0.12);
+    }
+
+    // A map far flatter than the ball is round: where the tip is between points of the map, its summit is no spike, and the force is Hertz's.
+    {
+        constexpr double kBump = 50, kDeep = 1e-6, kHertz = 1e-3;  // deeper is wider than the paraboloids of the ball and of the map
+        c.solids.R[1] = 1, c.asperities.law = LawKind::elliptic, c.solver.model = Model::asperities;
+        const SurfaceModel bump = make_surface_model(
+            measured(height_map(64, 64, 1.0 / 64, 1.0 / 64,
+                                [](int i, int j) { return -((i - 32) * (i - 32) + (j - 32) * (j - 32)) / (8192 * kBump); })),
+            c, 1);
+        const Indenter tip = indenter_of(c, bump.domain);  // over the middle of the map
+        const auto contact = make_contact(bump, tip, solver_of(c, bump.domain));
+        const double R = 1 / (1 + 1 / kBump), touch = -std::pow(std::hypot(0.5, 0.5) / 64, 2) / (2 * (kBump + 1));
+        CHECK_RELATIVE(contact->at_separation(touch - kDeep).force, 4.0 / 3 * tip.E_star * std::sqrt(R) * std::pow(kDeep, 1.5), kHertz);
     }
 
     // Rounded to a tenth of sigma, a map carries what it did.
