@@ -572,7 +572,7 @@ void AsperityContact::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
     Impl& my = *impl_;
     if (my.of_difference && my.law->path_dependent()) return move_with_memory(x0, y0);
-    my.earlier.carry(my.candidates, my.solution.v, my.asperities.size(), {my.indenter.x0, my.indenter.y0}, {x0, y0});
+    my.earlier.carry(my.candidates, my.solution.v, my.asperities.size(), aimed(), {my.indenter.x0, my.indenter.y0}, {x0, y0});
     const bool opens = my.indenter.repeats.finite() && !my.indenter.around.finite();
     my.indenter.move(x0, y0);
     if (my.of_difference) {

@@ -63,7 +63,7 @@ public:
     // Resets to the state of a new contact at this position of the tip: earlier levels are no longer used as starting points.
     void forget() {
         last_.reset();
-        last_force_ = 0;
+        last_force_ = rise_ = 0;
         forget_levels();
     }
 
@@ -130,6 +130,8 @@ protected:
     virtual std::optional<double> likely_separation() const { return {}; }   // initial guess; absent: near first touch
     virtual std::optional<double> guessed_separation(double) { return {}; }  // the same of a first level, from a rough solution for a force
     virtual std::size_t levels_since_move() const { return 0; }              // number of levels since the tip was moved, at most a few
+    // The separation of the last level; under force control where its force, within the tolerance, would be exact. Between flats of solve().
+    double aimed() const { return aimed_; }
 
 private:
     Level to_separation(double Z0);  // as at_separation and at_force, in one step of time
@@ -145,6 +147,8 @@ private:
         double separation, force, slope;  // as used by solve() and slope()
     };
     std::optional<Trial> last_;  // last level if shift() > 0, a starting point
+    double aimed_ = 0;
+    double rise_ = 0;  // d ln N/dZ0 where it was last needed under force control; 0: unknown
 
     // Accepts a level if it converged, and adds the quantities that depend on the nominal area.
     void finish(Level& level);
