@@ -493,7 +493,7 @@ void AsperityContact::forget_levels() {
 
 bool AsperityContact::path_dependent() const { return impl_->law->path_dependent(); }
 
-double AsperityContact::tolerance() const { return impl_->options.tolerance; }
+double AsperityContact::tolerance() const { return impl_->options.tolerance * impl_->newton.share(); }
 
 // The force without interaction, which is an upper bound.
 double AsperityContact::force_at_most(double depth) {
@@ -514,8 +514,13 @@ std::size_t AsperityContact::levels_since_move() const { return impl_->earlier.s
 
 double AsperityContact::shift() const { return impl_->kernel->shift() * impl_->scale(); }
 
+void AsperityContact::begins() { impl_->newton.begin_level(); }
+
 // With Z0 = Z0' + c N, c the kernel's shift: dZ0/dN = 1/(dN/dZ0') + c.
-double AsperityContact::slope() { return impl_->solution.v.empty() ? 0 : impl_->force_slope(1e-3); }
+double AsperityContact::slope() {
+    if (shift() == 0) impl_->newton.expect_exact();
+    return impl_->solution.v.empty() ? 0 : impl_->force_slope(1e-3);
+}
 
 double AsperityContact::stiffness() {
     if (impl_->solution.v.empty()) return 0;
@@ -572,7 +577,7 @@ void AsperityContact::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");
     Impl& my = *impl_;
     if (my.of_difference && my.law->path_dependent()) return move_with_memory(x0, y0);
-    my.earlier.carry(my.candidates, my.solution.v, my.asperities.size(), aimed(), {my.indenter.x0, my.indenter.y0}, {x0, y0});
+    my.earlier.carry(my.candidates, my.solution.v, my.asperities.size(), {my.indenter.x0, my.indenter.y0}, {x0, y0});
     const bool opens = my.indenter.repeats.finite() && !my.indenter.around.finite();
     my.indenter.move(x0, y0);
     if (my.of_difference) {

@@ -106,6 +106,8 @@ protected:
         level.iterations = 0, level.products = 0;
         return level;
     }
+    // Called at the beginning of each level, which may take several trials.
+    virtual void begins() {}
     // dN/dZ0 of the last trial, with separations as in solve(), accurate enough for Newton's method on Z0.
     virtual double slope();
     // Accepts the last level solved: path-dependent models store it and add the dissipated work to the level.
@@ -130,8 +132,6 @@ protected:
     virtual std::optional<double> likely_separation() const { return {}; }   // initial guess; absent: near first touch
     virtual std::optional<double> guessed_separation(double) { return {}; }  // the same of a first level, from a rough solution for a force
     virtual std::size_t levels_since_move() const { return 0; }              // number of levels since the tip was moved, at most a few
-    // The separation of the last level; under force control where its force, within the tolerance, would be exact. Between flats of solve().
-    double aimed() const { return aimed_; }
 
 private:
     Level to_separation(double Z0);  // as at_separation and at_force, in one step of time
@@ -147,13 +147,13 @@ private:
         double separation, force, slope;  // as used by solve() and slope()
     };
     std::optional<Trial> last_;  // last level if shift() > 0, a starting point
-    double aimed_ = 0;
     double rise_ = 0;  // d ln N/dZ0 where it was last needed under force control; 0: unknown
 
     // Accepts a level if it converged, and adds the quantities that depend on the nominal area.
     void finish(Level& level);
     double last_force_ = 0;  // of the last level, 0 if it did not converge
     void begin() {
+        begins();
         if (relaxes()) step(accepted_ ? time_ - *accepted_ : 0.0);
     }
     double time_ = 0;

@@ -120,7 +120,6 @@ Level Contact::in_steps(double from, double to, Level (Contact::*reach)(double))
 Level Contact::to_separation(double Z0) {
     begin();
     Level level = shift() > 0 ? solve_between_planes(Z0) : solve(Z0);
-    aimed_ = Z0;
     finish(level);
     return level;
 }
@@ -270,8 +269,6 @@ Level Contact::to_force(double N) {
                                "force is %.9g",
                                N, Z0, force_at_most(1.5 * ulp / kUnresolved)));
     }
-    // In a time loop starts are extrapolated from the levels at two places: the errors that the tolerance allows would come again, doubled.
-    aimed_ = level.separation + (rise_ < 0 && level.force > 0 ? std::log(N / level.force) / rise_ : 0.0);
     if (shift() > 0) {
         last_ = {level.separation, level.force, slope()};
         level.separation += shift() * level.force;

@@ -29,14 +29,13 @@ void EarlierLevels::bend(const Candidates& candidates, const Vector& slope) {
     for (std::size_t k = 0; k < slope.size(); ++k) last.slope[candidates.rank[k]] = slope[k];
 }
 
-void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::size_t asperities, double Z0, Vec2 from,
-                          Vec2 to) {
+void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::size_t asperities, Vec2 from, Vec2 to) {
     if (!past_.empty()) {  // otherwise moved twice without a level between; the carried state is kept
         std::swap(carried_, before_);
         for (const int i : carried_.known) carried_.phi[at(i)] = kUnknown;
         carried_.known.clear();
         if (v.size() == at(candidates.size())) {
-            carried_.separation = Z0;
+            carried_.separation = past_.front().separation;
             carried_.place = from;
             carried_.phi.resize(asperities, kUnknown);
             carried_.known = candidates.set.asperity;

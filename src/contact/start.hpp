@@ -17,9 +17,9 @@ public:
     // Sets dphi/dZ0 of the last level stored, over its candidates, which serves until there is another level.
     void bend(const Candidates& candidates, const std::vector<double>& slope);
 
-    // To be called when the tip moves from one place to another and ranks become invalid: stores the last level by asperity, as of the
-    // separation Z0, as the start of the next level. On a way straight on, the next level is extrapolated from the last levels of two places.
-    void carry(const Candidates& candidates, const std::vector<double>& v, std::size_t asperities, double Z0, Vec2 from, Vec2 to);
+    // To be called when the tip moves from one place to another and ranks become invalid: stores the last level by asperity as the start of
+    // the next level. On a way straight on, the next level is extrapolated from the last levels of two places.
+    void carry(const Candidates& candidates, const std::vector<double>& v, std::size_t asperities, Vec2 from, Vec2 to);
 
     bool unique() const { return unique_; }  // the last solution is proved to be unique
     // Predicts penetrations at Z0. Candidates that are not in earlier levels are assumed not to touch (which is checked later). Returns
