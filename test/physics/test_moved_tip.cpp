@@ -59,7 +59,7 @@ TEST(test_products) {
         const double N = contact->at_separation(-0.02).force;
         std::int64_t products = 0;
         for (int k = 0; k < 200; ++k) {
-            contact->move_tip(0.5 + 1e-7 * k, 0.5);
+            contact->move_tip(0.5 + 1e-6 * k, 0.5);
             products += (force ? contact->at_force(N) : contact->at_separation(-0.02)).products;
         }
         CHECK(2 * products < 3 * 200);
