@@ -147,7 +147,7 @@ private:
         double separation, force, slope;  // as used by solve() and slope()
     };
     std::optional<Trial> last_;  // last level if shift() > 0, a starting point
-    double rise_ = 0;  // d ln N/dZ0 where it was last needed under force control; 0: unknown
+    double rise_ = 0;            // d ln N/dZ0 where it was last needed under force control; 0: unknown
 
     // Accepts a level if it converged, and adds the quantities that depend on the nominal area.
     void finish(Level& level);
