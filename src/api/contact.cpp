@@ -56,8 +56,10 @@ void compute(rsc_contact& contact, Compute&& level) {
     auto& known = contact.known;
     known.x0 = indenter.x0, known.y0 = indenter.y0;
     known.energy = contact.contact.energy();
-    known.lateral = contact.contact.lateral(*known.level);
-    known.moment = tip_moment(indenter, *known.level);
+    known.lateral = {kNotComputed, kNotComputed};
+    // With summits of the difference the lateral force is that of the present state; otherwise that of the level, at any later time.
+    if (const Asperities* used = contact.contact.asperities(); used && used != &contact.on->asperities)
+        known.lateral = contact.contact.lateral(*known.level), known.moment = tip_moment(indenter, *known.level);
     contact.recalled = true;
 }
 
@@ -111,10 +113,10 @@ constexpr Derived kDerived[] = {
     {"energy", [](rsc_contact& c) { return c.known.energy; }},
     {"conductance_length", conductance_length_of},
     {"resistance", resistance_of},
-    {"lateral_force_x", [](rsc_contact& c) { return c.known.lateral.x; }},
-    {"lateral_force_y", [](rsc_contact& c) { return c.known.lateral.y; }},
-    {"moment_x", [](rsc_contact& c) { return c.known.moment.x; }},
-    {"moment_y", [](rsc_contact& c) { return c.known.moment.y; }},
+    {"lateral_force_x", [](rsc_contact& c) { return c.answered().lateral.x; }},
+    {"lateral_force_y", [](rsc_contact& c) { return c.answered().lateral.y; }},
+    {"moment_x", [](rsc_contact& c) { return c.answered().moment.x; }},
+    {"moment_y", [](rsc_contact& c) { return c.answered().moment.y; }},
 };
 
 // Quantities of the result file that rsc_contact_value does not return: those of maps, which the library does not compute, and vectors
@@ -293,8 +295,8 @@ int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* for
         put(stiffness, dN_dZ0);
         put(area, level.area);
         put(energy, W);
-        put(lateral_x, contact->known.lateral.x);
-        put(lateral_y, contact->known.lateral.y);
+        if (lateral_x) *lateral_x = contact->answered().lateral.x;
+        if (lateral_y) *lateral_y = contact->answered().lateral.y;
         put(level_status, level.status);
         put(contacts, level.contacts);
         put(overlapping_pairs, level.overlapping_pairs);

@@ -62,6 +62,15 @@ rsc_contact::rsc_contact(std::shared_ptr<const rsc::SurfaceModel> on_, std::shar
 
 rsc_contact::rsc_contact(const rsc_contact& like) : rsc_contact(like.on, like.keys, like.contact.indenter()) { given = like.given; }
 
+const rsc_contact::Known& rsc_contact::answered() {
+    if (known.level && std::isnan(known.lateral.x)) {
+        rsc::Indenter tip = contact.indenter();
+        tip.x0 = known.x0, tip.y0 = known.y0;
+        known.lateral = rsc::lateral_force(tip, *known.level), known.moment = rsc::tip_moment(tip, *known.level);
+    }
+    return known;
+}
+
 rsc_contact::State rsc_contact::state() const { return {contact.indenter().x0, contact.indenter().y0, contact.memory(), known}; }
 
 void rsc_contact::go_back(const State& state) {

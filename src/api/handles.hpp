@@ -55,9 +55,11 @@ struct rsc_contact {
         std::optional<rsc::Level> level;
         double x0 = 0, y0 = 0;  // tip of that level; it may have moved since
         double energy = 0;
-        rsc::Vec2 lateral, moment;
+        rsc::Vec2 lateral{rsc::kNotComputed, rsc::kNotComputed}, moment{};  // NaN until they are asked for
     };
     Known known;
+    // The last level with its lateral force and moment.
+    const Known& answered();
     bool recalled = true;  // false: `contact` is not at that level, recall() must be called first
 
     // The last level and everything that the next level depends on.

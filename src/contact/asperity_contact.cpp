@@ -304,7 +304,7 @@ void AsperityContact::forget_levels() {
 
 bool AsperityContact::path_dependent() const { return impl_->law->path_dependent(); }
 
-double AsperityContact::tolerance() const { return impl_->options.tolerance; }
+double AsperityContact::tolerance() const { return impl_->options.tolerance * impl_->newton.share(); }
 
 std::optional<double> AsperityContact::likely_separation() const {
     if (impl_->solution.force.empty()) return std::nullopt;
@@ -315,8 +315,13 @@ std::size_t AsperityContact::levels_since_move() const { return impl_->earlier.s
 
 double AsperityContact::shift() const { return impl_->kernel->shift() * impl_->scale(); }
 
+void AsperityContact::begins() { impl_->newton.begin_level(); }
+
 // With Z0 = Z0' + c N, c the kernel's shift: dZ0/dN = 1/(dN/dZ0') + c.
-double AsperityContact::slope() { return impl_->solution.v.empty() ? 0 : impl_->force_slope(1e-3); }
+double AsperityContact::slope() {
+    if (shift() == 0) impl_->newton.expect_exact();
+    return impl_->solution.v.empty() ? 0 : impl_->force_slope(1e-3);
+}
 
 double AsperityContact::stiffness() {
     if (impl_->solution.v.empty()) return 0;

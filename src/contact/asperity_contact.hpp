@@ -51,6 +51,7 @@ protected:
     Level solve(double Z0) override;
     Level pass(double Z0) override;
     Level settle(const Level& passed) override;
+    void begins() override;
     double slope() override;
     void accept(Level& level) override;
     void step(double dt) override;

@@ -63,7 +63,7 @@ public:
     // Resets to the state of a new contact at this position of the tip: earlier levels are no longer used as starting points.
     void forget() {
         last_.reset();
-        last_force_ = 0;
+        last_force_ = rise_ = 0;
         forget_levels();
     }
 
@@ -106,6 +106,8 @@ protected:
         level.iterations = 0, level.products = 0;
         return level;
     }
+    // Called at the beginning of each level, which may take several trials.
+    virtual void begins() {}
     // dN/dZ0 of the last trial, with separations as in solve(), accurate enough for Newton's method on Z0.
     virtual double slope();
     // Accepts the last level solved: path-dependent models store it and add the dissipated work to the level.
@@ -145,11 +147,13 @@ private:
         double separation, force, slope;  // as used by solve() and slope()
     };
     std::optional<Trial> last_;  // last level if shift() > 0, a starting point
+    double rise_ = 0;            // d ln N/dZ0 where it was last needed under force control; 0: unknown
 
     // Accepts a level if it converged, and adds the quantities that depend on the nominal area.
     void finish(Level& level);
     double last_force_ = 0;  // of the last level, 0 if it did not converge
     void begin() {
+        begins();
         if (relaxes()) step(accepted_ ? time_ - *accepted_ : 0.0);
     }
     double time_ = 0;

@@ -234,18 +234,20 @@ Level Contact::to_force(double N) {
     // Starts from the last level unless it failed, had no contact, or is so much deeper that a start from first touch takes fewer steps.
     if (last_force_ > 0 && last_force_ < kFarAbove * N) {
         Z0 = likely_separation().value_or(Z0);
-        if (last_ && last_->force > 0) {
+        if (last_ && last_->force > 0)
             Z0 = last_->separation + std::log(N / last_->force) * last_->force / last_->slope;
-            if (!(Z0 < above)) Z0 = above - 0.25 * depth;
-        }
+        else if (rise_ < 0 && levels_since_move() > 0)  // otherwise it is extrapolated to the new place, with the change of the force
+            Z0 += std::log(N / last_force_) / rise_;
+        if (!(Z0 < above)) Z0 = above - 0.25 * depth;
     }
     if (!(Z0 > below)) Z0 = 0.5 * (above + below);
     const auto judge = [&](const Level& level, double z) {
         const double miss = level.force / N - 1;
         const bool found = std::abs(miss) <= tolerance() || level.status == LevelStatus::not_converged;
         if (found) return Verdict{true, false, z};
-        const bool above = miss < 0;
-        return Verdict{false, above, level.force > 0 ? z - std::log1p(miss) * level.force / slope() : -kInfinity};
+        if (!(level.force > 0)) return Verdict{false, true, -kInfinity};
+        rise_ = slope() / level.force;
+        return Verdict{false, miss < 0, z - std::log1p(miss) / rise_};
     };
     const auto reach = [&](double next, double z, double highest, int i) {
         const double furthest = highest - 2 * (levels_since_move() > 1 ? highest - z : 0.0) - std::ldexp(depth, i);

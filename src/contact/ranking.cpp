@@ -81,8 +81,7 @@ std::size_t Ranking::above(double Z0, std::vector<int>& fresh) {
         std::sort(rest, end, comes_first);
         for (auto e = rest; e != end; ++e) fresh.push_back(e->asperity);
         sorted_ = static_cast<std::size_t>(end - first);
-        highest_rest_ = -kInfinity;
-        for (auto e = end; e != entries_.end(); ++e) highest_rest_ = std::max(highest_rest_, e->height);
+        highest_rest_ = end == entries_.end() ? -kInfinity : threshold;
     }
     const auto last = std::partition_point(first, end, [Z0](const Entry& e) { return e.height > Z0; });
     return static_cast<std::size_t>(last - first);

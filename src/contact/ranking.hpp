@@ -35,7 +35,7 @@ private:
     std::vector<Entry> entries_;
     std::size_t sorted_ = 0;
     Indenter now_;
-    // Unsorted entries: their heights, the highest of which is highest_rest_, are those with the tip at (x_rest_, y_rest_).
+    // Unsorted entries: their heights, at most highest_rest_, are those with the tip at (x_rest_, y_rest_).
     double x_rest_ = 0, y_rest_ = 0;
     double highest_rest_ = -std::numeric_limits<double>::infinity();
     double highest_z_ = -std::numeric_limits<double>::infinity();  // largest z of all asperities, also beyond the indenter

@@ -13,8 +13,10 @@ double inside(const Rectangle& r, double x, double y) { return std::min({x - r.x
 double nominal_area(const Level& level, const Indenter& indenter, const Rectangle& surface) {
     if (indenter.period.finite()) return indenter.period.area();
     double radius = 0;
-    for (std::size_t k = 0; k < level.x.size() && level.pixels.index.empty(); ++k)
-        radius = std::max(radius, std::hypot(level.x[k] - indenter.x0, level.y[k] - indenter.y0) + level.a[k]);
+    for (std::size_t k = 0; k < level.x.size() && level.pixels.index.empty(); ++k) {
+        const double x = level.x[k] - indenter.x0, y = level.y[k] - indenter.y0;
+        radius = std::max(radius, std::sqrt(x * x + y * y) + level.a[k]);
+    }
     const LevelPixels& pixels = level.pixels;
     for (std::size_t k = 0; k < pixels.index.size(); ++k)
         radius = std::max(radius, std::hypot(std::abs(pixels.x(k) - indenter.x0) + 0.5 * pixels.dx,

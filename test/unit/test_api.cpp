@@ -64,6 +64,7 @@ void test_single() {
     OK(rsc_contact_tip(c, &x0, nullptr));
     CHECK(x0 == x + s);
     OK(rsc_contact_move_tip(c, x + 1.1 * R, y));
+    CHECK_RELATIVE(value(c, "lateral_force_x"), f * s / std::sqrt(R * R - s * s), 1e-9);  // of the last level, where it was
     CHECK(rsc_contact_press(c, f, &Z) == -1);
     CHECK(message().find("no asperity under") != std::string::npos);
     CHECK(force_at(c, z - u) == 0);

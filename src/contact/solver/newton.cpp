@@ -29,11 +29,6 @@ constexpr double kFlat = 1e-9;
 // preserves the order 3/2, at most kLoosest; not smaller than kLastShare of the accuracy required in the last step, nor than
 // kFinestForcing.
 constexpr double kLoosest = 0.1, kLastShare = 0.2, kFinestForcing = 1e-5, kMostForcing = 0.3;
-// In a time loop starts are extrapolated from two solutions, and errors near the tolerance would come again in each: every second solution
-// would take a step. From starts with a residual below kNear times the tolerance steps leave kLeft of it, and the next start is accepted
-// with kNextShare of it only. If the one after it is not that near, the motion is too fast for this: not again for kPause solutions.
-constexpr double kNear = 5, kLeft = 1e-3, kNextShare = 0.1;
-constexpr int kPause = 64;
 
 // Trust region with the usual parameters (Nocedal and Wright, Numerical Optimization, chapter 4). A step is accepted if the energy
 // decreases by at least kSufficient of the predicted decrease. Below kPoor the radius shrinks to kShrink of the step; above kGood it grows
@@ -193,8 +188,9 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
     now_.v = v;
     evaluate(set, now_, !rough_will_do(begun_));
     if (repeats_) begun_ = now_.residual;
+    if (std::exchange(first_, false) && stepped_ == 2 && begun_ > kNextShare * tolerance) stepped_ = -kPause;
     const bool near = repeats_ && stepped_ >= 0 && now_.residual < kNear * tolerance;
-    const double enough = !ask_minimum && stepped_ == 1 ? kNextShare : 1.0, left = near ? kLeft : kLastShare;
+    const double enough = ask_minimum ? 1.0 : exact_ ? kLeft : share(), left = near ? kLeft : kLastShare;
     double radius = std::numeric_limits<double>::infinity(), entering = 1.0;
     Step step_now;
     for (;; ++outcome.iterations) {
@@ -253,10 +249,7 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
         std::swap(now_, trial_);
     }
     outcome.converged = outcome.converged || (!ask_minimum && now_.residual <= tolerance);
-    if (stepped_ == 2 && begun_ > kNextShare * tolerance)
-        stepped_ = -kPause;
-    else
-        stepped_ = stepped_ < 0 || (near && outcome.iterations > 0) ? stepped_ + 1 : 0;
+    if (near && outcome.iterations > 0) exact_ = true;
     v = now_.v;
     return outcome;
 }
