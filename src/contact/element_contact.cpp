@@ -5,6 +5,7 @@
 #include "contact/pixel_spots.hpp"
 #include "contact/solver/elements.hpp"
 #include "error.hpp"
+#include "rough/parallel.hpp"
 
 namespace rsc {
 namespace {
@@ -30,10 +31,11 @@ public:
           blocks_y_((heights.ny + kBlock - 1) / kBlock) {
         cut_open(indenter_, kBlock);
         block_top_.assign(at(blocks_x_) * at(blocks_y_), -kInfinity);
-        for (int j = 0; j < heights.ny; ++j) {
-            double* tops = block_top_.data() + at(j / kBlock) * at(blocks_x_);
-            for (int i = 0; i < heights.nx; ++i) tops[i / kBlock] = std::max(tops[i / kBlock], heights(i, j));
-        }
+        parallel_for(blocks_y_, 1, 0, [&](int b) {
+            double* tops = block_top_.data() + at(b) * at(blocks_x_);
+            for (int j = b * kBlock; j < std::min((b + 1) * kBlock, heights.ny); ++j)
+                for (int i = 0; i < heights.nx; ++i) tops[i / kBlock] = std::max(tops[i / kBlock], heights(i, j));
+        });
         find_top();
     }
 
@@ -156,24 +158,31 @@ void ElementContact::find_top() {
 
 // Selects the pixels with g0 > 0; no others can touch, because K > 0 only lowers the surface.
 void ElementContact::select(double Z0) {
-    pixels_.clear();
-    g0_.clear();
-    std::vector<int> high;
-    for (int b = 0; b < blocks_y_; ++b) {
+    struct Found {
+        std::vector<Pixel> pixels;
+        std::vector<double> g0;
+    };
+    std::vector<Found> found(at(blocks_y_));  // by row of blocks
+    parallel_for(blocks_y_, 4, 0, [&](int b) {
         const int bj = (b + turn_y / kBlock) % blocks_y_;
-        high.clear();
+        std::vector<int> high;
         for (int a = 0; a < blocks_x_; ++a) {
             const int bi = (a + turn_x / kBlock) % blocks_x_;
             if (bound(bi, bj) > Z0) high.push_back(bi);
         }
-        if (high.empty()) continue;
+        if (high.empty()) return;
         for (int r = bj * kBlock; r < std::min((bj + 1) * kBlock, heights_.ny); ++r)
             for (int bi : high)
                 for (int c = bi * kBlock; c < std::min((bi + 1) * kBlock, heights_.nx); ++c) {
                     const Pixel pixel{pixel_x(c), pixel_y(r)};
                     const double g = clearance(pixel.x, pixel.y) - Z0;
-                    if (g > 0) pixels_.push_back(pixel), g0_.push_back(g);
+                    if (g > 0) found[at(b)].pixels.push_back(pixel), found[at(b)].g0.push_back(g);
                 }
+    });
+    pixels_.clear(), g0_.clear();
+    for (const Found& row : found) {
+        pixels_.insert(pixels_.end(), row.pixels.begin(), row.pixels.end());
+        g0_.insert(g0_.end(), row.g0.begin(), row.g0.end());
     }
 }
 

@@ -129,16 +129,20 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter, 
     }
     constexpr double kError = 1e-6;
     const auto products = make_tree_products(body, map.dx, map.dy, kError, kError, false);
-    std::vector<Pixel> sources, where;
-    std::vector<double> p;
-    for (const auto& [point, load] : pressures) {
-        sources.push_back({static_cast<int>(point % map.nx), static_cast<int>(point / map.nx)});
-        p.push_back(load.pressure);
-    }
+    std::vector<Pixel> pixels;  // of the window, then others under pressure
+    std::vector<double> p(u.size(), 0.0);
     for (int j = rows.first; j <= rows.last; ++j)
-        for (int i = columns.first; i <= columns.last; ++i) where.push_back({i, j});
-    products->set_pixels(sources);
-    products->elsewhere(p.data(), where, u.data());
+        for (int i = columns.first; i <= columns.last; ++i) pixels.push_back({i, j});
+    for (const auto& [point, load] : pressures) {
+        const int i = static_cast<int>(point % map.nx), j = static_cast<int>(point / map.nx);
+        if (i >= columns.first && i <= columns.last && j >= rows.first && j <= rows.last)
+            p[at(j - rows.first) * at(columns.size()) + at(i - columns.first)] = load.pressure;
+        else
+            pixels.push_back({i, j}), p.push_back(load.pressure);
+    }
+    std::vector<double> w(p.size());
+    products->elsewhere(p.data(), pixels, w.data());
+    u.assign(w.begin(), w.begin() + static_cast<std::ptrdiff_t>(u.size()));
     return u;
 }
 

@@ -37,17 +37,26 @@ struct Job {
     std::size_t count;
     const std::function<void(std::size_t, std::size_t)>& body;
     std::size_t wanted;  // number of helpers that may still join
-    std::size_t joined = 0, inside = 0;
-    std::atomic<std::size_t> next{0};
+    std::size_t joined = 0;
+    std::atomic<std::size_t> inside{0}, next{0};
     std::exception_ptr thrown{};
 };
+
+// Looks for some microseconds whether `done`: a thread that sleeps takes longer to wake, and most loops follow each other more closely.
+template <class Done>
+void look(Done&& done) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::microseconds(10);
+    while (!done() && std::chrono::steady_clock::now() < end) {
+    }
+}
 
 // Pool of threads, which sleep between loops and end with the process.
 struct Pool {
     std::mutex mutex;
     std::condition_variable wake, left;
     std::vector<Job*> jobs;
-    std::size_t threads = 0;
+    std::size_t threads = 0, looking = 0;  // all, and those that look for the next job
+    std::atomic<std::size_t> posted{0};    // number of jobs so far
 
     static Pool& get() {
         static Pool* const pool = [] {
@@ -76,7 +85,13 @@ struct Pool {
             const auto found =
                 std::find_if(jobs.begin(), jobs.end(), [](const Job* job) { return job->wanted > 0 && job->next < job->count; });
             if (found == jobs.end()) {
-                wake.wait(lock);
+                const std::size_t last = posted;
+                ++looking;
+                lock.unlock();
+                look([&] { return posted != last; });
+                lock.lock();
+                --looking;
+                wake.wait(lock, [&] { return posted != last; });
                 continue;
             }
             Job& job = **found;
@@ -126,13 +141,20 @@ void parallel_pieces(std::size_t count, int threads, const std::function<void(st
     std::unique_lock lock(pool.mutex);
     pool.start(team - 1);
     pool.jobs.push_back(&job);
+    ++pool.posted;
+    const std::size_t looking = pool.looking;
     lock.unlock();
-    for (std::size_t k = 1; k < team; ++k) pool.wake.notify_one();
+    for (std::size_t k = 1 + looking; k < team; ++k) pool.wake.notify_one();
     in_a_piece = true;
     pool.work(job, 0);
     in_a_piece = false;
     lock.lock();
     std::erase(pool.jobs, &job);
+    if (job.inside > 0) {
+        lock.unlock();
+        look([&] { return job.inside == 0; });
+        lock.lock();
+    }
     pool.left.wait(lock, [&] { return job.inside == 0; });
     lock.unlock();
     if (job.thrown) std::rethrow_exception(job.thrown);

@@ -1,7 +1,7 @@
 // Parallel loops, and points at which long work can be stopped.
 //
-// The threads belong to a pool of the process. They are started on first use and sleep between loops, so that they do not slow down other
-// programs. OpenMP threads spin at barriers, end the program if a thread cannot be started, and hang after a fork.
+// The threads belong to a pool of the process. They are started on first use and sleep between loops, ten microseconds after the last, so that
+// they do not slow down other programs. OpenMP threads spin at barriers, end the program if a thread cannot be started, and hang after a fork.
 #pragma once
 
 #include "std.hpp"

@@ -22,8 +22,8 @@ public:
     enum class Accuracy { inner, between, full };  // for iterations, and for the final residual
     // w = K p [length] at every pixel of the set.
     virtual void apply(const double* p, double* w, Accuracy accuracy) = 0;
-    // Deflections at other pixels by the pressures on the set, in inner accuracy.
-    virtual void elsewhere(const double* p, const std::vector<Pixel>& where, double* w) = 0;
+    // w = K p on another set, in inner accuracy; cheaper if it is that of the last call.
+    virtual void elsewhere(const double* p, const std::vector<Pixel>& pixels, double* w) = 0;
 
     // K between two pixels dx columns and dy rows apart [length/pressure].
     virtual double coefficient(int dx, int dy) const = 0;

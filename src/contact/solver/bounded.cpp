@@ -8,8 +8,8 @@ namespace {
 std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kThreads = 100000;  // number of pixels above which threads are used
-constexpr int kRows = 8;                  // that a thread takes at a time
+constexpr std::size_t kThreads = 16384;   // number of pixels from which on threads are used
+constexpr int kPixels = 4096, kRows = 8;  // that a thread takes at a time
 // Error above which the sets change so much that a round is made of two.
 constexpr double kUnsettled = 1e-3;
 // Later rounds of a stiffness reduce the residual to this part of its tolerance.
@@ -20,22 +20,45 @@ constexpr double kSmall = 5e-5;
 }  // namespace
 
 template <class F>
-double BoundedSolver::sum(F&& of) {
+void BoundedSolver::each(F&& of) {
+    parallel_for(p_.size(), kPixels, p_.size() >= kThreads ? 0 : 1, of);
+}
+
+template <class F>
+auto BoundedSolver::sum(F&& of) {
     const int rows = static_cast<int>(rows_.size()) - 1;
-    partial_.resize(at(rows));
+    std::vector<decltype(of(std::size_t()))> partial(at(rows));
     parallel_for(rows, kRows, p_.size() >= kThreads ? 0 : 1, [&](int j) {
-        double part = 0;
+        auto part = partial[at(j)];
         for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) part += of(k);
-        partial_[at(j)] = part;
+        partial[at(j)] = part;
     });
-    return std::accumulate(partial_.begin(), partial_.end(), 0.0);
+    return std::accumulate(partial.begin(), partial.end(), decltype(of(std::size_t()))());
+}
+
+template <class F>
+double BoundedSolver::sum_free(F&& of) {
+    if (rows_.size() > 2) return sum(of);
+    double sum = 0;
+    for (const int k : free_list_) sum += of(at(k));
+    return sum;
+}
+
+template <class F>
+void BoundedSolver::set_free(F&& of) {
+    free_.resize(p_.size());
+    each([&](std::size_t k) { free_[k] = of(k); });
+    free_list_.clear();
+    for (std::size_t k = 0; k < free_.size() && rows_.size() == 2; ++k)
+        if (free_[k]) free_list_.push_back(static_cast<int>(k));
+    freed();
 }
 
 void BoundedSolver::evaluate(bool exact) {
     stopping_point();
     multiply(p_, w_, exact);
     if (wanted_) Z0_ = 0;
-    for (std::size_t k = 0; k < w_.size(); ++k) w_[k] += Z0_ - z_[k];
+    each([&](std::size_t k) { w_[k] += Z0_ - z_[k]; });
     find_Z0();
 }
 
@@ -52,24 +75,30 @@ void BoundedSolver::find_Z0() {
 double BoundedSolver::error() {
     std::size_t touching = 0;
     double weight = 0;
-    for (double p : p_) touching += p > 0, weight += p;
-    const double inside = sum([&](std::size_t k) {
+    for (double p : p_)
+        if (p != 0) touching += p > 0, weight += p;
+    struct Sums {
+        double inside = 0, overlap = 0;
+        Sums operator+(const Sums& other) const { return {inside + other.inside, overlap + other.overlap}; }
+        void operator+=(const Sums& other) { *this = *this + other; }
+    };
+    const Sums sums = sum([&](std::size_t k) {
         const double e = p_[k] >= highest_ ? std::max(w_[k], 0.0) : p_[k] > 0 ? w_[k] : std::min(w_[k], 0.0);
-        return e * e;
+        return Sums{e * e, p_[k] * (z_[k] - Z0_)};
     });
-    const double bad = inside + outside();
+    const double bad = sums.inside + outside();
     if (touching == 0) return bad > 0 ? kInfinity : 0.0;
-    const double overlap = sum([&](std::size_t k) { return p_[k] * (z_[k] - Z0_); });
-    return std::sqrt(bad / static_cast<double>(touching)) / std::abs(overlap / weight);
+    return std::sqrt(bad / static_cast<double>(touching)) / std::abs(sums.overlap / weight);
 }
 
 void BoundedSolver::find_free() {
-    free_.resize(p_.size());
-    for (std::size_t k = 0; k < p_.size(); ++k) free_[k] = !((p_[k] <= 0 && w_[k] >= 0) || (p_[k] >= highest_ && w_[k] <= 0));
-    freed();
+    set_free([&](std::size_t k) { return !((p_[k] <= 0 && w_[k] >= 0) || (p_[k] >= highest_ && w_[k] <= 0)); });
 }
 
-void BoundedSolver::precondition_ones(std::vector<double>& y) { precondition(std::vector<double>(free_.begin(), free_.end()), y); }
+void BoundedSolver::precondition_ones(std::vector<double>& y) {
+    y.assign(free_.size(), 0.0);
+    precondition(std::vector<double>(free_.begin(), free_.end()), y);
+}
 
 // Leaves K one_ in image_ where it computes punch_.
 void BoundedSolver::prepare_constant(bool plain) {
@@ -78,11 +107,11 @@ void BoundedSolver::prepare_constant(bool plain) {
         one_.assign(free_.begin(), free_.end());
     else
         precondition_ones(one_);
-    whole_ = sum([&](std::size_t k) { return one_[k]; });
+    whole_ = sum_free([&](std::size_t k) { return one_[k]; });
     punch_ = 0;
     if (wanted_ || plain) return;
     multiply_roughly(one_, image_);
-    const double energy = sum([&](std::size_t k) { return free_[k] ? one_[k] * image_[k] : 0.0; });
+    const double energy = sum_free([&](std::size_t k) { return free_[k] ? one_[k] * image_[k] : 0.0; });
     if (energy > 0) punch_ = 1 / energy;
 }
 
@@ -91,34 +120,35 @@ double BoundedSolver::descend(int most_steps, double reduction) {
     const std::size_t n = p_.size();
     direction_.assign(n, 0.0);
     const auto product = [&](const std::vector<double>& a, const std::vector<double>& b) {
-        return sum([&](std::size_t k) { return a[k] * b[k]; });
+        return sum_free([&](std::size_t k) { return a[k] * b[k]; });
     };
     // A single step follows the gradient itself, which remains a descent direction after projection on the bounds.
     const bool plain = most_steps == 1, constant = manner_.repeats || wanted_;
     std::vector<double> residual(n);
+    y_.resize(n);
     double last = 0, first = 0, decrease = 0;
     for (int step = 0; step < most_steps; ++step) {
-        for (std::size_t k = 0; k < n; ++k) residual[k] = free_[k] ? 0 - w_[k] : 0.0;
+        each([&](std::size_t k) { residual[k] = free_[k] * (0 - w_[k]), y_[k] = 0; });
         if (plain)
             y_ = residual;
         else
             precondition(residual, y_);
         if (constant) {
-            const double c = wanted_ ? -sum([&](std::size_t k) { return y_[k]; }) / whole_ : punch_ * product(one_, residual);
-            for (std::size_t k = 0; k < n; ++k) y_[k] += c * one_[k];
+            const double c = wanted_ ? -sum_free([&](std::size_t k) { return y_[k]; }) / whole_ : punch_ * product(one_, residual);
+            each([&](std::size_t k) { y_[k] += c * one_[k]; });
         }
         const double ry = product(residual, y_);
         if (step == 0) first = ry;
         if (!(ry > reduction * reduction * first)) break;
         const double beta = step > 0 ? ry / last : 0.0;
         last = ry;
-        for (std::size_t k = 0; k < n; ++k) direction_[k] = y_[k] + beta * direction_[k];
+        each([&](std::size_t k) { direction_[k] = y_[k] + beta * direction_[k]; });
         stopping_point();
         multiply_roughly(direction_, image_);
         const double curvature = product(direction_, image_);
         if (!(curvature > 0)) break;
         const double alpha = ry / curvature;
-        for (std::size_t k = 0; k < n; ++k) p_[k] += alpha * direction_[k], w_[k] += alpha * image_[k];
+        each([&](std::size_t k) { p_[k] += alpha * direction_[k], w_[k] += alpha * image_[k]; });
         decrease += alpha * ry;
     }
     return decrease;
@@ -229,14 +259,12 @@ double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, in
     const std::vector<double> p = p_, w = w_;
     const std::optional<double> wanted = std::exchange(wanted_, std::nullopt);
     const std::size_t n = p_.size();
-    free_.resize(n);
-    for (std::size_t k = 0; k < n; ++k) free_[k] = p_[k] > 0 && (back || p_[k] < highest_);
-    freed();
-    const double count = sum([&](std::size_t k) { return free_[k] ? 1.0 : 0.0; });
+    set_free([&](std::size_t k) { return p_[k] > 0 && (back || p_[k] < highest_); });
+    const double count = sum_free([&](std::size_t k) { return free_[k] ? 1.0 : 0.0; });
     std::fill(p_.begin(), p_.end(), 0.0);
     std::fill(w_.begin(), w_.end(), -1.0);
-    const auto rms = [&] { return std::sqrt(sum([&](std::size_t k) { return free_[k] ? w_[k] * w_[k] : 0.0; }) / count); };
-    const auto value = [&] { return sum([&](std::size_t k) { return free_[k] ? p_[k] * (1 - w_[k]) : 0.0; }); };
+    const auto rms = [&] { return std::sqrt(sum_free([&](std::size_t k) { return free_[k] ? w_[k] * w_[k] : 0.0; }) / count); };
+    const auto value = [&] { return sum_free([&](std::size_t k) { return free_[k] ? p_[k] * (1 - w_[k]) : 0.0; }); };
     prepare_constant(false);
     if (const double c = whole_ * punch_; manner_.repeats && c > 0)  // the first step is known
         for (std::size_t k = 0; k < n; ++k) p_[k] = c * one_[k], w_[k] = c * image_[k] - 1;
@@ -249,7 +277,7 @@ double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, in
         }
         if (most_rounds > 1) {
             multiply(p_, w_, !manner_.repeats);
-            for (double& v : w_) v -= 1;
+            each([&](std::size_t k) { w_[k] -= 1; });
             residual = rms();
         }
         answer = value();

@@ -41,7 +41,7 @@ protected:
     virtual void multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) = 0;
     // The same to some per cent, for steps inside a round if every round starts from a better product.
     virtual void multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) { multiply(x, Kx, false); }
-    // Preconditioner: y approximates K^-1 r over the free pixels and is 0 elsewhere.
+    // Preconditioner: y approximates K^-1 r over the free pixels and is 0 elsewhere, as it is everywhere on entry.
     virtual void precondition(const std::vector<double>& r, std::vector<double>& y) = 0;
     // The same for r = 1.
     virtual void precondition_ones(std::vector<double>& y);
@@ -70,7 +70,6 @@ protected:
     // Relative error: rms (per pixel under pressure) of w where 0 < p < highest and of penetrations elsewhere, divided by the mean of z -
     // Z0 weighted with p.
     double error();
-    void find_free();
     void find_Z0();
     // Returns the decrease of p'Kp - 2 (z - Z0)'p by its steps.
     double descend(int most_steps, double reduction);
@@ -78,8 +77,15 @@ protected:
     void descend_again(int most_steps);
     bool bound();
     bool fell();
+    // Over the positions in the set, independent of the number of threads: calls, sums, and sums of what is 0 where it is not free.
     template <class F>
-    double sum(F&& of);  // over the positions in the set, independent of the number of threads
+    void each(F&& of);
+    template <class F>
+    auto sum(F&& of);
+    template <class F>
+    double sum_free(F&& of);
+    template <class F>
+    void set_free(F&& of);
 
     double highest_;
     Manner manner_;
@@ -88,10 +94,12 @@ protected:
     // Vectors over the set, and the beginnings of its rows; a row is summed by one thread.
     std::vector<std::size_t> rows_ = {0, 0};
     std::vector<double> z_, p_, w_;
-    std::vector<char> free_;  // not held at a bound
+    std::vector<char> free_;      // not held at a bound
+    std::vector<int> free_list_;  // their positions; not if there are several rows
 
 private:
-    std::vector<double> y_, direction_, image_, before_p_, before_w_, partial_;
+    void find_free();
+    std::vector<double> y_, direction_, image_, before_p_, before_w_;
     // Correction by a constant pressure on the free pixels, which is most effective near full contact: K^-1 times 1 as the preconditioner has
     // it, its sum, and 1/(one'K one).
     std::vector<double> one_;

@@ -1,5 +1,7 @@
 #include "contact/solver/elements.hpp"
 
+#include "rough/parallel.hpp"
+
 namespace rsc {
 namespace {
 
@@ -18,7 +20,8 @@ constexpr int kQuick = 30;  // rounds before the energy is monitored; most sets 
 constexpr double kDeep = 0.55;
 // Residual, relative to the error of inner products, below which full products are used.
 constexpr double kInnerReach = 10;
-constexpr double kChange = 0.05;  // relative to the tolerance: error of an exact product computed from an earlier one
+constexpr std::size_t kThreads = 16384;  // pixels from which on threads are used
+constexpr double kChange = 0.05;         // relative to the tolerance: error of an exact product computed from an earlier one
 
 }  // namespace
 
@@ -97,7 +100,7 @@ void ElementsSolver::draw(const std::vector<double>& p) {
     const std::size_t rows = row_begin.size();
     row_begin.push_back(n);
     std::vector<char> in(n, 0);
-    for (std::size_t r = 0; r < rows; ++r) {
+    parallel_for(rows, 16, n > kThreads ? 0 : 1, [&](std::size_t r) {
         const int y = pixels[row_begin[r]].y;
         for (std::size_t s = r < at(kReach) ? 0 : r - at(kReach); s < rows && pixels[row_begin[s]].y <= y + kReach; ++s) {
             if (pixels[row_begin[s]].y < y - kReach) continue;
@@ -108,15 +111,16 @@ void ElementsSolver::draw(const std::vector<double>& p) {
                 while (k < row_begin[r + 1] && pixels[k].x <= pixels[l].x + kReach) in[k++] = 1;
             }
         }
-    }
-    position_.clear(), set_.clear(), z_.clear(), p_.clear(), w_.clear(), full_p_.clear();
-    for (std::size_t k = 0; k < n; ++k) {
-        if (!in[k]) continue;
-        position_.push_back(static_cast<int>(k));
-        set_.push_back(pixels[k]);
-        z_.push_back((*g0_)[k]);
-        p_.push_back(p[k]);
-    }
+    });
+    position_.clear(), w_.clear(), full_p_.clear();
+    for (std::size_t k = 0; k < n; ++k)
+        if (in[k]) position_.push_back(static_cast<int>(k));
+    const std::size_t size = position_.size();
+    set_.resize(size), z_.resize(size), p_.resize(size);
+    parallel_for(size, 4096, size > kThreads ? 0 : 1, [&](std::size_t k) {
+        const std::size_t l = at(position_[k]);
+        set_[k] = pixels[l], z_[k] = (*g0_)[l], p_[k] = p[l];
+    });
     rows_ = {0, set_.size()};
     if (!set_.empty()) products_.set_pixels(set_);
 }
@@ -128,11 +132,11 @@ void ElementsSolver::multiply(const std::vector<double>& x, std::vector<double>&
     if (!exact) return products_.apply(x.data(), Kx.data(), Accuracy::inner);
     if (full_p_.size() == n) {
         double change = 0, all = 0;
-        r_.resize(n);
-        for (std::size_t k = 0; k < n; ++k) r_[k] = x[k] - full_p_[k], change += r_[k] * r_[k], all += x[k] * x[k];
+        step_.resize(n);
+        for (std::size_t k = 0; k < n; ++k) step_[k] = x[k] - full_p_[k], change += step_[k] * step_[k], all += x[k] * x[k];
         for (const Accuracy accuracy : {Accuracy::inner, Accuracy::between}) {
             if (!(products_.error(accuracy) * std::sqrt(change) <= kChange * tolerance_ * std::sqrt(all))) continue;
-            products_.apply(r_.data(), Kx.data(), accuracy);
+            products_.apply(step_.data(), Kx.data(), accuracy);
             for (std::size_t k = 0; k < n; ++k) Kx[k] += full_w_[k];
             return;
         }
@@ -141,52 +145,31 @@ void ElementsSolver::multiply(const std::vector<double>& x, std::vector<double>&
     full_p_ = x, full_w_ = Kx;
 }
 
-void ElementsSolver::freed() {
-    std::vector<Pixel> pixels;
-    for (std::size_t k = 0; k < set_.size(); ++k)
-        if (free_[k]) pixels.push_back(set_[k]);
-    blocks_.assign(pixels, products_);
-}
+void ElementsSolver::freed() { blocks_.assign(set_, free_list_, products_); }
 
-void ElementsSolver::precondition(const std::vector<double>& r, std::vector<double>& y) {
-    r_.clear();
-    for (std::size_t k = 0; k < r.size(); ++k)
-        if (free_[k]) r_.push_back(r[k]);
-    y_.resize(r_.size());
-    if (!r_.empty()) blocks_.apply(r_.data(), y_.data());
-    y.assign(r.size(), 0.0);
-    for (std::size_t k = 0, l = 0; k < r.size(); ++k)
-        if (free_[k]) y[k] = y_[l++];
-}
+void ElementsSolver::precondition(const std::vector<double>& r, std::vector<double>& y) { blocks_.apply(r, y); }
 
 bool ElementsSolver::judge_exactly(bool, double residual, int rounds) {
     const double guess = wanted_ ? kReduction * residual : error();  // Z0 is not known before the next product
     return (looked_ && guess < kInnerReach * products_.inner_error()) || guess < tolerance_ || rounds > kQuick;
 }
 
-// Makes pixels outside the working set members if they would penetrate. Returns their number.
-long ElementsSolver::join() {
-    const std::vector<Pixel>& pixels = *pixels_;
-    std::vector<Pixel> others;
-    std::vector<int> where;
+// Makes pixels outside the working set members if they would penetrate under the pressures p. Returns their number.
+long ElementsSolver::join(const std::vector<double>& p) {
+    if (position_.size() == p.size()) return 0;
+    std::vector<double> w(p.size());
+    products_.elsewhere(p.data(), *pixels_, w.data());
+    long joined = 0;
+    // Pixels are selected by inner products with a margin for their error.
+    const double margin = 3 * products_.inner_error();
     std::size_t next = 0;
-    for (std::size_t k = 0; k < pixels.size(); ++k) {
+    for (std::size_t k = 0; k < p.size(); ++k) {
         if (next < position_.size() && at(position_[next]) == k) {
             ++next;
             continue;
         }
-        others.push_back(pixels[k]);
-        where.push_back(static_cast<int>(k));
-    }
-    if (others.empty()) return 0;
-    std::vector<double> w(others.size());
-    products_.elsewhere(p_.data(), others, w.data());
-    long joined = 0;
-    // Pixels are selected by inner products with a margin for their error.
-    const double margin = 3 * products_.inner_error();
-    for (std::size_t k = 0; k < others.size(); ++k) {
-        if (!(w[k] * (w[k] > 0 ? 1 - margin : 1 + margin) < (*g0_)[at(where[k])] - Z0_)) continue;
-        member_[at(where[k])] = 1;
+        if (!(w[k] * (w[k] > 0 ? 1 - margin : 1 + margin) < (*g0_)[k] - Z0_)) continue;
+        member_[k] = 1;
         ++joined;
     }
     return joined;
@@ -195,11 +178,11 @@ long ElementsSolver::join() {
 // Checks the pixels outside when the residual is small, and again at the end.
 bool ElementsSolver::complete(bool solved, double residual) {
     if (!solved && (looked_ || residual > kClosing)) return false;
-    const long joined = join();
-    looked_ = true;
-    if (joined == 0) return solved;
     std::vector<double> all(pixels_->size(), 0.0);
     for (std::size_t k = 0; k < p_.size(); ++k) all[at(position_[k])] = p_[k];
+    const long joined = join(all);
+    looked_ = true;
+    if (joined == 0) return solved;
     draw(all);
     return false;
 }

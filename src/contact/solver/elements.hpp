@@ -39,7 +39,7 @@ private:
     void freed() override;
     bool judge_exactly(bool exact, double residual, int rounds) override;
     bool complete(bool solved, double residual) override;
-    long join();
+    long join(const std::vector<double>& p);
 
     PixelProducts& products_;
     // The given pixels, the members (always in the working set), and whether pixels outside have been checked.
@@ -51,8 +51,7 @@ private:
     // Working set: positions in the given pixels, and pixels.
     std::vector<int> position_;
     std::vector<Pixel> set_;
-    std::vector<double> r_, y_;            // over the free pixels
-    std::vector<double> full_p_, full_w_;  // last full product with this set
+    std::vector<double> full_p_, full_w_, step_;  // last full product with this set, and the step since
     SpotBlocks blocks_;
 };
 

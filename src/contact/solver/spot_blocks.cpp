@@ -91,41 +91,47 @@ int connected_sets(const std::vector<Pixel>& pixels, std::vector<int>& label, in
     return count;
 }
 
-void SpotBlocks::assign(const std::vector<Pixel>& pixels, const PixelProducts& products) {
+void SpotBlocks::assign(const std::vector<Pixel>& all, const std::vector<int>& which, const PixelProducts& products) {
+    std::vector<Pixel> pixels;
+    for (const int k : which) pixels.push_back(all[at(k)]);
     std::vector<int> label;
-    const int spots = connected_sets(pixels, label);
-    std::vector<int> size(at(spots), 0);
-    for (int l : label) ++size[at(l)];
+    std::vector<std::size_t> begin(at(connected_sets(pixels, label)) + 1, 0);  // of the pixels of each spot
+    for (const int l : label) ++begin[at(l) + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    members_.resize(pixels.size());
+    std::vector<std::size_t> next = begin;
+    for (std::size_t k = 0; k < pixels.size(); ++k) members_[next[at(label[k])]++] = which[k];
     // A block is a spot, or the part of a large spot in one square of the lattice.
-    std::vector<std::tuple<int, int, int, int>> key(pixels.size());  // spot, square, position
-    for (std::size_t k = 0; k < pixels.size(); ++k) {
-        const bool cut = size[at(label[k])] > kMostPixels;
-        key[k] = {label[k], cut ? (pixels[k].y + (1 << 20) * kSquare) / kSquare : 0,
-                  cut ? (pixels[k].x + (1 << 20) * kSquare) / kSquare : 0, static_cast<int>(k)};
+    const auto square = [&](int k) {
+        constexpr int positive = (1 << 20) * kSquare;
+        return std::pair((all[at(k)].y + positive) / kSquare, (all[at(k)].x + positive) / kSquare);
+    };
+    std::vector<std::size_t> ends;
+    for (std::size_t s = 0; s + 1 < begin.size(); ++s) {
+        if (begin[s + 1] - begin[s] > kMostPixels) {
+            const auto first = members_.begin() + static_cast<std::ptrdiff_t>(begin[s]);
+            const auto last = members_.begin() + static_cast<std::ptrdiff_t>(begin[s + 1]);
+            std::stable_sort(first, last, [&](int a, int b) { return square(a) < square(b); });
+            for (auto k = first + 1; k < last; ++k)
+                if (square(k[-1]) != square(*k)) ends.push_back(static_cast<std::size_t>(k - members_.begin()));
+        }
+        ends.push_back(begin[s + 1]);
     }
-    std::sort(key.begin(), key.end());
     for (auto& [shape, inverse] : known_) inverse.wanted = false;
     blocks_.clear();
-    members_.resize(pixels.size());
     std::vector<std::pair<const Shape*, Inverse*>> fresh;
-    for (std::size_t b = 0; b < key.size();) {
-        std::size_t e = b;
+    std::size_t b = 0;
+    for (const std::size_t e : ends) {
         Shape shape;
-        const Pixel first = pixels[at(std::get<3>(key[b]))];
-        while (e < key.size() && std::get<0>(key[e]) == std::get<0>(key[b]) && std::get<1>(key[e]) == std::get<1>(key[b]) &&
-               std::get<2>(key[e]) == std::get<2>(key[b])) {
-            const int k = std::get<3>(key[e]);
-            members_[e++] = k;
-            shape.push_back({pixels[at(k)].x - first.x, pixels[at(k)].y - first.y});
-        }
+        const Pixel first = all[at(members_[b])];
+        for (std::size_t k = b; k < e; ++k) shape.push_back({all[at(members_[k])].x - first.x, all[at(members_[k])].y - first.y});
         const auto [place, is_new] = known_.try_emplace(std::move(shape));
         place->second.wanted = true;
         if (is_new) fresh.push_back({&place->first, &place->second});
-        blocks_.push_back({b, &place->second});
-        b = e;
+        blocks_.push_back({std::exchange(b, e), &place->second});
     }
     std::erase_if(known_, [](const auto& entry) { return !entry.second.wanted; });
-    parallel_for(fresh.size(), 1, fresh.size() > 100 ? 0 : 1, [&](std::size_t f) {
+    parallel_for(fresh.size(), 1, fresh.size() > 4 ? 0 : 1, [&](std::size_t f) {
         const Shape& shape = *fresh[f].first;
         const std::size_t n = shape.size();
         std::vector<double> A(n * n);
@@ -136,19 +142,25 @@ void SpotBlocks::assign(const std::vector<Pixel>& pixels, const PixelProducts& p
         invert(n, A.data());
         fresh[f].second->values.assign(A.begin(), A.end());
     });
-    blocks_.push_back({key.size(), nullptr});
+    blocks_.push_back({b, nullptr});
 }
 
-void SpotBlocks::apply(const double* r, double* z) const {
-    double unit = 0;  // scales the values for single precision
-    for (std::size_t k = 0; k < members_.size(); ++k) unit = std::max(unit, std::abs(r[k]));
+void SpotBlocks::apply(const std::vector<double>& r, std::vector<double>& z) const {
+    const auto for_blocks = [&](auto&& visit) {  // visit(block, first member, number of members)
+        parallel_for(blocks_.size() - 1, 16, members_.size() > 2000 ? 0 : 1,
+                     [&](std::size_t b) { visit(b, blocks_[b].begin, blocks_[b + 1].begin - blocks_[b].begin); });
+    };
+    std::vector<double> most(blocks_.size(), 0.0);
+    for_blocks([&](std::size_t b, std::size_t begin, std::size_t n) {
+        for (std::size_t k = begin; k < begin + n; ++k) most[b] = std::max(most[b], std::abs(r[at(members_[k])]));
+    });
+    double unit = *std::max_element(most.begin(), most.end());  // scales the values for single precision
     if (!(unit > 0)) unit = 1;
-    parallel_for(blocks_.size() - 1, 64, members_.size() > 30000 ? 0 : 1, [&](std::size_t b) {
-        const std::size_t begin = blocks_[b].begin, n = blocks_[b + 1].begin - begin;
+    for_blocks([&](std::size_t b, std::size_t begin, std::size_t n) {
         float x[kMostPixels], y[kMostPixels];
-        for (std::size_t k = 0; k < n; ++k) x[k] = static_cast<float>(r[members_[begin + k]] / unit);
+        for (std::size_t k = 0; k < n; ++k) x[k] = static_cast<float>(r[at(members_[begin + k])] / unit);
         multiply(n, blocks_[b].inverse->values.data(), x, y);
-        for (std::size_t k = 0; k < n; ++k) z[members_[begin + k]] = unit * static_cast<double>(y[k]);
+        for (std::size_t k = 0; k < n; ++k) z[at(members_[begin + k])] = unit * static_cast<double>(y[k]);
     });
 }
 

@@ -16,10 +16,10 @@ std::vector<int> open_sides(const std::vector<Pixel>& pixels, int period_x, int 
 // of squares. Blocks of equal shape share their inverse, also with earlier sets.
 class SpotBlocks {
 public:
-    // Sets the pixels, row by row as for connected_sets().
-    void assign(const std::vector<Pixel>& pixels, const PixelProducts& products);
-    // z = M^-1 r over the pixels, in their order.
-    void apply(const double* r, double* z) const;
+    // Sets the pixels, row by row as for connected_sets(): those of `all` at the positions `which`.
+    void assign(const std::vector<Pixel>& all, const std::vector<int>& which, const PixelProducts& products);
+    // z = M^-1 r over these pixels, at their positions in `all`; z is unchanged at others.
+    void apply(const std::vector<double>& r, std::vector<double>& z) const;
 
     static constexpr int kMostPixels = 100;
     static constexpr int kSquare = 10;
@@ -36,7 +36,7 @@ private:
     };
     std::map<Shape, Inverse> known_;
     std::vector<Block> blocks_;
-    std::vector<int> members_;  // positions of the pixels of the blocks
+    std::vector<int> members_;  // positions in `all` of the pixels of the blocks
 };
 
 }  // namespace rsc
