@@ -241,16 +241,25 @@ std::pair<double, double> stiffened(const Level& level, const ContactBodies& bod
     return {force > 0 ? of_force / force : 0.0, area > 0 ? of_area / area : 0.0};
 }
 
+// With the spacing of summits and the points per wave of the finer of two rough bodies: contacts are as small and as close as its waves.
+SolverOptions of_both(SolverOptions options, const Indenter& indenter) {
+    const ShapeKeys& second = indenter.shape->keys();
+    if (second.spacing > 0 && options.mean_spacing > 0) options.mean_spacing = std::min(options.mean_spacing, second.spacing);
+    if (second.shortest_wave > 0 && options.points_per_wave > 0 && options.grid_step > 0)
+        options.points_per_wave = std::min(options.points_per_wave, second.shortest_wave / options.grid_step);
+    return options;
+}
+
 }  // namespace
 
 ContactBodies::ContactBodies(const Asperities& given, const Indenter& indenter_, const SolverOptions& options_, SummitSearch search_)
     : of_surface(given),
+      options(of_both(options_, indenter_)),
       blunt(std::accumulate(given.radius.begin(), given.radius.end(), 0.0) / static_cast<double>(given.size())),
       search(std::move(search_)),
-      of_difference(summits_of_difference(of_surface, indenter_, options_, search)),
+      of_difference(summits_of_difference(of_surface, indenter_, options, search)),
       asperities(of_difference ? of_difference->summits : of_surface),
       indenter(indenter_),
-      options(options_),
       kernel(make_kernel(options_.interaction, substrate_of(indenter_), indenter_.period)) {}
 
 // `auto`: direct or mesh by the estimated cost of a Newton solve, with rates measured by test/bench. The dense method is never the

@@ -28,6 +28,7 @@ struct EdgePoints {
 // The bodies of a contact of asperities. The asperities are those given, or the summits of the difference that `search` finds.
 struct ContactBodies {
     const Asperities& of_surface;
+    SolverOptions options;
     double blunt;  // mean radius of its summits
     SummitSearch search;
     std::optional<FoundSummits> of_difference;
@@ -36,7 +37,6 @@ struct ContactBodies {
     mutable std::shared_ptr<const MapMarks> rim;  // border of a synthetic surface, once the indenter is near it
     const Asperities& asperities;                 // refers to one of the two above
     Indenter indenter;
-    SolverOptions options;
     std::shared_ptr<const Kernel> kernel;
 
     ContactBodies(const Asperities& given, const Indenter& indenter, const SolverOptions& options, SummitSearch search);
