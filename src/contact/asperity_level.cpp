@@ -257,7 +257,7 @@ ContactBodies::ContactBodies(const Asperities& given, const Indenter& indenter_,
       options(of_both(options_, indenter_)),
       blunt(std::accumulate(given.radius.begin(), given.radius.end(), 0.0) / static_cast<double>(given.size())),
       search(std::move(search_)),
-      of_difference(summits_of_difference(of_surface, indenter_, options, search)),
+      of_difference(summits_of_difference(of_surface, indenter_, options_, search)),
       asperities(of_difference ? of_difference->summits : of_surface),
       indenter(indenter_),
       kernel(make_kernel(options_.interaction, substrate_of(indenter_), indenter_.period)) {}

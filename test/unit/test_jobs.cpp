@@ -253,4 +253,34 @@ TEST(punch_on_plane) {
     }
 }
 
+// A smooth map and a rough one between flats: it is the same contact whichever is body 2, and its spots are those of the rough one.
+TEST(exchanged_maps) {
+    constexpr int n = 96, kWaves = 12;
+    constexpr double kSame = 0.08;  // of A; spots of fourth_order depend on the spacing of grid points, or of summits between points
+    constexpr double kFactor = 2;   // of expected errors, for the same reason
+    std::string smooth, rough;
+    for (int j = 0; j < n; ++j, smooth += '\n', rough += '\n')
+        for (int i = 0; i < n; ++i) {
+            const double x = 2 * kPi * i / n, y = 2 * kPi * j / n;
+            smooth += format(" %.12g", 1e-3 * (std::cos(x + 1) + std::cos(y + 2) + std::cos(2 * x - y)));
+            rough += format(" %.12g", 2e-4 * (std::cos(kWaves * x + 0.3) + std::cos(kWaves * y) + std::cos(9 * x - 7 * y + 2)));
+        }
+    const std::string files[] = {write("smooth.txt", smooth), write("rough.txt", rough)};
+    for (const LawKind law : {LawKind::elliptic, LawKind::fourth_order}) {
+        Level level[2];
+        for (const int first : {0, 1}) {
+            Case c = of_map(files[first]);
+            c.surface.pixel = 1.0 / n, c.surface.detrend = Detrend::none, c.output.pdf_levels = {};
+            c.solver.model = Model::asperities, c.asperities.law = law, c.solids.R[0] = c.solids.R[1] = HUGE_VAL;
+            c.indenter.file = files[1 - first], set_key(c, "indenter%shape", "'map'");
+            c.indentation.boundary = Boundary::periodic, c.indentation.control = Control::pressure;
+            c.indentation.unit = LevelUnit::relative, c.indentation.levels = {0.005};
+            level[first] = realize(prepare(c), 1, 1).levels[0];
+        }
+        CHECK_RELATIVE(level[0].area, level[1].area, kSame);
+        CHECK(std::abs(std::log(level[0].force_error_expected / level[1].force_error_expected)) < std::log(kFactor));
+        CHECK(std::abs(std::log(level[0].area_error_expected / level[1].area_error_expected)) < std::log(kFactor));
+    }
+}
+
 }  // namespace
