@@ -42,7 +42,14 @@ protected:
         const double p = N / area(), H = options_.hardness.H0;
         if (!(p < H)) throw Error(Failure::bad_input, format("a nominal pressure of %.9g exceeds the hardness %.9g", p, H));
         if (std::isfinite(H)) return std::nullopt;
-        const ElementsOutcome outcome = solver_.press(scale() * p, options_.tolerance, options_.max_iterations);
+        ElementsOutcome outcome;
+        try {
+            outcome = solver_.press(scale() * p, options_.tolerance, options_.max_iterations);
+        } catch (const Error& error) {
+            // Bodies that soften may close the gap in the course of time: a level without a state, so that the ones before are kept.
+            if (!loads_ || error.kind() != Failure::bad_input) throw;
+            outcome.residual = std::numeric_limits<double>::infinity();
+        }
         return report(solver_.separation(), outcome);
     }
     void step(double dt) override {

@@ -116,6 +116,8 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
              (!elements && (!job.settings.solids.layer_thickness.empty() || job.settings.indentation.boundary == Boundary::periodic)
                   ? "with contacts wider than the top layer, or between flats pressed deep, the asperity model may have no solution: use "
                     "solver%model = 'elements'."
+              : elements && !job.settings.solids.relaxation_share.empty() && job.settings.indentation.boundary == Boundary::periodic
+                  ? "bodies that relax may have closed the gap between flats; otherwise raise solver%max_iterations or the tolerance."
                   : "raise solver%max_iterations or the tolerance."));
 }
 

@@ -180,6 +180,14 @@ void test_refused(const Kind& model) {
     CHECK_THROWS((void)soft->at_separation(touch - 1e3 * model.depth), Error);
     CHECK(soft->memory() == before);
     CHECK_THROWS(soft->recall({0.0, 3.0}, nullptr), Error);
+    // A load that the body carries with a gap at first closes it later: no state then, and a smaller load has one again.
+    const double nearly = make(model, {})->at_separation(5e-4).force;
+    const auto pressed = make(model, kBody);
+    CHECK(pressed->at_force(nearly).status == LevelStatus::converged);
+    pressed->set_time(10);
+    const Level closed = pressed->at_force(nearly);
+    CHECK(closed.status == LevelStatus::not_converged && std::isnan(closed.force));
+    CHECK(pressed->at_force(0.1 * nearly).status == LevelStatus::converged);
 }
 
 // The deflections are those of the elastic contact while the indenter is held, at once and after long, as only the forces relax. Those left by a
