@@ -50,16 +50,17 @@ const Level& level_of(const rsc_contact* contact) {
 // Computes a level. After an exception the contact has no result; a level that did not converge is kept with that status.
 template <class Compute>
 void compute(rsc_contact& contact, Compute&& level) {
-    contact.known.level.reset();
-    contact.known.level = level();
-    const Indenter& indenter = contact.contact.indenter();
     auto& known = contact.known;
+    known.level.reset();
+    Level computed = level();
+    const Indenter& indenter = contact.contact.indenter();
     known.x0 = indenter.x0, known.y0 = indenter.y0;
     known.energy = contact.contact.energy();
     known.lateral = {kNotComputed, kNotComputed};
     // With summits of the difference the lateral force is that of the present state; otherwise that of the level, at any later time.
     if (const Asperities* used = contact.contact.asperities(); used && used != &contact.on->asperities)
-        known.lateral = contact.contact.lateral(*known.level), known.moment = tip_moment(indenter, *known.level);
+        known.lateral = contact.contact.lateral(computed), known.moment = tip_moment(indenter, computed);
+    known.level = std::move(computed);
     contact.recalled = true;
 }
 

@@ -18,7 +18,8 @@ void SummitsBeside::follow(std::span<const int> asperities, const LawOf& law_of)
     for (const int k : asperities)
         if (const auto i = static_cast<std::size_t>(k); !followed_[i]) which.push_back(i), followed_[i] = true;
     if (which.empty()) return;
-    for (Tip& to : tips_) {
+    std::deque<Tip> tips = std::exchange(tips_, {});  // after an exception there are none
+    for (Tip& to : tips) {
         if (to.found.map)
             to.found.summits = follow_summits(*to.found.map, std::move(to.found.summits), which, to.found.lay, to.found.threads,
                                               to.found.points_per_wave, Face(to.indenter), to.found.breaks.get());
@@ -26,6 +27,7 @@ void SummitsBeside::follow(std::span<const int> asperities, const LawOf& law_of)
             replace(to.found.summits, which, moved_summits(selected(bodies_.of_surface, which), to.indenter));
         if (!to.law || jumps_) to.law = law_of(to.found, to.indenter);  // others read a summit when they are prepared for it
     }
+    tips_ = std::move(tips);
 }
 
 Vec2 SummitsBeside::lateral(const std::vector<int>& asperities, const std::vector<double>& f, bool lasting,
@@ -35,15 +37,15 @@ Vec2 SummitsBeside::lateral(const std::vector<int>& asperities, const std::vecto
     std::vector<WorkingSet> sets;
     std::vector<double> first(n, 0.0), phi(n);
     for (Tip& to : tips_) {
-        const Asperities& a = to.found.summits;
+        const Asperities &a = to.found.summits, &present = bodies_.asperities;
         to.law->prepare(asperities);
         WorkingSet& set = sets.emplace_back();
         for (std::size_t k = 0; k < n; ++k) {
             const auto i = static_cast<std::size_t>(asperities[k]);
             const Vec2 place = to.indenter.image(a.x[i], a.y[i]);
             set.asperity.push_back(asperities[k]), set.x.push_back(place.x), set.y.push_back(place.y);
-            const double clearance = to.indenter.clearance(a.x[i], a.y[i], a.z[i]);
-            set.g0.push_back(std::isfinite(clearance) ? clearance : a.z[i]);  // at a sharp edge
+            const double clearance = to.indenter.clearance(a.x[i], a.y[i], a.z[i]);  // not finite just beyond the edge of the indenter
+            set.g0.push_back(std::isfinite(clearance) ? clearance : bodies_.indenter.clearance(present.x[i], present.y[i], present.z[i]));
             there.push_back(work(to, k));
             first[k] += there.back().force / static_cast<double>(tips_.size());
         }

@@ -352,13 +352,27 @@ void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) con
         return is_unsigned && value < 0 ? value + wrap : v.type == NC_FLOAT ? static_cast<double>(static_cast<float>(value)) : value;
     };
     for (double& value : missing) value = typed(value);
+    // Limits are stored values, unless those are integers, and the limits real numbers like the factors (NetCDF user's guide).
+    const auto real = [&](const char* name) {
+        nc_type type = NC_NAT;
+        return nc_inq_atttype(id_, v.id, name, &type) == NC_NOERR && (type == NC_FLOAT || type == NC_DOUBLE);
+    };
+    const bool unpacked = v.type != NC_FLOAT && v.type != NC_DOUBLE && (real("scale_factor") || real("add_offset")) &&
+                          (real("valid_range") || real("valid_min") || real("valid_max"));
     constexpr double all = std::numeric_limits<double>::infinity();
-    double least = typed(factor("valid_min", -all)), most = typed(factor("valid_max", all));
-    if (const auto range = numbers_attribute(v, "valid_range"); range && range->size() == 2)
-        least = typed((*range)[0]), most = typed((*range)[1]);
+    double least = factor("valid_min", -all), most = factor("valid_max", all);
+    if (const auto range = numbers_attribute(v, "valid_range")) {
+        if (range->size() != 2) bad_input(path_ + ": attribute " + v.name + ":valid_range must be two numbers");
+        least = (*range)[0], most = (*range)[1];
+    }
+    if (unpacked)
+        least -= 0.5 * std::abs(scale), most += 0.5 * std::abs(scale);  // however they are rounded
+    else
+        least = typed(least), most = typed(most);
     for (std::size_t i = 0; i < v.count(); ++i) {
         const double stored = typed(out[i]);
-        const bool filled = std::find(missing.begin(), missing.end(), stored) != missing.end() || stored < least || stored > most;
+        const double judged = unpacked ? stored * scale + offset : stored;
+        const bool filled = std::find(missing.begin(), missing.end(), stored) != missing.end() || judged < least || judged > most;
         if (missing_allowed && (std::isnan(stored) || filled)) {
             out[i] = std::nan("");
             continue;

@@ -29,13 +29,14 @@ bool is_text_map(const std::string& path);
 // Heights from `path`.
 // NetCDF: the variable `height`, dimensions (y, x), or the only two-dimensional numeric variable. scale_factor and
 //   add_offset are applied; missing values (_FillValue, missing_value, outside valid_min, valid_max or valid_range, NaN) are refused.
-//   Heights and coordinates are converted from their `units` to `length_unit`. If none of them has `units`, length_unit is assumed; if only some have, and another
-//   unit than length_unit, the file is refused. The spacing comes from the coordinate variables of the two dimensions, which must be
-//   uniform to 1e-6 of a step (or to the rounding of their own type); x0, y0 are the first coordinates; decreasing coordinates are
+//   These limits are stored values, before scale_factor and add_offset; real numbers for packed integers are heights. Heights and
+//   coordinates are converted from their `units` to `length_unit`. If none of them has `units`, length_unit is assumed; if only some have,
+//   and another unit than length_unit, the file is refused. The spacing comes from the coordinate variables of the two dimensions, which
+//   must be uniform to 1e-6 of a step (or to the rounding of their own type); x0, y0 are the first coordinates; decreasing coordinates are
 //   reversed. Without coordinate variables the steps are dx = dy = L/nx and x0 = y0 = 0. If both are given, nx dx must equal L to 1e-6.
 // Text (formats.hpp): a matrix in length_unit (a comment that names another unit is refused), one line for each y in increasing order;
-//   needs L. Or three columns x y z, in any order of the lines: the points of a full grid whose coordinates are uniform to a hundredth of a step, as text is rounded. Four columns are refused, because
-//   they are a list of asperities.
+//   needs L. Or three columns x y z, in any order of the lines: the points of a full grid whose coordinates are uniform to a hundredth of
+//   a step, as text is rounded. Four columns are refused, because they are a list of asperities.
 // L: extent in x [length_unit] of the points as cells (L = nx dx). At least 3 x 3 points. The map is not periodic.
 // Gwyddion's .gwy and .sdf of ISO 25178-71 (formats.hpp): sizes and units come from the file; L, if given, must agree.
 // `channel` names the image of a .gwy or the variable of a NetCDF file; empty: the first with heights. With Missing::fill missing

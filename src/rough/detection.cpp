@@ -121,16 +121,22 @@ Asperities follow_summits(const HeightMap& map, Asperities summits, const std::v
     constexpr double kNear = 0.1;  // grid steps
     const std::vector<Stencil> stencils = stencils_for(points_per_wave);
     const RowPlace place{map.nx, map.x0, map.dx, map.dy, 0.0, map.periodic};
+    const auto within = [&](int& i, int n) { return map.periodic ? (i = (i % n + n) % n, true) : i >= 1 && i < n - 1; };
     parallel_for(which.size(), 16, threads, [&](std::size_t k) {
         const std::size_t i = which[k];
         const double u = (summits.x[i] - map.x0) / map.dx, v = (summits.y[i] - map.y0) / map.dy;
-        const int column = static_cast<int>(std::lround(u)) % map.nx, row = static_cast<int>(std::lround(v)) % map.ny;
         SummitClimber climber(stencils, place, map.ny, map.y0, Curvature::geometric, &above, breaks);
-        RefinedSummits again;
-        climber.climb_from(column, row, true, rows_about(map, row), again);
-        if (again.from.empty() || std::hypot(again.from[0].u - u, again.from[0].v - v) > kNear) return;
-        again.found.biharmonic[0] += lay * (again.from[0].elongated - again.found.biharmonic[0]);
-        for (const AsperityColumn& column : kAsperityColumns) (summits.*column.values)[i] = (again.found.*column.values)[0];
+        // From the nearest point, or if that leads elsewhere, from one beside it, as the first search did.
+        for (const auto& [right, up] : {std::pair{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+            int column = static_cast<int>(std::lround(u)) + right, row = static_cast<int>(std::lround(v)) + up;
+            if (!within(column, map.nx) || !within(row, map.ny)) continue;
+            RefinedSummits again;
+            climber.climb_from(column, row, true, rows_about(map, row), again);
+            if (again.from.empty() || std::hypot(again.from[0].u - u, again.from[0].v - v) > kNear) continue;
+            again.found.biharmonic[0] += lay * (again.from[0].elongated - again.found.biharmonic[0]);
+            for (const AsperityColumn& column_of : kAsperityColumns) (summits.*column_of.values)[i] = (again.found.*column_of.values)[0];
+            return;
+        }
     });
     return summits;
 }

@@ -101,6 +101,11 @@ TEST(types) {
                                          2.0, "mm", "", Missing::fill);
         CHECK(std::isnan(m(2, 1)) && m(1, 1) == 11 && m(3, 2) == 23);
     }
+    // Limits of packed integers are packed, too; real numbers are heights.
+    Variable v{"height", NC_SHORT, {"y", "x"}, heights()};
+    v.numbers = {{"scale_factor", {-0.1}}, {"add_offset", {5}}, {"valid_range", {2.8, 9}}};
+    const HeightMap packed = read_heights(netcdf("t.nc", {{"y", 3}, {"x", 4}}, {v}), 2.0, "mm", "", Missing::fill);
+    CHECK(std::isnan(packed(3, 2)) && !std::isnan(packed(2, 2)) && packed(0, 0) == 5);
     Values z = heights();
     z[5] = -25536, z[6] = -1;
     const HeightMap u = read_heights(

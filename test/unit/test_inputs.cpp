@@ -58,6 +58,8 @@ TEST(bad_heights_from_netcdf) {
             "height(x = 4, y = 4) has y running fastest;");
     REFUSED(read_heights(of({{"y", 4}, {"x", 4}}, {{"height", NC_DOUBLE, {"y", "x"}, counted(16, 0, 1), {{"scale_factor", "2"}}}}), 1.0),
             "attribute height:scale_factor is text; a number was expected");
+    REFUSED(read_heights(of({{"y", 4}, {"x", 4}}, {{"height", NC_DOUBLE, {"y", "x"}, counted(16, 0, 1), {}, {{"valid_range", {1}}}}}), 1.0),
+            "attribute height:valid_range must be two numbers");
     REFUSED(read_asperities(of({{"y", 4}, {"x", 4}}, {{"asperity_x", NC_DOUBLE, {"y", "x"}, counted(16, 0, 1)}})),
             "asperity_x, numeric over one dimension, was expected, not asperity_x(y = 4, x = 4)");
     const std::string none = of({{"t", 2}}, {{"t", NC_DOUBLE, {"t"}}});
