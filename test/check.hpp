@@ -9,8 +9,7 @@
 
 namespace check {
 
-inline int failures = 0;
-inline int checks = 0;
+inline std::atomic<int> failures = 0, checks = 0;  // also from threads of a test
 void that(bool ok, const char* what, const char* file, int line);
 void close(double a, double b, double tolerance, const char* what, const char* file, int line);  // |a - b| <= tolerance
 

@@ -119,6 +119,7 @@ Level Contact::in_steps(double from, double to, Level (Contact::*reach)(double))
 
 Level Contact::to_separation(double Z0) {
     begin();
+    rise_ = 0;  // that of a force may be one far from Z0
     Level level = shift() > 0 ? solve_between_planes(Z0) : solve(Z0);
     finish(level);
     return level;

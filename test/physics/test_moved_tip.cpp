@@ -66,6 +66,15 @@ TEST(test_products) {
     }
 }
 
+// A force near first touch does not start from the slope of an earlier, far larger one.
+TEST(forces_far_apart) {
+    const auto contact = make_asperity_contact(random_asperities(800, 0.01, 0.01, 0.05, 0.3, 7), {1, 2, 0.5, 0.5}, {});
+    const double deep = contact->at_separation(-0.02).force;
+    (void)contact->at_force(0.9 * deep), (void)contact->at_force(0.8 * deep);
+    const Level shallow = contact->at_separation(contact->first_touch() - 1e-6);
+    CHECK(shallow.contacts == 1 && contact->at_force(10 * shallow.force).products < 30);
+}
+
 // Where levels are not unique, a force at a new place costs less than two levels at its separation.
 TEST(not_unique) {
     const Asperities asperities = random_asperities(800, 0.01, 0.01, 0.3, 0.3, 7);

@@ -161,7 +161,7 @@ void Interpolation::down(int half_x, int half_y, const double* parent, double* c
 void Interpolation::make_matrices() {
     const int generation = static_cast<int>(matrices_.size()), n = q_ * q_;
     const double half_x = 0.5 * kTileColumns * std::ldexp(1.0, generation), half_y = 0.5 * rows_ * aspect_ * std::ldexp(1.0, generation);
-    std::vector<std::vector<double>>& all = matrices_.emplace_back(kOffsets);
+    std::vector<std::vector<double>> all(kOffsets);
     parallel_for(16, 1, 0, [&](int offset) {
         const int ox = offset % 4, oy = offset / 4;
         if (ox <= 1 && oy <= 1) return;
@@ -190,6 +190,7 @@ void Interpolation::make_matrices() {
                 }
             }
     });
+    matrices_.push_back(std::move(all));
 }
 
 }  // namespace rsc

@@ -186,7 +186,11 @@ public:
 
     void elsewhere(const double* p, const std::vector<Pixel>& pixels, double* w) override {
         ++count_;
-        if (pixels != others_) others_ = pixels, others_layout_ = make_layout(pixels, rows_);
+        if (pixels != others_) {
+            others_.clear();  // they do not belong to the layout if an exception ends this
+            others_layout_ = make_layout(pixels, rows_);
+            others_ = pixels;
+        }
         product(others_layout_, inner_, pixels.size(), p, w);
     }
 
@@ -227,6 +231,7 @@ private:
 // them; those above are a piece of the transfers.
 void Tree::product(const Layout& layout, Interpolation& interpolation, std::size_t n, const double* p, double* w) {
     if (n == 0) return;
+    stopping_point();  // the caller may get no piece of the loops
     const auto& generations = layout.generations;
     const Generation& leaf = generations[0];
     const std::size_t levels = generations.size(), roots = layout.roots, size = at(kTileColumns * rows_),

@@ -117,6 +117,7 @@ void SpotBlocks::assign(const std::vector<Pixel>& all, const std::vector<int>& w
         }
         ends.push_back(begin[s + 1]);
     }
+    std::erase_if(known_, [](const auto& entry) { return entry.second.values.empty(); });  // an exception ended their computation
     for (auto& [shape, inverse] : known_) inverse.wanted = false;
     blocks_.clear();
     std::vector<std::pair<const Shape*, Inverse*>> fresh;
