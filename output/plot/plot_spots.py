@@ -97,7 +97,7 @@ def spots(results, options):
     most = pixels[1].max() if pixels else 1.0  # cells much larger than spots would be pale
     if pixels:  # at least some points around few ones
         side = (pixels[0][1] - pixels[0][0]) / pixels[1].shape[1]
-        half = max(half, 6 * side)
+        half = max(half + 2 * side, 6 * side)
     near = max(half / 4, 4 * side) if pixels else min(max(14 * np.median(a), 4 * a[big]), half)
     rim = bool(pixels) and a[big] > near  # the inside of the largest would have one colour
     image = None

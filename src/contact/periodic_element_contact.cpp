@@ -22,7 +22,7 @@ public:
         return touches_ ? area() * solver_.energy() : 0;
     }
     void require_gap(double N) override {
-        if (!loads_ && !std::isfinite(options_.hardness.H0)) solver_.require_gap(N / area());
+        if (!std::isfinite(options_.hardness.H0)) solver_.require_gap(N / area());
     }
     void move_tip(double x0, double y0) override {
         if (!std::isfinite(x0) || !std::isfinite(y0)) throw Error(Failure::bad_input, "the tip's position must be finite");

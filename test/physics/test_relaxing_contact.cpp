@@ -183,6 +183,7 @@ void test_refused(const Kind& model) {
     // A load that the body carries with a gap at first closes it later: no state then, and a smaller load has one again.
     const double nearly = make(model, {})->at_separation(5e-4).force;
     const auto pressed = make(model, kBody);
+    CHECK_THROWS(pressed->require_gap(10 * nearly), Error);
     CHECK(pressed->at_force(nearly).status == LevelStatus::converged);
     pressed->set_time(10);
     const Level closed = pressed->at_force(nearly);
