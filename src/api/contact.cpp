@@ -18,7 +18,7 @@ static_assert(kLevelStatusNames.size() == RSC_LEVEL_LAST_ + 1 && static_cast<int
               static_cast<int>(LevelStatus::not_converged) == RSC_LEVEL_NOT_CONVERGED);
 
 void require_contact_keys(const Case& settings) {
-    require_sound(settings, {"solver", "solids%resistivity", "solids%relaxation_share", "solids%relaxation_time", "asperities%law",
+    require_valid(settings, {"solver", "solids%resistivity", "solids%relaxation_share", "solids%relaxation_time", "asperities%law",
                              "indentation%selection", "indentation%selection_factor", "surface%sigma", "surface%L"});
 }
 
@@ -169,7 +169,7 @@ int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities
         require(asperities, 2, "asperities");
         const rsc::Case& settings = settings_of(a_case);
         require_contact_keys(settings);
-        require_sound(settings, {"solids", "indenter"});
+        rsc::require_valid(settings, {"solids", "indenter"});
         const auto& on = asperities->model;
         require_model(*on, settings, 3);
         const rsc::SurfaceDomain domain = domain_of(settings, *on);

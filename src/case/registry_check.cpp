@@ -345,10 +345,14 @@ private:
 
 std::vector<Problem> check_case(const Case& settings) { return Checker(settings).check(); }
 
-void require_valid(const Case& settings) {
+void require_valid(const Case& settings, std::initializer_list<std::string_view> names) {
     std::string text;
-    for (const Problem& problem : check_case(settings))
-        text += (text.empty() ? "&" : "\n&") + std::string(problem.keys.front()->group) + ": " + problem.text;
+    for (const Problem& problem : check_case(settings)) {
+        const Key& key = *problem.keys.front();
+        const auto is_key = [&](std::string_view name) { return name == key.group || name == full_name(key); };
+        if (names.size() == 0 || std::ranges::any_of(names, is_key))
+            text += (text.empty() ? "&" : "\n&") + std::string(key.group) + ": " + problem.text;
+    }
     if (!text.empty()) bad_input(text);
 }
 
