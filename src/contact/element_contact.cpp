@@ -10,14 +10,13 @@
 namespace rsc {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInnerError = 1e-3;  // error of products in iterations
 constexpr double kMostTimes = 30;     // largest ratio to the last force for a start from its pressures
 constexpr double kMargin = 0.3;       // pixels are selected lower by this share of the step to the expected separation
 constexpr double kColdMargin = 0.05;  // and of the expected depth, if no level is known
 constexpr int kBlock = 16;            // side of the blocks whose highest points are stored [pixels]
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 bool before(const Pixel& a, const Pixel& b) { return a.y < b.y || (a.y == b.y && a.x < b.x); }
 
 class ElementContact final : public PixelContact {

@@ -8,8 +8,6 @@
 namespace rsc {
 namespace {
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
 // Number of pixels N such that half of all pixels belong to contacts of at most N pixels.
 template <class Sums>
 double median_by_area(const Sums& sums) {

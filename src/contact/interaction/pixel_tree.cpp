@@ -9,8 +9,6 @@
 namespace rsc {
 namespace {
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
 constexpr int kColumnShift = std::countr_zero(unsigned{kTileColumns});
 constexpr std::size_t kThreads = 200;  // number of tiles above which threads are used
 constexpr std::size_t kChunk = 128;    // boxes to which a thread transfers at a time

@@ -5,9 +5,6 @@
 namespace rsc {
 namespace {
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kThreads = 16384;   // number of pixels from which on threads are used
 constexpr int kPixels = 4096, kRows = 8;  // that a thread takes at a time
 // Error above which the sets change so much that a round is made of two.

@@ -6,7 +6,6 @@ namespace rsc {
 namespace {
 
 using Accuracy = PixelProducts::Accuracy;
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 // The working set contains all pixels within this distance of a pixel under pressure.
 constexpr int kReach = 3;
@@ -78,7 +77,7 @@ std::size_t ElementsSolver::guess(const std::vector<Pixel>& pixels, const std::v
 }
 
 void ElementsSolver::start(const std::vector<Pixel>& pixels, const std::vector<double>& g0, std::vector<double>& p) {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     const std::size_t chosen = guess(pixels, g0, g0, least, p);
     if (!(static_cast<double>(chosen) > kDeep * static_cast<double>(pixels.size()))) return;
     // In the roughness the peaks carry the load: they stand out in the overlap that remains after the deflection.

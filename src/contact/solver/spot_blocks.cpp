@@ -6,8 +6,6 @@
 namespace rsc {
 namespace {
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
 // Replaces a symmetric positive definite matrix A (n x n) by its inverse, by Gauss-Jordan elimination without pivoting.
 RSC_ALWAYS_INLINE void invert_body(std::size_t n, double* A) {
     for (std::size_t k = 0; k < n; ++k) {
