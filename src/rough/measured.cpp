@@ -115,7 +115,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     count_heights(map, m);
     const auto spectrum = [&](double aspect, double direction) {
         MeasuredSpectrum s = measure_spectrum(map, aspect, direction);
-        if (!s.wavenumber.empty() && (m.form.how == Detrend::quadratic || m.form.how == Detrend::sphere)) s.lost = 2.5 * s.wavenumber[0];
+        if (m.form.how == Detrend::quadratic || m.form.how == Detrend::sphere) s.lost = 2.5;
         return s;
     };
     m.spectrum = spectrum(1, 0);

@@ -71,6 +71,11 @@ double seam(const HeightMap& map) {
     return std::sqrt(across / static_cast<double>(n_across) / (within / static_cast<double>(n_within)));
 }
 
+// The key that asks for the largest pressure, as messages begin.
+std::string key_of_largest(const Case::Indentation& keys) {
+    return std::string("indentation%") + (!keys.levels.empty() ? "levels" : keys.start > keys.stop ? "start" : "stop") + ": ";
+}
+
 // Two elastic flats by elements have no level at the separation of their mean planes, where they are in full contact, nor below it.
 void require_open(const Job& job) {
     if (!job.indenter.period.finite() || std::isfinite(job.settings.solids.hardness) || job.levels.empty()) return;
@@ -192,13 +197,13 @@ Job prepare(const Case& settings) {
         const double unit = relative ? full : 1.0;
         for (double level : job.levels) {
             if (!elements && level * unit >= kClosingPressure * full)
-                bad_input(format(
-                    "indentation: a pressure of %g: at E* sqrt(2 m2) = %g and above less than 5 %% of the area is gap, too little for the "
-                    "asperity model; use solver%%model = 'elements', which is valid up to full contact",
-                    level * unit, full));
+                bad_input(key_of_largest(settings.indentation) +
+                          format("a pressure of %g: at E* sqrt(2 m2) = %g and above less than 5 %% of the area is gap, too little for the "
+                                 "asperity model; use solver%%model = 'elements', which is valid up to full contact",
+                                 level * unit, full));
             if (!(level * unit < settings.solids.hardness))
-                bad_input(
-                    format("indentation: a nominal pressure of %.9g exceeds the hardness, %.9g", level * unit, settings.solids.hardness));
+                bad_input(key_of_largest(settings.indentation) +
+                          format("a nominal pressure of %.9g exceeds the hardness, %.9g", level * unit, settings.solids.hardness));
         }
         job.level_unit = unit * job.indenter.period.area();
     }
@@ -276,7 +281,11 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
                  : 0.0;
     std::vector<FieldLevel> fields;
     if (settings.indentation.control != Control::separation && !job.levels.empty())  // before the levels below it are solved
-        contact->require_gap(*std::max_element(job.levels.begin(), job.levels.end()));
+        try {
+            contact->require_gap(*std::max_element(job.levels.begin(), job.levels.end()));
+        } catch (const Error& error) {
+            throw Error(error.kind(), key_of_largest(settings.indentation) + error.what() + "; give smaller ones");
+        }
     for (std::size_t k = 0; k < job.levels.size(); ++k) {
         if (!job.times.empty()) contact->set_time(job.times[k]);
         if (settings.indentation.control != Control::separation) {

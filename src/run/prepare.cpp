@@ -437,7 +437,7 @@ Shape shape_of(const Case& settings) {
         made.told = report(*second.measured, settings.run.length_unit);
         made.filled = second.measured->filled;
         SummitCount count;
-        (void)find_asperities(second.map, settings.asperities.curvature, &count, 1);
+        if (!by_elements(settings)) (void)find_asperities(second.map, settings.asperities.curvature, &count, 1);
         if (count.summits > 0) made.spacing = std::sqrt(second.map.Lx() * second.map.Ly() / static_cast<double>(count.summits));
         made.shortest_wave = second.measured->points_per_wave() * std::max(second.map.dx, second.map.dy);
         auto map = std::make_shared<HeightMap>(std::move(second.map));
