@@ -342,15 +342,16 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
     return proved(law, kernel, asperity, x, y, v, force, slope, 0);
 }
 
-void LastingProof::Bounds::set(const std::vector<int>& asperities, const Vector& x, const Vector& y, const Vector& v, double width) {
+void LastingProof::Bounds::set(const std::vector<int>& asperities, const Vector& x, const Vector& y, const Vector& v, double share,
+                               double width) {
     for (const int i : asperity) by_asperity[static_cast<std::size_t>(i)] = {};
-    asperity = asperities, spread = 2 * width, touching = 0;
+    asperity = asperities, touching = 0;
     const std::size_t size = static_cast<std::size_t>(*std::max_element(asperity.begin(), asperity.end())) + 1;
     if (by_asperity.size() < size) by_asperity.resize(size);
     for (std::size_t k = 0; k < v.size(); ++k) {
-        const double high = v[k] + width;
-        by_asperity[static_cast<std::size_t>(asperity[k])] = {high, x[k], y[k]};
-        touching += high > 0;
+        const double wide = std::max(share * std::abs(v[k]), width);
+        by_asperity[static_cast<std::size_t>(asperity[k])] = {v[k] - wide, v[k] + wide, x[k], y[k]};
+        touching += v[k] + wide > 0;
     }
 }
 
@@ -361,17 +362,21 @@ bool LastingProof::Bounds::contain(const std::vector<int>& asperities, const Vec
     const auto same = [](double a, double b) { return std::abs(a - b) <= rounding * std::abs(b); };
     for (std::size_t k = 0; k < v.size(); ++k) {
         const auto i = static_cast<std::size_t>(asperities[k]);
-        const Asperity* const own = i < by_asperity.size() && std::isfinite(by_asperity[i].high) ? &by_asperity[i] : nullptr;
-        if (!own && others && !(v[k] > 0)) continue;
-        if (!own || !(v[k] <= own->high && v[k] >= own->high - spread && same(own->x, x[k]) && same(own->y, y[k]))) return false;
-        touch += own->high > 0;
+        const bool known = i < by_asperity.size() && std::isfinite(by_asperity[i].high);
+        if (!known && others && !(v[k] > 0)) continue;
+        if (!known) return false;
+        const Asperity& own = by_asperity[i];
+        if (!(v[k] <= own.high && v[k] >= own.low && same(own.x, x[k]) && same(own.y, y[k]))) return false;
+        touch += own.high > 0;
     }
     return touch == touching;
 }
 
+// Nearness relative to the penetration, and to the largest one where that is small. On the default surface 1600 levels of 'fourth_order' under
+// tips that moved by 1e-5 or 1e-4 mm, most of them not unique, had the contacts found from the start each time, with three times this, too.
 void LastingProof::select(const std::vector<int>& asperity, const Vector& x, const Vector& y, const Vector& v) {
-    constexpr double near = 1e-3;  // as errors of the products of Method::mesh on the way
-    chosen_.set(asperity, x, y, v, near * *std::max_element(v.begin(), v.end()));
+    constexpr double near = 1e-2, least = 1e-3;
+    chosen_.set(asperity, x, y, v, near, least * *std::max_element(v.begin(), v.end()));
 }
 
 bool LastingProof::selected(const std::vector<int>& asperity, const Vector& x, const Vector& y, const Vector& v) const {
@@ -392,7 +397,7 @@ bool LastingProof::holds(const Law& law, const Kernel& kernel, const std::vector
         for (double& bound : high) bound += width;
         law.respond(static_cast<int>(v.size()), asperity.data(), high.data(), f.data(), D.data(), W.data());
         if (proved(law, kernel, asperity, x, y, high, f, D, 2 * width)) {
-            proved_.set(asperity, x, y, v, width);
+            proved_.set(asperity, x, y, v, 0, width);
             return true;
         }
     }

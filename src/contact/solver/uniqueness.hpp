@@ -56,17 +56,17 @@ public:
 private:
     struct Bounds {
         struct Asperity {
-            double high = -std::numeric_limits<double>::infinity();  // upper bound; -Infinity: not within the bounds
+            double low = 0, high = -std::numeric_limits<double>::infinity();  // of its penetration; -Infinity: it has no bounds
             double x = 0, y = 0;  // its place: on a surface that repeats another image may have come near the tip
         };
         std::vector<Asperity> by_asperity;
-        double spread = 0;          // distance of the lower bounds
         std::size_t touching = 0;   // asperities whose upper bound is positive
-        std::vector<int> asperity;  // those within the bounds
+        std::vector<int> asperity;  // those with bounds
 
+        // Bounds at a distance of |v| times `share` from v, at least of `width`.
         void set(const std::vector<int>& asperities, const std::vector<double>& x, const std::vector<double>& y,
-                 const std::vector<double>& v, double width);
-        // `others`: asperities without bounds are of no importance as long as they do not touch.
+                 const std::vector<double>& v, double share, double width);
+        // `others`: asperities without bounds are of no importance unless they touch.
         bool contain(const std::vector<int>& asperities, const std::vector<double>& x, const std::vector<double>& y,
                      const std::vector<double>& v, bool others) const;
     };
