@@ -54,6 +54,7 @@ struct Layout {
     };
     std::vector<Strip> strips;                       // sorted by tile
     std::vector<std::size_t> begin;                  // of the pixels of each tile, if sorted by tile
+    std::vector<std::array<int, 9>> around;          // adjacent tiles, row by row, and the tile itself; -1: none
     std::vector<std::array<std::size_t, 2>> chunks;  // generation and chunk of all pairs
     // The first generation whose boxes, with all inside, are work of a thread at a time, and number of chunks of it and those before.
     std::size_t roots = 0, chunks_below = 0;
@@ -167,8 +168,13 @@ void lay_out(Layout& layout, const std::vector<Pixel>& pixels, int rows) {
         for (std::size_t c = 0; c < g.pairs.size(); ++c) layout.chunks.push_back({l, c});
         if (l == 0 || g.boxes.size() >= kFewest) layout.roots = l, layout.chunks_below = layout.chunks.size();
     }
-    parallel_for(layout.chunks.size(), 1, threads_for(leaf.boxes.size()),
-                 [&](std::size_t c) { pair_up(generations[layout.chunks[c][0]], layout.chunks[c][1]); });
+    layout.around.resize(leaf.boxes.size());
+    parallel_for(layout.chunks.size(), 1, threads_for(leaf.boxes.size()), [&](std::size_t chunk) {
+        const auto [l, c] = layout.chunks[chunk];
+        pair_up(generations[l], c);
+        for (std::size_t t = c * kChunk; t < std::min(leaf.boxes.size(), (c + 1) * kChunk) && l == 0; ++t)
+            for (int o = 0; o < 9; ++o) layout.around[t][at(o)] = leaf.find(leaf.boxes[t].x + o % 3 - 1, leaf.boxes[t].y + o / 3 - 1);
+    });
 }
 
 class Tree final : public PixelProducts {
@@ -198,19 +204,19 @@ public:
         lay_out(layout_, pixels, rows_);
     }
 
-    void apply(const double* p, double* w, Accuracy accuracy) override {
+    void apply(const double* p, double* w, Accuracy accuracy, const char* wanted) override {
         ++count_;
-        product(layout_, of(accuracy), size_, p, w);
+        product(layout_, of(accuracy), size_, p, w, wanted);
     }
 
-    void elsewhere(const double* p, const std::vector<Pixel>& pixels, double* w) override {
+    void elsewhere(const double* p, const std::vector<Pixel>& pixels, double* w, const char* wanted) override {
         ++count_;
         if (pixels != others_) {
             others_.clear();  // they do not belong to the layout if an exception ends this
             lay_out(others_layout_, pixels, rows_);
             others_ = pixels;
         }
-        product(others_layout_, inner_, pixels.size(), p, w);
+        product(others_layout_, inner_, pixels.size(), p, w, wanted);
     }
 
     double coefficient(int dx, int dy) const override {
@@ -229,7 +235,7 @@ private:
         return accuracy == Accuracy::inner ? inner_ : accuracy == Accuracy::between ? between_ : full_;
     }
     Interpolation& of(Accuracy accuracy) { return const_cast<Interpolation&>(std::as_const(*this).of(accuracy)); }
-    void product(const Layout& layout, Interpolation& interpolation, std::size_t n, const double* p, double* w);
+    void product(const Layout& layout, Interpolation& interpolation, std::size_t n, const double* p, double* w, const char* wanted);
 
     PixelAnswer answer_;
     double aspect_;
@@ -244,12 +250,13 @@ private:
     std::vector<std::size_t> source_end_;
     std::vector<TileSource> sources_;
     std::vector<std::vector<double>> up_, down_;
-    std::vector<std::vector<char>> loaded_;
+    enum : char { kLoaded = 1, kWanted = 2 };  // boxes with pressures, and with pixels whose deflections are wanted
+    std::vector<std::vector<char>> marks_;
 };
 
 // Up from the pixels, transfers between boxes, and down to the pixels. The boxes of one generation are pieces of parallel loops with all inside
 // them; those above are a piece of the transfers.
-void Tree::product(const Layout& layout, Interpolation& interpolation, std::size_t n, const double* p, double* w) {
+void Tree::product(const Layout& layout, Interpolation& interpolation, std::size_t n, const double* p, double* w, const char* wanted) {
     if (n == 0) return;
     stopping_point();  // the caller may get no piece of the loops
     const auto& generations = layout.generations;
@@ -260,12 +267,12 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
 
     up_.resize(std::max(up_.size(), levels));
     down_.resize(std::max(down_.size(), levels));
-    loaded_.resize(std::max(loaded_.size(), levels));
+    marks_.resize(std::max(marks_.size(), levels));
     for (std::size_t l = 0; l < levels; ++l) {
         const std::size_t boxes = generations[l].boxes.size();
         for (auto* values : {&up_[l], &down_[l]})
             if (values->size() < boxes * points) values->resize(boxes * points);
-        if (loaded_[l].size() < boxes) loaded_[l].resize(boxes);
+        if (marks_[l].size() < boxes) marks_[l].resize(boxes);
         if (levels > 1 || leaf.boxes.size() > 1) interpolation.matrices(l);
     }
     sources_.resize(n);
@@ -273,15 +280,18 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
     const auto up_from_pixels = [&](std::size_t t) {
         const std::size_t begin = layout.begin[t];
         std::size_t end = begin;
+        char mark = wanted ? 0 : kWanted;
         for (std::size_t i = leaf.inside[t]; i < leaf.inside[t + 1]; ++i) {
             const auto [first, count, column, row] = layout.strips[i];
             for (int c = 0; c < count; ++c) {
                 const double value = p[first + at(c)];
-                if (value != 0) sources_[end++] = {static_cast<std::int16_t>(column + c), row, value};
+                sources_[end] = {static_cast<std::int16_t>(column + c), row, value};
+                end += value != 0 ? 1 : 0;
+                if (wanted) mark = static_cast<char>(mark | (wanted[first + at(c)] ? kWanted : 0));
             }
         }
         source_end_[t] = end;
-        loaded_[0][t] = end > begin;
+        marks_[0][t] = static_cast<char>(mark | (end > begin ? kLoaded : 0));
         double* const to = up_[0].data() + t * points;
         std::fill_n(to, points, 0.0);
         interpolation.up_from_tile(end - begin, sources_.data() + begin, to);
@@ -290,10 +300,10 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
         const Generation &g = generations[l], &below = generations[l - 1];
         double* const to = up_[l].data() + k * points;
         std::fill_n(to, points, 0.0);
-        loaded_[l][k] = 0;
+        char& mark = marks_[l][k] = 0;
         for (std::size_t c = g.inside[k]; c < g.inside[k + 1]; ++c) {
-            if (!loaded_[l - 1][c]) continue;
-            loaded_[l][k] = 1;
+            mark = static_cast<char>(mark | marks_[l - 1][c]);
+            if (!(marks_[l - 1][c] & kLoaded)) continue;
             interpolation.up(below.boxes[c].x & 1, below.boxes[c].y & 1, up_[l - 1].data() + c * points, to);
         }
     };
@@ -303,15 +313,15 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
         const Generation::Pairs& pairs = generations[l].pairs[c];
         const std::size_t first = c * kChunk, last = std::min(first + kChunk, generations[l].boxes.size());
         std::fill_n(down_[l].data() + first * points, (last - first) * points, 0.0);
-        std::array<const double*, kChunk> from;
-        std::array<double*, kChunk> to;
+        std::array<const double*, kChunk + 1> from;
+        std::array<double*, kChunk + 1> to;
         for (std::size_t o = 0; o < kOffsets; ++o) {
             std::size_t count = 0;
             for (std::size_t k = pairs.begin[o]; k < pairs.begin[o + 1]; ++k) {
                 const auto [source, target] = pairs.from_to[k];
-                if (!loaded_[l][at(source)]) continue;
                 from[count] = up_[l].data() + at(source) * points;
-                to[count++] = down_[l].data() + at(target) * points;
+                to[count] = down_[l].data() + at(target) * points;
+                count += (marks_[l][at(source)] & kLoaded) && (marks_[l][at(target)] & kWanted) ? 1 : 0;
             }
             if (count > 0)
                 kernels.translate(static_cast<int>(points), q * q, interpolation.matrices(l)[o].data(), count, from.data(), to.data());
@@ -319,24 +329,24 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
     };
     const auto down = [&](std::size_t l, std::size_t k) {  // from the parent
         const Generation& g = generations[l];
+        if (!(marks_[l][k] & kWanted)) return;
         interpolation.down(g.boxes[k].x & 1, g.boxes[k].y & 1, down_[l + 1].data() + at(g.parent[k]) * points,
                            down_[l].data() + k * points);
     };
     const auto down_to_pixels = [&](std::size_t t) {
         double values[kTileColumns * kMostRows];
         std::fill_n(values, size, 0.0);
-        interpolation.down_to_tile(down_[0].data() + t * points, values);
-        const Box b = leaf.boxes[t];
-        for (int oy = -1; oy <= 1; ++oy)
-            for (int ox = -1; ox <= 1; ++ox) {
-                const int s = leaf.find(b.x + ox, b.y + oy);
-                if (s < 0) continue;
-                const std::size_t begin = layout.begin[at(s)], m = source_end_[at(s)] - begin;
-                if (m > 0) kernels.near_tile(table_, rows_, ox, oy, m, sources_.data() + begin, values);
-            }
+        const bool is_wanted = marks_[0][t] & kWanted;
+        if (is_wanted) interpolation.down_to_tile(down_[0].data() + t * points, values);
+        for (int o = 0; o < 9 && is_wanted; ++o) {
+            const int s = layout.around[t][at(o)];
+            if (s < 0) continue;
+            const std::size_t begin = layout.begin[at(s)], m = source_end_[at(s)] - begin;
+            if (m > 0) kernels.near_tile(table_, rows_, o % 3 - 1, o / 3 - 1, m, sources_.data() + begin, values);
+        }
         for (std::size_t i = leaf.inside[t]; i < leaf.inside[t + 1]; ++i) {
             const auto [first, count, column, row] = layout.strips[i];
-            std::copy_n(values + row * kTileColumns + column, count, w + first);
+            for (int c = 0; c < count; ++c) w[first + at(c)] = values[row * kTileColumns + column + c];
         }
     };
 

@@ -247,9 +247,9 @@ ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool e
         prepare_constant(steps == 1);
         descend(steps, manner_.reduction);
         if (manner_.repeats && outcome.residual > kUnsettled) descend_again(steps);
-        const bool cut = bound();
+        bound();
         exact = exactly && judge_exactly(exact, outcome.residual, outcome.iterations);
-        if (cut || exact || manner_.repeats) evaluate(exact);
+        evaluate(exact);
     }
     return outcome;
 }

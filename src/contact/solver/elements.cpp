@@ -163,6 +163,11 @@ void ElementsSolver::multiply(const std::vector<double>& x, std::vector<double>&
     full_p_ = x, full_w_ = Kx;
 }
 
+void ElementsSolver::multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) {
+    Kx.resize(x.size());
+    products_.apply(x.data(), Kx.data(), Accuracy::inner, free_.data());
+}
+
 void ElementsSolver::freed() { blocks_.assign(set_, free_list_, products_); }
 
 void ElementsSolver::precondition(const std::vector<double>& r, std::vector<double>& y) { blocks_.apply(r, y); }
@@ -176,7 +181,9 @@ bool ElementsSolver::judge_exactly(bool, double residual, int rounds) {
 bool ElementsSolver::join(const std::vector<double>& p) {
     if (position_.size() == p.size()) return false;
     elsewhere_.resize(p.size());
-    products_.elsewhere(p.data(), *pixels_, elsewhere_.data());
+    outside_.resize(p.size());
+    parallel_for(p.size(), kPixels, threads_for(p.size()), [&](std::size_t k) { outside_[k] = !in_[k]; });
+    products_.elsewhere(p.data(), *pixels_, elsewhere_.data(), outside_.data());
     // Pixels are selected by inner products with a margin for their error.
     const double margin = 3 * products_.inner_error();
     std::vector<int> joined;

@@ -35,6 +35,7 @@ private:
                       std::vector<double>& p);
     void draw(const std::vector<double>& p);
     void multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) override;
+    void multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) override;
     void precondition(const std::vector<double>& r, std::vector<double>& y) override;
     void freed() override;
     bool judge_exactly(bool exact, double residual, int rounds) override;
@@ -51,7 +52,7 @@ private:
     bool looked_ = false;
     double tolerance_ = 0;
     // Working set: whether a given pixel is in it, positions in the given pixels, and pixels.
-    std::vector<char> in_;
+    std::vector<char> in_, outside_;
     std::vector<int> position_;
     std::vector<Pixel> set_;
     std::vector<double> full_p_, full_w_, step_;  // last full product with this set, and the step since
