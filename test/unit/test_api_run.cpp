@@ -200,6 +200,7 @@ TEST(api_run) {
     for (const char* name : {"force", "energy", "stiffness", "lateral_force_x", "moment_y"})
         CHECK(rsc_contact_value(flats, name, &force) == RSC_NO_RESULT && force == 0);
     CHECK(says("no state") && rsc_contact_spots(flats, 0, nullptr, nullptr, nullptr, nullptr) == RSC_NO_RESULT);
+    CHECK(rsc_contact_value(flats, "contact_area", &force) == RSC_NO_RESULT && says("no such value"));
     CHECK(rsc_contact_level(flats, &level, nullptr, nullptr, nullptr, nullptr) == RSC_SUCCESS && level == RSC_LEVEL_NOT_CONVERGED);
     // Contacts that the border cuts off: campaigns, which solve no second grid, give at least the change to a grid of half the step.
     Values cut[2], bounds;
