@@ -64,10 +64,9 @@ rsc::RunOptions how_to_run(const rsc::Options& options, const std::string& comma
     how.command = command;
     how.inputs = {options.case_path.empty() ? "/dev/stdin" : options.case_path};
     how.progress = options.progress;
-    how.quiet = options.quiet;
     how.resume = options.resume;
     how.compare_automatically = true;
-    how.table = &std::cout;
+    if (!options.quiet) how.table = &std::cout;
     how.messages = &std::cerr;
     return how;
 }

@@ -196,21 +196,12 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
 }
 
 HeightParameters height_parameters(const HeightMap& map) {
-    const double points = static_cast<double>(map.nx) * map.ny;
-    const auto mean_power = [&](double level, int power) {
-        double sum = 0;
-        for (int j = 0; j < map.ny; ++j) {
-            double row = 0;
-            for (int i = 0; i < map.nx; ++i) row += std::pow(map(i, j) - level, power);
-            sum += row;
-        }
-        return sum / points;
-    };
-    const double level = mean_power(0, 1);
+    const double level = mean_height(map);
+    const auto mean_power = [&](int power) { return mean_present(map, [&](double z, int, int) { return std::pow(z - level, power); }); };
     HeightParameters p;
-    p.sq = std::sqrt(mean_power(level, 2));
-    p.ssk = mean_power(level, 3) / std::pow(p.sq, 3);
-    p.sku = mean_power(level, 4) / std::pow(p.sq, 4);
+    p.sq = std::sqrt(mean_power(2));
+    p.ssk = mean_power(3) / std::pow(p.sq, 3);
+    p.sku = mean_power(4) / std::pow(p.sq, 4);
     p.sdq = grid_moments(map).rms_slope();
     double all = 0, high = 0, high_points = 0;
     for (int j = 0; j + 1 < map.ny; ++j)

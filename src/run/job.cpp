@@ -83,7 +83,7 @@ void require_open(const Job& job) {
     for (int j = 0; job.given && job.given_heights && j < job.given_heights->ny; ++j) {
         const HeightMap& map = *job.given_heights;
         double row = 0;
-        for (int i = 0; i < map.nx; ++i) row += job.indenter.clearance(map.x0 + i * map.dx, map.y0 + j * map.dy, map(i, j)) / map.nx;
+        for (int i = 0; i < map.nx; ++i) row += job.indenter.clearance(map.x(i), map.y(j), map(i, j)) / map.nx;
         mean += row / map.ny;
     }
     constexpr double kRounding = 1e-12;
@@ -145,9 +145,7 @@ Job prepare(const Case& settings) {
         job.spectrum = spectrum_of(settings);
         if (elements || settings.compare.listed())
             if (const std::string why = too_large_for_elements(settings, *job.spectrum); !why.empty()) bad_input(why);
-        job.domain = synthetic_domain(*job.spectrum);
-        job.domain.points_per_wave = settings.surface.n / job.spectrum->L_lambda_s;
-        job.domain.step = job.spectrum->L / settings.surface.n;
+        job.domain = synthetic_domain(*job.spectrum, settings.surface.n);
         job.theory = theoretical_moments(*job.spectrum);
         sqrt_m4 = std::sqrt(job.theory->m4);
     } else {
@@ -179,7 +177,7 @@ Job prepare(const Case& settings) {
         const HeightMap& map = *job.given_heights;
         for (int j = 0; j < map.ny; ++j)
             for (int i = 0; i < map.nx; ++i)
-                job.points_touch = std::max(job.points_touch, job.indenter.clearance(map.x0 + i * map.dx, map.y0 + j * map.dy, map(i, j)));
+                job.points_touch = std::max(job.points_touch, job.indenter.clearance(map.x(i), map.y(j), map(i, j)));
     }
 
     const auto& indentation = settings.indentation;
@@ -279,7 +277,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     constexpr double kScattered = 0.15;
     const double scattered =
         measured ? static_cast<double>(measured->missing - std::count(measured->filled.begin(), measured->filled.end(), 1)) /
-                       (static_cast<double>(measured->nx) * measured->ny)
+                       static_cast<double>(measured->points())
                  : 0.0;
     std::vector<FieldLevel> fields;
     if (settings.indentation.control != Control::separation && !job.levels.empty())  // before the levels below it are solved
@@ -338,10 +336,6 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     contact.reset();
     if (!settings.output.heights) r.heights.reset();
     return r;
-}
-
-RealizationRecord observe(const Job& job, std::int64_t number, const Realization& r) {
-    return observe(job.observe, number, r.statistics, r.levels);
 }
 
 }  // namespace rsc
