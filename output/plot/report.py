@@ -65,7 +65,7 @@ def shortened(text):
 
 
 def percent(values):
-    low, high = short(100 * np.nanmin(values), 2), short(100 * np.nanmax(values), 2)
+    low, high = (short(100 * value, 2) if value <= 10 else "more than 1000" for value in (np.nanmin(values), np.nanmax(values)))
     return f"{high} %" if low == high else f"{low} to {high} %"
 
 

@@ -314,7 +314,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
             if (curve->failed() > failed) level.status = LevelStatus::not_converged;
         }
         const bool field = std::find(field_steps.begin(), field_steps.end(), static_cast<std::int32_t>(k)) != field_steps.end();
-        if (const Asperities* yielding = contact->asperities(); field)
+        if (const Asperities* yielding = contact->asperities(); field && !std::isnan(level.force))  // a level without a state has none
             fields.push_back({static_cast<std::int32_t>(k), &level,
                               yielding ? lowered_summits(job.given_heights ? *job.given_heights : *r.heights, job.indenter.period.finite(),
                                                          *yielding, contact->residual_depths())
