@@ -67,7 +67,7 @@ AsperityContact::Impl::Impl(const Asperities& asperities_, const Indenter& inden
       keeps(of_difference && !of_difference->map ? summits_keep(of_surface, indenter, options) : 0),
       ellipses(of_ellipses(*this)),
       law(law_of(*this, ellipses, relaxing)),
-      direct(make_direct_products(kernel, true)),
+      direct(make_direct_products(kernel)),
       newton(*law),
       beside(*this, ellipses) {
     use(Method::direct);
@@ -295,7 +295,7 @@ void AsperityContact::forget_levels() {
         return;
     }
     impl_->earlier = {};
-    impl_->expect_repeats(false);
+    impl_->newton.expect_repeats(false);
     impl_->proof = {};
     impl_->candidates = {};
     impl_->solution.clear();
@@ -364,7 +364,7 @@ void AsperityContact::move_tip(double x0, double y0) {
         }
     }
     my.ranking.move(x0, y0);
-    my.expect_repeats(true);
+    my.newton.expect_repeats(true);
 }
 
 double AsperityContact::first_touch() const { return impl_->ranking.highest() + impl_->raised(); }

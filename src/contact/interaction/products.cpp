@@ -9,27 +9,14 @@ namespace {
 
 class Direct final : public Products {
 public:
-    Direct(std::shared_ptr<const Kernel> kernel, bool many)
-        : Products(std::move(kernel)), many_(many), sums_(*kernel_), all_sums_(*kernel_) {
-        if (!kernel_->none() && !kernel_->lattice()) matrix_.emplace(*kernel_);
+    explicit Direct(std::shared_ptr<const Kernel> kernel) : Products(std::move(kernel)), sums_(*kernel_) {
+        if (kernel_->smooth() && !kernel_->none() && !kernel_->lattice()) matrix_.emplace(*kernel_);
     }
 
     void set_points(int n, const double* x, const double* y) override {
-        const bool same = std::equal(x, x + n, x_.begin(), x_.end()) && std::equal(y, y + n, y_.begin(), y_.end());
-        const bool kept = again_ > kOften;
         x_.assign(x, x + n);
         y_.assign(y, y + n);
-        const bool known = repeats_ && (same || mostly_known());
-        again_ = std::clamp(again_ + (known ? 1 : -1), 0, 3 * kOften);
-        if (same && known && kept == (again_ > kOften)) return;
-        fresh_ = true, among_ = 0;
-    }
-
-    void expect_repeats(bool expect) override {
-        repeats_ = expect;
-        if (expect || again_ == 0) return;
-        again_ = 0, fresh_ = true;
-        if (matrix_ && !kernel_->smooth()) matrix_->forget(), xo_.clear(), all_.clear();
+        fresh_ = true;
     }
 
     void set_active(const std::vector<int>& active) override {
@@ -40,7 +27,7 @@ public:
         if (stored_) {
             const bool again = matrix_->stale(active_.size());
             if (again) matrix_->forget(), xo_.clear();
-            if ((moved && !repeats_) || again || all_.size() != x_.size()) number(x_.size(), x_.data(), y_.data(), all_);
+            if (moved || again || all_.size() != x_.size()) number(x_.size(), x_.data(), y_.data(), all_);
             select(active_, active_numbers_);
             select(passive_, passive_numbers_);
             stored_ = matrix_->set_active(active_numbers_);
@@ -88,43 +75,10 @@ public:
     double inner_error() const override { return sums_.has_single() ? 1e-6 : full_error(); }
 
 private:
-    // True if the values at the pairs are stored: those of kernels that are expensive to evaluate, and 1/d where the same points come again
-    // and again, as in a time loop, if it stays in the cache.
-    bool keeps_pairs(std::size_t others) const {
-        if (!matrix_ || matrix_->too_large(active_.size(), others)) return false;
-        return kernel_->smooth() || (again_ > kOften && active_.size() * (active_.size() / 2 + others) < kCached);
-    }
-
-    // True if most points are in the matrix; all are from then on.
-    bool mostly_known() {
-        if (!matrix_) return false;
-        const std::size_t before = matrix_->points();
-        number(x_.size(), x_.data(), y_.data(), all_);
-        if (8 * (matrix_->points() - before) <= x_.size()) return true;
-        if (again_ <= kOften && !kernel_->smooth()) {
-            matrix_->forget(), xo_.clear();
-            number(x_.size(), x_.data(), y_.data(), all_);
-        }
-        return false;
-    }
-
-    // Sums over all points, with their 1/d stored, if most are active, from the second product on.
-    bool among_all(const double* f, double* phi) {
-        constexpr double most = 0.7;
-        if (!many_ || kernel_->none() || kernel_->lattice() || kernel_->smooth() || x_.size() > PairSums::kMostStored ||
-            static_cast<double>(active_.size()) < most * static_cast<double>(x_.size()))
-            return false;
-        if (++among_ == 1) return false;
-        if (among_ == 2) all_sums_.assign(x_.size(), x_.data(), y_.data()), all_sums_.store();
-        all_f_.assign(x_.size(), 0.0), all_phi_.resize(x_.size());
-        for (std::size_t k = 0; k < active_.size(); ++k) all_f_[static_cast<std::size_t>(active_[k])] = f[k];
-        all_sums_.among(true, all_f_.data(), all_phi_.data());
-        for (std::size_t k = 0; k < active_.size(); ++k) phi[k] = all_phi_[static_cast<std::size_t>(active_[k])];
-        return true;
-    }
+    // True if the values at the pairs are stored, because the kernel is expensive to evaluate.
+    bool keeps_pairs(std::size_t others) const { return matrix_ && !matrix_->too_large(active_.size(), others); }
 
     void among(bool single, const double* f, double* phi) {
-        if (single && !stored_ && among_all(f, phi)) return;
         if (stored_)
             matrix_->among(single, f, phi);
         else
@@ -147,18 +101,11 @@ private:
         for (std::size_t k = 0; k < which.size(); ++k) to[k] = all_[static_cast<std::size_t>(which[k])];
     }
 
-    static constexpr int kOften = 4;
-    static constexpr std::size_t kCached = 200'000;
-    bool repeats_ = false;
-    int again_ = 0;        // how often points came again, less how often they did not
     bool fresh_ = true;    // true until set_active() is called for the current points
     bool stored_ = false;  // the matrix is used for the current points
     std::vector<double> xa_, ya_, xp_, yp_, xo_, yo_, active_phi_, passive_phi_;
     std::vector<std::uint32_t> all_, active_numbers_, passive_numbers_, other_numbers_;  // numbers of points in the matrix
-    bool many_;                                                                          // many products with a set of points are expected
-    int among_ = 0;  // those so far; from the second on all_sums_ is of the present points
-    std::vector<double> all_f_, all_phi_;
-    PairSums sums_, all_sums_;
+    PairSums sums_;
     std::optional<PairMatrix> matrix_;
 };
 
@@ -197,9 +144,7 @@ double direct_rate(const Kernel& kernel, std::size_t candidates) {
     return !kernel.smooth() || candidates < stored ? 6e9 : 4e8;
 }
 
-std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> kernel, bool many) {
-    return std::make_unique<Direct>(std::move(kernel), many);
-}
+std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> kernel) { return std::make_unique<Direct>(std::move(kernel)); }
 
 namespace {
 

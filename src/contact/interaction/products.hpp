@@ -27,9 +27,6 @@ public:
     // phi = B f at every point of the working set, in full accuracy; f over the active list.
     virtual void full(const double* f, double* phi) = 0;
 
-    // For time loops: expects the same points again and again; false: no longer, and forgets those known.
-    virtual void expect_repeats(bool) {}
-
     const Kernel& kernel() const { return *kernel_; }
 
     // Relative error (2-norm) of full products.
@@ -55,8 +52,8 @@ protected:
 // Pairs per second on one core in direct inner sums among the given number of candidates, for the choice of the method.
 double direct_rate(const Kernel& kernel, std::size_t candidates);
 
-// Direct sums over pairs. `many`: many inner products with each set of points are expected, most of which are active.
-std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> kernel, bool many = false);
+// Direct sums over pairs.
+std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> kernel);
 // Particle-mesh sums; relative errors of full and inner products (2-norm).
 std::unique_ptr<Products> make_mesh_products(std::shared_ptr<const Kernel> kernel, double full_error, double inner_error);
 
