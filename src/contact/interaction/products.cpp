@@ -218,7 +218,7 @@ public:
             ya.insert(ya.end(), y, y + n);
             std::vector<double> force(f, f + sources), all(xa.size());
             force.resize(xa.size());
-            MeshPotential(xa.size(), xa.data(), ya.data(), kElsewhere, kernel_, &far_).apply(force.data(), all.data());
+            MeshPotential(xa.size(), xa.data(), ya.data(), kElsewhere, kernel_).apply(force.data(), all.data());
             std::copy(all.begin() + static_cast<std::ptrdiff_t>(sources), all.end(), phi);
         }
     }
@@ -245,7 +245,7 @@ private:
     }
 
     MeshPotential& made(std::optional<MeshPotential>& mesh, double error) {
-        if (!mesh) mesh.emplace(x_.size(), x_.data(), y_.data(), error, kernel_, &far_);
+        if (!mesh) mesh.emplace(x_.size(), x_.data(), y_.data(), error, kernel_);
         return *mesh;
     }
 
@@ -266,7 +266,7 @@ private:
         if (!among_ || among_active_ != active_) {
             std::vector<double> xa, ya;
             gather(active_, xa, ya);
-            among_.emplace(xa.size(), xa.data(), ya.data(), inner_error_, kernel_, &far_);
+            among_.emplace(xa.size(), xa.data(), ya.data(), inner_error_, kernel_);
             among_active_ = active_;
         }
         return *among_;
@@ -276,7 +276,6 @@ private:
     bool by_pairs_ = false;
     std::unique_ptr<Products> pair_products_;
     std::vector<double> f_, phi_;
-    FarFields far_;
     std::optional<MeshPotential> inner_, exact_, among_;
     std::vector<int> among_active_;  // active points for which among_ was created
     PairSums pairs_;
