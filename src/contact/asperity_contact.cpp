@@ -295,7 +295,7 @@ void AsperityContact::forget_levels() {
         return;
     }
     impl_->earlier = {};
-    impl_->newton.expect_repeats(false);
+    impl_->expect_repeats(false);
     impl_->proof = {};
     impl_->candidates = {};
     impl_->solution.clear();
@@ -364,7 +364,7 @@ void AsperityContact::move_tip(double x0, double y0) {
         }
     }
     my.ranking.move(x0, y0);
-    my.newton.expect_repeats(true);
+    my.expect_repeats(true);
 }
 
 double AsperityContact::first_touch() const { return impl_->ranking.highest() + impl_->raised(); }

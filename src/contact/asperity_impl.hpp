@@ -47,6 +47,7 @@ struct AsperityContact::Impl : ContactBodies {
     double raised() const { return relaxing ? kernel->shift() * relaxing->rest() : 0.0; }
     long products_taken() const { return direct->count() + (mesh ? mesh->count() : 0); }
     void use(Method how);
+    void expect_repeats(bool expect) { newton.expect_repeats(expect), direct->expect_repeats(expect); }
     void select(double Z0);  // determines candidates and method
     NewtonOutcome solve_from(const std::vector<double>& start, bool rough_start);
     // True if the solution continues the branch of the accepted levels (path-dependent laws). For other laws solve_cold() selects among

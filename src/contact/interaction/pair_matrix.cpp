@@ -108,7 +108,7 @@ std::uint32_t PairMatrix::find(double x, double y) {
 // Computes the missing values of a point that is not a source.
 void PairMatrix::extend(Point& point) {
     constexpr std::size_t kBlock = SquareTable::kBlock;
-    double square[kBlock], value[kBlock];
+    double square[kBlock], value[kBlock] = {};
     const double self = kernel_->self();
     std::size_t from = point.exact.size();
     const std::size_t all = x_.size();
@@ -121,7 +121,7 @@ void PairMatrix::extend(Point& point) {
             const double dx = x_[from + k] - point.x, dy = y_[from + k] - point.y;
             square[k] = dx * dx + dy * dy;
         }
-        kernel_->smooth()->table().values(count, square, value);
+        if (kernel_->smooth()) kernel_->smooth()->table().values(count, square, value);
         if (!(unit_ > 0)) unit_ = kernel_->near() / std::sqrt(square[0] > 0 ? square[0] : 1);
         add_singular({count, square, value, kernel_->near(), kernel_->shift(), self, 1 / unit_, point.exact.data() + from,
                       point.rough.data() + from});

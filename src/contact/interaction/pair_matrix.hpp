@@ -13,11 +13,12 @@ constexpr std::size_t kMostKeptValues = 8'000'000;
 // order of the sources, so their last bits depend on earlier calls.
 class PairMatrix {
 public:
-    // Only for kernels with a smooth part and without a lattice. The kernel must outlive this object.
+    // Only for kernels without a lattice. The kernel must outlive this object.
     explicit PairMatrix(const Kernel& kernel) : kernel_(&kernel) {}
 
     // Number of a point, valid until forget().
     std::uint32_t find(double x, double y);
+    std::size_t points() const { return points_.size(); }  // known
     // Sets the points that carry force; false if two of them coincide, for which there are no products.
     bool set_active(const std::vector<std::uint32_t>& active);
     // True if the values for the given numbers of active and other points take too much memory.
