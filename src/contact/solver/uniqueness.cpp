@@ -344,6 +344,7 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
 
 bool LastingProof::holds(const Law& law, const Kernel& kernel, const std::vector<int>& asperity, const Vector& x, const Vector& y,
                          const Vector& v, const Vector& force, const Vector& slope, const std::array<double, 3>& place) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     std::size_t touching = 0;
     const auto covered = [&](std::size_t k) {
         const auto i = static_cast<std::size_t>(asperity[k]);

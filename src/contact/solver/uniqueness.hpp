@@ -51,7 +51,7 @@ private:
     double spread_ = 0;          // distance of the lower bounds
     std::size_t touching_ = 0;   // asperities whose upper bound is positive
     std::vector<int> proved_;    // asperities in the proof
-    std::array<double, 3> place_{kInfinity};
+    std::array<double, 3> place_{std::numeric_limits<double>::infinity()};
     double wide_ = 0.01;  // distance of the bounds from a solution, in its largest penetration; less after a test that failed
     int waits_ = 0;       // calls until bounds are tested again
 };
