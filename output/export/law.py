@@ -12,6 +12,7 @@ netCDF4 (Debian: python3-numpy python3-netcdf4).
 """
 
 import argparse
+import signal
 import os
 import re
 import sys
@@ -185,4 +186,5 @@ def main(words=None):
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # ends quietly in a pipe to head
     main()
