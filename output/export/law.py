@@ -12,9 +12,9 @@ netCDF4 (Debian: python3-numpy python3-netcdf4).
 """
 
 import argparse
-import signal
 import os
 import re
+import signal
 import sys
 
 if __name__ == "__main__":
