@@ -111,7 +111,7 @@ def known(result, names):
             values = values[np.isfinite(values)]
             if values.size:
                 text = amount(values.mean(), result.dimension(name), 4)
-                lines.append((name, result.file[name].long_name, text + (f" ± {amount(values.std(ddof=1), result.dimension(name), 2)}" if values.size > 1 and np.ptp(values) > 0 else "")))
+                lines.append((name, result.file[name].long_name, text + (f" ± {amount(values.std(ddof=1), result.dimension(name), 2)}" if values.size > 1 and np.ptp(values) > 1e-9 * abs(values.mean()) else "")))
     return lines
 
 
