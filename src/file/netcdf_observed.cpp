@@ -31,7 +31,7 @@ void ResultTable::maps() {
     std::vector<double> x, y;
     for (int i = 0; i < g.nx; ++i) x.push_back(g.x(i));
     for (int j = 0; j < g.ny; ++j) y.push_back(g.y(j));
-    add("y", {"y"}, unit(1), "y of the cell centres", y, {{"axis", "Y"}});
+    add("y", {"y"}, unit(1), "y of the cell centres; the last row may extend beyond the surface", y, {{"axis", "Y"}});
     add("x", {"x"}, unit(1), "x of the cell centres", x, {{"axis", "X"}});
     add("map_cell_side", {}, unit(1), "side of the square cells of the map, w", std::vector<double>{g.side});
     const Names dims{"step", "y", "x"};
@@ -50,7 +50,7 @@ void ResultTable::radial() {
     if (o_.radii.empty()) return;  // the tip is not above the map
     file_.dimension("radius", o_.radii.size());
     add("radius", {"radius"}, unit(1), "distance from the tip", o_.radii,
-        comment("middles of rings of equal width, from the tip to the largest circle in the map"));
+        comment("middles of rings of equal width, from the tip to the largest circle on the surface"));
     const Names dims{"step", "radius"};
     const std::string how =
         "mean over the circle of the map, interpolated by bicubic Bezier patches between cell centres; it may be negative beside empty cells";
