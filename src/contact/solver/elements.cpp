@@ -130,7 +130,10 @@ void ElementsSolver::draw(const std::vector<double>& p) {
         const std::size_t l = at(position_[k]);
         set_[k] = pixels[l], z_[k] = (*g0_)[l], p_[k] = p[l];
     });
-    rows_ = {0, set_.size()};
+    constexpr std::size_t part = 512;
+    rows_ = {0};
+    for (std::size_t k = part; k < size; k += part) rows_.push_back(k);
+    rows_.push_back(size);
     if (!set_.empty()) products_.set_pixels(set_);
 }
 
