@@ -91,19 +91,22 @@ TEST(summits_instead_of_flanks) {
         CHECK(std::abs(hertz[k].force / truth[k].force - 1) < hertz[k].force_error_expected + kMissing);
 }
 
-// Two flats of which a quarter to two thirds touch: asperities grow into each other, N of 'fourth_order' is up to 76 % too large (told 27 %).
+// Two flats of which a seventh to two thirds touch: asperities grow into each other, N of 'fourth_order' is 76 % too large on the first surface
+// and, with most contacts beyond the law, 47 % too small on the second (told 27 and 19 %).
 TEST(flats_nearly_closed) {
-    Case c = surface(1, 0.8, 2, 8, 1e-3, 64);
-    c.solids.R[1] = kFlat, c.indentation.boundary = Boundary::periodic, c.indentation.levels = {0.6, 0.3, 0.1};
-    for (const LawKind law : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order}) told_errors(c, law);
+    Case few = surface(1, 0.8, 2, 8, 1e-3, 64), many = surface(3, 1, 1, 16, 1e-3, 128);
+    few.indentation.levels = {0.6, 0.3, 0.1}, many.indentation.levels = {0.8, 0.4, 0.2};
+    for (Case* c : {&few, &many}) c->solids.R[1] = kFlat, c->indentation.boundary = Boundary::periodic;
+    for (const LawKind law : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order}) told_errors(few, law);
+    told_errors(many, LawKind::fourth_order);
 }
 
 // Yielding contacts: what is told is near the truth, not thirty times as much.
 TEST(yielding) {
-    constexpr double kTold = 0.3;  // of 'fourth_order'; the true errors are 2, 4, 7 %, told were 170 to 390 %
+    constexpr double kTold = 0.3;  // of 'fourth_order'; the true errors are 2, 4, 7 %, told were 170 to 390 %; 'elliptic' at first 18 %
     Case c = surface(3221843, 0.99, 3, 12, 1.73e-5, 128);
     c.surface.aspect = 3.8, c.surface.direction = 103, c.solids.R[1] = 27.3, c.solids.hardness = 6e-5;
-    c.indentation.centre[0] = 0.4056, c.indentation.centre[1] = 0.661, c.indentation.levels = {-0.35, -0.7, -1.05};
+    c.indentation.centre[0] = 0.4056, c.indentation.centre[1] = 0.661, c.indentation.levels = {0, -0.7, -1.05};
     told_errors(c, LawKind::fourth_order), told_errors(c, LawKind::elliptic);
     c.asperities.law = LawKind::fourth_order;
     for (const Level& level : pressed(c, Model::asperities)) CHECK(level.plastic_contacts > 0 && level.force_error_expected < kTold);
