@@ -34,7 +34,7 @@ bool of_ellipses(const ContactBodies& bodies) {
     const SolverOptions& options = bodies.options;
     const auto& found = bodies.of_difference;
     return traits(options.law).needs_heights && found && found->map && !std::isfinite(options.hardness.H0) && options.relaxation.none() &&
-           bodies.indenter.layers.count == 0 && options.mean_spacing > 0 &&
+           options.mean_spacing > 0 &&
            count_reachable(bodies.asperities, bodies.indenter, kDeepest * options.sigma) <= kMostEllipses;
 }
 

@@ -44,37 +44,51 @@ std::vector<std::size_t> wholes_of(const std::vector<Spot>& spots, const Level& 
     return whole;
 }
 
-// Largest Z0 at which the flank of a summit touches the indenter: with the slope s of the indenter and the summit's curvatures H, at the place
-// H^-1 s beside it, or if the tip is nearer, there. `heights` (optional) are those of the surface at and around the places of the flanks that
+// Place on the flank of a summit where the indenter, with the slope s there, touches first, H^-1 s beside the top with the summit's curvatures H,
+// or if the tip is nearer, there; and how much nearer than the top it is.
+struct Flank {
+    double nearer;  // [length]
+    Vec2 way;       // from the top [length]
+};
+Flank flank_of(const Asperities& asperities, std::size_t i, const Indenter& indenter) {
+    const Vec2 d = indenter.from_tip(asperities.x[i], asperities.y[i]), slope = indenter.shape->gradient(d.x, d.y);
+    const bool round = asperities.kappa1.empty();
+    const double c = round ? 1.0 : std::cos(asperities.angle[i]), s = round ? 0.0 : std::sin(asperities.angle[i]);
+    const double along = slope.x * c + slope.y * s, across = slope.y * c - slope.x * s;
+    const double u = along * (round ? asperities.radius[i] : 1 / asperities.kappa2[i]);
+    const double v = across * (round ? asperities.radius[i] : 1 / asperities.kappa1[i]);
+    const double way = std::hypot(u, v), part = way > 0 ? std::min(std::hypot(d.x, d.y) / way, 1.0) : 0.0;
+    return {(part - 0.5 * part * part) * (along * u + across * v), {-part * (u * c - v * s), -part * (u * s + v * c)}};
+}
+
+// Largest Z0 at which the flank of a summit touches the indenter. `heights` (optional) are those of the surface at and around the places of the flanks that
 // are highest as paraboloids, and under a tip below which no summit need lie; without them the touch is that of the paraboloids. Summits that
 // are grid points lie below their tops, which are within half a step in both directions.
 double beside(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options) {
     constexpr std::size_t kMost = 40;
-    struct Flank {
+    struct Touch {
         double touch;
         Vec2 summit, way;
     };
-    std::vector<Flank> flanks;
+    std::vector<Touch> flanks;
     const double below_top = traits(options.law).between_points ? 0.0 : 0.125 * options.grid_step * options.grid_step;
     double highest = -kInfinity;
     for (std::size_t i = 0; i < asperities.size(); ++i) {
-        const Vec2 place = indenter.image(asperities.x[i], asperities.y[i]), d = indenter.from_tip(asperities.x[i], asperities.y[i]);
-        const Vec2 slope = indenter.shape->gradient(d.x, d.y);
-        const bool round = asperities.kappa1.empty();
-        const double c = round ? 1.0 : std::cos(asperities.angle[i]), s = round ? 0.0 : std::sin(asperities.angle[i]);
-        const double along = slope.x * c + slope.y * s, across = slope.y * c - slope.x * s;
-        const double u = along * (round ? asperities.radius[i] : 1 / asperities.kappa2[i]);
-        const double v = across * (round ? asperities.radius[i] : 1 / asperities.kappa1[i]);
-        const double way = std::hypot(u, v), part = way > 0 ? std::min(std::hypot(d.x, d.y) / way, 1.0) : 0.0;
-        const double nearer = (part - 0.5 * part * part) * (along * u + across * v);
-        const double bend = round ? 2 / asperities.radius[i] : asperities.kappa1[i] + asperities.kappa2[i];
+        const auto [nearer, way] = flank_of(asperities, i, indenter);
+        const double bend = asperities.kappa1.empty() ? 2 / asperities.radius[i] : asperities.kappa1[i] + asperities.kappa2[i];
         const double clear = indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]), touch = clear + nearer;
         highest = std::max(highest, clear + below_top * bend);
         if (!std::isfinite(touch)) continue;  // beside the indenter
-        flanks.push_back({touch, place, {-part * (u * c - v * s), -part * (u * s + v * c)}});
+        flanks.push_back({touch, indenter.image(asperities.x[i], asperities.y[i]), way});
     }
     std::partial_sort(flanks.begin(), flanks.begin() + static_cast<std::ptrdiff_t>(std::min(flanks.size(), kMost)), flanks.end(),
-                      [](const Flank& a, const Flank& b) { return a.touch > b.touch; });
+                      [](const Touch& a, const Touch& b) { return a.touch > b.touch; });
+    if (!traits(options.law).between_points && indenter.shape->keys().map)  // the highest points of both bodies may meet
+        for (std::size_t i = 0; i < asperities.size(); ++i) {
+            const Vec2 d = indenter.from_tip(asperities.x[i], asperities.y[i]);
+            const double w = options.mean_spacing;
+            highest = std::max(highest, asperities.z[i] - indenter.shape->lowest({d.x - w, d.x + w, d.y - w, d.y + w}));
+        }
     if (!options.heights || indenter.shape->flat()) return flanks.empty() ? highest : std::max(highest, flanks[0].touch);
     flanks.resize(std::min(flanks.size(), kMost));
     std::vector<Vec2> places;
@@ -84,7 +98,7 @@ double beside(const Asperities& asperities, const Indenter& indenter, const Solv
         const double r = wide * ((k + kAround - 1) / kAround) / kRings, t = 2 * std::numbers::pi * k / kAround;
         places.push_back({indenter.x0 + r * std::cos(t), indenter.y0 + r * std::sin(t)});
     }
-    for (const Flank& f : flanks)
+    for (const Touch& f : flanks)
         for (const double part : {0.6, 1.0, 1.4}) places.push_back({f.summit.x + part * f.way.x, f.summit.y + part * f.way.y});
     Vec2 best{};
     const auto look = [&](std::vector<Vec2> at) {
@@ -209,7 +223,10 @@ std::optional<FoundSummits> summits_of_difference(const Asperities& asperities, 
         highest = std::max(highest, indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]));
     constexpr double kFlankSpacing = 0.4;
     const double steepest = steepest_above(asperities, indenter, highest - kDeepest * options.sigma);
-    if (steepest > kMostSlopeRatio * options.rms_slope || !std::isfinite(highest)) {
+    // Beside a corner at the tip the curvature of the face is not that above a summit some way off, and a flank may touch.
+    const bool corner =
+        indenter.shape->edge(0) == 0 && !std::isfinite(options.hardness.H0) && options.relaxation.none() && options.adhesion.work == 0;
+    if (steepest > kMostSlopeRatio * options.rms_slope || corner || !std::isfinite(highest)) {
         FoundSummits found = search(indenter);
         add_flanks(found.summits, asperities, kFlankSpacing * options.mean_spacing, indenter.around);
         found.renumbered = true;
@@ -237,6 +254,23 @@ std::pair<double, double> stiffened(const Level& level, const ContactBodies& bod
         area += A, of_area += A * (softer - 1);
     }
     return {force > 0 ? of_force / force : 0.0, area > 0 ? of_area / area : 0.0};
+}
+
+// Difference of the indenter's face from the paraboloid that the law takes it for, a contact radius from a summit of mean curvature `kappa` at an
+// offset (x, y) from the tip, over the paraboloid's own descent; at most 1. The mean of eight points: large beside the corner of a cone.
+double unlike_paraboloid(const IndenterShape& shape, double x, double y, double a, double kappa) {
+    const double middle = shape.height(x, y), descent = 0.5 * kappa * a * a;
+    const Vec2 g = shape.gradient(x, y);
+    const Tensor c = shape.curvature(x, y);
+    double sum = 0;
+    constexpr int points = 8;
+    for (int k = 0; k < points; ++k) {
+        const double t = 2 * std::numbers::pi * k / points, u = a * std::cos(t), v = a * std::sin(t);
+        const double rest =
+            shape.height(x + u, y + v) - middle - g.x * u - g.y * v - 0.5 * (c.xx * u * u + 2 * c.xy * u * v + c.yy * v * v);
+        sum += std::min(std::abs(rest) / descent, 1.0);
+    }
+    return sum / points;
 }
 
 // With the spacing of summits and the points per wave of the finer of two rough bodies: contacts are as small and as close as its waves.
@@ -283,6 +317,7 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
     const Asperities& asperities = bodies.asperities;
     const Indenter& indenter = bodies.indenter;
     const SolverOptions& options = bodies.options;
+    ContactTraits contacts{.ellipses = true};
     if (traits(options.law).elliptic_spots) {
         const std::vector<Spot> own = spots_of(level, law, asperities);
         const std::vector<std::size_t> whole = wholes_of(own, level, law);
@@ -293,25 +328,37 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
             level.spots[k] = own[whole[k]];
         }
         level.area = union_area(distinct, &level.overlapping_pairs, indenter.period, &level.own_area);
+        double all = 0;
+        for (const Spot& s : distinct) all += std::numbers::pi * s.major * s.minor;
+        if (all > 0) contacts.twice = std::max(0.0, 1 - level.area / all);
     } else {
         level.overlapping_pairs = count_overlapping(level.x, level.y, level.a, indenter.period);
     }
     if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;
     if (options.rms_slope > 0) level.slope_ratio = steepest_contact(level, indenter) / options.rms_slope;
-    ContactTraits contacts{.ellipses = true};
     bool some = false;
+    const IndenterShape& shape = *indenter.shape.operator->();
+    double upright = 0, leaning = 0;  // N, and what it were with contacts on the flanks
     for (std::size_t k = 0; k < level.asperity.size(); ++k) {
         const int i = level.asperity[k];
         const bool ellipse = law.spot(i, level.u[k]).has_value();
         contacts.ellipses = contacts.ellipses && ellipse, some = some || ellipse;
         if (!ellipse || law.beyond(i, level.u[k])) contacts.outside.push_back(k);
         contacts.yielded += law.deepest(i) > 0;
+        const double x = level.x[k] - indenter.x0, y = level.y[k] - indenter.y0, f = std::abs(level.f[k]);
+        upright += f;
+        if (bodies.of_difference && !ellipse && !shape.keys().map)
+            contacts.bent += f * unlike_paraboloid(shape, x, y, level.a[k], 0.5 * (asperities.kappa1[at(i)] + asperities.kappa2[at(i)]));
+        if (!bodies.of_difference && options.rms_slope > 0 && !shape.flat() && level.u[k] > 0)
+            leaning += f * std::pow(1 + flank_of(asperities, at(i), indenter).nearer / level.u[k], 1.5);
         constexpr double kMuchLarger = 4;  // than Hertz's area under the same force
         const double hertz = std::cbrt(0.75 * std::max(level.f[k], 0.0) * asperities.radius[at(i)] / indenter.E_star);
         if (ellipse && !law.path_dependent())
             contacts.doubtful_area += std::numbers::pi * std::max(level.a[k] * level.a[k] - kMuchLarger * hertz * hertz, 0.0);
     }
     if (!some) contacts.outside.clear();
+    if (upright > 0) contacts.bent /= upright;
+    if (leaning > upright) contacts.flanks = 1 - upright / leaning;
     // Those that yielded at another position of the tip are out of reach: lower than this level by more than any can recover.
     double most = 0;
     for (const int i : law.yielded()) most = std::max(most, law.deepest(i));

@@ -31,6 +31,9 @@ struct ContactTraits {
     std::vector<std::size_t> outside = {};
     // Area of ellipses far larger than their force would make on a summit: a hardly loaded one may lie over several summits.
     double doubtful_area = 0;
+    double twice = 0;   // share of the area of the spots that lies in more than one
+    double bent = 0;    // difference of the indenter from the paraboloid within the contacts, mean weighted by the forces
+    double flanks = 0;  // share of N that contacts lose which are taken on the summits of the surface, not on their flanks
     // Contacts that have yielded, and the forces and areas of all asperities that have, each at its deepest accepted level: in unloading
     // their errors remain.
     std::int32_t yielded = 0;
