@@ -10,11 +10,12 @@ import numpy as np
 Cube = namedtuple("Cube", "variables keys attributes")
 
 
-def _plain(values):
+def filled(values):
+    """Missing reals as NaN; missing integers keep the fill value of the file."""
     return np.ma.filled(values, np.nan) if np.ma.isMaskedArray(values) and values.dtype.kind == "f" else np.ma.getdata(values)
 
 
-def _attributes(variable):
+def attributes_of(variable):
     return {a: variable.getncattr(a) for a in variable.ncattrs() if a != "_FillValue"}
 
 
@@ -23,7 +24,7 @@ def cube(path, check=lambda path: None):
     asperities and contacts; a coordinate that differs between members is stored under its name with '_values'. check is called with the
     path of each member before it is opened. Raises OSError."""
     with netCDF4.Dataset(path) as file:
-        keys = {name: (_plain(v[:]) if v.dtype.kind != "S" else np.array([str(t).strip("\0 '") for t in np.atleast_1d(netCDF4.chartostring(v[:]))]), _attributes(v))
+        keys = {name: (filled(v[:]) if v.dtype.kind != "S" else np.array([str(t).strip("\0 '") for t in np.atleast_1d(netCDF4.chartostring(v[:]))]), attributes_of(v))
                 for name, v in file.variables.items() if "key" in v.ncattrs()}
         members = [os.path.join(os.path.dirname(path), str(t).strip("\0 ")) for t in np.atleast_1d(netCDF4.chartostring(file["file"][:]))]
         attributes = {a: file.getncattr(a) for a in file.ncattrs()}
@@ -42,7 +43,7 @@ def cube(path, check=lambda path: None):
         if os.path.exists(member):
             check(member)
             with netCDF4.Dataset(member) as file:
-                read[place] = {name: (v.dimensions, _plain(v[...]), _attributes(v)) for name, v in file.variables.items() if v.dtype.kind in "fiu"}
+                read[place] = {name: (v.dimensions, filled(v[...]), attributes_of(v)) for name, v in file.variables.items() if v.dtype.kind in "fiu"}
     if not read:
         return Cube(variables, list(keys), attributes)
     first = next(iter(read.values()))

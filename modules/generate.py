@@ -126,14 +126,11 @@ def comment(text):
 
 
 def declarations(pairs):
-    """Lines `type :: a, b` of (type, variable), with consecutive variables of one type on one line."""
-    lines = []
+    """Lines `type :: a, b` of (type, variable), with the variables of one type on one line."""
+    lines = {}
     for kind, variable in pairs:
-        if lines and lines[-1][0] == kind:
-            lines[-1][1].append(variable)
-        else:
-            lines.append((kind, [variable]))
-    return [wrapped(f"{kind} :: {', '.join(variables)}", 6)[2:] for kind, variables in lines]
+        lines.setdefault(kind, []).append(variable)
+    return [wrapped(f"{kind} :: {', '.join(variables)}", 6)[2:] for kind, variables in lines.items()]
 
 
 def interface_type(a):
@@ -376,7 +373,7 @@ def subroutine_77(name, f, left_out):
     head = f"RSC_API void {name}_({', '.join([*parameters, 'int32_t* ierr', *lengths])})"
     body = ["BEGIN", *sorted(find, key=lambda line: "made" in line), *before, f"*ierr = {called};", *[f"free(c_{t});" for t in texts], *after]
     fill = lambda line: textwrap.wrap(line, 140, subsequent_indent=" " * 8, break_long_words=False)
-    return [*fill(head + ";"), *fill(head + " {"), *[part for line in body for part in textwrap.wrap(line, 136, initial_indent=" " * 4, subsequent_indent=" " * 8)], "}", ""]
+    return [*fill(head + " {"), *[part for line in body for part in textwrap.wrap(line, 136, initial_indent=" " * 4, subsequent_indent=" " * 8)], "}", ""]
 
 
 def names_77(functions, source):

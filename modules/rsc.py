@@ -345,18 +345,16 @@ def _text(function, *values):
         size = length.value + 1
 
 
-def _numbers(function, first, names):
-    """The scalar outputs of a function whose arguments are an object and outputs, as a tuple of the type `names`."""
-    outputs = [ctypes.c_double() if a.type == "double" else _INTEGERS[a.type][0]() for a in _FUNCTIONS[function][1:]]
-    _call(function, first, *outputs)
-    return names(*[o.value for o in outputs])
+def _numbers(function, *values):
+    """The scalar outputs of a function that follow the values, a tuple."""
+    outputs = [_ctype(a._replace(stars=0))() for a in _FUNCTIONS[function][len(values):]]
+    _call(function, *values, *outputs)
+    return tuple(o.value for o in outputs)
 
 
 def _number(function, *values):
-    """The last argument of a function, a scalar output."""
-    output = ctypes.c_double() if _FUNCTIONS[function][-1].type == "double" else ctypes.c_int64()
-    _call(function, *values, output)
-    return output.value
+    """The same for a single output."""
+    return _numbers(function, *values)[0]
 
 
 # ---- results of calls ---------------------------------------------------------------------------------------------------------
@@ -380,7 +378,6 @@ SpotSlip = _record("SpotSlip", "asperity radius stick_radius force_x force_y", "
 Answer = _record("Answer", "separation force stiffness area energy lateral_x lateral_y status contacts overlapping_pairs large_contacts beyond_law edge_contacts",
                  "The results of a level: see Contact.answer.")
 _Result = collections.namedtuple("_Result", "separation force area contacts")
-_Tip = collections.namedtuple("_Tip", "x0 y0")
 
 
 # ---- cases ---------------------------------------------------------------------------------------------------------------------
@@ -553,9 +550,7 @@ class Surface(_Object):
     def detrend(self, how="plane"):
         """Subtracts a form fitted by least squares. how: 'none', 'mean', 'plane', 'quadratic' or 'sphere'. Returns the remaining rms height
         [length]. Raises ArgumentError for another word, or a sphere that cannot be fitted."""
-        rms = ctypes.c_double()
-        _call("rsc_surface_detrend", self, how, rms)
-        return rms.value
+        return _number("rsc_surface_detrend", self, how)
 
     def filter(self, cutoff):
         """Gaussian low-pass filter (ISO 16610-61): waves of length cutoff > 0 [length] keep half of their amplitude. Raises ArgumentError."""
@@ -563,7 +558,7 @@ class Surface(_Object):
 
     def grid(self):
         """The grid, a Grid. Raises ValueError if closed."""
-        g = _numbers("rsc_surface_grid", self, Grid)
+        g = Grid(*_numbers("rsc_surface_grid", self))
         return g._replace(periodic=bool(g.periodic))
 
     def heights(self, out=None):
@@ -576,7 +571,7 @@ class Surface(_Object):
 
     def moments(self):
         """Spectral moments by finite differences on the grid, Moments: m0 [length^2], m2 [1], m4 [1/length^2]. Raises ValueError if closed."""
-        return _numbers("rsc_surface_moments", self, Moments)
+        return Moments(*_numbers("rsc_surface_moments", self))
 
 
 def _output(name, array, shape):
@@ -699,37 +694,22 @@ class Contact(_Object):
         return levels
 
     def _result(self):
-        return _numbers("rsc_contact_result", self, _Result)
+        return _Result(*_numbers("rsc_contact_result", self))
 
-    @property
-    def separation(self):
-        """Z0 of the last level [length]. Raises Error (no result)."""
-        return self._result().separation
-
-    @property
-    def force(self):
-        """N of the last level [force]. Raises Error (no result)."""
-        return self._result().force
-
-    @property
-    def area(self):
-        """True contact area A of the last level [length^2]. Raises Error (no result)."""
-        return self._result().area
-
-    @property
-    def contacts(self):
-        """Number of asperities in contact at the last level. Raises Error (no result)."""
-        return self._result().contacts
+    separation = property(lambda self: self._result().separation, doc="Z0 of the last level [length]. Raises Error (no result).")
+    force = property(lambda self: self._result().force, doc="N of the last level [force]. Raises Error (no result).")
+    area = property(lambda self: self._result().area, doc="True contact area A of the last level [length^2]. Raises Error (no result).")
+    contacts = property(lambda self: self._result().contacts, doc="Number of asperities in contact at the last level. Raises Error (no result).")
 
     def level(self):
         """Solver data of the last level, a Level. Raises Error (no result)."""
-        return _numbers("rsc_contact_level", self, Level)
+        return Level(*_numbers("rsc_contact_level", self))
 
     def answer(self):
         """The last level in one call, an Answer: separation Z0 [length], force N [force], stiffness dN/dZ0 [force/length], area A [length^2],
         energy W [force length], lateral_x and lateral_y, the lateral force on the sphere, -dW/d(x0, y0) [force], status (of
         LEVELS), and numbers: contacts, overlapping_pairs, large_contacts, beyond_law, edge_contacts. Raises Error (no result)."""
-        return _numbers("rsc_contact_answer", self, Answer)
+        return Answer(*_numbers("rsc_contact_answer", self))
 
     def value(self, name):
         """One quantity of the last level by its name in the result file, as "residual" or "large_contacts", or "lateral_force_x", ... Raises
@@ -749,7 +729,7 @@ class Contact(_Object):
         """The position (x0, y0) of the tip [length]. Setting it moves the sphere sideways; results remain those of the last level until the next
         one. Raises ArgumentError if it is not finite, or over asperities that are attached, yielded or relax, where laws 'elliptic' and
         'fourth_order' have other summits at each place (an indenter of more than 0.2 of the surface's rms slope)."""
-        return tuple(_numbers("rsc_contact_tip", self, _Tip))
+        return _numbers("rsc_contact_tip", self)
 
     @tip.setter
     def tip(self, place):
@@ -827,13 +807,11 @@ class Friction(_Object):
         """Moves the contact on a straight path to (separation, x, y) and returns (N, Q_x, Q_y, work lost in this step). The first call defines
         the start of the path. separation: Z0; x, y: slide, of which only differences matter [length]. Q is initially along the slide: the
         force on the sphere is -Q. Raises ArgumentError if a number is not finite, NotConverged (the state is that of the last iterates), Error."""
-        outputs = [ctypes.c_double() for _ in range(4)]
-        _call("rsc_friction_update", self, separation, x, y, *outputs)
-        return tuple(o.value for o in outputs)
+        return _numbers("rsc_friction_update", self, separation, x, y)
 
     def state(self):
         """State of the path, a FrictionState. Raises Error (no result) before the first update."""
-        return _numbers("rsc_friction_state", self, FrictionState)
+        return FrictionState(*_numbers("rsc_friction_state", self))
 
     def move_tip(self, x0, y0):
         """Moves the tip at the separation of the last update, for a sphere that rolls onto other asperities: those in contact at both positions
@@ -844,7 +822,7 @@ class Friction(_Object):
     def stiffness(self):
         """Tangential stiffness dQ/d(x, y) for a further slide in the present direction of slip, an array of shape (2, 2) [force/length]. Raises
         NotConverged, Error."""
-        return np.array(_numbers("rsc_friction_stiffness", self, lambda *k: k)).reshape(2, 2)
+        return np.array(_numbers("rsc_friction_stiffness", self)).reshape(2, 2)
 
     def commit(self):
         """Stores the state for rollback(). Raises Error (no memory)."""
@@ -870,7 +848,7 @@ class Friction(_Object):
 
     def full_slip(self):
         """The slide of full slip in first loading [length] and the force mu N [force]. Raises Error (no result without contact)."""
-        return _numbers("rsc_friction_full_slip", self, lambda *values: values)
+        return _numbers("rsc_friction_full_slip", self)
 
     def spots(self):
         """Friction at the spots of the last update by increasing index of asperity, SpotSlip. Raises NotConverged, Error (no result)."""
@@ -915,14 +893,15 @@ def read(path, xarray=None):
     read, ImportError if a package is missing."""
     path = os.fspath(path)
     import netCDF4
+    from _rsc_cube import attributes_of, filled
 
     _check_sound(path)
     try:
         with lock(), netCDF4.Dataset(path) as file:
-            variables = {name: _filled(variable[...]) for name, variable in file.variables.items()}
+            variables = {name: filled(variable[...]) for name, variable in file.variables.items()}
             attributes = {name: file.getncattr(name) for name in file.ncattrs()}
             if xarray is not False:
-                about = {name: (v.dimensions, {a: v.getncattr(a) for a in v.ncattrs() if a != "_FillValue"}) for name, v in file.variables.items()}
+                about = {name: (v.dimensions, attributes_of(v)) for name, v in file.variables.items()}
                 coordinates = [name for name, v in file.variables.items() if v.dimensions == (name,)]
     except OSError as error:
         raise Error(f"{path}: cannot be read: {error.strerror or error}", FILE) from None
@@ -965,30 +944,12 @@ def _check_sound(path):
     """Checks the checksum in the last line of a result before HDF5 opens the file, because HDF5 crashes on some damaged files."""
     start = b"\nrsc: CRC-32 of all before this line: "
     try:
-        with open(path, "rb") as file:
-            left = file.seek(0, os.SEEK_END) - len(start) - 9
-            line = b""
-            if left > 0:
-                file.seek(left)
-                line = file.read()
-            if not line.startswith(start):
-                return
-            file.seek(0)
-            crc = 0
-            while left > 0:
-                part = file.read(min(left, 1 << 20))
-                crc, left = zlib.crc32(part, crc), left - len(part)
-    except OSError:
+        content = np.memmap(path, np.uint8, "r")
+    except (OSError, ValueError):
         return  # reported when it is read
-    if line != start + b"%08x\n" % crc:
+    line = bytes(content[-len(start) - 9 :])
+    if line.startswith(start) and line != start + b"%08x\n" % zlib.crc32(content[: -len(line)]):
         raise Error(f"{path}: is damaged, or was changed since rsc wrote it: its checksum is wrong", FILE)
-
-
-def _filled(values):
-    """Missing reals as NaN; missing integers keep the fill value of the file."""
-    if np.ma.isMaskedArray(values) and values.dtype.kind == "f":
-        return np.ma.filled(values, np.nan)
-    return np.ma.getdata(values)
 
 
 @contextlib.contextmanager
@@ -1021,40 +982,44 @@ def step_all(contacts, forces=None, separations=None, tips=None, stiffness=False
     Contacts; forces, separations: shape (n,); tips: shape (n, 2), None to leave them [length]; stiffness: True to compute it; threads: their
     number, 0 for all. Returns a dictionary of arrays of shape (n,): separation, force, stiffness if requested, lateral_x, lateral_y, moment_x,
     moment_y, NaN if there is no result, level_status, and status, as press_all's. Raises ArgumentError."""
-    contacts = list(contacts)
+    contacts = _different(contacts)
     if (forces is None) == (separations is None):
         _refuse("forces, separations", "one of the two is expected")
-    if len({id(contact) for contact in contacts}) < len(contacts):
-        _refuse("contacts", "different contacts are expected: one is given twice")
     n = len(contacts)
     values = _array("separations" if forces is None else "forces", separations if forces is None else forces, (n,))
     x, y = (None, None) if tips is None else np.ascontiguousarray(_array("tips", tips, (n, 2)).T)
-    names = ["separation", "force"] + ["stiffness"] * stiffness + ["lateral_x", "lateral_y", "moment_x", "moment_y"]
-    answers = {name: np.full(n, np.nan) for name in names}
+    order = ["separation", "force", "stiffness", "lateral_x", "lateral_y", "moment_x", "moment_y"]
+    answers = {name: np.full(n, np.nan) for name in order if stiffness or name != "stiffness"}
     answers.update(level_status=np.zeros(n, np.int32), status=np.zeros(n, np.int32))
-    order = ["separation", "force", "stiffness", "lateral_x", "lateral_y", "moment_x", "moment_y", "level_status", "status"]
-    try:
-        _call("rsc_contacts_step", n, contacts, x, y, int(forces is not None), values, *[answers.get(name) for name in order], threads)
-    except Error:
-        if not answers["status"].any():  # not of one contact
-            raise
+    with _of_one(answers["status"]):
+        _call("rsc_contacts_step", n, contacts, x, y, int(forces is not None), values, *[answers.get(name) for name in order], *list(answers.values())[-2:], threads)
     return answers
 
 
 def _all(function, contacts, name, values, threads):
+    contacts = _different(contacts)
+    values = _array(name, values, (len(contacts),))
+    answers, statuses = np.full(len(contacts), np.nan), np.zeros(len(contacts), np.int32)
+    with _of_one(statuses, ArgumentError):
+        _call(function, len(contacts), contacts, values, answers, statuses, threads)
+    return answers, statuses
+
+
+def _different(contacts):
     contacts = list(contacts)
     if len({id(contact) for contact in contacts}) < len(contacts):
         _refuse("contacts", "different contacts are expected: one is given twice")
-    values = _array(name, values, (len(contacts),))
-    answers, statuses = np.full(len(contacts), np.nan), np.zeros(len(contacts), np.int32)
+    return contacts
+
+
+@contextlib.contextmanager
+def _of_one(statuses, *raised):
+    """Suppresses the error of one contact, which its status tells, unless it is of the kinds `raised`."""
     try:
-        _call(function, len(contacts), contacts, values, answers, statuses, threads)
-    except ArgumentError:
-        raise
-    except Error:
-        if not statuses.any():  # not of one contact
+        yield
+    except Error as error:
+        if isinstance(error, raised) or not statuses.any():
             raise
-    return answers, statuses
 
 
 def study(case, over, run, mode="product", threads=1, progress=None):
@@ -1111,7 +1076,7 @@ def _plain(function):
     def method(self, *values):
         if len(values) != len(inputs):
             raise TypeError(f"{function[4:]} takes {', '.join(a.name for a in inputs) or 'no argument'}")
-        given, made = iter(values), [ctypes.c_double() if a.type == "double" else _INTEGERS[a.type][0]() for a in outputs]
+        given, made = iter(values), [_ctype(a._replace(stars=0))() for a in outputs]
         back = iter(made)
         _call(function, self, *[next(given) if a in inputs else next(back) for a in rest])
         return tuple(o.value for o in made) if len(made) > 1 else made[0].value if made else None

@@ -154,14 +154,12 @@ static atomic_int integers_fit;
 
 /* ---- texts ------------------------------------------------------------------------------------------------------------------ */
 
-RSC_API void rscver_(char* text, size_t length);
 RSC_API void rscver_(char* text, size_t length) {
     char buffer[64] = "";
     rsc_version(buffer, sizeof buffer, NULL);
     put_text(buffer, text, length);
 }
 
-RSC_API void rscmsg_(char* text, size_t length);
 RSC_API void rscmsg_(char* text, size_t length) {
     if (own_message[0]) {
         put_text(own_message, text, length);
@@ -172,7 +170,6 @@ RSC_API void rscmsg_(char* text, size_t length) {
     put_text(buffer, text, length);
 }
 
-RSC_API void rscint_(const int32_t* one_and_two, int32_t* ierr);
 RSC_API void rscint_(const int32_t* one_and_two, int32_t* ierr) {
     own_message[0] = '\0';
     const int fits = one_and_two[0] == 1 && one_and_two[1] == 2;
@@ -182,7 +179,6 @@ RSC_API void rscint_(const int32_t* one_and_two, int32_t* ierr) {
 
 /* ---- all handles ------------------------------------------------------------------------------------------------------------ */
 
-RSC_API void rscdel_(int32_t* handle, int32_t* ierr);
 RSC_API void rscdel_(int32_t* handle, int32_t* ierr) {
     BEGIN
     *ierr = 0;
@@ -196,7 +192,6 @@ RSC_API void rscdel_(int32_t* handle, int32_t* ierr) {
     *handle = 0;
 }
 
-RSC_API void rsccpy_(int32_t* handle, const int32_t* original, int32_t* ierr);
 RSC_API void rsccpy_(int32_t* handle, const int32_t* original, int32_t* ierr) {
     BEGIN
     const struct entry entry = entry_of(*original, 0);
@@ -214,7 +209,6 @@ RSC_API void rsccpy_(int32_t* handle, const int32_t* original, int32_t* ierr) {
 
 /* ---- cases ------------------------------------------------------------------------------------------------------------------ */
 
-RSC_API void rscget_(const int32_t* icase, const char* name, char* value, int32_t* ierr, size_t name_length, size_t value_length);
 RSC_API void rscget_(const int32_t* icase, const char* name, char* value, int32_t* ierr, size_t name_length, size_t value_length) {
     BEGIN
     FIND(rsc_case, a_case, icase, CASE, 1)
@@ -228,8 +222,6 @@ RSC_API void rscget_(const int32_t* icase, const char* name, char* value, int32_
 
 /* ---- contact ---------------------------------------------------------------------------------------------------------------- */
 
-RSC_API void rscspt_(const int32_t* icon, const int32_t* n, int32_t* asperity, double* force, double* radius, double* penetration,
-                     int32_t* ierr);
 RSC_API void rscspt_(const int32_t* icon, const int32_t* n, int32_t* asperity, double* force, double* radius, double* penetration,
                      int32_t* ierr) {
     BEGIN

@@ -165,33 +165,26 @@ contains
     character(*), intent(inout), optional :: errmsg
     type(reader) :: r
     character, allocatable :: text(:)
-    integer :: varid, kind, ndims, dims(nf90_max_var_dims), d
-    integer, allocatable :: lengths(:)
+    integer :: varid, kind, lengths(nf90_max_var_dims), ndims
     call open_again(r, self)
-    ndims = 0
-    if (r%status == nf90_noerr) r%status = nf90_inq_varid(r%id, name, varid)
-    if (r%status == nf90_noerr) r%status = nf90_inquire_variable(r%id, varid, xtype=kind, ndims=ndims, dimids=dims)
-    allocate (lengths(max(ndims, 1)), source=1)
-    do d = 1, ndims
-      if (r%status == nf90_noerr) r%status = nf90_inquire_dimension(r%id, dims(d), len=lengths(d))
-    end do
+    call inquire_variable(r, name, varid, lengths, kind, ndims)
+    if (r%status == nf90_noerr .and. varid < 0) r%status = nf90_enotvar
     if (r%status /= nf90_noerr) lengths = 0
-    allocate (values(product(lengths)), text(0))
+    ndims = max(ndims, 1)
+    allocate (values(product(lengths(:ndims))), text(0))
     if (r%status == nf90_noerr) then
       if (kind == nf90_char) then
         deallocate (text)
         allocate (text(size(values)))
-        r%status = nf90_get_var(r%id, varid, text, count=lengths)
+        r%status = nf90_get_var(r%id, varid, text, count=lengths(:ndims))
         values = real(ichar(text), real64)
-      else if (ndims == 0) then
-        r%status = nf90_get_var(r%id, varid, values(1))
       else
-        r%status = nf90_get_var(r%id, varid, values, count=lengths)
+        r%status = nf90_get_var(r%id, varid, values, count=lengths(:ndims))
       end if
     end if
     call note(r, name)
     if (r%id >= 0) call close_file(r)
-    if (present(shape)) shape = lengths
+    if (present(shape)) shape = lengths(:ndims)
     call tell(r, self%file, stat, errmsg)
   end subroutine get_by_name
 
@@ -390,28 +383,30 @@ contains
     call get(r, 'height_y', a%height_y)
   end subroutine get_variables
 
-  !> The shape of a variable in Fortran's order, padded with ones to `rank`; zeros if the file does not have it.
-  subroutine inquire_variable(r, name, rank, varid, shape)
+  !> The shape of a variable in Fortran's order, padded with ones; zeros and varid = -1 if the file does not have it.
+  subroutine inquire_variable(r, name, varid, shape, kind, rank)
     type(reader), intent(inout) :: r
     character(*), intent(in) :: name
-    integer, intent(in) :: rank
-    integer, intent(out) :: varid, shape(rank)
+    integer, intent(out) :: varid, shape(:)
+    integer, intent(out), optional :: kind, rank
     integer :: dims(nf90_max_var_dims), ndims, d
     shape = 0
     varid = -1
+    if (present(rank)) rank = 0
     if (r%status /= nf90_noerr) return
     if (nf90_inq_varid(r%id, name, varid) /= nf90_noerr) then
       varid = -1
       return
     end if
-    r%status = nf90_inquire_variable(r%id, varid, ndims=ndims, dimids=dims)
-    if (r%status == nf90_noerr .and. ndims > rank) r%status = nf90_einvalcoords
+    r%status = nf90_inquire_variable(r%id, varid, xtype=kind, ndims=ndims, dimids=dims)
+    if (r%status == nf90_noerr .and. ndims > size(shape)) r%status = nf90_einvalcoords
     if (r%status == nf90_noerr) then
       shape = 1
       do d = 1, ndims
         r%status = nf90_inquire_dimension(r%id, dims(d), len=shape(d))
         if (r%status /= nf90_noerr) exit
       end do
+      if (present(rank)) rank = ndims
     end if
     call note(r, name)
   end subroutine inquire_variable
@@ -440,7 +435,7 @@ contains
     character(*), intent(in) :: name
     real(real64), intent(inout) :: values
     integer :: varid, shape(1)
-    call inquire_variable(r, name, 1, varid, shape)
+    call inquire_variable(r, name, varid, shape)
     if (r%status == nf90_noerr .and. varid > 0) r%status = nf90_get_var(r%id, varid, values)
     call note(r, name)
   end subroutine get_real0
@@ -450,7 +445,7 @@ contains
     character(*), intent(in) :: name
     real(real64), allocatable, intent(out) :: values(:)
     integer :: varid, shape(1)
-    call inquire_variable(r, name, 1, varid, shape)
+    call inquire_variable(r, name, varid, shape)
     allocate (values(shape(1)))
     if (r%status == nf90_noerr .and. varid > 0) r%status = nf90_get_var(r%id, varid, values)
     call note(r, name)
@@ -461,7 +456,7 @@ contains
     character(*), intent(in) :: name
     real(real64), allocatable, intent(out) :: values(:,:)
     integer :: varid, shape(2)
-    call inquire_variable(r, name, 2, varid, shape)
+    call inquire_variable(r, name, varid, shape)
     allocate (values(shape(1), shape(2)))
     if (r%status == nf90_noerr .and. varid > 0) r%status = nf90_get_var(r%id, varid, values, count=shape)
     call note(r, name)
@@ -472,7 +467,7 @@ contains
     character(*), intent(in) :: name
     real(real64), allocatable, intent(out) :: values(:,:,:)
     integer :: varid, shape(3)
-    call inquire_variable(r, name, 3, varid, shape)
+    call inquire_variable(r, name, varid, shape)
     allocate (values(shape(1), shape(2), shape(3)))
     if (r%status == nf90_noerr .and. varid > 0) r%status = nf90_get_var(r%id, varid, values)
     call note(r, name)
@@ -483,7 +478,7 @@ contains
     character(*), intent(in) :: name
     integer(int32), allocatable, intent(out) :: values(:)
     integer :: varid, shape(1)
-    call inquire_variable(r, name, 1, varid, shape)
+    call inquire_variable(r, name, varid, shape)
     allocate (values(shape(1)))
     if (r%status == nf90_noerr .and. varid > 0) r%status = nf90_get_var(r%id, varid, values)
     call note(r, name)
@@ -494,7 +489,7 @@ contains
     character(*), intent(in) :: name
     integer(int32), allocatable, intent(out) :: values(:,:)
     integer :: varid, shape(2)
-    call inquire_variable(r, name, 2, varid, shape)
+    call inquire_variable(r, name, varid, shape)
     allocate (values(shape(1), shape(2)))
     if (r%status == nf90_noerr .and. varid > 0) r%status = nf90_get_var(r%id, varid, values)
     call note(r, name)

@@ -64,10 +64,9 @@ rsc::RunOptions how_to_run(const rsc::Options& options, const std::string& comma
     how.command = command;
     how.inputs = {options.case_path.empty() ? "/dev/stdin" : options.case_path};
     how.progress = options.progress;
-    how.quiet = options.quiet;
     how.resume = options.resume;
     how.compare_automatically = true;
-    how.table = &std::cout;
+    if (!options.quiet) how.table = &std::cout;
     how.messages = &std::cerr;
     return how;
 }
@@ -100,6 +99,19 @@ void catch_signals_early() {
 #ifndef RSC_MPI
     rsc::catch_signals();
 #endif
+}
+
+// Runs `f`. Refusals during a run that begin with a key, "surface%sigma: ...", get the name of the case before it.
+template <class F>
+auto named(const rsc::Options& options, F f) {
+    try {
+        return f();
+    } catch (const rsc::Error& error) {
+        const std::string what = error.what(), name = what.substr(0, what.find_first_of("( :="));
+        const std::size_t percent = std::min(name.find('%'), name.size());
+        if (!rsc::find_key(name.substr(0, percent), name.substr(std::min(percent + 1, name.size())))) throw;
+        throw rsc::Error(error.kind(), (options.case_path.empty() ? "<stdin>" : options.case_path) + ": " + what);
+    }
 }
 
 int run_program(int argc, char** argv, Job& job) {
@@ -144,7 +156,7 @@ int run_program(int argc, char** argv, Job& job) {
     if (options.check) {
         const rsc::RunOptions how = how_to_run(options, command_line(argc, argv));
         const std::size_t threads = threads_of(read.settings);
-        const rsc::Forecast expected = rsc::check_members(read, options.member, how, threads);
+        const rsc::Forecast expected = named(options, [&] { return rsc::check_members(read, options.member, how, threads); });
         std::cout << rsc::effective_namelist(read);
         if (!options.quiet)
             std::cerr << "rsc: the inputs can be read and the result can be written; expected to take about "
@@ -152,7 +164,7 @@ int run_program(int argc, char** argv, Job& job) {
                       << (expected.megabytes > 0 ? rsc::format(" and %.0f MB of memory", expected.megabytes) : "") << '\n';
         return 0;
     }
-    return run(job, options, read, command_line(argc, argv));
+    return named(options, [&] { return run(job, options, read, command_line(argc, argv)); });
 }
 
 // Converts every failure into a message and an exit status.

@@ -378,8 +378,8 @@ RSC_API int32_t rsc_contact_level(const rsc_contact* contact, int32_t* level_sta
  * equations, unless null) [force/length]; area: A [length^2]; energy: W, dW/dZ0 = -N [force length]; lateral_x, lateral_y: lateral
  * force on the sphere at this separation, -dW/dx0 = -sum f_i (x_i - x0)/sqrt(R^2 - rho_i^2), and -dW/dy0 likewise [force]; with the laws
  * 'elliptic' and 'fourth_order' W changes by more, because summits change with the tip: this is included by differences of W, with the
- * plastic work (under steep indenters up to 4096 x 4096 points), at every level of the library, which takes half of the time of a move to
- * one and a half times as much; with RSC_LEVEL_OUT_OF_VALIDITY, where W of the model may be far too steep, it can be off by a tenth of N and
+ * plastic work (under steep indenters up to 4096 x 4096 points), once a level when it is first asked for, which takes half of the time of
+ * a first level to one and a half times as much, or when the tip moves, if the state follows it; with RSC_LEVEL_OUT_OF_VALIDITY, where W of the model may be far too steep, it can be off by a tenth of N and
  * more; level_status: of RSC_LEVEL_LIST; contacts: number of contacts; overlapping_pairs: pairs that overlap;
  * large_contacts: with a radius above a quarter of the mean spacing; beyond_law:
  * outside the range of validity of the contact law; edge_contacts: within a mean spacing of the border of the surface. All hold for the

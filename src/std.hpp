@@ -1,4 +1,5 @@
-// The headers of the standard library that rsc uses. CMake compiles them once (RSC_PRECOMPILE); a file includes this one, or a header that does.
+// The headers of the standard library that rsc uses, and what most files need. CMake compiles them once (RSC_PRECOMPILE); a file includes this one,
+// or a header that does.
 #pragma once
 
 #include <algorithm>
@@ -48,3 +49,18 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+namespace rsc {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// A number as the index of a vector.
+constexpr std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+inline double dot(const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
+    return sum;
+}
+
+}  // namespace rsc

@@ -24,7 +24,7 @@ def along_line(spots, y, x0, x1):
 def compare(results, options):
     """The comparison by &compare, for the first result that has it."""
     having = [r for r in results if "compare_step" in r]
-    if not having:
+    if not having or not having[0].mean("force")[having[0]["compare_step"].astype(int) - 1].any():
         return None
     result = having[0]
     if len(having) > 1:

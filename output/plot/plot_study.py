@@ -3,7 +3,7 @@
 import numpy as np
 
 from plot_curves import error_band, title
-from plot_results import _in_order, axis_label, differing_keys, value_text
+from plot_results import _in_order, axis_label, differing_keys, key_label, value_text
 from plot_style import FEW, Page, STYLES, colour_bar, label, short
 
 QUANTITIES = {"force": "force $N$", "pressure": "nominal pressure", "separation_sigma": r"separation $Z_0/\sigma$", "separation": "separation $Z_0$", "contact_area": "true contact area $A$",
@@ -40,19 +40,22 @@ def _curves(page, axis, quantity, results, values, levels, numbers, others):
 
 
 def study(results, options):
-    """Area, contacts and force (separation under force control) at one level against the keys that vary: curves over one key of numbers, one for
-    each value of the others; maps for two keys of numbers, or of none."""
+    """Area, contacts and force (separation under force control) at one level against the keys that vary: curves over one key of numbers (of
+    more than two keys that with the most values), one for each value of the others; maps for two keys of numbers, or of none."""
     results = [r for r in results if "force" in r and r.loaded().size]
     keys = differing_keys(results) if len(results) > 2 else []
     texts = [[r.case.get(key, "") for key in keys] for r in results]
     if not keys or len({tuple(t) for t in texts}) < len(texts):
         return None
     of_numbers = [i for i in range(len(keys)) if not any(_in_order(t[i])[0] for t in texts)]
+    if len(keys) > 2:  # no map: curves over the key of numbers with the most values
+        of_numbers = sorted(of_numbers, key=lambda i: -len({t[i] for t in texts}))[:1]
     curves = len(of_numbers) == 1 and len({t[of_numbers[0]] for t in texts}) > 2
     if curves:
         key, marks = keys[of_numbers[0]], [t[of_numbers[0]] for t in texts]
         x = np.array([_in_order(mark)[1] for mark in marks])
-        others = [", ".join(value_text(text) for i, text in enumerate(t) if i != of_numbers[0]) for t in texts]
+        named = [value_text if _in_order(text)[0] else lambda value, label=key_label(name, results[0]): f"{label[0]} = {value_text(value)} {label[1]}".strip() for name, text in zip(keys, texts[0])]
+        others = [", ".join(named[i](text) for i, text in enumerate(t) if i != of_numbers[0]) for t in texts]
         curves = len(set(others)) <= FEW
     if not curves and (len(keys) != 2 or len(results) < 4):
         return None

@@ -43,6 +43,9 @@ _SHOWN = {
 }
 _PREFIXES = {"": 1.0, "n": 1e-9, "u": 1e-6, "µ": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6}
 _BASES = {prefix + base: (size, base) for base in ("m", "N", "ohm", "s") for prefix, size in _PREFIXES.items()}
+_BASES |= {name: (size, "m") for names, size in (("inch in inches", 0.0254), ("ft foot feet", 0.3048), ("mil", 2.54e-5), ("nanometer", 1e-9), ("angstrom", 1e-10),
+                                                 ("micron micrometer", 1e-6), ("millimeter", 1e-3), ("meter", 1.0)) for name in names.split()}
+_BASES |= {"lbf": (4.4482216152605, "N"), "kgf": (9.80665, "N"), "gf": (9.80665e-3, "N"), "dyne": (1e-5, "N"), "newton": (1.0, "N")}
 
 
 def si(text):

@@ -39,7 +39,7 @@ def _map(page, axis, result, name):
         label(axis, which, f"${which}$", result.dimension("height_" + which if "height_" + which in result else which))
     sq = float(result["sq"]) if "sq" in result else float(np.nanstd(result["height"]))
     filled = int(result["filled_points"]) if "filled_points" in result else 0
-    axis.set_title(f"{name}rms height {amount(sq, result.dimension('height'))}" + (f", {filled} points filled" if filled else ""))
+    axis.set_title(f"{name}rms height {amount(sq, result.dimension('height'))}" + (f",\n{filled} points filled" if filled else ""))
 
 
 def _spectrum(page, axis, _, results):
@@ -58,7 +58,8 @@ def _spectrum(page, axis, _, results):
             axis.plot(q[fit > 0], fit[fit > 0], line, color=STYLES[1][2] if len(results) == 1 else colour, gid="fit", zorder=3)
             if len(results) == 1 and "hurst" in about.ncattrs():
                 waves = [2 * np.pi / (getattr(about, name) * result.factor("wavenumber")) for name in ("ks", "kl")]
-                page.entry(f"fit: $H$ = {about.hurst:.2f}" + (f" ± {about.hurst_error:.2f}" if "hurst_error" in about.ncattrs() else "") + rf", waves {amount(waves[0], 'm')} to {amount(waves[1], 'm')}",
+                length = result.dimension("wavenumber").removesuffix("-1")
+                page.entry(f"fit: $H$ = {about.hurst:.2f}" + (f" ± {about.hurst_error:.2f}" if "hurst_error" in about.ncattrs() else "") + rf", waves {' to '.join(amount(wave, length) for wave in waves)}",
                            color=STYLES[1][2], ls="-")
             lows.append(max(fit[fit > 0].min() * 1e-4, lows[-1]) if (fit > 0).any() else lows[-1])
     axis.set_ylim(max(lows) / 3, max(tops) * 3)
@@ -84,5 +85,6 @@ def _distribution(page, axis, result, _):
     page.entry("Gaussian of the same rms", color=STYLES[1][2])
     axis.set(ylim=(0, None), title=words)
     axis.locator_params(axis="x", nbins=5)
-    label(axis, "x", "height about the mean", "m" if "height_bin" not in result else result.dimension("height_bin"))
-    label(axis, "y", "probability density", "m-1")
+    length = result.dimension("height_bin" if "height_bin" in result else "height")
+    label(axis, "x", "height about the mean", length)
+    label(axis, "y", "probability density", length + "-1")

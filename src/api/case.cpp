@@ -16,17 +16,6 @@ const Case& settings_of(const rsc_case* a_case) {
     return a_case ? a_case->settings : defaults;
 }
 
-void require_sound(const Case& settings, std::initializer_list<std::string_view> names) {
-    std::string text;
-    for (const Problem& problem : check_case(settings)) {
-        const Key& key = *problem.keys.front();
-        const std::string group = key.group, full = group + "%" + key.name;
-        if (std::none_of(names.begin(), names.end(), [&](std::string_view name) { return name == group || name == full; })) continue;
-        text += (text.empty() ? "&" : "\n&") + group + ": " + problem.text;
-    }
-    if (!text.empty()) bad_input(text);
-}
-
 int threads_of(const Case& settings) { return static_cast<int>(most_threads(settings.run.threads)); }
 
 }  // namespace rsc::api
@@ -100,8 +89,7 @@ int32_t rsc_key_name(int64_t key, char* buffer, int64_t size, int64_t* length) {
     return guarded(0, [&] {
         const auto keys = rsc::registry();
         if (key < 0 || key >= static_cast<int64_t>(keys.size())) refuse(1, "key", "must be the number of a key");
-        const rsc::Key& k = keys[static_cast<std::size_t>(key)];
-        put_text(std::string(k.group) + "%" + k.name, buffer, size, length, 2);
+        put_text(rsc::full_name(keys[static_cast<std::size_t>(key)]), buffer, size, length, 2);
     });
 }
 

@@ -18,7 +18,7 @@ static_assert(kLevelStatusNames.size() == RSC_LEVEL_LAST_ + 1 && static_cast<int
               static_cast<int>(LevelStatus::not_converged) == RSC_LEVEL_NOT_CONVERGED);
 
 void require_contact_keys(const Case& settings) {
-    require_sound(settings, {"solver", "solids%resistivity", "solids%relaxation_share", "solids%relaxation_time", "asperities%law",
+    require_valid(settings, {"solver", "solids%resistivity", "solids%relaxation_share", "solids%relaxation_time", "asperities%law",
                              "indentation%selection", "indentation%selection_factor", "surface%sigma", "surface%L"});
 }
 
@@ -57,9 +57,6 @@ void compute(rsc_contact& contact, Compute&& level) {
     known.x0 = indenter.x0, known.y0 = indenter.y0;
     known.energy = contact.contact.energy();
     known.lateral = {kNotComputed, kNotComputed};
-    // With summits of the difference the lateral force is that of the present state; otherwise that of the level, at any later time.
-    if (const Asperities* used = contact.contact.asperities(); used && used != &contact.on->asperities)
-        known.lateral = contact.contact.lateral(computed), known.moment = tip_moment(indenter, computed);
     known.level = std::move(computed);
     contact.recalled = true;
 }
@@ -114,10 +111,10 @@ constexpr Derived kDerived[] = {
     {"energy", [](rsc_contact& c) { return c.known.energy; }},
     {"conductance_length", conductance_length_of},
     {"resistance", resistance_of},
-    {"lateral_force_x", [](rsc_contact& c) { return c.answered().lateral.x; }},
-    {"lateral_force_y", [](rsc_contact& c) { return c.answered().lateral.y; }},
-    {"moment_x", [](rsc_contact& c) { return c.answered().moment.x; }},
-    {"moment_y", [](rsc_contact& c) { return c.answered().moment.y; }},
+    {"lateral_force_x", [](rsc_contact& c) { return c.answer(c.known).lateral.x; }},
+    {"lateral_force_y", [](rsc_contact& c) { return c.answer(c.known).lateral.y; }},
+    {"moment_x", [](rsc_contact& c) { return c.answer(c.known).moment.x; }},
+    {"moment_y", [](rsc_contact& c) { return c.answer(c.known).moment.y; }},
 };
 
 // Quantities of the result file that rsc_contact_value does not return: those of maps, which the library does not compute, and vectors
@@ -169,7 +166,7 @@ int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities
         require(asperities, 2, "asperities");
         const rsc::Case& settings = settings_of(a_case);
         require_contact_keys(settings);
-        require_sound(settings, {"solids", "indenter"});
+        rsc::require_valid(settings, {"solids", "indenter"});
         const auto& on = asperities->model;
         require_model(*on, settings, 3);
         const rsc::SurfaceDomain domain = domain_of(settings, *on);
@@ -186,9 +183,14 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
         const rsc::Vec2 place = place_of(*contact, x0, y0);
         const rsc::Indenter& now = contact->contact.indenter();
         if (place.x == now.x0 && place.y == now.y0) return;
-        // Contacts with a memory follow the tip at once: the stiffness and the conductance of the last level are kept.
+        // Contacts with a memory follow the tip at once: what can be asked of the last level is kept.
         const bool remembers = contact->contact.pulls() || contact->contact.path_dependent();
-        if (remembers && contact->known.level) (void)(now.layers.count > 0 ? stiffness_of(*contact) : conductance_length_of(*contact));
+        if (remembers && contact->known.level) {
+            (void)(now.layers.count > 0 ? stiffness_of(*contact) : conductance_length_of(*contact));
+            contact->answer(contact->known);
+        }
+        // So is, at the first move on a surface that repeats, what other images of its spots would change.
+        if (now.repeats.finite() && !now.around.finite()) contact->answer(contact->known), contact->answer(contact->committed.known);
         const rsc::Asperities* const before = contact->contact.asperities();
         contact->contact.move_tip(place.x, place.y);
         if (!remembers && contact->contact.asperities() != before)
@@ -296,8 +298,8 @@ int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* for
         put(stiffness, dN_dZ0);
         put(area, level.area);
         put(energy, W);
-        if (lateral_x) *lateral_x = contact->answered().lateral.x;
-        if (lateral_y) *lateral_y = contact->answered().lateral.y;
+        if (lateral_x) *lateral_x = contact->answer(contact->known).lateral.x;
+        if (lateral_y) *lateral_y = contact->answer(contact->known).lateral.y;
         put(level_status, level.status);
         put(contacts, level.contacts);
         put(overlapping_pairs, level.overlapping_pairs);

@@ -62,13 +62,26 @@ rsc_contact::rsc_contact(std::shared_ptr<const rsc::SurfaceModel> on_, std::shar
 
 rsc_contact::rsc_contact(const rsc_contact& like) : rsc_contact(like.on, like.keys, like.contact.indenter()) { given = like.given; }
 
-const rsc_contact::Known& rsc_contact::answered() {
-    if (known.level && std::isnan(known.lateral.x)) {
-        rsc::Indenter tip = contact.indenter();
-        tip.x0 = known.x0, tip.y0 = known.y0;
-        known.lateral = rsc::lateral_force(tip, *known.level), known.moment = rsc::tip_moment(tip, *known.level);
+const rsc_contact::Known& rsc_contact::answer(Known& of) {
+    if (!of.level || !std::isnan(of.lateral.x)) return of;
+    rsc::Indenter tip = contact.indenter();
+    const double x0 = std::exchange(tip.x0, of.x0), y0 = std::exchange(tip.y0, of.y0);
+    const rsc::Vec2 moment = rsc::tip_moment(tip, *of.level);
+    rsc::Vec2 force;
+    if (const rsc::Asperities* used = contact.asperities(); !used || used == &on->asperities) {
+        force = rsc::lateral_force(tip, *of.level);
+    } else {  // of summits that change with the tip, which goes back to that of the level meanwhile
+        try {
+            put_tip(*this, of.x0, of.y0);
+            force = contact.lateral(*of.level);
+            put_tip(*this, x0, y0);
+        } catch (...) {
+            put_tip(*this, x0, y0);
+            throw;
+        }
     }
-    return known;
+    of.lateral = force, of.moment = moment;
+    return of;
 }
 
 rsc_contact::State rsc_contact::state() const { return {contact.indenter().x0, contact.indenter().y0, contact.memory(), known}; }

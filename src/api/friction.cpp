@@ -94,7 +94,7 @@ int32_t rsc_friction_create_from_case(rsc_friction** friction, const rsc_contact
         require(contact, 2, "contact");
         require_elastic(*contact);
         const rsc::Case& settings = settings_of(a_case);
-        require_sound(settings, {"solids"});
+        rsc::require_valid(settings, {"solids"});
         return new rsc_friction(*contact, {settings.solids.friction, rsc::tangential_ratio(settings.solids.E, settings.solids.nu)});
     });
 }

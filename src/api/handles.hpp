@@ -1,7 +1,7 @@
 // The objects behind the handles of rsc.h.
 #pragma once
 
-#include "case/case.hpp"
+#include "case/registry.hpp"
 #include "contact/answers.hpp"
 #include "contact/contact_curve.hpp"
 #include "contact/friction.hpp"
@@ -58,8 +58,8 @@ struct rsc_contact {
         rsc::Vec2 lateral{rsc::kNotComputed, rsc::kNotComputed}, moment{};  // NaN until they are asked for
     };
     Known known;
-    // The last level with its lateral force and moment.
-    const Known& answered();
+    // Adds the lateral force and the moment to a level, at whose tip a contact with a memory must be.
+    const Known& answer(Known& level);
     bool recalled = true;  // false: `contact` is not at that level, recall() must be called first
 
     // The last level and everything that the next level depends on.
@@ -92,9 +92,6 @@ namespace rsc::api {
 
 // The settings of a case, or the defaults for null.
 const Case& settings_of(const rsc_case* a_case);
-
-// Throws Error(bad_input) if check_case reports a problem with keys of these groups or with these keys ("group%key").
-void require_sound(const Case& settings, std::initializer_list<std::string_view> names);
 
 int threads_of(const Case& settings);
 

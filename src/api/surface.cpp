@@ -36,7 +36,7 @@ using namespace rsc::api;
 int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case, int64_t realization) {
     return constructed(2, surface, "surface", [&] {
         const rsc::Case& settings = settings_of(a_case);
-        require_sound(settings, {"surface", "run"});
+        rsc::require_valid(settings, {"surface", "run"});
         auto made = std::make_unique<rsc_surface>();
         made->surface = rsc::make_surface(settings, realization, threads_of(settings));
         return made.release();
@@ -148,7 +148,7 @@ int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surf
 int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case, int64_t realization) {
     return constructed(2, asperities, "asperities", [&] {
         const rsc::Case& settings = settings_of(a_case);
-        require_sound(settings, {"surface", "run", "asperities%curvature", "asperities%law"});
+        rsc::require_valid(settings, {"surface", "run", "asperities%curvature", "asperities%law"});
         return share(rsc::make_surface_model(settings, realization, threads_of(settings)));
     });
 }

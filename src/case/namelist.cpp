@@ -9,7 +9,6 @@ constexpr int kEnd = -1;
 bool is_digit(int c) { return c >= '0' && c <= '9'; }
 bool is_letter(int c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_name(int c) { return is_letter(c) || is_digit(c) || c == '_' || c == '%'; }
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 bool is_blank(int c) { return c == ' ' || c == '\t'; }
 bool is_line_end(int c) { return c == '\n' || c == '\r'; }
 // Characters that end a value; '!' begins a comment.
@@ -30,11 +29,12 @@ public:
             if (c == '!') skip_line();
             if (c != '&' && c != '$') continue;
             const std::size_t sign = at_ - 1;
-            std::string name;
-            while (is_letter(peek()) || is_digit(peek()) || peek() == '_') name += lower(static_cast<char>(next()));
+            while (peek() != '%' && is_name(peek())) next();
+            const std::string name = lower_case(text_.substr(sign + 1, at_ - sign - 1));
             if (name.empty() || !is_separator(peek())) continue;
             if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
-                if (name != "end" && first_on_line(sign, resumed)) unknown_group(name, sign);
+                if (name != "end" && first_on_line(sign, resumed))
+                    fault(sign, "unknown group '&" + name.substr(0, 63) + "'" + suggestion(name, known_, "&"));
                 continue;
             }
             Group group{name, {}, position(sign)};
@@ -101,6 +101,8 @@ private:
         return word;
     }
 
+    static std::string shown(const Assignment& a) { return "'" + a.key.substr(0, 63) + "'"; }
+
     // A key behind the last '/' would be ignored without a message.
     void nothing_after(std::size_t offset) {
         for (std::size_t i = offset; i < text_.size(); ++i) {
@@ -122,9 +124,6 @@ private:
         while (offset > resumed && is_blank(text_[offset - 1])) --offset;
         return offset == resumed || text_[offset - 1] == '\n';
     }
-    void unknown_group(const std::string& name, std::size_t sign) {
-        fault(sign, "unknown group '&" + name.substr(0, 63) + "'" + suggestion(name, known_, "&"));
-    }
 
     // --- separators, the way gfortran does them ---------------------------------------------------------------------------
     // After a value: blanks, then at most one comma, or the end of the line with all that is blank or comment after it.
@@ -144,13 +143,10 @@ private:
                 back(next());
                 return;
             }
-            for (;;) {
+            do {
                 c = next();
-                if (c == '!')
-                    skip_line();
-                else if (!is_line_end(c) && !is_blank(c))
-                    break;
-            }
+                if (c == '!') skip_line();
+            } while (c == '!' || is_line_end(c) || is_blank(c));
             back(c);
         } else {
             back(c);
@@ -178,13 +174,17 @@ private:
         }
     }
 
+    void skip_separators() {
+        skip_separator();
+        if (!complete_ && at_eol_) finish_separator();
+    }
+
     // --- a group ----------------------------------------------------------------------------------------------------------
     void body(Group& group) {
         context_ = alone_ ? "" : "&" + group.name + ": ";
         bool lost = false;  // a fault was reported and no valid assignment followed yet
         for (;;) {
-            skip_separator();
-            if (!complete_ && at_eol_) finish_separator();
+            skip_separators();
             if (complete_) break;
             const std::size_t start = at_;
             const int c = next();
@@ -192,17 +192,10 @@ private:
                 if (!alone_) report(document_.faults, group.at, "the group is not closed by '/' before the end of the text");
                 break;
             }
-            if (alone_ && (c == '&' || c == '$')) {
-                back(c);
-                break;
-            }
             if (c == '&' || c == '$') {
-                if (lower_case(text_.substr(at_, 3)) == "end") {
-                    at_ += 3;
-                } else {
-                    fault(start, "the group is not closed by '/' before '" + excerpt(start) + "'");
-                    back(c);
-                }
+                const bool end = !alone_ && lower_case(text_.substr(at_, 3)) == "end";
+                if (!end && !alone_) fault(start, "the group is not closed by '/' before '" + excerpt(start) + "'");
+                at_ = end ? at_ + 3 : start;
                 break;
             }
             if (c == '?') continue;  // gfortran's query, which does nothing unless typed at a terminal
@@ -228,25 +221,23 @@ private:
     void assignment(Group& group, std::size_t start, bool quiet) {
         Assignment a;
         a.at = position(start);
-        while (is_name(peek())) a.key += lower(static_cast<char>(next()));
-        if (a.key.empty() || is_digit(a.key[0])) {
-            if (!quiet) fault(start, "expected key = value, found '" + excerpt(start) + "'");
-            next();
-            while (!is_separator(peek()) && peek() != '=') next();
-            return;
-        }
+        while (is_name(peek())) next();
+        a.key = lower_case(text_.substr(start, at_ - start));
         std::string problem;
-        if (peek() == '(') problem = subscript(a);
-        const std::size_t after_name = at_;
+        if (a.key.empty() || is_digit(a.key[0])) {
+            problem = "expected key = value, found '" + excerpt(start) + "'";
+            next();
+        } else if (peek() == '(') {
+            problem = subscript(a);
+        }
         if (problem.empty()) {
-            skip_separator();
-            if (!complete_ && at_eol_) finish_separator();
+            const std::size_t after_name = at_;
+            skip_separators();
             if (complete_ || next() != '=') {
                 complete_ = false;
                 at_ = after_name;
-                problem = "'=' must follow '" + a.key.substr(0, 63) + "'";
-                if (is_blank(peek()) && skip_blanks() == '(')
-                    problem = "no blank may stand between '" + a.key.substr(0, 63) + "' and its subscript";
+                problem = "'=' must follow " + shown(a);
+                if (is_blank(peek()) && skip_blanks() == '(') problem = "no blank may stand between " + shown(a) + " and its subscript";
                 at_ = after_name;
             }
         }
@@ -295,8 +286,7 @@ private:
     // --- values -----------------------------------------------------------------------------------------------------------
     // Up to the next key, the end of the group or the end of the text.
     void values(Assignment& a) {
-        std::size_t doubtful = 0;  // offset of a null value for gfortran but not for the Fortran standard
-        bool doubt = false;
+        std::size_t doubtful = std::string_view::npos;  // offset of a null value for gfortran but not for the Fortran standard
         skip_blanks();
         bool after_line = false;
         for (;;) {
@@ -306,21 +296,18 @@ private:
             const int c = peek();
             if (c == '&' || c == '$' || c == '?' || c == '=') return;
             if (is_separator(c)) {
-                if (c == '!' || (c == ',' && after_line)) {
-                    doubt = true;
-                    doubtful = start;
-                }
+                if (c == '!' || (c == ',' && after_line)) doubtful = start;
                 after_line = false;
                 null_value(a, start);
                 skip_separator();
                 continue;
             }
             if (key_follows()) return;
-            if (doubt) {
-                warn(doubtful, "the value of '" + a.key.substr(0, 63) +
-                                   "' here is empty, as gfortran reads it: a comment straight after '=' or ',', or a line that "
+            if (doubtful != std::string_view::npos) {
+                warn(doubtful, "the value of " + shown(a) +
+                                   " here is empty, as gfortran reads it: a comment straight after '=' or ',', or a line that "
                                    "begins with a comma, makes a null value");
-                doubt = false;
+                doubtful = std::string_view::npos;
             }
             if (!item(a, start)) return;
             after_line = passed_line_end(start);
@@ -348,7 +335,7 @@ private:
 
     void add(Assignment& a, Item item) {
         if (a.items.size() == kMostItems)
-            report(document_.faults, item.at, "more than " + std::to_string(kMostItems) + " values for '" + a.key.substr(0, 63) + "'");
+            report(document_.faults, item.at, "more than " + std::to_string(kMostItems) + " values for " + shown(a));
         if (a.items.size() <= kMostItems) a.items.push_back(std::move(item));
     }
 
@@ -442,19 +429,6 @@ private:
     Document document_;
 };
 
-// Number of edits (insert, delete, replace, swap neighbours) between two words.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-    for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
-    for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i)
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
-        }
-    return d[a.size()][b.size()];
-}
-
 }  // namespace
 
 Document parse(std::string_view text, const std::vector<std::string_view>& known_groups) { return Parser(text, known_groups).document(); }
@@ -462,33 +436,6 @@ Document parse(std::string_view text, const std::vector<std::string_view>& known
 Document parse_assignments(std::string_view text) {
     const std::vector<std::string_view> none;
     return Parser(text, none).assignments_alone();
-}
-
-std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
-    if (word.empty() || word.size() > 63) return {};
-    const std::string w = lower_case(word);
-    std::string_view best;
-    std::size_t least = std::max<std::size_t>(1, w.size() / 3) + 1;
-    for (const std::string_view candidate : candidates) {
-        std::size_t distance = edit_distance(w, lower_case(candidate));
-        if (w.size() >= 3 && distance >= least && lower_case(candidate).starts_with(w)) distance = least - 1;  // cut short
-        if (distance < least) {
-            least = distance;
-            best = candidate;
-        }
-    }
-    return best;
-}
-
-std::string suggestion(std::string_view word, const std::vector<std::string_view>& candidates, const char* mark) {
-    const std::string_view near = nearest(word, candidates);
-    return near.empty() ? "" : std::string("; did you mean '") + mark + std::string(near) + "'?";
-}
-
-std::string lower_case(std::string_view word) {
-    std::string result(word);
-    std::transform(result.begin(), result.end(), result.begin(), lower);
-    return result;
 }
 
 std::string format(const std::string& name, const Fault& fault) {

@@ -1,8 +1,11 @@
+// Words and values of a namelist.
 
 #include "case/namelist.hpp"
 
 namespace rsc::namelist {
 namespace {
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 // Infinity or zero, for a number too large or too small for a double.
 double out_of_range(std::string_view plain) {
@@ -11,7 +14,47 @@ double out_of_range(std::string_view plain) {
     return plain.find("e-") == std::string_view::npos ? std::numeric_limits<double>::infinity() : 0.0;
 }
 
+// Number of edits (insert, delete, replace, swap neighbours) between two words.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+    for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+    for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i)
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+        }
+    return d[a.size()][b.size()];
+}
+
 }  // namespace
+
+std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
+    if (word.empty() || word.size() > 63) return {};
+    const std::string w = lower_case(word);
+    std::string_view best;
+    std::size_t least = std::max<std::size_t>(1, w.size() / 3) + 1;
+    for (const std::string_view candidate : candidates) {
+        std::size_t distance = edit_distance(w, lower_case(candidate));
+        if (w.size() >= 3 && distance >= least && lower_case(candidate).starts_with(w)) distance = least - 1;  // cut short
+        if (distance < least) {
+            least = distance;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string_view>& candidates, const char* mark) {
+    const std::string_view near = nearest(word, candidates);
+    return near.empty() ? "" : std::string("; did you mean '") + mark + std::string(near) + "'?";
+}
+
+std::string lower_case(std::string_view word) {
+    std::string result(word);
+    std::transform(result.begin(), result.end(), result.begin(), lower);
+    return result;
+}
 
 std::optional<std::int64_t> to_integer(std::string_view word) {
     if (!word.empty() && word[0] == '+') {

@@ -110,8 +110,9 @@ struct Problem {
     std::string text;  // begins with the key: "n must be even"
 };
 std::vector<Problem> check_case(const Case& settings);
-// Throws Error(bad_input) with a line for each problem.
-void require_valid(const Case& settings);
+// Throws Error(bad_input) with a line for each problem; if names are given, for those whose first key is one of these ("group%key"), or in
+// one of these groups.
+void require_valid(const Case& settings, std::initializer_list<std::string_view> names = {});
 
 // The case with all keys that do not affect a result at their defaults.
 Case without_idle_keys(const Case& settings);

@@ -66,7 +66,7 @@ private:
                                  static_cast<long>(element),
                                  std::string(key.name) + (element > 0 ? "(" + std::to_string(element) + ")" : "") + " = " +
                                      (key.type == Type::integer ? count(value) : namelist::from_real(value)) + ": must be " +
-                                     (bounds.empty() ? "finite" : bounds)});
+                                     bounds + (std::isfinite(value) ? "" : bounds.empty() ? "finite" : " and finite")});
         };
         const auto each = [&](const auto* values, std::size_t size) {
             for (std::size_t i = 0; i < size; ++i) number(static_cast<double>(values[i]), key.size > 1 ? i + 1 : 0);
@@ -189,7 +189,7 @@ private:
                                                         {"surface%outliers", s.outliers > 0}};
         for (const auto& [key, given] : of_maps)
             require(maps || !given, {key, "surface%source"},
-                    "is for heights read from files, and source = " + get_key(c_, "surface%source"));
+                    "is only for heights read from files, here source = " + get_key(c_, "surface%source"));
         if (of_file) {
             const bool several = s.source == Source::heights && s.file.find_first_of("*?[") != std::string::npos;
             require(several || c_.run.realizations == 1, {"run%realizations", "surface%source"},
@@ -261,7 +261,7 @@ private:
             std::string shapes;
             for (const ShapeRow& other : kShapes)
                 if (takes(other, key.name, false)) shapes += (shapes.empty() ? "'" : " or '") + std::string(other.name) + "'";
-            complain({name, "indenter%shape"}, "is for shape = " + shapes + ", and shape = " + get_key(c_, "indenter%shape"));
+            complain({name, "indenter%shape"}, "is only for shape = " + shapes + ", here shape = " + get_key(c_, "indenter%shape"));
         }
         require(i.radii[0].has_value() == i.radii[1].has_value(), {"indenter%radii"}, "two values are needed");
         if (shape() == "sphere") return;
@@ -289,9 +289,9 @@ private:
         const bool periodic = i.boundary == Boundary::periodic, relative = i.unit == LevelUnit::relative;
         if (periodic) {
             require(shape() == "sphere" || shape() == "map", {"indentation%boundary", "indenter%shape"},
-                    "is for two flats, smooth or rough, and shape = " + get_key(c_, "indenter%shape") + " is none");
+                    "is for two flats, smooth or rough, but shape = " + get_key(c_, "indenter%shape") + " is not flat");
             require(shape() != "sphere" || (std::isinf(c_.solids.R[0]) && std::isinf(c_.solids.R[1])), {"indentation%boundary", "solids%R"},
-                    "is for two flats, and R = " + get_key(c_, "solids%R") + "; give R = Infinity, Infinity");
+                    "is for two flats, but R = " + get_key(c_, "solids%R") + "; give R = Infinity, Infinity");
             require(i.selection != Selection::paper, {"indentation%selection", "indentation%boundary"},
                     "is defined for a sphere only, not for two flats");
             require(c_.surface.source != Source::asperities || c_.surface.L, {"surface%L", "indentation%boundary"},
@@ -345,10 +345,14 @@ private:
 
 std::vector<Problem> check_case(const Case& settings) { return Checker(settings).check(); }
 
-void require_valid(const Case& settings) {
+void require_valid(const Case& settings, std::initializer_list<std::string_view> names) {
     std::string text;
-    for (const Problem& problem : check_case(settings))
-        text += (text.empty() ? "&" : "\n&") + std::string(problem.keys.front()->group) + ": " + problem.text;
+    for (const Problem& problem : check_case(settings)) {
+        const Key& key = *problem.keys.front();
+        const auto is_key = [&](std::string_view name) { return name == key.group || name == full_name(key); };
+        if (names.size() == 0 || std::ranges::any_of(names, is_key))
+            text += (text.empty() ? "&" : "\n&") + std::string(key.group) + ": " + problem.text;
+    }
     if (!text.empty()) bad_input(text);
 }
 

@@ -28,8 +28,8 @@ std::string quote(const Item& item) {
 
 // For a number that is wrong, or surplus: the most frequent causes.
 std::string hint(const Item& item) {
-    const bool number = !item.quoted && item.text.find_first_of("0123456789#") == 0;
-    return !number ? "" : "; numbers are written with a decimal point and without their unit, comments begin with '!'";
+    return item.quoted ? "; numbers are written without quotes"
+                       : "; numbers are written with a decimal point and without their unit, comments begin with '!'";
 }
 
 // Trailing blanks are not significant in Fortran.
@@ -81,7 +81,7 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
         if (!value || (small && *value != static_cast<int>(*value))) {
             const bool digits = !item.quoted && item.text.find_first_not_of("+-0123456789") == std::string::npos && item.text.size() > 5;
             return digits ? quote(item) + " is not an integer of " + (small ? "32" : "64") + " bits"
-                          : "expected an integer, found " + quote(item);
+                          : "expected an integer, found " + quote(item) + (item.quoted ? hint(item) : "");
         }
         put(slot, element, *value);
     } else if (key.type == Type::real && !word) {
@@ -204,7 +204,7 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
         if (left == 0 || item.repeat > left) {
             const std::string room = elements == 1 ? "one value" : std::to_string(elements) + " values";
             return fault(item.at, item.counted ? "the repeat count is too large: " + room + " at most"
-                                               : "too many values: " + room + " at most, found " + quote(item) + hint(item));
+                                               : "too many values: " + room + " at most, found " + quote(item) + (is_text ? "" : hint(item)));
         }
         if (!item.null) {
             for (long k = 0; k < item.repeat; ++k) {

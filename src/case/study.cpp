@@ -29,12 +29,6 @@ std::string axis_key(const namelist::Assignment& a, std::vector<Fault>& faults) 
     return full + "(" + std::to_string(*a.subscript->first) + ")";
 }
 
-std::string join(const std::vector<std::pair<std::string, std::string>>& values) {
-    std::string text;
-    for (const auto& [key, value] : values) text += (text.empty() ? "" : " ") + key + "=" + value;
-    return text;
-}
-
 std::size_t member_count(const Study& study) {
     if (study.mode == StudyMode::zip) return study.axes.front().values.size();
     std::size_t count = 1;
@@ -43,6 +37,12 @@ std::size_t member_count(const Study& study) {
 }
 
 }  // namespace
+
+std::string values_text(const Member& member) {
+    std::string text;
+    for (const auto& [key, value] : member.values) text += (text.empty() ? "" : " ") + key + "=" + value;
+    return text;
+}
 
 Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
     Study study;
@@ -148,7 +148,7 @@ std::vector<Member> expand_study(const Case& base, const Study& study) {
         for (const Problem& problem : check_case(member.settings))
             if (++wrong_members <= namelist::kMostFaults)
                 wrong += (wrong.empty() ? "" : "\n") + std::string("&study: member ") + std::to_string(member.index) + " (" +
-                         join(member.values) + "): &" + problem.keys.front()->group + ": " + problem.text;
+                         values_text(member) + "): &" + problem.keys.front()->group + ": " + problem.text;
     }
     if (!wrong.empty()) bad_input(wrong);
     return members;

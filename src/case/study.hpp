@@ -25,6 +25,9 @@ struct Member {
     Case settings;                                            // output%file is numbered by member
 };
 
+// "surface%sigma=0.001 solids%R(2)=1.0"
+std::string values_text(const Member& member);
+
 inline constexpr std::size_t kMostMembers = 10'000;
 inline constexpr std::size_t kMostLevels = 10'000'000;  // of indentation%levels, over all members
 

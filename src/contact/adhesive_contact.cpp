@@ -7,10 +7,7 @@
 namespace rsc {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kBefore = 7;  // numbers in memory() before the pairs
-
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 class AdhesiveContact final : public Contact {
 public:

@@ -9,7 +9,6 @@
 namespace rsc {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kKept = 8;  // numbers before the points in memory()
 
 class AdhesiveElements final : public Contact {

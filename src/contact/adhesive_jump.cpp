@@ -13,8 +13,6 @@ constexpr double kNear = 1e-4;
 constexpr double kFirst = 0.01;  // the same with the slope of the first try, relative to kNear
 constexpr double kApart = 1e-4;  // of others_apart()
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
 }  // namespace
 
 // Finds an equilibrium at Z from states that are not in equilibrium: one by one, touching asperities are attached and those that shrink to

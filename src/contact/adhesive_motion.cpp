@@ -3,12 +3,6 @@
 #include "error.hpp"
 
 namespace rsc {
-namespace {
-
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
-}  // namespace
-
 double AdhesivePath::clearance_at(int i, double share) {
     indenter.x0 = motion->from.x + share * (motion->to.x - motion->from.x);
     indenter.y0 = motion->from.y + share * (motion->to.y - motion->from.y);

@@ -5,8 +5,6 @@
 namespace rsc {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // Tolerances relative to the detachment penetration of an asperity: for the detachment point, and the shortest step.
 constexpr double kFold = 1e-4, kShortest = 1e-9;
 // Distance from touching, relative to the difference of the penetrations at attachment and detachment, from which a free asperity attaches
@@ -16,8 +14,6 @@ constexpr double kOnTheWay = 1e-5;  // residual of states between levels
 // Largest steps, relative to the expected distance to detachment: by the law of the asperity, and by extrapolation of its rate of change
 // (far and near).
 constexpr double kOwnWay = 0.7, kFarWay = 0.6, kNearWay = 0.9, kLongestWay = 0.98, kDoubt = 6;
-
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 }  // namespace
 

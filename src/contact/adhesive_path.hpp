@@ -21,7 +21,7 @@ struct AdhesivePath : ContactBodies {
 
     // State left by accepted levels.
     struct Past {
-        double separation = std::numeric_limits<double>::infinity();
+        double separation = kInfinity;
         std::vector<int> asperity;  // attached asperities, increasing
         Vector s;
         double lost = 0;         // energy dissipated since the beginning
@@ -56,10 +56,10 @@ struct AdhesivePath : ContactBodies {
         bool edge = false;  // asperities that may attach lie outside the body somewhere on the way
     };
     std::optional<Motion> motion;
-    std::vector<int> place;                                    // position of an asperity in the set; -1: not in the set
-    double covered = std::numeric_limits<double>::infinity();  // asperities with a clearance above this are in the set
-    double margin = 0;        // height by which forces may raise an asperity, and the range of the attraction
-    std::vector<int> active;  // positions of the attached in the set
+    std::vector<int> place;      // position of an asperity in the set; -1: not in the set
+    double covered = kInfinity;  // asperities with a clearance above this are in the set
+    double margin = 0;           // height by which forces may raise an asperity, and the range of the attraction
+    std::vector<int> active;     // positions of the attached in the set
     // Asperities that would be in the set, with their clearances, but stay away from touching by more than `safety`.
     bool thin = false;  // there may be such
     std::vector<std::pair<int, double>> left_out;

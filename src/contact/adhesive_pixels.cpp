@@ -10,7 +10,6 @@
 namespace rsc {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCoarsest = 0.5;  // smallest ratio of z0 to the side of a pixel
 constexpr double kResolved = 2;    // smallest ratio of a level within the range of validity
 // Expected error of N, relative to the force of the traction s0 on all points that attract, times z0/h: edges are resolved to
@@ -28,8 +27,6 @@ constexpr double kInnerError = 1e-3;  // error of products in iterations
 constexpr int kQuick = 200, kMost = 2000;
 // Longest piece of a way of the tip: change of the clearances of attracting points relative to z0, and number of pixel sides.
 constexpr double kPiece = 0.25, kPieceSides = 0.25;
-
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 }  // namespace
 

@@ -10,7 +10,7 @@ namespace rsc {
 struct AdhesivePixels : CutMap {
     // State left by accepted levels.
     struct Past {
-        double separation = std::numeric_limits<double>::infinity(), force = 0, work = 0, least_force = 0, lost = 0;
+        double separation = kInfinity, force = 0, work = 0, least_force = 0, lost = 0;
         std::int32_t jumps = 0;                // on the way of the tip since the last level
         std::vector<std::int32_t> attracting;  // increasing
     };
@@ -27,7 +27,7 @@ struct AdhesivePixels : CutMap {
     // For all points of the map: clearance under the indenter, pressure + s0, and whether the point attracts.
     std::vector<double> clearance, q;
     std::vector<char> on;
-    double top = -std::numeric_limits<double>::infinity();
+    double top = -kInfinity;
     // Gaps of all points (out of reach those without deformation); of the accepted state, gaps and pressures.
     std::vector<double> gap, gap_before, p_before;
     // Points within reach, row by row as cut open, with their elevation by the attraction.

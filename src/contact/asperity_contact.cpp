@@ -205,16 +205,18 @@ Level AsperityContact::solve(double Z0) {
         my.newton.take(my.candidates.set, my.solution.v);
     }
     const bool by_dgesv = dense && unique;
-    if (Vector start; !unique && (my.follows() || (!dense && my.earlier.unique())) && my.earlier.predict(Z0, my.candidates, start)) {
+    if (Vector start; !unique && (my.follows() || !dense) && my.earlier.predict(Z0, my.candidates, start) &&
+                      (my.follows() || my.earlier.unique() || my.selected(start))) {
         outcome = my.solve_from(start, false);
         iterations += outcome.iterations;
-        unique = outcome.converged && my.one_solution();
-        followed = my.follows() && outcome.converged;
+        followed = outcome.converged && (my.follows() || my.selected(my.solution.v));
+        unique = outcome.converged && (my.follows() || !followed) && my.one_solution();
     }
     if (!unique && !followed) {
         outcome = my.solve_cold();
         iterations += outcome.iterations;
         unique = outcome.converged && my.one_solution();
+        if (outcome.converged && !unique) my.select_cold();
     }
     if (dense && !by_dgesv && fallback == Fallback::none) fallback = Fallback::not_unique;
     my.solved = {Z0, unique};
@@ -251,11 +253,12 @@ Level AsperityContact::settle(const Level& passed) {
     if (!my.passed) return Contact::settle(passed);
     my.passed = false;
     const long products_before = my.products_taken();
-    const bool unique = my.one_solution();
+    const bool selected = my.selected(my.solution.v), unique = !selected && my.one_solution();
     int iterations = 0;
-    if (!unique) {  // the solution of pass() is not proved to be unique
+    if (!unique && !selected) {  // the solution of pass() is not proved to be unique
         my.outcome = my.solve_cold();
         iterations = my.outcome.iterations;
+        if (my.outcome.converged) my.select_cold();
     }
     my.earlier.remember(passed.separation, my.candidates, my.solution.v, unique);
     Level level = my.level(passed.separation, my.outcome, unique);

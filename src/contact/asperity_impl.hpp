@@ -55,6 +55,14 @@ struct AsperityContact::Impl : ContactBodies {
     bool follows() const { return law->path_dependent(); }
     // Descends from the no-interaction start to a minimum of the energy. This defines the solution if there are several.
     NewtonOutcome solve_cold() { return solve_from(cold_start(*law, *products, candidates.set), true); }
+    // To be called with its solution, if that is not proved to be unique.
+    void select_cold() {
+        if (!follows()) proof.select(candidates.set.asperity, candidates.set.x, candidates.set.y, solution.v);
+    }
+    // True for the solution v to which solve_cold() leads although there may be others: one nearly at this place is known.
+    bool selected(const std::vector<double>& v) const {
+        return !follows() && proof.selected(candidates.set.asperity, candidates.set.x, candidates.set.y, v);
+    }
     double force_slope(double tolerance);  // dN/dZ0; the next level is predicted with what this takes
     Level level(double Z0, const NewtonOutcome& outcome, bool unique) const;
     NewtonOutcome solve_by_paper(Fallback& why_not);

@@ -10,8 +10,6 @@
 namespace rsc {
 namespace {
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
 // Contact spots of a level on the surface; their long axes are in the direction of the smaller curvature.
 std::vector<Spot> spots_of(const Level& level, const Law& law, const Asperities& asperities) {
     std::vector<Spot> spots;
@@ -58,7 +56,7 @@ double beside(const Asperities& asperities, const Indenter& indenter, const Solv
     };
     std::vector<Flank> flanks;
     const double below_top = traits(options.law).between_points ? 0.0 : 0.125 * options.grid_step * options.grid_step;
-    double highest = -std::numeric_limits<double>::infinity();
+    double highest = -kInfinity;
     for (std::size_t i = 0; i < asperities.size(); ++i) {
         const Vec2 place = indenter.image(asperities.x[i], asperities.y[i]), d = indenter.from_tip(asperities.x[i], asperities.y[i]);
         const Vec2 slope = indenter.shape->gradient(d.x, d.y);
@@ -178,7 +176,7 @@ std::optional<SolverOptions> with_rim(const Level& level, const ContactBodies& b
         return {};
     constexpr double kHighest = 5;  // rms heights
     const double west = s.x0 - indenter.x0, south = s.y0 - indenter.y0, east = west + s.Lx, north = south + s.Ly;
-    double lowest = std::numeric_limits<double>::infinity();
+    double lowest = kInfinity;
     for (const Box& side :
          {Box{west, west, south, north}, Box{east, east, south, north}, Box{west, east, south, south}, Box{west, east, north, north}})
         lowest = std::min(lowest, indenter.shape->lowest(side));
@@ -206,7 +204,7 @@ std::optional<FoundSummits> summits_of_difference(const Asperities& asperities, 
                                                   const SummitSearch& search) {
     require_sound(indenter);
     if (!search || indenter.shape->flat() || !traits(options.law).between_points || !(options.rms_slope > 0)) return std::nullopt;
-    double highest = -std::numeric_limits<double>::infinity();
+    double highest = -kInfinity;
     for (std::size_t i = 0; i < asperities.size(); ++i)
         highest = std::max(highest, indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]));
     constexpr double kFlankSpacing = 0.4;

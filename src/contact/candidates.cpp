@@ -7,7 +7,7 @@ Candidates select_candidates(Ranking& ranking, const Asperities& asperities, con
     std::vector<int> fresh;
     const std::size_t last = ranking.above(Z0, fresh);
     law.prepare(fresh);
-    double r0_squared = std::numeric_limits<double>::infinity();
+    double r0_squared = kInfinity;
     if (options.selection == Selection::paper) {
         const double depth = std::max(0.0, 4 * options.sigma - Z0);
         r0_squared = options.selection_factor * options.selection_factor * 2 * depth * indenter.shape->hertz_radius();

@@ -34,7 +34,7 @@ public:
     double time() const { return time_; }
     virtual bool relaxes() const { return false; }
     // The shortest relaxation time; Infinity: there is none.
-    virtual double shortest_time() const { return std::numeric_limits<double>::infinity(); }
+    virtual double shortest_time() const { return kInfinity; }
 
     // Of the last level; with adhesion, after move_tip(), of the state at the new place:
     // dN/dZ0 (negative; 0 without contact) [force/length].
@@ -124,7 +124,7 @@ protected:
     virtual double shift() const { return 0; }
 
     // Separation of full contact, at and below which solve() has no solution.
-    virtual double closed() const { return -std::numeric_limits<double>::infinity(); }
+    virtual double closed() const { return -kInfinity; }
 
     // Functions required by force control.
     virtual double tolerance() const = 0;            // relative tolerance of the force

@@ -10,14 +10,15 @@
 namespace rsc {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity(), kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInnerError = 1e-3;  // error of products in iterations
-constexpr double kMostTimes = 30;     // largest ratio to the last force for a start from its pressures
-constexpr double kMargin = 0.3;       // pixels are selected lower by this share of the step to the expected separation
-constexpr double kColdMargin = 0.05;  // and of the expected depth, if no level is known
-constexpr int kBlock = 16;            // side of the blocks whose highest points are stored [pixels]
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInnerError = 1e-3;     // error of products in iterations
+constexpr double kMostTimes = 30;        // largest ratio to the last force for a start from its pressures
+constexpr double kMargin = 0.3;          // pixels are selected lower by this share of the step to the expected separation
+constexpr double kColdMargin = 0.05;     // and of the expected depth, if no level is known
+constexpr int kBlock = 16;               // side of the blocks whose highest points are stored [pixels]
+constexpr int kPiece = 4096;             // pixels that a thread takes at a time
+constexpr std::size_t kThreads = 16384;  // pixels from which on threads are used
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 bool before(const Pixel& a, const Pixel& b) { return a.y < b.y || (a.y == b.y && a.x < b.x); }
 
 class ElementContact final : public PixelContact {
@@ -100,12 +101,6 @@ private:
     };
 
     double clearance(int i, int j) const { return indenter_.clearance(x(i), y(j), height(column(i), row(j))); }
-    // Upper bound of the clearances of a block: its highest point (without plastic residual) under the lowest part of the face above it.
-    double bound(int bi, int bj) const {
-        const Box block{x(pixel_x(bi * kBlock)) - indenter_.x0, x(pixel_x(std::min((bi + 1) * kBlock, heights_.nx) - 1)) - indenter_.x0,
-                        y(pixel_y(bj * kBlock)) - indenter_.y0, y(pixel_y(std::min((bj + 1) * kBlock, heights_.ny) - 1)) - indenter_.y0};
-        return block_top_[at(bj) * at(blocks_x_) + at(bi)] - indenter_.shape->lowest(block);
-    }
     void find_top();
     void select(double Z0);
     void predict(double Z0);
@@ -128,7 +123,8 @@ private:
     std::unique_ptr<PixelProducts> products_;
     ElementsSolver solver_;
     int blocks_x_, blocks_y_;
-    std::vector<double> block_top_;  // highest z of each block
+    // Highest z of each block, and upper bounds of its clearances.
+    std::vector<double> block_top_, bound_;
 
     // Pixels with g0 > 0 at the current level, row by row, and the solution: pressures times scale().
     std::vector<Pixel> pixels_;
@@ -145,10 +141,21 @@ private:
 };
 
 void ElementContact::find_top() {
+    bound_.resize(block_top_.size());
+    parallel_for(blocks_y_, 4, 0, [&](int bj) {
+        for (int bi = 0; bi < blocks_x_; ++bi) {
+            // The highest point (without plastic residual) under the lowest part of the face above the block.
+            const Box block{x(pixel_x(bi * kBlock)) - indenter_.x0, x(pixel_x(std::min((bi + 1) * kBlock, heights_.nx) - 1)) - indenter_.x0,
+                            y(pixel_y(bj * kBlock)) - indenter_.y0,
+                            y(pixel_y(std::min((bj + 1) * kBlock, heights_.ny) - 1)) - indenter_.y0};
+            const std::size_t b = at(bj) * at(blocks_x_) + at(bi);
+            bound_[b] = block_top_[b] - indenter_.shape->lowest(block);
+        }
+    });
     double top = -kInfinity;
     for (int bj = 0; bj < blocks_y_; ++bj)
         for (int bi = 0; bi < blocks_x_; ++bi) {
-            if (!(bound(bi, bj) > top)) continue;
+            if (!(bound_[at(bj) * at(blocks_x_) + at(bi)] > top)) continue;
             for (int j = bj * kBlock; j < std::min((bj + 1) * kBlock, heights_.ny); ++j)
                 for (int i = bi * kBlock; i < std::min((bi + 1) * kBlock, heights_.nx); ++i)
                     top = std::max(top, clearance(pixel_x(i), pixel_y(j)));
@@ -168,22 +175,31 @@ void ElementContact::select(double Z0) {
         std::vector<int> high;
         for (int a = 0; a < blocks_x_; ++a) {
             const int bi = (a + turn_x / kBlock) % blocks_x_;
-            if (bound(bi, bj) > Z0) high.push_back(bi);
+            if (bound_[at(bj) * at(blocks_x_) + at(bi)] > Z0) high.push_back(bi);
         }
         if (high.empty()) return;
         for (int r = bj * kBlock; r < std::min((bj + 1) * kBlock, heights_.ny); ++r)
-            for (int bi : high)
-                for (int c = bi * kBlock; c < std::min((bi + 1) * kBlock, heights_.nx); ++c) {
-                    const Pixel pixel{pixel_x(c), pixel_y(r)};
-                    const double g = clearance(pixel.x, pixel.y) - Z0;
-                    if (g > 0) found[at(b)].pixels.push_back(pixel), found[at(b)].g0.push_back(g);
+            for (int bi : high) {
+                const int first = bi * kBlock, n = std::min(kBlock, heights_.nx - first), j = pixel_y(r);
+                double dx[kBlock], face[kBlock], dy = 0;
+                for (int c = 0; c < n; ++c) {
+                    const Vec2 d = indenter_.from_tip(x(pixel_x(first + c)), y(j));
+                    dx[c] = d.x, dy = d.y;
                 }
+                indenter_.shape->heights(n, dx, dy, face);
+                for (int c = 0; c < n; ++c) {
+                    const double g = height(first + c, r) - face[c] - Z0;
+                    if (g > 0) found[at(b)].pixels.push_back({pixel_x(first + c), j}), found[at(b)].g0.push_back(g);
+                }
+            }
     });
-    pixels_.clear(), g0_.clear();
-    for (const Found& row : found) {
-        pixels_.insert(pixels_.end(), row.pixels.begin(), row.pixels.end());
-        g0_.insert(g0_.end(), row.g0.begin(), row.g0.end());
-    }
+    std::vector<std::size_t> begin(found.size() + 1, 0);
+    for (std::size_t b = 0; b < found.size(); ++b) begin[b + 1] = begin[b] + found[b].g0.size();
+    pixels_.resize(begin.back()), g0_.resize(begin.back());
+    parallel_for(found.size(), 16, begin.back() > kThreads ? 0 : 1, [&](std::size_t b) {
+        std::copy(found[b].pixels.begin(), found[b].pixels.end(), pixels_.data() + begin[b]);
+        std::copy(found[b].g0.begin(), found[b].g0.end(), g0_.data() + begin[b]);
+    });
 }
 
 std::vector<double> ElementContact::deflections(const std::vector<Pixel>& where, const std::vector<double>& q) {
@@ -229,23 +245,24 @@ void ElementContact::predict(double Z0) {
         const double gap = past_[0].separation - past_[1].separation, t = (Z0 - past_[0].separation) / gap;
         if (gap != 0 && std::abs(t) <= 2) weight[0] = 1 + t, weight[1] = -t;
     }
-    for (std::size_t a = 0; a < past_.size() && a < 2; ++a) {
-        if (weight[a] == 0) continue;
-        std::size_t k = 0;
-        for (std::size_t l = 0; l < past_[a].pixels.size(); ++l) {
-            while (k < pixels_.size() && before(pixels_[k], past_[a].pixels[l])) ++k;
-            if (k < pixels_.size() && pixels_[k] == past_[a].pixels[l]) p_[k] += weight[a] * past_[a].p[l];
+    parallel_for((pixels_.size() + kPiece - 1) / kPiece, 1, pixels_.size() > kThreads ? 0 : 1, [&](std::size_t piece) {
+        const std::size_t begin = piece * kPiece, end = std::min(begin + kPiece, pixels_.size());
+        for (std::size_t a = 0; a < past_.size() && a < 2; ++a) {
+            if (weight[a] == 0) continue;
+            const std::vector<Pixel>& past = past_[a].pixels;
+            auto l = std::lower_bound(past.begin(), past.end(), pixels_[begin], before);
+            for (std::size_t k = begin; k < end; ++k) {
+                while (l != past.end() && before(*l, pixels_[k])) ++l;
+                if (l != past.end() && *l == pixels_[k]) p_[k] += weight[a] * past_[a].p[static_cast<std::size_t>(l - past.begin())];
+            }
         }
-    }
-    for (double& v : p_) v = std::max(v, 0.0);
+        for (std::size_t k = begin; k < end; ++k) p_[k] = std::max(p_[k], 0.0);
+    });
 }
 
+// Level of the last solution, which has been remembered.
 Level ElementContact::report(double Z0, const ElementsOutcome& outcome) {
-    std::vector<Pixel> touching;
-    std::vector<double> pressure;
-    for (std::size_t k = 0; k < pixels_.size(); ++k)
-        if (p_[k] > 0) touching.push_back(pixels_[k]), pressure.push_back(p_[k]);
-    return PixelContact::report(Z0, outcome, pixels_.size(), touching, std::move(pressure));
+    return PixelContact::report(Z0, outcome, pixels_.size(), past_[0].pixels, past_[0].p);
 }
 
 Level ElementContact::solve(double Z0) {
@@ -345,12 +362,11 @@ std::optional<Level> ElementContact::solve_under(double N) {
 
 // Stores the last solution as a starting point for later levels.
 void ElementContact::remember(double Z0) {
-    Past now{Z0, {}, {}};
-    for (std::size_t k = 0; k < p_.size(); ++k) {
-        if (!(p_[k] > 0)) continue;
-        now.pixels.push_back(pixels_[k]);
-        now.p.push_back(p_[k]);
-    }
+    std::vector<int> pressed;
+    find_all(
+        p_.size(), kPiece, p_.size() > kThreads ? 0 : 1, [&](std::size_t k) { return p_[k] > 0; }, pressed);
+    Past now{Z0, std::vector<Pixel>(pressed.size()), std::vector<double>(pressed.size())};
+    for (std::size_t l = 0; l < pressed.size(); ++l) now.pixels[l] = pixels_[at(pressed[l])], now.p[l] = p_[at(pressed[l])];
     past_.push_front(std::move(now));
     if (past_.size() > 2) past_.pop_back();
     since_move_ = std::min<std::size_t>(since_move_ + 1, 2);

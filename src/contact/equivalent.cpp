@@ -28,7 +28,7 @@ double equivalent_radius(const double (&R)[2]) {
         if (!(R[i] > 0)) refuse("radius", i, "positive (Infinity for a flat body)");
         curvature += 1 / R[i];
     }
-    return curvature > 0 ? 1 / curvature : std::numeric_limits<double>::infinity();
+    return curvature > 0 ? 1 / curvature : kInfinity;
 }
 
 double tangential_ratio(const double (&E)[2], const double (&nu)[2]) {

@@ -7,7 +7,6 @@
 namespace rsc {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnresolved = 1e-6;  // accepted relative error of the force due to rounding of the separation
 constexpr double kFarAbove = 100;     // relative to the requested force
 constexpr int kPasses = 2;            // number of failures after which only full solves are used

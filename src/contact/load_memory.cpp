@@ -3,12 +3,6 @@
 #include "error.hpp"
 
 namespace rsc {
-namespace {
-
-double dot(const std::vector<double>& a, const std::vector<double>& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
-
-}  // namespace
-
 LoadMemory::LoadMemory(const Creep& creep)
     : creep_(creep), passage_(creep_, 0), y_(creep_.retardations().size()), yf_(y_.size(), 0.0), yy_(y_.size(), 0.0) {}
 

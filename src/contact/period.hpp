@@ -6,7 +6,7 @@
 namespace rsc {
 
 struct Period {
-    double x = std::numeric_limits<double>::infinity(), y = std::numeric_limits<double>::infinity();  // [length]; Infinity: not periodic
+    double x = kInfinity, y = kInfinity;  // [length]; Infinity: not periodic
 
     bool finite() const { return std::isfinite(x) && std::isfinite(y); }
     double area() const { return x * y; }

@@ -48,7 +48,7 @@ protected:
         } catch (const Error& error) {
             // Bodies that soften may close the gap in the course of time: a level without a state, so that the ones before are kept.
             if (!loads_ || error.kind() != Failure::bad_input) throw;
-            outcome.residual = std::numeric_limits<double>::infinity();
+            outcome.residual = kInfinity;
         }
         return report(solver_.separation(), outcome);
     }
@@ -82,7 +82,7 @@ private:
                 if (!lowered_.empty()) z -= lowered_[static_cast<std::size_t>(place({i, j}))];
             }
         if (changed_.data) solver_.heights_changed();
-        double top = -std::numeric_limits<double>::infinity();
+        double top = -kInfinity;
         for (int j = 0; j < heights_.ny; ++j) top = std::max(top, *std::max_element(present().row(j), present().row(j) + heights_.nx));
         set_top(top);
     }

@@ -54,9 +54,9 @@ protected:
     const HeightMap& heights_;
     Indenter indenter_;
     SolverOptions options_;
-    double top_ = -std::numeric_limits<double>::infinity();  // highest point under the indenter
-    bool accepted_ = false;                                  // the last level is accepted: the contact is elastic until loaded further
-    std::optional<LoadMemory> loads_;                        // relaxing bodies
+    double top_ = -kInfinity;          // highest point under the indenter
+    bool accepted_ = false;            // the last level is accepted: the contact is elastic until loaded further
+    std::optional<LoadMemory> loads_;  // relaxing bodies
 
 private:
     std::vector<std::pair<std::int32_t, double>> residual() const;  // row by row

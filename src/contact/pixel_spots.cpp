@@ -4,11 +4,10 @@
 #include "contact/solver/spot_blocks.hpp"
 #include "error.hpp"
 #include "format.hpp"
+#include "rough/parallel.hpp"
 
 namespace rsc {
 namespace {
-
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 // Number of pixels N such that half of all pixels belong to contacts of at most N pixels.
 template <class Sums>
@@ -76,12 +75,21 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
         return 2 * offset < -n ? offset + n : offset;
     };
     const Substrate substrate = substrate_of(indenter);
+    const auto from_peak = [&](std::size_t k) {
+        const Pixel& peak = sums[at(label[k])].peak;
+        return Pixel{nearest(touching[k].x - peak.x, map.nx), nearest(touching[k].y - peak.y, map.ny)};
+    };
+    std::vector<double> at_peak(touching.size());  // deflection of the peak by a unit pressure
+    parallel_for(touching.size(), 512, touching.size() > 1024 ? 0 : 1, [&](std::size_t k) {
+        const Pixel d = from_peak(k);
+        at_peak[k] = substrate.under_pixel(d.x * map.dx, d.y * map.dy, map.dx, map.dy);
+    });
     for (std::size_t k = 0; k < touching.size(); ++k) {
         Sum& s = sums[at(label[k])];
-        const int dx = nearest(touching[k].x - s.peak.x, map.nx), dy = nearest(touching[k].y - s.peak.y, map.ny);
-        s.px += (pressure[k] + tension) * dx;
-        s.py += (pressure[k] + tension) * dy;
-        s.own += pressure[k] * substrate.under_pixel(dx * map.dx, dy * map.dy, map.dx, map.dy);
+        const Pixel d = from_peak(k);
+        s.px += (pressure[k] + tension) * d.x;
+        s.py += (pressure[k] + tension) * d.y;
+        s.own += pressure[k] * at_peak[k];
     }
     if (!touching.empty()) level.pixels_per_contact = median_by_area(sums);
     const auto inside = [&](double column, int n) { return periodic ? column - n * std::floor(column / n) : column; };
@@ -105,6 +113,7 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
     level.pixels.y0 = map.y0;
     level.pixels.dx = map.dx;
     level.pixels.dy = map.dy;
+    level.pixels.index.reserve(touching.size());
     for (const Pixel& q : touching) level.pixels.index.push_back(q.y * map.nx + q.x);
     level.pixels.contact = std::move(label);
     level.pixels.pressure = std::move(pressure);

@@ -3,8 +3,6 @@
 namespace rsc {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 bool comes_first(const Ranking::Entry& a, const Ranking::Entry& b) {
     return a.height != b.height ? a.height > b.height : a.asperity < b.asperity;
 }

@@ -37,8 +37,8 @@ private:
     Indenter now_;
     // Unsorted entries: their heights, at most highest_rest_, are those with the tip at (x_rest_, y_rest_).
     double x_rest_ = 0, y_rest_ = 0;
-    double highest_rest_ = -std::numeric_limits<double>::infinity();
-    double highest_z_ = -std::numeric_limits<double>::infinity();  // largest z of all asperities, also beyond the indenter
+    double highest_rest_ = -kInfinity;
+    double highest_z_ = -kInfinity;  // largest z of all asperities, also beyond the indenter
 };
 
 }  // namespace rsc

@@ -6,7 +6,6 @@ namespace rsc {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 // B f at all points, for forces f at the first f.size() points.
 std::vector<double> deflections(Products& products, const std::vector<double>& x, const std::vector<double>& y,
@@ -23,8 +22,6 @@ std::vector<double> deflections(Products& products, const std::vector<double>& x
         products.full(f.data(), phi.data());
     return phi;
 }
-
-double dot(const std::vector<double>& a, const std::vector<double>& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
 
 }  // namespace
 

@@ -4,10 +4,7 @@ namespace rsc {
 namespace {
 
 using Vector = std::vector<double>;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 }  // namespace
 

@@ -18,9 +18,10 @@ double nominal_area(const Level& level, const Indenter& indenter, const Rectangl
         radius = std::max(radius, std::sqrt(x * x + y * y) + level.a[k]);
     }
     const LevelPixels& pixels = level.pixels;
-    for (std::size_t k = 0; k < pixels.index.size(); ++k)
-        radius = std::max(radius, std::hypot(std::abs(pixels.x(k) - indenter.x0) + 0.5 * pixels.dx,
-                                             std::abs(pixels.y(k) - indenter.y0) + 0.5 * pixels.dy));
+    for (std::size_t k = 0; k < pixels.index.size(); ++k) {
+        const double x = std::abs(pixels.x(k) - indenter.x0) + 0.5 * pixels.dx, y = std::abs(pixels.y(k) - indenter.y0) + 0.5 * pixels.dy;
+        if (x * x + y * y > 0.99 * radius * radius) radius = std::max(radius, std::hypot(x, y));
+    }
     const double disc = std::numbers::pi * radius * radius;
     return surface.known() ? std::min(disc, surface.Lx * surface.Ly) : disc;
 }

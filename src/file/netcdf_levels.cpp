@@ -42,12 +42,11 @@ void ResultTable::global_attributes(const std::string& history) {
 void ResultTable::axes() {
     file_.dimension("realization", o_.realizations);
     file_.dimension("step", o_.steps);
-    std::vector<std::int32_t> realization, step;
+    std::vector<std::int32_t> realization;
     for (std::int64_t k : o_.realization) realization.push_back(clamped(k));
-    for (std::size_t s = 1; s <= o_.steps; ++s) step.push_back(static_cast<std::int32_t>(s));
     add("realization", {"realization"}, "1", "number of the realization", realization,
         comment("realization k of a seed is the same surface in every case"));
-    add("step", {"step"}, "1", "number of the level", step);
+    add("step", {"step"}, "1", "number of the level", one_to(o_.steps));
 
     const Names dims = r_.force_control() ? Names{"realization", "step"} : Names{"step"};
     std::vector<double> separation = of_rows<double>([](const LevelValues& row) { return row.separation; });
@@ -102,8 +101,7 @@ std::vector<double> ResultTable::pairs(const std::vector<double>& x, const std::
     if (!components_) {
         components_ = true;
         file_.dimension("component", 2);
-        NetcdfAttributes attributes{{"flag_values", std::vector<std::int32_t>{1, 2}}, {"flag_meanings", "x y"}};
-        add("component", {"component"}, "1", "component of a vector", std::vector<std::int32_t>{1, 2}, std::move(attributes));
+        add("component", {"component"}, "1", "component of a vector", one_to(2), {{"flag_values", one_to(2)}, {"flag_meanings", "x y"}});
     }
     std::vector<double> both;
     for (std::size_t k = 0; k < x.size(); ++k) both.push_back(x[k]), both.push_back(y[k]);
@@ -202,8 +200,7 @@ void ResultTable::theory() {
 // The part of body 2 that can touch points up to 4 rms heights above the mean plane at the deepest level; hardly any point is higher.
 void ResultTable::outline() {
     double lowest = std::numeric_limits<double>::infinity();
-    for (const double Z0 : of_rows<double>([](const LevelValues& row) { return row.separation; }))
-        if (Z0 < lowest) lowest = Z0;
+    for (const LevelValues& row : o_.rows) lowest = std::fmin(lowest, row.separation);
     const double height = 4 * r_.sigma - lowest;
     if (!(height > 0) || std::isinf(height)) return;
     const std::vector<Vec2> curve = r_.indenter.shape->outline(height);
@@ -245,9 +242,7 @@ void ResultTable::friction() {
     const FrictionLoops& f = r_.friction;
     if (f.points == 0) return;
     file_.dimension("point", f.points);
-    std::vector<std::int32_t> point;
-    for (std::size_t k = 1; k <= f.points; ++k) point.push_back(static_cast<std::int32_t>(k));
-    add("point", {"point"}, "1", "point of a slide at constant separation", point,
+    add("point", {"point"}, "1", "point of a slide at constant separation", one_to(f.points),
         {{"first_loading", std::vector<std::int32_t>{1, static_cast<std::int32_t>(f.first)}},
          {"cycle", std::vector<std::int32_t>{static_cast<std::int32_t>(f.first) + 1, static_cast<std::int32_t>(f.points)}},
          {"comment", "first and last point of the first loading, from 0 to full slip, and of the cycle at 90 % of it, closed"}});

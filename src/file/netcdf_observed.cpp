@@ -28,11 +28,8 @@ void ResultTable::maps() {
     const MapGrid& g = o_.options.map;
     file_.dimension("y", static_cast<std::size_t>(g.ny));
     file_.dimension("x", static_cast<std::size_t>(g.nx));
-    std::vector<double> x, y;
-    for (int i = 0; i < g.nx; ++i) x.push_back(g.x(i));
-    for (int j = 0; j < g.ny; ++j) y.push_back(g.y(j));
-    add("y", {"y"}, unit(1), "y of the cell centres", y, {{"axis", "Y"}});
-    add("x", {"x"}, unit(1), "x of the cell centres", x, {{"axis", "X"}});
+    add("y", {"y"}, unit(1), "y of the cell centres", each_of(g.ny, [&](int j) { return g.y(j); }), {{"axis", "Y"}});
+    add("x", {"x"}, unit(1), "x of the cell centres", each_of(g.nx, [&](int i) { return g.x(i); }), {{"axis", "X"}});
     add("map_cell_side", {}, unit(1), "side of the square cells of the map, w", std::vector<double>{g.side});
     const Names dims{"step", "y", "x"};
     add("map_area_fraction", dims, "1", "contact area over cell area, mean over realizations", o_.map_area_fraction,
@@ -67,9 +64,8 @@ void ResultTable::radial() {
 }
 
 void ResultTable::bin_axis(const std::string& name, const std::string& units, const std::string& long_name, double width) {
-    std::vector<double> centres;
-    for (int b = 0; b < o_.options.pdf.bins; ++b) centres.push_back((b + 0.5) * width);
-    add(name, {"bin"}, units, long_name, centres, {{"bin_width", std::vector<double>{width}}});
+    add(name, {"bin"}, units, long_name, each_of(o_.options.pdf.bins, [&](int b) { return (b + 0.5) * width; }),
+        {{"bin_width", std::vector<double>{width}}});
 }
 
 void ResultTable::distributions() {
@@ -77,19 +73,18 @@ void ResultTable::distributions() {
     file_.dimension("pdf_level", o_.distributions.size());
     file_.dimension("bin", static_cast<std::size_t>(o_.options.pdf.bins));
     std::vector<double> wanted, used;
-    std::vector<std::int32_t> step, bin;
+    std::vector<std::int32_t> step;
     for (double level : o_.options.pdf_levels) wanted.push_back(level / r_.sigma);
     for (const FittedDistributions& f : o_.distributions) {
         used.push_back(f.sum.separation / static_cast<double>(f.sum.levels) / r_.sigma);
-        step.push_back(f.sum.step + 1);
+        step.push_back(f.sum.step);
     }
-    for (int b = 1; b <= o_.options.pdf.bins; ++b) bin.push_back(b);
     add("pdf_level", {"pdf_level"}, "1", "requested Z0/sigma", wanted);
     add("pdf_separation_sigma", {"pdf_level"}, "1", "Z0/sigma of the nearest level, to which the distributions belong", used,
         comment("mean over realizations under force control"));
-    add("pdf_step", {"pdf_level"}, "1", "number of that level", step,
-        {{"start_index", std::vector<std::int32_t>{1}}, {"comment", "0: it differs between realizations (force control)"}});
-    add("bin", {"bin"}, "1", "number of the bin", bin);
+    add("pdf_step", {"pdf_level"}, "1", "number of that level", from_one(step),
+        {kFromOne, {"comment", "0: it differs between realizations (force control)"}});
+    add("bin", {"bin"}, "1", "number of the bin", one_to(static_cast<std::size_t>(o_.options.pdf.bins)));
     const PdfBins& bins = o_.options.pdf;
     bin_axis("pressure_mean_bin", unit(-2, 1), "middle of the bins of pressure_mean_pdf", bins.mean_pressure_width());
     bin_axis("pressure_bin", unit(-2, 1), "middle of the bins of pressure_pdf", bins.pressure_width());
@@ -114,13 +109,11 @@ void ResultTable::distributions() {
     std::vector<double> sums;
     for (const DistributionSums& level : o_.distribution_sums)
         for (const ExactSum& sum : level.numbers) sums.push_back(sum.high), sums.push_back(sum.low);
-    std::vector<std::int32_t> number(o_.distribution_sums.front().numbers.size());
-    std::iota(number.begin(), number.end(), 1);
-    file_.dimension("pdf_sum", number.size());
+    const std::size_t numbers = o_.distribution_sums.front().numbers.size();
+    file_.dimension("pdf_sum", numbers);
     file_.dimension("part", 2);
-    add("pdf_sum", {"pdf_sum"}, "1", "number of the sum", number);
-    add("part", {"part"}, "1", "part of a sum", std::vector<std::int32_t>{1, 2},
-        {{"flag_values", std::vector<std::int32_t>{1, 2}}, {"flag_meanings", "rounded rest"}});
+    add("pdf_sum", {"pdf_sum"}, "1", "number of the sum", one_to(numbers));
+    add("part", {"part"}, "1", "part of a sum", one_to(2), {{"flag_values", one_to(2)}, {"flag_meanings", "rounded rest"}});
     add("pdf_sums", {"pdf_level", "pdf_sum", "part"}, "1", "sums over realizations from which the distributions are computed", sums,
         comment(
             "the exact value is the sum of the two parts, in powers of the units of length and force; for rsc --merge and --resume, which add realizations without rounding"));
@@ -196,18 +189,12 @@ void ResultTable::asperities() {
 void ResultTable::contacts() {
     const PackedContacts& c = r_.contacts;
     if (c.start.empty()) return;
-    const NetcdfAttributes from_one{{"start_index", std::vector<std::int32_t>{1}}};
-    const auto plus_one = [](std::vector<std::int32_t> v) {
-        for (std::int32_t& i : v) ++i;
-        return v;
-    };
-    NetcdfAttributes start = from_one;
-    append(start, comment("level s has the contacts contact_start(s) to contact_start(s) + contact_count(s) - 1"));
-    add("contact_start", {"step"}, "1", "first contact of the level in the variables of dimension contact", plus_one(c.start), start);
+    add("contact_start", {"step"}, "1", "first contact of the level in the variables of dimension contact", from_one(c.start),
+        {kFromOne, {"comment", "level s has the contacts contact_start(s) to contact_start(s) + contact_count(s) - 1"}});
     add("contact_count", {"step"}, "1", "number of stored contacts of the level", c.count);
     if (c.force.empty()) return;
     file_.dimension("contact", c.force.size());
-    if (!c.asperity.empty()) add("contact_asperity", {"contact"}, "1", "asperity of the contact", plus_one(c.asperity), from_one);
+    if (!c.asperity.empty()) add("contact_asperity", {"contact"}, "1", "asperity of the contact", from_one(c.asperity), {kFromOne});
     if (!c.x.empty()) {
         const std::string what = " of the centroid of the contact's pressure";
         add_disorder("contact_x", {"contact"}, unit(1), "x" + what, c.x);
@@ -248,12 +235,10 @@ void ResultTable::compared() {
         for (const C& level : c.levels) values.push_back(level.*member);
         return values;
     };
-    std::vector<std::int32_t> step = of(&C::step);
-    for (std::int32_t& s : step) ++s;
     const Names dims{"compare"};
     const std::string by = " by elements", change = "from its change with the grid", over = "of asperities over that of elements, minus 1";
-    add("compare_step", dims, "1", "number of the level that was also solved by elements", step,
-        {{"start_index", std::vector<std::int32_t>{1}}, {"comment", "of the first realization"}});
+    add("compare_step", dims, "1", "number of the level that was also solved by elements", from_one(of(&C::step)),
+        {kFromOne, {"comment", "of the first realization"}});
     add("compare_separation", dims, unit(1), "separation of that level, Z0", of(&C::separation),
         comment(r_.force_control() ? "of elements at the force of the level" : ""));
     add_absent("compare_force", dims, unit(0, 1), "normal force" + by, of(&C::force));
@@ -294,11 +279,8 @@ void ResultTable::heights() {
     // The dimensions x and y are those of the maps; the heights are on a finer grid.
     file_.dimension("height_y", static_cast<std::size_t>(h.ny));
     file_.dimension("height_x", static_cast<std::size_t>(h.nx));
-    std::vector<double> x, y;
-    for (int i = 0; i < h.nx; ++i) x.push_back(h.x0 + i * h.dx);
-    for (int j = 0; j < h.ny; ++j) y.push_back(h.y0 + j * h.dy);
-    add("height_y", {"height_y"}, unit(1), "y of the points of height", y);
-    add("height_x", {"height_x"}, unit(1), "x of the points of height", x);
+    add("height_y", {"height_y"}, unit(1), "y of the points of height", each_of(h.ny, [&](int j) { return h.y(j); }));
+    add("height_x", {"height_x"}, unit(1), "x of the points of height", each_of(h.nx, [&](int i) { return h.x(i); }));
     file_.variable({"height",
                     {"height_y", "height_x"},
                     unit(1),
@@ -314,9 +296,7 @@ void ResultTable::fields() {
     file_.dimension("field_step", f.step.size());
     file_.dimension("field_y", f.y.size());
     file_.dimension("field_x", f.x.size());
-    std::vector<std::int32_t> step = f.step;
-    for (std::int32_t& s : step) ++s;
-    add("field_step", {"field_step"}, "1", "number of the level of the fields", step, {{"start_index", std::vector<std::int32_t>{1}}});
+    add("field_step", {"field_step"}, "1", "number of the level of the fields", from_one(f.step), {kFromOne});
     add("field_y", {"field_y"}, unit(1), "y of the points of the fields", f.y);
     add("field_x", {"field_x"}, unit(1), "x of the points of the fields", f.x);
     const Names dims{"field_step", "field_y", "field_x"};

@@ -17,6 +17,27 @@ inline std::int32_t clamped(std::int64_t n) {
 }
 inline std::int32_t clamped(double n) { return clamped(static_cast<std::int64_t>(n)); }
 
+// Numbers of levels, asperities, ... counted from 1, as in the file, and the attribute that tells it.
+inline std::vector<std::int32_t> from_one(std::vector<std::int32_t> numbers) {
+    for (std::int32_t& k : numbers) ++k;
+    return numbers;
+}
+inline const std::pair<std::string, NetcdfAttribute> kFromOne{"start_index", std::vector<std::int32_t>{1}};
+
+// value(0), value(1), ..., value(n - 1)
+template <class Value>
+std::vector<double> each_of(int n, Value value) {
+    std::vector<double> all;
+    for (int k = 0; k < n; ++k) all.push_back(value(k));
+    return all;
+}
+// 1, 2, ..., n
+inline std::vector<std::int32_t> one_to(std::size_t n) {
+    std::vector<std::int32_t> all(n);
+    std::iota(all.begin(), all.end(), 1);
+    return all;
+}
+
 // flag_values from `first` on, with the names of the enumeration.
 template <std::size_t n>
 NetcdfAttributes flags(const std::array<const char*, n>& names, std::size_t first = 0) {

@@ -58,8 +58,8 @@ void ResultTable::measured() {
            "ISO 16610-61: exp(-pi (alpha cutoff/lambda)^2), alpha = sqrt(ln 2/pi)");
 
     file_.dimension("map_stage", 3);
-    add("map_stage", {"map_stage"}, "1", "stage of the map", std::vector<std::int32_t>{1, 2, 3},
-        {{"flag_values", std::vector<std::int32_t>{1, 2, 3}}, {"flag_meanings", "as_read without_form filtered"}});
+    add("map_stage", {"map_stage"}, "1", "stage of the map", one_to(3),
+        {{"flag_values", one_to(3)}, {"flag_meanings", "as_read without_form filtered"}});
     const Roughness* const stages[] = {&m.as_read, &m.without_form, &m.filtered};
     const auto of_stages = [&](double Roughness::*member) {
         std::vector<double> all;
@@ -81,10 +81,9 @@ void ResultTable::measured() {
            "below 4 slopes, curvatures and summits are determined by the grid or by noise");
 
     file_.dimension("height_bin", m.height_pdf.size());
-    std::vector<double> bins;
-    for (std::size_t i = 0; i < m.height_pdf.size(); ++i)
-        bins.push_back((static_cast<double>(i) + 0.5 - 0.5 * static_cast<double>(m.height_pdf.size())) * m.height_bin);
-    add("height_bin", {"height_bin"}, unit(1), "middle of the bin of heights about their mean", bins);
+    const int bins = static_cast<int>(m.height_pdf.size());
+    add("height_bin", {"height_bin"}, unit(1), "middle of the bin of heights about their mean",
+        each_of(bins, [&](int i) { return (i + 0.5 - 0.5 * bins) * m.height_bin; }));
     add("height_pdf", {"height_bin"}, unit(-1), "probability density of the heights", m.height_pdf);
 
     const auto of_twins = [&](const std::string& what, double exponent) {
@@ -98,11 +97,10 @@ void ResultTable::measured() {
         of_twins("after a Hann window; the integral of 2 pi k Phi dk is the mean square height", m.spectrum.exponent));
     file_.dimension("plane_wavenumber", m.spectrum.plane_wavenumber.size());
     file_.dimension("angle", MeasuredSpectrum::kAngles);
-    std::vector<double> angles;
-    for (std::size_t a = 0; a < MeasuredSpectrum::kAngles; ++a)
-        angles.push_back(180.0 * static_cast<double>(a) / MeasuredSpectrum::kAngles);
+    constexpr int angles = MeasuredSpectrum::kAngles;
     add("plane_wavenumber", {"plane_wavenumber"}, unit(-1), "wavenumber of psd_plane", m.spectrum.plane_wavenumber);
-    add("angle", {"angle"}, "degree", "direction of the wave vector, from the x axis towards the y axis", angles);
+    add("angle", {"angle"}, "degree", "direction of the wave vector, from the x axis towards the y axis",
+        each_of(angles, [](int a) { return 180.0 * a / angles; }));
     add("psd_plane", {"plane_wavenumber", "angle"}, unit(4), "power spectral density by direction", m.spectrum.plane_psd,
         of_twins("the other half plane is the mirror image; surface%twins = 'directional' generates surfaces with it",
                  m.spectrum.plane_exponent));
@@ -121,11 +119,7 @@ void ResultTable::measured() {
     add("height_quantile", {"normal_score"}, unit(1), "height about the mean at a normal score", t.height,
         comment("a straight line for Gaussian heights; surface%twin_heights = 'measured' generates surfaces with it"));
     if (!t.autocorrelation.empty()) {
-        const auto lags = [](int reach, double step) {
-            std::vector<double> all;
-            for (int i = -reach; i <= reach; ++i) all.push_back(i * step);
-            return all;
-        };
+        const auto lags = [](int reach, double step) { return each_of(2 * reach + 1, [&](int i) { return (i - reach) * step; }); };
         const std::vector<double> x = lags(t.reach_x, t.step_x), y = lags(t.reach_y, t.step_y);
         file_.dimension("lag_y", y.size());
         file_.dimension("lag_x", x.size());

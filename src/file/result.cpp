@@ -98,33 +98,25 @@ Moments regime_moments(const Result& result) {
 namespace {
 
 // Variables of known shapes.
-class Columns {
+class Columns : public NetcdfInput {
 public:
-    explicit Columns(const std::string& path) : file_(path), variables_(file_.variables()) {}
+    using NetcdfInput::NetcdfInput;
 
-    const NetcdfInput::Variable* find(const std::string& name) const {
-        const auto found = std::find_if(variables_.begin(), variables_.end(), [&](const auto& v) { return v.name == name; });
-        return found == variables_.end() ? nullptr : &*found;
-    }
     // Missing values are NaN.
     std::vector<double> values(const std::string& name, const std::vector<std::size_t>& lengths) const {
-        const NetcdfInput::Variable* variable = find(name);
+        const std::optional<Variable> variable = find(name);
         if (!variable) refuse("it has no variable " + name + ", which is needed to merge campaigns");
         if (variable->lengths != lengths) refuse("variable " + variable->shape() + " does not have the shape given by its case");
         std::vector<double> values(variable->count());
-        file_.read(*variable, values.data(), true);
+        read(*variable, values.data(), true);
         return values;
     }
     std::size_t length(const std::string& name) const {
-        const NetcdfInput::Variable* variable = find(name);
+        const std::optional<Variable> variable = find(name);
         if (!variable || variable->lengths.size() != 1) refuse("it has no list " + name);
         return variable->lengths.front();
     }
-    [[noreturn]] void refuse(const std::string& why) const { bad_input("'" + file_.path() + "': " + why); }
-
-private:
-    NetcdfInput file_;
-    std::vector<NetcdfInput::Variable> variables_;
+    [[noreturn]] void refuse(const std::string& why) const { bad_input("'" + path() + "': " + why); }
 };
 
 // Both axes depend on the surface, which may differ if it was read from a file.
@@ -143,7 +135,8 @@ void require_same_axes(const Columns& file, const ObserveOptions& options) {
 void read_levels(const Columns& file, Accumulators& sums) {
     const std::size_t count = sums.realization.size(), steps = sums.steps;
     sums.rows.resize(count * steps);
-    const bool of_each = file.find("separation") && file.find("separation")->lengths.size() == 2;
+    const auto known = file.find("separation");
+    const bool of_each = known && known->lengths.size() == 2;
     const std::vector<double> separation =
         file.values("separation", of_each ? std::vector<std::size_t>{count, steps} : std::vector<std::size_t>{steps});
     for (std::size_t k = 0; k < sums.rows.size(); ++k) sums.rows[k].separation = separation[of_each ? k : k % steps];
@@ -227,7 +220,7 @@ Accumulators read_sums(const std::string& path, const ObserveOptions& options, s
 
 std::optional<LevelCount> count_levels(const std::string& path) {
     const Columns file(path);
-    const NetcdfInput::Variable* status = file.find("status");
+    const auto status = file.find("status");
     if (!status) return {};
     const std::vector<double> values = file.values("status", status->lengths);
     const auto failed = std::count(values.begin(), values.end(), static_cast<double>(LevelStatus::not_converged));

@@ -29,8 +29,6 @@ Range points_within(double origin, double step, int n, double low, double high) 
     return {std::max(0, static_cast<int>(std::ceil(number(low)))), std::min(n - 1, static_cast<int>(std::floor(number(high))))};
 }
 
-int wrapped(int i, int n) { return (i % n + n) % n; }
-
 // Adds a force over the points within a spot, or the nearest point, in proportion to shape(t), t being 1 at the centre and 0 at the rim
 // (Spot::inside). Points with t above `beside` touch. If `whole`, the integral of the shape over the spot, is positive, points with t < edge
 // share equally what the others leave of it.
@@ -50,7 +48,7 @@ void add_spot(Pressures& all, const HeightMap& map, bool repeats, const Spot& s,
     std::vector<Load*> outermost;
     for (int j = rows.first; j <= rows.last; ++j)
         for (int i = columns.first; i <= columns.last; ++i) {
-            const double t = s.inside(map.x0 + i * map.dx, map.y0 + j * map.dy);
+            const double t = s.inside(map.x(i), map.y(j));
             if (!(t > 0)) continue;
             const double p = whole > 0 && t < edge ? 0 : shape(t);
             Load& here = spot[std::int64_t{wrapped(j, map.ny)} * map.nx + wrapped(i, map.nx)];
@@ -178,8 +176,8 @@ ResidualProfile lowered_summits(const HeightMap& map, bool repeats, const Asperi
             for (int i = columns.first; i <= columns.last; ++i) {
                 if (!repeats && (i < 0 || j < 0 || i >= map.nx || j >= map.ny)) continue;
                 const int column = wrapped(i, map.nx), row = wrapped(j, map.ny);
-                if (!(map(column, row) > top) || std::hypot(map.x0 + i * map.dx - x, map.y0 + j * map.dy - y) > radius) continue;
-                lowered.x.push_back(map.x0 + column * map.dx), lowered.y.push_back(map.y0 + row * map.dy);
+                if (!(map(column, row) > top) || std::hypot(map.x(i) - x, map.y(j) - y) > radius) continue;
+                lowered.x.push_back(map.x(column)), lowered.y.push_back(map.y(row));
                 lowered.depth.push_back(map(column, row) - top);
             }
     }
@@ -204,8 +202,8 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
     } else if (!repeats) {
         about_contact(map, pressures, columns, rows);
     }
-    for (int i = columns.first; i <= columns.last; ++i) f.x.push_back(map.x0 + i * map.dx);
-    for (int j = rows.first; j <= rows.last; ++j) f.y.push_back(map.y0 + j * map.dy);
+    for (int i = columns.first; i <= columns.last; ++i) f.x.push_back(map.x(i));
+    for (int j = rows.first; j <= rows.last; ++j) f.y.push_back(map.y(j));
     const std::size_t points = f.x.size() * f.y.size();
     if (asked.heights)
         for (int j = rows.first; j <= rows.last; ++j)

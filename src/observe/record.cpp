@@ -88,7 +88,7 @@ LevelStatistics Observations::statistics(const std::function<double(const LevelV
     return s;
 }
 
-Accumulators::Accumulators(const ObserveOptions& options_, std::size_t steps_) : options(options_), steps(steps_) {
+Accumulators::Accumulators(const ObserveOptions& options_, std::size_t steps_) : Realizations{options_, steps_, {}, {}, {}} {
     map_area.assign(steps * static_cast<std::size_t>(options.map.cells()), ExactSum{});
     map_force = map_area;
     distributions.resize(steps > 0 ? options.pdf_levels.size() : 0);
@@ -132,12 +132,7 @@ void Accumulators::append(const Accumulators& later) {
 
 Observations Accumulators::finish() const {
     Observations o;
-    o.options = options;
-    o.realizations = realization.size();
-    o.steps = steps;
-    o.realization = realization;
-    o.surface = surface;
-    o.rows = rows;
+    static_cast<Realizations&>(o) = *this, o.realizations = realization.size();
     o.separation = o.statistics([](const LevelValues& r) { return r.separation; });
     o.force = o.statistics([](const LevelValues& r) { return r.force; });
     o.area = o.statistics([](const LevelValues& r) { return r.area; });

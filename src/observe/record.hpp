@@ -58,13 +58,17 @@ std::int32_t nearest_level(const std::vector<double>& levels, double wanted);
 
 struct Observations;
 
-// Sums over realizations, written to the checkpoint of a campaign.
-struct Accumulators {
+// What is kept of every realization.
+struct Realizations {
     ObserveOptions options;
     std::size_t steps = 0;
     std::vector<std::int64_t> realization;
-    std::vector<SurfaceStatistics> surface;
-    std::vector<LevelValues> rows;                // [realization][step]
+    std::vector<SurfaceStatistics> surface;  // [realization]
+    std::vector<LevelValues> rows;           // [realization][step]
+};
+
+// Sums over realizations, written to the checkpoint of a campaign.
+struct Accumulators : Realizations {
     std::vector<ExactSum> map_area, map_force;    // [step][cell], sums over realizations [length^2], [force]
     std::vector<DistributionSums> distributions;  // [pdf level]
 
@@ -86,12 +90,8 @@ struct LevelStatistics {
 };
 
 // Means and statistics over the realizations added.
-struct Observations {
-    ObserveOptions options;
-    std::size_t realizations = 0, steps = 0;
-    std::vector<std::int64_t> realization;
-    std::vector<SurfaceStatistics> surface;  // [realization]
-    std::vector<LevelValues> rows;           // [realization][step]
+struct Observations : Realizations {
+    std::size_t realizations = 0;  // their number
     LevelStatistics separation, force, area;
     std::vector<double> map_area_fraction, map_pressure;        // [step][j][i]
     std::vector<double> radii;                                  // middle of the rings [length]

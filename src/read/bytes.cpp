@@ -29,7 +29,7 @@ HeightMap allocate_map(std::size_t nx, std::size_t ny) {
 }
 
 void scale_heights(HeightMap& map, double factor) {
-    for (double& z : std::span(map.data.get(), static_cast<std::size_t>(map.nx) * static_cast<std::size_t>(map.ny))) z *= factor;
+    for (double& z : std::span(map.data.get(), map.points())) z *= factor;
 }
 
 void reverse_columns(HeightMap& map) {

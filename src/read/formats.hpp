@@ -9,9 +9,9 @@
 namespace rsc {
 
 // Gwyddion's own files (.gwy), a tree of named values (http://gwyddion.net/documentation/user-guide-en/gwyfile-format.html). is_gwy() is
-// true for the first bytes of such a file. Reads the channel named `channel`, or by default the first one whose values are lengths;
-// missing points (NaN, or those under the channel's mask) are NaN. Lengths are converted to length_unit. The first row of the file, the
-// top of the picture, has the largest y; x0 = y0 = 0.
+// true for the first bytes of such a file. Reads the first channel named `channel`, or the one of this number if none has this name; by
+// default the first one whose values are lengths. Missing points (NaN, or those under the channel's mask) are NaN. Lengths are converted
+// to length_unit. The first row of the file, the top of the picture, has the largest y; x0 = y0 = 0.
 bool is_gwy(const std::string& start);
 HeightMap read_gwy(const std::string& path, const std::string& channel, const std::string& length_unit);
 

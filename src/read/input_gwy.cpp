@@ -155,13 +155,15 @@ bool is_gwy(const std::string& start) { return start.substr(0, 3) == "GWY"; }
 HeightMap read_gwy(const std::string& path, const std::string& channel, const std::string& length_unit) {
     const GwyFile file(path);
     std::string names;
-    std::optional<long> chosen;
+    std::optional<long> chosen, numbered;
     for (const long n : file.channels()) {
         const std::string title = file.title(n);
         const auto field = file.field(format("/%ld/data", n));
-        names += (names.empty() ? "'" : ", '") + printable(title) + "' in '" + printable(field->unit_z) + "'";
+        names += (names.empty() ? "'" : ", '") + printable(title) + "' (" + std::to_string(n) + ") in '" + printable(field->unit_z) + "'";
+        if (channel == std::to_string(n)) numbered = n;
         if (!chosen && (channel.empty() ? factor_of(field->unit_z, length_unit).has_value() : title == channel)) chosen = n;
     }
+    if (!chosen) chosen = numbered;
     if (names.empty()) bad_input(path + ": contains no channel (image)");
     if (!chosen)
         bad_input(path + ": " + (channel.empty() ? "no channel contains heights" : "there is no channel '" + channel + "'") +

@@ -267,34 +267,36 @@ std::size_t NetcdfInput::Variable::count() const {
     return std::accumulate(lengths.begin(), lengths.end(), std::size_t{1}, std::multiplies<>());
 }
 
+NetcdfInput::Variable NetcdfInput::variable(int id) const {
+    Variable v;
+    v.id = id;
+    char name[NC_MAX_NAME + 1] = {};
+    int rank = 0;
+    must(nc_inq_var(id_, id, name, &v.type, &rank, nullptr, nullptr), "variable " + std::to_string(id));
+    v.name = printable(name, NC_MAX_NAME);
+    v.dimensions.resize(static_cast<std::size_t>(rank));
+    must(nc_inq_vardimid(id_, id, v.dimensions.data()), "the dimensions of " + v.name);
+    for (const int d : v.dimensions) {
+        std::size_t length = 0;
+        must(nc_inq_dim(id_, d, name, &length), "a dimension of " + v.name);
+        v.lengths.push_back(length);
+        v.axes.push_back(printable(name, NC_MAX_NAME));
+    }
+    return v;
+}
+
 std::vector<NetcdfInput::Variable> NetcdfInput::variables() const {
     int count = 0;
     must(nc_inq_nvars(id_, &count), "the list of variables");
     std::vector<Variable> all;
-    for (int id = 0; id < count; ++id) {
-        Variable v;
-        v.id = id;
-        char name[NC_MAX_NAME + 1] = {};
-        int rank = 0;
-        must(nc_inq_var(id_, id, name, &v.type, &rank, nullptr, nullptr), "variable " + std::to_string(id));
-        v.name = printable(name, NC_MAX_NAME);
-        v.dimensions.resize(static_cast<std::size_t>(rank));
-        must(nc_inq_vardimid(id_, id, v.dimensions.data()), "the dimensions of " + v.name);
-        for (const int d : v.dimensions) {
-            std::size_t length = 0;
-            must(nc_inq_dim(id_, d, name, &length), "a dimension of " + v.name);
-            v.lengths.push_back(length);
-            v.axes.push_back(printable(name, NC_MAX_NAME));
-        }
-        all.push_back(std::move(v));
-    }
+    for (int id = 0; id < count; ++id) all.push_back(variable(id));
     return all;
 }
 
 std::optional<NetcdfInput::Variable> NetcdfInput::find(const std::string& name) const {
-    for (auto& v : variables())
-        if (v.name == name) return v;
-    return std::nullopt;
+    int id = -1;
+    if (nc_inq_varid(id_, name.c_str(), &id) != NC_NOERR) return std::nullopt;
+    return variable(id);
 }
 
 std::optional<std::vector<double>> NetcdfInput::numbers_attribute(const Variable& v, const char* name) const {

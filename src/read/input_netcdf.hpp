@@ -73,6 +73,7 @@ public:
 
 private:
     void must(int status, const std::string& what) const;
+    Variable variable(int id) const;
 
     std::unique_lock<LibraryLock> alone_;
     std::string path_;

@@ -39,7 +39,7 @@ constexpr double missing_value() {
 
 template <class T>
 void take_values(ByteReader& in, HeightMap& map, double factor) {
-    const auto points = static_cast<std::size_t>(map.nx) * static_cast<std::size_t>(map.ny);
+    const std::size_t points = map.points();
     const char* const bytes = in.take(points, sizeof(T), "heights").data();
     for (std::size_t k = 0; k < points; ++k) {
         const auto value = static_cast<double>(ByteReader::value<T>(bytes + k * sizeof(T)));

@@ -40,7 +40,7 @@ double number(std::string_view word, const std::string& path, long line, std::si
         }
     }
     const auto value = number_in_file(text);
-    if (!value) refuse(path, line, place + " is not a number");
+    if (!value) refuse(path, line, place + " is not a number; comments begin with '#', a missing point of a map is nan");
     if (!std::isfinite(*value))
         refuse(path, line, place + " is not finite: every value must be known (missing points of a map: surface%missing)");
     return *value;

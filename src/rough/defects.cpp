@@ -17,13 +17,11 @@ double median(std::vector<double>& values) {
 class HoleProblem {
 public:
     explicit HoleProblem(const HeightMap& map) {
-        const auto nx = static_cast<std::size_t>(map.nx);
-        std::vector<int> number(nx * static_cast<std::size_t>(map.ny), -1);
-        const auto at = [&](int i, int j) -> int& { return number[static_cast<std::size_t>(j) * nx + static_cast<std::size_t>(i)]; };
+        std::vector<int> number(map.points(), -1);
         for (int j = 0; j < map.ny; ++j)
             for (int i = 0; i < map.nx; ++i)
                 if (std::isnan(map(i, j))) {
-                    at(i, j) = static_cast<int>(points_.size());
+                    number[map.index(i, j)] = static_cast<int>(points_.size());
                     points_.push_back({i, j});
                 }
         // Weights, scaled so that the larger is 1, of the neighbours to the left, below, to the right and above.
@@ -37,7 +35,7 @@ public:
                 if (i < 0 || j < 0 || i >= map.nx || j >= map.ny) continue;
                 const double w = weight_[k];
                 p.diagonal += w;
-                p.beside[k] = at(i, j);
+                p.beside[k] = number[map.index(i, j)];
                 if (p.beside[k] < 0) sum += w * map(i, j), weight += w, p.source += w * map(i, j), p.present += w;
             }
         // The mean level is subtracted, so that a large offset does not cause cancellation.
@@ -68,10 +66,10 @@ public:
     }
 
     void store(HeightMap& map, std::vector<std::uint8_t>& filled) const {
-        filled.assign(static_cast<std::size_t>(map.nx) * static_cast<std::size_t>(map.ny), 0);
+        filled.assign(map.points(), 0);
         for (std::size_t k = 0; k < points_.size(); ++k) {
             map.row(points_[k].j)[points_[k].i] = level_ + solution_[k];
-            filled[static_cast<std::size_t>(points_[k].j) * static_cast<std::size_t>(map.nx) + static_cast<std::size_t>(points_[k].i)] = 1;
+            filled[map.index(points_[k].i, points_[k].j)] = 1;
         }
     }
 
@@ -118,15 +116,12 @@ long count_missing(const HeightMap& map) {
 
 Outliers remove_outliers(HeightMap& map, double times) {
     constexpr int kReach = 2;
-    const auto at = [&](int i, int j) {
-        return static_cast<std::size_t>(j) * static_cast<std::size_t>(map.nx) + static_cast<std::size_t>(i);
-    };
-    std::vector<double> distance(at(0, map.ny)), around, present;
+    std::vector<double> distance(map.points()), around, present;
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i) {
             const double z = map(i, j);
             if (std::isnan(z)) continue;
-            double& d = distance[at(i, j)];
+            double& d = distance[map.index(i, j)];
             const int up = std::min({kReach, j, map.ny - 1 - j}), across = std::min({kReach, i, map.nx - 1 - i});
             if (up > 0 && across > 0) {
                 around.clear();
@@ -155,7 +150,7 @@ Outliers remove_outliers(HeightMap& map, double times) {
     Outliers found{0, times * std::max(*ninth / 1.645, height_step(map) / std::sqrt(12.0))};
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i) {
-            if (std::isnan(map(i, j)) || !(distance[at(i, j)] > found.threshold)) continue;
+            if (std::isnan(map(i, j)) || !(distance[map.index(i, j)] > found.threshold)) continue;
             map.row(j)[i] = std::numeric_limits<double>::quiet_NaN();
             ++found.count;
         }
@@ -165,7 +160,7 @@ Outliers remove_outliers(HeightMap& map, double times) {
 std::vector<std::uint8_t> fill_missing(HeightMap& map) {
     const long missing = count_missing(map);
     if (missing == 0) return {};
-    if (missing == static_cast<long>(map.nx) * map.ny) bad_input("all points of the map are missing");
+    if (missing == static_cast<long>(map.points())) bad_input("all points of the map are missing");
     HoleProblem hole(map);
     hole.solve();
     std::vector<std::uint8_t> filled;
@@ -292,10 +287,7 @@ struct Profile {
         if (map.periodic) return true;
         return along_x ? i + k >= 0 && i + k < map.nx : j + k >= 0 && j + k < map.ny;
     }
-    double at(int k) const {
-        const auto wrapped = [](int at, int n) { return (at % n + n) % n; };
-        return along_x ? map(wrapped(i + k, map.nx), j) : map(i, wrapped(j + k, map.ny));
-    }
+    double at(int k) const { return along_x ? map(wrapped(i + k, map.nx), j) : map(i, wrapped(j + k, map.ny)); }
     double bend(int k) const { return has(k - 1) && has(k + 1) ? at(k - 1) - 2 * at(k) + at(k + 1) : 0; }
 };
 
@@ -378,15 +370,15 @@ Breaks find_breaks(const HeightMap& map, double height_step) {
     };
     breaks.seam_column = seam(in_column, ny), breaks.seam_row = seam(in_row, nx);
     if (marked.empty()) return breaks;
-    breaks.clear.assign(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny), Breaks::kMostClear);
+    breaks.clear.assign(map.points(), Breaks::kMostClear);
     constexpr int reach = Breaks::kMostClear;
     for (const auto [i, j, unused] : marked)
         for (int dj = -reach; dj <= reach; ++dj)
             for (int di = -reach; di <= reach; ++di) {
                 int k = i + di, l = j + dj;
-                if (map.periodic) k = (k % nx + nx) % nx, l = (l % ny + ny) % ny;
+                if (map.periodic) k = wrapped(k, nx), l = wrapped(l, ny);
                 if (k < 0 || l < 0 || k >= nx || l >= ny) continue;
-                auto& clear = breaks.clear[static_cast<std::size_t>(l) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(k)];
+                auto& clear = breaks.clear[map.index(k, l)];
                 clear = std::min(clear, static_cast<std::uint8_t>(std::max(std::abs(di), std::abs(dj))));
             }
     return breaks;

@@ -109,7 +109,7 @@ std::vector<Stencil> stencils_for(double points_per_wave) {
 // Row j + d of a map for SummitClimber; null beyond a border.
 SummitClimber::Rows rows_about(const HeightMap& map, int j) {
     return [&map, j](int d) -> const double* {
-        if (map.periodic) return map.row(((j + d) % map.ny + map.ny) % map.ny);
+        if (map.periodic) return map.row(wrapped(j + d, map.ny));
         return j + d >= 0 && j + d < map.ny ? map.row(j + d) : nullptr;
     };
 }
@@ -121,7 +121,7 @@ Asperities follow_summits(const HeightMap& map, Asperities summits, const std::v
     constexpr double kNear = 0.1;  // grid steps
     const std::vector<Stencil> stencils = stencils_for(points_per_wave);
     const RowPlace place{map.nx, map.x0, map.dx, map.dy, 0.0, map.periodic};
-    const auto within = [&](int& i, int n) { return map.periodic ? (i = (i % n + n) % n, true) : i >= 1 && i < n - 1; };
+    const auto within = [&](int& i, int n) { return map.periodic ? (i = wrapped(i, n), true) : i >= 1 && i < n - 1; };
     parallel_for(which.size(), 16, threads, [&](std::size_t k) {
         const std::size_t i = which[k];
         const double u = (summits.x[i] - map.x0) / map.dx, v = (summits.y[i] - map.y0) / map.dy;
@@ -166,7 +166,7 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
                 climber.climb(j, row, part);
                 continue;
             }
-            place.y = map.y0 + j * map.dy;
+            place.y = map.y(j);
             part.saddles += append_summits(place, row(-1), row(0), row(1), curvature, part.found);
         }
     });

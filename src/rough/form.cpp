@@ -123,19 +123,6 @@ struct Sphere {
     }
 };
 
-// Mean of value(z, i, j) over the points that are not missing, summed row by row; NaN if there are none.
-template <class Value>
-double mean_present(const HeightMap& map, Value value) {
-    double total = 0, points = 0;
-    for (int j = 0; j < map.ny; ++j) {
-        double row = 0;
-        for (int i = 0; i < map.nx; ++i)
-            if (const double z = map(i, j); !std::isnan(z)) row += value(z, i, j), ++points;
-        total += row;
-    }
-    return total / points;
-}
-
 // Mean square residual of the sphere; NaN if the map is wider than the sphere.
 double left_by(const Sphere& s, const HeightMap& map, const Frame& f, double level) {
     return mean_present(map, [&](double z, int i, int j) {
@@ -196,8 +183,7 @@ Sphere fit_sphere(const HeightMap& map, const Frame& frame, double level) {
 Form detrend(HeightMap& map, Detrend how) {
     Form form;
     form.how = how;
-    const auto height = [](double z, int, int) { return z; };
-    const double level = mean_present(map, height);
+    const double level = mean_height(map);
     if (std::isnan(level)) refuse("all points of the map are missing");
     if (how != Detrend::none) form.level = level;
     if (how == Detrend::mean)
@@ -224,7 +210,7 @@ Form detrend(HeightMap& map, Detrend how) {
         form.zxx = -s.bend * (1 + s.p * s.p), form.zxy = -s.bend * s.p * s.q, form.zyy = -s.bend * (1 + s.q * s.q);
         form.radius = s.bend != 0 ? std::sqrt(1 + s.p * s.p + s.q * s.q) / s.bend : HUGE_VAL;
     }
-    const double middle = mean_present(map, height);
+    const double middle = mean_height(map);
     form.rms = std::sqrt(mean_present(map, [&](double z, int, int) { return (z - middle) * (z - middle); }));
     return form;
 }

@@ -16,7 +16,7 @@ void refuse_missing(const HeightMap& map, long missing) {
                 bad_input(
                     format("%ld of %.0f points are missing, the first in column %d of row %d, counted from 0 with y upwards; "
                            "surface%%missing = 'fill' fills them",
-                           missing, static_cast<double>(map.nx) * map.ny, i, j));
+                           missing, static_cast<double>(map.points()), i, j));
 }
 
 // Histogram of the heights in 60 bins from -5 to 5 Sq; the few heights beyond are ignored.
@@ -26,7 +26,7 @@ void count_heights(const HeightMap& map, Measured& m) {
     m.height_bin = 2 * kReach * m.parameters.sq / kBins;
     m.height_pdf.assign(kBins, 0.0);
     if (!(m.height_bin > 0)) return;
-    const double points = static_cast<double>(map.nx) * map.ny;
+    const auto points = static_cast<double>(map.points());
     double mean = 0;
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i) mean += map(i, j) / points;
@@ -45,7 +45,7 @@ std::string told_change(const Roughness& before, const Roughness& after, const c
 // Reports pits, spikes and steps with their places.
 void tell_breaks(const Measured& m, const char* l, std::vector<std::string>& lines) {
     const auto at = [&](const Breaks::Found& found) {
-        return format("%.4g %s at x = %.6g, y = %.6g", found.size, l, m.x0 + found.largest.i * m.dx, m.y0 + found.largest.j * m.dy);
+        return format("%.4g %s at x = %.6g, y = %.6g", found.size, l, m.x(found.largest.i), m.y(found.largest.j));
     };
     const auto& [pits, spikes, steps] = m.breaks.found;
     if (pits.points > 0)
@@ -57,9 +57,9 @@ void tell_breaks(const Measured& m, const char* l, std::vector<std::string>& lin
     if (steps.points > 0) {
         std::string line = format("warning: steps: heights jump at %ld points, most by ", steps.points) + at(steps);
         if (m.breaks.seam_column >= 0)
-            line += format("; a jump along x = %.6g runs through most of the map, like a seam", m.x0 + m.breaks.seam_column * m.dx);
+            line += format("; a jump along x = %.6g runs through most of the map, like a seam", m.x(m.breaks.seam_column));
         if (m.breaks.seam_row >= 0)
-            line += format("; a jump along y = %.6g runs through most of the map, like a seam", m.y0 + m.breaks.seam_row * m.dy);
+            line += format("; a jump along y = %.6g runs through most of the map, like a seam", m.y(m.breaks.seam_row));
         lines.push_back(line);
     }
 }
@@ -77,13 +77,13 @@ double Measured::points_per_wave() const { return shortest_wave / std::max(dx, d
 
 Measured measure(HeightMap& map, const MeasureOptions& options) {
     Measured m;
-    m.nx = map.nx, m.ny = map.ny, m.dx = map.dx, m.dy = map.dy, m.x0 = map.x0, m.y0 = map.y0;
+    static_cast<PointGrid&>(m) = map;
     // Beyond this ratio, rounding removes the smaller of the terms in 1/dx^2 and 1/dy^2 from their sum.
     constexpr double most_unlike = 1e4;
     if (std::max(map.dx, map.dy) > most_unlike * std::min(map.dx, map.dy))
         bad_input(format("steps of %.6g x %.6g: one is more than %.0f times the other", map.dx, map.dy, most_unlike));
     m.missing = count_missing(map);
-    const double points = static_cast<double>(map.nx) * map.ny;
+    const auto points = static_cast<double>(map.points());
     if (m.missing > 0 && static_cast<double>(m.missing) == points) bad_input("all points of the map are missing");
     if (m.missing > 0 && options.missing == Missing::refuse) refuse_missing(map, m.missing);
     m.outlier_times = options.outliers;
@@ -115,7 +115,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     count_heights(map, m);
     const auto spectrum = [&](double aspect, double direction) {
         MeasuredSpectrum s = measure_spectrum(map, aspect, direction);
-        if (!s.wavenumber.empty() && (m.form.how == Detrend::quadratic || m.form.how == Detrend::sphere)) s.lost = 2.5 * s.wavenumber[0];
+        if (m.form.how == Detrend::quadratic || m.form.how == Detrend::sphere) s.lost = 2.5;
         return s;
     };
     m.spectrum = spectrum(1, 0);
@@ -146,8 +146,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
 std::vector<std::string> report(const Measured& m, const std::string& length_unit) {
     const char* const l = length_unit.c_str();
     std::vector<std::string> lines;
-    lines.push_back(
-        format("map: %d x %d points of %.6g x %.6g %s, %.6g x %.6g %s", m.nx, m.ny, m.dx, m.dy, l, m.nx * m.dx, m.ny * m.dy, l));
+    lines.push_back(format("map: %d x %d points of %.6g x %.6g %s, %.6g x %.6g %s", m.nx, m.ny, m.dx, m.dy, l, m.Lx(), m.Ly(), l));
     if (m.outlier_times > 0)
         lines.push_back(
             format("outliers: %ld points differ by more than %.4g %s (%.3g standard deviations) from the 5 x 5 points around them",

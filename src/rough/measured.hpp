@@ -27,9 +27,7 @@ struct Roughness {
 Roughness roughness(const HeightMap& map);
 
 // Processing of a measured map, and the properties of the result.
-struct Measured {
-    int nx = 0, ny = 0;
-    double dx = 0, dy = 0, x0 = 0, y0 = 0;
+struct Measured : PointGrid {
     long missing = 0;                  // points filled
     double outlier_times = 0;          // MeasureOptions::outliers
     Outliers outliers;                 // of the points filled

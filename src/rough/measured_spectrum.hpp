@@ -29,12 +29,13 @@ struct SelfAffineFit {
 // Power spectral density over the wavenumber k = 2 pi/lambda, averaged over rings: the integral of Phi 2 pi k dk is the mean square height.
 // Rings are 2 pi/max(Lx, Ly) wide and reach from that wavenumber to the smaller Nyquist wavenumber of the two directions.
 struct MeasuredSpectrum {
-    std::vector<double> wavenumber;  // middle of the rings [1/length]
+    double ring = 0;                 // their width [1/length]
+    std::vector<double> wavenumber;  // middle of the rings that have modes [1/length]
     std::vector<double> psd;         // [length^4]
     std::vector<double> modes;       // number of Fourier modes in the ring, including mirror images
     double independent = 0.5;        // share of independent amplitudes among them, reduced by mirror images and by the window
     double coupled = 1;              // number of neighbouring rings coupled by the window
-    double lost = 0;                 // below this wavenumber, power has been removed with the form
+    double lost = 0;                 // below this wavenumber, in rings, power has been removed with the form
     // For the first 32 rings: pairs (place, share) of the wavenumber place/kPlaces, in units of rings, and its share of the expected power.
     static constexpr int kPlaces = 8;
     std::vector<std::vector<std::pair<std::size_t, double>>> seen;

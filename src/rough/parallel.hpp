@@ -45,6 +45,25 @@ void parallel_for(Index n, int grain, int threads, Body&& body) {
     });
 }
 
+// Sets `found` to the numbers k = 0 ... n - 1 for which test(k), in their order; test(k) is called once for each.
+template <class Test>
+void find_all(std::size_t n, int grain, int threads, Test&& test, std::vector<int>& found) {
+    const auto each = static_cast<std::size_t>(grain);
+    found.resize(n);
+    std::vector<std::size_t> ends((n + each - 1) / each);
+    parallel_pieces(ends.size(), threads, [&](std::size_t piece, std::size_t) {
+        std::size_t next = piece * each;
+        for (std::size_t k = next, end = std::min(n, k + each); k < end; ++k) {
+            found[next] = static_cast<int>(k);
+            next += test(k) ? 1 : 0;
+        }
+        ends[piece] = next;
+    });
+    auto to = found.begin();
+    for (std::size_t piece = 0; piece < ends.size(); ++piece) to = std::copy(found.data() + piece * each, found.data() + ends[piece], to);
+    found.erase(to, found.end());
+}
+
 // Long loops check regularly whether they must stop.
 
 // During its lifetime, stopping_point() on this thread calls `ask` at most every 50 ms; `ask` throws to stop the work.

@@ -103,17 +103,17 @@ private:
 };
 
 // Whittle's likelihood of a measured spectrum: the power of a ring is the mean of many independent squared amplitudes. The expected power
-// includes the blur by the window.
+// includes the blur by the window. Wavenumbers are in rings.
 class Likelihood {
 public:
     // The rings from wavenumber `begin` on, before ring `end`.
-    Likelihood(const MeasuredSpectrum& s, double begin, std::size_t end) : s_(s), end_(end), ring_(s.wavenumber[0]) {
+    Likelihood(const MeasuredSpectrum& s, double begin, std::size_t end) : s_(s), end_(end) {
         while (first_ + 1 < end && s.wavenumber[first_] < begin) ++first_;
         for (std::size_t i = first_; i < end; ++i) weights_ += s.independent * s.modes[i];
     }
 
     struct Model {
-        double kl = 0;  // in rings
+        double kl = 0;
         bool plateau = false;
         double hurst = 0, log_phi0 = 0;
         double misfit = HUGE_VAL;  // -ln of the likelihood, up to a constant
@@ -154,8 +154,8 @@ public:
         }
         return std::max(1.0, sum / static_cast<double>(end_ - first_) * s_.coupled);
     }
-    double lowest() const { return s_.wavenumber[first_] / ring_; }
-    double highest() const { return s_.wavenumber[end_ - 1] / ring_; }
+    double lowest() const { return s_.wavenumber[first_]; }
+    double highest() const { return s_.wavenumber[end_ - 1]; }
 
 private:
     std::vector<double> blurred(double kl, bool plateau, double hurst) const {
@@ -169,15 +169,15 @@ private:
             if (i < s_.seen.size())
                 for (const auto& [place, share] : s_.seen[i]) sum += share * at[place];
             else
-                sum = phi(s_.wavenumber[i] / ring_);
-            expected.push_back(sum + floor * std::min(1.0, phi(std::max(kl, s_.wavenumber[i] / ring_))));
+                sum = phi(s_.wavenumber[i]);
+            expected.push_back(sum + floor * std::min(1.0, phi(std::max(kl, s_.wavenumber[i]))));
         }
         return expected;
     }
 
     const MeasuredSpectrum& s_;
     std::size_t first_ = 0, end_;
-    double ring_, weights_ = 0;
+    double weights_ = 0;
 };
 
 }  // namespace
@@ -202,7 +202,10 @@ bool can_fit(const MeasuredSpectrum& spectrum) {
     return std::count_if(spectrum.psd.begin(), spectrum.psd.end(), [](double p) { return p > 0; }) >= kFewest;
 }
 
-SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
+namespace {
+
+// With wavenumbers in rings, of which they are whole numbers: where a fit ends must not depend on the rounding of a unit of length.
+SelfAffineFit fit_in_rings(const MeasuredSpectrum& spectrum) {
     std::vector<double> k, x, y, weight;
     double weights = 0;
     for (std::size_t i = 0; i < spectrum.psd.size(); ++i)
@@ -254,8 +257,9 @@ SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
         for (const bool plateau : {false, true}) models.push_back(likelihood.best(kl, plateau));
     Likelihood::Model found;
     std::array<double, 2> least_misfit{HUGE_VAL, HUGE_VAL};
+    constexpr double kEqual = 1e-6;  // models that differ only below the lowest ring: the first one counts
     for (const Likelihood::Model& m : models) {
-        if (m.misfit < found.misfit) found = m;
+        if (m.misfit < found.misfit - kEqual) found = m;
         least_misfit[m.plateau] = std::min(least_misfit[m.plateau], m.misfit);
     }
     // Models with a larger misfit are outside the 90 % interval.
@@ -273,26 +277,25 @@ SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
         log_error = std::max(log_error, std::abs(m.log_phi0 - found.log_phi0));
     }
     fit.kl_seen = low > std::max(lowest, 1.0);
-    const double ring = spectrum.wavenumber[0];
     // Without a plateau the rings next to kl have fewer effective modes. The exponent is fitted to the rings above them.
-    const double above_break = (found.kl + 1) * ring;
-    if (fit.kl_seen && !found.plateau && k[end - 1] > above_break + kShortest * ring) {
+    const double above_break = found.kl + 1;
+    if (fit.kl_seen && !found.plateau && k[end - 1] > above_break + kShortest) {
         const Likelihood upper(spectrum, above_break, end);
         const Likelihood::Model again = upper.best(found.kl, false);
         found.hurst = fit.hurst.value = again.hurst, found.log_phi0 = again.log_phi0;
         fit.hurst.error = std::sqrt(2 * 0.5 * 1.645 * 1.645 * upper.excess(again) / std::max(upper.curvature(again), 1e-3));
     }
     if (fit.kl_seen)
-        fit.kl = {found.kl * ring, (std::max(high - found.kl, found.kl - low) + 0.25) * ring};
+        fit.kl = {found.kl, std::max(high - found.kl, found.kl - low) + 0.25};
     else
-        fit.kl = {high * ring, 0};
+        fit.kl = {high, 0};
     // Phi0 belongs to kl.
-    const double log_phi0 = found.log_phi0 - 2 * (1 + found.hurst) * std::log(fit.kl.value / (found.kl * ring));
+    const double log_phi0 = found.log_phi0 - 2 * (1 + found.hurst) * std::log(fit.kl.value / found.kl);
     log_error += std::abs(likelihood.misfit(found.kl, found.plateau, found.hurst + fit.hurst.error).second - found.log_phi0);
     fit.Phi0 = {std::exp(log_phi0), std::exp(log_phi0) * std::expm1(log_error)};
 
     // Half the range over which ks can move before the residual grows by one variance.
-    const double half_ring = 0.5 * ring;
+    constexpr double half_ring = 0.5;
     if (!fit.ks_seen) {
         fit.ks = {k[n - 1], half_ring};
     } else {
@@ -311,7 +314,7 @@ SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
         std::size_t last = best.high - 1;
         const auto above = [&](std::size_t i) {  // > 0 if above half of it
             return y[i] - 0.5 / (spectrum.independent * spectrum.modes[i]) - found.log_phi0 +
-                   2 * (1 + found.hurst) * std::log(k[i] / (found.kl * ring)) + std::log(2.0);
+                   2 * (1 + found.hurst) * std::log(k[i] / found.kl) + std::log(2.0);
         };
         const std::size_t limit = std::min(n - 1, best.high + 3);
         while (last < limit && above(last + 1) > 0) ++last;
@@ -323,6 +326,20 @@ SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
         }
         fit.ks = {ks, std::max(0.5 * (k[std::min(to, n - 1)] - k[std::min(from, n - 1)]), half_ring)};
     }
+    return fit;
+}
+
+}  // namespace
+
+SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
+    MeasuredSpectrum s = spectrum;
+    const double unit = s.psd.empty() ? 1 : *std::max_element(s.psd.begin(), s.psd.end());
+    for (double& k : s.wavenumber) k = std::round(k / s.ring);
+    constexpr double kRounding = 1e-24;  // rings of a map without short waves contain only rounding errors
+    for (double& p : s.psd) p = p > 0 ? std::max(p / unit, kRounding) : 0;
+    SelfAffineFit fit = fit_in_rings(s);
+    for (const auto& [fitted, scale] : {std::pair(&fit.kl, s.ring), std::pair(&fit.ks, s.ring), std::pair(&fit.Phi0, unit)})
+        fitted->value *= scale, fitted->error *= scale;
     return fit;
 }
 

@@ -114,8 +114,6 @@ double wrapped(double u, int n) {
     return u < n ? u : 0.0;  // a tiny negative u may be rounded to n
 }
 
-int wrapped(int i, int n) { return (i % n + n) % n; }
-
 }  // namespace
 
 SummitClimber::SummitClimber(const std::vector<Stencil>& stencils, const RowPlace& place, int ny, double y0, Curvature curvature,

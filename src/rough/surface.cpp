@@ -92,7 +92,7 @@ void HeightMap::allocate(int nx_, int ny_, std::ptrdiff_t stride_, bool zeros) {
 HeightMap HeightMap::copy() const {
     HeightMap made;
     made.allocate(nx, ny, nx);
-    made.dx = dx, made.dy = dy, made.x0 = x0, made.y0 = y0, made.periodic = periodic;
+    static_cast<PointGrid&>(made) = *this, made.periodic = periodic;
     for (int j = 0; j < ny; ++j)
         for (int i = 0; i < nx; ++i) made.row(j)[i] = (*this)(i, j);
     return made;
@@ -141,16 +141,11 @@ Moments grid_moments(const HeightMap& map) {
 
 HeightMap every_second_point_of(const HeightMap& map) {
     HeightMap view;
-    view.nx = (map.nx + 1) / 2, view.ny = (map.ny + 1) / 2;
-    view.stride = 2 * map.stride, view.every = 2 * map.every;
-    view.dx = 2 * map.dx, view.dy = 2 * map.dy;
-    view.x0 = map.x0, view.y0 = map.y0;
-    view.periodic = map.periodic;
+    static_cast<PointGrid&>(view) = {(map.nx + 1) / 2, (map.ny + 1) / 2, 2 * map.dx, 2 * map.dy, map.x0, map.y0};
+    view.stride = 2 * map.stride, view.every = 2 * map.every, view.periodic = map.periodic;
     view.data = std::unique_ptr<double[], HeightMap::Free>(map.data.get(), HeightMap::Free(false));
     return view;
 }
-
-HeightMap every_second_point(const HeightMap& map) { return every_second_point_of(map).copy(); }
 
 double height_at(const HeightMap& map, double x, double y) {
     const double u = (x - map.x0) / map.dx, v = (y - map.y0) / map.dy;

@@ -90,7 +90,7 @@ void place_diagonals(const double* lines, int first, int count, int shear, Heigh
     const int n = map.nx;
     // Between turns round the period these are rows of a map whose rows are one longer or shorter.
     for (int y = 0; y < n;) {
-        const int x = ((first + shear * y) % n + n) % n;
+        const int x = wrapped(first + shear * y, n);
         const int rest = shear > 0 ? n - count - x : x;
         if (rest >= 0 && x + count <= n) {
             const int points = std::min(n - y, rest + 1);
@@ -283,7 +283,7 @@ void RowSource::make_rows(int j, int count, double* out, std::ptrdiff_t stride, 
 
 void RowSource::rows(int j, int count, double* out, std::ptrdiff_t stride, Scratch& scratch) const {
     while (count > 0) {
-        j = (j % n_ + n_) % n_;
+        j = wrapped(j, n_);
         const int block = std::min({count, kBlock, n_ - j});
         (this->*(pairs_ ? &RowSource::make_pairs : &RowSource::make_rows))(j, block, out, stride, scratch.coefficients_.get());
         j += block;

@@ -10,16 +10,6 @@ namespace {
 constexpr double kFallen = 0.2;  // threshold of the autocorrelation (ISO 25178-2)
 constexpr int kShown = 60;       // most lags stored to either side
 
-double mean_height(const HeightMap& map) {
-    double sum = 0;
-    for (int j = 0; j < map.ny; ++j) {
-        double row = 0;
-        for (int i = 0; i < map.nx; ++i) row += map(i, j);
-        sum += row;
-    }
-    return sum / (static_cast<double>(map.nx) * map.ny);
-}
-
 // Autocorrelation of heights about their mean at lags up to half the map, averaged over all pairs of points with the lag.
 class Autocorrelation {
 public:
@@ -128,7 +118,7 @@ void measure_correlation(const HeightMap& map, Texture& t) {
 // outside it.
 void measure_heights(const HeightMap& map, Texture& t) {
     std::vector<double> heights;
-    heights.reserve(static_cast<std::size_t>(map.nx) * static_cast<std::size_t>(map.ny));
+    heights.reserve(map.points());
     const double mean = mean_height(map);
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i) heights.push_back(map(i, j) - mean);

@@ -155,7 +155,7 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
     const std::size_t already = state.finished();
     const auto total = static_cast<std::size_t>(settings.run.realizations);
 
-    std::ostream* const table = options.quiet ? nullptr : options.table;
+    std::ostream* const table = options.table;
     if (table) print_campaign_heading(*table, *job, team.workers(), already);
     const std::size_t batch = std::max<std::size_t>(1, total / 20);
     if (options.report)
@@ -276,7 +276,7 @@ RunSummary merge_campaigns(const std::vector<std::string>& files, const std::str
             refuse("the levels of '" + parts[k].file + "' differ from those of '" + parts.front().file + "'");
         sums.append(more);
     }
-    std::ostream* const table = options.quiet ? nullptr : options.table;
+    std::ostream* const table = options.table;
     const Result result = campaign_result(job, sums, table);
     leave_if_interrupted("; nothing is written");
     write_result(result, output, {whole.output.format, whole.output.compression, options.command});

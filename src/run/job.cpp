@@ -71,6 +71,11 @@ double seam(const HeightMap& map) {
     return std::sqrt(across / static_cast<double>(n_across) / (within / static_cast<double>(n_within)));
 }
 
+// The key that asks for the largest pressure, as messages begin.
+std::string key_of_largest(const Case::Indentation& keys) {
+    return std::string("indentation%") + (!keys.levels.empty() ? "levels" : keys.start > keys.stop ? "start" : "stop") + ": ";
+}
+
 // Two elastic flats by elements have no level at the separation of their mean planes, where they are in full contact, nor below it.
 void require_open(const Job& job) {
     if (!job.indenter.period.finite() || std::isfinite(job.settings.solids.hardness) || job.levels.empty()) return;
@@ -78,7 +83,7 @@ void require_open(const Job& job) {
     for (int j = 0; job.given && job.given_heights && j < job.given_heights->ny; ++j) {
         const HeightMap& map = *job.given_heights;
         double row = 0;
-        for (int i = 0; i < map.nx; ++i) row += job.indenter.clearance(map.x0 + i * map.dx, map.y0 + j * map.dy, map(i, j)) / map.nx;
+        for (int i = 0; i < map.nx; ++i) row += job.indenter.clearance(map.x(i), map.y(j), map(i, j)) / map.nx;
         mean += row / map.ny;
     }
     constexpr double kRounding = 1e-12;
@@ -140,9 +145,7 @@ Job prepare(const Case& settings) {
         job.spectrum = spectrum_of(settings);
         if (elements || settings.compare.listed())
             if (const std::string why = too_large_for_elements(settings, *job.spectrum); !why.empty()) bad_input(why);
-        job.domain = synthetic_domain(*job.spectrum);
-        job.domain.points_per_wave = settings.surface.n / job.spectrum->L_lambda_s;
-        job.domain.step = job.spectrum->L / settings.surface.n;
+        job.domain = synthetic_domain(*job.spectrum, settings.surface.n);
         job.theory = theoretical_moments(*job.spectrum);
         sqrt_m4 = std::sqrt(job.theory->m4);
     } else {
@@ -174,7 +177,7 @@ Job prepare(const Case& settings) {
         const HeightMap& map = *job.given_heights;
         for (int j = 0; j < map.ny; ++j)
             for (int i = 0; i < map.nx; ++i)
-                job.points_touch = std::max(job.points_touch, job.indenter.clearance(map.x0 + i * map.dx, map.y0 + j * map.dy, map(i, j)));
+                job.points_touch = std::max(job.points_touch, job.indenter.clearance(map.x(i), map.y(j), map(i, j)));
     }
 
     const auto& indentation = settings.indentation;
@@ -194,13 +197,13 @@ Job prepare(const Case& settings) {
         const double unit = relative ? full : 1.0;
         for (double level : job.levels) {
             if (!elements && level * unit >= kClosingPressure * full)
-                bad_input(format(
-                    "indentation: a pressure of %g: at E* sqrt(2 m2) = %g and above less than 5 %% of the area is gap, too little for the "
-                    "asperity model; use solver%%model = 'elements', which is valid up to full contact",
-                    level * unit, full));
+                bad_input(key_of_largest(settings.indentation) +
+                          format("a pressure of %g: at E* sqrt(2 m2) = %g and above less than 5 %% of the area is gap, too little for the "
+                                 "asperity model; use solver%%model = 'elements', which is valid up to full contact",
+                                 level * unit, full));
             if (!(level * unit < settings.solids.hardness))
-                bad_input(
-                    format("indentation: a nominal pressure of %.9g exceeds the hardness, %.9g", level * unit, settings.solids.hardness));
+                bad_input(key_of_largest(settings.indentation) +
+                          format("a nominal pressure of %.9g exceeds the hardness, %.9g", level * unit, settings.solids.hardness));
         }
         job.level_unit = unit * job.indenter.period.area();
     }
@@ -276,11 +279,15 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     constexpr double kScattered = 0.15;
     const double scattered =
         measured ? static_cast<double>(measured->missing - std::count(measured->filled.begin(), measured->filled.end(), 1)) /
-                       (static_cast<double>(measured->nx) * measured->ny)
+                       static_cast<double>(measured->points())
                  : 0.0;
     std::vector<FieldLevel> fields;
     if (settings.indentation.control != Control::separation && !job.levels.empty())  // before the levels below it are solved
-        contact->require_gap(*std::max_element(job.levels.begin(), job.levels.end()));
+        try {
+            contact->require_gap(*std::max_element(job.levels.begin(), job.levels.end()));
+        } catch (const Error& error) {
+            throw Error(error.kind(), key_of_largest(settings.indentation) + error.what() + "; give smaller ones");
+        }
     for (std::size_t k = 0; k < job.levels.size(); ++k) {
         if (!job.times.empty()) contact->set_time(job.times[k]);
         if (settings.indentation.control != Control::separation) {
@@ -331,10 +338,6 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     contact.reset();
     if (!settings.output.heights) r.heights.reset();
     return r;
-}
-
-RealizationRecord observe(const Job& job, std::int64_t number, const Realization& r) {
-    return observe(job.observe, number, r.statistics, r.levels);
 }
 
 }  // namespace rsc

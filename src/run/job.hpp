@@ -49,6 +49,4 @@ struct Realization {
 // `threads`: number of threads for the surface; results do not depend on it.
 Realization realize(const Job& job, std::int64_t number, int threads, const std::function<bool(std::size_t, const Level&)>& on_level = {});
 
-RealizationRecord observe(const Job& job, std::int64_t number, const Realization& realization);
-
 }  // namespace rsc

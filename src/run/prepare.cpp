@@ -100,10 +100,10 @@ HeightMap part_of(const HeightMap& map, const std::optional<double> (&window)[4]
         bad_input(
             format("%s: fewer than 3 x 3 of its points lie in surface%%window; they go from %.6g to %.6g in x and from "
                    "%.6g to %.6g in y",
-                   path.c_str(), map.x0, map.x0 + (map.nx - 1) * map.dx, map.y0, map.y0 + (map.ny - 1) * map.dy));
+                   path.c_str(), map.x0, map.x(map.nx - 1), map.y0, map.y(map.ny - 1)));
     HeightMap part;
     part.allocate(i1 - i0 + 1, j1 - j0 + 1, i1 - i0 + 1);
-    part.dx = map.dx, part.dy = map.dy, part.x0 = map.x0 + i0 * map.dx, part.y0 = map.y0 + j0 * map.dy;
+    part.dx = map.dx, part.dy = map.dy, part.x0 = map.x(i0), part.y0 = map.y(j0);
     for (int j = j0; j <= j1; ++j) std::copy_n(map.row(j) + i0, part.nx, part.row(j - j0));
     return part;
 }
@@ -204,10 +204,7 @@ std::string too_large_for_elements(const Case& settings, const Spectrum& spectru
     const int n = element_points(settings, spectrum);
     // Memory for two flats: heights, the pressures on some pixels, transforms in single and double precision.
     const bool periodic = settings.indentation.boundary == Boundary::periodic;
-    const double bytes = (periodic                      ? 28.0
-                          : reads_high_points(settings) ? 3.0
-                                                        : 8.0) *
-                         n * n,
+    const double elastic = reads_high_points(settings) ? 3.0 : 8.0, bytes = (periodic ? 28.0 : elastic) * n * n,
                  memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
     constexpr double beside = 1.5;  // first the modes during synthesis, later the pixels in contact
     if (!(memory > 0) || beside * bytes <= memory) return {};
@@ -261,9 +258,10 @@ Surface make_element_surface(const Case& settings, std::int64_t number, int thre
     return complete || top > 0 ? std::move(surface) : make_surface(finer, spectrum, number, threads);
 }
 
-SurfaceDomain synthetic_domain(const Spectrum& spectrum) {
+SurfaceDomain synthetic_domain(const Spectrum& spectrum, int n) {
     const Moments theory = theoretical_moments(spectrum);
     SurfaceDomain domain{{0, 0, spectrum.L, spectrum.L}, spectrum.sigma, false, theory.mean_spacing()};
+    domain.points_per_wave = n / spectrum.L_lambda_s, domain.step = spectrum.L / n;
     domain.rms_slope = theory.rms_slope();
     domain.repeats = true;
     return domain;
@@ -289,12 +287,10 @@ SurfaceDomain list_domain(const Asperities& asperities, std::optional<double> L,
 
 std::shared_ptr<const MapMarks> marks_of(const HeightMap& map, const Breaks& breaks) {
     auto marks = std::make_shared<MapMarks>();
-    const auto x = [&](int i) { return map.x0 + i * map.dx; };
-    const auto y = [&](int j) { return map.y0 + j * map.dy; };
-    const auto border = [&](int i, int j) { marks->border.push_back({x(i), y(j), map(i, j)}); };
+    const auto border = [&](int i, int j) { marks->border.push_back({map.x(i), map.y(j), map(i, j)}); };
     for (int i = 0; i < map.nx; ++i) border(i, 0), border(i, map.ny - 1);
     for (int j = 1; j < map.ny - 1; ++j) border(0, j), border(map.nx - 1, j);
-    for (const Breaks::Place& spike : breaks.spikes) marks->spikes.push_back({x(spike.i), y(spike.j)});
+    for (const Breaks::Place& spike : breaks.spikes) marks->spikes.push_back({map.x(spike.i), map.y(spike.j)});
     marks->reach = std::max(map.dx, map.dy);
     return marks;
 }
@@ -363,9 +359,7 @@ SurfaceModel make_bare_model(const Surface& surface) {
 SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads) {
     const auto& keys = settings.surface;
     SurfaceModel model;
-    model.domain = synthetic_domain(spectrum);
-    model.domain.points_per_wave = keys.n / spectrum.L_lambda_s;
-    model.domain.step = spectrum.L / keys.n;
+    model.domain = synthetic_domain(spectrum, keys.n);
     SummitCount count;
     Moments sampled, differences;
     const auto rows = std::make_shared<Kept<RowSource>>();  // to draw the modes again takes longer than hundreds of rows
@@ -424,13 +418,9 @@ SurfaceModel make_surface_model(const Case& settings, std::int64_t number, int t
         model.points = std::make_shared<HeightMap>(std::move(surface.map));
         return model;
     }
-    switch (settings.surface.source) {
-        case Source::synthetic:
-        case Source::spectrum: return make_surface_model(settings, spectrum_of(settings), number, threads);
-        case Source::heights: return make_surface_model(make_surface(settings, number, threads), settings, threads);
-        case Source::asperities: return read_list(settings);
-    }
-    throw Error(Failure::internal, "an unknown source of asperities");
+    if (has_spectrum(settings)) return make_surface_model(settings, spectrum_of(settings), number, threads);
+    if (settings.surface.source == Source::asperities) return read_list(settings);
+    return make_surface_model(make_surface(settings, number, threads), settings, threads);
 }
 
 Shape shape_of(const Case& settings) {
@@ -447,7 +437,7 @@ Shape shape_of(const Case& settings) {
         made.told = report(*second.measured, settings.run.length_unit);
         made.filled = second.measured->filled;
         SummitCount count;
-        (void)find_asperities(second.map, settings.asperities.curvature, &count, 1);
+        if (!by_elements(settings)) (void)find_asperities(second.map, settings.asperities.curvature, &count, 1);
         if (count.summits > 0) made.spacing = std::sqrt(second.map.Lx() * second.map.Ly() / static_cast<double>(count.summits));
         made.shortest_wave = second.measured->points_per_wave() * std::max(second.map.dx, second.map.dy);
         auto map = std::make_shared<HeightMap>(std::move(second.map));

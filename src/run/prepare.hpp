@@ -84,8 +84,8 @@ struct SurfaceModel {
 // The border points and spikes of a map that is not periodic.
 std::shared_ptr<const MapMarks> marks_of(const HeightMap& map, const Breaks& breaks);
 
-// The domain of a synthetic surface, known before its asperities.
-SurfaceDomain synthetic_domain(const Spectrum& spectrum);
+// The domain of a synthetic surface on n x n points, known before its asperities.
+SurfaceDomain synthetic_domain(const Spectrum& spectrum, int n);
 
 // The domain of listed asperities: the square [0, L]^2 if it contains them, otherwise a square of side L around them. Without L it is the
 // smallest square around them, or one of side 1 for a single asperity. Throws Error(bad_input) if L is less than their extent; `whose`

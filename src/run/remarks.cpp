@@ -48,7 +48,7 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
         const double much = job.settings.solids.adhesion > 0 ? kMuchError : kUnresolved;
         tell(count([much](const LevelValues& l) { return l.force_error_expected > much; }),
              format("a finer grid may change N by more than %s, in nine of ten cases %s (force_error_expected); ", percent(much).c_str(),
-                    worst > 10 ? "by many times N" : ("by less than " + percent(worst)).c_str()) +
+                    worst > 10 ? "by many times N" : format("by less than %.3g %%", 100 * worst).c_str()) +
                  remedy);
         tell(count([](const LevelValues& l) { return l.force == 0 && l.status == LevelStatus::out_of_validity; }),
              "the bodies touch between the points of the grid, so that N is not 0; " + remedy);

@@ -51,7 +51,7 @@ OtherGrid::OtherGrid(const Job& job, std::int64_t number, int threads, const Hei
     edge_ = edge_share(job, std::max(map.dx, map.dy));
     if (job.settings.solids.adhesion > 0) return;  // its error is that of cohesive_resolution (contact/adhesive_elements.cpp)
     // Points of the map itself on its grid of half as many points, if there is one. Two flats need the rows in memory.
-    const auto half = [&] { return job.indenter.period.finite() ? every_second_point(map) : every_second_point_of(map); };
+    const auto half = [&] { return job.indenter.period.finite() ? every_second_point_of(map).copy() : every_second_point_of(map); };
     coarser_ = read_ || points_per_wave >= kHalvedFrom;
     if (read_) {
         if (std::min(map.nx, map.ny) < kFewestPoints || (map.periodic && (map.nx % 2 != 0 || map.ny % 2 != 0))) return;
@@ -184,21 +184,20 @@ void judge_pixels(Level& level, const Job& job, double side, const Crests& ridge
 bool FilledPoints::at(double x, double y) const {
     const auto nearest = [&](double from, double step, int n) {
         const int k = static_cast<int>(std::lround(from / step));
-        return periodic ? ((k % n) + n) % n : k;
+        return periodic ? wrapped(k, n) : k;
     };
     const int i = nearest(x - x0, dx, nx), j = nearest(y - y0, dy, ny);
-    return i >= 0 && j >= 0 && i < nx && j < ny &&
-           (*filled)[static_cast<std::size_t>(j) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(i)];
+    return i >= 0 && j >= 0 && i < nx && j < ny && (*filled)[index(i, j)];
 }
 
 std::vector<FilledPoints> filled_points(const Job& job, const Measured* m) {
     std::vector<FilledPoints> maps;
     if (m && !m->filled.empty())
-        maps.push_back({&m->filled, m->nx, m->ny, m->dx, m->dy, job.domain.x0, job.domain.y0, job.indenter.period.finite(), false});
+        maps.push_back({{m->nx, m->ny, m->dx, m->dy, job.domain.x0, job.domain.y0}, &m->filled, job.indenter.period.finite(), false});
     if (const ShapeKeys& body = job.indenter.shape->keys(); !body.filled.empty()) {
         const HeightMap& m = *body.map;
-        maps.push_back({&body.filled, m.nx, m.ny, m.dx, m.dy, job.indenter.x0 - 0.5 * (m.nx - 1) * m.dx,
-                        job.indenter.y0 - 0.5 * (m.ny - 1) * m.dy, m.periodic, true});
+        const double x0 = job.indenter.x0 - 0.5 * (m.nx - 1) * m.dx, y0 = job.indenter.y0 - 0.5 * (m.ny - 1) * m.dy;
+        maps.push_back({{m.nx, m.ny, m.dx, m.dy, x0, y0}, &body.filled, m.periodic, true});
     }
     return maps;
 }
@@ -221,7 +220,7 @@ double expected_share(double Z0, std::span<const FilledPoints> maps, const Inden
     for (int j = 0; j < grid.ny; j += step_y)
         for (int i = 0; i < grid.nx; i += step_x) {
             Cell& cell = cells[static_cast<std::size_t>(j * side / grid.ny * side + i * side / grid.nx)];
-            const double x = grid.x0 + i * grid.dx, y = grid.y0 + j * grid.dy;
+            const double x = grid.x(i), y = grid.y(j);
             const double reached = std::erfc((Z0 - indenter.clearance(x, y, 0)) / (std::numbers::sqrt2 * sigma));
             const auto in = [&](bool second) {
                 return std::any_of(maps.begin(), maps.end(), [&](const auto& map) { return map.second == second && map.at(x, y); });

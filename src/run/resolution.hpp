@@ -88,11 +88,9 @@ void judge_pixels(Level& level, const Job& job, double side, const Crests& ridge
 // A level is out_of_validity if a larger share of the contact area than this is, or would be, on filled points.
 inline constexpr double kMuchFilled = 0.01;
 
-// The filled points of a map; x0, y0 is the position of its first point [length].
-struct FilledPoints {
-    const std::vector<std::uint8_t>* filled;  // 1 at j*nx + i
-    int nx, ny;
-    double dx, dy, x0, y0;
+// The filled points of a map.
+struct FilledPoints : PointGrid {
+    const std::vector<std::uint8_t>* filled;  // 1 at index(i, j)
     bool periodic;
     bool second;                        // of body 2
     bool at(double x, double y) const;  // whether the nearest point is filled

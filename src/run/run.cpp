@@ -72,7 +72,7 @@ std::string twins_text(const Job& job, const std::string& result) {
         keys.start *= factor, keys.stop *= factor;
         for (double& level : keys.levels) level *= factor;
     };
-    const double L = std::max(m.nx * m.dx, m.ny * m.dy);
+    const double L = std::max(m.Lx(), m.Ly());
     twins.run.title = "Surfaces with the spectrum of " + std::filesystem::path(job.settings.surface.file).filename().string();
     twins.run.realizations = kRealizations;
     twins.run.first_realization = 1;
@@ -113,7 +113,7 @@ std::string twins_text(const Job& job, const std::string& result) {
 constexpr double kTold = 0.05;  // a difference of slopes, or an exponent, that is stated
 static std::string other_slopes(const Measured& m) {
     const MeasuredSpectrum& s = m.spectrum;
-    const double L = std::max(m.nx * m.dx, m.ny * m.dy), sigma = m.parameters.sq;
+    const double L = std::max(m.Lx(), m.Ly()), sigma = m.parameters.sq;
     const bool directional = m.isotropy < kIsotropic;
     const double exponent = directional ? s.plane_exponent : s.exponent;
     std::string said =
@@ -164,7 +164,7 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     Job job = prepare(settings);
     const int threads = static_cast<int>(most_threads(settings.run.threads));
     const LoopThreads loops(threads);
-    std::ostream* table = options.quiet ? nullptr : options.table;
+    std::ostream* const table = options.table;
     const double total = static_cast<double>(job.levels.size());
     double done = 0;
     const auto go_on = [&] {
@@ -177,7 +177,7 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     Realization r;
     {
         // A table on the terminal shows the progress itself.
-        ProgressLine progress(options, "levels", 0, options.table && !options.quiet && isatty(STDOUT_FILENO) != 0);
+        ProgressLine progress(options, "levels", 0, table && isatty(STDOUT_FILENO) != 0);
         r = realize(job, settings.run.first_realization, threads, [&](std::size_t k, const Level& level) {
             if (table) print_level(*table, job, k, level);
             done = static_cast<double>(k + 1);
@@ -187,7 +187,7 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
         });
     }
     Accumulators sums(job.observe, job.levels.size());
-    const RealizationRecord record = observe(job, settings.run.first_realization, r);
+    const RealizationRecord record = observe(job.observe, settings.run.first_realization, r.statistics, r.levels);
     sums.add(record);
     ComparedLevels compared;
     if (compares(job, options.compare_automatically))

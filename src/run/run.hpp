@@ -11,7 +11,6 @@ struct RunOptions {
     std::string command;              // for the history attribute
     std::vector<std::string> inputs;  // input files of the case, which no result may overwrite
     Progress progress = Progress::never;
-    bool quiet = false;                            // no table; warnings and failures are still written to `messages`
     bool compare_automatically = false;            // apply compare%levels = 'auto', as the program does in single runs
     bool resume = false;                           // a campaign: continue an interrupted run
     std::ostream* table = nullptr;                 // the level table and the summary; null: none

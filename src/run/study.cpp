@@ -119,20 +119,13 @@ void write_manifest(const ReadCase& read, const std::vector<Member>& members, co
 
 // "member 3 (surface%sigma=0.001)"; empty for a case that is no member of a study.
 static std::string member_name(const Member& member) {
-    if (member.values.empty()) return {};
-    std::string text = "member " + std::to_string(member.index) + " (";
-    for (std::size_t k = 0; k < member.values.size(); ++k)
-        text += (k > 0 ? " " : "") + member.values[k].first + "=" + member.values[k].second;
-    return text + ")";
+    return member.values.empty() ? "" : "member " + std::to_string(member.index) + " (" + values_text(member) + ")";
 }
 
 std::string list_members(const std::vector<Member>& members) {
     std::string text;
-    for (const Member& member : members) {
-        text += std::to_string(member.index) + "  " + member.settings.output.file + " ";
-        for (const auto& [key, value] : member.values) text += " " + key + "=" + value;
-        text += "\n";
-    }
+    for (const Member& member : members)
+        text += std::to_string(member.index) + "  " + member.settings.output.file + "  " + values_text(member) + "\n";
     return text;
 }
 
@@ -219,7 +212,7 @@ std::optional<RunSummary> finished(const Member& member) {
 class Run {
 public:
     Run(std::size_t members, const RunOptions& options, CampaignWork& work, Team& team)
-        : members_(members), options_(options), work_(work), team_(team), table_(options.quiet ? nullptr : options.table) {}
+        : members_(members), options_(options), work_(work), team_(team), table_(options.table) {}
 
     // Runs members of one realization each in parallel.
     void side_by_side(const std::vector<const Member*>& members) {
@@ -369,7 +362,7 @@ RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunO
                                              std::to_string(wanted.size()) +
                                              " members are finished; the same command with --resume keeps them");
     }
-    if (read.study && !options.quiet && options.table)
+    if (read.study && options.table)
         *options.table << wanted.size() << " of " << all.size() << " members; the manifest: " << manifest_file(read.settings.output.file)
                        << std::endl;
     return run.sum();

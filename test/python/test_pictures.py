@@ -34,6 +34,7 @@ CASES = {
     "slid": SURFACE + BALL.replace("resistivity", "friction=0.3 resistivity") + "&indentation centre=500.0,680.0 start=3.0 stop=1.0 steps=41 /",
     "back": SMALL + "&solids hardness=1.5e4 / &indentation levels=2.5,2,1.5,1,1.2,1.4,1.6,1.8 /",
     "compared": SMALL + "&asperities law='fourth_order' / &indentation levels=2.0,1.5,1.0 / &compare levels=2.0,1.0 /",
+    "above": SMALL + "&indentation levels=9.0 / &compare levels=9.0 /",
     "elements": SMALL + "&solver model='elements' / &indentation control='force' start=1.0 stop=20.0 steps=3 spacing='log' /",
     "pressed": "&surface n=128 L_lambda_l=4 L_lambda_s=32 sigma=0.0009 / &solids R=Infinity,Infinity / &run realizations=3 /"
                "&indentation boundary='periodic' control='pressure' unit='relative' levels=0.001,0.004,0.01 /",
@@ -42,7 +43,7 @@ CASES = {
     "forced": SMALL + "&indentation control='force' levels=1.0,10.0 / &study run%seed=1,2,3,4,5,6,7,8,9,10,11,12 /",
     "cone": SMALL + "&solids hardness=1.5e4 / &indenter shape='cone' slope=0.05 / &indentation control='force' levels=0.1,1,10,1 /",
     "creep": SMALL + "&solids relaxation_share=0.5 relaxation_time=1.0 / &indentation control='force' levels=1,1,1,1 times=0,1,10,100 /",
-    "keys": SMALL + "&indentation levels=1.0 / &study surface%sigma=0.01,0.02 surface%hurst=0.5,0.8 asperities%law='hertz','elliptic' /",
+    "keys": SMALL + "&indentation levels=1.0 / &study surface%sigma=0.01,0.02,0.03 surface%hurst=0.5,0.8 asperities%law='hertz','elliptic' /",
     "stuck": SMALL.replace("0.01", "0.001") + "&solids E=2,Infinity R=Infinity,Infinity adhesion=2e-5 / &indentation boundary='periodic' levels=3.5,3,2.5,2,1.5,2,2.5,3,3.5 /",
     "attracted": SMALL.replace("0.01", "0.001") + "&solids E=2,Infinity R=Infinity,5 adhesion=1e-5 adhesion_range=0.02 / &solver model='elements' / &indentation levels=3,2,1,0 / &run realizations=3 /",
     "worn": SMALL.replace("0.01", "0.001") + "&solids E=210e3,Infinity nu=0.3,0.0 R=Infinity,Infinity hardness=3e3 / &asperities law='fourth_order' / &indentation boundary='periodic' levels=2,1.2,1.5,2 /",
@@ -212,8 +213,8 @@ class Numbers(Drawn):
         """Levels under one force are told apart by their times; members of a study by all keys that vary."""
         texts = [text.get_text() for text in self.figure("radial", "creep").axes[-1].get_legend().get_texts()]
         self.assertEqual([text.split(" (")[0] for text in texts], ["$t$ = 1 s", "$t$ = 10 s", "$t$ = 100 s"])
-        _, texts, _ = Looks(results(*members("keys", 8))).scale
-        self.assertEqual(texts, [f"{hurst}, {sigma}, {law}" for sigma in (0.01, 0.02) for hurst in (0.5, 0.8) for law in ("hertz", "elliptic")])
+        _, texts, _ = Looks(results(*members("keys", 12))).scale
+        self.assertEqual(texts, [f"{sigma}, {hurst}, {law}" for sigma in (0.01, 0.02, 0.03) for hurst in (0.5, 0.8) for law in ("hertz", "elliptic")])
 
     def test_flats(self):
         v, _ = raw("pressed")
@@ -305,6 +306,7 @@ class Numbers(Drawn):
         turned = [c for axis in figure.axes for c in axis.collections if c.get_gid() == "spots"]
         angles, ratios = v["contact_angle"], v["contact_major"] / v["contact_minor"]
         self.assertTrue(turned and all((np.isclose(np.cos(angles[:, None] - c._angles), 1, atol=1e-9) & np.isclose(ratios[:, None], c._widths / c._heights, rtol=1e-9)).any(axis=0).all() for c in turned))
+        self.assertIsNone(plot_compare.compare(results("above"), plot.Options(180.0)))  # nothing touches
         # The pressure of one elliptic spot along all lines adds up to its force.
         lines = np.linspace(-0.8, 0.8, 401)
         drawn = [plot_compare.along_line([[0.0], [0.0], [0.5 * 1.5**0.5], [0.5 / 1.5**0.5], [0.4], [3.0], [0]], line, -0.8, 0.8) for line in lines]
@@ -348,6 +350,8 @@ class Numbers(Drawn):
             for of_law in values:
                 self.has_curve(laws, np.array([5.0, 10.0, 20.0]), of_law)
         self.assertEqual(sum(c.get_gid() == "error" for axis in laws.axes[:2] for c in axis.collections), 4)
+        keys = self.figure("study", *members("keys", 12))  # of two keys of numbers the one with more values
+        self.has_curve(keys, np.array([0.01, 0.02, 0.03]), np.array([raw(file)[0]["force"][0, -1] for file in members("keys", 12)[1::4]]))
         forced = self.figure("study", *members("forced", 12))  # the force is the same everywhere: the separation is drawn instead
         self.assertIn("10 N", forced._suptitle.get_text())
         self.assertIn("Z_0", forced.axes[0].get_ylabel())
@@ -365,7 +369,7 @@ class Numbers(Drawn):
             plot_style.label(axis, which, which, "m")
         self.assertEqual((axis.get_xlabel(), axis.get_ylabel()), ("x [mm]", "y [mm]"))
         plt.close(axis.figure)
-        for text, factor, dimension in (("N mm-2", 1e6, "N m-2"), ("um2", 1e-12, "m2"), ("mN um-1", 1e3, "N m-1"), ("mN-1 um2", 1e-9, "N-1 m2"), ("1", 1.0, ""), ("inch", 1.0, "inch")):
+        for text, factor, dimension in (("N mm-2", 1e6, "N m-2"), ("um2", 1e-12, "m2"), ("mN um-1", 1e3, "N m-1"), ("mN-1 um2", 1e-9, "N-1 m2"), ("1", 1.0, ""), ("lbf inch-2", 6894.757293168, "N m-2"), ("furlong", 1.0, "furlong")):
             self.assertEqual((round(plot_style.si(text)[0] / factor, 12), plot_style.si(text)[1]), (1.0, dimension))
         for value, dimension, shown in ((2.5e-7, "m", "250 nm"), (3e-5, "m", "30 µm"), (4e9, "N m-2", "4 GPa"), (0.02, "N", "20 mN"), (0.5, "", "0.5"), (3e-10, "m2", "300 µm²")):
             self.assertEqual(plot_style.amount(value, dimension), shown)

@@ -30,6 +30,11 @@ Case small_case() {
     return c;
 }
 
+RealizationRecord observed(const Job& job, int k) {
+    const Realization r = realize(job, k, 1);
+    return observe(job.observe, k, r.statistics, r.levels);
+}
+
 bool same(const std::vector<ExactSum>& a, const std::vector<ExactSum>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                       [](const ExactSum& x, const ExactSum& y) { return x.high == y.high && x.low == y.low; });
@@ -39,7 +44,7 @@ TEST(test_archive) {
     const Job job = prepare(small_case());
     Accumulators sums(job.observe, job.levels.size()), again = sums, restored = sums;
     for (int k = 1; k <= 6; ++k) {
-        const RealizationRecord record = observe(job, k, realize(job, k, 1));
+        const RealizationRecord record = observed(job, k);
         const std::string bytes = to_bytes(record);
         CHECK(realization_of(bytes) == k);
         CHECK(to_bytes(record_from_bytes(bytes)) == bytes);
@@ -55,7 +60,7 @@ TEST(test_archive) {
     CHECK(to_bytes(restored) == to_bytes(sums));
     // Summed in groups, and after a way through a file, they are the same.
     Accumulators left(job.observe, job.levels.size()), right = left;
-    for (int k = 1; k <= 6; ++k) (k <= 2 ? left : right).add(observe(job, k, realize(job, k, 1)));
+    for (int k = 1; k <= 6; ++k) (k <= 2 ? left : right).add(observed(job, k));
     CHECK_THROWS(Accumulators(right).append(left), Error);
     left.append(right);
     CHECK(to_bytes(left) == to_bytes(sums));

@@ -69,11 +69,15 @@ TEST(gwy) {
         gwy_file(gwy_channel(2, "Height", other) + between + gwy_channel(0, "Amplitude", map, "V") + gwy_channel(1, "Topography", map));
     check_sample(in_micrometres(write("three.gwy", three)), -1);
     CHECK_RELATIVE(in_micrometres(write("three.gwy", three), "Height")(0, 3), 1.0, 1e-12);
+    CHECK_RELATIVE(in_micrometres(folder / "three.gwy", "2")(0, 3), 1.0, 1e-12);
+    REFUSED(in_micrometres(folder / "three.gwy", "3"),
+            "there is no channel '3'; there are 'Amplitude' (0) in 'V', 'Topography' (1) in 'm',");
     REFUSED(in_micrometres(write("three.gwy", three), "Amplitude"), "channel 'Amplitude': its values are in 'V',");
     REFUSED(in_micrometres(write("three.gwy", three), "Phase"), "there is no channel 'Phase'; there are");
-    REFUSED(in_micrometres(write("volt.gwy", gwy_file(gwy_channel(0, "A", map, "V")))), "no channel contains heights; there are 'A' in");
+    REFUSED(in_micrometres(write("volt.gwy", gwy_file(gwy_channel(0, "A", map, "V")))),
+            "no channel contains heights; there are 'A' (0) in");
     REFUSED(in_micrometres(write("number.gwy", gwy_file(gwy_channel(0, "A", map, "")))),  // a number is no length
-            "number.gwy: no channel contains heights; there are 'A' in ''");
+            "number.gwy: no channel contains heights; there are 'A' (0) in ''");
     REFUSED(in_micrometres(write("none.gwy", gwy_file(between))), "none.gwy: contains no channel (image)");
     REFUSED(in_micrometres(write("xy.gwy", gwy_file(gwy_channel(0, "A", map, "m", "s")))), "channel 'A': its sides are in 's', which is");
     // Missing points: NaN, or under the mask.
@@ -92,7 +96,7 @@ TEST(gwy) {
 
     std::string untitled;
     gwy_component(untitled, "/3/data", 'o', gwy_field(map, "m", "V"));
-    REFUSED(in_micrometres(write("one.gwy", gwy_file(untitled))), "one.gwy: no channel contains heights; there are 'channel 3' in 'V'");
+    REFUSED(in_micrometres(write("one.gwy", gwy_file(untitled))), "one.gwy: no channel contains heights; there are 'channel 3' (3) in 'V'");
     // Sides that are not given are 1.
     for (const bool x : {true, false}) {
         std::string field = gwy_field(map, "m", "m");

@@ -10,7 +10,6 @@
 namespace rsc {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kReach = 6;          // points on either side
 constexpr int kBlock = 16;         // side of the blocks whose highest points are stored [points]
 constexpr double kOnPoint = 1e-9;  // distance within which an offset is a grid point [steps]

@@ -17,7 +17,7 @@ public:
     double height(double x, double y) const override {
         const double t = beyond(x, y);
         if (t <= 0) return 0;
-        return t > r_ ? std::numeric_limits<double>::infinity() : t * t / (r_ + std::sqrt(r_ * r_ - t * t));
+        return t > r_ ? kInfinity : t * t / (r_ + std::sqrt(r_ * r_ - t * t));
     }
     Vec2 gradient(double x, double y) const override {
         const double t = beyond(x, y), rho = std::sqrt(x * x + y * y);

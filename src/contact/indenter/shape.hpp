@@ -36,15 +36,15 @@ struct SmoothContact {
 
 // Parameters of all shapes (keys of &indenter). Each shape uses its own.
 struct ShapeKeys {
-    double R = std::numeric_limits<double>::infinity();  // sphere: its radius [length]; Infinity: a flat
-    double radii[2] = {0, 0};                            // paraboloid: principal radii [length]; Infinity is allowed
-    double angle = 0;                                    // direction of the first from x [radian]
-    double slope = 0;                                    // cone
-    double radius = 0, rim_radius = 0;                   // punch: radii of its flat end and of its rounded rim [length]
-    std::shared_ptr<const HeightMap> map;                // map: heights of body 2, positive upwards like those of body 1
-    double spacing = 0, shortest_wave = 0;               // map: mean distance of its summits, its shortest wave [length]; 0: unknown
-    std::vector<std::uint8_t> filled;                    // map: 1 at j*nx + i where a point was missing; empty if none was
-    std::vector<std::string> told;                       // map: report of its processing for the screen
+    double R = kInfinity;                   // sphere: its radius [length]; Infinity: a flat
+    double radii[2] = {0, 0};               // paraboloid: principal radii [length]; Infinity is allowed
+    double angle = 0;                       // direction of the first from x [radian]
+    double slope = 0;                       // cone
+    double radius = 0, rim_radius = 0;      // punch: radii of its flat end and of its rounded rim [length]
+    std::shared_ptr<const HeightMap> map;   // map: heights of body 2, positive upwards like those of body 1
+    double spacing = 0, shortest_wave = 0;  // map: mean distance of its summits, its shortest wave [length]; 0: unknown
+    std::vector<std::uint8_t> filled;       // map: 1 at j*nx + i where a point was missing; empty if none was
+    std::vector<std::string> told;          // map: report of its processing for the screen
 };
 
 class IndenterShape {
@@ -71,9 +71,9 @@ public:
     virtual double lowest(const Box& box) const = 0;
     // Upper bound of the decrease of s, when the tip moves by `way` [length], at any point where s is at most `drop` afterwards. Infinity:
     // unknown.
-    virtual double most_fallen(double way, double drop) const { return (void)way, (void)drop, std::numeric_limits<double>::infinity(); }
+    virtual double most_fallen(double way, double drop) const { return (void)way, (void)drop, kInfinity; }
     // Largest distance of points of the indenter from the tip.
-    virtual double reach() const { return std::numeric_limits<double>::infinity(); }
+    virtual double reach() const { return kInfinity; }
 
     // True for a plane: nothing depends on the position of the tip.
     virtual bool flat() const { return false; }

@@ -7,8 +7,6 @@
 namespace rsc {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 class Sphere final : public IndenterShape {
 public:
     Sphere(const char* name, const ShapeKeys& keys) : IndenterShape(name, keys), R_(keys.R) {}

@@ -21,8 +21,6 @@ double seconds_per_point(const MeshDesign& design) { return 20e-9 + 0.9e-9 * des
 // Largest memory of far fields stored for later points.
 constexpr std::size_t kKeptBytes = std::size_t{100} << 20;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // Largest doubled mesh, at 16 bytes per point or less; otherwise the near field becomes larger.
 constexpr double kMeshPointsAtMost = 5e7;
 

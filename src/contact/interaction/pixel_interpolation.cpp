@@ -6,8 +6,6 @@
 namespace rsc {
 namespace {
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
 constexpr int kMostPoints = 18;
 
 double error_with(int q) { return 0.2 * std::pow(6.0, -q); }

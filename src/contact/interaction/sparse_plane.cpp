@@ -32,8 +32,6 @@ RSC_ALWAYS_INLINE void convolve_body(int reach, const float* taps, const float* 
 RSC_DISPATCH(convolve_eight, convolve_body, (int reach, const float* taps, const float* const* rows, std::ptrdiff_t at, float* y),
              (reach, taps, rows, at, y))
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
 // Cubic B-spline at the four nodes around a place t of the way from the second to the third.
 constexpr std::array<float, 4> spline(double t) {
     const double u = 1 - t;

@@ -7,8 +7,6 @@
 namespace rsc {
 namespace {
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
 // Convex force with given values and slopes at nodes, the first of which is the origin. Between two of them the slope is S_k + (S_k+1 - S_k)
 // x^q, 0 < x < 1, with the q that gives the right difference of forces: 1/2 for a paraboloid in the first interval. It is not negative if
 // the slope of the chord lies between those at the nodes.

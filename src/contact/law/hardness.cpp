@@ -9,8 +9,6 @@ namespace {
 
 using std::numbers::pi;
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
 class Yielding final : public Law {
 public:
     Yielding(std::unique_ptr<Law> elastic, const Asperities& asperities, const Hardness& hardness, bool sinks)

@@ -9,8 +9,6 @@
 namespace rsc {
 namespace {
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
 class Hertz final : public Law {
 public:
     Hertz(const Asperities& asperities, double E_star) : radius_(asperities.radius), E_star_(E_star), c_(asperities.size()) {}
@@ -55,7 +53,6 @@ public:
         : asperities_(asperities), E_star_(E_star), quartic_(quartic), place_(asperities.size(), -1) {}
 
     void prepare(std::span<const int> asperities) override {
-        constexpr double infinity = std::numeric_limits<double>::infinity();
         for (int i : asperities) {
             if (place_[at(i)] >= 0) continue;
             const double kappa1 = asperities_.kappa1[at(i)], kappa2 = asperities_.kappa2[at(i)], kappa = std::sqrt(kappa1 * kappa2);
@@ -65,7 +62,7 @@ public:
             s.e = E_star_ / ellipse.F2;
             s.r = 1 / (kappa * ellipse.F2);
             s.t = q2 / (4 * kappa * ellipse.F2);
-            s.last = ellipse.F2 * (q2 > 0 ? 4 * kappa / q2 : q2 < 0 ? 2 * kappa / -q2 * (std::cosh(kDeepest) - 1) : infinity);
+            s.last = ellipse.F2 * (q2 > 0 ? 4 * kappa / q2 : q2 < 0 ? 2 * kappa / -q2 * (std::cosh(kDeepest) - 1) : kInfinity);
             s.spot = std::numbers::pi * ellipse.F1 * ellipse.F1;
             s.axes = ellipse.axes;
             place_[at(i)] = static_cast<int>(summits_.size());

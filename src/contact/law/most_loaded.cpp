@@ -45,7 +45,7 @@ bool load_of(const HeightsAround& heights, double E_star, double Z, const Unknow
     static const DiscPoints disc;
     const double t = 0.5 * (e[2] + e[4]), determinant = e[2] * e[4] - e[3] * e[3];
     if (!(t > 0 && determinant > 1e-4 * t * t)) return false;
-    double mean = 0, highest = -std::numeric_limits<double>::infinity();
+    double mean = 0, highest = -kInfinity;
     Unknowns slope{};
     for (int k = 0; k < DiscPoints::kCount; ++k) {
         const double p = disc.p[k], q = disc.q[k], w = disc.weight[k];

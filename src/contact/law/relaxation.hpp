@@ -15,7 +15,7 @@ struct Relaxation {
     bool none() const { return share.empty(); }
     // The shortest relaxation time with a share; Infinity: there is none.
     double shortest() const {
-        double least = std::numeric_limits<double>::infinity();
+        double least = kInfinity;
         for (std::size_t k = 0; k < share.size(); ++k)
             if (share[k] > 0) least = std::min(least, time[k]);
         return least;

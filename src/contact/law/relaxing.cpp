@@ -5,9 +5,6 @@
 namespace rsc {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
 class Relaxing final : public RelaxingLaw {
 public:
     Relaxing(std::unique_ptr<Law> elastic, std::size_t asperities, const Creep& creep)

@@ -5,7 +5,6 @@
 namespace rsc {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSoftest = 0.1;  // least stiffness of an asperity with a range, relative to 2 E c
 
 // Bisection between two positive numbers for the limit of a property that holds at `yes` and not at `no`.

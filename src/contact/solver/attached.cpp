@@ -19,7 +19,7 @@ constexpr double kUnstepped = 0.01;
 constexpr double kExact = 1e-11;   // residual of exact solutions in a last step, whatever the tolerance
 constexpr double kFarthest = 0.5;  // largest relative change of s in a step
 
-double dot(const Vector& a, const Vector& b) {
+double dot4(const Vector& a, const Vector& b) {
     double s0 = 0, s1 = 0, s2 = 0, s3 = 0;  // sums that do not wait for each other
     const double *x = a.data(), *y = b.data();
     std::size_t k = 0;
@@ -37,13 +37,13 @@ template <class Multiply>
 void minres(Multiply&& multiply, Vector v, double goal, Vector& x, Vector& lifted) {
     const std::size_t n = v.size();
     Vector before(n, 0.0), next(n), lift(n), w(n, 0.0), w_before(n, 0.0), w_lift(n, 0.0), w_lift_before(n, 0.0);
-    double beta = std::sqrt(dot(v, v)), left = beta, c = 1, c_before = 1, s = 0, s_before = 0;
+    double beta = std::sqrt(dot4(v, v)), left = beta, c = 1, c_before = 1, s = 0, s_before = 0;
     for (std::size_t k = 0; k < std::min<std::size_t>(2 * n + 10, kMostProducts) && std::abs(left) > goal && beta > 0; ++k) {
         for (double& value : v) value /= beta;
         multiply(v, next, lift);
-        const double alpha = dot(v, next);
+        const double alpha = dot4(v, next);
         for (std::size_t i = 0; i < n; ++i) next[i] -= alpha * v[i] + beta * before[i];
-        const double beta_next = std::sqrt(dot(next, next));
+        const double beta_next = std::sqrt(dot4(next, next));
         const double d = c * alpha - c_before * s * beta, r1 = std::hypot(d, beta_next), r2 = s * alpha + c_before * c * beta,
                      r3 = s_before * beta;
         if (!(r1 > 0)) break;
@@ -68,7 +68,7 @@ void AttachedSolver::judge(const WorkingSet& set) {
     double error2 = 0, doubt2 = 0, size2 = 0, own = 0, own_doubt = 0;
     for (std::size_t k = 0; k < res_.size(); ++k) {
         if (k == held_) continue;
-        const auto i = static_cast<std::size_t>(products_->active()[k]);
+        const auto i = at(products_->active()[k]);
         const Sticking::State& now = state_[k];
         const double error = now.stiffness * std::abs(res_[k]), doubt = now.stiffness * out_[k],
                      gap = std::abs(set.g0[i]) + std::abs(phi_[i]);
@@ -91,7 +91,7 @@ void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s, bool full,
     force_ = 0;
     double bent2 = 0, f2 = 0;
     for (std::size_t k = 0; k < n; ++k) {
-        state_[k] = law_.at(set.asperity[static_cast<std::size_t>(active[k])], s[k]);
+        state_[k] = law_.at(set.asperity[at(active[k])], s[k]);
         if (stepped) bent2 += std::pow(state_[k].f - f_[k] - pulled_[k], 2), f2 += state_[k].f * state_[k].f;
         f_[k] = state_[k].f;
         force_ += f_[k];
@@ -105,7 +105,7 @@ void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s, bool full,
     }
     if (full || n == 0 || phi_reference_.empty() || active != reference_) {
         reference_ = active, f_reference_ = f_;
-        phi_reference_.assign(static_cast<std::size_t>(set.size()), 0.0);
+        phi_reference_.assign(at(set.size()), 0.0);
         if (n > 0) products_->full(f_.data(), phi_reference_.data());
         noise_reference_ = noise_bent_ = 0;
     } else {
@@ -121,7 +121,7 @@ void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s, bool full,
     }
     elevated_ = out_;
     phi_ = phi_reference_;
-    for (std::size_t k = 0; k < n; ++k) phi_[static_cast<std::size_t>(active[k])] += out_[k];
+    for (std::size_t k = 0; k < n; ++k) phi_[at(active[k])] += out_[k];
     balance(set);
 }
 
@@ -131,10 +131,10 @@ void AttachedSolver::balance(const WorkingSet& set) {
     const std::size_t n = active.size();
     const double shift = products_->kernel().shift() * force_;
     for (double& phi : phi_) phi -= shift;
-    const double f2 = dot(f_, f_), share = f2 > 0 ? std::sqrt(dot(df_, df_) / f2) : 0.0;
+    const double f2 = dot4(f_, f_), share = f2 > 0 ? std::sqrt(dot4(df_, df_) / f2) : 0.0;
     energy_ = 0;
     for (std::size_t k = 0; k < n; ++k) {
-        const auto i = static_cast<std::size_t>(active[k]);
+        const auto i = at(active[k]);
         const Sticking::State& now = state_[k];
         res_[k] = set.g0[i] - phi_[i] - now.u;
         energy_ += now.energy + now.f * (0.5 * phi_[i] + res_[k]);  // an error of second order in the residual
@@ -167,7 +167,7 @@ void AttachedSolver::multiply(const Vector& y, Vector& image, Vector& lift) {
 
 // image = M y, where lift = B p y without shift().
 void AttachedSolver::complete(const Vector& y, Vector& image, const Vector& lift) const {
-    const double shift = products_->kernel().shift() * dot(p_, y);
+    const double shift = products_->kernel().shift() * dot4(p_, y);
     for (std::size_t k = 0; k < y.size(); ++k) image[k] = diagonal_[k] * y[k] + p_[k] * (lift[k] - shift);
 }
 
@@ -176,7 +176,7 @@ void AttachedSolver::solve_linear(const Vector& right, double accuracy, Vector& 
     const std::size_t n = right.size();
     Vector v(n);
     for (std::size_t k = 0; k < n; ++k) v[k] = p_[k] * right[k];
-    const double goal = accuracy * std::sqrt(dot(v, v));
+    const double goal = accuracy * std::sqrt(dot4(v, v));
     ds.assign(n, 0.0), lifted_.assign(n, 0.0);
     if (recycle && held_ >= n) approach(v, ds);
     minres([this](const Vector& y, Vector& image, Vector& lift) { multiply(y, image, lift); }, std::move(v), goal, ds, lifted_);
@@ -194,18 +194,18 @@ void AttachedSolver::approach(Vector& v, Vector& y) {
     std::vector<Vector> starts, lifts;
     for (std::size_t m = most; m-- > 0;) {
         for (std::size_t k = 0; k < n; ++k) {
-            const auto i = static_cast<std::size_t>(active[k]);
+            const auto i = at(active[k]);
             start[k] = known_[m].f[i] / p_[k], lift[k] = known_[m].phi[i];
         }
         complete(start, image, lift);
-        const double size = dot(image, image);
+        const double size = dot4(image, image);
         for (std::size_t j = 0; j < images.size(); ++j) {
-            const double c = dot(image, images[j]);
+            const double c = dot4(image, images[j]);
             for (std::size_t k = 0; k < n; ++k) image[k] -= c * images[j][k], start[k] -= c * starts[j][k], lift[k] -= c * lifts[j][k];
         }
-        const double rest = dot(image, image);
+        const double rest = dot4(image, image);
         if (!(rest > independent * size)) continue;
-        const double unit = 1 / std::sqrt(rest), c = unit * unit * dot(v, image);
+        const double unit = 1 / std::sqrt(rest), c = unit * unit * dot4(v, image);
         for (std::size_t k = 0; k < n; ++k) {
             v[k] -= c * image[k], y[k] += c * start[k], lifted_[k] += c * lift[k];
             image[k] *= unit, start[k] *= unit, lift[k] *= unit;
@@ -227,7 +227,7 @@ bool AttachedSolver::apart(const WorkingSet& set) {
     const std::size_t n = state_.size();
     stiffest_.resize(phi_.size(), 0.0);
     bool covered = true;
-    for (std::size_t k = 0; k < n && covered; ++k) covered = state_[k].stiffness <= stiffest_[static_cast<std::size_t>(active[k])];
+    for (std::size_t k = 0; k < n && covered; ++k) covered = state_[k].stiffness <= stiffest_[at(active[k])];
     if (covered) return true;
     std::fill(stiffest_.begin(), stiffest_.end(), 0.0);
     // First with room for growth, and with those that may attach.
@@ -237,10 +237,10 @@ bool AttachedSolver::apart(const WorkingSet& set) {
         std::fill(a.begin(), a.end(), 0.0);
         if (wider > 1)
             for (const int k : products_->passive()) {
-                const int i = set.asperity[static_cast<std::size_t>(k)];
-                a[static_cast<std::size_t>(k)] = law_.at(i, kAttached * law_.least(i)).stiffness / (2 * kernel.modulus());
+                const int i = set.asperity[at(k)];
+                a[at(k)] = law_.at(i, kAttached * law_.least(i)).stiffness / (2 * kernel.modulus());
             }
-        for (std::size_t k = 0; k < n; ++k) a[static_cast<std::size_t>(active[k])] = wider * state_[k].stiffness / (2 * kernel.modulus());
+        for (std::size_t k = 0; k < n; ++k) a[at(active[k])] = wider * state_[k].stiffness / (2 * kernel.modulus());
         if (!kernel.none() && !positive_definite_by_shells(set.x, set.y, a)) {
             room_ = 1 + 0.5 * (room_ - 1);
             continue;
@@ -255,7 +255,7 @@ bool AttachedSolver::proved(const WorkingSet& set) {
     constexpr int most = 6;
     constexpr double certain = 1e-3;  // share of diag(u') v that must be left; products may have small errors
     const std::vector<int>& active = products_->active();
-    const auto place = [&](std::size_t k) { return static_cast<std::size_t>(active[k]); };
+    const auto place = [&](std::size_t k) { return at(active[k]); };
     if (products_->kernel().lattice() || products_->kernel().smooth() || !apart(set)) return false;  // the proof needs B >= 0
     proof_.resize(phi_.size(), 0.0);
     for (int round = 0; round < most; ++round) {
@@ -316,7 +316,7 @@ void AttachedSolver::step(const WorkingSet& set, double accuracy, Vector& s) {
     Vector ds;
     solve_linear(res_, accuracy, ds);
     for (std::size_t k = 0; k < s.size(); ++k) {
-        const double least = law_.least(set.asperity[static_cast<std::size_t>(products_->active()[k])]);
+        const double least = law_.least(set.asperity[at(products_->active()[k])]);
         const double next = std::clamp(s[k] + ds[k], (1 - kFarthest) * s[k], (1 + kFarthest) * s[k]);
         s[k] = std::max(next, 0.5 * (s[k] + least));
     }
@@ -337,7 +337,7 @@ void AttachedSolver::release(const WorkingSet& set, std::size_t k) {
     const Vector part = column(set, position);
     for (std::size_t i = 0; i < part.size(); ++i) phi_reference_[i] -= f_reference_[k] * part[i];
     for (Known& known : known_) {
-        const double f = std::exchange(known.f[static_cast<std::size_t>(position)], 0.0);
+        const double f = std::exchange(known.f[at(position)], 0.0);
         for (std::size_t i = 0; i < part.size(); ++i) known.phi[i] -= f * part[i];
     }
     reference_.erase(reference_.begin() + static_cast<std::ptrdiff_t>(k));
@@ -347,7 +347,7 @@ void AttachedSolver::release(const WorkingSet& set, std::size_t k) {
 void AttachedSolver::take_in(const WorkingSet& set, std::size_t k, int position, double f) {
     if (products_->active() != reference_) return;
     Known known{Vector(phi_reference_.size(), 0.0), column(set, position)};
-    known.f[static_cast<std::size_t>(position)] = 1;
+    known.f[at(position)] = 1;
     for (std::size_t i = 0; i < known.phi.size(); ++i) phi_reference_[i] += f * known.phi[i];
     remember(std::move(known));
     reference_.insert(reference_.begin() + static_cast<std::ptrdiff_t>(k), position);
@@ -357,7 +357,7 @@ void AttachedSolver::take_in(const WorkingSet& set, std::size_t k, int position,
 // Elevations by a unit force at a position.
 Vector AttachedSolver::column(const WorkingSet& set, int position) const {
     const Kernel& kernel = products_->kernel();
-    const auto from = static_cast<std::size_t>(position);
+    const auto from = at(position);
     Vector phi(set.x.size());
     for (std::size_t i = 0; i < phi.size(); ++i) {
         const double dx = set.x[i] - set.x[from], dy = set.y[i] - set.y[from];
@@ -368,8 +368,8 @@ Vector AttachedSolver::column(const WorkingSet& set, int position) const {
 
 double AttachedSolver::elevation(const WorkingSet& set, int position) {
     const Vector part = column(set, position);
-    double sum = phi_[static_cast<std::size_t>(position)];
-    for (std::size_t k = 0; k < df_.size(); ++k) sum += df_[k] * part[static_cast<std::size_t>(products_->active()[k])];
+    double sum = phi_[at(position)];
+    for (std::size_t k = 0; k < df_.size(); ++k) sum += df_[k] * part[at(products_->active()[k])];
     return sum;
 }
 
@@ -379,12 +379,12 @@ void AttachedSolver::add_passive(bool keep) {
     if (df_.empty()) return;
     Vector more(passive.size());
     products_->inner_passive(df_.data(), more.data());
-    for (std::size_t k = 0; k < more.size(); ++k) phi_[static_cast<std::size_t>(passive[k])] += more[k];
+    for (std::size_t k = 0; k < more.size(); ++k) phi_[at(passive[k])] += more[k];
     if (!keep) return;
     Known known{Vector(phi_.size(), 0.0), Vector(phi_.size(), 0.0)};
-    for (std::size_t k = 0; k < more.size(); ++k) known.phi[static_cast<std::size_t>(passive[k])] = more[k];
+    for (std::size_t k = 0; k < more.size(); ++k) known.phi[at(passive[k])] = more[k];
     for (std::size_t k = 0; k < df_.size(); ++k) {
-        const auto i = static_cast<std::size_t>(active[k]);
+        const auto i = at(active[k]);
         known.f[i] = df_[k], known.phi[i] = elevated_[k];
     }
     remember(std::move(known));
@@ -418,7 +418,7 @@ bool AttachedSolver::solve(const WorkingSet& set, double tolerance, bool exact, 
     weakest_ = 0;
     double nearest = 1e300;
     for (std::size_t k = 0; k < s.size(); ++k) {
-        const double margin = s[k] / law_.least(set.asperity[static_cast<std::size_t>(products_->active()[k])]);
+        const double margin = s[k] / law_.least(set.asperity[at(products_->active()[k])]);
         if (margin < nearest) nearest = margin, weakest_ = k;
     }
     return false;
@@ -446,7 +446,7 @@ std::optional<AttachedSolver::Relaxed> AttachedSolver::relax(const WorkingSet& s
         if (!(change <= longest) || change < stalled) break;
         for (std::size_t i = 0; i < s.size(); ++i) {
             s[i] += ds[i];
-            if (s[i] < shrunk * law_.least(set.asperity[static_cast<std::size_t>(products_->active()[i])])) return Relaxed{i};
+            if (s[i] < shrunk * law_.least(set.asperity[at(products_->active()[i])])) return Relaxed{i};
         }
         if (change < near * std::min(1.0, 1 / mu)) {
             Vector end = s;
@@ -463,7 +463,7 @@ std::optional<AttachedSolver::Relaxed> AttachedSolver::relax(const WorkingSet& s
 std::vector<double> AttachedSolver::elevations(const Vector& f) {
     Vector phi(phi_.size()), lift;
     products_->full(f.data(), phi.data());
-    for (const int k : products_->active()) lift.push_back(phi[static_cast<std::size_t>(k)]);
+    for (const int k : products_->active()) lift.push_back(phi[at(k)]);
     return lift;
 }
 
@@ -480,10 +480,10 @@ double AttachedSolver::clamped_stiffness(const std::vector<Sticking::State>& sta
         products_->inner(in_.data(), lift.data());
         for (std::size_t k = 0; k < v.size(); ++k) image[k] = v[k] + root[k] * (lift[k] - shift * sum);
     };
-    minres(multiply_clamped, root, accuracy * std::sqrt(dot(root, root)), y, lifted_);
+    minres(multiply_clamped, root, accuracy * std::sqrt(dot4(root, root)), y, lifted_);
     for (std::size_t k = 0; k < y.size(); ++k) f.push_back(root[k] * y[k]);
     const double sum = std::accumulate(f.begin(), f.end(), 0.0);
-    return 2 * sum - dot(y, y) - dot(f, elevations(f)) + shift * sum * sum;
+    return 2 * sum - dot4(y, y) - dot4(f, elevations(f)) + shift * sum * sum;
 }
 
 // N' = -b'A^-1 b with b = -p, and b'A^-1 b = 2 b'y - y'A y but for the square of the error of y, with a full product for A y.
@@ -496,13 +496,12 @@ double AttachedSolver::slope(const std::vector<Sticking::State>& states) {
     for (std::size_t k = 0; k < y.size(); ++k) y[k] /= to_s_[k], in_[k] = p_[k] * y[k];
     complete(y, image, elevations(in_));
     state_ = std::move(last), weighed_ = stepped_ = false;
-    return 2 * dot(p_, y) + dot(y, image);
+    return 2 * dot4(p_, y) + dot4(y, image);
 }
 
 AttachedSolver::Change AttachedSolver::change(const Vector& rate, double accuracy) {
     Change c;
     const std::vector<int>&active = products_->active(), &passive = products_->passive();
-    const auto at = [](int k) { return static_cast<std::size_t>(k); };
     const double shift = products_->kernel().shift();
     Vector right, df(state_.size());
     for (int k : active) right.push_back(rate[at(k)]);

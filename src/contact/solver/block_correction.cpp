@@ -5,8 +5,6 @@
 namespace rsc {
 namespace {
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
 // The side of a block is the smallest divisor of nx and ny between these. Blocks wider than the reach of M do not repeat its work; on narrower
 // blocks the steps cost more than they save.
 constexpr int kNarrowest = 12, kWidest = 32;

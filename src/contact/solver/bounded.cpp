@@ -5,11 +5,7 @@
 namespace rsc {
 namespace {
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kThreads = 16384;   // number of pixels from which on threads are used
-constexpr int kPixels = 4096, kRows = 8;  // that a thread takes at a time
+constexpr int kRows = 8;  // that a thread takes at a time
 // Error above which the sets change so much that a round is made of two.
 constexpr double kUnsettled = 1e-3;
 // Later rounds of a stiffness reduce the residual to this part of its tolerance.
@@ -19,21 +15,21 @@ constexpr double kSmall = 5e-5;
 
 }  // namespace
 
-template <class F>
-void BoundedSolver::each(F&& of) {
-    parallel_for(p_.size(), kPixels, p_.size() >= kThreads ? 0 : 1, of);
+template <class Sum, class F>
+Sum BoundedSolver::sum_with(F&& add) {
+    const int rows = static_cast<int>(rows_.size()) - 1;
+    std::vector<Sum> partial(at(rows));
+    parallel_for(rows, kRows, threads_for(p_.size()), [&](int j) {
+        Sum part{};
+        for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) add(part, k);
+        partial[at(j)] = part;
+    });
+    return std::accumulate(partial.begin(), partial.end(), Sum{});
 }
 
 template <class F>
-auto BoundedSolver::sum(F&& of) {
-    const int rows = static_cast<int>(rows_.size()) - 1;
-    std::vector<decltype(of(std::size_t()))> partial(at(rows));
-    parallel_for(rows, kRows, p_.size() >= kThreads ? 0 : 1, [&](int j) {
-        auto part = partial[at(j)];
-        for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) part += of(k);
-        partial[at(j)] = part;
-    });
-    return std::accumulate(partial.begin(), partial.end(), decltype(of(std::size_t()))());
+double BoundedSolver::sum(F&& of) {
+    return sum_with<double>([&](double& part, std::size_t k) { part += of(k); });
 }
 
 template <class F>
@@ -47,10 +43,11 @@ double BoundedSolver::sum_free(F&& of) {
 template <class F>
 void BoundedSolver::set_free(F&& of) {
     free_.resize(p_.size());
-    each([&](std::size_t k) { free_[k] = of(k); });
-    free_list_.clear();
-    for (std::size_t k = 0; k < free_.size() && rows_.size() == 2; ++k)
-        if (free_[k]) free_list_.push_back(static_cast<int>(k));
+    const auto set = [&](std::size_t k) { return free_[k] = of(k); };
+    if (rows_.size() > 2)
+        each(set);
+    else
+        find_all(p_.size(), kPixels, threads_for(p_.size()), set, free_list_);
     freed();
 }
 
@@ -69,26 +66,24 @@ void BoundedSolver::find_Z0() {
     if (touching == 0) return;
     const double shift = -sum([&](std::size_t k) { return p_[k] > 0 ? w_[k] : 0.0; }) / static_cast<double>(touching);
     Z0_ += shift;
-    for (double& w : w_) w += shift;
+    each([&](std::size_t k) { w_[k] += shift; });
 }
 
 double BoundedSolver::error() {
-    std::size_t touching = 0;
-    double weight = 0;
-    for (double p : p_)
-        if (p != 0) touching += p > 0, weight += p;
     struct Sums {
-        double inside = 0, overlap = 0;
-        Sums operator+(const Sums& other) const { return {inside + other.inside, overlap + other.overlap}; }
-        void operator+=(const Sums& other) { *this = *this + other; }
+        std::size_t touching = 0;
+        double weight = 0, inside = 0, overlap = 0;
+        Sums operator+(const Sums& o) const { return {touching + o.touching, weight + o.weight, inside + o.inside, overlap + o.overlap}; }
     };
-    const Sums sums = sum([&](std::size_t k) {
+    const Sums sums = sum_with<Sums>([&](Sums& part, std::size_t k) {
+        if (p_[k] == 0 && w_[k] >= 0) return;
         const double e = p_[k] >= highest_ ? std::max(w_[k], 0.0) : p_[k] > 0 ? w_[k] : std::min(w_[k], 0.0);
-        return Sums{e * e, p_[k] * (z_[k] - Z0_)};
+        part.inside += e * e;
+        part.touching += p_[k] > 0, part.weight += p_[k], part.overlap += p_[k] * (z_[k] - Z0_);
     });
     const double bad = sums.inside + outside();
-    if (touching == 0) return bad > 0 ? kInfinity : 0.0;
-    return std::sqrt(bad / static_cast<double>(touching)) / std::abs(sums.overlap / weight);
+    if (sums.touching == 0) return bad > 0 ? kInfinity : 0.0;
+    return std::sqrt(bad / static_cast<double>(sums.touching)) / std::abs(sums.overlap / sums.weight);
 }
 
 void BoundedSolver::find_free() {
@@ -118,37 +113,39 @@ void BoundedSolver::prepare_constant(bool plain) {
 // Conjugate gradients on the free pixels. If the sum of p is given, it is kept constant, and w is minimised up to a constant.
 double BoundedSolver::descend(int most_steps, double reduction) {
     const std::size_t n = p_.size();
-    direction_.assign(n, 0.0);
     const auto product = [&](const std::vector<double>& a, const std::vector<double>& b) {
         return sum_free([&](std::size_t k) { return a[k] * b[k]; });
     };
     // A single step follows the gradient itself, which remains a descent direction after projection on the bounds.
     const bool plain = most_steps == 1, constant = manner_.repeats || wanted_;
-    std::vector<double> residual(n);
-    y_.resize(n);
+    for (auto* v : {&residual_, &y_, &direction_}) v->resize(n);
+    const auto set_residual = [&](std::size_t k) { residual_[k] = free_[k] * (0 - w_[k]), y_[k] = 0; };
+    each(set_residual);
     double last = 0, first = 0, decrease = 0;
     for (int step = 0; step < most_steps; ++step) {
-        each([&](std::size_t k) { residual[k] = free_[k] * (0 - w_[k]), y_[k] = 0; });
         if (plain)
-            y_ = residual;
+            y_ = residual_;
         else
-            precondition(residual, y_);
+            precondition(residual_, y_);
         if (constant) {
-            const double c = wanted_ ? -sum_free([&](std::size_t k) { return y_[k]; }) / whole_ : punch_ * product(one_, residual);
+            const double c = wanted_ ? -sum_free([&](std::size_t k) { return y_[k]; }) / whole_ : punch_ * product(one_, residual_);
             each([&](std::size_t k) { y_[k] += c * one_[k]; });
         }
-        const double ry = product(residual, y_);
+        const double ry = product(residual_, y_);
         if (step == 0) first = ry;
         if (!(ry > reduction * reduction * first)) break;
         const double beta = step > 0 ? ry / last : 0.0;
         last = ry;
-        each([&](std::size_t k) { direction_[k] = y_[k] + beta * direction_[k]; });
+        each([&](std::size_t k) { direction_[k] = y_[k] + (step > 0 ? beta * direction_[k] : 0.0); });
         stopping_point();
         multiply_roughly(direction_, image_);
         const double curvature = product(direction_, image_);
         if (!(curvature > 0)) break;
         const double alpha = ry / curvature;
-        each([&](std::size_t k) { p_[k] += alpha * direction_[k], w_[k] += alpha * image_[k]; });
+        each([&](std::size_t k) {
+            p_[k] += alpha * direction_[k], w_[k] += alpha * image_[k];
+            set_residual(k);
+        });
         decrease += alpha * ry;
     }
     return decrease;
@@ -156,12 +153,12 @@ double BoundedSolver::descend(int most_steps, double reduction) {
 
 // Clips pressures at their bounds, and restores their sum by adding pressure as a lower flat would. Returns true if any was clipped.
 bool BoundedSolver::bound() {
-    bool cut = false;
-    for (double& p : p_) {
-        const double inside = std::clamp(p, 0.0, highest_);
-        cut = cut || inside != p;
-        p = inside;
-    }
+    std::atomic<bool> cut = false;
+    each([&](std::size_t k) {
+        const double inside = std::clamp(p_[k], 0.0, highest_);
+        if (inside != p_[k]) cut.store(true, std::memory_order_relaxed);
+        p_[k] = inside;
+    });
     if (!wanted_) return cut;
     constexpr int most = 50;
     for (int i = 0; i < most; ++i) {
@@ -172,8 +169,9 @@ bool BoundedSolver::bound() {
         }
         const double missing = *wanted_ - all;
         if (std::abs(missing) <= 1e-14 * *wanted_ || !(room > 0)) break;
-        for (std::size_t k = 0; k < p_.size(); ++k)
+        each([&](std::size_t k) {
             if (p_[k] > 0) p_[k] = std::max(p_[k] + missing / room * one_[k], 0.0);
+        });
     }
     return true;
 }
@@ -182,9 +180,9 @@ bool BoundedSolver::bound() {
 void BoundedSolver::descend_again(int most_steps) {
     direction_ = p_;
     bound();
-    for (std::size_t k = 0; k < p_.size(); ++k) direction_[k] = p_[k] - direction_[k];
+    each([&](std::size_t k) { direction_[k] = p_[k] - direction_[k]; });
     multiply_roughly(direction_, image_);
-    for (std::size_t k = 0; k < p_.size(); ++k) w_[k] += image_[k];
+    each([&](std::size_t k) { w_[k] += image_[k]; });
     find_Z0();
     find_free();
     prepare_constant(most_steps == 1);
@@ -242,14 +240,13 @@ ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool e
         ++outcome.iterations;
         renew();
         find_free();
-        before_p_ = p_;
-        before_w_ = w_;
+        if (manner_.repeats || outcome.iterations > manner_.quick) before_p_ = p_, before_w_ = w_;
         prepare_constant(steps == 1);
         descend(steps, manner_.reduction);
         if (manner_.repeats && outcome.residual > kUnsettled) descend_again(steps);
-        const bool cut = bound();
+        bound();
         exact = exactly && judge_exactly(exact, outcome.residual, outcome.iterations);
-        if (cut || exact || manner_.repeats) evaluate(exact);
+        evaluate(exact);
     }
     return outcome;
 }

@@ -8,7 +8,7 @@
 // which excludes cycles. Derived classes define K, the preconditioner and the set of pixels.
 #pragma once
 
-#include "std.hpp"
+#include "rough/parallel.hpp"
 
 namespace rsc {
 
@@ -77,11 +77,17 @@ protected:
     void descend_again(int most_steps);
     bool bound();
     bool fell();
+    static constexpr int kPixels = 4096;  // that a thread takes at a time
+    static int threads_for(std::size_t pixels) { return pixels >= 16384 ? 0 : 1; }
     // Over the positions in the set, independent of the number of threads: calls, sums, and sums of what is 0 where it is not free.
     template <class F>
-    void each(F&& of);
+    void each(F&& of) {
+        parallel_for(p_.size(), kPixels, threads_for(p_.size()), of);
+    }
+    template <class Sum, class F>
+    Sum sum_with(F&& add);  // add(part, k) adds to a part of the sum
     template <class F>
-    auto sum(F&& of);
+    double sum(F&& of);
     template <class F>
     double sum_free(F&& of);
     template <class F>
@@ -99,7 +105,7 @@ protected:
 
 private:
     void find_free();
-    std::vector<double> y_, direction_, image_, before_p_, before_w_;
+    std::vector<double> residual_, y_, direction_, image_, before_p_, before_w_;
     // Correction by a constant pressure on the free pixels, which is most effective near full contact: K^-1 times 1 as the preconditioner has
     // it, its sum, and 1/(one'K one).
     std::vector<double> one_;

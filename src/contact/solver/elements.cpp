@@ -6,7 +6,6 @@ namespace rsc {
 namespace {
 
 using Accuracy = PixelProducts::Accuracy;
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
 // The working set contains all pixels within this distance of a pixel under pressure.
 constexpr int kReach = 3;
@@ -20,8 +19,7 @@ constexpr int kQuick = 30;  // rounds before the energy is monitored; most sets 
 constexpr double kDeep = 0.55;
 // Residual, relative to the error of inner products, below which full products are used.
 constexpr double kInnerReach = 10;
-constexpr std::size_t kThreads = 16384;  // pixels from which on threads are used
-constexpr double kChange = 0.05;         // relative to the tolerance: error of an exact product computed from an earlier one
+constexpr double kChange = 0.05;  // relative to the tolerance: error of an exact product computed from an earlier one
 
 }  // namespace
 
@@ -78,7 +76,7 @@ std::size_t ElementsSolver::guess(const std::vector<Pixel>& pixels, const std::v
 }
 
 void ElementsSolver::start(const std::vector<Pixel>& pixels, const std::vector<double>& g0, std::vector<double>& p) {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     const std::size_t chosen = guess(pixels, g0, g0, least, p);
     if (!(static_cast<double>(chosen) > kDeep * static_cast<double>(pixels.size()))) return;
     // In the roughness the peaks carry the load: they stand out in the overlap that remains after the deflection.
@@ -93,36 +91,52 @@ void ElementsSolver::start(const std::vector<Pixel>& pixels, const std::vector<d
 void ElementsSolver::draw(const std::vector<double>& p) {
     const std::vector<Pixel>& pixels = *pixels_;
     const std::size_t n = pixels.size();
-    std::vector<std::size_t> row_begin;  // begin of each row that has pixels
-    for (std::size_t k = 0; k < n; ++k) {
-        if (k == 0 || pixels[k].y != pixels[k - 1].y) row_begin.push_back(k);
-    }
+    const int threads = threads_for(n);
+    std::vector<int> row_begin, seeds;  // begin of each row that has pixels; members and pixels under pressure
+    find_all(
+        n, kPixels, threads, [&](std::size_t k) { return k == 0 || pixels[k].y != pixels[k - 1].y; }, row_begin);
+    find_all(
+        n, kPixels, threads, [&](std::size_t k) { return p[k] > 0 || member_[k]; }, seeds);
     const std::size_t rows = row_begin.size();
-    row_begin.push_back(n);
-    std::vector<char> in(n, 0);
-    parallel_for(rows, 16, n > kThreads ? 0 : 1, [&](std::size_t r) {
-        const int y = pixels[row_begin[r]].y;
-        for (std::size_t s = r < at(kReach) ? 0 : r - at(kReach); s < rows && pixels[row_begin[s]].y <= y + kReach; ++s) {
-            if (pixels[row_begin[s]].y < y - kReach) continue;
-            std::size_t k = row_begin[r];
-            for (std::size_t l = row_begin[s]; l < row_begin[s + 1]; ++l) {
-                if (!(p[l] > 0) && !member_[l]) continue;
-                while (k < row_begin[r + 1] && pixels[k].x < pixels[l].x - kReach) ++k;
-                while (k < row_begin[r + 1] && pixels[k].x <= pixels[l].x + kReach) in[k++] = 1;
-            }
+    row_begin.push_back(static_cast<int>(n));
+    int left = 0, right = 0;  // of all pixels
+    for (std::size_t r = 0; r < rows; ++r) {
+        left = std::min(left, pixels[at(row_begin[r])].x - kReach);
+        right = std::max(right, pixels[at(row_begin[r + 1] - 1)].x + kReach);
+    }
+    in_.resize(n);
+    constexpr std::size_t together = 16;
+    parallel_for((rows + together - 1) / together, 1, threads, [&](std::size_t piece) {
+        std::vector<char> line(at(right - left + 1));
+        for (std::size_t r = piece * together; r < std::min(rows, (piece + 1) * together); ++r) {
+            const int y = pixels[at(row_begin[r])].y;
+            std::size_t first = r, last = r;
+            while (first > 0 && pixels[at(row_begin[first - 1])].y >= y - kReach) --first;
+            while (last + 1 < rows && pixels[at(row_begin[last + 1])].y <= y + kReach) ++last;
+            auto seed = std::lower_bound(seeds.begin(), seeds.end(), row_begin[first]);
+            std::fill(line.begin(), line.end(), 0);
+            for (; seed != seeds.end() && *seed < row_begin[last + 1]; ++seed)
+                std::fill_n(line.data() + (pixels[at(*seed)].x - kReach - left), 2 * kReach + 1, 1);
+            for (int k = row_begin[r]; k < row_begin[r + 1]; ++k) in_[at(k)] = line[at(pixels[at(k)].x - left)];
         }
     });
-    position_.clear(), w_.clear(), full_p_.clear();
-    for (std::size_t k = 0; k < n; ++k)
-        if (in[k]) position_.push_back(static_cast<int>(k));
+    w_.clear(), full_p_.clear();
+    find_all(
+        n, kPixels, threads, [&](std::size_t k) { return in_[k]; }, position_);
     const std::size_t size = position_.size();
     set_.resize(size), z_.resize(size), p_.resize(size);
-    parallel_for(size, 4096, size > kThreads ? 0 : 1, [&](std::size_t k) {
+    each([&](std::size_t k) {
         const std::size_t l = at(position_[k]);
         set_[k] = pixels[l], z_[k] = (*g0_)[l], p_[k] = p[l];
     });
     rows_ = {0, set_.size()};
     if (!set_.empty()) products_.set_pixels(set_);
+}
+
+// Pressures of all pixels.
+void ElementsSolver::spread(std::vector<double>& p) {
+    std::fill(p.begin(), p.end(), 0.0);
+    each([&](std::size_t k) { p[at(position_[k])] = p_[k]; });
 }
 
 // An exact product is a full one, or the last full one plus a cheaper product with the change since, whose error is relative to the change.
@@ -133,16 +147,24 @@ void ElementsSolver::multiply(const std::vector<double>& x, std::vector<double>&
     if (full_p_.size() == n) {
         double change = 0, all = 0;
         step_.resize(n);
-        for (std::size_t k = 0; k < n; ++k) step_[k] = x[k] - full_p_[k], change += step_[k] * step_[k], all += x[k] * x[k];
+        for (std::size_t k = 0; k < n; ++k) {
+            step_[k] = x[k] - full_p_[k];
+            if (step_[k] != 0 || x[k] != 0) change += step_[k] * step_[k], all += x[k] * x[k];
+        }
         for (const Accuracy accuracy : {Accuracy::inner, Accuracy::between}) {
             if (!(products_.error(accuracy) * std::sqrt(change) <= kChange * tolerance_ * std::sqrt(all))) continue;
             products_.apply(step_.data(), Kx.data(), accuracy);
-            for (std::size_t k = 0; k < n; ++k) Kx[k] += full_w_[k];
+            each([&](std::size_t k) { Kx[k] += full_w_[k]; });
             return;
         }
     }
     products_.apply(x.data(), Kx.data(), Accuracy::full);
     full_p_ = x, full_w_ = Kx;
+}
+
+void ElementsSolver::multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) {
+    Kx.resize(x.size());
+    products_.apply(x.data(), Kx.data(), Accuracy::inner, free_.data());
 }
 
 void ElementsSolver::freed() { blocks_.assign(set_, free_list_, products_); }
@@ -154,43 +176,41 @@ bool ElementsSolver::judge_exactly(bool, double residual, int rounds) {
     return (looked_ && guess < kInnerReach * products_.inner_error()) || guess < tolerance_ || rounds > kQuick;
 }
 
-// Makes pixels outside the working set members if they would penetrate under the pressures p. Returns their number.
-long ElementsSolver::join(const std::vector<double>& p) {
-    if (position_.size() == p.size()) return 0;
-    std::vector<double> w(p.size());
-    products_.elsewhere(p.data(), *pixels_, w.data());
-    long joined = 0;
+// Makes pixels outside the working set members if they would penetrate under the pressures p. Returns whether there are any.
+bool ElementsSolver::join(const std::vector<double>& p) {
+    if (position_.size() == p.size()) return false;
+    elsewhere_.resize(p.size());
+    outside_.resize(p.size());
+    parallel_for(p.size(), kPixels, threads_for(p.size()), [&](std::size_t k) { outside_[k] = !in_[k]; });
+    products_.elsewhere(p.data(), *pixels_, elsewhere_.data(), outside_.data());
     // Pixels are selected by inner products with a margin for their error.
     const double margin = 3 * products_.inner_error();
-    std::size_t next = 0;
-    for (std::size_t k = 0; k < p.size(); ++k) {
-        if (next < position_.size() && at(position_[next]) == k) {
-            ++next;
-            continue;
-        }
-        if (!(w[k] * (w[k] > 0 ? 1 - margin : 1 + margin) < (*g0_)[k] - Z0_)) continue;
-        member_[k] = 1;
-        ++joined;
-    }
-    return joined;
+    std::vector<int> joined;
+    find_all(
+        p.size(), kPixels, threads_for(p.size()),
+        [&](std::size_t k) {
+            const double w = elsewhere_[k];
+            return !in_[k] && w * (w > 0 ? 1 - margin : 1 + margin) < (*g0_)[k] - Z0_;
+        },
+        joined);
+    for (const int k : joined) member_[at(k)] = 1;
+    return !joined.empty();
 }
 
 // Checks the pixels outside when the residual is small, and again at the end.
 bool ElementsSolver::complete(bool solved, double residual) {
     if (!solved && (looked_ || residual > kClosing)) return false;
-    std::vector<double> all(pixels_->size(), 0.0);
-    for (std::size_t k = 0; k < p_.size(); ++k) all[at(position_[k])] = p_[k];
-    const long joined = join(all);
+    spread(*answer_);
     looked_ = true;
-    if (joined == 0) return solved;
-    draw(all);
+    if (!join(*answer_)) return solved;
+    draw(*answer_);
     return false;
 }
 
 ElementsOutcome ElementsSolver::solve(const std::vector<Pixel>& pixels, const std::vector<double>& g0, double tolerance,
                                       int most_iterations, std::vector<double>& p, std::optional<double> sum) {
     const long before = products_.count();
-    pixels_ = &pixels, g0_ = &g0;
+    pixels_ = &pixels, g0_ = &g0, answer_ = &p;
     tolerance_ = tolerance;
     wanted_ = sum;
     Z0_ = 0;
@@ -202,8 +222,7 @@ ElementsOutcome ElementsSolver::solve(const std::vector<Pixel>& pixels, const st
     ElementsOutcome outcome;
     outcome.converged = pixels.empty();
     if (!pixels.empty()) outcome = iterate(tolerance, most_iterations, true);
-    std::fill(p.begin(), p.end(), 0.0);
-    for (std::size_t k = 0; k < p_.size(); ++k) p[at(position_[k])] = p_[k];
+    spread(p);
     outcome.products = products_.count() - before;
     return outcome;
 }

@@ -35,23 +35,28 @@ private:
                       std::vector<double>& p);
     void draw(const std::vector<double>& p);
     void multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) override;
+    void multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) override;
     void precondition(const std::vector<double>& r, std::vector<double>& y) override;
     void freed() override;
     bool judge_exactly(bool exact, double residual, int rounds) override;
     bool complete(bool solved, double residual) override;
-    long join(const std::vector<double>& p);
+    bool join(const std::vector<double>& p);
+    void spread(std::vector<double>& p);
 
     PixelProducts& products_;
     // The given pixels, the members (always in the working set), and whether pixels outside have been checked.
     const std::vector<Pixel>* pixels_ = nullptr;
     const std::vector<double>* g0_ = nullptr;
+    std::vector<double>* answer_ = nullptr;
     std::vector<char> member_;
     bool looked_ = false;
     double tolerance_ = 0;
-    // Working set: positions in the given pixels, and pixels.
+    // Working set: whether a given pixel is in it, positions in the given pixels, and pixels.
+    std::vector<char> in_, outside_;
     std::vector<int> position_;
     std::vector<Pixel> set_;
     std::vector<double> full_p_, full_w_, step_;  // last full product with this set, and the step since
+    std::vector<double> elsewhere_;               // deflections of all pixels
     SpotBlocks blocks_;
 };
 

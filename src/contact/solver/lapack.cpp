@@ -81,11 +81,6 @@ bool is_positive_definite(int n, double* A) {
 
 double lanczos_lowest(std::size_t n, const std::function<void(const std::vector<double>&, std::vector<double>&)>& multiply,
                       std::vector<double>& vector) {
-    const auto dot = [](const std::vector<double>& a, const std::vector<double>& b) {
-        double sum = 0;
-        for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
-        return sum;
-    };
     const std::size_t most = std::min<std::size_t>(n, 300);
     std::vector<std::vector<double>> basis;
     std::vector<double> alpha, beta, image(n), ritz;

@@ -9,14 +9,6 @@ namespace {
 
 using Vector = std::vector<double>;
 
-double dot(const Vector& a, const Vector& b) {
-    double sum = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
-    return sum;
-}
-
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
 // Inner products are accurate enough for a residual kAboveError times their error; products less accurate than kRoughest never are.
 constexpr double kAboveError = 100, kRoughest = 1e-5;
 
@@ -191,7 +183,7 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
     if (std::exchange(first_, false) && stepped_ == 2 && begun_ > kNextShare * tolerance) stepped_ = -kPause;
     const bool near = repeats_ && stepped_ >= 0 && now_.residual < kNear * tolerance;
     const double enough = ask_minimum ? 1.0 : exact_ ? kLeft : share(), left = near ? kLeft : kLastShare;
-    double radius = std::numeric_limits<double>::infinity(), entering = 1.0;
+    double radius = kInfinity, entering = 1.0;
     Step step_now;
     for (;; ++outcome.iterations) {
         outcome.residual = now_.residual;
@@ -240,7 +232,7 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
                 if (!accepted) entering *= kShrink;
             } else {
                 if (step_now.border && decrease > kGood * step_now.predicted) radius *= kGrow;
-                if (!step_now.border) radius = std::numeric_limits<double>::infinity();
+                if (!step_now.border) radius = kInfinity;
                 entering = std::min(1.0, entering / kShrink);
             }
             if (!std::isfinite(trial_.energy)) accepted = false;
@@ -333,7 +325,7 @@ double Newton::stiffness(double tolerance) {
     for (int pass = 0; pass < most; ++pass) {
         const double before = std::sqrt(dot(r, r));
         Step ignored;
-        steihaug(Vector(r), forcing, std::numeric_limits<double>::infinity(), more, ignored);
+        steihaug(Vector(r), forcing, kInfinity, more, ignored);
         for (std::size_t k = 0; k < n; ++k) w[k] += more[k];
         if (products_->inner_error() <= tolerance) return -dot(b, w);
         for (std::size_t k = 0; k < n; ++k) force_[k] = root_[k] * w[k];

@@ -7,8 +7,6 @@
 namespace rsc {
 namespace {
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
 constexpr int kThreads = 400000;  // number of pixels above which threads are used
 constexpr int kRows = 8;          // that a thread takes at a time
 constexpr int kReach = 6;         // of the preconditioner in pixels
@@ -341,10 +339,7 @@ ElementsOutcome PeriodicElements::approach(double Z0, double tolerance, int most
     return solve({false, (Z0 - zero_) / rms_}, tolerance, most_iterations, true);
 }
 
-double PeriodicElements::closed() const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    return highest_ < infinity ? -infinity : mean_ + kRounding * rms_;
-}
+double PeriodicElements::closed() const { return highest_ < kInfinity ? -kInfinity : mean_ + kRounding * rms_; }
 
 std::vector<double> PeriodicElements::deflections(const std::vector<Pixel>& pixels, const std::vector<double>& p) {
     const std::size_t nx = at(relief_.nx);

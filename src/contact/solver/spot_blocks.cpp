@@ -6,8 +6,6 @@
 namespace rsc {
 namespace {
 
-std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
 // Replaces a symmetric positive definite matrix A (n x n) by its inverse, by Gauss-Jordan elimination without pivoting.
 RSC_ALWAYS_INLINE void invert_body(std::size_t n, double* A) {
     for (std::size_t k = 0; k < n; ++k) {
@@ -36,57 +34,72 @@ RSC_ALWAYS_INLINE void multiply_body(std::size_t n, const float* A, const float*
 }
 RSC_DISPATCH(multiply, multiply_body, (std::size_t n, const float* A, const float* x, float* y), (n, A, x, y))
 
-struct Sets {
-    std::vector<int> parent;
-    int find(int k) {
-        while (parent[at(k)] != k) k = parent[at(k)] = parent[at(parent[at(k)])];
-        return k;
-    }
-    void join(int a, int b) {
-        a = find(a), b = find(b);
-        if (a != b) parent[at(std::max(a, b))] = std::min(a, b);  // the root is the first pixel
-    }
-};
-
-// Calls visit(k, l) for every pair of pixels with a common side.
-template <class Visit>
-void for_neighbours(const std::vector<Pixel>& pixels, int period_x, int period_y, Visit&& visit) {
-    const auto before = [](const Pixel& a, const Pixel& b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); };
+// Calls run(k, end) for all pixels k ... end - 1 that follow each other in a row, and then pairs(k, l, n) for the pixels with a common side in
+// other rows, or across the borders of a period: k + i and l + i for i = 0 ... n - 1.
+template <class Run, class Pairs>
+void for_neighbours(const std::vector<Pixel>& pixels, int period_x, int period_y, Run&& run, Pairs&& pairs) {
     const int n = static_cast<int>(pixels.size());
-    int above = 0;  // index that advances along the row above
-    for (int k = 0; k < n; ++k) {
-        const Pixel p = pixels[at(k)];
-        if (k > 0 && pixels[at(k - 1)] == Pixel{p.x - 1, p.y}) visit(k - 1, k);
-        while (above < k && before(pixels[at(above)], {p.x, p.y - 1})) ++above;
-        if (above < k && pixels[at(above)] == Pixel{p.x, p.y - 1}) visit(above, k);
-        const auto wrap = [&](int x, int y) {
-            const auto other = std::lower_bound(pixels.begin(), pixels.end(), Pixel{x, y}, before);
-            if (other != pixels.end() && *other == Pixel{x, y}) visit(static_cast<int>(other - pixels.begin()), k);
-        };
-        if (period_x > 0 && p.x == period_x - 1) wrap(0, p.y);
-        if (period_y > 0 && p.y == period_y - 1) wrap(p.x, 0);
+    const auto end_of = [&](int k) {
+        do ++k;
+        while (k < n && pixels[at(k)] == Pixel{pixels[at(k - 1)].x + 1, pixels[at(k - 1)].y});
+        return k;
+    };
+    const auto before = [](const Pixel& a, const Pixel& b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); };
+    const auto wrap = [&](int k, const Pixel& there) {
+        const auto other = std::lower_bound(pixels.begin(), pixels.end(), there, before);
+        if (other != pixels.end() && *other == there) pairs(static_cast<int>(other - pixels.begin()), k, 1);
+    };
+    int above = 0, above_end = n > 0 ? end_of(0) : 0;  // pixels that advance along the row above
+    for (int k = 0, end; k < n; k = end) {
+        end = end_of(k);
+        run(k, end);
+        const Pixel first = pixels[at(k)], last = pixels[at(end - 1)];
+        const auto next = [&] { above = above_end, above_end = end_of(above); };
+        while (above < k && before(pixels[at(above_end - 1)], {first.x, first.y - 1})) next();
+        while (above < k && pixels[at(above)].y == first.y - 1 && pixels[at(above)].x <= last.x) {
+            const int left = std::max(first.x, pixels[at(above)].x), right = std::min(last.x, pixels[at(above_end - 1)].x);
+            pairs(above + left - pixels[at(above)].x, k + left - first.x, right - left + 1);
+            if (right == last.x) break;  // it may also touch what follows
+            next();
+        }
+        if (period_x > 0 && last.x == period_x - 1) wrap(end - 1, {0, last.y});
+        for (int l = k; l < end && period_y > 0 && first.y == period_y - 1; ++l) wrap(l, {pixels[at(l)].x, 0});
     }
 }
 
 }  // namespace
 
 std::vector<int> open_sides(const std::vector<Pixel>& pixels, int period_x, int period_y) {
-    std::vector<int> open(pixels.size(), 4);
-    for_neighbours(pixels, period_x, period_y, [&](int k, int l) { --open[at(k)], --open[at(l)]; });
+    std::vector<int> open(pixels.size());
+    for_neighbours(
+        pixels, period_x, period_y,
+        [&](int k, int end) {
+            for (int l = k; l < end; ++l) open[at(l)] = 2 + (l == k) + (l == end - 1);
+        },
+        [&](int k, int l, int n) {
+            for (int i = 0; i < n; ++i) --open[at(k + i)], --open[at(l + i)];
+        });
     return open;
 }
 
 int connected_sets(const std::vector<Pixel>& pixels, std::vector<int>& label, int period_x, int period_y) {
     const int n = static_cast<int>(pixels.size());
-    Sets sets;
-    sets.parent.resize(pixels.size());
-    std::iota(sets.parent.begin(), sets.parent.end(), 0);
-    for_neighbours(pixels, period_x, period_y, [&](int k, int l) { sets.join(k, l); });
+    std::vector<int> parent(pixels.size());  // of each pixel; the root of a set is its first pixel
+    const auto root = [&](int k) {
+        while (parent[at(k)] != k) k = parent[at(k)] = parent[at(parent[at(k)])];
+        return k;
+    };
+    for_neighbours(
+        pixels, period_x, period_y, [&](int k, int end) { std::fill(parent.begin() + k, parent.begin() + end, k); },
+        [&](int k, int l, int) {
+            k = root(k), l = root(l);
+            parent[at(std::max(k, l))] = std::min(k, l);
+        });
     label.resize(pixels.size());
     int count = 0;
     for (int k = 0; k < n; ++k) {
-        const int root = sets.find(k);
-        label[at(k)] = root == k ? count++ : label[at(root)];
+        const int first = root(k);
+        label[at(k)] = first == k ? count++ : label[at(first)];
     }
     return count;
 }
@@ -101,54 +114,75 @@ void SpotBlocks::assign(const std::vector<Pixel>& all, const std::vector<int>& w
     members_.resize(pixels.size());
     std::vector<std::size_t> next = begin;
     for (std::size_t k = 0; k < pixels.size(); ++k) members_[next[at(label[k])]++] = which[k];
-    // A block is a spot, or the part of a large spot in one square of the lattice.
+    // A block is a spot, or the part of a large spot in one square of the lattice. Its number is computed from its shape.
+    struct Part {
+        std::size_t begin, end;
+        std::uint64_t number = 0;
+    };
     const auto square = [&](int k) {
         constexpr int positive = (1 << 20) * kSquare;
         return std::pair((all[at(k)].y + positive) / kSquare, (all[at(k)].x + positive) / kSquare);
     };
-    std::vector<std::size_t> ends;
-    for (std::size_t s = 0; s + 1 < begin.size(); ++s) {
-        if (begin[s + 1] - begin[s] > kMostPixels) {
-            const auto first = members_.begin() + static_cast<std::ptrdiff_t>(begin[s]);
-            const auto last = members_.begin() + static_cast<std::ptrdiff_t>(begin[s + 1]);
-            std::stable_sort(first, last, [&](int a, int b) { return square(a) < square(b); });
-            for (auto k = first + 1; k < last; ++k)
-                if (square(k[-1]) != square(*k)) ends.push_back(static_cast<std::size_t>(k - members_.begin()));
+    const auto offset = [&](const Part& part, std::size_t k) {
+        const Pixel &first = all[at(members_[part.begin])], &pixel = all[at(members_[k])];
+        return Pixel{pixel.x - first.x, pixel.y - first.y};
+    };
+    constexpr std::size_t grain = 16;
+    std::vector<std::vector<Part>> parts(begin.size() / grain + 1);
+    parallel_for(begin.size() - 1, grain, threads(), [&](std::size_t s) {
+        const auto first = members_.begin() + static_cast<std::ptrdiff_t>(begin[s]);
+        const auto last = members_.begin() + static_cast<std::ptrdiff_t>(begin[s + 1]);
+        const bool large = begin[s + 1] - begin[s] > kMostPixels;
+        if (large) std::stable_sort(first, last, [&](int a, int b) { return square(a) < square(b); });
+        Part part{begin[s], begin[s]};
+        for (auto k = first; k < last; ++k) {
+            if (large && k > first && square(k[-1]) != square(*k)) parts[s / grain].push_back(std::exchange(part, {part.end, part.end}));
+            const Pixel d = offset(part, part.end++);
+            part.number = (part.number ^ static_cast<std::uint64_t>((std::int64_t{d.y} << 32) + d.x)) * 0x9e3779b97f4a7c15u;
+            part.number ^= part.number >> 32;
         }
-        ends.push_back(begin[s + 1]);
-    }
+        parts[s / grain].push_back(part);
+    });
     std::erase_if(known_, [](const auto& entry) { return entry.second.values.empty(); });  // an exception ended their computation
-    for (auto& [shape, inverse] : known_) inverse.wanted = false;
+    for (auto& [number, inverse] : known_) inverse.wanted = false;
     blocks_.clear();
-    std::vector<std::pair<const Shape*, Inverse*>> fresh;
-    std::size_t b = 0;
-    for (const std::size_t e : ends) {
-        Shape shape;
-        const Pixel first = all[at(members_[b])];
-        for (std::size_t k = b; k < e; ++k) shape.push_back({all[at(members_[k])].x - first.x, all[at(members_[k])].y - first.y});
-        const auto [place, is_new] = known_.try_emplace(std::move(shape));
-        place->second.wanted = true;
-        if (is_new) fresh.push_back({&place->first, &place->second});
-        blocks_.push_back({std::exchange(b, e), &place->second});
-    }
+    std::vector<Inverse*> fresh;
+    for (const auto& some : parts)
+        for (Part part : some) {
+            const auto fits = [&](const Shape& shape) {
+                for (std::size_t k = part.begin; k < part.end; ++k)
+                    if (shape[k - part.begin] != offset(part, k)) return false;
+                return true;
+            };
+            auto [place, is_new] = known_.try_emplace(part.number);
+            while (!is_new && !(place->second.shape.size() == part.end - part.begin && fits(place->second.shape)))
+                std::tie(place, is_new) = known_.try_emplace(++part.number);  // another shape has this number
+            Inverse& inverse = place->second;
+            inverse.wanted = true;
+            blocks_.push_back({part.begin, &inverse});
+            if (!is_new) continue;
+            for (std::size_t k = part.begin; k < part.end; ++k) inverse.shape.push_back(offset(part, k));
+            fresh.push_back(&inverse);
+        }
     std::erase_if(known_, [](const auto& entry) { return !entry.second.wanted; });
     parallel_for(fresh.size(), 1, fresh.size() > 4 ? 0 : 1, [&](std::size_t f) {
-        const Shape& shape = *fresh[f].first;
+        const Shape& shape = fresh[f]->shape;
         const std::size_t n = shape.size();
         std::vector<double> A(n * n);
         for (std::size_t i = 0; i < n; ++i)
-            for (std::size_t j = 0; j < n; ++j) A[i * n + j] = products.coefficient(shape[i].x - shape[j].x, shape[i].y - shape[j].y);
+            for (std::size_t j = 0; j <= i; ++j)
+                A[i * n + j] = A[j * n + i] = products.coefficient(shape[i].x - shape[j].x, shape[i].y - shape[j].y);
         const double unit = A[0];
         for (double& v : A) v /= unit;
         invert(n, A.data());
-        fresh[f].second->values.assign(A.begin(), A.end());
+        fresh[f]->values.assign(A.begin(), A.end());
     });
-    blocks_.push_back({b, nullptr});
+    blocks_.push_back({members_.size(), nullptr});
 }
 
 void SpotBlocks::apply(const std::vector<double>& r, std::vector<double>& z) const {
     const auto for_blocks = [&](auto&& visit) {  // visit(block, first member, number of members)
-        parallel_for(blocks_.size() - 1, 16, members_.size() > 2000 ? 0 : 1,
+        parallel_for(blocks_.size() - 1, 16, threads(),
                      [&](std::size_t b) { visit(b, blocks_[b].begin, blocks_[b + 1].begin - blocks_[b].begin); });
     };
     std::vector<double> most(blocks_.size(), 0.0);

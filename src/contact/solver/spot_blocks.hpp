@@ -27,6 +27,7 @@ public:
 private:
     using Shape = std::vector<Pixel>;  // relative to its first pixel
     struct Inverse {
+        Shape shape;
         std::vector<float> values;
         bool wanted = true;
     };
@@ -34,7 +35,8 @@ private:
         std::size_t begin;
         const Inverse* inverse;
     };
-    std::map<Shape, Inverse> known_;
+    int threads() const { return members_.size() > 2000 ? 0 : 1; }
+    std::unordered_map<std::uint64_t, Inverse> known_;  // by the numbers of their shapes
     std::vector<Block> blocks_;
     std::vector<int> members_;  // positions in `all` of the pixels of the blocks
 };

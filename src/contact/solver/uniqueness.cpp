@@ -342,20 +342,50 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
     return proved(law, kernel, asperity, x, y, v, force, slope, 0);
 }
 
+void LastingProof::Bounds::set(const std::vector<int>& asperities, const Vector& x, const Vector& y, const Vector& v, double share,
+                               double width) {
+    for (const int i : asperity) by_asperity[static_cast<std::size_t>(i)] = {};
+    asperity = asperities, touching = 0;
+    const std::size_t size = static_cast<std::size_t>(*std::max_element(asperity.begin(), asperity.end())) + 1;
+    if (by_asperity.size() < size) by_asperity.resize(size);
+    for (std::size_t k = 0; k < v.size(); ++k) {
+        const double wide = std::max(share * std::abs(v[k]), width);
+        by_asperity[static_cast<std::size_t>(asperity[k])] = {v[k] - wide, v[k] + wide, x[k], y[k]};
+        touching += v[k] + wide > 0;
+    }
+}
+
+bool LastingProof::Bounds::contain(const std::vector<int>& asperities, const Vector& x, const Vector& y, const Vector& v,
+                                   bool others) const {
+    std::size_t touch = 0;
+    constexpr double rounding = 1e-9;
+    const auto same = [](double a, double b) { return std::abs(a - b) <= rounding * std::abs(b); };
+    for (std::size_t k = 0; k < v.size(); ++k) {
+        const auto i = static_cast<std::size_t>(asperities[k]);
+        const bool known = i < by_asperity.size() && std::isfinite(by_asperity[i].high);
+        if (!known && others && !(v[k] > 0)) continue;
+        if (!known) return false;
+        const Asperity& own = by_asperity[i];
+        if (!(v[k] <= own.high && v[k] >= own.low && same(own.x, x[k]) && same(own.y, y[k]))) return false;
+        touch += own.high > 0;
+    }
+    return touch == touching;
+}
+
+// Nearness relative to the penetration, and to the largest one where that is small. On the default surface 1600 levels of 'fourth_order' under
+// tips that moved by 1e-5 or 1e-4 mm, most of them not unique, had the contacts found from the start each time, with three times this, too.
+void LastingProof::select(const std::vector<int>& asperity, const Vector& x, const Vector& y, const Vector& v) {
+    constexpr double near = 1e-2, least = 1e-3;
+    chosen_.set(asperity, x, y, v, near, least * *std::max_element(v.begin(), v.end()));
+}
+
+bool LastingProof::selected(const std::vector<int>& asperity, const Vector& x, const Vector& y, const Vector& v) const {
+    return !chosen_.asperity.empty() && chosen_.contain(asperity, x, y, v, true);
+}
+
 bool LastingProof::holds(const Law& law, const Kernel& kernel, const std::vector<int>& asperity, const Vector& x, const Vector& y,
                          const Vector& v, const Vector& force, const Vector& slope, const std::array<double, 3>& place) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    std::size_t touching = 0;
-    const auto covered = [&](std::size_t k) {
-        const auto i = static_cast<std::size_t>(asperity[k]);
-        touching += i < bound_.size() && bound_[i] > 0;
-        constexpr double rounding = 1e-9;
-        const auto same = [](double a, double b) { return std::abs(a - b) <= rounding * std::abs(b); };
-        return i < bound_.size() && v[k] <= bound_[i] && v[k] >= bound_[i] - spread_ && same(x_[i], x[k]) && same(y_[i], y[k]);
-    };
-    std::size_t k = 0;
-    while (k < v.size() && covered(k)) ++k;
-    if (k == v.size() && touching == touching_) return true;
+    if (proved_.contain(asperity, x, y, v, false)) return true;
     const double width = v.empty() ? 0 : wide_ * *std::max_element(v.begin(), v.end());
     const auto last = std::exchange(place_, place);
     bool near = waits_ == 0;
@@ -367,16 +397,7 @@ bool LastingProof::holds(const Law& law, const Kernel& kernel, const std::vector
         for (double& bound : high) bound += width;
         law.respond(static_cast<int>(v.size()), asperity.data(), high.data(), f.data(), D.data(), W.data());
         if (proved(law, kernel, asperity, x, y, high, f, D, 2 * width)) {
-            for (const int i : proved_) bound_[static_cast<std::size_t>(i)] = -kInfinity;
-            bound_.resize(std::max(bound_.size(), static_cast<std::size_t>(*std::max_element(asperity.begin(), asperity.end())) + 1),
-                          -kInfinity);
-            x_.resize(bound_.size()), y_.resize(bound_.size());
-            for (k = 0; k < high.size(); ++k) {
-                const auto i = static_cast<std::size_t>(asperity[k]);
-                bound_[i] = high[k], x_[i] = x[k], y_[i] = y[k];
-            }
-            proved_ = asperity, spread_ = 2 * width;
-            touching_ = static_cast<std::size_t>(std::count_if(high.begin(), high.end(), [](double u) { return u > 0; }));
+            proved_.set(asperity, x, y, v, 0, width);
             return true;
         }
     }
