@@ -133,6 +133,11 @@ TEST(products) {
             const rsc::LoopThreads loops(rsc::most_threads(0) == 1 ? 3 : 1);
             tree->apply(positive.data(), one.data(), PixelProducts::Accuracy::full);
             CHECK(w == one);
+            // Where deflections are wanted they are the same bits; elsewhere these or 0.
+            std::vector<char> wanted(n);
+            for (std::size_t k = 0; k < n; k += 97) wanted[k] = 1;
+            tree->apply(positive.data(), one.data(), PixelProducts::Accuracy::full, wanted.data());
+            for (std::size_t k = 0; k < n; ++k) CHECK(one[k] == w[k] || (one[k] == 0 && !wanted[k]));
         }
     }
 }

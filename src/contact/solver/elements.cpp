@@ -99,7 +99,7 @@ void ElementsSolver::draw(const std::vector<double>& p) {
         n, kPixels, threads, [&](std::size_t k) { return p[k] > 0 || member_[k]; }, seeds);
     const std::size_t rows = row_begin.size();
     row_begin.push_back(static_cast<int>(n));
-    int left = 0, right = 0;  // of all pixels
+    int left = std::numeric_limits<int>::max(), right = std::numeric_limits<int>::min();  // of all pixels, with their reach
     for (std::size_t r = 0; r < rows; ++r) {
         left = std::min(left, pixels[at(row_begin[r])].x - kReach);
         right = std::max(right, pixels[at(row_begin[r + 1] - 1)].x + kReach);
