@@ -6,6 +6,7 @@
 #include "contact/expected_error.hpp"
 #include "contact/pixel_spots.hpp"
 #include "contact/spots.hpp"
+#include "format.hpp"
 #include "height_maps.hpp"
 #include "observe/map.hpp"
 #include "observe/record.hpp"
