@@ -96,7 +96,7 @@ TEST(coarser) {
 TEST(filled) {
     std::vector<std::uint8_t> missing(16);
     missing[5] = 1;  // the point (1, 1)
-    const FilledPoints map{&missing, 4, 4, 1, 1, 0, 0, false, false};
+    const FilledPoints map{{4, 4, 1, 1, 0, 0}, &missing, false, false};
     Indenter ball{1e3, 1.0, 3, 3};
     constexpr double low = 1e-3;  // heights that reach the ball at its lowest point only
     Level level;
