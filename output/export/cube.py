@@ -44,7 +44,7 @@ def main(words=None):
                 variable.setncatts(about)
                 variable[...] = values.astype(object) if text else values
     except (OSError, IndexError, KeyError) as error:
-        sys.exit(f"cube.py: {arguments.manifest}: {getattr(error, 'strerror', None) or error}; the manifest of a study (..._manifest.nc) is expected")
+        sys.exit(f"cube.py: {arguments.manifest}: {error.strerror or error if isinstance(error, OSError) else 'no list of members in it'}; the manifest of a study (..._manifest.nc) is expected")
     print(path)
 
 

@@ -14,6 +14,7 @@ netCDF4 (Debian: python3-numpy python3-netcdf4).
 import argparse
 import os
 import re
+import signal
 import sys
 
 if __name__ == "__main__":
@@ -185,4 +186,5 @@ def main(words=None):
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # ends quietly in a pipe to head
     main()

@@ -14,6 +14,7 @@ python3-numpy python3-netcdf4).
 import argparse
 import csv
 import os
+import signal
 import sys
 
 if __name__ == "__main__":
@@ -198,4 +199,5 @@ def main(words=None):
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # ends quietly in a pipe to head
     main()

@@ -100,7 +100,7 @@ def main(words=None):
             sys.exit(f"plot.py: --step {arguments.step}: {result.path} has levels 1 to {result.steps}")
         if arguments.step - 1 not in result.loaded():
             touching = result.loaded() + 1
-            options.say(f"--step {arguments.step}: nothing touches at {result.level_name(arguments.step - 1)} of {result.path}; "
+            options.say(f"--step {arguments.step}: nothing touches at this level of {result.path}; "
                         + (f"levels {touching.min()} to {touching.max()} have contact" if touching.size else "no level has contact"))
     if not any(r.loaded().size for r in results) and "force" in results[0]:
         options.say("no level has contact, so there is little to draw")

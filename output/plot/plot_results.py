@@ -145,10 +145,12 @@ class Result:
         return force.size < 2 or bool(np.ptp(force) > 1e-3 * force.max())
 
     def chosen(self, count, step):
-        """The requested level, or `count` levels with contact, evenly spaced and ending with the last; none without contact."""
+        """The requested level, or `count` converged levels with contact, evenly spaced and ending with the last; none without contact."""
         loaded = self.loaded()
         if step is not None:
             return [step - 1] if step - 1 in loaded else []
+        if "status" in self:  # maps and radial means have nothing of levels that did not converge
+            loaded = loaded[(self["status"].reshape(-1, self.steps)[:, loaded] < 4).any(axis=0)]
         return sorted({int(s) for s in loaded[np.linspace(0, loaded.size - 1, count + 1).round().astype(int)[1:]]}) if loaded.size else []
 
     def branches(self):

@@ -89,6 +89,8 @@ def study(results, options):
             if np.isfinite(value) and table.size <= 36:
                 axis.text(j, i, short(value / bar.size), ha="center", va="center", color="k" if value > middle else "w", fontsize=7)
         for key, shown, place, set_label in ((keys[0], ends[0], axis.set_yticks, axis.set_ylabel), (keys[1], ends[1], axis.set_xticks, axis.set_xlabel)):
-            place(range(len(shown)), [value_text(t) for t in shown])
+            shown = [value_text(t) for t in shown]
+            every = -(-(len(shown) if key == keys[0] else sum(map(len, shown)) // 2) // 14)  # as many as there is room for
+            place(range(0, len(shown), every), shown[::every])
             set_label(axis_label(key, results[0]))
     return page.finish(title(results, f"Study at {name}"))

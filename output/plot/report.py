@@ -65,7 +65,7 @@ def shortened(text):
 
 
 def percent(values):
-    low, high = short(100 * np.nanmin(values), 2), short(100 * np.nanmax(values), 2)
+    low, high = (short(100 * value, 2) if value <= 10 else "more than 1000" for value in (np.nanmin(values), np.nanmax(values)))
     return f"{high} %" if low == high else f"{low} to {high} %"
 
 
@@ -111,7 +111,7 @@ def known(result, names):
             values = values[np.isfinite(values)]
             if values.size:
                 text = amount(values.mean(), result.dimension(name), 4)
-                lines.append((name, result.file[name].long_name, text + (f" ± {amount(values.std(ddof=1), result.dimension(name), 2)}" if values.size > 1 and np.ptp(values) > 0 else "")))
+                lines.append((name, result.file[name].long_name, text + (f" ± {amount(values.std(ddof=1), result.dimension(name), 2)}" if values.size > 1 and np.ptp(values) > 1e-9 * abs(values.mean()) else "")))
     return lines
 
 

@@ -62,6 +62,7 @@ void compute(rsc_contact& contact, Compute&& level) {
 }
 
 void put_finite(double* to, double value) {
+    if (std::isnan(value)) throw Outcome{RSC_NO_RESULT, "the level has no such value"};
     if (!std::isfinite(value)) throw Outcome{RSC_NO_RESULT, "the result overflows double precision: choose other units"};
     put(to, value);
 }

@@ -166,8 +166,9 @@ std::vector<Key> make_registry() {
         number(
             RSC_KEY(surface, filter_cutoff), "length", between(0, kNoLimit),
             "cutoff wavelength of the Gaussian low-pass filter (ISO 16610-61) of a height map, 0 for none; waves of that length keep half of their amplitude"),
-        text(RSC_KEY(surface, channel), 1024,
-             "channel of a .gwy file (its title, or its number in Gwyddion, from 0), or variable of a NetCDF file; if empty, the first one with heights"),
+        text(
+            RSC_KEY(surface, channel), 1024,
+            "channel of a .gwy file (its title, or its number in Gwyddion, from 0), or variable of a NetCDF file; if empty, the first one with heights"),
         text(RSC_KEY(surface, height_unit), 64, "unit of the heights in a text file, as UDUNITS spells it; run%length_unit if empty"),
         number(RSC_KEY(surface, pixel), "length", kPositive, "distance between neighbouring points of a text matrix, instead of L",
                "from L"),

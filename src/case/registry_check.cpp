@@ -65,8 +65,10 @@ private:
             problems_.push_back({{&key},
                                  static_cast<long>(element),
                                  std::string(key.name) + (element > 0 ? "(" + std::to_string(element) + ")" : "") + " = " +
-                                     (key.type == Type::integer ? count(value) : namelist::from_real(value)) + ": must be " +
-                                     bounds + (std::isfinite(value) ? "" : bounds.empty() ? "finite" : " and finite")});
+                                     (key.type == Type::integer ? count(value) : namelist::from_real(value)) + ": must be " + bounds +
+                                     (bounds.empty()                                ? "finite"
+                                      : std::isfinite(value) || key.bounds.infinity ? ""
+                                                                                    : " and finite")});
         };
         const auto each = [&](const auto* values, std::size_t size) {
             for (std::size_t i = 0; i < size; ++i) number(static_cast<double>(values[i]), key.size > 1 ? i + 1 : 0);

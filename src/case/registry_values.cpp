@@ -203,8 +203,9 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
         }
         if (left == 0 || item.repeat > left) {
             const std::string room = elements == 1 ? "one value" : std::to_string(elements) + " values";
-            return fault(item.at, item.counted ? "the repeat count is too large: " + room + " at most"
-                                               : "too many values: " + room + " at most, found " + quote(item) + (is_text ? "" : hint(item)));
+            return fault(item.at, item.counted
+                                      ? "the repeat count is too large: " + room + " at most"
+                                      : "too many values: " + room + " at most, found " + quote(item) + (is_text ? "" : hint(item)));
         }
         if (!item.null) {
             for (long k = 0; k < item.repeat; ++k) {

@@ -21,7 +21,7 @@ AdhesivePath::AdhesivePath(const Asperities& asperities_, const Indenter& indent
     : ContactBodies(asperities_, indenter_, options_, std::move(search_)),
       law(make_law(options_.law, asperities, indenter_.E_star)),
       sticking(*law, options_.adhesion.work, options_.adhesion.range),
-      direct(make_direct_products(kernel, true)),
+      direct(make_direct_products(kernel)),
       solver(sticking),
       place(asperities.size(), -1) {
     const auto refuse = [](const char* what) { throw Error(Failure::bad_input, std::string("solids%adhesion is ") + what); };

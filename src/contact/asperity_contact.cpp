@@ -66,7 +66,7 @@ AsperityContact::Impl::Impl(const Asperities& asperities_, const Indenter& inden
       keeps(of_difference && !of_difference->map ? summits_keep(of_surface, indenter, options) : 0),
       ellipses(of_ellipses(*this)),
       law(law_of(*this, ellipses, relaxing)),
-      direct(make_direct_products(kernel, true)),
+      direct(make_direct_products(kernel)),
       newton(*law),
       beside(*this, ellipses) {
     use(Method::direct);

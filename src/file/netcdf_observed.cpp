@@ -28,7 +28,8 @@ void ResultTable::maps() {
     const MapGrid& g = o_.options.map;
     file_.dimension("y", static_cast<std::size_t>(g.ny));
     file_.dimension("x", static_cast<std::size_t>(g.nx));
-    add("y", {"y"}, unit(1), "y of the cell centres", each_of(g.ny, [&](int j) { return g.y(j); }), {{"axis", "Y"}});
+    add("y", {"y"}, unit(1), "y of the cell centres; the last row may extend beyond the surface",
+        each_of(g.ny, [&](int j) { return g.y(j); }), {{"axis", "Y"}});
     add("x", {"x"}, unit(1), "x of the cell centres", each_of(g.nx, [&](int i) { return g.x(i); }), {{"axis", "X"}});
     add("map_cell_side", {}, unit(1), "side of the square cells of the map, w", std::vector<double>{g.side});
     const Names dims{"step", "y", "x"};
@@ -47,7 +48,7 @@ void ResultTable::radial() {
     if (o_.radii.empty()) return;  // the tip is not above the map
     file_.dimension("radius", o_.radii.size());
     add("radius", {"radius"}, unit(1), "distance from the tip", o_.radii,
-        comment("middles of rings of equal width, from the tip to the largest circle in the map"));
+        comment("middles of rings of equal width, from the tip to the largest circle on the surface"));
     const Names dims{"step", "radius"};
     const std::string how =
         "mean over the circle of the map, interpolated by bicubic Bezier patches between cell centres; it may be negative beside empty cells";

@@ -1,7 +1,6 @@
 #include "observe/map.hpp"
 
 #include "error.hpp"
-#include "format.hpp"
 #include "rough/parallel.hpp"
 
 namespace rsc {
@@ -20,11 +19,11 @@ MapGrid make_map_grid(double x0, double y0, double Lx, double Ly, int cells) {
         bad_input("coarse map: the sides of the surface must be positive and finite");
     if (cells < 1) bad_input("coarse map: the number of cells must be at least 1, not " + std::to_string(cells));
     MapGrid grid{x0, y0, Lx / cells, cells, 0};
-    // If Ly is a whole number of cells up to rounding, the last row is kept.
-    const double rows = std::floor(Ly / grid.side * (1 + 8 * std::numeric_limits<double>::epsilon()));
-    if (rows < 1)
-        bad_input("coarse map: a cell of side " + text_of(grid.side) + " is larger than the surface's extent " + text_of(Ly) +
-                  " along y; increase map_cells");
+    const double exactly = Ly / grid.side, rows = std::ceil(exactly * (1 - 8 * std::numeric_limits<double>::epsilon()));
+    // Ly may be a whole number of cells up to rounding.
+    const bool whole = rows <= exactly * (1 + 8 * std::numeric_limits<double>::epsilon());
+    grid.Ly = whole ? rows * grid.side : Ly;
+    grid.last_row = whole ? 1 : exactly - (rows - 1);
     if (rows * cells > 1e8) bad_input("coarse map: more than 1e8 cells; decrease map_cells");
     grid.ny = static_cast<int>(rows);
     return grid;
@@ -138,15 +137,17 @@ void for_each_weight(const MapGrid& grid, double px, double py, Use use) {
     const BezierWeights wx = bezier_weights(grid.nx, (px - grid.x0) / grid.side - 0.5);
     const BezierWeights wy = bezier_weights(grid.ny, (py - grid.y0) / grid.side - 0.5);
     for (int j = 0; j < wy.count; ++j)
-        for (int i = 0; i < wx.count; ++i)
+        for (int i = 0; i < wx.count; ++i) {
+            const double covered = wy.first + j == grid.ny - 1 ? grid.last_row : 1;
             use(static_cast<std::size_t>((wy.first + j) * grid.nx + wx.first + i),
-                wy.weight[static_cast<std::size_t>(j)] * wx.weight[static_cast<std::size_t>(i)]);
+                wy.weight[static_cast<std::size_t>(j)] * wx.weight[static_cast<std::size_t>(i)] / covered);
+        }
 }
 
 }  // namespace
 
 RadialMean::RadialMean(const MapGrid& grid, double x0, double y0, int bins) {
-    const double largest = std::min({x0 - grid.x0, grid.x0 + grid.Lx() - x0, y0 - grid.y0, grid.y0 + grid.Ly() - y0});
+    const double largest = std::min({x0 - grid.x0, grid.x0 + grid.Lx() - x0, y0 - grid.y0, grid.y0 + grid.Ly - y0});
     if (!(largest > 0) || bins < 1) return;
     const double ring_width = largest / bins;
     std::vector<double> row(static_cast<std::size_t>(grid.cells()));

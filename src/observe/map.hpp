@@ -11,18 +11,19 @@ struct MapGrid {
     double x0 = 0, y0 = 0;  // [length]
     double side = 0;        // [length]
     int nx = 0, ny = 0;
+    double Ly = 0;        // of the surface, on which the last row lies
+    double last_row = 1;  // with this share
     int cells() const { return nx * ny; }
     double x(int i) const { return x0 + (i + 0.5) * side; }
     double y(int j) const { return y0 + (j + 0.5) * side; }
     double Lx() const { return nx * side; }
-    double Ly() const { return ny * side; }
     // Index of the cell that contains a point, -1 outside. Lower edges belong to a cell; the upper edges of the map belong to its last
     // cells.
     int cell(double px, double py) const;
 };
 
-// Grid over a surface Lx x Ly from (x0, y0): `cells` cells along x, and as many rows of these cells as fit into Ly. Throws Error(bad_input)
-// if sides or cells are not positive, or if no row fits (Ly < Lx/cells).
+// Grid over a surface Lx x Ly from (x0, y0): `cells` cells along x, and as many rows of these cells as cover Ly; the last one may extend beyond
+// the surface. Throws Error(bad_input) if sides or cells are not positive.
 MapGrid make_map_grid(double x0, double y0, double Lx, double Ly, int cells);
 
 // Cells of one level that hold contacts, by increasing cell number. It is sparse, because most cells are empty and a campaign stores many
@@ -62,8 +63,8 @@ BezierWeights bezier_weights(int n, double s);
 // radial means over realizations is the radial mean of the mean map.
 class RadialMean {
 public:
-    // `bins` rings of equal width between the centre (x0, y0) and the largest circle inside the map; a mean is taken over the circle in the
-    // middle of its ring. There are no rings if the centre lies outside the map or on its edge.
+    // `bins` rings of equal width between the centre (x0, y0) and the largest circle on the surface; a mean is taken over the circle in the
+    // middle of its ring. The last row counts with its mean over the part on the surface. There are no rings if the centre lies outside the map or on its edge.
     RadialMean(const MapGrid& grid, double x0, double y0, int bins);
 
     const std::vector<double>& radii() const { return radii_; }  // middle of the rings [length]

@@ -56,7 +56,8 @@ constexpr LevelQuantity kQuantities[] = {
     {.name = "force_error_expected", .member = &V::force_error_expected, .unit = "1",
      .meaning = "expected relative error of the force",
      .comment = "asperities: difference from boundary elements, not exceeded in nine of ten cases (calibrated: input/trust); boundary "
-                "elements: from the change of N on another grid, solved at some levels; with adhesion from cohesive_resolution (test/README)", .always = false},
+                "elements: from the change of N on another grid, solved at some levels, and from crests between the points; with adhesion from cohesive_resolution (test/README). Times |force| it is the error of "
+                "the force, also where adhesion makes the force small and this fraction large; missing where the force is 0", .always = false},
     {.name = "area_error_expected", .member = &V::area_error_expected, .unit = "1",
      .meaning = "expected relative error of the contact area", .comment = "as force_error_expected", .always = false},
     {.name = "slope_ratio", .member = &V::slope_ratio, .unit = "1",

@@ -185,17 +185,14 @@ void keep_depths(std::vector<std::uint8_t>& filled, int nx, int ny, int steps) {
 
 namespace {
 
-// Share of neighbours along rows whose heights differ by no more than `same`.
-double equal_share(const HeightMap& map, double same) {
-    long equal = 0, pairs = 0;
+// Visits the heights of all pairs of neighbours, along rows and columns.
+template <class Visit>
+void visit_neighbours(const HeightMap& map, Visit visit) {
     for (int j = 0; j < map.ny; ++j)
-        for (int i = 1; i < map.nx; ++i) {
-            const double d = std::abs(map(i, j) - map(i - 1, j));
-            if (std::isnan(d)) continue;
-            ++pairs;
-            equal += d <= same;
+        for (int i = 0; i < map.nx; ++i) {
+            if (i > 0) visit(map(i - 1, j), map(i, j));
+            if (j > 0) visit(map(i, j - 1), map(i, j));
         }
-    return pairs > 0 ? static_cast<double>(equal) / static_cast<double>(pairs) : 0.0;
 }
 
 }  // namespace
@@ -204,23 +201,22 @@ double height_step(const HeightMap& map) {
     constexpr double few = 0.02;       // share of equal neighbours; with a smaller one rounding does not matter
     constexpr double rounding = 1e-6;  // relative to the step: files store heights as decimal numbers
     double least = 0;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 1; i < map.nx; ++i) {
-            const double d = std::abs(map(i, j) - map(i - 1, j));
-            const double noise = 1e-12 * (std::abs(map(i, j)) + std::abs(map(i - 1, j)));
-            if (d > noise && (least == 0 || d < least)) least = d;
-        }
-    if (!(least > 0) || equal_share(map, rounding * least) < few) return 0;
-    long pairs = 0, other = 0;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 1; i < map.nx; ++i) {
-            const double steps = std::abs(map(i, j) - map(i - 1, j)) / least;
-            if (std::isnan(steps)) continue;
-            ++pairs;
-            other += std::abs(steps - std::round(steps)) > 1e-3 * std::max(1.0, steps);
-        }
+    visit_neighbours(map, [&](double a, double b) {
+        const double d = std::abs(b - a), noise = 1e-12 * (std::abs(a) + std::abs(b));
+        if (d > noise && (least == 0 || d < least)) least = d;
+    });
+    if (!(least > 0)) return 0;
+    long pairs = 0, equal = 0, other = 0;
+    visit_neighbours(map, [&](double a, double b) {
+        const double steps = std::abs(b - a) / least;
+        if (std::isnan(steps)) return;
+        ++pairs;
+        equal += steps <= rounding;
+        other += std::abs(steps - std::round(steps)) > 1e-3 * std::max(1.0, steps);
+    });
     constexpr double most_other = 1e-3;
-    return static_cast<double>(other) <= most_other * static_cast<double>(pairs) ? least : 0.0;
+    const auto share = [&](long of) { return static_cast<double>(of) / static_cast<double>(std::max(pairs, 1L)); };
+    return share(equal) >= few && share(other) <= most_other ? least : 0.0;
 }
 
 void damp_waves(HeightMap& map, bool periodic, const char* purpose, const std::function<void(double*, double)>& damp) {

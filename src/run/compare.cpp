@@ -92,6 +92,11 @@ public:
         for (;;) {
             Level truth = by_force && level.force > 0 ? contact_->at_force(level.force) : contact_->at_separation(level.separation);
             error = truth.status == LevelStatus::not_converged ? std::nullopt : other_->error(truth);
+            if (error) {
+                truth.stiffness = contact_->stiffness();
+                const GridError crests = Crests(job_, *map_).error(truth);
+                error = GridError{std::max(error->force, crests.force), std::max(error->area, crests.area)};
+            }
             const bool enough = error ? error->force <= kUnresolved : truth.contacts == 0 && level.contacts == 0;
             if (enough || !refine(truth)) return truth;
         }

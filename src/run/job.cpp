@@ -225,6 +225,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     const auto& settings = job.settings;
     std::unique_ptr<Contact> contact;
     std::optional<ResolutionCheck> resolution;  // of elements, single runs only
+    std::optional<Crests> ridges;               // of elements
     double side = 0;                            // of their pixels
     std::shared_ptr<const Measured> measured = job.given ? job.measured : nullptr;
     SummitSearch search;
@@ -243,6 +244,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         side = std::max(map.dx, map.dy);
         contact = make_element_contact(map, job.indenter, job.solver);
         if (settings.run.realizations == 1 && !(settings.solids.adhesion > 0)) resolution.emplace(job, number, threads, map);
+        ridges.emplace(job, map);
     } else {
         if ((settings.output.heights || !settings.output.fields.empty()) && job.spectrum)
             r.heights = make_surface(settings, *job.spectrum, number, threads).map;
@@ -297,9 +299,9 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         if (!job.times.empty()) level.time = job.times[k];
         add_answers(*contact, level, settings.solids.resistivity);
         if (resolution)
-            resolution->judge(k, level);
+            resolution->judge(k, level, *ridges);
         else if (by_elements(settings))
-            judge_pixels(level, job, side);
+            judge_pixels(level, job, side, *ridges);
         judge_filled(level, filled, job.indenter, job.sigma);
         if (by_elements(settings) && level.force_error_expected >= 0) {
             level.force_error_expected += kScattered * scattered;
@@ -314,7 +316,7 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
             if (curve->failed() > failed) level.status = LevelStatus::not_converged;
         }
         const bool field = std::find(field_steps.begin(), field_steps.end(), static_cast<std::int32_t>(k)) != field_steps.end();
-        if (const Asperities* yielding = contact->asperities(); field)
+        if (const Asperities* yielding = contact->asperities(); field && !std::isnan(level.force))  // a level without a state has none
             fields.push_back({static_cast<std::int32_t>(k), &level,
                               yielding ? lowered_summits(job.given_heights ? *job.given_heights : *r.heights, job.indenter.period.finite(),
                                                          *yielding, contact->residual_depths())

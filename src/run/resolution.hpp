@@ -4,7 +4,8 @@
 // which has no waves shorter than lambda_s, decreases at least as the first power of the grid step: the expected error is half the change of
 // N from the coarser grid, and more for contacts of few pixels. A map from a file may have waves shorter than its grid; every second point of it is solved, and the expected
 // error, that of a measurement twice as fine, is fitted to such changes and to the size of contacts in pixels. (Its interpolation to a finer
-// grid has no new waves: changes of N on it are several times smaller than those of a finer measurement.)
+// grid has no new waves: changes of N on it are several times smaller than those of a finer measurement.) Straight crests between the points, which
+// the coarser grid may miss by as much, are part of the errors.
 #pragma once
 
 #include "contact/contact.hpp"
@@ -47,13 +48,29 @@ private:
     double edge_ = 0;        // share of N by the places of the pixels at the edge of the indenter
 };
 
+// Errors of contacts on ridges, whose crests lie between the points: a contact one or two points wide and many long has the error of one of few
+// pixels.
+class Crests {
+public:
+    Crests(const Job& job, const HeightMap& map);
+    // Least errors of a level with contacts and their stiffness.
+    GridError error(const Level& level) const;
+
+private:
+    double height(int column, int row) const;
+
+    const HeightMap& map_;
+    const Indenter& indenter_;
+    Tensor bend_ = {};  // synthetic surfaces: mean of the second derivatives at points of height 1, with a minus [1/length^2]
+};
+
 // Checks the levels of a run one after the other: each gets the error of the last level that was solved on the second grid. The check is
 // repeated once contacts have grown or shrunk.
 class ResolutionCheck {
 public:
     ResolutionCheck(const Job& job, std::int64_t number, int threads, const HeightMap& map);
     // Sets force_error_expected and area_error_expected of level `step` and raises its status if they are too large.
-    void judge(std::size_t step, Level& level);
+    void judge(std::size_t step, Level& level, const Crests& ridges);
 
 private:
     const Job& job_;
@@ -65,7 +82,7 @@ private:
 // The same without a second grid, for campaigns and with adhesion: the part of the errors that contacts of few pixels, of the given side
 // [length], have, and those at the edge of the indenter. With adhesion it is added to that of the attraction, and a level is out_of_validity
 // beyond kMuchError.
-void judge_pixels(Level& level, const Job& job, double side);
+void judge_pixels(Level& level, const Job& job, double side, const Crests& ridges);
 
 // The check of a level for missing points of its map, which are not part of the contact.
 

@@ -19,6 +19,9 @@ test_cases() {
     [ "$(grep -c 'is complete' said)" -eq 6 ] || fail "finished members are run again: $(cat said)"
     expect 0 ./rsc $small -s surface%n=512 -s surface%L_lambda_s=128 input/campaign.nml
     [ -s output/campaign.nc ] || fail "the campaign has left no file"
+    expect 0 ./rsc input/map/map.nml
+    grep -E '^    (map: 160|missing points:|form .sphere|filter .Gauss|heights: Sq|spectrum: hurst)' input/README | sed 's/^ *//' > told
+    [ "$(wc -l < told)" -eq 6 ] && ! grep -vxFf said told || fail "input/README tells of another map: $(cat said)"
     draws || exit 77
     expect 0 "$python" "$project/output/plot/plot.py" output/campaign.nc
     [ "$(pictures)" -ge 1 ] || fail "plot.py has made no picture: $(ls output)"

@@ -2,6 +2,7 @@
 
 #include "check.hpp"
 #include "contact/element_contact.hpp"
+#include "contact/indenter/shapes.hpp"
 #include "height_maps.hpp"
 #include "rough/synthesis.hpp"
 
@@ -112,25 +113,33 @@ TEST(tolerances) {
 
 }  // namespace
 
-// A sphere whose top lies between points touches above the highest of them: there N = 0 is not converged.
+// A sphere whose top lies between points, on the surface or above it, and a cone with its tip there, touch above the highest point: there N = 0
+// is not converged. Farther above than a third of that height it is.
 TEST(between_points) {
     const double R = 10, h = 0.01;
     const int n = 40;
-    for (const bool repeats : {false, true}) {
-        const double x = (0.5 * n + 0.31) * h, y = (0.5 * n - 0.17) * h;
-        const HeightMap map = height_map(n, n, h, h, [&](int i, int j) {
-            return -(std::pow(i * h - x, 2) + std::pow(j * h - y, 2)) / (2 * R);  // its top is at 0
-        });
-        Indenter flat{kE, std::numeric_limits<double>::infinity()};
-        if (repeats) flat.period = {n * h, n * h};
+    const double x = (0.5 * n + 0.31) * h, y = (0.5 * n - 0.17) * h;
+    const auto touches = [&](const HeightMap& map, const Indenter& tip) {
         SolverOptions o = options(1e-8);
         o.sigma = h * h / R;
-        const auto contact = make_element_contact(map, flat, o);
-        CHECK(contact->first_touch() < 0);
-        CHECK(contact->at_separation(1e-9 * o.sigma).status == LevelStatus::converged);
-        const Level level = contact->at_separation(-1e-3 * o.sigma);
-        CHECK(level.contacts == 0);
-        CHECK(level.status == LevelStatus::out_of_validity);
+        const auto contact = make_element_contact(map, tip, o);
+        CHECK(contact->first_touch() < 0);  // the top is at 0
+        CHECK(contact->at_separation(-0.4 * contact->first_touch()).status == LevelStatus::converged);
+        for (const double deep : {0.1, 0.9}) {
+            const Level level = contact->at_separation(deep * contact->first_touch());
+            CHECK(level.contacts == 0 && level.force_error_expected == 1);
+            CHECK(level.status == LevelStatus::out_of_validity);
+        }
         CHECK(contact->at_separation(2 * contact->first_touch()).contacts > 0);
-    }
+    };
+    const HeightMap cap =
+        height_map(n, n, h, h, [&](int i, int j) { return -(std::pow(i * h - x, 2) + std::pow(j * h - y, 2)) / (2 * R); });
+    Indenter flat{kE, std::numeric_limits<double>::infinity()};
+    touches(cap, flat);
+    flat.period = {n * h, n * h};
+    touches(cap, flat);
+    touches(flat_map(n, n, h, h), {kE, R, x, y});
+    ShapeKeys cone;
+    cone.slope = 0.1;
+    touches(flat_map(n, n, h, h), {kE, make_shape(shape_number("cone"), cone), x, y});
 }

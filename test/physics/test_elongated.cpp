@@ -4,6 +4,8 @@
 #include "contact/element_contact.hpp"
 #include "height_maps.hpp"
 #include "rough/detection.hpp"
+#include "rough/synthesis.hpp"
+#include "run/prepare.hpp"
 
 using namespace rsc;
 
@@ -30,5 +32,23 @@ TEST(all_elongated) {
             CHECK_RELATIVE(model.force, truth.force, 0.015);
             CHECK_RELATIVE(model.area, truth.area, 0.08);
         }
+    }
+}
+
+// Maps with a lay and their mirror images, under a ball steep enough for ellipses of largest load.
+TEST(mirrored) {
+    for (const int seed : {1, 2, 3}) {
+        const HeightMap z = synthesize({.L = 1.28, .L_lambda_l = 2, .L_lambda_s = 30, .sigma = 1e-3, .aspect = 3, .direction = 30}, 128,
+                                       Normalise::sample, seed, 1);
+        const auto force = [&](bool mirrored) {
+            Case c;
+            c.solids.R[1] = 5, c.asperities.law = LawKind::fourth_order, c.solver.model = Model::asperities;
+            Surface surface;
+            surface.map = height_map(97, 99, 0.01, 0.01, [&](int i, int j) { return z(mirrored ? 96 - i : i, j); });
+            surface.sigma = 1e-3;
+            const SurfaceModel model = make_surface_model(surface, c, 1);
+            return make_contact(model, indenter_of(c, model.domain), solver_of(c, model.domain))->at_separation(5e-4).force;
+        };
+        CHECK_RELATIVE(force(true), force(false), 1e-9);
     }
 }

@@ -7,6 +7,7 @@ import functools
 import io
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -296,6 +297,13 @@ class Numbers(Drawn):
         full = 1.5 * 0.3 * N / (2 * E * (3 * N * R / (4 * E)) ** (1 / 3) * m)
         x, Q = next(line.get_data() for line in figure.axes[0].get_lines() if "Mindlin" in line.get_label())
         self.assertAlmostEqual(np.interp(0.5 * full, x[:60], Q[:60]) / (0.3 * N * (1 - 0.5**1.5)), 1, delta=1e-3)
+
+    def test_not_converged(self):
+        """Maps and radial means have nothing of a level that did not converge: the last one that did is drawn."""
+        shutil.copy(path("one"), path("failed"))
+        with netCDF4.Dataset(path("failed"), "a") as file:
+            file["status"][:, -2:] = 4
+        self.assertEqual(Result(path("failed"), in_si=True).chosen(1, None), [23])
 
     def test_compare(self):
         v, _ = raw("compared")

@@ -185,8 +185,9 @@ TEST(api_run) {
     for (const char* hardness : {"3e4", "6e4"}) {  // there the iteration goes on without bounds
         const CaseHandle hard = case_of(flat.c_str());
         OK(rsc_case_set(hard, "solids%hardness", hardness));
+        OK(rsc_case_set(hard, "output%fields", "'pressure'"));
         CHECK(run_to(folder / "deep.nc", hard, &failed) == RSC_NOT_CONVERGED);
-        CHECK(Reader(folder / "deep.nc").values("force")[1] == NC_FILL_DOUBLE);
+        CHECK(Reader(folder / "deep.nc").values("force")[1] == NC_FILL_DOUBLE && !Reader(folder / "deep.nc").has("field_pressure"));
     }
     CHECK(run_to(folder / "deep.nc", deep.c, &failed) == RSC_NOT_CONVERGED && failed == 1);
     const Reader deep_file(folder / "deep.nc");
@@ -200,6 +201,7 @@ TEST(api_run) {
     for (const char* name : {"force", "energy", "stiffness", "lateral_force_x", "moment_y"})
         CHECK(rsc_contact_value(flats, name, &force) == RSC_NO_RESULT && force == 0);
     CHECK(says("no state") && rsc_contact_spots(flats, 0, nullptr, nullptr, nullptr, nullptr) == RSC_NO_RESULT);
+    CHECK(rsc_contact_value(flats, "contact_area", &force) == RSC_NO_RESULT && says("no such value"));
     CHECK(rsc_contact_level(flats, &level, nullptr, nullptr, nullptr, nullptr) == RSC_SUCCESS && level == RSC_LEVEL_NOT_CONVERGED);
     // Contacts that the border cuts off: campaigns, which solve no second grid, give at least the change to a grid of half the step.
     Values cut[2], bounds;

@@ -45,7 +45,9 @@ TEST(test_syntax) {
     CHECK(read("&run title(3:4) = 'cd' title(1:2) = 'ab' /").run.title == "abcd");
     CHECK(read("&surface sigma = , /").surface.sigma == std::nullopt);
     CHECK((read("&output pdf_levels = , , , 9.5 /").output.pdf_levels == std::vector<double>{2.0, 2.5, 3.0, 9.5}));
-    CHECK_TEXT(complaint("&indentation levels(2) = x /"), "case.nml:1:26: &indentation: levels: expected a real number, found 'x'");
+    CHECK_TEXT(
+        complaint("&indentation levels(2) = x /"),
+        "case.nml:1:26: &indentation: levels: expected a real number, found 'x'; numbers are written with a decimal point and without their unit, comments begin with '!'");
     CHECK(read("&solver method = 'DIRECT ' /").solver.method == Method::direct);
 }
 

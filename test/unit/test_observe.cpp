@@ -32,6 +32,31 @@ TEST(test_borders_of_cells) {
         }
 }
 
+// On a surface that is no whole number of cells long nothing is lost: a uniform pressure on all of its pixels adds up to the force and the area,
+// and every radial mean is that pressure. Tolerance: rounding of sums over 510 pixels and their shares.
+TEST(test_oblong_maps) {
+    const double dx = 0.3, dy = 0.2, p = 2.5;
+    Level level;
+    level.pixels.columns = 30, level.pixels.dx = dx, level.pixels.dy = dy;
+    for (int k = 0; k < 30 * 17; ++k)
+        level.pixels.index.push_back(k), level.pixels.contact.push_back(0), level.pixels.pressure.push_back(p);
+    const double Lx = 30 * dx, Ly = 17 * dy, force = p * Lx * Ly;
+    level.add_contact(0, 0.5 * Lx, 0.99 * Ly, force, std::sqrt(Lx * Ly / pi), 1);
+    for (const int cells : {1, 2, 3, 4, 7, 30, 45}) {
+        const MapGrid grid = make_map_grid(0, 0, Lx, Ly, cells);
+        const MapLevel map = map_level(grid, level);
+        CHECK_RELATIVE(std::accumulate(map.force.begin(), map.force.end(), 0.0), force, 1e-13);
+        CHECK_RELATIVE(std::accumulate(map.area.begin(), map.area.end(), 0.0), Lx * Ly, 1e-13);
+        CHECK(map.outside == 0);
+        std::vector<double> pressure(static_cast<std::size_t>(grid.cells()));
+        for (std::size_t k = 0; k < map.cell.size(); ++k)
+            pressure[static_cast<std::size_t>(map.cell[k])] = map.force[k] / (grid.side * grid.side);
+        const RadialMean mean(grid, 0.5 * Lx, 0.5 * Ly, 9);
+        CHECK_RELATIVE(mean.radii().back(), 0.5 * Ly * 17 / 18, 1e-13);
+        for (const double value : mean(pressure.data())) CHECK_RELATIVE(value, p, 1e-12);
+    }
+}
+
 // n values at the quantiles (i - 1/2)/n, through the same counting as contacts.
 Distributions quantiles(const PdfBins& bins, int n, bool pressure, double scale) {
     Level level;

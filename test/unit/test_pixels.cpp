@@ -2,6 +2,7 @@
 #include "check.hpp"
 #include "contact/interaction/pixel_kernels.hpp"
 #include "contact/interaction/pixel_products.hpp"
+#include "contact/solver/elements.hpp"
 
 #include "rough/parallel.hpp"
 
@@ -133,6 +134,20 @@ TEST(products) {
             tree->apply(positive.data(), one.data(), PixelProducts::Accuracy::full);
             CHECK(w == one);
         }
+    }
+}
+
+// The residual contains the penetration of a pixel without pressure, and not its gap: of two pixels one carries its penetration g0 alone, and the
+// other one penetrates by half of that, or is as far away. Tolerance: rounding.
+TEST(pixels_without_pressure) {
+    const auto products = make_tree_products(3.0, 0.01, 0.01, 1e-3, 1e-6);
+    const double own = products->coefficient(0, 0), other = products->coefficient(1, 0);
+    ElementsSolver solver(*products, std::numeric_limits<double>::infinity());
+    for (const double penetration : {0.5, -0.5}) {
+        std::vector<double> p{1, 0};
+        const ElementsOutcome start = solver.solve({{0, 0}, {1, 0}}, {own, other + penetration * own}, 1e-6, 0, p);
+        CHECK_CLOSE(start.residual, std::max(penetration, 0.0), 1e-12);
+        CHECK(!start.converged);
     }
 }
 

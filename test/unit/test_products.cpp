@@ -40,7 +40,6 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
     for (std::size_t k = 0; k < others; ++k)
         xo.push_back(4.9 + 1.2 * kWide * uniform(random)), yo.push_back(-3.05 + kHigh * uniform(random));
     Kind kinds[] = {{"direct", make_direct_products(kernel), 1e-13, 1e-6, 1e-5},
-                    {"direct, 1/d stored", make_direct_products(kernel, true), 1e-13, 1e-6, 1e-5},
                     {"direct, pairs stored", make_direct_products(kernel), 1e-13, 1e-6, 1e-5, 9},
                     {"mesh", make_mesh_products(kernel, 1e-7, 1e-3), 1e-7, 1e-3, 1e-5},
                     {"mesh, direct where full", make_mesh_products(kernel, 1e-12, 1e-4), 1e-13, 1e-4, 1e-5}};

@@ -18,9 +18,6 @@ constexpr double kSecondsPerNearPair = 2.3e-9;
 constexpr double kSecondsPerMeshPoint = 11e-9;
 double seconds_per_point(const MeshDesign& design) { return 20e-9 + 0.9e-9 * design.width * ((design.width + 3) / 4 * 4); }
 
-// Largest memory of far fields stored for later points.
-constexpr std::size_t kKeptBytes = std::size_t{100} << 20;
-
 // Largest doubled mesh, at 16 bytes per point or less; otherwise the near field becomes larger.
 constexpr double kMeshPointsAtMost = 5e7;
 
@@ -99,8 +96,7 @@ int MeshPotential::threads() const { return n_ > kThreads ? 0 : 1; }
 
 double MeshPotential::resolved() const { return kernel_->smooth() ? resolved_by(*design_, kernel_->smooth()->scale()) : kInfinity; }
 
-MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, std::shared_ptr<const Kernel> kernel,
-                             FarFields* kept)
+MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, std::shared_ptr<const Kernel> kernel)
     : n_(n), kernel_(std::move(kernel)), lattice_(kernel_->lattice()), direct_(*kernel_), design_(&mesh_design(relative_error)) {
     if (!(relative_error >= 1e-10 && relative_error <= 1e-2))
         throw Error(Failure::bad_input, "mesh product: relative error " + text_of(relative_error) + " is outside the range 1e-10 to 1e-2");
@@ -119,7 +115,7 @@ MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, do
     }
     window_ = mesh_window(*design_);
     if (lattice_) {
-        make_periodic(x, y, kept);
+        make_periodic(x, y);
         return;
     }
     // The kernel is symmetric in x and y.
@@ -134,12 +130,12 @@ MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, do
     }
     scale_ = std::ldexp(1.0, -std::ilogb(length_x) - 1);
     near_part_ = near_kernel(*design_, design_->cutoff * spacing_ * scale_);
-    far_ = std::make_shared<FarField>(*design_, length_x / spacing_, length_y / spacing_, spacing_, *kernel_);
+    far_ = std::make_unique<FarField>(*design_, length_x / spacing_, length_y / spacing_, spacing_, *kernel_);
     make_strips(x, y, x_min, y_min, length_y);
 }
 
 // Maps the points into the cell and sets up a periodic mesh.
-void MeshPotential::make_periodic(const double* x, const double* y, FarFields* kept) {
+void MeshPotential::make_periodic(const double* x, const double* y) {
     const Period& period = lattice_->period();
     std::vector<double> inside_x(n_), inside_y(n_);
     const auto inside = [](double value, double side) {
@@ -153,18 +149,7 @@ void MeshPotential::make_periodic(const double* x, const double* y, FarFields* k
     scale_ = std::ldexp(1.0, -std::ilogb(std::max(period.x, period.y)) - 1);
     const double cutoff = design_->cutoff * spacing_;
     near_part_ = near_kernel(*design_, cutoff * scale_);
-    const std::pair<const MeshDesign*, double> key{design_, spacing_};
-    if (kept && kept->contains(key)) {
-        far_ = kept->at(key);
-    } else {
-        far_ = std::make_shared<FarField>(*design_, *lattice_, spacing_, cutoff);
-        if (kept) {
-            std::size_t held = far_->bytes();
-            for (const auto& [other, field] : *kept) held += field->bytes();
-            if (held > kKeptBytes) kept->clear();
-            kept->emplace(key, far_);
-        }
-    }
+    far_ = std::make_unique<FarField>(*design_, *lattice_, spacing_, cutoff);
     make_strips(inside_x.data(), inside_y.data(), 0, 0, period.y);
 }
 

@@ -15,18 +15,13 @@
 
 namespace rsc {
 
-// Far fields of periodic meshes by design and spacing; for one lattice they do not depend on the points. Not thread-safe.
-using FarFields = std::map<std::pair<const MeshDesign*, double>, std::shared_ptr<const FarField>>;
-
 class MeshPotential {
 public:
     // n points with finite coordinates [length]. relative_error, from 1e-10 to 1e-2, is the bound of |phi - exact| / |phi| in the 2-norm
     // for forces of any sign (smaller for forces of one sign). Any positions are allowed, including coinciding points; clusters cost more.
     // Throws Error(bad_input) for coordinates that are not finite or an error out of range. A point acts on itself through periodic images
-    // and a smooth part. `kept`: stored far fields of the lattice of this kernel; missing ones are added, and all are removed when they take
-    // too much memory.
-    MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, std::shared_ptr<const Kernel> kernel,
-                  FarFields* kept = nullptr);
+    // and a smooth part.
+    MeshPotential(std::size_t n, const double* x, const double* y, double relative_error, std::shared_ptr<const Kernel> kernel);
 
     // phi[i] = sum_j f[j] G_ij, in the order the points were given. Uses threads (rough/parallel.hpp); the bits do not depend on their
     // number.
@@ -40,7 +35,7 @@ public:
 private:
     int threads() const;
     double resolved() const;
-    void make_periodic(const double* x, const double* y, FarFields* kept);
+    void make_periodic(const double* x, const double* y);
     void make_strips(const double* x, const double* y, double x0, double y0, double length_y);
     void near_strip(std::size_t s);
     void near_field();
@@ -56,7 +51,7 @@ private:
     double scale_ = 1;    // near-field coordinate units per length, a power of two
     NearKernel near_part_;
     MeshWindow window_;
-    std::shared_ptr<const FarField> far_;
+    std::unique_ptr<const FarField> far_;
 
     // Points are sorted in strips along the longer side (x), by x within a strip. Strips are padded for the pair loops. With periodic
     // boundaries the first `strips_` strips are followed by copies: of the two lowest strips beyond the upper border, then of the left ends

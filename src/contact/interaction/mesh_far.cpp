@@ -303,7 +303,7 @@ void FarField::make_multiplier(const MeshDesign& design, const std::function<dou
         for (std::size_t m = 0; m <= half_x; ++m) half[n * (half_x + 1) + m] = row[2 * m] * cx[m];
     });
 
-    multiplier_ = fftw_array(multiplier_size());
+    multiplier_ = fftw_array(columns_ * (half_y + 1));
     const std::size_t blocks = columns_ / kColumns;
     parallel_for(blocks, 1, threads, [&](std::size_t b, std::size_t worker) {
         double* const block = block_of[worker].get();

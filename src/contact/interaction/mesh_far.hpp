@@ -56,7 +56,6 @@ public:
     std::size_t columns() const { return period_x_; }  // of a periodic mesh: points per period
     std::size_t lines() const { return period_y_; }
     std::size_t points() const { return period_x_ * period_y_; }
-    std::size_t bytes() const { return (multiplier_size() + rows_ * stride()) * sizeof(double); }
 
     // Replaces forces on the mesh by the potential, times the mesh spacing.
     void convolve(double* mesh) const;
@@ -67,7 +66,6 @@ public:
 private:
     static constexpr std::size_t kColumns = 8;  // columns transformed together
 
-    std::size_t multiplier_size() const { return columns_ * (period_y_ / 2 + 1); }
     void make_plans();
     // `value(m, n)`: the kernel m columns and n rows away.
     void make_multiplier(const MeshDesign& design, const std::function<double(std::size_t, std::size_t)>& value);

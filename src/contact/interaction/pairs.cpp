@@ -113,23 +113,6 @@ void sum_among(const PairLoops<Real, Coordinate>& loops, const PairPoints<Coordi
     for (std::size_t i = 0; i < sources; ++i) phi[i] = unit * static_cast<double>(static_cast<Real>(total[i] * back));
 }
 
-// The same with stored 1/d.
-void sum_stored(const std::vector<float>& stored, const PairPoints<std::int32_t>& points, std::size_t sources, const double* f,
-                double* phi) {
-    static thread_local std::vector<float> force, part;
-    const double unit = largest_force<float>(sources, f), back = unit * points.scale / kWeight<float>;
-    force.assign(padded(sources), 0.0F);
-    for (std::size_t i = 0; i < sources; ++i) force[i] = static_cast<float>(f[i] * (1 / unit));
-    std::fill_n(phi, sources, 0.0);
-    const float* w = stored.data();
-    for (std::size_t i = 0; i < force.size(); i += kTile) {
-        part.assign(force.size(), 0.0F);
-        w = pair_kernels().stored(force.size(), i, std::min(i + kTile, force.size()), w, force.data(), part.data());
-        for (std::size_t k = i; k < sources; ++k) phi[k] += static_cast<double>(part[k]);
-    }
-    for (std::size_t k = 0; k < sources; ++k) phi[k] *= back;
-}
-
 // phi_i = sum_j f_j / d_ij at n targets (x, y).
 template <class Real, class Coordinate>
 void sum_onto(const PairLoops<Real, Coordinate>& loops, std::size_t n, const double* x, const double* y, std::size_t n_sources,
@@ -168,19 +151,11 @@ const char* pair_instruction_set() { return pair_kernels().name; }
 void PairSums::assign(std::size_t n, const double* x, const double* y) {
     x_.assign(x, x + n);
     y_.assign(y, y + n);
-    stored_.clear();
     if (kernel_->lattice()) return;
     Bounds bounds;
     enclose(bounds, n, x, y);
     assign_points(exact_, bounds, n, x, y);
     assign_points(rough_, bounds, n, x, y);
-}
-
-void PairSums::store() {
-    const std::size_t n = rough_.x.size();
-    if (kernel_->none() || kernel_->lattice() || n == 0 || n > kMostStored) return;
-    stored_.resize(n * (n + kPairPadding) / 2);
-    pair_kernels().store(n, rough_.x.data(), rough_.y.data(), stored_.data());
 }
 
 // Converts sums of f/d to sums of f G.
@@ -203,9 +178,7 @@ void PairSums::among(bool single, const double* f, double* phi) const {
         return;
     }
     if (kernel_->lattice()) return onto(single, n, x_.data(), y_.data(), f, phi);
-    if (single && !stored_.empty())
-        sum_stored(stored_, rough_, n, f, phi);
-    else if (single)
+    if (single)
         sum_among(pair_kernels().single, rough_, n, f, phi);
     else
         sum_among(pair_kernels().exact, exact_, n, f, phi);

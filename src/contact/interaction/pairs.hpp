@@ -30,9 +30,6 @@ public:
     void assign(std::size_t n, const double* x, const double* y);
     // phi[i] = sum_j f[j] G_ij at the sources, including the self term; f and phi must not overlap. Every 1/d is used in both directions.
     void among(bool single, const double* f, double* phi) const;
-    // Stores 1/d of all pairs, with which among() is then faster in single precision, up to kMostStored sources.
-    void store();
-    static constexpr std::size_t kMostStored = 1024;
     // Sum at n other targets. Throws Error(bad_input) unless coordinates are finite.
     void onto(bool single, std::size_t n, const double* x, const double* y, const double* f, double* phi) const;
 
@@ -46,7 +43,6 @@ private:
     std::vector<double> x_, y_;
     PairPoints<double> exact_;
     PairPoints<std::int32_t> rough_;
-    std::vector<float> stored_;  // empty: not stored
 };
 
 // Instruction set in use: "avx512", "avx2", "sse2" or "generic".

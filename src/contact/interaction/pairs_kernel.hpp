@@ -46,10 +46,6 @@ struct PairKernels {
     const char* name;
     PairLoops<double, double> exact;
     PairLoops<float, std::int32_t> single;
-    // 1/d of all pairs, n (n + 16)/2 values at most, to be stored; and sums with them over the pairs of which the first point is one of
-    // begin ... end - 1, in both directions, from the first of their values. Both return the end of the values.
-    float* (*store)(std::size_t n, const std::int32_t* x, const std::int32_t* y, float* w);
-    const float* (*stored)(std::size_t n, std::size_t begin, std::size_t end, const float* w, const float* f, float* phi);
     // Sums with a short-range kernel instead of 1/d, for strips of points by increasing x. n counts points without padding; a strip is
     // followed by kPairPadding points without force that lie beyond the reach of all others.
     void (*near_own)(const NearKernel& kernel, std::size_t n, const double* x, const double* y, const double* f, double* phi);

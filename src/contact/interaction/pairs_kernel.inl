@@ -183,47 +183,6 @@ struct Loops {
             }
         }
     }
-    // 1/d of all pairs, for stored().
-    RSC_TARGET static R* store(std::size_t n, const X* x, const X* y, R* w) {
-        const PointWeight<P> weight;
-        for (std::size_t b = 0; b < n; b += P::W)
-            for (std::size_t i = b; i < b + P::W; i += P::rows)
-                for (std::size_t j = b; j < n; j += P::W, w += P::rows * P::W) {
-                    const typename P::C xs = P::load(x + j), ys = P::load(y + j);
-                    typename P::V dx[P::rows], d2[P::rows];
-                    constexpr int rows = P::rows;
-                    RSC_FOR_ROWS dx[k] = P::difference(P::splat(x[i + static_cast<std::size_t>(k)]), xs);
-                    RSC_FOR_ROWS d2[k] = P::difference(P::splat(y[i + static_cast<std::size_t>(k)]), ys);
-                    RSC_FOR_ROWS d2[k] = d2[k] * d2[k];
-                    RSC_FOR_ROWS d2[k] = dx[k] * dx[k] + d2[k];
-                    weight(d2);
-                    RSC_FOR_ROWS P::store(w + static_cast<std::size_t>(k) * P::W, d2[k]);
-                }
-        return w;
-    }
-    // As self, of the pairs of which the first point is one of begin ... end - 1; w: their first value, returns that of the next.
-    RSC_TARGET static const R* stored(std::size_t n, std::size_t begin, std::size_t end, const R* w, const R* f, R* phi) {
-        using V = typename P::V;
-        constexpr int rows = P::rows;
-        for (std::size_t b = begin; b < end; b += P::W)
-            for (std::size_t i = b; i < b + P::W; i += P::rows) {
-                V force[rows], sum[rows];
-                RSC_FOR_ROWS force[k] = P::splat_real(f[i + static_cast<std::size_t>(k)]);
-                V fs = P::load_real(f + b);
-                RSC_FOR_ROWS sum[k] = P::load_real(w + static_cast<std::size_t>(k) * P::W) * fs;
-                w += P::rows * P::W;
-                for (std::size_t j = b + P::W; j < n; j += P::W, w += P::rows * P::W) {
-                    V back = P::load_real(phi + j), value[rows];
-                    fs = P::load_real(f + j);
-                    RSC_FOR_ROWS value[k] = P::load_real(w + static_cast<std::size_t>(k) * P::W);
-                    RSC_FOR_ROWS sum[k] = value[k] * fs + sum[k];
-                    RSC_FOR_ROWS back = value[k] * force[k] + back;
-                    P::store(phi + j, back);
-                }
-                RSC_FOR_ROWS phi[i + static_cast<std::size_t>(k)] += P::sum(sum[k]);
-            }
-        return w;
-    }
     RSC_TARGET static void near_strips(const NearKernel& kernel, std::size_t ni, const X* xi, const X* yi, const R* fi, R* phi_i,
                                        std::size_t nj, const X* xj, const X* yj, const R* fj, R* phi_j) {
         const NearWeight<P> weight(kernel);
@@ -307,8 +266,6 @@ constexpr PairKernels make_table(const char* name) {
     return {name,
             {Loops<D>::self, Loops<D>::cross, Loops<D>::onto},
             {Loops<S>::self, Loops<S>::cross, Loops<S>::onto},
-            Loops<S>::store,
-            Loops<S>::stored,
             Loops<D>::near_own,
             Loops<D>::near_strips,
             spread,

@@ -9,8 +9,7 @@ namespace {
 
 class Direct final : public Products {
 public:
-    Direct(std::shared_ptr<const Kernel> kernel, bool many)
-        : Products(std::move(kernel)), many_(many), sums_(*kernel_), all_sums_(*kernel_) {
+    explicit Direct(std::shared_ptr<const Kernel> kernel) : Products(std::move(kernel)), sums_(*kernel_) {
         if (!kernel_->none() && !kernel_->lattice()) matrix_.emplace(*kernel_);
     }
 
@@ -22,7 +21,7 @@ public:
         const bool known = repeats_ && (same || mostly_known());
         again_ = std::clamp(again_ + (known ? 1 : -1), 0, 3 * kOften);
         if (same && known && kept == (again_ > kOften)) return;
-        fresh_ = true, among_ = 0;
+        fresh_ = true;
     }
 
     void expect_repeats(bool expect) override {
@@ -108,23 +107,7 @@ private:
         return false;
     }
 
-    // Sums over all points, with their 1/d stored, if most are active, from the second product on.
-    bool among_all(const double* f, double* phi) {
-        constexpr double most = 0.7;
-        if (!many_ || kernel_->none() || kernel_->lattice() || kernel_->smooth() || x_.size() > PairSums::kMostStored ||
-            static_cast<double>(active_.size()) < most * static_cast<double>(x_.size()))
-            return false;
-        if (++among_ == 1) return false;
-        if (among_ == 2) all_sums_.assign(x_.size(), x_.data(), y_.data()), all_sums_.store();
-        all_f_.assign(x_.size(), 0.0), all_phi_.resize(x_.size());
-        for (std::size_t k = 0; k < active_.size(); ++k) all_f_[static_cast<std::size_t>(active_[k])] = f[k];
-        all_sums_.among(true, all_f_.data(), all_phi_.data());
-        for (std::size_t k = 0; k < active_.size(); ++k) phi[k] = all_phi_[static_cast<std::size_t>(active_[k])];
-        return true;
-    }
-
     void among(bool single, const double* f, double* phi) {
-        if (single && !stored_ && among_all(f, phi)) return;
         if (stored_)
             matrix_->among(single, f, phi);
         else
@@ -155,10 +138,7 @@ private:
     bool stored_ = false;  // the matrix is used for the current points
     std::vector<double> xa_, ya_, xp_, yp_, xo_, yo_, active_phi_, passive_phi_;
     std::vector<std::uint32_t> all_, active_numbers_, passive_numbers_, other_numbers_;  // numbers of points in the matrix
-    bool many_;                                                                          // many products with a set of points are expected
-    int among_ = 0;  // those so far; from the second on all_sums_ is of the present points
-    std::vector<double> all_f_, all_phi_;
-    PairSums sums_, all_sums_;
+    PairSums sums_;
     std::optional<PairMatrix> matrix_;
 };
 
@@ -197,9 +177,7 @@ double direct_rate(const Kernel& kernel, std::size_t candidates) {
     return !kernel.smooth() || candidates < stored ? 6e9 : 4e8;
 }
 
-std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> kernel, bool many) {
-    return std::make_unique<Direct>(std::move(kernel), many);
-}
+std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> kernel) { return std::make_unique<Direct>(std::move(kernel)); }
 
 namespace {
 
@@ -273,7 +251,7 @@ public:
             ya.insert(ya.end(), y, y + n);
             std::vector<double> force(f, f + sources), all(xa.size());
             force.resize(xa.size());
-            MeshPotential(xa.size(), xa.data(), ya.data(), kElsewhere, kernel_, &far_).apply(force.data(), all.data());
+            MeshPotential(xa.size(), xa.data(), ya.data(), kElsewhere, kernel_).apply(force.data(), all.data());
             std::copy(all.begin() + static_cast<std::ptrdiff_t>(sources), all.end(), phi);
         }
     }
@@ -300,7 +278,7 @@ private:
     }
 
     MeshPotential& made(std::optional<MeshPotential>& mesh, double error) {
-        if (!mesh) mesh.emplace(x_.size(), x_.data(), y_.data(), error, kernel_, &far_);
+        if (!mesh) mesh.emplace(x_.size(), x_.data(), y_.data(), error, kernel_);
         return *mesh;
     }
 
@@ -321,7 +299,7 @@ private:
         if (!among_ || among_active_ != active_) {
             std::vector<double> xa, ya;
             gather(active_, xa, ya);
-            among_.emplace(xa.size(), xa.data(), ya.data(), inner_error_, kernel_, &far_);
+            among_.emplace(xa.size(), xa.data(), ya.data(), inner_error_, kernel_);
             among_active_ = active_;
         }
         return *among_;
@@ -331,7 +309,6 @@ private:
     bool by_pairs_ = false;
     std::unique_ptr<Products> pair_products_;
     std::vector<double> f_, phi_;
-    FarFields far_;
     std::optional<MeshPotential> inner_, exact_, among_;
     std::vector<int> among_active_;  // active points for which among_ was created
     PairSums pairs_;

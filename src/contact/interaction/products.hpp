@@ -55,8 +55,8 @@ protected:
 // Pairs per second on one core in direct inner sums among the given number of candidates, for the choice of the method.
 double direct_rate(const Kernel& kernel, std::size_t candidates);
 
-// Direct sums over pairs. `many`: many inner products with each set of points are expected, most of which are active.
-std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> kernel, bool many = false);
+// Direct sums over pairs.
+std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> kernel);
 // Particle-mesh sums; relative errors of full and inner products (2-norm).
 std::unique_ptr<Products> make_mesh_products(std::shared_ptr<const Kernel> kernel, double full_error, double inner_error);
 

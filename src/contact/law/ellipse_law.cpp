@@ -199,7 +199,8 @@ private:
     std::vector<LoadedEllipse> alone(int i) const {
         constexpr double window = 2, fine = 45;  // half width over the widest ellipse, whose centre may be off the summit; points in it
         const std::size_t k = at(i);
-        const int steps = std::clamp(static_cast<int>(std::ceil(fine * std::max(found_.map->dx, found_.map->dy) / spacing_)), 1, 8);
+        // Odd, because midway between two points the stencil of one of them would be used: not the same on a mirror image of the map.
+        const int steps = std::clamp(static_cast<int>(std::ceil(fine * std::max(found_.map->dx, found_.map->dy) / spacing_)), 1, 7) | 1;
         const HeightsAround heights(found_, stencil_, indenter_, asperities_.x[k], asperities_.y[k], window * spacing_, steps);
         if (like_) return ellipses_like(heights, indenter_.E_star, steeper(i), like_->own_[k]);
         const double k1 = asperities_.kappa1[k], k2 = asperities_.kappa2[k];

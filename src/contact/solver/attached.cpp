@@ -171,53 +171,16 @@ void AttachedSolver::complete(const Vector& y, Vector& image, const Vector& lift
     for (std::size_t k = 0; k < y.size(); ++k) image[k] = diagonal_[k] * y[k] + p_[k] * (lift[k] - shift);
 }
 
-void AttachedSolver::solve_linear(const Vector& right, double accuracy, Vector& ds, bool recycle) {
+void AttachedSolver::solve_linear(const Vector& right, double accuracy, Vector& ds) {
     if (!weighed_) weigh(0);
     const std::size_t n = right.size();
     Vector v(n);
     for (std::size_t k = 0; k < n; ++k) v[k] = p_[k] * right[k];
     const double goal = accuracy * std::sqrt(dot4(v, v));
     ds.assign(n, 0.0), lifted_.assign(n, 0.0);
-    if (recycle && held_ >= n) approach(v, ds);
     minres([this](const Vector& y, Vector& image, Vector& lift) { multiply(y, image, lift); }, std::move(v), goal, ds, lifted_);
     pulled_.resize(n);
     for (std::size_t k = 0; k < n; ++k) pulled_[k] = p_[k] * ds[k], ds[k] *= to_s_[k];
-}
-
-// Takes the combination of known_ with the smallest residual as the start y; v becomes its residual.
-void AttachedSolver::approach(Vector& v, Vector& y) {
-    const std::vector<int>& active = products_->active();
-    const std::size_t n = v.size(), most = known_.size();
-    constexpr double independent = 1e-8;  // square of the part of an image that must not depend on the others
-    std::vector<Vector> images;           // orthonormal
-    Vector start(n), lift(n), image(n);
-    std::vector<Vector> starts, lifts;
-    for (std::size_t m = most; m-- > 0;) {
-        for (std::size_t k = 0; k < n; ++k) {
-            const auto i = at(active[k]);
-            start[k] = known_[m].f[i] / p_[k], lift[k] = known_[m].phi[i];
-        }
-        complete(start, image, lift);
-        const double size = dot4(image, image);
-        for (std::size_t j = 0; j < images.size(); ++j) {
-            const double c = dot4(image, images[j]);
-            for (std::size_t k = 0; k < n; ++k) image[k] -= c * images[j][k], start[k] -= c * starts[j][k], lift[k] -= c * lifts[j][k];
-        }
-        const double rest = dot4(image, image);
-        if (!(rest > independent * size)) continue;
-        const double unit = 1 / std::sqrt(rest), c = unit * unit * dot4(v, image);
-        for (std::size_t k = 0; k < n; ++k) {
-            v[k] -= c * image[k], y[k] += c * start[k], lifted_[k] += c * lift[k];
-            image[k] *= unit, start[k] *= unit, lift[k] *= unit;
-        }
-        images.push_back(image), starts.push_back(start), lifts.push_back(lift);
-    }
-}
-
-void AttachedSolver::remember(Known&& known) {
-    constexpr std::size_t most = 4;
-    if (known_.size() == most) known_.erase(known_.begin());
-    known_.push_back(std::move(known));
 }
 
 // True if I + B D is stable: D^-1 + B is positive definite. A proof for stiffer asperities holds for softer and fewer ones.
@@ -336,20 +299,14 @@ void AttachedSolver::release(const WorkingSet& set, std::size_t k) {
     const int position = reference_[k];
     const Vector part = column(set, position);
     for (std::size_t i = 0; i < part.size(); ++i) phi_reference_[i] -= f_reference_[k] * part[i];
-    for (Known& known : known_) {
-        const double f = std::exchange(known.f[at(position)], 0.0);
-        for (std::size_t i = 0; i < part.size(); ++i) known.phi[i] -= f * part[i];
-    }
     reference_.erase(reference_.begin() + static_cast<std::ptrdiff_t>(k));
     f_reference_.erase(f_reference_.begin() + static_cast<std::ptrdiff_t>(k));
 }
 
 void AttachedSolver::take_in(const WorkingSet& set, std::size_t k, int position, double f) {
     if (products_->active() != reference_) return;
-    Known known{Vector(phi_reference_.size(), 0.0), column(set, position)};
-    known.f[at(position)] = 1;
-    for (std::size_t i = 0; i < known.phi.size(); ++i) phi_reference_[i] += f * known.phi[i];
-    remember(std::move(known));
+    const Vector part = column(set, position);
+    for (std::size_t i = 0; i < part.size(); ++i) phi_reference_[i] += f * part[i];
     reference_.insert(reference_.begin() + static_cast<std::ptrdiff_t>(k), position);
     f_reference_.insert(f_reference_.begin() + static_cast<std::ptrdiff_t>(k), f);
 }
@@ -373,21 +330,13 @@ double AttachedSolver::elevation(const WorkingSet& set, int position) {
     return sum;
 }
 
-// Adds the change of the forces to phi_ at the others; `keep`: and remembers it.
-void AttachedSolver::add_passive(bool keep) {
-    const std::vector<int>&active = products_->active(), &passive = products_->passive();
+// Adds the change of the forces to phi_ at the others.
+void AttachedSolver::add_passive() {
+    const std::vector<int>& passive = products_->passive();
     if (df_.empty()) return;
     Vector more(passive.size());
     products_->inner_passive(df_.data(), more.data());
     for (std::size_t k = 0; k < more.size(); ++k) phi_[at(passive[k])] += more[k];
-    if (!keep) return;
-    Known known{Vector(phi_.size(), 0.0), Vector(phi_.size(), 0.0)};
-    for (std::size_t k = 0; k < more.size(); ++k) known.phi[at(passive[k])] = more[k];
-    for (std::size_t k = 0; k < df_.size(); ++k) {
-        const auto i = at(active[k]);
-        known.f[i] = df_[k], known.phi[i] = elevated_[k];
-    }
-    remember(std::move(known));
 }
 
 bool AttachedSolver::solve(const WorkingSet& set, double tolerance, bool exact, Vector& s, int least, int held, bool whole) {
@@ -403,7 +352,7 @@ bool AttachedSolver::solve(const WorkingSet& set, double tolerance, bool exact, 
         if (residual_ <= (predicted && k == 0 ? kUnstepped : 1.0) * tolerance && k >= least) {
             if (!whole) return true;
             if (!stable(set)) return false;
-            add_passive(least > 0);
+            add_passive();
             return true;
         }
         if (residual_ < 0.9 * best)
@@ -505,20 +454,14 @@ AttachedSolver::Change AttachedSolver::change(const Vector& rate, double accurac
     const double shift = products_->kernel().shift();
     Vector right, df(state_.size());
     for (int k : active) right.push_back(rate[at(k)]);
-    if (!right.empty()) solve_linear(right, accuracy, c.s, true);
+    if (!right.empty()) solve_linear(right, accuracy, c.s);
     for (std::size_t k = 0; k < df.size(); ++k) {
         c.force += df[k] = state_[k].df * c.s[k];
         c.power -= df[k] * right[k];
     }
     c.u.assign(passive.size(), 0.0);
     if (!df.empty()) products_->inner_passive(df.data(), c.u.data());
-    Known known{Vector(phi_.size(), 0.0), Vector(phi_.size(), 0.0)};
-    for (std::size_t k = 0; k < df.size(); ++k) known.f[at(active[k])] = pulled_[k], known.phi[at(active[k])] = lifted_[k];
-    for (std::size_t k = 0; k < passive.size(); ++k) {
-        known.phi[at(passive[k])] = c.u[k];
-        c.u[k] = rate[at(passive[k])] - c.u[k] + shift * c.force;
-    }
-    if (!df.empty()) remember(std::move(known));
+    for (std::size_t k = 0; k < passive.size(); ++k) c.u[k] = rate[at(passive[k])] - c.u[k] + shift * c.force;
     return c;
 }
 

@@ -37,7 +37,7 @@ public:
     // points must be those of the set, and the active points the attached ones, when the functions below are called.
     void use(Products& products) {
         products_ = &products;
-        reference_.clear(), phi_reference_.clear(), known_.clear(), proof_.clear(), stiffest_.clear(), room_ = 1.2;
+        reference_.clear(), phi_reference_.clear(), proof_.clear(), stiffest_.clear(), room_ = 1.2;
     }
 
     // Solves for a stable equilibrium from the states s of the attached asperities. Returns false if none was found near; s is then
@@ -91,20 +91,13 @@ private:
     // Products are those of the change of the forces since the last full product, with the error noise_ in the residual, unless `full`.
     void evaluate(const WorkingSet& set, const std::vector<double>& s, bool full, double negligible = 0);
     void balance(const WorkingSet& set);
-    void add_passive(bool keep = false);
+    void add_passive();
     std::vector<double> column(const WorkingSet& set, int position) const;
-    // A vector of forces and the elevations B f by it, without shift(), by position in the set: solutions of earlier systems, with which
-    // the next ones begin.
-    struct Known {
-        std::vector<double> f, phi;
-    };
-    void remember(Known&& known);
-    void approach(std::vector<double>& v, std::vector<double>& y);
     void complete(const std::vector<double>& y, std::vector<double>& image, const std::vector<double>& lift) const;
     void judge(const WorkingSet& set);                                          // norms of the residuals and of their errors out_
     void step(const WorkingSet& set, double accuracy, std::vector<double>& s);  // Newton's method
-    // Solves diag(u') ds + B diag(f') ds = right to the relative accuracy, starting from known_. pulled_ and lifted_ are then f' ds and B f' ds.
-    void solve_linear(const std::vector<double>& right, double accuracy, std::vector<double>& ds, bool recycle = false);
+    // Solves diag(u') ds + B diag(f') ds = right to the relative accuracy. pulled_ and lifted_ are then f' ds and B f' ds.
+    void solve_linear(const std::vector<double>& right, double accuracy, std::vector<double>& ds);
     std::vector<double> elevations(const std::vector<double>& f);  // B f of the attached, by a full product
     void multiply(const std::vector<double>& y, std::vector<double>& image, std::vector<double>& lift);
     void weigh(double mu);               // computes the coefficients of the symmetric systems
@@ -123,7 +116,6 @@ private:
     std::vector<double> stiffest_;         // by position in the set: D up to which S is known to be positive definite
     double room_ = 1.2;                    // factor by which they are taken larger
     std::vector<double> proof_;            // by position in the set: the last v, a starting point
-    std::vector<Known> known_;             // the last ones
     std::vector<double> pulled_, lifted_;  // of solve_linear()
     std::vector<double> elevated_;         // B df_
     bool stepped_ = false;                 // the present states are one step behind those to be evaluated

@@ -34,7 +34,7 @@ double BoundedSolver::sum(F&& of) {
 
 template <class F>
 double BoundedSolver::sum_free(F&& of) {
-    if (rows_.size() > 2) return sum(of);
+    if (manner_.repeats) return sum(of);
     double sum = 0;
     for (const int k : free_list_) sum += of(at(k));
     return sum;
@@ -44,7 +44,7 @@ template <class F>
 void BoundedSolver::set_free(F&& of) {
     free_.resize(p_.size());
     const auto set = [&](std::size_t k) { return free_[k] = of(k); };
-    if (rows_.size() > 2)
+    if (manner_.repeats)
         each(set);
     else
         find_all(p_.size(), kPixels, threads_for(p_.size()), set, free_list_);

@@ -97,11 +97,11 @@ protected:
     Manner manner_;
     std::optional<double> wanted_;  // given sum of p; absent: Z0 is given
     double Z0_ = 0;
-    // Vectors over the set, and the beginnings of its rows; a row is summed by one thread.
+    // Vectors over the set, and the beginnings of its rows, or of parts of it; a row is summed by one thread.
     std::vector<std::size_t> rows_ = {0, 0};
     std::vector<double> z_, p_, w_;
     std::vector<char> free_;      // not held at a bound
-    std::vector<int> free_list_;  // their positions; not if there are several rows
+    std::vector<int> free_list_;  // their positions; not if `repeats`
 
 private:
     void find_free();

@@ -129,7 +129,10 @@ void ElementsSolver::draw(const std::vector<double>& p) {
         const std::size_t l = at(position_[k]);
         set_[k] = pixels[l], z_[k] = (*g0_)[l], p_[k] = p[l];
     });
-    rows_ = {0, set_.size()};
+    constexpr std::size_t part = 512;
+    rows_ = {0};
+    for (std::size_t k = part; k < size; k += part) rows_.push_back(k);
+    rows_.push_back(size);
     if (!set_.empty()) products_.set_pixels(set_);
 }
 
@@ -145,14 +148,16 @@ void ElementsSolver::multiply(const std::vector<double>& x, std::vector<double>&
     Kx.resize(n);
     if (!exact) return products_.apply(x.data(), Kx.data(), Accuracy::inner);
     if (full_p_.size() == n) {
-        double change = 0, all = 0;
+        // Sums of squares, by pieces.
+        std::vector<double> change(n / kPixels + 1), all(change.size());
         step_.resize(n);
-        for (std::size_t k = 0; k < n; ++k) {
+        each([&](std::size_t k) {
             step_[k] = x[k] - full_p_[k];
-            if (step_[k] != 0 || x[k] != 0) change += step_[k] * step_[k], all += x[k] * x[k];
-        }
+            if (step_[k] != 0 || x[k] != 0) change[k / kPixels] += step_[k] * step_[k], all[k / kPixels] += x[k] * x[k];
+        });
+        const double moved = std::accumulate(change.begin(), change.end(), 0.0), whole = std::accumulate(all.begin(), all.end(), 0.0);
         for (const Accuracy accuracy : {Accuracy::inner, Accuracy::between}) {
-            if (!(products_.error(accuracy) * std::sqrt(change) <= kChange * tolerance_ * std::sqrt(all))) continue;
+            if (!(products_.error(accuracy) * std::sqrt(moved) <= kChange * tolerance_ * std::sqrt(whole))) continue;
             products_.apply(step_.data(), Kx.data(), accuracy);
             each([&](std::size_t k) { Kx[k] += full_w_[k]; });
             return;

@@ -105,8 +105,8 @@ int connected_sets(const std::vector<Pixel>& pixels, std::vector<int>& label, in
 }
 
 void SpotBlocks::assign(const std::vector<Pixel>& all, const std::vector<int>& which, const PixelProducts& products) {
-    std::vector<Pixel> pixels;
-    for (const int k : which) pixels.push_back(all[at(k)]);
+    std::vector<Pixel> pixels(which.size());
+    for (std::size_t k = 0; k < which.size(); ++k) pixels[k] = all[at(which[k])];
     std::vector<int> label;
     std::vector<std::size_t> begin(at(connected_sets(pixels, label)) + 1, 0);  // of the pixels of each spot
     for (const int l : label) ++begin[at(l) + 1];
@@ -161,7 +161,8 @@ void SpotBlocks::assign(const std::vector<Pixel>& all, const std::vector<int>& w
             inverse.wanted = true;
             blocks_.push_back({part.begin, &inverse});
             if (!is_new) continue;
-            for (std::size_t k = part.begin; k < part.end; ++k) inverse.shape.push_back(offset(part, k));
+            inverse.shape.resize(part.end - part.begin);
+            for (std::size_t k = part.begin; k < part.end; ++k) inverse.shape[k - part.begin] = offset(part, k);
             fresh.push_back(&inverse);
         }
     std::erase_if(known_, [](const auto& entry) { return !entry.second.wanted; });

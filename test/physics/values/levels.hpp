@@ -89,7 +89,7 @@ struct Cells {
     double x0, y0, side;
     explicit Cells(const Truth& t)
         : nx(t.c.output.map_cells), ny(0), x0(t.x0), y0(t.y0), side(t.Lx / static_cast<double>(t.c.output.map_cells)) {
-        while (static_cast<double>(ny + 1) * side <= t.Ly * (1 + 1e-14)) ++ny;
+        while (static_cast<double>(ny) * side < t.Ly * (1 - 1e-14)) ++ny;
     }
     // -1: outside
     long cell(double x, double y) const {

@@ -149,8 +149,8 @@ inline void maps(CheckedFile& f, const Truth& t) {
     }
 
     if (t.periodic) return CHECK(!f.has("radius") && !f.has("radial_pressure"));
-    const double height = static_cast<double>(g.ny) * g.side,
-                 largest = std::min({t.tip_x - t.x0, t.x0 + t.Lx - t.tip_x, t.tip_y - t.y0, t.y0 + height - t.tip_y});
+    const double largest = std::min({t.tip_x - t.x0, t.x0 + t.Lx - t.tip_x, t.tip_y - t.y0, t.y0 + t.Ly - t.tip_y});
+    const double below_last = static_cast<double>(g.ny - 1) * g.side, covered = std::min(1.0, (t.Ly - below_last) / g.side);
     if (!(largest > 0)) return CHECK(!f.has("radius") && !f.has("radial_pressure"));  // the tip is not over the map
     const auto bins = at(t.c.output.radial_bins);
     Vector radius;
@@ -170,7 +170,7 @@ inline void maps(CheckedFile& f, const Truth& t) {
                         g.ny,
                         [&](long j) {
                             return cubic(
-                                g.nx, [&](long i) { return map[s * cells + at(j * g.nx + i)]; }, u);
+                                g.nx, [&](long i) { return map[s * cells + at(j * g.nx + i)] / (j == g.ny - 1 ? covered : 1); }, u);
                         },
                         v);
                 }
