@@ -34,8 +34,7 @@ bool of_ellipses(const ContactBodies& bodies) {
     const SolverOptions& options = bodies.options;
     const auto& found = bodies.of_difference;
     return traits(options.law).needs_heights && found && found->map && !std::isfinite(options.hardness.H0) && options.relaxation.none() &&
-           options.mean_spacing > 0 &&
-           count_reachable(bodies.asperities, bodies.indenter, kDeepest * options.sigma) <= kMostEllipses;
+           options.mean_spacing > 0 && count_reachable(bodies.asperities, bodies.indenter, kDeepest * options.sigma) <= kMostEllipses;
 }
 
 // The law of these summits under a tip, without what relaxing bodies remember. With `found` (optional) that of ellipses, which are like those

@@ -34,8 +34,8 @@ struct FoundSummits {
 // Finds the summits of the surface minus the face of an indenter. Empty for asperities given as a list, without a surface.
 using SummitSearch = std::function<FoundSummits(const Indenter&)>;
 
-// Largest ratio of the slope of the indenter's face to the rms slope of the surface at which moved_summits() is used; above it summits of
-// the difference appear and vanish.
+// Largest ratio of the slope of the indenter's face to the rms slope of the surface at which moved_summits() is used; above it, and beside
+// the corner of a cone, summits of the difference appear and vanish.
 inline constexpr double kMostSlopeRatio = 0.2;
 
 // Summits of the difference from those of the surface, to second order in the gradient g of the face. With the curvatures H of a summit and

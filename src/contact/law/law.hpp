@@ -93,7 +93,7 @@ public:
 // fourth_order  the elliptic law for the profile A (1 - J0(q r)) (bessel_profile.hpp, delta = u/F2), which is r^2/(2 R_e) - b r^4 to fourth
 //               order, b = q^2/(32 R_e), and remains bounded: curvature 1/R_e, q^2 = -nabla^4 z/nabla^2 z = biharmonic/(kappa1 + kappa2),
 //               A = 2/(R_e q^2). Beyond delta = 2 A (q a = pi), where the contact would reach its neighbours, a and the stiffness 2 E* a
-//               are constant. Where the indenter is steep, the most loaded ellipse of each summit is used instead (ellipse_law.hpp).
+//               are constant. Where the indenter is steep or a cone, the most loaded ellipse of each summit is used instead (ellipse_law.hpp).
 // Throws Error(bad_input) if data required by the law are missing.
 std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double E_star);
 
