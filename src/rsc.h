@@ -337,7 +337,8 @@ RSC_API int32_t rsc_contact_tip(const rsc_contact* contact, double* x0, double* 
  * contact: the contact; separation (out) [length]. Errors: -1 null, or no asperity under the sphere; -2 null. */
 RSC_API int32_t rsc_contact_first_touch(const rsc_contact* contact, double* separation);
 
-/* Computes the contact at a separation. The result depends on the separation and the tip only; with solids%hardness or
+/* Computes the contact at a separation. The result depends on the separation and the tip only (where several solutions exist, a call that
+ * changes penetrations by less than a hundredth may keep the one of the call before); with solids%hardness or
  * solids%adhesion also on the levels before (with adhesion it follows from the last level under prescribed separation). A level near
  * the last one is computed faster; the last one itself is not computed again, except with adhesion.
  * contact: the contact; separation: Z0, height of the tip above z = 0 [length]; force (out, may be null): N, 0 without contact

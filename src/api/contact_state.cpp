@@ -71,14 +71,21 @@ const rsc_contact::Known& rsc_contact::answer(Known& of) {
     if (const rsc::Asperities* used = contact.asperities(); !used || used == &on->asperities) {
         force = rsc::lateral_force(tip, *of.level);
     } else {  // of summits that change with the tip, which goes back to that of the level meanwhile
+        const auto back = [&] {
+            put_tip(*this, x0, y0);
+            if (contact.asperities() != used) recalled = false;
+        };
         try {
             put_tip(*this, of.x0, of.y0);
+            // Laws that know the summits only around the penetrations of levels need this level.
+            if (!contact.pulls() && !contact.path_dependent() && (!recalled || contact.asperities() != used))
+                contact.recall({}, &*of.level), recalled = &of == &known;
             force = contact.lateral(*of.level);
-            put_tip(*this, x0, y0);
         } catch (...) {
-            put_tip(*this, x0, y0);
+            back();
             throw;
         }
+        back();
     }
     of.lateral = force, of.moment = moment;
     return of;

@@ -104,7 +104,7 @@ void AsperityContact::Impl::use(Method how) {
 }
 
 void AsperityContact::Impl::select(double Z0) {
-    candidates = select_candidates(ranking, asperities, indenter, options, *law, Z0 - raised());
+    select_candidates(ranking, indenter, options, *law, Z0 - raised(), candidates);
     use(choose_method(options, *kernel, candidates.set));
     if (relaxing) relaxing->lower(candidates, *products);
 }

@@ -28,7 +28,8 @@ public:
     // of a first loading, with the plastic work; the force of a spot that is unloaded, or relaxes, keeps its direction.
     Vec2 lateral(const Level& level) override;
 
-    // The last level is a starting point for the next if its solution is proved unique. Summits of the difference are those of a new contact
+    // The last level is a starting point for the next if its solution is proved unique, or within a hundredth of one that was found from its
+    // defining start (LastingProof::selected). Summits of the difference are those of a new contact
     // at this place if the heights are kept or the contact is path-dependent; otherwise they are detected again when the tip has moved by more
     // than a tenth of the size of a summit and by a distance that tilts the indenter by more than a fiftieth of the rms slope. Throws
     // Error(bad_input) if bodies yielded or relax where the indenter is so steep that the summits of the two places do not correspond.

@@ -8,7 +8,9 @@ namespace rsc {
 double AsperityContact::force_at_most(double depth) {
     Impl& my = *impl_;
     const double Z0 = first_touch() - depth;
-    const WorkingSet set = select_candidates(my.ranking, my.asperities, my.indenter, my.options, *my.law, Z0).set;
+    Candidates there;
+    select_candidates(my.ranking, my.indenter, my.options, *my.law, Z0, there);
+    const WorkingSet& set = there.set;
     double sum = 0;
     for (std::size_t k = 0; k < set.g0.size(); ++k) sum += my.law->force(set.asperity[k], set.g0[k]);
     return sum / my.scale();

@@ -2,8 +2,8 @@
 
 namespace rsc {
 
-Candidates select_candidates(Ranking& ranking, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
-                             Law& law, double Z0) {
+void select_candidates(Ranking& ranking, const Indenter& indenter, const SolverOptions& options, Law& law, double Z0,
+                       Candidates& candidates) {
     std::vector<int> fresh;
     const std::size_t last = ranking.above(Z0, fresh);
     law.prepare(fresh);
@@ -12,20 +12,19 @@ Candidates select_candidates(Ranking& ranking, const Asperities& asperities, con
         const double depth = std::max(0.0, 4 * options.sigma - Z0);
         r0_squared = options.selection_factor * options.selection_factor * 2 * depth * indenter.shape->hertz_radius();
     }
-    Candidates candidates;
     WorkingSet& set = candidates.set;
-    candidates.rank.reserve(last), set.reserve(last);
+    for (auto* list : {&set.x, &set.y, &set.g0}) list->resize(last);
+    candidates.rank.resize(last), set.asperity.resize(last);
+    std::size_t n = 0;
     for (std::size_t r = 0; r < last; ++r) {
-        const auto i = static_cast<std::size_t>(ranking[r].asperity);
-        const Vec2 d = indenter.from_tip(asperities.x[i], asperities.y[i]), image = indenter.image(asperities.x[i], asperities.y[i]);
+        const auto [x, y] = ranking.place(r);
+        const Vec2 d = indenter.from_tip(x, y), image = indenter.image(x, y);
         if (d.x * d.x + d.y * d.y > r0_squared) continue;
-        candidates.rank.push_back(r);
-        set.asperity.push_back(ranking[r].asperity);
-        set.x.push_back(image.x);
-        set.y.push_back(image.y);
-        set.g0.push_back(ranking[r].height - Z0);
+        candidates.rank[n] = r, set.asperity[n] = ranking[r].asperity;
+        set.x[n] = image.x, set.y[n] = image.y, set.g0[n++] = ranking[r].height - Z0;
     }
-    return candidates;
+    for (auto* list : {&set.x, &set.y, &set.g0}) list->resize(n);
+    candidates.rank.resize(n), set.asperity.resize(n);
 }
 
 NewtonOutcome solve_candidates(const WorkingSet& candidates, Newton& newton, Products& products, const WorkingSetOptions& options,

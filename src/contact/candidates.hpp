@@ -17,8 +17,8 @@ struct Candidates {
 
 // Selects the asperities with g0 > 0. No others can touch, because forces only lower the surface (B F >= 0). Selection::paper also drops
 // those outside r0 = 1.5 sqrt(2 (4 sigma - Z0) R) (paper, section 4). The law is prepared for all candidates.
-Candidates select_candidates(Ranking& ranking, const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
-                             Law& law, double Z0);
+void select_candidates(Ranking& ranking, const Indenter& indenter, const SolverOptions& options, Law& law, double Z0,
+                       Candidates& candidates);
 
 // Solution over the candidates: penetrations v with interaction (negative: no contact), forces and slopes of the law.
 struct Solution {

@@ -27,7 +27,7 @@ void Ranking::assign(const Asperities& asperities, const Indenter& indenter) {
     now_ = indenter;
     x_rest_ = indenter.x0;
     y_rest_ = indenter.y0;
-    entries_.clear();
+    entries_.clear(), places_.clear();
     entries_.reserve(asperities.size());
     sorted_ = 0;
     highest_rest_ = highest_z_ = -kInfinity;
@@ -57,13 +57,19 @@ void Ranking::move(double x0, double y0) {
     const bool opens = now_.repeats.finite() && !now_.around.finite();
     now_.move(x0, y0);
     if (sorted_ == 0 || opens) return assign(*asperities_, now_);
-    const auto first = entries_.begin(), rest = first + static_cast<std::ptrdiff_t>(sorted_);
-    for (auto e = first; e != rest; ++e) {
-        const auto i = static_cast<std::size_t>(e->asperity);
-        e->height = now_.clearance(asperities_->x[i], asperities_->y[i], asperities_->z[i]);
-    }
-    sort_nearly_sorted(first, rest);
+    for (std::size_t k = 0; k < sorted_; ++k) entries_[k].height = now_.clearance(places_[k].x, places_[k].y, places_[k].z);
+    sort_nearly_sorted(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(sorted_));
+    place_sorted();
     if (bound_on_rest() >= highest()) assign(*asperities_, now_);
+}
+
+void Ranking::place_sorted() {
+    places_.resize(sorted_, {0, 0, 0, -1});
+    for (std::size_t k = 0; k < sorted_; ++k)
+        if (const int asperity = entries_[k].asperity; places_[k].asperity != asperity) {
+            const auto i = static_cast<std::size_t>(asperity);
+            places_[k] = {asperities_->x[i], asperities_->y[i], asperities_->z[i], asperity};
+        }
 }
 
 double Ranking::highest() const { return sorted_ > 0 ? entries_.front().height : highest_rest_; }
@@ -80,6 +86,7 @@ std::size_t Ranking::above(double Z0, std::vector<int>& fresh) {
         for (auto e = rest; e != end; ++e) fresh.push_back(e->asperity);
         sorted_ = static_cast<std::size_t>(end - first);
         highest_rest_ = end == entries_.end() ? -kInfinity : threshold;
+        place_sorted();
     }
     const auto last = std::partition_point(first, end, [Z0](const Entry& e) { return e.height > Z0; });
     return static_cast<std::size_t>(last - first);

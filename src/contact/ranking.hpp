@@ -27,13 +27,21 @@ public:
     // are appended to `fresh`. Sorting extends only slightly deeper than required.
     std::size_t above(double Z0, std::vector<int>& fresh);
     const Entry& operator[](std::size_t rank) const { return entries_[rank]; }
+    // Place of a sorted entry.
+    Vec2 place(std::size_t rank) const { return {places_[rank].x, places_[rank].y}; }
 
 private:
     double bound_on_rest() const;
+    void place_sorted();  // updates places_
 
     const Asperities* asperities_ = nullptr;
     std::vector<Entry> entries_;
     std::size_t sorted_ = 0;
+    struct Place {
+        double x, y, z;
+        int asperity;
+    };
+    std::vector<Place> places_;  // of the sorted entries, in their order: side by side, for loops over all of them
     Indenter now_;
     // Unsorted entries: their heights, at most highest_rest_, are those with the tip at (x_rest_, y_rest_).
     double x_rest_ = 0, y_rest_ = 0;

@@ -88,4 +88,32 @@ TEST(not_unique) {
     CHECK(moved(true).products < 2 * moved(false).products);
 }
 
+// Of two summits so close that either keeps the other out of contact, a new contact finds the one nearer to the tip. A tip that passes over them in
+// small steps follows that, cheaply, and is at the other one before penetrations have changed by some per cent.
+TEST(one_of_two) {
+    constexpr double between = 0.001, Z0 = -1e-4, step = 1e-4, late = 3e-3;
+    Asperities pair;
+    pair.x = {0.5 - 0.5 * between, 0.5 + 0.5 * between}, pair.y = {0.5, 0.5}, pair.z = {0, 0}, pair.radius = {1, 1};
+    const auto at = [&](Contact& contact, double x, bool force, double value) {
+        contact.move_tip(x, 0.5);
+        return force ? contact.at_force(value) : contact.at_separation(value);
+    };
+    for (const bool force : {false, true}) {
+        const auto moving = make_asperity_contact(pair, {1, 2, 0.49, 0.5}, {});
+        const double value = force ? moving->at_separation(Z0).force : Z0;
+        int cheap = 0, steps = 0;
+        for (double x = 0.49; x < 0.51; x += step, ++steps) {
+            const Level level = at(*moving, x, force, value);
+            const auto fresh = make_asperity_contact(pair, {1, 2, x, 0.5}, {});
+            const Level alone = force ? fresh->at_force(value) : fresh->at_separation(value);
+            CHECK(alone.contacts == 1 && (alone.asperity[0] == 1) == (x > 0.5));
+            cheap += level.products < 5;
+            if (std::abs(x - 0.5) < late) continue;
+            CHECK(level.asperity == alone.asperity && level.status == alone.status);
+            CHECK_RELATIVE(force ? level.separation : level.force, force ? alone.separation : alone.force, 1e-5);
+        }
+        CHECK(2 * cheap > steps);
+    }
+}
+
 }  // namespace

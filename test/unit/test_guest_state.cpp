@@ -79,6 +79,47 @@ void test_copied_between_levels(const std::string& keys) {
     CHECK_RELATIVE(force_at(copy, 0.009), force_at(made.contact, 0.009), kTolerance);
 }
 
+// The lateral force and the moment of a level are the same, to the last bit, whenever they are asked for: at once, after other results, where the
+// tip has moved on (near, far, over the border of a surface), of a copy, and after a step that was taken back. The next level has its own.
+void test_asked_later(const std::string& keys) {
+    const std::string text =
+        "&surface n=128 L_lambda_l=4 L_lambda_s=16 L=1 sigma=0.01 / &solids E=1e5,Infinity nu=0.3,0 R=Infinity," + keys;
+    const auto lateral = [](rsc_contact* contact) {
+        return std::array{value(contact, "lateral_force_x"), value(contact, "lateral_force_y"), value(contact, "moment_x")};
+    };
+    for (const double place : {0.3, 0.55}) {  // without a move before, too
+        Made at_once(text), later(text);
+        ContactHandle copy;
+        for (rsc_contact* one : {at_once.contact.get(), later.contact.get()}) {
+            CHECK(force_at(one, 0.008) > 0);
+            if (place > 0.3) CHECK(rsc_contact_move_tip(one, place, 0.98) == RSC_SUCCESS && force_at(one, 0.008) > 0);
+        }
+        const auto now = lateral(at_once.contact);
+        CHECK(now[0] != 0 && now[1] != 0);
+        OK(rsc_contact_commit(later.contact));
+        (void)value(later.contact, "stiffness"), (void)value(later.contact, "energy");
+        for (const double x : {place + 1e-5, place + 0.2}) {
+            OK(rsc_contact_move_tip(later.contact, x, 0.9));
+            OK(rsc_contact_copy(&copy, later.contact));
+            CHECK(lateral(x > place + 0.1 ? later.contact : copy) == now);
+        }
+        double x = 0;
+        CHECK(rsc_contact_tip(later.contact, &x, nullptr) == RSC_SUCCESS && x == place + 0.2 && lateral(later.contact) == now);
+        OK(rsc_contact_rollback(later.contact));
+        CHECK(lateral(later.contact) == now);
+        for (rsc_contact* one : {at_once.contact.get(), later.contact.get()}) CHECK(force_at(one, 0.007) > 0);
+        CHECK(lateral(later.contact) != now);
+        for (std::size_t k = 0; k < now.size(); ++k)
+            CHECK(std::abs(lateral(later.contact)[k] - lateral(at_once.contact)[k]) < 1e-4 * value(later.contact, "force"));
+    }
+}
+TEST(asked_later) {
+    test_asked_later("2.5 / &asperities law='hertz' /");
+    test_asked_later("1000 / &asperities law='fourth_order' /");  // summits moved
+    test_asked_later("2.5 / &asperities law='fourth_order' /");   // summits found again
+    test_asked_later("1000 hardness=1e3 / &asperities law='elliptic' /");
+}
+
 // Time goes on, a body that relaxes gives way; it has neither hardness nor friction.
 TEST(test_time) {
     const std::string body = "relaxation_share=0.4,0.3 relaxation_time=1,20";
