@@ -21,10 +21,9 @@ def shown(results, options):
     return [(r, level, f"{name}, {r.level_name(level)}{r.warning(level)}") for r, name in zip(results, names(results)) for level in r.chosen(1, options.step)]
 
 
-def contact_window(x, y, field, side, margin=0.15):
-    """(x0, x1, y0, y1) of the smallest square that contains the cells where `field` is not zero, with a margin, within the map."""
-    rows, columns = np.nonzero(np.nan_to_num(field))
-    whole = (x[0] - side / 2, x[-1] + side / 2, y[0] - side / 2, y[-1] + side / 2)
+def contact_window(x, y, field, side, whole, margin=0.15):
+    """(x0, x1, y0, y1) of the smallest square that contains the cells where `field` is not zero, with a margin, within `whole`."""
+    rows, columns = np.nonzero(field)
     if rows.size == 0:
         return whole
     ends = np.array([x[columns.min()] - side / 2, x[columns.max()] + side / 2, y[rows.min()] - side / 2, y[rows.max()] + side / 2])
@@ -84,10 +83,9 @@ def maps(results, options):
 
 
 def _map(axis, result, level, name):
-    field, x, y, side = result.window(name, level), result["x"], result["y"], float(result["map_cell_side"])
+    (field, ends), x, y, side = result.cells(name, level), result["x"], result["y"], float(result["map_cell_side"])
     # One per cent of the cells may be above the end of the scale, because they would hide the variation of all others.
     # Tension, with adhesion, is blue.
-    field = np.nan_to_num(field)
     end = np.percentile(np.abs(field[field != 0]), 99) if field.any() else 1.0
     pulls = field.min() < 0
     if name == "map_area_fraction":
@@ -98,6 +96,6 @@ def _map(axis, result, level, name):
     radius = hertz_radius(result, level)
     if np.isfinite(radius):
         axis.add_patch(plt.Circle((float(result["tip_x"]), float(result["tip_y"])), radius, fill=False, ls="--", lw=1.0, color="r"))
-    window = contact_window(x, y, result.window("map_pressure", level), side)
+    window = contact_window(x, y, result.cells("map_pressure", level)[0], side, ends)
     axis.set(xlim=window[:2], ylim=window[2:])
     return image

@@ -48,6 +48,13 @@ class Result:
         """A part of a variable, read alone."""
         return np.ma.filled(np.ma.asarray(self.file.variables[name][slices]).astype(float), np.nan) * self.factor(name)
 
+    def cells(self, name, level):
+        """A map at one level, 0 where it has no value, and the sides x0, x1, y0, y1 of the surface. The last row may extend beyond the surface: its
+        values are means over the part that does not."""
+        field, side, share = np.nan_to_num(self.window(name, level)), float(self["map_cell_side"]), float(getattr(self.file["y"], "share_of_last_row", 1.0))
+        field[-1] /= share
+        return field, (self["x"][0] - side / 2, self["x"][-1] + side / 2, self["y"][0] - side / 2, self["y"][-1] + (share - 0.5) * side)
+
     def mean(self, name):
         """A variable over steps: its mean over the realizations that have a value, if it depends on realizations."""
         values = self[name]

@@ -56,7 +56,8 @@ def pixels_of(result, step):
     if at.size:
         x, y, share = result["field_x"], result["field_y"], 1.0 * (result.window("field_contact" if "field_contact" in result else "field_pressure", int(at[0])) > 0)
     elif "map_area_fraction" in result:
-        x, y, share = result["x"], result["y"], np.nan_to_num(result.window("map_area_fraction", step))
+        share, (x0, x1, y0, _) = result.cells("map_area_fraction", step)
+        return (x0, x1, y0, y0 + len(share) * float(result["map_cell_side"])), np.clip(share, 0, 1)
     else:
         return None
     dx, dy = (x[1] - x[0]) / 2, (y[1] - y[0]) / 2
@@ -103,8 +104,7 @@ def spots(results, options):
     image = None
     for axis, centre, h in zip(page.axes, ((low + high) / 2, np.array([x[big] + rim * a[big], y[big]])), (half, near)):
         if "x" in result:  # stay on the surface if it is large enough
-            side = float(result["map_cell_side"]) / 2
-            ends = np.array([[result["x"][0] - side, result["x"][-1] + side], [result["y"][0] - side, result["y"][-1] + side]])
+            ends = np.array(result.cells("map_area_fraction", step)[1]).reshape(2, 2)
             centre = np.where(ends[:, 1] - ends[:, 0] > 2 * h, np.clip(centre, ends[:, 0] + h, ends[:, 1] - h), centre)
         window = (centre[0] - h, centre[0] + h, centre[1] - h, centre[1] + h)
         drawn = heights(result, axis, window, bright=0.8)

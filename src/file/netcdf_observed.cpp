@@ -29,7 +29,7 @@ void ResultTable::maps() {
     file_.dimension("y", static_cast<std::size_t>(g.ny));
     file_.dimension("x", static_cast<std::size_t>(g.nx));
     add("y", {"y"}, unit(1), "y of the cell centres; the last row may extend beyond the surface",
-        each_of(g.ny, [&](int j) { return g.y(j); }), {{"axis", "Y"}});
+        each_of(g.ny, [&](int j) { return g.y(j); }), {{"axis", "Y"}, {"share_of_last_row", std::vector<double>{g.last_row}}});
     add("x", {"x"}, unit(1), "x of the cell centres", each_of(g.nx, [&](int i) { return g.x(i); }), {{"axis", "X"}});
     add("map_cell_side", {}, unit(1), "side of the square cells of the map, w", std::vector<double>{g.side});
     const Names dims{"step", "y", "x"};

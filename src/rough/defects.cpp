@@ -185,29 +185,22 @@ void keep_depths(std::vector<std::uint8_t>& filled, int nx, int ny, int steps) {
 
 namespace {
 
-// Visits the heights of all pairs of neighbours, along rows and columns.
-template <class Visit>
-void visit_neighbours(const HeightMap& map, Visit visit) {
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
-            if (i > 0) visit(map(i - 1, j), map(i, j));
-            if (j > 0) visit(map(i, j - 1), map(i, j));
-        }
-}
-
-}  // namespace
-
-double height_step(const HeightMap& map) {
+// The step of the differences of each height from that di columns and dj rows before; 0 if they have none.
+double step_of_pairs(const HeightMap& map, int di, int dj) {
+    const auto visit_pairs = [&](auto visit) {
+        for (int j = dj; j < map.ny; ++j)
+            for (int i = di; i < map.nx; ++i) visit(map(i - di, j - dj), map(i, j));
+    };
     constexpr double few = 0.02;       // share of equal neighbours; with a smaller one rounding does not matter
     constexpr double rounding = 1e-6;  // relative to the step: files store heights as decimal numbers
     double least = 0;
-    visit_neighbours(map, [&](double a, double b) {
+    visit_pairs([&](double a, double b) {
         const double d = std::abs(b - a), noise = 1e-12 * (std::abs(a) + std::abs(b));
         if (d > noise && (least == 0 || d < least)) least = d;
     });
     if (!(least > 0)) return 0;
     long pairs = 0, equal = 0, other = 0;
-    visit_neighbours(map, [&](double a, double b) {
+    visit_pairs([&](double a, double b) {
         const double steps = std::abs(b - a) / least;
         if (std::isnan(steps)) return;
         ++pairs;
@@ -217,6 +210,14 @@ double height_step(const HeightMap& map) {
     constexpr double most_other = 1e-3;
     const auto share = [&](long of) { return static_cast<double>(of) / static_cast<double>(std::max(pairs, 1L)); };
     return share(equal) >= few && share(other) <= most_other ? least : 0.0;
+}
+
+}  // namespace
+
+// In one of the two directions there may be no step: rows of a scan may be levelled one by one, and across a lay few neighbours are equal.
+double height_step(const HeightMap& map) {
+    const double row = step_of_pairs(map, 1, 0), column = step_of_pairs(map, 0, 1);
+    return row > 0 && column > 0 ? std::min(row, column) : row + column;
 }
 
 void damp_waves(HeightMap& map, bool periodic, const char* purpose, const std::function<void(double*, double)>& damp) {

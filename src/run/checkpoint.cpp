@@ -333,7 +333,7 @@ std::string archive_layout() {
     const std::uint32_t order = 0x01020304;
     char first = 0;
     std::memcpy(&first, &order, 1);
-    return "3," + std::to_string(first) + "," + std::to_string(sizeof(SurfaceStatistics)) + "," + std::to_string(sizeof(LevelValues));
+    return "4," + std::to_string(first) + "," + std::to_string(sizeof(SurfaceStatistics)) + "," + std::to_string(sizeof(LevelValues));
 }
 
 }  // namespace rsc

@@ -220,6 +220,10 @@ TEST(all_touching) {
             for (int i = 0; i < map.nx; ++i) map.row(j)[i] = step * std::round(map(i, j) / step);
         CHECK_RELATIVE(height_step(map), step, 1e-6);
         CHECK(height_step(clean) == 0);
+        for (const bool rows : {true, false})  // also where its rows, or columns, were levelled one by one
+            CHECK_RELATIVE(height_step(height_map(map.nx, map.ny, map.dx, map.dy,
+                                                  [&](int i, int j) { return map(i, j) + 0.3 * step * std::sin(rows ? j : i); })),
+                           step, 1e-6);
         for (const LawKind law : {LawKind::hertz, LawKind::fourth_order}) {
             double as_it_was, now;
             forces(clean, law, as_it_was, truth);
@@ -277,7 +281,8 @@ TEST(lateral_of_summits) {
         };
         const Vec2 force = contact->lateral(level), sum = lateral_force(tip, level), a = slope(kStep), b = slope(2 * kStep);
         const auto apart = [&](Vec2 f, Vec2 g) { return std::hypot(f.x - g.x, f.y - g.y) / level.force; };
-        const bool ellipses = (body == "elastic" || body == "layers") && law == LawKind::fourth_order && name != "blunt", agree = apart(a, b) <= kAgree;
+        const bool ellipses = (body == "elastic" || body == "layers") && law == LawKind::fourth_order && name != "blunt",
+                   agree = apart(a, b) <= kAgree;
         ++all, smooth += agree, right += agree && apart(force, a) <= kForce;
         CHECK(apart(force, sum) <= kMost);
         if (agree) CHECK(apart(force, a) <= (ellipses ? kSeldom : kForce));

@@ -270,6 +270,13 @@ class Numbers(Drawn):
         self.assertEqual(sum(bool(axis.get_images()) for axis in many.axes), 5)
         images = [image for axis in self.figure("map", *members("forced", 4), "attracted", width=120.0).axes for image in axis.get_images()]
         self.assertEqual({(image.get_cmap().name, image.get_clim()) for image in images}, {("coolwarm", (-images[0].get_clim()[1], images[0].get_clim()[1]))})
+        shutil.copy(path("one"), path("oblong"))  # as if a quarter of the last row were on the surface
+        with netCDF4.Dataset(path("oblong"), "a") as file:
+            file["y"].share_of_last_row, file["map_pressure"][21, -1] = 0.25, file["map_pressure"][21].max()
+        figure = self.figure("map", "oblong", step=22)
+        p = np.vstack([v["map_pressure"][21, :-1], np.full(v["x"].size, 4 * v["map_pressure"][21].max())])
+        self.has_image(figure, np.where(p > 0, p, np.nan), extent)
+        self.assertAlmostEqual(figure.axes[0].get_ylim()[1], extent[3] - 0.75 * side)
 
     def test_spots(self):
         v, _ = raw("one")

@@ -112,6 +112,8 @@ inline void maps(CheckedFile& f, const Truth& t) {
     for (long i = 0; i < g.nx; ++i) x.push_back(g.x0 + g.side * (static_cast<double>(i) + 0.5));
     for (long j = 0; j < g.ny; ++j) y.push_back(g.y0 + g.side * (static_cast<double>(j) + 0.5));
     f.same("x", x, kRounding), f.same("y", y, kRounding), f.same("map_cell_side", {g.side}, kRounding);
+    const double below_last = static_cast<double>(g.ny - 1) * g.side, covered = std::min(1.0, (t.Ly - below_last) / g.side);
+    f.attribute("y", "share_of_last_row", {covered}, 1e-12);
     Vector area(t.steps * cells), force(area), area_rest(area), force_rest(area);
     std::vector<long double> area_sum(area.size()), force_sum(area.size());
     for (std::size_t k = 0; k < t.M; ++k)
@@ -150,7 +152,6 @@ inline void maps(CheckedFile& f, const Truth& t) {
 
     if (t.periodic) return CHECK(!f.has("radius") && !f.has("radial_pressure"));
     const double largest = std::min({t.tip_x - t.x0, t.x0 + t.Lx - t.tip_x, t.tip_y - t.y0, t.y0 + t.Ly - t.tip_y});
-    const double below_last = static_cast<double>(g.ny - 1) * g.side, covered = std::min(1.0, (t.Ly - below_last) / g.side);
     if (!(largest > 0)) return CHECK(!f.has("radius") && !f.has("radial_pressure"));  // the tip is not over the map
     const auto bins = at(t.c.output.radial_bins);
     Vector radius;
