@@ -11,8 +11,8 @@ struct MapGrid {
     double x0 = 0, y0 = 0;  // [length]
     double side = 0;        // [length]
     int nx = 0, ny = 0;
-    double Ly = 0;        // of the surface, on which the last row lies
-    double last_row = 1;  // with this share
+    double Ly = 0;        // side of the surface [length], beyond which the last row may extend
+    double last_row = 1;  // share of the last row that lies on the surface
     int cells() const { return nx * ny; }
     double x(int i) const { return x0 + (i + 0.5) * side; }
     double y(int j) const { return y0 + (j + 0.5) * side; }

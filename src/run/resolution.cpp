@@ -27,9 +27,9 @@ constexpr double kHalvedFrom = 5;
 // Two flats: changes of N with the grid are several times larger than this tolerance, and are needed to one digit.
 constexpr double kTolerance = 2e-5;
 
-// Errors of N and A on ridges, fitted to 150 ridged bodies (test/README): of the share of N that crests would add if they rose above the points
-// as far as they can, 0.35 where contacts are wide, and three times as much just after first touch; and the root of it, to which the width of
-// a contact in points is inverse.
+// Errors of N and A on ridges, fitted to 150 ridged bodies (test/README). If all crests rose above the points as far as they can, N would grow by a
+// share q. The error of N is 0.35 q where contacts are wide (small q), and three times as much just after first touch (large q). That of A is
+// 0.8 sqrt(q): the width of a contact in points is proportional to 1/sqrt(q).
 constexpr double kCrest = 0.35, kCrestArea = 0.8;
 
 // A map needs as many points a side for its half.
