@@ -70,8 +70,9 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-// Creates an AsperityContact, or with adhesion the contact of adhesive_contact.hpp.
+// Creates an AsperityContact, or with adhesion the contact of adhesive_contact.hpp. The asperities must outlive it.
 std::unique_ptr<Contact> make_asperity_contact(const Asperities& asperities, const Indenter& indenter, const SolverOptions& options,
                                                SummitSearch search = {});
+std::unique_ptr<Contact> make_asperity_contact(Asperities&&, const Indenter&, const SolverOptions&, SummitSearch = {}) = delete;
 
 }  // namespace rsc

@@ -68,7 +68,8 @@ TEST(test_products) {
 
 // A force near first touch does not start from the slope of an earlier, far larger one.
 TEST(forces_far_apart) {
-    const auto contact = make_asperity_contact(random_asperities(800, 0.01, 0.01, 0.05, 0.3, 7), {1, 2, 0.5, 0.5}, {});
+    const Asperities asperities = random_asperities(800, 0.01, 0.01, 0.05, 0.3, 7);
+    const auto contact = make_asperity_contact(asperities, {1, 2, 0.5, 0.5}, {});
     const double deep = contact->at_separation(-0.02).force;
     (void)contact->at_force(0.9 * deep), (void)contact->at_force(0.8 * deep);
     const Level shallow = contact->at_separation(contact->first_touch() - 1e-6);

@@ -344,10 +344,11 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
 
 void LastingProof::Bounds::set(const std::vector<int>& asperities, const Vector& x, const Vector& y, const Vector& v, double share,
                                double width) {
-    for (const int i : asperity) by_asperity[static_cast<std::size_t>(i)] = {};
-    asperity = asperities, touching = 0;
-    const std::size_t size = static_cast<std::size_t>(*std::max_element(asperity.begin(), asperity.end())) + 1;
+    const std::size_t size = static_cast<std::size_t>(*std::max_element(asperities.begin(), asperities.end())) + 1;
     if (by_asperity.size() < size) by_asperity.resize(size);
+    for (const int i : asperity) by_asperity[static_cast<std::size_t>(i)] = {};
+    asperity.clear();  // no bounds remain if the copy finds no memory
+    asperity = asperities, touching = 0;
     for (std::size_t k = 0; k < v.size(); ++k) {
         const double wide = std::max(share * std::abs(v[k]), width);
         by_asperity[static_cast<std::size_t>(asperity[k])] = {v[k] - wide, v[k] + wide, x[k], y[k]};
