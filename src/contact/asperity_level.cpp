@@ -349,8 +349,12 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
         upright += f;
         if (bodies.of_difference && !ellipse && !shape.keys().map)
             contacts.bent += f * unlike_paraboloid(shape, x, y, level.a[k], 0.5 * (asperities.kappa1[at(i)] + asperities.kappa2[at(i)]));
-        if (!bodies.of_difference && options.rms_slope > 0 && !shape.flat() && level.u[k] > 0)
-            leaning += f * std::pow(1 + flank_of(asperities, at(i), indenter).nearer / level.u[k], 1.5);
+        if (!bodies.of_difference && options.rms_slope > 0 && !shape.flat() && level.u[k] > 0) {
+            const Vec2 g = shape.gradient(x, y);
+            const double largest = asperities.kappa2.empty() ? asperities.radius[at(i)] : 1 / asperities.kappa2[at(i)];
+            const bool gentle = 0.5 * largest * (g.x * g.x + g.y * g.y) < 0.01 * level.u[k];  // the force is within 1.5 %
+            leaning += f * (gentle ? 1.0 : std::pow(1 + flank_of(asperities, at(i), indenter).nearer / level.u[k], 1.5));
+        }
         constexpr double kMuchLarger = 4;  // than Hertz's area under the same force
         const double hertz = std::cbrt(0.75 * std::max(level.f[k], 0.0) * asperities.radius[at(i)] / indenter.E_star);
         if (ellipse && !law.path_dependent())
