@@ -113,11 +113,28 @@ void test_asked_later(const std::string& keys) {
             CHECK(std::abs(lateral(later.contact)[k] - lateral(at_once.contact)[k]) < 1e-4 * value(later.contact, "force"));
     }
 }
+
+// So are those of a committed level from which another was computed before the tip moved for the first time, or could not move.
+void test_asked_after_rollback(const std::string& keys) {
+    Made made("&surface n=128 L_lambda_l=4 L_lambda_s=16 L=1 sigma=0.01 / &solids E=1e5,Infinity nu=0.3,0 R=Infinity," + keys);
+    rsc_contact* const contact = made.contact;
+    const ContactHandle at_once = contact_on(made.asperities, made.c);
+    for (rsc_contact* one : {contact, at_once.get()}) force_at(one, 0.002);
+    OK(rsc_contact_commit(contact));
+    const double next = force_at(contact, 0.008);
+    (void)rsc_contact_move_tip(contact, 0.4, 0.9);
+    CHECK(value(contact, "force") == next);
+    OK(rsc_contact_rollback(contact));
+    for (const char* name : {"lateral_force_x", "lateral_force_y"})
+        CHECK_CLOSE(value(contact, name), value(at_once, name), 1e-9 * value(contact, "force"));
+}
 TEST(asked_later) {
     test_asked_later("2.5 / &asperities law='hertz' /");
     test_asked_later("1000 / &asperities law='fourth_order' /");  // summits moved
     test_asked_later("2.5 / &asperities law='fourth_order' /");   // summits found again
     test_asked_later("1000 hardness=1e3 / &asperities law='elliptic' /");
+    for (const char* memory : {"", "hardness=1e3", "adhesion=0.01"})
+        test_asked_after_rollback(std::string("20 ") + memory + " / &asperities law='fourth_order' /");
 }
 
 // Time goes on, a body that relaxes gives way; it has neither hardness nor friction.
