@@ -11,8 +11,7 @@ constexpr double kFold = 1e-4, kShortest = 1e-9;
 // within a level. The energies are extrapolated to the point of touching, so that the error of the loss is of second order in it.
 constexpr double kNearTouching = 1e-4;
 constexpr double kOnTheWay = 1e-5;  // residual of states between levels
-constexpr double kSure =
-    1e-3;  // distance from a wanted force, relative to the forces, beyond which such a state is on the side it seems to be
+constexpr double kSure = 1e-3;      // distance from a wanted force, relative to all forces, beyond which its side is certain
 // Largest steps, relative to the expected distance to detachment: by the law of the asperity, and by extrapolation of its rate of change
 // (far and near).
 constexpr double kOwnWay = 0.7, kFarWay = 0.6, kNearWay = 0.9, kLongestWay = 0.98, kDoubt = 6;

@@ -137,6 +137,19 @@ TEST(asked_later) {
         test_asked_after_rollback(std::string("20 ") + memory + " / &asperities law='fourth_order' /");
 }
 
+// Pulled off, a contact that sticks has a force at the first separation of its path with this force.
+TEST(first_state_of_a_force) {
+    Made made("&surface L=2 n=256 sigma=1e-3 L_lambda_l=8 L_lambda_s=64 / &solids E=2,Infinity nu=0.49,0 R=Infinity,50 adhesion=1e-5 /");
+    constexpr double N = -9.5e-6, below = 1.7623e-3;
+    double Z0 = 0;
+    OK(rsc_contact_press(made.contact, 3e-3, &Z0));
+    OK(rsc_contact_commit(made.contact));
+    CHECK(force_at(made.contact, below) < N);
+    OK(rsc_contact_rollback(made.contact));
+    OK(rsc_contact_press(made.contact, N, &Z0));
+    CHECK(Z0 < below);
+}
+
 // Time goes on, a body that relaxes gives way; it has neither hardness nor friction.
 TEST(test_time) {
     const std::string body = "relaxation_share=0.4,0.3 relaxation_time=1,20";
