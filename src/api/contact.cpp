@@ -112,10 +112,10 @@ constexpr Derived kDerived[] = {
     {"energy", [](rsc_contact& c) { return c.known.energy; }},
     {"conductance_length", conductance_length_of},
     {"resistance", resistance_of},
-    {"lateral_force_x", [](rsc_contact& c) { return c.answer(c.known).lateral.x; }},
-    {"lateral_force_y", [](rsc_contact& c) { return c.answer(c.known).lateral.y; }},
-    {"moment_x", [](rsc_contact& c) { return c.answer(c.known).moment.x; }},
-    {"moment_y", [](rsc_contact& c) { return c.answer(c.known).moment.y; }},
+    {"lateral_force_x", [](rsc_contact& c) { return c.answer().lateral.x; }},
+    {"lateral_force_y", [](rsc_contact& c) { return c.answer().lateral.y; }},
+    {"moment_x", [](rsc_contact& c) { return c.answer().moment.x; }},
+    {"moment_y", [](rsc_contact& c) { return c.answer().moment.y; }},
 };
 
 // Quantities of the result file that rsc_contact_value does not return: those of maps, which the library does not compute, and vectors
@@ -188,10 +188,10 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
         const bool remembers = contact->contact.pulls() || contact->contact.path_dependent();
         if (remembers && contact->known.level) {
             (void)(now.layers.count > 0 ? stiffness_of(*contact) : conductance_length_of(*contact));
-            contact->answer(contact->known);
+            contact->answer();
         }
         // So is, at the first move on a surface that repeats, what other images of its spots would change.
-        if (now.repeats.finite() && !now.around.finite()) contact->answer(contact->known), contact->answer(contact->committed.known);
+        if (now.repeats.finite() && !now.around.finite()) contact->answer(), contact->answer_committed();
         const rsc::Asperities* const before = contact->contact.asperities();
         contact->contact.move_tip(place.x, place.y);
         if (!remembers && contact->contact.asperities() != before)
@@ -294,13 +294,14 @@ int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* for
         double dN_dZ0 = 0, W = 0;  // nothing is written until all values are known to be finite
         if (stiffness) put_finite(&dN_dZ0, stiffness_of(*contact));
         if (energy) put_finite(&W, contact->known.energy);
+        if (lateral_x || lateral_y) contact->answer();
         put(separation, level.separation);
         put(force, level.force);
         put(stiffness, dN_dZ0);
         put(area, level.area);
         put(energy, W);
-        if (lateral_x) *lateral_x = contact->answer(contact->known).lateral.x;
-        if (lateral_y) *lateral_y = contact->answer(contact->known).lateral.y;
+        put(lateral_x, contact->known.lateral.x);
+        put(lateral_y, contact->known.lateral.y);
         put(level_status, level.status);
         put(contacts, level.contacts);
         put(overlapping_pairs, level.overlapping_pairs);

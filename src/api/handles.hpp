@@ -58,8 +58,10 @@ struct rsc_contact {
         rsc::Vec2 lateral{rsc::kNotComputed, rsc::kNotComputed}, moment{};  // NaN until they are asked for
     };
     Known known;
-    // Adds the lateral force and the moment to a level, at whose tip a contact with a memory must be.
-    const Known& answer(Known& level);
+    // Adds the lateral force and the moment to the last level, at whose tip a contact with a memory must be.
+    const Known& answer();
+    // The same for the committed level.
+    void answer_committed();
     bool recalled = true;  // false: `contact` is not at that level, recall() must be called first
 
     // The last level and everything that the next level depends on.

@@ -73,7 +73,7 @@ int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0, c
         double slope = 0;
         if (stiffness)
             if (const int32_t found = rsc_contact_stiffness(contact, &slope); found != RSC_SUCCESS) return found;
-        const auto& known = lateral_x || lateral_y || moment_x || moment_y ? contact->answer(contact->known) : contact->known;
+        const auto& known = lateral_x || lateral_y || moment_x || moment_y ? contact->answer() : contact->known;
         const auto to = [&](auto* output, auto of) {
             if (output) output[k] = static_cast<std::decay_t<decltype(*output)>>(of);
         };

@@ -11,6 +11,7 @@ constexpr double kFold = 1e-4, kShortest = 1e-9;
 // within a level. The energies are extrapolated to the point of touching, so that the error of the loss is of second order in it.
 constexpr double kNearTouching = 1e-4;
 constexpr double kOnTheWay = 1e-5;  // residual of states between levels
+constexpr double kSure = 1e-3;      // distance from a wanted force, relative to all forces, beyond which its side is certain
 // Largest steps, relative to the expected distance to detachment: by the law of the asperity, and by extrapolation of its rate of change
 // (far and near).
 constexpr double kOwnWay = 0.7, kFarWay = 0.6, kNearWay = 0.9, kLongestWay = 0.98, kDoubt = 6;
@@ -366,7 +367,12 @@ bool AdhesivePath::go(double target, std::optional<double> wanted) {
         const Vector now_rates = rates();
         const auto [start, stands] = predict(Z, now_rates);
         Point there;
-        if (!find(Z, start, there, Z == target ? 0.0 : kOnTheWay)) {
+        const auto unsure = [&] {
+            double all = 0;
+            for (const Sticking::State& state : there.states) all += std::abs(state.f);
+            return wanted && !there.exact && std::abs(there.force - *wanted) < kSure * all;
+        };
+        if (!find(Z, start, there, Z == target ? 0.0 : kOnTheWay) || (unsure() && !find(Z, there.s, there))) {
             shorter *= 0.3;
             continue;
         }

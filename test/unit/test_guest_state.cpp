@@ -113,11 +113,41 @@ void test_asked_later(const std::string& keys) {
             CHECK(std::abs(lateral(later.contact)[k] - lateral(at_once.contact)[k]) < 1e-4 * value(later.contact, "force"));
     }
 }
+
+// So are those of a committed level from which another was computed before the tip moved for the first time, or could not move.
+void test_asked_after_rollback(const std::string& keys) {
+    Made made("&surface n=128 L_lambda_l=4 L_lambda_s=16 L=1 sigma=0.01 / &solids E=1e5,Infinity nu=0.3,0 R=Infinity," + keys);
+    rsc_contact* const contact = made.contact;
+    const ContactHandle at_once = contact_on(made.asperities, made.c);
+    for (rsc_contact* one : {contact, at_once.get()}) force_at(one, 0.002);
+    OK(rsc_contact_commit(contact));
+    const double next = force_at(contact, 0.008);
+    (void)rsc_contact_move_tip(contact, 0.4, 0.9);
+    CHECK(value(contact, "force") == next);
+    OK(rsc_contact_rollback(contact));
+    for (const char* name : {"lateral_force_x", "lateral_force_y"})
+        CHECK_CLOSE(value(contact, name), value(at_once, name), 1e-9 * value(contact, "force"));
+}
 TEST(asked_later) {
     test_asked_later("2.5 / &asperities law='hertz' /");
     test_asked_later("1000 / &asperities law='fourth_order' /");  // summits moved
     test_asked_later("2.5 / &asperities law='fourth_order' /");   // summits found again
     test_asked_later("1000 hardness=1e3 / &asperities law='elliptic' /");
+    for (const char* memory : {"", "hardness=1e3", "adhesion=0.01"})
+        test_asked_after_rollback(std::string("20 ") + memory + " / &asperities law='fourth_order' /");
+}
+
+// Pulled off, a contact that sticks has a force at the first separation of its path with this force.
+TEST(first_state_of_a_force) {
+    Made made("&surface L=2 n=256 sigma=1e-3 L_lambda_l=8 L_lambda_s=64 / &solids E=2,Infinity nu=0.49,0 R=Infinity,50 adhesion=1e-5 /");
+    constexpr double N = -9.5e-6, below = 1.7623e-3;
+    double Z0 = 0;
+    OK(rsc_contact_press(made.contact, 3e-3, &Z0));
+    OK(rsc_contact_commit(made.contact));
+    CHECK(force_at(made.contact, below) < N);
+    OK(rsc_contact_rollback(made.contact));
+    OK(rsc_contact_press(made.contact, N, &Z0));
+    CHECK(Z0 < below);
 }
 
 // Time goes on, a body that relaxes gives way; it has neither hardness nor friction.
