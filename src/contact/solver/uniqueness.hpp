@@ -57,7 +57,7 @@ private:
     struct Bounds {
         struct Asperity {
             double low = 0, high = -kInfinity;  // of its penetration; -Infinity: it has no bounds
-            double x = 0, y = 0;  // its place: on a surface that repeats another image may have come near the tip
+            double x = 0, y = 0;                // its place: on a surface that repeats another image may have come near the tip
         };
         std::vector<Asperity> by_asperity;
         std::size_t touching = 0;   // asperities whose upper bound is positive
