@@ -130,6 +130,7 @@ double PixelContact::top_between_points() {
         for (int i = -1; i <= frame.nx; ++i) line[static_cast<std::size_t>(i + 1)] = clear(i, j);
         for (int i = 0; i < frame.nx; ++i) {
             const double* const here = &line[static_cast<std::size_t>(i + 1)];
+            if (*here == -kInfinity) continue;  // beside the indenter
             if (!(*here >= std::max(here[-1], here[1])) || !(*here >= std::max(clear(i, j - 1), clear(i, j + 1)))) continue;
             double along[kPlaces][kSide] = {};  // heights at the places in x
             for (int b = 0; b < kSide; ++b)

@@ -286,7 +286,8 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         try {
             contact->require_gap(*std::max_element(job.levels.begin(), job.levels.end()));
         } catch (const Error& error) {
-            throw Error(error.kind(), key_of_largest(settings.indentation) + error.what() + "; give smaller ones");
+            if (error.kind() != Failure::bad_input) throw;
+            bad_input(key_of_largest(settings.indentation) + error.what() + "; give smaller ones");
         }
     for (std::size_t k = 0; k < job.levels.size(); ++k) {
         if (!job.times.empty()) contact->set_time(job.times[k]);
