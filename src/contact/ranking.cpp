@@ -28,8 +28,8 @@ void Ranking::assign(const Asperities& asperities, const Indenter& indenter) {
     x_rest_ = indenter.x0;
     y_rest_ = indenter.y0;
     entries_.clear(), places_.clear();
-    entries_.reserve(asperities.size());
     sorted_ = 0;
+    entries_.reserve(asperities.size());
     highest_rest_ = highest_z_ = -kInfinity;
     for (std::size_t i = 0; i < asperities.size(); ++i) {
         highest_z_ = std::max(highest_z_, asperities.z[i]);
@@ -83,6 +83,7 @@ std::size_t Ranking::above(double Z0, std::vector<int>& fresh) {
         const double threshold = Z0 - 0.25 * (highest() - Z0);
         end = std::partition(rest, entries_.end(), [threshold](const Entry& e) { return e.height > threshold; });
         std::sort(rest, end, comes_first);
+        places_.resize(static_cast<std::size_t>(end - first), {0, 0, 0, -1});  // before sorted_ counts them: there may be no memory
         for (auto e = rest; e != end; ++e) fresh.push_back(e->asperity);
         sorted_ = static_cast<std::size_t>(end - first);
         highest_rest_ = end == entries_.end() ? -kInfinity : threshold;
