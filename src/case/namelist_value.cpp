@@ -11,7 +11,7 @@ char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + '
 double out_of_range(std::string_view plain) {
     long double wide = 0;
     if (std::from_chars(plain.data(), plain.data() + plain.size(), wide).ec == std::errc{}) return static_cast<double>(wide);
-    return plain.find("e-") == std::string_view::npos ? std::numeric_limits<double>::infinity() : 0.0;
+    return plain.find("e-") == std::string_view::npos ? kInfinity : 0.0;
 }
 
 // Number of edits (insert, delete, replace, swap neighbours) between two words.

@@ -6,6 +6,7 @@
 #include "rough/stencil.hpp"
 
 namespace rsc {
+
 PixelContact::PixelContact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options)
     : CutMap(require_elements(heights, indenter, options)), heights_(heights), indenter_(indenter), options_(options) {
     if (!options.relaxation.none()) loads_.emplace(Creep(options.relaxation));
@@ -119,10 +120,8 @@ double PixelContact::top_between_points() {
     double weights[kPlaces][1][Stencil::kTaps];
     const auto part = [](std::size_t k) { return 0.25 * (static_cast<double>(k) - kPlaces / 2); };
     for (std::size_t k = 0; k < kPlaces; ++k) stencil.weights(part(k), 1, weights[k]);
-    const auto inside = [this](int k, int n) {  // mirrored at the border of a map that does not repeat
-        return indenter_.period.finite() ? (k % n + n) % n : std::clamp(k < 0 ? -k : k < n ? k : 2 * n - 2 - k, 0, n - 1);
-    };
-    const auto z = [&](int i, int j) { return height(column(inside(i, frame.nx)), row(inside(j, frame.ny))); };
+    const bool repeats = indenter_.period.finite();
+    const auto z = [&](int i, int j) { return height(column(continued(i, frame.nx, repeats)), row(continued(j, frame.ny, repeats))); };
     const auto clear = [&](int i, int j) { return indenter_.clearance(x(i), y(j), z(i, j)); };
     between_ = top_;
     std::vector<double> line(static_cast<std::size_t>(frame.nx) + 2);

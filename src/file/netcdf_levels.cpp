@@ -199,7 +199,7 @@ void ResultTable::theory() {
 
 // The part of body 2 that can touch points up to 4 rms heights above the mean plane at the deepest level; hardly any point is higher.
 void ResultTable::outline() {
-    double lowest = std::numeric_limits<double>::infinity();
+    double lowest = kInfinity;
     for (const LevelValues& row : o_.rows) lowest = std::fmin(lowest, row.separation);
     const double height = 4 * r_.sigma - lowest;
     if (!(height > 0) || std::isinf(height)) return;

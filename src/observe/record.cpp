@@ -26,7 +26,7 @@ double rounded_product(double a, double b) {
 
 std::int32_t nearest_level(const std::vector<double>& levels, double wanted) {
     std::int32_t best = -1;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (std::size_t k = 0; k < levels.size(); ++k)
         if (const double distance = std::abs(levels[k] - wanted); best < 0 || distance < least - 1e-9 * (least + std::abs(wanted)))
             best = static_cast<std::int32_t>(k), least = distance;

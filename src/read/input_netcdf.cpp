@@ -361,7 +361,7 @@ void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) con
     };
     const bool unpacked = v.type != NC_FLOAT && v.type != NC_DOUBLE && (real("scale_factor") || real("add_offset")) &&
                           (real("valid_range") || real("valid_min") || real("valid_max"));
-    constexpr double all = std::numeric_limits<double>::infinity();
+    constexpr double all = kInfinity;
     double least = factor("valid_min", -all), most = factor("valid_max", all);
     if (const auto range = numbers_attribute(v, "valid_range")) {
         if (range->size() != 2) bad_input(path_ + ": attribute " + v.name + ":valid_range must be two numbers");

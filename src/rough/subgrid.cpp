@@ -238,7 +238,7 @@ bool SummitClimber::smooth_around(int i, int j, const RefinedSummit& summit, dou
     // A summit half a step from its grid point in both directions rises by bend/8, and its curvature may be several times the median.
     constexpr double most = 0.75;
     const int ci = static_cast<int>(std::lround(summit.x)), cj = static_cast<int>(std::lround(summit.y));
-    double highest = -std::numeric_limits<double>::infinity();
+    double highest = -kInfinity;
     for (int dj = -1; dj <= 1; ++dj)
         for (int di = -1; di <= 1; ++di) highest = std::max(highest, difference(i, j, ci + di, cj + dj));
     return summit.z <= highest + most * bend;

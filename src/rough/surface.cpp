@@ -149,7 +149,7 @@ HeightMap every_second_point_of(const HeightMap& map) {
 
 double height_at(const HeightMap& map, double x, double y) {
     const double u = (x - map.x0) / map.dx, v = (y - map.y0) / map.dy;
-    if (!map.periodic && !(u >= 0 && v >= 0 && u <= map.nx - 1 && v <= map.ny - 1)) return -std::numeric_limits<double>::infinity();
+    if (!map.periodic && !(u >= 0 && v >= 0 && u <= map.nx - 1 && v <= map.ny - 1)) return -kInfinity;
     const auto place = [&](double t, int n) {
         const int before = static_cast<int>(std::floor(t) - n * std::floor(std::floor(t) / n));
         return std::pair{before, map.periodic ? (before + 1) % n : std::min(before + 1, n - 1)};

@@ -27,6 +27,10 @@ struct PointGrid {
 
 // The index of a point on a periodic line of n points.
 constexpr int wrapped(int i, int n) { return (i % n + n) % n; }
+// The same on a line that repeats or, otherwise, beyond whose ends the points are mirrored.
+constexpr int continued(int i, int n, bool repeats) {
+    return repeats ? wrapped(i, n) : std::clamp(i < 0 ? -i : i < n ? i : 2 * n - 2 - i, 0, n - 1);
+}
 
 // Heights on a grid, z(i, j) = data[j*stride + i]. stride >= nx allows for the padding of in-place transforms.
 struct HeightMap : PointGrid {

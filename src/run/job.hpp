@@ -24,10 +24,10 @@ struct Job {
     ObserveOptions observe;
     // The surface from the file, if it is the same in every realization.
     std::optional<SurfaceModel> given;
-    std::shared_ptr<const Measured> measured;                        // of a measured map, the first of several
-    double points_touch = -std::numeric_limits<double>::infinity();  // of a map: Z0 at which one of its points touches
-    double seam = 0;                         // of a periodic map: jump across the border relative to that between points
-    std::optional<HeightMap> given_heights;  // if the case or its elements need them
+    std::shared_ptr<const Measured> measured;  // of a measured map, the first of several
+    double points_touch = -kInfinity;          // of a map: Z0 at which one of its points touches
+    double seam = 0;                           // of a periodic map: jump across the border relative to that between points
+    std::optional<HeightMap> given_heights;    // if the case or its elements need them
 };
 
 // Reads the inputs of the case, determines levels, domain and ranges. Throws Error(bad_input) if the case cannot be run.

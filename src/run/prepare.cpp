@@ -244,9 +244,9 @@ Surface make_element_surface(const Case& settings, std::int64_t number, int thre
     if (!indenter || !reads_high_points(settings)) return make_surface(finer, spectrum, number, threads);
     // Faces are nowhere below 0, so that a height of 0 lies below the indenter at every separation above 0. The highest point is kept.
     const double step = spectrum.L / finer.surface.n, least = *std::min_element(levels.begin(), levels.end()) * (1 - 1e-9);
-    std::atomic<double> top = -std::numeric_limits<double>::infinity();
+    std::atomic<double> top = -kInfinity;
     Surface surface = make_surface(finer, spectrum, number, threads, [&](int row, int first, int count, const double* z) {
-        double before = top, highest = -std::numeric_limits<double>::infinity();
+        double before = top, highest = -kInfinity;
         const double from = std::min(least, before);
         for (int k = 0; k < count; ++k)
             if (z[k] > from) highest = std::max(highest, indenter->clearance((first + k) * step, row * step, z[k]));
@@ -254,7 +254,7 @@ Surface make_element_surface(const Case& settings, std::int64_t number, int thre
         }
         return highest > from;
     });
-    const bool complete = top == -std::numeric_limits<double>::infinity();  // made in another order, with all heights
+    const bool complete = top == -kInfinity;  // made in another order, with all heights
     return complete || top > 0 ? std::move(surface) : make_surface(finer, spectrum, number, threads);
 }
 

@@ -111,13 +111,10 @@ Crests::Crests(const Job& job, const HeightMap& map) : map_(map), indenter_(job.
 // synthetic surfaces, of which not all heights need be kept, the curvatures are those to be expected at its height.
 double Crests::height(int column, int row) const {
     const bool synthetic = bend_.xx + bend_.yy > 0, repeats = indenter_.period.finite();
-    const auto inside = [repeats](int k, int n) {  // mirrored at the border of a map that does not repeat
-        return k >= 0 && k < n ? k : repeats ? (k + n) % n : std::clamp(k < 0 ? -k : 2 * n - 2 - k, 0, n - 1);
-    };
     double z[3][3];
     for (int b = 0; b < 3; ++b)
         for (int a = 0; a < 3; ++a) {
-            const int i = inside(column + a - 1, map_.nx), j = inside(row + b - 1, map_.ny);
+            const int i = continued(column + a - 1, map_.nx, repeats), j = continued(row + b - 1, map_.ny, repeats);
             z[b][a] = indenter_.clearance(map_.x0 + i * map_.dx, map_.y0 + j * map_.dy, synthetic ? 0.0 : map_(i, j));
         }
     // Beyond the edge of the indenter, which lies somewhere between two points, the face is as steep as if it rose to half-way between.

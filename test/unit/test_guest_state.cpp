@@ -128,6 +128,7 @@ void test_asked_after_rollback(const std::string& keys) {
     for (const char* name : {"lateral_force_x", "lateral_force_y"})
         CHECK_CLOSE(value(contact, name), value(at_once, name), 1e-9 * value(contact, "force"));
 }
+
 TEST(asked_later) {
     test_asked_later("2.5 / &asperities law='hertz' /");
     test_asked_later("1000 / &asperities law='fourth_order' /");  // summits moved

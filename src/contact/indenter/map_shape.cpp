@@ -122,8 +122,6 @@ private:
         return total;
     }
 
-    static int wrapped(int i, int n) { return (i % n + n) % n; }
-
     // Upper bounds of the heights of blocks: the highest point in and around a block plus a quarter of the range, for values between
     // points.
     void find_tops() {

@@ -185,7 +185,6 @@ HeightsAround::HeightsAround(const FoundSummits& found, const Stencil& stencil, 
     if (i1 - i0 < 3 || j1 - j0 < 3) return;
     hx_ = map.dx / steps, hy_ = map.dy / steps;
     left_ = (i0 - x) * map.dx, low_ = (j0 - y) * map.dy;
-    const auto wrapped = [](int i, int n) { return (i % n + n) % n; };
     // Weights for every position between two points, along both sides alike.
     std::vector<std::array<double, Stencil::kTaps>> weights(static_cast<std::size_t>(steps));
     for (int s = 0; s < steps; ++s) {
