@@ -22,18 +22,49 @@ KINDS = ("case", "surface", "asperities", "contact", "friction")
 
 # The names in FORTRAN 77. Arguments that FORTRAN 77 omits, and passes as null, follow the name.
 NAMES_77 = {
-    "rsccas": "case_create", "rscred": "case_read", "rscset": "case_set", "rscrun": "case_run",
-    "rscsyn": "surface_synthesize", "rscsur": "surface_take", "rschgt": "surface_heights",
-    "rscfnd": "asperities_find", "rscmak": "asperities_make", "rscasp": "asperities_take kappa1 kappa2 angle biharmonic",
-    "rscnum": "asperities_count", "rscxyz": "asperities_get",
-    "rsccon": "contact_create", "rsccnc": "contact_create_from_case", "rsctip": "contact_move_tip", "rsctch": "contact_first_touch",
-    "rscind": "contact_indent", "rscprs": "contact_press", "rscres": "contact_result", "rsclev": "contact_level",
-    "rscstf": "contact_stiffness", "rscnrg": "contact_energy", "rscdfl": "contact_deflection",
-    "rsccom": "contact_commit", "rscrol": "contact_rollback", "rscsav": "contact_save", "rscrst": "contact_restore",
-    "rscfsv": "friction_save", "rscfrs": "friction_restore", "rscftp": "friction_move_tip", "rscfri": "friction_create_from_case", "rscupd": "friction_update", "rsccmt": "friction_commit", "rscrbk": "friction_rollback",
+    "rsccas": "case_create",
+    "rscred": "case_read",
+    "rscset": "case_set",
+    "rscrun": "case_run",
+    "rscsyn": "surface_synthesize",
+    "rscsur": "surface_take",
+    "rschgt": "surface_heights",
+    "rscfnd": "asperities_find",
+    "rscmak": "asperities_make",
+    "rscasp": "asperities_take kappa1 kappa2 angle biharmonic",
+    "rscnum": "asperities_count",
+    "rscxyz": "asperities_get",
+    "rsccon": "contact_create",
+    "rsccnc": "contact_create_from_case",
+    "rsctip": "contact_move_tip",
+    "rsctch": "contact_first_touch",
+    "rscind": "contact_indent",
+    "rscprs": "contact_press",
+    "rscres": "contact_result",
+    "rsclev": "contact_level",
+    "rscstf": "contact_stiffness",
+    "rscnrg": "contact_energy",
+    "rscdfl": "contact_deflection",
+    "rsccom": "contact_commit",
+    "rscrol": "contact_rollback",
+    "rscsav": "contact_save",
+    "rscrst": "contact_restore",
+    "rscfsv": "friction_save",
+    "rscfrs": "friction_restore",
+    "rscftp": "friction_move_tip",
+    "rscfri": "friction_create_from_case",
+    "rscupd": "friction_update",
+    "rsccmt": "friction_commit",
+    "rscrbk": "friction_rollback",
 }
 # Names, not all regular, of the procedures that assign whole arrays of objects.
-PLURALS = {"case": "cases", "surface": "surfaces", "asperities": "asperities", "contact": "contacts", "friction": "frictions"}
+PLURALS = {
+    "case": "cases",
+    "surface": "surfaces",
+    "asperities": "asperities",
+    "contact": "contacts",
+    "friction": "frictions",
+}
 # Inputs that are optional in Fortran, with their defaults.
 DEFAULTS = {"realization": "1"}
 # C functions that Fortran has under another name or within another procedure.
@@ -48,7 +79,12 @@ class Argument:
         match = re.fullmatch(r"(const )?(\w+)(\**) (\w+)", " ".join(words.split()))
         if not match:
             raise SystemExit(f"generate.py: {function}: argument not understood: {words}")
-        self.const, self.type, self.stars, self.name = bool(match[1]), match[2], len(match[3]), match[4]
+        self.const, self.type, self.stars, self.name = (
+            bool(match[1]),
+            match[2],
+            len(match[3]),
+            match[4],
+        )
         self.optional = self.name in optional
         if self.type == "void" or self.type.startswith("rsc_"):
             self.kind = self.type[4:]
@@ -72,8 +108,20 @@ class Function:
         self.comment = " ".join(re.sub(r"\n \*", "\n", comment).split())
         words = [] if arguments.strip() in ("", "void") else arguments.split(",")
         outputs = {w.split()[-1] for w in words if "*" in w and not w.strip().startswith("const")}
-        named = {n for group in re.findall(r"((?:\w+, )*\w+) \((?:in and )?out, may be null\)", self.comment) for n in group.split(", ")}
-        named |= {n for group in re.findall(r"((?:\w+, )*\w+)(?::[^;]*)? all three or none of them \(null\)", self.comment) for n in group.split(", ")}
+        named = {
+            n
+            for group in re.findall(
+                r"((?:\w+, )*\w+) \((?:in and )?out, may be null\)", self.comment
+            )
+            for n in group.split(", ")
+        }
+        named |= {
+            n
+            for group in re.findall(
+                r"((?:\w+, )*\w+)(?::[^;]*)? all three or none of them \(null\)", self.comment
+            )
+            for n in group.split(", ")
+        }
         if re.search(r"(All|Both) outputs may be null", self.comment):
             named |= outputs
         for word in outputs | {w.split()[-1] for w in words if "*" in w}:
@@ -88,7 +136,11 @@ class Function:
         has_n = any(re.fullmatch(r"\s*int64_t n", w) for w in words)
         self.arguments = [Argument(name, w, named, has_n, w is words[0]) for w in words]
         first = self.arguments[0] if self.arguments else None
-        self.kind = first.kind if first and first.role in ("handle", "new") and first.type != "void" else None
+        self.kind = (
+            first.kind
+            if first and first.role in ("handle", "new") and first.type != "void"
+            else None
+        )
         self.makes = bool(first) and first.role == "new"
 
     def brief(self):
@@ -102,10 +154,16 @@ def read_header(*names):
         with open(os.path.join(HERE, "..", "src", name), encoding="utf-8") as file:
             text = file.read()
         constants += re.findall(r"X\((RSC_\w+), (-?\d+),", text)
-        found = re.findall(r"(?:/\*((?:(?!\*/).)*)\*/\s*)?RSC_API\s+int32_t\s+(\w+)\(([^;]*)\)\s*;", text, flags=re.S)
+        found = re.findall(
+            r"(?:/\*((?:(?!\*/).)*)\*/\s*)?RSC_API\s+int32_t\s+(\w+)\(([^;]*)\)\s*;",
+            text,
+            flags=re.S,
+        )
         if len(found) != len(re.findall(r"^RSC_API\b", text, flags=re.M)):
             raise SystemExit(f"generate.py: {name}: a declaration is not understood")
-        functions += [Function(function, arguments, comment) for comment, function, arguments in found]
+        functions += [
+            Function(function, arguments, comment) for comment, function, arguments in found
+        ]
     return functions, constants
 
 
@@ -118,7 +176,16 @@ def wrapped(line, indent=2):
     """A Fortran line, continued where it is longer than 120."""
     if len(line) + indent <= 120:
         return " " * indent + line
-    return " &\n".join(textwrap.wrap(line, 116, initial_indent=" " * indent, subsequent_indent=" " * (indent + 4), break_long_words=False, break_on_hyphens=False))
+    return " &\n".join(
+        textwrap.wrap(
+            line,
+            116,
+            initial_indent=" " * indent,
+            subsequent_indent=" " * (indent + 4),
+            break_long_words=False,
+            break_on_hyphens=False,
+        )
+    )
 
 
 def comment(text):
@@ -130,7 +197,9 @@ def declarations(pairs):
     lines = {}
     for kind, variable in pairs:
         lines.setdefault(kind, []).append(variable)
-    return [wrapped(f"{kind} :: {', '.join(variables)}", 6)[2:] for kind, variables in lines.items()]
+    return [
+        wrapped(f"{kind} :: {', '.join(variables)}", 6)[2:] for kind, variables in lines.items()
+    ]
 
 
 def interface_type(a):
@@ -143,49 +212,90 @@ def interface_type(a):
     if a.role in ("new", "handles"):
         return "type(c_ptr), intent(inout)", a.name + ("(*)" if a.role == "handles" else "")
     if a.role in ("text", "buffer"):
-        return f"character(kind=c_char), intent({'in' if a.const else 'inout'}){'' if a.role == 'buffer' else optional}", a.name + "(*)"
+        return (
+            f"character(kind=c_char), intent({'in' if a.const else 'inout'}){'' if a.role == 'buffer' else optional}",
+            a.name + "(*)",
+        )
     if a.role == "value":
         return C_TYPES[a.type] + ", value", a.name
     ticket = a.name in ("ticket", "original")
-    return f"{C_TYPES[a.type]}, intent({'in' if a.role == 'in' else 'inout'}){optional}", a.name + ("(*)" if a.role in ("in", "array") and not ticket else "")
+    return f"{C_TYPES[a.type]}, intent({'in' if a.role == 'in' else 'inout'}){optional}", a.name + (
+        "(*)" if a.role in ("in", "array") and not ticket else ""
+    )
 
 
 def interface(functions, constants):
     lines = ["  !> Status codes of calls and levels, and kinds of tickets."]
     for name, value in constants:
-        lines.append(f"  integer, parameter, public :: {name.lower()} = {value}" if "KIND" not in name else f"  integer(c_int32_t), parameter :: {name.lower()} = {value}")
-    lines += ["", "  ! Outputs are intent(inout): they keep their value when the function fails.", "  interface"]
+        lines.append(
+            f"  integer, parameter, public :: {name.lower()} = {value}"
+            if "KIND" not in name
+            else f"  integer(c_int32_t), parameter :: {name.lower()} = {value}"
+        )
+    lines += [
+        "",
+        "  ! Outputs are intent(inout): they keep their value when the function fails.",
+        "  interface",
+    ]
     with open(os.path.join(HERE, "rsc.f90"), encoding="utf-8") as file:
-        own = set(re.findall(r"^ *function (rsc_\w+)\(", file.read(), flags=re.M))  # procedures of rsc.f90 with the name of a C function
+        own = set(
+            re.findall(r"^ *function (rsc_\w+)\(", file.read(), flags=re.M)
+        )  # procedures of rsc.f90 with the name of a C function
     for f in functions:
         if f.name in own:
             continue
         body = declarations([interface_type(a) for a in f.arguments])
-        lines += [wrapped(f"integer(c_int32_t) function {f.name}({', '.join(a.name for a in f.arguments)}) bind(c)", 4),
-                  "      import :: " + ", ".join(k for k in ("c_char", "c_double", "c_funptr", "c_int32_t", "c_int64_t", "c_ptr") if k == "c_int32_t" or re.search(rf"\b{k}\b", "\n".join(body))),
-                  *["  " + line for line in body], "    end function"]
+        lines += [
+            wrapped(
+                f"integer(c_int32_t) function {f.name}({', '.join(a.name for a in f.arguments)}) bind(c)",
+                4,
+            ),
+            "      import :: "
+            + ", ".join(
+                k
+                for k in ("c_char", "c_double", "c_funptr", "c_int32_t", "c_int64_t", "c_ptr")
+                if k == "c_int32_t" or re.search(rf"\b{k}\b", "\n".join(body))
+            ),
+            *["  " + line for line in body],
+            "    end function",
+        ]
     return lines + ["  end interface"]
 
 
-ERROR_ARGUMENTS = ["integer, intent(out), optional :: stat", "character(*), intent(inout), optional :: errmsg"]
+ERROR_ARGUMENTS = [
+    "integer, intent(out), optional :: stat",
+    "character(*), intent(inout), optional :: errmsg",
+]
 
 
 def wrapper(f):
     """A procedure of a derived type that only calls its C function; None if there is no rule for its arguments."""
     arguments = f.arguments
     result, single = None, [a for a in arguments if a.role == "out"]
-    if len(single) == 1 and not single[0].optional and not any(a.role == "array" for a in arguments):
+    if (
+        len(single) == 1
+        and not single[0].optional
+        and not any(a.role == "array" for a in arguments)
+    ):
         result = single[0]
     inputs = [a for a in arguments if a.role == "in"]
-    room = f.kind == "asperities" and not inputs and any(a.role == "array" for a in arguments)  # True if the procedure allocates the output arrays
+    room = (
+        f.kind == "asperities" and not inputs and any(a.role == "array" for a in arguments)
+    )  # True if the procedure allocates the output arrays
     dummies, declared, local, before, call, after = ["self"], [], [], [], [], []
     for k, a in enumerate(arguments):
         if k == 0:
-            declared.append((f"class(rsc_{f.kind}), intent({'in' if a.const else 'inout'})", "self"))
-            call.append("handle" if f.makes else f"{'reading' if a.const else 'changing'}(self%ticket)")
+            declared.append(
+                (f"class(rsc_{f.kind}), intent({'in' if a.const else 'inout'})", "self")
+            )
+            call.append(
+                "handle" if f.makes else f"{'reading' if a.const else 'changing'}(self%ticket)"
+            )
             continue
         if a.role == "value" and a.name == "n":
-            call.append("n" if room else f"size({inputs[0].name}, kind=c_int64_t)" if inputs else "")
+            call.append(
+                "n" if room else f"size({inputs[0].name}, kind=c_int64_t)" if inputs else ""
+            )
             if not inputs and not room:
                 return None
             continue
@@ -193,8 +303,17 @@ def wrapper(f):
         if a is not result:
             dummies.append(dummy)
         if a.role == "handle":
-            declared.append((f"class(rsc_{a.kind}), intent({'in' if a.const else 'inout'}){', optional' if a.kind == 'case' else ''}", dummy))
-            call.append("options_of(options)" if a.kind == "case" else f"{'reading' if a.const else 'changing'}({a.name}%ticket)")
+            declared.append(
+                (
+                    f"class(rsc_{a.kind}), intent({'in' if a.const else 'inout'}){', optional' if a.kind == 'case' else ''}",
+                    dummy,
+                )
+            )
+            call.append(
+                "options_of(options)"
+                if a.kind == "case"
+                else f"{'reading' if a.const else 'changing'}({a.name}%ticket)"
+            )
         elif a.role == "text":
             declared.append(("character(*), intent(in)", a.name))
             call.append(f"terminated(trim({a.name}))")
@@ -202,13 +321,23 @@ def wrapper(f):
             declared.append((REAL + ", intent(in)", a.name))
             call.append(a.name)
         elif a.role == "value":
-            declared.append(("integer, intent(in)" + (", optional" if a.name in DEFAULTS else ""), a.name))
+            declared.append(
+                ("integer, intent(in)" + (", optional" if a.name in DEFAULTS else ""), a.name)
+            )
             if a.name in DEFAULTS:
                 local.append((C_TYPES[a.type], a.name + "_"))
-                before += [f"{a.name}_ = {DEFAULTS[a.name]}", f"if (present({a.name})) {a.name}_ = {a.name}"]
+                before += [
+                    f"{a.name}_ = {DEFAULTS[a.name]}",
+                    f"if (present({a.name})) {a.name}_ = {a.name}",
+                ]
             call.append(a.name + "_" if a.name in DEFAULTS else f"int({a.name}, c_{a.type})")
         elif a.role == "in" and a.type == "double":
-            declared.append((REAL + ", intent(in)" + (", contiguous, optional" if a.optional else ""), a.name + "(:)"))
+            declared.append(
+                (
+                    REAL + ", intent(in)" + (", contiguous, optional" if a.optional else ""),
+                    a.name + "(:)",
+                )
+            )
             call.append(a.name)
         elif a.role == "array" and a.type == "double" and room:
             declared.append((REAL + ", intent(out), allocatable, optional", a.name + "(:)"))
@@ -217,37 +346,77 @@ def wrapper(f):
             call.append(a.name + "_")
             after.append(f"if (present({a.name})) call move_alloc({a.name}_, {a.name})")
         elif a.role == "array" and a.type == "double":
-            declared.append((REAL + ", intent(out), contiguous" + (", optional" if a.optional else ""), a.name + "(:)"))
+            declared.append(
+                (
+                    REAL + ", intent(out), contiguous" + (", optional" if a.optional else ""),
+                    a.name + "(:)",
+                )
+            )
             call.append(a.name)
         elif a.role == "out" and a.type == "double":
             if a is result:
                 declared.append((REAL, a.name))
                 before.append(f"{a.name} = 0")
             else:
-                declared.append((REAL + ", intent(out)" + (", optional" if a.optional else ""), a.name))
+                declared.append(
+                    (REAL + ", intent(out)" + (", optional" if a.optional else ""), a.name)
+                )
             call.append(a.name)
         elif a.role == "out":
             local.append((C_TYPES[a.type], a.name + "_"))
             before.append(a.name + "_ = 0")
             call.append(a.name + "_")
-            declared.append(("integer" + ("" if a is result else ", intent(out)" + (", optional" if a.optional else "")), a.name))
-            after.append(f"{'if (present(' + a.name + ')) ' if a.optional else ''}{a.name} = int({a.name}_)")
+            declared.append(
+                (
+                    "integer"
+                    + (
+                        ""
+                        if a is result
+                        else ", intent(out)" + (", optional" if a.optional else "")
+                    ),
+                    a.name,
+                )
+            )
+            after.append(
+                f"{'if (present(' + a.name + ')) ' if a.optional else ''}{a.name} = int({a.name}_)"
+            )
         else:
             return None
     refusal = []
     if inputs:
         first, *others = [a for a in arguments if a.role in ("in", "array")]
-        required = " .and. ".join(f"size({a.name}) == size({first.name})" for a in others if not a.optional)
+        required = " .and. ".join(
+            f"size({a.name}) == size({first.name})" for a in others if not a.optional
+        )
         refusal = [f"same = {required or '.true.'}"]
-        refusal += [f"if (present({a.name})) same = same .and. size({a.name}) == size({first.name})" for a in others if a.optional]
-        refusal += ["if (.not. same) then", f"  call refuse('{f.kind}%{f.short.split('_', 1)[1]}: the arrays are not of one size', stat, errmsg)", "  return", "end if"]
+        refusal += [
+            f"if (present({a.name})) same = same .and. size({a.name}) == size({first.name})"
+            for a in others
+            if a.optional
+        ]
+        refusal += [
+            "if (.not. same) then",
+            f"  call refuse('{f.kind}%{f.short.split('_', 1)[1]}: the arrays are not of one size', stat, errmsg)",
+            "  return",
+            "end if",
+        ]
         local.append(("logical", "same"))
     if f.makes:
         local += [(SHORT, "status"), ("type(c_ptr)", "handle")]
-        before = ["status = rsc_ticket_release(self%ticket)", *refusal, *before, "handle = c_null_ptr"]
+        before = [
+            "status = rsc_ticket_release(self%ticket)",
+            *refusal,
+            *before,
+            "handle = c_null_ptr",
+        ]
         after.insert(0, f"call keep(self%ticket, rsc_kind_{f.kind}, handle, status)")
-        if f.kind == "contact" and any(a.role == "handle" and a.kind == "asperities" for a in arguments):
-            after.insert(1, "if (status == rsc_success) status = rsc_asperities_count(reading(asperities%ticket), self%asperities)")
+        if f.kind == "contact" and any(
+            a.role == "handle" and a.kind == "asperities" for a in arguments
+        ):
+            after.insert(
+                1,
+                "if (status == rsc_success) status = rsc_asperities_count(reading(asperities%ticket), self%asperities)",
+            )
     else:
         before = refusal + before
         if room:
@@ -257,19 +426,35 @@ def wrapper(f):
             local.append((SHORT, "status"))
     called = f"{f.name}({', '.join(call)})"
     if after:
-        body = [*before, f"{'if (status == rsc_success) ' if room else ''}status = {called}", *after, "call finish(status, stat, errmsg)"]
+        body = [
+            *before,
+            f"{'if (status == rsc_success) ' if room else ''}status = {called}",
+            *after,
+            "call finish(status, stat, errmsg)",
+        ]
     else:
         body = [*before, f"call finish({called}, stat, errmsg)"]
     kind = "function" if result else "subroutine"
     order = sorted(declared, key=lambda pair: result is not None and pair[1] == result.name)
-    return [comment(f.brief()), wrapped(f"{kind} {f.short}({', '.join([*dummies, 'stat', 'errmsg'])}){f' result({result.name})' if result else ''}"),
-            *declarations([pair for pair in order if not result or pair[1] != result.name]), *["    " + line for line in ERROR_ARGUMENTS],
-            *declarations([pair for pair in order if result and pair[1] == result.name] + local), *[wrapped(line, 4) for line in body], f"  end {kind}", ""]
+    return [
+        comment(f.brief()),
+        wrapped(
+            f"{kind} {f.short}({', '.join([*dummies, 'stat', 'errmsg'])}){f' result({result.name})' if result else ''}"
+        ),
+        *declarations([pair for pair in order if not result or pair[1] != result.name]),
+        *["    " + line for line in ERROR_ARGUMENTS],
+        *declarations([pair for pair in order if result and pair[1] == result.name] + local),
+        *[wrapped(line, 4) for line in body],
+        f"  end {kind}",
+        "",
+    ]
 
 
 def ownership(kind):
     """Assignment and release of a derived type."""
-    one, each = PLURALS[kind] + "_set", PLURALS[kind] + ("_copy" if kind != "asperities" else "_copy_each")
+    one, each = PLURALS[kind] + "_set", PLURALS[kind] + (
+        "_copy" if kind != "asperities" else "_copy_each"
+    )
     count = "    self%asperities = original%asperities\n" if kind == "contact" else ""
     return f"""  subroutine {kind}_copy(self, original)
     class(rsc_{kind}), intent(inout) :: self
@@ -302,11 +487,19 @@ def ownership(kind):
     integer(c_int32_t) :: status
     status = rsc_ticket_release(self%ticket)
   end subroutine
-""".splitlines() + [""]
+""".splitlines() + [
+        ""
+    ]
 
 
 def procedures_of(source):
-    return set(re.findall(r"^\s*(?:impure |elemental )*(?:subroutine|(?:[\w()]+ )?function) (\w+)", source, flags=re.M))
+    return set(
+        re.findall(
+            r"^\s*(?:impure |elemental )*(?:subroutine|(?:[\w()]+ )?function) (\w+)",
+            source,
+            flags=re.M,
+        )
+    )
 
 
 def wrappers(functions, source):
@@ -318,12 +511,16 @@ def wrappers(functions, source):
             if f.kind != kind or f.short in ELSEWHERE or f.short.endswith(("_copy", "_destroy")):
                 continue
             if f"=> {f.short}\n" not in bound:
-                wanted.append(f"modules/rsc.f90, type rsc_{kind}: add  procedure :: {f.short.split('_', 1)[1]} => {f.short}")
+                wanted.append(
+                    f"modules/rsc.f90, type rsc_{kind}: add  procedure :: {f.short.split('_', 1)[1]} => {f.short}"
+                )
             if f.short in by_hand:
                 continue
             made = wrapper(f)
             if made is None:
-                wanted.append(f"modules/rsc.f90: write the procedure {f.short} by hand; there is no rule for its arguments")
+                wanted.append(
+                    f"modules/rsc.f90: write the procedure {f.short} by hand; there is no rule for its arguments"
+                )
             else:
                 lines += made
         if f"{kind}_copy" not in by_hand:
@@ -348,7 +545,12 @@ def subroutine_77(name, f, left_out):
         elif a.role == "handle":
             parameters.append(f"const int32_t* i_{a.name}")
             const = "const " if a.const else ""
-            find.insert(position - 1 - bool(f.makes), f"FIND_CASE({a.name}, i_{a.name}, {position})" if a.kind == "case" and k else f"FIND({const}{a.type}, {a.name}, i_{a.name}, {a.kind.upper()}, {position})")
+            find.insert(
+                position - 1 - bool(f.makes),
+                f"FIND_CASE({a.name}, i_{a.name}, {position})"
+                if a.kind == "case" and k
+                else f"FIND({const}{a.type}, {a.name}, i_{a.name}, {a.kind.upper()}, {position})",
+            )
             call.append(a.name)
         elif a.role == "text":
             parameters.append(f"const char* {a.name}")
@@ -359,7 +561,9 @@ def subroutine_77(name, f, left_out):
             parameters.append(f"int32_t* {a.name}")
             before.append(f"int64_t long_{a.name} = 0;")
             call.append("&long_" + a.name)
-            after.append(f"if (*ierr == 0 || *ierr == RSC_NOT_CONVERGED) *{a.name} = (int32_t)long_{a.name};")
+            after.append(
+                f"if (*ierr == 0 || *ierr == RSC_NOT_CONVERGED) *{a.name} = (int32_t)long_{a.name};"
+            )
         elif a.role == "value":
             parameters.append(f"const {a.type.replace('int64_t', 'int32_t')}* {a.name}")
             call.append("*" + a.name)
@@ -371,9 +575,25 @@ def subroutine_77(name, f, left_out):
     if texts:
         called = f"{' && '.join('c_' + t for t in texts)} ? {called} : RSC_NO_MEMORY"
     head = f"RSC_API void {name}_({', '.join([*parameters, 'int32_t* ierr', *lengths])})"
-    body = ["BEGIN", *sorted(find, key=lambda line: "made" in line), *before, f"*ierr = {called};", *[f"free(c_{t});" for t in texts], *after]
+    body = [
+        "BEGIN",
+        *sorted(find, key=lambda line: "made" in line),
+        *before,
+        f"*ierr = {called};",
+        *[f"free(c_{t});" for t in texts],
+        *after,
+    ]
     fill = lambda line: textwrap.wrap(line, 140, subsequent_indent=" " * 8, break_long_words=False)
-    return [*fill(head + " {"), *[part for line in body for part in textwrap.wrap(line, 136, initial_indent=" " * 4, subsequent_indent=" " * 8)], "}", ""]
+    return [
+        *fill(head + " {"),
+        *[
+            part
+            for line in body
+            for part in textwrap.wrap(line, 136, initial_indent=" " * 4, subsequent_indent=" " * 8)
+        ],
+        "}",
+        "",
+    ]
 
 
 def names_77(functions, source):
@@ -391,8 +611,14 @@ def python(functions, constants):
     lines += [f"{f.name}({', '.join(a.c() for a in f.arguments)})" for f in functions]
     lines += ['"""', ""]
     lines += [f"{name[4:]} = {value}" for name, value in constants]
-    levels = ", ".join(f'"{name[10:].lower()}"' for name, _ in constants if name.startswith("RSC_LEVEL_"))
-    lines += ["", "#: Names of the statuses of a level, by number, as in the variable `status` of a result file.", f"LEVELS = ({levels})"]
+    levels = ", ".join(
+        f'"{name[10:].lower()}"' for name, _ in constants if name.startswith("RSC_LEVEL_")
+    )
+    lines += [
+        "",
+        "#: Names of the statuses of a level, by number, as in the variable `status` of a result file.",
+        f"LEVELS = ({levels})",
+    ]
     return lines
 
 
@@ -405,10 +631,21 @@ def main():
         c = file.read()
     generated, wanted = wrappers(functions, fortran)
     note = "Generated by modules/generate.py from src/rsc.h. Do not edit: change rsc.h and run python3 modules/generate.py"
-    files = {"generated/interface.inc": [f"! {note}", *interface(functions + tickets, constants + kinds)],
-             "generated/wrappers.inc": [f"! {note}", *generated],
-             "generated/rsc77.inc": ["/* clang-format off */", f"/* {note} */", *names_77(functions, c)],
-             "_rsc_h.py": ['"""Functions and status codes of rsc.h, for rsc.py.', "", note + '"""', "", *python(functions, constants)]}
+    files = {
+        "generated/interface.inc": [
+            f"! {note}",
+            *interface(functions + tickets, constants + kinds),
+        ],
+        "generated/wrappers.inc": [f"! {note}", *generated],
+        "generated/rsc77.inc": ["/* clang-format off */", f"/* {note} */", *names_77(functions, c)],
+        "_rsc_h.py": [
+            '"""Functions and status codes of rsc.h, for rsc.py.',
+            "",
+            note + '"""',
+            "",
+            *python(functions, constants),
+        ],
+    }
     for name, lines in files.items():
         path, text = os.path.join(HERE, name), "\n".join(lines) + "\n"
         old = open(path, encoding="utf-8").read() if os.path.exists(path) else ""

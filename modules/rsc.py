@@ -39,26 +39,73 @@ import zlib
 try:
     import numpy as np
 except ModuleNotFoundError as error:
-    raise ModuleNotFoundError(f"rsc needs numpy, which {sys.executable} lacks: install it there, or use another Python that has it "
-                              "(Debian: package python3-numpy, /usr/bin/python3)", name=error.name) from None
+    raise ModuleNotFoundError(
+        f"rsc needs numpy, which {sys.executable} lacks: install it there, or use another Python that has it "
+        "(Debian: package python3-numpy, /usr/bin/python3)",
+        name=error.name,
+    ) from None
 
 import _rsc_h
-from _rsc_h import (FILE, INTERNAL, LEVEL_CONVERGED, LEVEL_NOT_CONVERGED, LEVEL_NOT_UNIQUE, LEVEL_OUT_OF_VALIDITY, LEVEL_OVERLAPPING, LEVELS, NO_MEMORY, NO_RESULT,  # noqa: F401
-                    NOT_CONVERGED, STOPPED, SUCCESS)
+from _rsc_h import (
+    FILE,
+    INTERNAL,
+    LEVEL_CONVERGED,
+    LEVEL_NOT_CONVERGED,
+    LEVEL_NOT_UNIQUE,
+    LEVEL_OUT_OF_VALIDITY,
+    LEVEL_OVERLAPPING,
+    LEVELS,
+    NO_MEMORY,
+    NO_RESULT,  # noqa: F401
+    NOT_CONVERGED,
+    STOPPED,
+    SUCCESS,
+)
 
-__all__ = ["Case", "Surface", "Asperities", "Contact", "Friction", "Error", "ArgumentError", "NotConverged", "Grid", "Moments", "Summits", "Curvatures",
-           "Level", "Answer", "Spots", "FrictionState", "SpotSlip", "LEVELS", "read", "stiffness_ratio", "study", "press_all", "indent_all", "step_all", "lock", "version", "keys"]
+__all__ = [
+    "Case",
+    "Surface",
+    "Asperities",
+    "Contact",
+    "Friction",
+    "Error",
+    "ArgumentError",
+    "NotConverged",
+    "Grid",
+    "Moments",
+    "Summits",
+    "Curvatures",
+    "Level",
+    "Answer",
+    "Spots",
+    "FrictionState",
+    "SpotSlip",
+    "LEVELS",
+    "read",
+    "stiffness_ratio",
+    "study",
+    "press_all",
+    "indent_all",
+    "step_all",
+    "lock",
+    "version",
+    "keys",
+]
 
 # ---- rsc.h ---------------------------------------------------------------------------------------------------------------------
 # The arguments of each function, as declared in rsc.h (all return int32_t). They determine the ctypes, the checks of the arguments by
 # name, and whether a call reads (const) or changes an object.
 _Argument = collections.namedtuple("_Argument", "const type stars name")
-_INTEGERS = {"int32_t": (ctypes.c_int32, np.int32, 2**31), "int64_t": (ctypes.c_int64, np.int64, 2**63)}
+_INTEGERS = {
+    "int32_t": (ctypes.c_int32, np.int32, 2**31),
+    "int64_t": (ctypes.c_int64, np.int64, 2**63),
+}
 
 
 class Error(Exception):
     """A call of the library failed. str(error) is the library's message; error.status its status: above 0, a NOT_CONVERGED, NO_MEMORY,
-    FILE, NO_RESULT or INTERNAL of this module; below 0, the number of the wrong argument in rsc.h (see ArgumentError)."""
+    FILE, NO_RESULT or INTERNAL of this module; below 0, the number of the wrong argument in rsc.h (see ArgumentError).
+    """
 
     def __init__(self, message, status=0):
         super().__init__(message)
@@ -83,7 +130,9 @@ def _parse(prototypes):
         name, arguments = re.fullmatch(r"(\w+)\((.*)\)", line.strip()).groups()
         functions[name] = []
         for argument in filter(None, arguments.split(",")):
-            const, kind, stars, word = re.fullmatch(r"\s*(const )?(\w+)(\**) (\w+)", argument).groups()
+            const, kind, stars, word = re.fullmatch(
+                r"\s*(const )?(\w+)(\**) (\w+)", argument
+            ).groups()
             functions[name].append(_Argument(bool(const), kind, len(stars), word))
     return functions
 
@@ -104,9 +153,19 @@ def _library_paths():
         return
     folder = os.path.dirname(os.path.abspath(__file__))
     for _ in range(5):
-        for pattern in ("lib/librsc.so", "lib/*-linux-gnu/librsc.so", "lib64/librsc.so", "build/librsc.so", "lib/librsc.dylib", "build/librsc.dylib"):
+        for pattern in (
+            "lib/librsc.so",
+            "lib/*-linux-gnu/librsc.so",
+            "lib64/librsc.so",
+            "build/librsc.so",
+            "lib/librsc.dylib",
+            "build/librsc.dylib",
+        ):
             # An installation without the files for developers has librsc.so.X.Y only.
-            yield from sorted(glob.glob(os.path.join(glob.escape(folder), pattern)) or glob.glob(os.path.join(glob.escape(folder), pattern) + ".*"))[:1]
+            yield from sorted(
+                glob.glob(os.path.join(glob.escape(folder), pattern))
+                or glob.glob(os.path.join(glob.escape(folder), pattern) + ".*")
+            )[:1]
         folder = os.path.dirname(folder)
     found = ctypes.util.find_library("rsc")
     if found:
@@ -116,7 +175,9 @@ def _library_paths():
 def _load():
     path = next(_library_paths(), None)
     if path is None:
-        raise ImportError("rsc: librsc was not found; install it (cmake --install build) or set RSC_LIBRARY to the path of librsc.so")
+        raise ImportError(
+            "rsc: librsc was not found; install it (cmake --install build) or set RSC_LIBRARY to the path of librsc.so"
+        )
     try:
         library = ctypes.CDLL(path)  # lets other threads run during calls
     except OSError as error:
@@ -125,7 +186,9 @@ def _load():
         try:
             function = getattr(library, name)
         except AttributeError:
-            raise ImportError(f"rsc: {path} has no function {name}: its version differs from that of rsc.py") from None
+            raise ImportError(
+                f"rsc: {path} has no function {name}: its version differs from that of rsc.py"
+            ) from None
         function.argtypes = [_ctype(a) for a in arguments]
         function.restype = ctypes.c_int32
     return library, path
@@ -213,7 +276,9 @@ class _Object:
             self.close()
 
     def __reduce__(self):
-        raise TypeError(f"rsc.{type(self).__name__} cannot be pickled, because it belongs to this process; pickle the text of its case or its arrays")
+        raise TypeError(
+            f"rsc.{type(self).__name__} cannot be pickled, because it belongs to this process; pickle the text of its case or its arrays"
+        )
 
     def __copy__(self):
         return self.copy()
@@ -234,10 +299,19 @@ def _array(name, value, shape=None, dtype=np.float64):
         except (TypeError, ValueError):
             _refuse(name, "numbers are expected")
     if value.dtype != dtype:
-        _refuse(name, f"an array of {np.dtype(dtype).name} is expected, not of {value.dtype}; numpy.asarray({name}, '{np.dtype(dtype).name}') makes one")
-    if shape is not None and (value.ndim != len(shape) or any(want not in (None, have) for want, have in zip(shape, value.shape))):
+        _refuse(
+            name,
+            f"an array of {np.dtype(dtype).name} is expected, not of {value.dtype}; numpy.asarray({name}, '{np.dtype(dtype).name}') makes one",
+        )
+    if shape is not None and (
+        value.ndim != len(shape)
+        or any(want not in (None, have) for want, have in zip(shape, value.shape))
+    ):
         wanted = ", ".join("n" if n is None else str(n) for n in shape)
-        _refuse(name, f"the shape ({wanted}{',' if len(shape) == 1 else ''}) is expected, not {value.shape}")
+        _refuse(
+            name,
+            f"the shape ({wanted}{',' if len(shape) == 1 else ''}) is expected, not {value.shape}",
+        )
     if value.ndim == 1 and not value.flags.c_contiguous:
         value = np.ascontiguousarray(value)
     return value
@@ -280,7 +354,10 @@ def _convert(argument, value):
         if value.dtype != wanted:
             _refuse(name, f"an array of {np.dtype(wanted).name} is expected, not of {value.dtype}")
         if not value.flags.c_contiguous:
-            _refuse(name, f"an array in C order is expected (x fastest, no gaps); numpy.ascontiguousarray({name}) makes one")
+            _refuse(
+                name,
+                f"an array in C order is expected (x fastest, no gaps); numpy.ascontiguousarray({name}) makes one",
+            )
         if not argument.const and not value.flags.writeable:
             _refuse(name, "the array is read-only")
         return value.ctypes.data, value
@@ -308,7 +385,10 @@ def _call(function, *values):
                 continue
             for one in value if many else [value]:
                 if not isinstance(one, _Object) or "rsc_" + one._kind != argument.type:
-                    _refuse(argument.name, f"an object of rsc.{argument.type[4:].capitalize()} is expected, not {type(one).__name__}")
+                    _refuse(
+                        argument.name,
+                        f"an object of rsc.{argument.type[4:].capitalize()} is expected, not {type(one).__name__}",
+                    )
                 objects.append((one, argument.const, argument.name))
             converted.append(value)
         else:
@@ -347,7 +427,7 @@ def _text(function, *values):
 
 def _numbers(function, *values):
     """The scalar outputs of a function that follow the values, a tuple."""
-    outputs = [_ctype(a._replace(stars=0))() for a in _FUNCTIONS[function][len(values):]]
+    outputs = [_ctype(a._replace(stars=0))() for a in _FUNCTIONS[function][len(values) :]]
     _call(function, *values, *outputs)
     return tuple(o.value for o in outputs)
 
@@ -364,19 +444,54 @@ def _record(name, fields, doc):
     return kind
 
 
-Grid = _record("Grid", "nx ny dx dy x0 y0 periodic", "The grid of a surface: points nx, ny; steps dx, dy and position x0, y0 of the first point [length]; periodic.")
-Moments = _record("Moments", "m0 m2 m4", "Spectral moments of a surface: m0 [length^2], m2 [1], m4 [1/length^2]; the rms slope is sqrt(2 m2).")
-Summits = _record("Summits", "x y z radius", "Asperities: positions x, y, heights z and radii, arrays of shape (n,) [length].")
-Curvatures = _record("Curvatures", "kappa1 kappa2 angle", "Principal curvatures kappa1 >= kappa2 [1/length] of asperities and the direction of the "
-                     "kappa2 axis from x [rad]; arrays of shape (n,).")
-Level = _record("Level", "status candidates iterations overlapping_pairs residual", "Solver data of a level: status (its name: rsc.LEVELS[status]); candidates, "
-    "number of asperities that the sphere would penetrate without interaction; iterations; overlapping pairs of spots; relative residual [1].")
-Spots = _record("Spots", "asperity force radius penetration", "Contacts: indices of the asperities from 0 (int32; None for all asperities), force [force], "
-                "contact radius a, the area being pi a^2 [length], and penetration [length]; arrays of shape (n,).")
-FrictionState = _record("FrictionState", "separation x y force force_x force_y energy tangential_energy lost stick_separation", "State of the path of a Friction: separation Z0 and slide x, y [length]; force N, tangential force Q as force_x, force_y [force]; elastic energy of the normal problem and of the slide, work lost to friction since the start of the path [force length]; separation at which the contact area would equal the stick area [length].")
-SpotSlip = _record("SpotSlip", "asperity radius stick_radius force_x force_y", "Arrays with one value for each spot: index of the asperity, contact radius, radius of the part that sticks [length], share of the tangential force [force].")
-Answer = _record("Answer", "separation force stiffness area energy lateral_x lateral_y status contacts overlapping_pairs large_contacts beyond_law edge_contacts",
-                 "The results of a level: see Contact.answer.")
+Grid = _record(
+    "Grid",
+    "nx ny dx dy x0 y0 periodic",
+    "The grid of a surface: points nx, ny; steps dx, dy and position x0, y0 of the first point [length]; periodic.",
+)
+Moments = _record(
+    "Moments",
+    "m0 m2 m4",
+    "Spectral moments of a surface: m0 [length^2], m2 [1], m4 [1/length^2]; the rms slope is sqrt(2 m2).",
+)
+Summits = _record(
+    "Summits",
+    "x y z radius",
+    "Asperities: positions x, y, heights z and radii, arrays of shape (n,) [length].",
+)
+Curvatures = _record(
+    "Curvatures",
+    "kappa1 kappa2 angle",
+    "Principal curvatures kappa1 >= kappa2 [1/length] of asperities and the direction of the "
+    "kappa2 axis from x [rad]; arrays of shape (n,).",
+)
+Level = _record(
+    "Level",
+    "status candidates iterations overlapping_pairs residual",
+    "Solver data of a level: status (its name: rsc.LEVELS[status]); candidates, "
+    "number of asperities that the sphere would penetrate without interaction; iterations; overlapping pairs of spots; relative residual [1].",
+)
+Spots = _record(
+    "Spots",
+    "asperity force radius penetration",
+    "Contacts: indices of the asperities from 0 (int32; None for all asperities), force [force], "
+    "contact radius a, the area being pi a^2 [length], and penetration [length]; arrays of shape (n,).",
+)
+FrictionState = _record(
+    "FrictionState",
+    "separation x y force force_x force_y energy tangential_energy lost stick_separation",
+    "State of the path of a Friction: separation Z0 and slide x, y [length]; force N, tangential force Q as force_x, force_y [force]; elastic energy of the normal problem and of the slide, work lost to friction since the start of the path [force length]; separation at which the contact area would equal the stick area [length].",
+)
+SpotSlip = _record(
+    "SpotSlip",
+    "asperity radius stick_radius force_x force_y",
+    "Arrays with one value for each spot: index of the asperity, contact radius, radius of the part that sticks [length], share of the tangential force [force].",
+)
+Answer = _record(
+    "Answer",
+    "separation force stiffness area energy lateral_x lateral_y status contacts overlapping_pairs large_contacts beyond_law edge_contacts",
+    "The results of a level: see Contact.answer.",
+)
 _Result = collections.namedtuple("_Result", "separation force area contacts")
 
 
@@ -400,10 +515,14 @@ def _namelist_value(name, value):
     if isinstance(value, (int, np.integer)):
         return str(int(value))
     if isinstance(value, (float, np.floating)):
-        return {"inf": "Infinity", "-inf": "-Infinity", "nan": "NaN"}.get(repr(float(value)), repr(float(value)))
+        return {"inf": "Infinity", "-inf": "-Infinity", "nan": "NaN"}.get(
+            repr(float(value)), repr(float(value))
+        )
     if isinstance(value, (list, tuple, np.ndarray)) and np.ndim(value) == 1 and len(value):
         return ", ".join(_namelist_value(name, v) for v in value)
-    _refuse(name, f"a number, a text, True, False or a list of these is expected, not {value!r:.80}")
+    _refuse(
+        name, f"a number, a text, True, False or a list of these is expected, not {value!r:.80}"
+    )
 
 
 def _python_value(text):
@@ -454,10 +573,17 @@ class Case(_Object):
         """Sets the keys of a dictionary `source`, {"surface": {"sigma": 0.01}} or {"surface%sigma": 0.01}. Raises ArgumentError, the case then
         being unchanged."""
         try:
-            items = [(f"{group}%{key}", value) for group, inner in source.items() if isinstance(inner, dict) for key, value in inner.items()]
+            items = [
+                (f"{group}%{key}", value)
+                for group, inner in source.items()
+                if isinstance(inner, dict)
+                for key, value in inner.items()
+            ]
             items += [(key, value) for key, value in source.items() if not isinstance(value, dict)]
         except (AttributeError, TypeError):
-            _refuse("source", f"a dictionary, a namelist text or a Case is expected, not {source!r:.80}")
+            _refuse(
+                "source", f"a dictionary, a namelist text or a Case is expected, not {source!r:.80}"
+            )
         with self.copy() as trial:  # all or nothing
             for target in (trial, self):
                 for key, value in items:
@@ -495,7 +621,13 @@ class Case(_Object):
             case["output%file"] = os.fspath(file)
         # Python handles Ctrl-C only in its main thread, and not during a library call; therefore another thread runs the case.
         # Not Thread.join: if Ctrl-C interrupts it, Python 3.11 considers the thread as ended.
-        failed, stop, done, seen, raised = ctypes.c_int64(), threading.Event(), threading.Event(), [], []
+        failed, stop, done, seen, raised = (
+            ctypes.c_int64(),
+            threading.Event(),
+            threading.Event(),
+            [],
+            [],
+        )
 
         def watch(done, total, _):
             seen[:] = [done, total]
@@ -534,7 +666,8 @@ class Surface(_Object):
     @classmethod
     def synthesize(cls, case=None, realization=1):
         """A random surface from the keys of &surface and run%seed, identical to realization number `realization` of the program. It is periodic,
-        on x = i L/n, y = j L/n. case: None for the defaults. Raises ArgumentError for invalid keys, Error (no memory)."""
+        on x = i L/n, y = j L/n. case: None for the defaults. Raises ArgumentError for invalid keys, Error (no memory).
+        """
         return cls._make("rsc_surface_synthesize", case, realization)
 
     @classmethod
@@ -545,7 +678,17 @@ class Surface(_Object):
         Raises ArgumentError with the name of the wrong argument, Error (no memory)."""
         heights = _array("heights", heights, (None, None))
         ny, nx = heights.shape
-        return cls._make("rsc_surface_take", nx, ny, dx, dx if dy is None else dy, x0, y0, bool(periodic), heights)
+        return cls._make(
+            "rsc_surface_take",
+            nx,
+            ny,
+            dx,
+            dx if dy is None else dy,
+            x0,
+            y0,
+            bool(periodic),
+            heights,
+        )
 
     def detrend(self, how="plane"):
         """Subtracts a form fitted by least squares. how: 'none', 'mean', 'plane', 'quadratic' or 'sphere'. Returns the remaining rms height
@@ -565,7 +708,9 @@ class Surface(_Object):
         """The heights [length], shape (ny, nx). out: an array of float64 of that shape to fill instead of a new one. Raises ArgumentError if
         it does not fit."""
         grid = self.grid()
-        out = np.empty((grid.ny, grid.nx)) if out is None else _output("out", out, (grid.ny, grid.nx))
+        out = (
+            np.empty((grid.ny, grid.nx)) if out is None else _output("out", out, (grid.ny, grid.nx))
+        )
         _call("rsc_surface_heights", self, out.size, out)
         return out
 
@@ -591,7 +736,8 @@ class Asperities(_Object):
     @classmethod
     def find(cls, surface, case=None):
         """The summits of a surface. surface: a Surface; case: asperities%curvature and asperities%law select the method, None for the defaults.
-        Raises ArgumentError for a surface without summits or one too coarse for the law, Error (no memory)."""
+        Raises ArgumentError for a surface without summits or one too coarse for the law, Error (no memory).
+        """
         return cls._make("rsc_asperities_find", surface, case)
 
     @classmethod
@@ -604,10 +750,22 @@ class Asperities(_Object):
     def take(cls, x, y, z, radius, kappa1=None, kappa2=None, angle=None, biharmonic=None):
         """Asperities from arrays, which are copied. x, y, z, radius: float64, shape (n,), radius > 0 [length]; kappa1 >= kappa2 > 0: principal curvatures
         [1/length] and angle: direction of the kappa2 axis from x [rad], all three or none; biharmonic: nabla^4 z at the summits
-        [1/length^3], if the law needs it. Raises ArgumentError with the name of the wrong array, Error (no memory)."""
+        [1/length^3], if the law needs it. Raises ArgumentError with the name of the wrong array, Error (no memory).
+        """
         x = _array("x", x, (None,))
-        rest = {"y": y, "z": z, "radius": radius, "kappa1": kappa1, "kappa2": kappa2, "angle": angle, "biharmonic": biharmonic}
-        arrays = [None if v is None and k not in ("y", "z", "radius") else _array(k, v, (x.size,)) for k, v in rest.items()]
+        rest = {
+            "y": y,
+            "z": z,
+            "radius": radius,
+            "kappa1": kappa1,
+            "kappa2": kappa2,
+            "angle": angle,
+            "biharmonic": biharmonic,
+        }
+        arrays = [
+            None if v is None and k not in ("y", "z", "radius") else _array(k, v, (x.size,))
+            for k, v in rest.items()
+        ]
         return cls._make("rsc_asperities_take", x.size, x, *arrays)
 
     def __len__(self):
@@ -633,17 +791,21 @@ class Contact(_Object):
 
     Contact(asperities, E_star, R, x0, y0, case): E_star: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2 [force/length^2]; R: radius, inf for a flat
     [length]; x0, y0: position of the tip [length]; case: keys of &solver, asperities%law, indentation%selection, ...; None for the defaults.
-    Raises ArgumentError with the name of the wrong argument, Error (no memory). Contact.from_case takes E*, R and the tip from a case."""
+    Raises ArgumentError with the name of the wrong argument, Error (no memory). Contact.from_case takes E*, R and the tip from a case.
+    """
 
     _kind = "contact"
 
     def __init__(self, asperities, E_star, R, x0=0.0, y0=0.0, case=None):
-        self._create("rsc_contact_create", _given("asperities", asperities), E_star, R, x0, y0, case)
+        self._create(
+            "rsc_contact_create", _given("asperities", asperities), E_star, R, x0, y0, case
+        )
 
     @classmethod
     def from_case(cls, asperities, case=None):
         """A contact with E* and R from the keys of &solids and the tip at indentation%centre, by default above the middle. asperities: an
-        Asperities; case: a Case, None for the defaults. Raises ArgumentError for keys that are refused, Error (no memory)."""
+        Asperities; case: a Case, None for the defaults. Raises ArgumentError for keys that are refused, Error (no memory).
+        """
         return cls._make("rsc_contact_create_from_case", _given("asperities", asperities), case)
 
     def asperities(self):
@@ -664,7 +826,8 @@ class Contact(_Object):
     def press(self, force, time=None):
         """Finds the separation at which the sphere carries a force, computes the contact there, and returns the separation Z0 [length].
         force: N >= 0; 0 gives the separation of first touch [force]; time: as for indent. Raises ArgumentError if the force is negative or not
-        finite, or no asperity is under the sphere; NotConverged (also if the force jumps over N), Error."""
+        finite, or no asperity is under the sphere; NotConverged (also if the force jumps over N), Error.
+        """
         self._at(time)
         return _number("rsc_contact_press", self, force)
 
@@ -679,11 +842,20 @@ class Contact(_Object):
         curve. Raises ArgumentError as indent and press do."""
         if (separations is None) == (forces is None):
             _refuse("separations", "either separations or forces are expected")
-        what, call, values = ("separations", self.indent, separations) if forces is None else ("forces", self.press, forces)
+        what, call, values = (
+            ("separations", self.indent, separations)
+            if forces is None
+            else ("forces", self.press, forces)
+        )
         values = _array(what, values, (None,))
         n = values.size
-        levels = {"separation": np.empty(n), "force": np.empty(n), "contact_area": np.empty(n), "contacts": np.empty(n, np.int64),
-                  "status": np.empty(n, np.int32)}
+        levels = {
+            "separation": np.empty(n),
+            "force": np.empty(n),
+            "contact_area": np.empty(n),
+            "contacts": np.empty(n, np.int64),
+            "status": np.empty(n, np.int32),
+        }
         for k, value in enumerate(values):
             with contextlib.suppress(NotConverged):
                 call(float(value))
@@ -696,10 +868,22 @@ class Contact(_Object):
     def _result(self):
         return _Result(*_numbers("rsc_contact_result", self))
 
-    separation = property(lambda self: self._result().separation, doc="Z0 of the last level [length]. Raises Error (no result).")
-    force = property(lambda self: self._result().force, doc="N of the last level [force]. Raises Error (no result).")
-    area = property(lambda self: self._result().area, doc="True contact area A of the last level [length^2]. Raises Error (no result).")
-    contacts = property(lambda self: self._result().contacts, doc="Number of asperities in contact at the last level. Raises Error (no result).")
+    separation = property(
+        lambda self: self._result().separation,
+        doc="Z0 of the last level [length]. Raises Error (no result).",
+    )
+    force = property(
+        lambda self: self._result().force,
+        doc="N of the last level [force]. Raises Error (no result).",
+    )
+    area = property(
+        lambda self: self._result().area,
+        doc="True contact area A of the last level [length^2]. Raises Error (no result).",
+    )
+    contacts = property(
+        lambda self: self._result().contacts,
+        doc="Number of asperities in contact at the last level. Raises Error (no result).",
+    )
 
     def level(self):
         """Solver data of the last level, a Level. Raises Error (no result)."""
@@ -708,7 +892,8 @@ class Contact(_Object):
     def answer(self):
         """The last level in one call, an Answer: separation Z0 [length], force N [force], stiffness dN/dZ0 [force/length], area A [length^2],
         energy W [force length], lateral_x and lateral_y, the lateral force on the sphere, -dW/d(x0, y0) [force], status (of
-        LEVELS), and numbers: contacts, overlapping_pairs, large_contacts, beyond_law, edge_contacts. Raises Error (no result)."""
+        LEVELS), and numbers: contacts, overlapping_pairs, large_contacts, beyond_law, edge_contacts. Raises Error (no result).
+        """
         return Answer(*_numbers("rsc_contact_answer", self))
 
     def value(self, name):
@@ -728,7 +913,8 @@ class Contact(_Object):
     def tip(self):
         """The position (x0, y0) of the tip [length]. Setting it moves the sphere sideways; results remain those of the last level until the next
         one. Raises ArgumentError if it is not finite, or over asperities that are attached, yielded or relax, where laws 'elliptic' and
-        'fourth_order' have other summits at each place (an indenter of more than 0.2 of the surface's rms slope)."""
+        'fourth_order' have other summits at each place (an indenter of more than 0.2 of the surface's rms slope).
+        """
         return _numbers("rsc_contact_tip", self)
 
     @tip.setter
@@ -776,7 +962,8 @@ class Contact(_Object):
 
     def deflection(self, x, y):
         """The deflection of the surface by the contact forces [length], positive down, in the shape of x. x, y: positions [length], numbers or
-        arrays of float64 of equal shape. Raises ArgumentError if they are not finite or differ in shape, Error (no result)."""
+        arrays of float64 of equal shape. Raises ArgumentError if they are not finite or differ in shape, Error (no result).
+        """
         x = _array("x", x)
         y = _array("y", y, x.shape)
         deflection = np.empty(x.shape)
@@ -806,7 +993,8 @@ class Friction(_Object):
     def update(self, separation, x=0.0, y=0.0):
         """Moves the contact on a straight path to (separation, x, y) and returns (N, Q_x, Q_y, work lost in this step). The first call defines
         the start of the path. separation: Z0; x, y: slide, of which only differences matter [length]. Q is initially along the slide: the
-        force on the sphere is -Q. Raises ArgumentError if a number is not finite, NotConverged (the state is that of the last iterates), Error."""
+        force on the sphere is -Q. Raises ArgumentError if a number is not finite, NotConverged (the state is that of the last iterates), Error.
+        """
         return _numbers("rsc_friction_update", self, separation, x, y)
 
     def state(self):
@@ -873,7 +1061,8 @@ class Friction(_Object):
 
 def stiffness_ratio(E, nu):
     """m = 4 G*/E* of two bodies, the ratio of tangential to normal stiffness of any of their contacts. E: two Young's moduli, inf: rigid
-    [force/length^2]; nu: two Poisson's ratios. Raises ArgumentError with the name of the wrong argument."""
+    [force/length^2]; nu: two Poisson's ratios. Raises ArgumentError with the name of the wrong argument.
+    """
     return _number("rsc_stiffness_ratio", _array("E", E, (2,)), _array("nu", nu, (2,)))
 
 
@@ -901,8 +1090,12 @@ def read(path, xarray=None):
             variables = {name: filled(variable[...]) for name, variable in file.variables.items()}
             attributes = {name: file.getncattr(name) for name in file.ncattrs()}
             if xarray is not False:
-                about = {name: (v.dimensions, attributes_of(v)) for name, v in file.variables.items()}
-                coordinates = [name for name, v in file.variables.items() if v.dimensions == (name,)]
+                about = {
+                    name: (v.dimensions, attributes_of(v)) for name, v in file.variables.items()
+                }
+                coordinates = [
+                    name for name, v in file.variables.items() if v.dimensions == (name,)
+                ]
     except OSError as error:
         raise Error(f"{path}: cannot be read: {error.strerror or error}", FILE) from None
     if xarray is not False:
@@ -915,10 +1108,16 @@ def read(path, xarray=None):
     if "member" in variables and "file" in variables:
         return _cube(path, xarray is not False)
     if xarray is not False:
-        data = {name: (about[name][0], values, about[name][1]) for name, values in variables.items()}
+        data = {
+            name: (about[name][0], values, about[name][1]) for name, values in variables.items()
+        }
         if "separation" in data and data["separation"][0] == ("step",):
             coordinates.append("separation")
-        return package.Dataset({k: v for k, v in data.items() if k not in coordinates}, {k: data[k] for k in coordinates}, attributes)
+        return package.Dataset(
+            {k: v for k, v in data.items() if k not in coordinates},
+            {k: data[k] for k in coordinates},
+            attributes,
+        )
     variables[""] = attributes
     return variables
 
@@ -933,11 +1132,22 @@ def _cube(path, dataset):
     except OSError as error:
         raise Error(f"{path}: a member cannot be read: {error.strerror or error}", FILE) from None
     if not dataset:
-        return {name: values for name, (_, values, _) in cube.variables.items()} | {"": cube.attributes, "dimensions": {name: d for name, (d, _, _) in cube.variables.items()}}
+        return {name: values for name, (_, values, _) in cube.variables.items()} | {
+            "": cube.attributes,
+            "dimensions": {name: d for name, (d, _, _) in cube.variables.items()},
+        }
     import xarray
 
-    coordinates = {name for name, (dimensions, _, _) in cube.variables.items() if dimensions == (name,) or name in cube.keys}
-    return xarray.Dataset({k: v for k, v in cube.variables.items() if k not in coordinates}, {k: cube.variables[k] for k in coordinates}, cube.attributes)
+    coordinates = {
+        name
+        for name, (dimensions, _, _) in cube.variables.items()
+        if dimensions == (name,) or name in cube.keys
+    }
+    return xarray.Dataset(
+        {k: v for k, v in cube.variables.items() if k not in coordinates},
+        {k: cube.variables[k] for k in coordinates},
+        cube.attributes,
+    )
 
 
 def _check_sound(path):
@@ -949,7 +1159,9 @@ def _check_sound(path):
         return  # reported when it is read
     line = bytes(content[-len(start) - 9 :])
     if line.startswith(start) and line != start + b"%08x\n" % zlib.crc32(content[: -len(line)]):
-        raise Error(f"{path}: is damaged, or was changed since rsc wrote it: its checksum is wrong", FILE)
+        raise Error(
+            f"{path}: is damaged, or was changed since rsc wrote it: its checksum is wrong", FILE
+        )
 
 
 @contextlib.contextmanager
@@ -967,13 +1179,15 @@ def press_all(contacts, forces, threads=0):
     """Contact.press for many contacts, distributed among threads. contacts: different Contacts; forces: N >= 0 of each, shape (n,) [force];
     threads: their number, 0 for all of the machine (results do not depend on it). Returns (separations, statuses), arrays of shape (n,):
     Z0 of each [length], NaN after a failure, and SUCCESS, NOT_CONVERGED or another status of rsc.h for each. Raises ArgumentError for a
-    contact given twice, a force that is negative or not finite, or a contact without asperities under its sphere."""
+    contact given twice, a force that is negative or not finite, or a contact without asperities under its sphere.
+    """
     return _all("rsc_contacts_press", contacts, "forces", forces, threads)
 
 
 def indent_all(contacts, separations, threads=0):
     """Contact.indent for many contacts, as press_all. contacts: different Contacts; separations: Z0 of each, shape (n,) [length];
-    threads: their number, 0 for all. Returns (forces, statuses): N of each [force]. Raises ArgumentError as press_all does."""
+    threads: their number, 0 for all. Returns (forces, statuses): N of each [force]. Raises ArgumentError as press_all does.
+    """
     return _all("rsc_contacts_indent", contacts, "separations", separations, threads)
 
 
@@ -981,18 +1195,34 @@ def step_all(contacts, forces=None, separations=None, tips=None, stiffness=False
     """A step of many contacts: each tip moved to tips, then pressed with forces or indented to separations, one of the two. contacts: different
     Contacts; forces, separations: shape (n,); tips: shape (n, 2), None to leave them [length]; stiffness: True to compute it; threads: their
     number, 0 for all. Returns a dictionary of arrays of shape (n,): separation, force, stiffness if requested, lateral_x, lateral_y, moment_x,
-    moment_y, NaN if there is no result, level_status, and status, as press_all's. Raises ArgumentError."""
+    moment_y, NaN if there is no result, level_status, and status, as press_all's. Raises ArgumentError.
+    """
     contacts = _different(contacts)
     if (forces is None) == (separations is None):
         _refuse("forces, separations", "one of the two is expected")
     n = len(contacts)
-    values = _array("separations" if forces is None else "forces", separations if forces is None else forces, (n,))
+    values = _array(
+        "separations" if forces is None else "forces",
+        separations if forces is None else forces,
+        (n,),
+    )
     x, y = (None, None) if tips is None else np.ascontiguousarray(_array("tips", tips, (n, 2)).T)
     order = ["separation", "force", "stiffness", "lateral_x", "lateral_y", "moment_x", "moment_y"]
     answers = {name: np.full(n, np.nan) for name in order if stiffness or name != "stiffness"}
     answers.update(level_status=np.zeros(n, np.int32), status=np.zeros(n, np.int32))
     with _of_one(answers["status"]):
-        _call("rsc_contacts_step", n, contacts, x, y, int(forces is not None), values, *[answers.get(name) for name in order], *list(answers.values())[-2:], threads)
+        _call(
+            "rsc_contacts_step",
+            n,
+            contacts,
+            x,
+            y,
+            int(forces is not None),
+            values,
+            *[answers.get(name) for name in order],
+            *list(answers.values())[-2:],
+            threads,
+        )
     return answers
 
 
@@ -1070,12 +1300,20 @@ def _plain(function):
     rest = _FUNCTIONS[function][1:]
     inputs = [a for a in rest if a.stars == 0 or a.const]
     outputs = [a for a in rest if a.stars == 1 and not a.const]
-    if any(a.stars > 1 or a.name == "n" or a.type in ("char", "void") for a in outputs + inputs if not a.const) or any(a.type not in ("double", "int32_t", "int64_t", "char") and not a.stars for a in inputs):
+    if any(
+        a.stars > 1 or a.name == "n" or a.type in ("char", "void")
+        for a in outputs + inputs
+        if not a.const
+    ) or any(
+        a.type not in ("double", "int32_t", "int64_t", "char") and not a.stars for a in inputs
+    ):
         return None
 
     def method(self, *values):
         if len(values) != len(inputs):
-            raise TypeError(f"{function[4:]} takes {', '.join(a.name for a in inputs) or 'no argument'}")
+            raise TypeError(
+                f"{function[4:]} takes {', '.join(a.name for a in inputs) or 'no argument'}"
+            )
         given, made = iter(values), [_ctype(a._replace(stars=0))() for a in outputs]
         back = iter(made)
         _call(function, self, *[next(given) if a in inputs else next(back) for a in rest])
@@ -1087,7 +1325,13 @@ def _plain(function):
 
 
 for _class in (Surface, Asperities, Contact, Friction):
-    for _name in [n for n in _FUNCTIONS if n.startswith(f"rsc_{_class._kind}_") and _FUNCTIONS[n][0].stars == 1 and not n.endswith("_result")]:
+    for _name in [
+        n
+        for n in _FUNCTIONS
+        if n.startswith(f"rsc_{_class._kind}_")
+        and _FUNCTIONS[n][0].stars == 1
+        and not n.endswith("_result")
+    ]:
         _verb = _name[len(f"rsc_{_class._kind}_") :]
         if not hasattr(_class, _verb) and _verb not in ("count", "move_tip") and _plain(_name):
             setattr(_class, _verb, _plain(_name))

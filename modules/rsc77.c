@@ -69,7 +69,8 @@ static int32_t enter(enum kind kind, void* object) {
     }
     if (!handle) {
         const int32_t wanted = entries ? 2 * entries : 16;
-        struct entry* larger = wanted < 1 << INDEX_BITS ? realloc(table, (size_t)wanted * sizeof *table) : NULL;
+        struct entry* larger =
+            wanted < 1 << INDEX_BITS ? realloc(table, (size_t)wanted * sizeof *table) : NULL;
         if (larger) {
             for (int32_t k = entries; k < wanted; ++k) larger[k] = (struct entry){FREE, 0, NULL};
             handle = entries + 1;
@@ -119,12 +120,14 @@ static void put_text(const char* text, char* characters, size_t length) {
 static atomic_int integers_fit;
 
 /* Begins every call; refuses it before RSCINT has succeeded. */
-#define BEGIN                                                                                                 \
-    own_message[0] = '\0';                                                                                    \
-    if (!atomic_load(&integers_fit)) {                                                                        \
-        refuse(0, "call RSCINT first, with an INTEGER array of 1 and 2: it checks that INTEGER has 4 bytes"); \
-        *ierr = RSC_NO_RESULT;                                                                                \
-        return;                                                                                               \
+#define BEGIN                                                                                     \
+    own_message[0] = '\0';                                                                        \
+    if (!atomic_load(&integers_fit)) {                                                            \
+        refuse(0,                                                                                 \
+               "call RSCINT first, with an INTEGER array of 1 and 2: it checks that INTEGER has " \
+               "4 bytes");                                                                        \
+        *ierr = RSC_NO_RESULT;                                                                    \
+        return;                                                                                   \
     }
 /* Finds the object of a handle, or returns with the number of that argument. A case of 0 means the defaults. */
 #define FIND(type, name, handle, kind, argument)                                        \
@@ -174,7 +177,9 @@ RSC_API void rscint_(const int32_t* one_and_two, int32_t* ierr) {
     own_message[0] = '\0';
     const int fits = one_and_two[0] == 1 && one_and_two[1] == 2;
     atomic_store(&integers_fit, fits);
-    *ierr = fits ? 0 : refuse(1, "INTEGER must have 4 bytes: compile without -fdefault-integer-8 or -i8");
+    *ierr =
+        fits ? 0
+             : refuse(1, "INTEGER must have 4 bytes: compile without -fdefault-integer-8 or -i8");
 }
 
 /* ---- all handles ------------------------------------------------------------------------------------------------------------ */
@@ -209,12 +214,14 @@ RSC_API void rsccpy_(int32_t* handle, const int32_t* original, int32_t* ierr) {
 
 /* ---- cases ------------------------------------------------------------------------------------------------------------------ */
 
-RSC_API void rscget_(const int32_t* icase, const char* name, char* value, int32_t* ierr, size_t name_length, size_t value_length) {
+RSC_API void rscget_(const int32_t* icase, const char* name, char* value, int32_t* ierr,
+                     size_t name_length, size_t value_length) {
     BEGIN
     FIND(rsc_case, a_case, icase, CASE, 1)
     char* const c_name = text_of(name, name_length);
     char* const buffer = malloc(value_length + 1);
-    *ierr = c_name && buffer ? rsc_case_get(a_case, c_name, buffer, (int64_t)value_length + 1, NULL) : RSC_NO_MEMORY;
+    *ierr = c_name && buffer ? rsc_case_get(a_case, c_name, buffer, (int64_t)value_length + 1, NULL)
+                             : RSC_NO_MEMORY;
     if (*ierr == 0) put_text(buffer, value, value_length);
     free(c_name);
     free(buffer);
@@ -222,8 +229,8 @@ RSC_API void rscget_(const int32_t* icase, const char* name, char* value, int32_
 
 /* ---- contact ---------------------------------------------------------------------------------------------------------------- */
 
-RSC_API void rscspt_(const int32_t* icon, const int32_t* n, int32_t* asperity, double* force, double* radius, double* penetration,
-                     int32_t* ierr) {
+RSC_API void rscspt_(const int32_t* icon, const int32_t* n, int32_t* asperity, double* force,
+                     double* radius, double* penetration, int32_t* ierr) {
     BEGIN
     FIND(const rsc_contact, contact, icon, CONTACT, 1)
     int64_t contacts = 0;

@@ -1,13 +1,13 @@
-// The program: `rsc < case.nml`. It reads the case and runs it; everything else is in run/. With RSC_MPI it is built as
-// rsc_mpi.
+// The program: `rsc < case.nml`. It reads the case and runs it; everything else is in run/. With
+// RSC_MPI it is built as rsc_mpi.
 
+#include "base/error.hpp"
+#include "base/format.hpp"
+#include "base/parallel.hpp"
 #include "case/options.hpp"
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
-#include "error.hpp"
-#include "file/whole_file.hpp"
-#include "format.hpp"
-#include "rough/parallel.hpp"
+#include "io/whole_file.hpp"
 #include "run/run.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
@@ -22,7 +22,8 @@
 #include <unistd.h>
 #endif
 
-// A threaded BLAS sums in an order that depends on the number of threads, but results must not. Only OpenBLAS needs this switch.
+// A threaded BLAS sums in an order that depends on the number of threads, but results must not.
+// Only OpenBLAS needs this switch.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 namespace {
@@ -33,8 +34,8 @@ using Job = rsc::MpiJob;
 struct Job {};  // one process
 #endif
 
-// For the attribute `history`. With SOURCE_DATE_EPOCH, for reproducible files, only the version: it is
-// independent of --resume, the program and the number of threads.
+// For the attribute `history`. With SOURCE_DATE_EPOCH, for reproducible files, only the version: it
+// is independent of --resume, the program and the number of threads.
 std::string command_line(int argc, char** argv) {
     if (std::getenv("SOURCE_DATE_EPOCH")) return {};
     std::string text = "rsc";
@@ -42,7 +43,8 @@ std::string command_line(int argc, char** argv) {
     return text;
 }
 
-std::unique_ptr<rsc::Team> make_team(Job& job, rsc::CampaignWork& work, const rsc::ReadCase& read, std::size_t threads) {
+std::unique_ptr<rsc::Team> make_team(Job& job, rsc::CampaignWork& work, const rsc::ReadCase& read,
+                                     std::size_t threads) {
 #ifdef RSC_MPI
     return job.team(std::ref(work), threads, rsc::effective_namelist(read));
 #else
@@ -72,9 +74,12 @@ rsc::RunOptions how_to_run(const rsc::Options& options, const std::string& comma
 }
 
 // Returns the exit status: 0 on success, 1 if a level did not converge.
-int run(Job& job, const rsc::Options& options, const rsc::ReadCase& read, const std::string& command) {
+int run(Job& job, const rsc::Options& options, const rsc::ReadCase& read,
+        const std::string& command) {
     rsc::RunOptions how = how_to_run(options, command);
-    if (read.study) how.compare_automatically = false;  // so that a member alone has the same result as in the study
+    if (read.study)
+        how.compare_automatically =
+            false;  // so that a member alone has the same result as in the study
     const std::size_t threads = threads_of(read.settings);
     rsc::CampaignWork work = rsc::make_work(rsc::members_of(read), how, threads);
     const std::unique_ptr<rsc::Team> team = make_team(job, work, read, threads);
@@ -87,9 +92,10 @@ void refuse_mpi([[maybe_unused]] const rsc::Options& options) {
     for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MPI_LOCALNRANKS"}) {
         const char* const size = std::getenv(name);
         if (size && std::atoi(size) > 1 && !options.member)
-            rsc::bad_input(std::string("rsc: started ") + size +
-                           " times by an MPI launcher, but this program is built without MPI: use rsc_mpi "
-                           "(cmake -DRSC_MPI=ON, or make -f Makefile.legacy rsc_mpi), or rsc --member K");
+            rsc::bad_input(
+                std::string("rsc: started ") + size +
+                " times by an MPI launcher, but this program is built without MPI: use rsc_mpi "
+                "(cmake -DRSC_MPI=ON, or make -f Makefile.legacy rsc_mpi), or rsc --member K");
     }
 #endif
 }
@@ -101,7 +107,8 @@ void catch_signals_early() {
 #endif
 }
 
-// Runs `f`. Refusals during a run that begin with a key, "surface%sigma: ...", get the name of the case before it.
+// Runs `f`. Refusals during a run that begin with a key, "surface%sigma: ...", get the name of the
+// case before it.
 template <class F>
 auto named(const rsc::Options& options, F f) {
     try {
@@ -109,8 +116,11 @@ auto named(const rsc::Options& options, F f) {
     } catch (const rsc::Error& error) {
         const std::string what = error.what(), name = what.substr(0, what.find_first_of("( :="));
         const std::size_t percent = std::min(name.find('%'), name.size());
-        if (!rsc::find_key(name.substr(0, percent), name.substr(std::min(percent + 1, name.size())))) throw;
-        throw rsc::Error(error.kind(), (options.case_path.empty() ? "<stdin>" : options.case_path) + ": " + what);
+        if (!rsc::find_key(name.substr(0, percent),
+                           name.substr(std::min(percent + 1, name.size()))))
+            throw;
+        throw rsc::Error(error.kind(),
+                         (options.case_path.empty() ? "<stdin>" : options.case_path) + ": " + what);
     }
 }
 
@@ -134,18 +144,26 @@ int run_program(int argc, char** argv, Job& job) {
     }
     if (options.show_case) {
         const std::optional<rsc::ResultHead> head = rsc::head_of_result(options.case_path);
-        if (!head) rsc::bad_input(options.case_path + ": is no result of rsc, so there is no case to print");
+        if (!head)
+            rsc::bad_input(options.case_path +
+                           ": is no result of rsc, so there is no case to print");
         std::cout << head->case_text;
         return 0;
     }
     refuse_mpi(options);
     if (!options.merge.empty()) {
         catch_signals_early();
-        return rsc::merge_campaigns(options.merge, *options.output, how_to_run(options, command_line(argc, argv))).failed == 0 ? 0 : 1;
+        return rsc::merge_campaigns(options.merge, *options.output,
+                                    how_to_run(options, command_line(argc, argv)))
+                           .failed == 0
+                   ? 0
+                   : 1;
     }
     // A result file can also be given as a case.
     const std::optional<rsc::ResultHead> inside = rsc::head_of_result(options.case_path);
-    const rsc::ReadCase read = inside ? rsc::read_case_text(inside->case_text, options.case_path, options) : rsc::read_case(options);
+    const rsc::ReadCase read =
+        inside ? rsc::read_case_text(inside->case_text, options.case_path, options)
+               : rsc::read_case(options);
     catch_signals_early();  // not earlier, so that a signal ends the wait for standard input
     for (const std::string& warning : read.warnings) std::cerr << warning << '\n';
     if (options.list) {
@@ -156,12 +174,18 @@ int run_program(int argc, char** argv, Job& job) {
     if (options.check) {
         const rsc::RunOptions how = how_to_run(options, command_line(argc, argv));
         const std::size_t threads = threads_of(read.settings);
-        const rsc::Forecast expected = named(options, [&] { return rsc::check_members(read, options.member, how, threads); });
+        const rsc::Forecast expected =
+            named(options, [&] { return rsc::check_members(read, options.member, how, threads); });
         std::cout << rsc::effective_namelist(read);
         if (!options.quiet)
-            std::cerr << "rsc: the inputs can be read and the result can be written; expected to take about "
-                      << rsc::duration(expected.seconds) << " with " << threads << (threads == 1 ? " thread" : " threads")
-                      << (expected.megabytes > 0 ? rsc::format(" and %.0f MB of memory", expected.megabytes) : "") << '\n';
+            std::cerr << "rsc: the inputs can be read and the result can be written; expected to "
+                         "take about "
+                      << rsc::duration(expected.seconds) << " with " << threads
+                      << (threads == 1 ? " thread" : " threads")
+                      << (expected.megabytes > 0
+                              ? rsc::format(" and %.0f MB of memory", expected.megabytes)
+                              : "")
+                      << '\n';
         return 0;
     }
     return named(options, [&] { return run(job, options, read, command_line(argc, argv)); });
@@ -172,7 +196,8 @@ int guarded(const std::function<int()>& program) {
     try {
         const int status = program();
         if (std::cout.flush()) return status;
-        std::cerr << "rsc: standard output could not be written: " << std::generic_category().message(errno) << '\n';
+        std::cerr << "rsc: standard output could not be written: "
+                  << std::generic_category().message(errno) << '\n';
         return 1;
     } catch (const rsc::Interrupted& stop) {
         std::cerr << "rsc: " << stop.what() << '\n';
@@ -180,13 +205,16 @@ int guarded(const std::function<int()>& program) {
     } catch (const rsc::Error& error) {
         // Text from files may contain control characters of terminals.
         std::istringstream lines(error.what());
-        for (std::string line; std::getline(lines, line);) std::cerr << rsc::printable(line, line.size()) << '\n';
+        for (std::string line; std::getline(lines, line);)
+            std::cerr << rsc::printable(line, line.size()) << '\n';
         return error.kind() == rsc::Failure::bad_input ? 2 : 1;
     } catch (const std::bad_alloc&) {
-        std::cerr << "rsc: out of memory; reduce surface%n or the number of levels, or use solver%method = 'direct'\n";
+        std::cerr << "rsc: out of memory; reduce surface%n or the number of levels, or use "
+                     "solver%method = 'direct'\n";
         return 1;
     } catch (const std::exception& error) {
-        std::cerr << "rsc: internal failure: " << error.what() << "\nPlease report it with the case that caused it.\n";
+        std::cerr << "rsc: internal failure: " << error.what()
+                  << "\nPlease report it with the case that caused it.\n";
         return 1;
     }
 }
@@ -198,18 +226,23 @@ int serve(Job& job, const std::string& command) {
         rsc::RunOptions how;
         how.command = command;
         const auto members = rsc::members_of(rsc::read_case_text(case_text, "case"));
-        const std::shared_ptr<rsc::CampaignWork> work(new rsc::CampaignWork(rsc::make_work(members, how, threads)));
-        return [work](const rsc::Task& task, const std::atomic<bool>& abandoned) { return (*work)(task, abandoned); };
+        const std::shared_ptr<rsc::CampaignWork> work(
+            new rsc::CampaignWork(rsc::make_work(members, how, threads)));
+        return [work](const rsc::Task& task, const std::atomic<bool>& abandoned) {
+            return (*work)(task, abandoned);
+        };
     });
 }
 #endif
 
-// A short run spends a tenth of its time on pages of memory that it has just given back, and on small ones: freed memory is kept, and
-// memory is taken from the system in huge pages where it has them.
+// A short run spends a tenth of its time on pages of memory that it has just given back, and on
+// small ones: freed memory is kept, and memory is taken from the system in huge pages where it has
+// them.
 void keep_memory() {
 #if defined(__GLIBC__)
     for (const auto which : {RLIMIT_AS, RLIMIT_DATA})
-        if (rlimit limit{}; getrlimit(which, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY) return;  // memory is short
+        if (rlimit limit{}; getrlimit(which, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY)
+            return;                  // memory is short
     constexpr int piece = 32 << 20;  // the largest threshold that is accepted
     mallopt(M_MMAP_THRESHOLD, piece);
     mallopt(M_TRIM_THRESHOLD, 4 * piece);
@@ -218,7 +251,9 @@ void keep_memory() {
     void* volatile first = std::malloc(piece - 4096);
     std::free(first);
     const auto into_page = reinterpret_cast<std::uintptr_t>(heap) % 4096;
-    madvise(heap - into_page, static_cast<std::size_t>(static_cast<char*>(sbrk(0)) - heap) + into_page, MADV_HUGEPAGE);
+    madvise(heap - into_page,
+            static_cast<std::size_t>(static_cast<char*>(sbrk(0)) - heap) + into_page,
+            MADV_HUGEPAGE);
 #endif
 }
 

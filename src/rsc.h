@@ -59,13 +59,14 @@ extern "C" {
 #endif
 
 /* Status codes: name, value, meaning. Negative values -i name the wrong argument. */
-#define RSC_STATUS_LIST(X)                                                                                       \
-    X(RSC_SUCCESS, 0, "success")                                                                                 \
-    X(RSC_NOT_CONVERGED, 1, "the solver did not reach its tolerance; the results are those of its last iterate") \
-    X(RSC_NO_MEMORY, 2, "out of memory")                                                                         \
-    X(RSC_FILE, 3, "a file could not be read or written")                                                        \
-    X(RSC_NO_RESULT, 4, "the contact has no result yet: indent or press first")                                  \
-    X(RSC_INTERNAL, 5, "an internal error of rsc; please report it")                                             \
+#define RSC_STATUS_LIST(X)                                                                 \
+    X(RSC_SUCCESS, 0, "success")                                                           \
+    X(RSC_NOT_CONVERGED, 1,                                                                \
+      "the solver did not reach its tolerance; the results are those of its last iterate") \
+    X(RSC_NO_MEMORY, 2, "out of memory")                                                   \
+    X(RSC_FILE, 3, "a file could not be read or written")                                  \
+    X(RSC_NO_RESULT, 4, "the contact has no result yet: indent or press first")            \
+    X(RSC_INTERNAL, 5, "an internal error of rsc; please report it")                       \
     X(RSC_STOPPED, 6, "stopped by the caller")
 
 #define RSC_STATUS_ENUMERATOR(name, value, meaning) name = value,
@@ -74,22 +75,25 @@ enum { RSC_STATUS_LIST(RSC_STATUS_ENUMERATOR) RSC_STATUS_LAST_ = RSC_STOPPED };
 
 /* Status of a computed level (rsc_contact_level), the more serious the larger. The values are those of
  * the variable `status` of a result file. */
-#define RSC_LEVEL_LIST(X)                                                                                 \
-    X(RSC_LEVEL_CONVERGED, 0, "converged")                                                                \
-    X(RSC_LEVEL_OUT_OF_VALIDITY, 1, "outside the range of validity: see the attribute comment of status") \
-    X(RSC_LEVEL_OVERLAPPING, 2, "some contact spots overlap")                                             \
-    X(RSC_LEVEL_NOT_UNIQUE, 3, "the solution is a minimum of the energy, perhaps not the only one")       \
+#define RSC_LEVEL_LIST(X)                                                   \
+    X(RSC_LEVEL_CONVERGED, 0, "converged")                                  \
+    X(RSC_LEVEL_OUT_OF_VALIDITY, 1,                                         \
+      "outside the range of validity: see the attribute comment of status") \
+    X(RSC_LEVEL_OVERLAPPING, 2, "some contact spots overlap")               \
+    X(RSC_LEVEL_NOT_UNIQUE, 3,                                              \
+      "the solution is a minimum of the energy, perhaps not the only one")  \
     X(RSC_LEVEL_NOT_CONVERGED, 4, "the solver did not reach its tolerance")
 
 #define RSC_LEVEL_ENUMERATOR(name, value, meaning) name = value,
 enum { RSC_LEVEL_LIST(RSC_LEVEL_ENUMERATOR) RSC_LEVEL_LAST_ = RSC_LEVEL_NOT_CONVERGED };
 #undef RSC_LEVEL_ENUMERATOR
 
-typedef struct rsc_case rsc_case;             /* options: every key of the namelist with its value */
-typedef struct rsc_surface rsc_surface;       /* heights on a regular grid */
+typedef struct rsc_case rsc_case;       /* options: every key of the namelist with its value */
+typedef struct rsc_surface rsc_surface; /* heights on a regular grid */
 typedef struct rsc_asperities rsc_asperities; /* summits: positions and radii */
-typedef struct rsc_contact rsc_contact;       /* a rigid sphere on asperities, and the last level computed */
-typedef struct rsc_friction rsc_friction;     /* a contact with friction, and its path */
+typedef struct rsc_contact
+    rsc_contact; /* a rigid sphere on asperities, and the last level computed */
+typedef struct rsc_friction rsc_friction; /* a contact with friction, and its path */
 
 /* ---- version and messages ------------------------------------------------------------------------------------------------- */
 
@@ -144,7 +148,8 @@ RSC_API int32_t rsc_case_set(rsc_case* a_case, const char* name, const char* val
 /* The value of one key in namelist syntax, as rsc_case_set accepts it; empty for a key that is not set.
  * a_case: the case; name: as above; buffer, size, length: text output.
  * Errors: -1 null; -2 null or unknown name; -3 buffer null with size > 0; -4 size < 0; RSC_NO_MEMORY. */
-RSC_API int32_t rsc_case_get(const rsc_case* a_case, const char* name, char* buffer, int64_t size, int64_t* length);
+RSC_API int32_t rsc_case_get(const rsc_case* a_case, const char* name, char* buffer, int64_t size,
+                             int64_t* length);
 
 /* All keys with their values as namelist text. If rsc_case_read accepts this text, it restores the same values.
  * a_case: the case; buffer, size, length: text output. Errors: -1 null; -2 buffer null with size > 0; -3 size < 0; RSC_NO_MEMORY.
@@ -175,7 +180,8 @@ typedef int32_t (*rsc_watch)(double done, double total, void* data);
  * a_case: the case; watch: the function, or null; data: passed to it; failed_levels (out, may be null): number of levels that did not
  * converge. Errors: as rsc_case_run; RSC_STOPPED if watch stopped the run: then there is no result, but a campaign leaves its checkpoint
  * for the program's --resume. */
-RSC_API int32_t rsc_case_run_watched(const rsc_case* a_case, rsc_watch watch, void* data, int64_t* failed_levels);
+RSC_API int32_t rsc_case_run_watched(const rsc_case* a_case, rsc_watch watch, void* data,
+                                     int64_t* failed_levels);
 
 /* Takes the lock under which rsc calls NetCDF, HDF5 and the planner of FFTW, for programs in which other threads call these libraries.
  * Waits until no other thread holds it. A thread that holds the lock may call rsc and take the lock again; it must release it as often as
@@ -193,15 +199,17 @@ RSC_API int32_t rsc_unlock(void);
  * source = 'heights': the map in surface%file, in run%length_unit, with missing points, form and noise treated by the keys of &surface.
  * surface (out): the handle; a_case: the case, null for the defaults; realization: any number. Errors: -1 null; -2 invalid keys of
  * &surface or &run, an unusable file, or a source without heights ('asperities': use rsc_asperities_make); RSC_NO_MEMORY. */
-RSC_API int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case, int64_t realization);
+RSC_API int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case,
+                                       int64_t realization);
 
 /* A surface from an array of heights, which is copied. Separations are measured from z = 0: see rsc_surface_detrend.
  * surface (out): the handle; nx, ny: points, 3 or more; dx, dy: grid steps > 0 [length]; x0, y0: place of the first point
  * [length]; periodic: 1 for a periodic surface, 0 otherwise (then its outermost points are no summits); heights: nx*ny
  * values, x fastest, finite [length]. Errors: -1 null; -2, -3 less than 3, or more than 2^31-1; -4, -5 not positive or not
  * finite; -6, -7 not finite; -8 neither 0 nor 1; -9 null, or a height that is not finite; RSC_NO_MEMORY. */
-RSC_API int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double dx, double dy, double x0, double y0,
-                                 int32_t periodic, const double* heights);
+RSC_API int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double dx,
+                                 double dy, double x0, double y0, int32_t periodic,
+                                 const double* heights);
 
 /* A copy that is independent of the original.
  * surface (out): the handle; original: the surface to copy. Errors: -1, -2 null; RSC_NO_MEMORY. */
@@ -222,8 +230,8 @@ RSC_API int32_t rsc_surface_filter(rsc_surface* surface, double cutoff);
 
 /* The grid. All outputs may be null. surface: the surface; nx, ny: points; dx, dy: steps [length]; x0, y0: place of the first
  * point [length]; periodic: 1 or 0. Errors: -1 null. */
-RSC_API int32_t rsc_surface_grid(const rsc_surface* surface, int64_t* nx, int64_t* ny, double* dx, double* dy, double* x0, double* y0,
-                                 int32_t* periodic);
+RSC_API int32_t rsc_surface_grid(const rsc_surface* surface, int64_t* nx, int64_t* ny, double* dx,
+                                 double* dy, double* x0, double* y0, int32_t* periodic);
 
 /* The heights. surface: the surface; n: length of the array, nx*ny; heights (out): x fastest [length].
  * Errors: -1 null; -2 n is not nx*ny; -3 null. */
@@ -243,14 +251,16 @@ RSC_API int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, doub
  * With solver%model = 'elements' in the case, the handle holds a copy of all points of the surface and no asperities; contacts made
  * from it with such a case are solved by boundary elements. Their spots are sets of pixels connected by sides, and rsc_contact_spots
  * returns for each the pixel with the highest pressure, row*nx + column from 0, in place of an asperity. */
-RSC_API int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surface, const rsc_case* a_case);
+RSC_API int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surface,
+                                    const rsc_case* a_case);
 
 /* The asperities for surface%source, as in the program: the summits of the surface of rsc_surface_synthesize, or the list in
  * surface%file. A synthetic surface is not stored, which is faster, takes half the memory and allows any grid for every
  * asperities%law. With solver%model = 'elements': the points of the surface on the grid of elements%points_per_wave.
  * asperities (out): the handle; a_case: the case, null for the defaults; realization: any number, without effect on files.
  * Errors: -1 null; -2 invalid keys of &surface, &asperities or &run, or an unusable file; RSC_NO_MEMORY. */
-RSC_API int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case, int64_t realization);
+RSC_API int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case,
+                                    int64_t realization);
 
 /* Asperities from arrays, which are copied.
  * asperities (out): the handle; n: number of them, 1 to 2^31-1; x, y, z: summits [length]; radius: > 0 [length]; kappa1, kappa2:
@@ -258,8 +268,9 @@ RSC_API int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case*
  * of them (null); biharmonic: nabla^4 z at the summit [1/length^3], or null. Contact laws (asperities%law) that need curvatures or
  * biharmonic refuse asperities without them. Errors: -1 null; -2 out of range; -3 to -10 null for a required array, a value that is not
  * finite or, where required, not positive, or two summits at the same (x, y) (-3); RSC_NO_MEMORY. */
-RSC_API int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double* x, const double* y, const double* z,
-                                    const double* radius, const double* kappa1, const double* kappa2, const double* angle,
+RSC_API int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double* x,
+                                    const double* y, const double* z, const double* radius,
+                                    const double* kappa1, const double* kappa2, const double* angle,
                                     const double* biharmonic);
 
 /* Another handle of the same asperities. They never change, so that they are stored only once.
@@ -274,12 +285,14 @@ RSC_API int32_t rsc_asperities_count(const rsc_asperities* asperities, int64_t* 
 
 /* Positions and radii. asperities: the asperities; n: length of each array, their number; x, y, z, radius (out, may be null)
  * [length]. Errors: -1 null; -2 n is not their number. */
-RSC_API int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, double* x, double* y, double* z, double* radius);
+RSC_API int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, double* x,
+                                   double* y, double* z, double* radius);
 
 /* Curvatures. asperities: the asperities; n: length of each array, their number; kappa1, kappa2 (out, may be null)
  * [1/length]; angle (out, may be null) [rad].
  * Errors: -1 null, or asperities that were given without curvatures; -2 n is not their number. */
-RSC_API int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int64_t n, double* kappa1, double* kappa2, double* angle);
+RSC_API int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int64_t n,
+                                          double* kappa1, double* kappa2, double* angle);
 
 /* ---- contact ------------------------------------------------------------------------------------ */
 
@@ -291,14 +304,17 @@ RSC_API int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int6
  * (default: that of the surface of the asperities, or of the heights of asperities from arrays); surface%L for asperities from arrays,
  * as the side of their square surface, which determines their mean spacing (default: the smallest square that contains them).
  * Errors: -1, -2 null; -3, -4 out of range; -5, -6 not finite; -7 invalid keys; RSC_NO_MEMORY. */
-RSC_API int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperities, double E_star, double R, double x0, double y0,
+RSC_API int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperities,
+                                   double E_star, double R, double x0, double y0,
                                    const rsc_case* a_case);
 
 /* As rsc_contact_create, with E* and R from the keys of &solids and the tip at indentation%centre, by default above the middle of the
  * surface (for asperities from arrays: of [0, surface%L]^2 if it contains them, otherwise of the smallest rectangle that does).
  * contact (out): the handle; asperities: as above; a_case: the case, null for the defaults. Errors: -1, -2 null; -3 invalid keys;
  * RSC_NO_MEMORY. */
-RSC_API int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities* asperities, const rsc_case* a_case);
+RSC_API int32_t rsc_contact_create_from_case(rsc_contact** contact,
+                                             const rsc_asperities* asperities,
+                                             const rsc_case* a_case);
 
 /* A copy that is independent of the original, with its last level, its loading history (solids%hardness, solids%adhesion) and its
  * committed state. contact (out): the handle; original: the contact, which other threads may use only by functions that take it as pointer
@@ -365,13 +381,15 @@ RSC_API int32_t rsc_contact_press(rsc_contact* contact, double force, double* se
 /* The last level. All outputs may be null. contact: the contact; separation: Z0 [length]; force: N = sum f [force]; area:
  * A = sum pi a^2, with elliptic spots the area of their union [length^2]; contacts: number of asperities in contact. Errors: -1 null;
  * RSC_NO_RESULT, here and below also if the solver found no state; rsc_contact_level is available then, too. */
-RSC_API int32_t rsc_contact_result(const rsc_contact* contact, double* separation, double* force, double* area, int64_t* contacts);
+RSC_API int32_t rsc_contact_result(const rsc_contact* contact, double* separation, double* force,
+                                   double* area, int64_t* contacts);
 
 /* Status and solver data of the last level. All outputs may be null. contact: the contact; level_status: of RSC_LEVEL_LIST; candidates:
  * number of asperities that the sphere would penetrate without interaction; iterations: of the solver, summed over all levels computed
  * when pressing; overlapping_pairs: pairs of contact spots with d < a_i + a_j; residual: relative residual of F = f(<g0 - BF>). Errors: -1
  * null; RSC_NO_RESULT. */
-RSC_API int32_t rsc_contact_level(const rsc_contact* contact, int32_t* level_status, int64_t* candidates, int64_t* iterations,
+RSC_API int32_t rsc_contact_level(const rsc_contact* contact, int32_t* level_status,
+                                  int64_t* candidates, int64_t* iterations,
                                   int64_t* overlapping_pairs, double* residual);
 
 /* The results of the last level in one call. All outputs may be null. contact: the contact;
@@ -386,9 +404,12 @@ RSC_API int32_t rsc_contact_level(const rsc_contact* contact, int32_t* level_sta
  * outside the range of validity of the contact law; edge_contacts: within a mean spacing of the border of the surface. All hold for the
  * position of the tip when the level was computed.
  * Errors: -1 null; RSC_NO_RESULT, also if stiffness or energy is not finite; RSC_NO_MEMORY. */
-RSC_API int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* force, double* stiffness, double* area, double* energy,
-                                   double* lateral_x, double* lateral_y, int32_t* level_status, int64_t* contacts,
-                                   int64_t* overlapping_pairs, int64_t* large_contacts, int64_t* beyond_law, int64_t* edge_contacts);
+RSC_API int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* force,
+                                   double* stiffness, double* area, double* energy,
+                                   double* lateral_x, double* lateral_y, int32_t* level_status,
+                                   int64_t* contacts, int64_t* overlapping_pairs,
+                                   int64_t* large_contacts, int64_t* beyond_law,
+                                   int64_t* edge_contacts);
 
 /* One quantity of the last level by its name in the result file: "force", "contact_area", "contacts", "candidates", "iterations",
  * "residual", "status", "products", "overlapping_pairs", "large_contacts", "beyond_law", ... ; "separation", "stiffness", "energy",
@@ -421,13 +442,14 @@ RSC_API int32_t rsc_contact_asperities(rsc_asperities** asperities, const rsc_co
  * written; asperity (out, may be null): indices; force (out, may be null) [force]; radius (out, may be null): contact radius a,
  * the area being pi a^2 [length]; penetration (out, may be null): of the asperity, interaction included [length]. Errors: -1
  * null; -2 too short; RSC_NO_RESULT. */
-RSC_API int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperity, double* force, double* radius,
-                                  double* penetration);
+RSC_API int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperity,
+                                  double* force, double* radius, double* penetration);
 
 /* Force, radius and penetration of every asperity: 0 where there is no contact.
  * contact: the contact; n: length of each array, the number of its asperities (rsc_contact_asperities); force, radius, penetration
  * (out, may be null): as above. Errors: -1 null; -2 n is not the number of asperities; RSC_NO_RESULT. */
-RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force, double* radius, double* penetration);
+RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force,
+                                         double* radius, double* penetration);
 
 /* Deflection of the surface by the contact forces, at any points: the sum over the contacts of the displacement under and around a
  * Hertz pressure of their force and area (Johnson 1985, section 3.4 and eq. 3.42), continuous everywhere: at distance d from the middle
@@ -438,7 +460,8 @@ RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, 
  * tension, or with a range that of Maugis's cohesive ring. Elements: the field of the pressures and tensions of all pixels. contact: the
  * contact; n: number of points, >= 0; x, y: places [length]; deflection (out): positive down [length]. Errors: -1 null; -2 negative; -3, -4
  * null with n > 0, or not finite; -5 null with n > 0; RSC_NO_RESULT; RSC_NO_MEMORY. */
-RSC_API int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection);
+RSC_API int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x,
+                                       const double* y, double* deflection);
 
 /* ---- many contacts, and contacts saved in files -------------------------------------------------- */
 
@@ -447,13 +470,13 @@ RSC_API int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, co
  * separation (out, may be null): Z0 of each, unchanged where it failed [length]; status (out, may be null): status of rsc_contact_press
  * for each; threads: 1 or more, 0 for all of the machine. Errors: -1, -6 out of range; -2 null, a null handle, or one given twice; -3
  * null with n > 0. Otherwise RSC_SUCCESS if all succeeded, or the status of the first that failed, negative ones as -2. */
-RSC_API int32_t rsc_contacts_press(int64_t n, rsc_contact** contacts, const double* force, double* separation, int32_t* status,
-                                   int32_t threads);
+RSC_API int32_t rsc_contacts_press(int64_t n, rsc_contact** contacts, const double* force,
+                                   double* separation, int32_t* status, int32_t threads);
 
 /* rsc_contact_indent for many contacts. Arguments and errors as above, with separation: Z0 of each [length]; force (out, may be null): N of
  * each [force]. */
-RSC_API int32_t rsc_contacts_indent(int64_t n, rsc_contact** contacts, const double* separation, double* force, int32_t* status,
-                                    int32_t threads);
+RSC_API int32_t rsc_contacts_indent(int64_t n, rsc_contact** contacts, const double* separation,
+                                    double* force, int32_t* status, int32_t threads);
 
 /* A step of many contacts, in parallel: moves their tips, applies a separation or a force to each, and returns the quantities that codes
  * for moving bodies need. The results do not depend on the number of threads.
@@ -465,9 +488,11 @@ RSC_API int32_t rsc_contacts_indent(int64_t n, rsc_contact** contacts, const dou
  * 1 or more, 0 for all of the machine.
  * Errors: -1, -5, -16 out of range; -2 null, a null handle, or one given twice; -3, -4 one null and the other not; -6 null with n > 0.
  * Otherwise RSC_SUCCESS if all succeeded, or the status of the first that failed, negative ones as -2. */
-RSC_API int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0, const double* y0, int32_t by_force,
-                                  const double* value, double* separation, double* force, double* stiffness, double* lateral_x,
-                                  double* lateral_y, double* moment_x, double* moment_y, int32_t* level_status, int32_t* status,
+RSC_API int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0,
+                                  const double* y0, int32_t by_force, const double* value,
+                                  double* separation, double* force, double* stiffness,
+                                  double* lateral_x, double* lateral_y, double* moment_x,
+                                  double* moment_y, int32_t* level_status, int32_t* status,
                                   int32_t threads);
 
 /* Saves a contact in a file: tip, options, the last level, the loading history (solids%hardness, solids%adhesion) and the committed
@@ -482,7 +507,8 @@ RSC_API int32_t rsc_contact_save(rsc_contact* contact, const char* path);
 /* Reads a contact from a file of rsc_contact_save. contact (out): the handle; asperities: those it was saved with, or ones equal to them
  * bit for bit; path: the file. Errors: -1, -2 null; -2 other asperities; -3 null, empty, no such file, or a file that is damaged or from a
  * later version; RSC_NO_MEMORY. */
-RSC_API int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperities, const char* path);
+RSC_API int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperities,
+                                    const char* path);
 
 /* ---- friction ----------------------------------------------------------------------------------- */
 
@@ -497,12 +523,14 @@ RSC_API int32_t rsc_tangential_ratio(const double* E, const double* nu, double* 
 /* Friction for the asperities, sphere, tip and options of a contact, with an empty path.
  * friction (out): the handle; contact: copied, may be destroyed at once; mu: coefficient of friction >= 0, finite; ratio: m > 0, finite
  * (rsc_stiffness_ratio). Errors: -1, -2 null; -2 not elastic; -3, -4 out of range; RSC_NO_MEMORY. */
-RSC_API int32_t rsc_friction_create(rsc_friction** friction, const rsc_contact* contact, double mu, double ratio);
+RSC_API int32_t rsc_friction_create(rsc_friction** friction, const rsc_contact* contact, double mu,
+                                    double ratio);
 
 /* As rsc_friction_create, with mu = solids%friction and the ratio from solids%E and solids%nu.
  * friction (out): the handle; contact: as above; a_case: the case, null for the defaults (mu = 0). Errors: -1, -2 null; -2 not elastic; -3
  * invalid keys; RSC_NO_MEMORY. */
-RSC_API int32_t rsc_friction_create_from_case(rsc_friction** friction, const rsc_contact* contact, const rsc_case* a_case);
+RSC_API int32_t rsc_friction_create_from_case(rsc_friction** friction, const rsc_contact* contact,
+                                              const rsc_case* a_case);
 
 /* A copy that is independent of the original, with its path. friction (out): the handle; original: the friction.
  * Errors: -1, -2 null; RSC_NO_MEMORY. */
@@ -517,8 +545,8 @@ RSC_API int32_t rsc_friction_destroy(rsc_friction** friction);
  * force_x, force_y (out, may be null): tangential force Q [force], initially along the slide; the force on the sphere is -Q; lost (out,
  * may be null): work lost to friction on this step, >= 0 [force length]. Errors: -1 null; -2, -3, -4 not finite; RSC_NOT_CONVERGED, with
  * outputs of the last iterates; RSC_NO_MEMORY, RSC_INTERNAL. On failures other than RSC_NOT_CONVERGED the state is unchanged. */
-RSC_API int32_t rsc_friction_update(rsc_friction* friction, double separation, double x, double y, double* force, double* force_x,
-                                    double* force_y, double* lost);
+RSC_API int32_t rsc_friction_update(rsc_friction* friction, double separation, double x, double y,
+                                    double* force, double* force_x, double* force_y, double* lost);
 
 /* Moves the tip at the separation of the last update, for a sphere that rolls onto other asperities. Asperities in contact at both
  * positions keep their share of Q: reversals in memory keep their relative depth below first touch, and their deflections are multiplied
@@ -531,15 +559,18 @@ RSC_API int32_t rsc_friction_move_tip(rsc_friction* friction, double x0, double 
 /* Tangential stiffness dQ/d(x, y) for a further slide at this separation in the present direction of slip (S m in all directions if
  * nothing slips, and for a reversed slide; S = -dN/dZ0). Costs up to one level. All outputs may be null. friction: the friction; xx, xy,
  * yx, yy: dQ_x/dx, dQ_x/dy, dQ_y/dx, dQ_y/dy [force/length], 0 without contact. Errors: -1 null; RSC_NOT_CONVERGED; RSC_NO_MEMORY. */
-RSC_API int32_t rsc_friction_stiffness(rsc_friction* friction, double* xx, double* xy, double* yx, double* yy);
+RSC_API int32_t rsc_friction_stiffness(rsc_friction* friction, double* xx, double* xy, double* yx,
+                                       double* yy);
 
 /* State of the path after the last update. All outputs may be null. friction: the friction; separation, x, y: of the last update [length];
  * force: N; force_x, force_y: Q [force]; energy: elastic energy W of the normal problem; tangential_energy: elastic energy of the slide;
  * lost: work lost to friction since the start of the path [force length]; stick_separation: separation at which the contact area would
  * equal the present stick area: separation itself if all spots stick, that of first touch if all slip [length]. Errors: -1 null;
  * RSC_NO_RESULT before the first update. */
-RSC_API int32_t rsc_friction_state(const rsc_friction* friction, double* separation, double* x, double* y, double* force, double* force_x,
-                                   double* force_y, double* energy, double* tangential_energy, double* lost, double* stick_separation);
+RSC_API int32_t rsc_friction_state(const rsc_friction* friction, double* separation, double* x,
+                                   double* y, double* force, double* force_x, double* force_y,
+                                   double* energy, double* tangential_energy, double* lost,
+                                   double* stick_separation);
 
 /* Stores the state for rsc_friction_rollback. The committed state of a new object is an empty path.
  * friction: the friction. Errors: -1 null; RSC_NO_MEMORY. */
@@ -553,7 +584,8 @@ RSC_API int32_t rsc_friction_rollback(rsc_friction* friction);
  * friction: the friction; n: length of the arrays, >= 0; slide: >= 0 [length]; force (out): Q [force]; stick_separation (out, may be
  * null): Z0' [length]. Errors: -1 null; -2 negative; -3 null with n > 0, negative or not finite; -4 null with n > 0; RSC_NO_RESULT before
  * the first update and without contact; RSC_NOT_CONVERGED; RSC_NO_MEMORY. */
-RSC_API int32_t rsc_friction_first_loading(rsc_friction* friction, int64_t n, const double* slide, double* force, double* stick_separation);
+RSC_API int32_t rsc_friction_first_loading(rsc_friction* friction, int64_t n, const double* slide,
+                                           double* force, double* stick_separation);
 
 /* The slide of first loading at which the tangential force is Q. friction: the friction; force: 0 <= Q <= mu N [force]; slide (out)
  * [length]. Errors: -1 null; -2 out of range; -3 null; RSC_NO_RESULT before the first update and without contact; RSC_NOT_CONVERGED;
@@ -570,15 +602,17 @@ RSC_API int32_t rsc_friction_full_slip(const rsc_friction* friction, double* sli
  * (out, may be null): contact radius [length]; stick_radius (out, may be null): of the part that sticks, 0 if the whole spot slips
  * [length]; force_x, force_y (out, may be null): the spot's share of Q [force]. Errors: -1 null; -2 too short; RSC_NO_RESULT before the
  * first update; RSC_NOT_CONVERGED; RSC_NO_MEMORY. */
-RSC_API int32_t rsc_friction_spots(rsc_friction* friction, int64_t n, int64_t* count, int32_t* asperity, double* radius,
-                                   double* stick_radius, double* force_x, double* force_y);
+RSC_API int32_t rsc_friction_spots(rsc_friction* friction, int64_t n, int64_t* count,
+                                   int32_t* asperity, double* radius, double* stick_radius,
+                                   double* force_x, double* force_y);
 
 /* Saves friction with its path and the committed state in a file, as rsc_contact_save does. friction: the friction; path: the file.
  * Errors: -1 null; -2 null or empty; RSC_FILE; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_friction_save(rsc_friction* friction, const char* path);
 
 /* Reads friction from a file of rsc_friction_save. friction (out): the handle; asperities, path and errors as in rsc_contact_restore. */
-RSC_API int32_t rsc_friction_restore(rsc_friction** friction, const rsc_asperities* asperities, const char* path);
+RSC_API int32_t rsc_friction_restore(rsc_friction** friction, const rsc_asperities* asperities,
+                                     const char* path);
 
 #ifdef __cplusplus
 }

@@ -1,9 +1,10 @@
 // Height maps of formulas.
 #pragma once
 
-#include "rough/surface.hpp"
+#include "surface/surface.hpp"
 
-// nx x ny points in steps of dx, dy from (0, 0) on, with the height z(column, row). Rows have padding, to detect a confusion of width and stride.
+// nx x ny points in steps of dx, dy from (0, 0) on, with the height z(column, row). Rows have
+// padding, to detect a confusion of width and stride.
 template <class Height>
 rsc::HeightMap height_map(int nx, int ny, double dx, double dy, Height&& z) {
     rsc::HeightMap map;

@@ -25,7 +25,8 @@ void close(double a, double b, double tolerance, const char* what, const char* f
     const double error = std::abs(a - b);
     if (error <= tolerance) return;  // false for NaN
     ++failures;
-    std::printf("%s:%d: failed: %s: %.17g against %.17g, error %.3g > %.3g\n", file, line, what, a, b, error, tolerance);
+    std::printf("%s:%d: failed: %s: %.17g against %.17g, error %.3g > %.3g\n", file, line, what, a,
+                b, error, tolerance);
 }
 
 }  // namespace check

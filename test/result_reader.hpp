@@ -8,7 +8,9 @@
 // Reading through the C library, failures counted as failed checks.
 class Reader {
 public:
-    explicit Reader(const std::string& path) { CHECK(nc_open(path.c_str(), NC_NOWRITE, &id_) == NC_NOERR); }
+    explicit Reader(const std::string& path) {
+        CHECK(nc_open(path.c_str(), NC_NOWRITE, &id_) == NC_NOERR);
+    }
     ~Reader() { nc_close(id_); }
     int id() const { return id_; }
     bool has(const std::string& name) const {
@@ -50,7 +52,8 @@ public:
         const int v = name.empty() ? NC_GLOBAL : var(name);
         nc_type type = NC_NAT;
         std::size_t n = 0;
-        if (nc_inq_att(id_, v, attribute.c_str(), &type, &n) != NC_NOERR || type != NC_CHAR) return "";
+        if (nc_inq_att(id_, v, attribute.c_str(), &type, &n) != NC_NOERR || type != NC_CHAR)
+            return "";
         std::string out(n, ' ');
         nc_get_att_text(id_, v, attribute.c_str(), out.data());
         return out;

@@ -50,7 +50,9 @@ def roughness(noise):
 
 def missing(i, j):
     x, y = i * DX, j * DY
-    scratch = abs((x - 110) * 0.6 + (y - 300) * 0.8) < 6 and abs((x - 110) * 0.8 - (y - 300) * 0.6) < 45
+    scratch = (
+        abs((x - 110) * 0.6 + (y - 300) * 0.8) < 6 and abs((x - 110) * 0.8 - (y - 300) * 0.6) < 45
+    )
     return scratch or (i * 7919 + j * 104729) % 2503 == 0
 
 
@@ -63,7 +65,14 @@ def measured():
         row = []
         for i in range(NX):
             x, y = (i + 0.5) * DX - NX * DX / 2, (j + 0.5) * DY - NY * DY / 2
-            height = z[j][i] + math.sqrt(RADIUS**2 - x * x - y * y) - RADIUS + TILT[0] * x + TILT[1] * y + noise.gauss(0, NOISE)
+            height = (
+                z[j][i]
+                + math.sqrt(RADIUS**2 - x * x - y * y)
+                - RADIUS
+                + TILT[0] * x
+                + TILT[1] * y
+                + noise.gauss(0, NOISE)
+            )
             row.append(MISSING if missing(i, j) else round(height / STEP))
         rows.append(row)
     return rows
@@ -71,7 +80,9 @@ def measured():
 
 def write_sdf(path, rows):
     header = b"bISO-1.0" + b"rsc".ljust(10) + b"010120260000" * 2
-    header += struct.pack("<HHddddBBB", NX, NY, DX * 1e-6, DY * 1e-6, STEP * 1e-6, STEP * 1e-6, 0, 5, 0)
+    header += struct.pack(
+        "<HHddddBBB", NX, NY, DX * 1e-6, DY * 1e-6, STEP * 1e-6, STEP * 1e-6, 0, 5, 0
+    )
     path.write_bytes(header + b"".join(struct.pack(f"<{NX}h", *row) for row in rows))
 
 
@@ -85,16 +96,36 @@ def write_gwy(path, rows):
 
     def field(unit, values):
         metre = thing("GwySIUnit", [named("unitstr", b"s", b"m\0")])
-        return thing("GwyDataField", [named("xres", b"i", struct.pack("<i", NX)), named("yres", b"i", struct.pack("<i", NY)),
-                                      named("xreal", b"d", struct.pack("<d", NX * DX * 1e-6)), named("yreal", b"d", struct.pack("<d", NY * DY * 1e-6)),
-                                      named("si_unit_xy", b"o", metre),
-                                      named("si_unit_z", b"o", thing("GwySIUnit", [named("unitstr", b"s", unit)])),
-                                      named("data", b"D", struct.pack("<I", len(values)) + struct.pack(f"<{len(values)}d", *values))])
+        return thing(
+            "GwyDataField",
+            [
+                named("xres", b"i", struct.pack("<i", NX)),
+                named("yres", b"i", struct.pack("<i", NY)),
+                named("xreal", b"d", struct.pack("<d", NX * DX * 1e-6)),
+                named("yreal", b"d", struct.pack("<d", NY * DY * 1e-6)),
+                named("si_unit_xy", b"o", metre),
+                named("si_unit_z", b"o", thing("GwySIUnit", [named("unitstr", b"s", unit)])),
+                named(
+                    "data",
+                    b"D",
+                    struct.pack("<I", len(values)) + struct.pack(f"<{len(values)}d", *values),
+                ),
+            ],
+        )
 
     heights = [0.0 if v == MISSING else v * STEP * 1e-6 for row in rows for v in row]
     mask = [1.0 if v == MISSING else 0.0 for row in rows for v in row]
-    path.write_bytes(b"GWYP" + thing("GwyContainer", [named("/0/data", b"o", field(b"m\0", heights)), named("/0/data/title", b"s", b"Topography\0"),
-                                                      named("/0/mask", b"o", field(b"\0", mask))]))
+    path.write_bytes(
+        b"GWYP"
+        + thing(
+            "GwyContainer",
+            [
+                named("/0/data", b"o", field(b"m\0", heights)),
+                named("/0/data/title", b"s", b"Topography\0"),
+                named("/0/mask", b"o", field(b"\0", mask)),
+            ],
+        )
+    )
 
 
 if __name__ == "__main__":

@@ -18,8 +18,23 @@ import numpy as np
 
 from trust import band_noise, write_map
 
-STEEL, BEARING, SI3N4, SIC, BRASS, GOLD = (206e3, 0.29), (210e3, 0.30), (310e3, 0.26), (410e3, 0.16), (103e3, 0.34), (78e3, 0.42)
-GLASS, ALUMINIUM, RUBY, CARBON, PEEK, IRON, SILICON = (64e3, 0.2), (71e3, 0.33), (435e3, 0.29), (24e3, 0.2), (3.9e3, 0.4), (110e3, 0.26), (160e3, 0.22)
+STEEL, BEARING, SI3N4, SIC, BRASS, GOLD = (
+    (206e3, 0.29),
+    (210e3, 0.30),
+    (310e3, 0.26),
+    (410e3, 0.16),
+    (103e3, 0.34),
+    (78e3, 0.42),
+)
+GLASS, ALUMINIUM, RUBY, CARBON, PEEK, IRON, SILICON = (
+    (64e3, 0.2),
+    (71e3, 0.33),
+    (435e3, 0.29),
+    (24e3, 0.2),
+    (3.9e3, 0.4),
+    (110e3, 0.26),
+    (160e3, 0.22),
+)
 POINTS = 128  # a side of a measured map
 
 
@@ -32,7 +47,9 @@ def measured(name, n):
     """Heights of unit rms of a map on n x n points of the unit square, the same ones whatever n is."""
     rng = np.random.default_rng(zlib.crc32(name.encode()))
     y, x = np.meshgrid(np.arange(n) / n, np.arange(n) / n, indexing="ij")
-    field = lambda longest, shortest, hurst, aspect=1.0, angle=0.0: band_noise(rng, n, longest, shortest, hurst, aspect, angle)
+    field = lambda longest, shortest, hurst, aspect=1.0, angle=0.0: band_noise(
+        rng, n, longest, shortest, hurst, aspect, angle
+    )
     if name == "ground raceway":
         z = field(2.5, 10, 0.7, 6.0, math.pi / 2)
     elif name == "ground shaft, oblique":
@@ -42,7 +59,11 @@ def measured(name, n):
     elif name == "lapped seal face":
         z = -np.log(np.cosh(0.8 * field(3, 16, 0.5) + 1)) + 0.05 * field(3, 20, 0.5)
     elif name == "honed liner":
-        z = -np.exp(1.2 * field(3, 10, 0.7, 5.0, 0.7)) - np.exp(1.2 * field(3, 10, 0.7, 5.0, -0.7)) + 0.4 * field(3, 16, 0.6)
+        z = (
+            -np.exp(1.2 * field(3, 10, 0.7, 5.0, 0.7))
+            - np.exp(1.2 * field(3, 10, 0.7, 5.0, -0.7))
+            + 0.4 * field(3, 16, 0.6)
+        )
     elif name == "EDM mould":
         z = field(3, 14, 0.9)
         for _ in range(60):
@@ -50,7 +71,9 @@ def measured(name, n):
             d2 = ((x - i) ** 2 + (y - j) ** 2) / r**2
             z = z + np.where(d2 < 8, 1.2 * (d2 - 1) * np.exp(-d2), 0)
     elif name == "coin":
-        z = 3 * np.tanh(3 * (np.sin(grooves(x, y, 0.3, 2)) * np.cos(grooves(x, y, 1.9, 1.5)) - 0.2)) + 0.3 * field(4, 20, 0.8)
+        z = 3 * np.tanh(
+            3 * (np.sin(grooves(x, y, 0.3, 2)) * np.cos(grooves(x, y, 1.9, 1.5)) - 0.2)
+        ) + 0.3 * field(4, 20, 0.8)
     elif name == "polished wafer, rounded":
         z = np.round(4 * field(2, 16, 0.9)) / 4
     elif name == "lens, rounded":
@@ -59,12 +82,12 @@ def measured(name, n):
         z = field(3, 16, 0.8)
         for _ in range(14):
             i, j, r = rng.uniform(0, 1), rng.uniform(0, 1), rng.uniform(0.01, 0.04)
-            z = z - 5 * np.exp(-(((x - i) ** 2 + (y - j) ** 2) / r**2) ** 2)
+            z = z - 5 * np.exp(-((((x - i) ** 2 + (y - j) ** 2) / r**2) ** 2))
     elif name == "casting with pores":
         z = field(2, 16, 0.8)
         for _ in range(30):  # as wide as one point of the map
             i, j = (rng.integers(0, POINTS, 2) * n) // POINTS
-            z[j:j + n // POINTS, i:i + n // POINTS] -= 8
+            z[j : j + n // POINTS, i : i + n // POINTS] -= 8
     elif name == "printed layers":
         z = 1.5 * np.abs(np.sin(grooves(x, y, 0.1, 4))) + 0.15 * field(4, 16, 0.8)
     elif name == "gauge block, stepped":
@@ -73,7 +96,9 @@ def measured(name, n):
         z = field(2, 16, 0.9)
         for _ in range(10):
             turn, place = rng.uniform(0, math.pi), rng.uniform(-0.4, 0.4)
-            z = z - 3 * np.exp(-(((x - 0.5) * math.cos(turn) + (y - 0.5) * math.sin(turn) - place) * 60) ** 2)
+            z = z - 3 * np.exp(
+                -((((x - 0.5) * math.cos(turn) + (y - 0.5) * math.sin(turn) - place) * 60) ** 2)
+            )
     elif name == "shot-peened blade":
         z = np.zeros_like(x)
         for _ in range(150):
@@ -110,10 +135,52 @@ MAPS = [
 ]
 # the same, with L/lambda_l, L/lambda_s, H, plateau, points in the shortest wave, further keys of &solids
 MADE = [
-    ("bearing ball G5", SI3N4, BEARING, 0.25, 1.4e-5, 6.35, "force 0.1 0.3", 3, 32, 0.85, False, 8, ""),
-    ("superfinished raceway", BEARING, BEARING, 0.4, 4e-5, 12, "force 0.1 0.3", 2, 40, 0.8, True, 8, ""),
+    (
+        "bearing ball G5",
+        SI3N4,
+        BEARING,
+        0.25,
+        1.4e-5,
+        6.35,
+        "force 0.1 0.3",
+        3,
+        32,
+        0.85,
+        False,
+        8,
+        "",
+    ),
+    (
+        "superfinished raceway",
+        BEARING,
+        BEARING,
+        0.4,
+        4e-5,
+        12,
+        "force 0.1 0.3",
+        2,
+        40,
+        0.8,
+        True,
+        8,
+        "",
+    ),
     ("valve seat", STEEL, STEEL, 1.2, 5e-4, 4, "force 0.05 0.2", 6, 48, 0.7, False, 6, ""),
-    ("relay contact", GOLD, GOLD, 0.15, 6e-4, 1.0, "sigma 2.5 1.5", 6, 48, 0.8, False, 8, "hardness=900"),
+    (
+        "relay contact",
+        GOLD,
+        GOLD,
+        0.15,
+        6e-4,
+        1.0,
+        "sigma 2.5 1.5",
+        6,
+        48,
+        0.8,
+        False,
+        8,
+        "hardness=900",
+    ),
     ("spring pin", BRASS, GOLD, 0.2, 3e-4, 0.3, "sigma 3 2", 4, 32, 0.9, False, 8, ""),
     ("seal ring, PEEK", PEEK, STEEL, 2.0, 8e-4, 40, "force 0.1 0.35", 4, 32, 0.8, True, 6, ""),
     ("brake disc", IRON, CARBON, 4.0, 3e-3, 200, "force 0.1 0.3", 8, 48, 0.8, True, 6, ""),
@@ -121,7 +188,21 @@ MADE = [
     ("watch jewel", RUBY, STEEL, 0.05, 5e-6, 0.2, "force 0.1 0.3", 2, 24, 0.9, False, 8, ""),
     ("probe on wafer", SILICON, SIC, 0.02, 5e-7, 0.02, "sigma 3 1", 2, 32, 0.7, False, 8, ""),
     ("few contacts", STEEL, RUBY, 0.3, 1e-3, 1.5, "sigma 3.2 2.8", 8, 32, 0.8, False, 8, ""),
-    ("gold bump on pad", GOLD, ALUMINIUM, 0.08, 4e-4, 0.6, "sigma 2 1", 3, 24, 0.9, True, 5, "hardness=1200"),
+    (
+        "gold bump on pad",
+        GOLD,
+        ALUMINIUM,
+        0.08,
+        4e-4,
+        0.6,
+        "sigma 2 1",
+        3,
+        24,
+        0.9,
+        True,
+        5,
+        "hardness=1200",
+    ),
     ("machine joint", STEEL, IRON, 2.0, 1.5e-3, math.inf, "sigma 2.5 1.5", 8, 48, 0.8, True, 6, ""),
     ("optical flats", GLASS, GLASS, 0.5, 2e-6, math.inf, "sigma 2.5 1.5", 4, 32, 0.9, False, 8, ""),
 ]
@@ -130,15 +211,27 @@ MADE = [
 def run(rsc, text, folder):
     """The variables of the result that matter here, or what the program says."""
     import netCDF4
+
     path = os.path.join(folder, "result.nc")
     if os.path.exists(path):
         os.remove(path)
-    done = subprocess.run([rsc, "-q", "--progress", "never", "-o", path], input=text, text=True, capture_output=True)
+    done = subprocess.run(
+        [rsc, "-q", "--progress", "never", "-o", path], input=text, text=True, capture_output=True
+    )
     if not os.path.exists(path):
         return done.stderr.strip().splitlines()[-1] if done.stderr.strip() else "failed"
     with netCDF4.Dataset(path) as f:
         f.set_auto_mask(False)
-        names = ("force", "contact_area", "status", "separation", "force_error_expected", "tip_x", "tip_y", "edge_contacts")
+        names = (
+            "force",
+            "contact_area",
+            "status",
+            "separation",
+            "force_error_expected",
+            "tip_x",
+            "tip_y",
+            "edge_contacts",
+        )
         return {name: np.ravel(f[name][...]).astype(float) for name in names if name in f.variables}
 
 
@@ -146,11 +239,17 @@ def pressed(what, E, L, R, boundary):
     how, *values = what.split()
     if how == "sigma":
         return f"&indentation levels={', '.join(values)}{boundary} /\n"
-    return "&indentation control='force' levels=" + ", ".join(repr(4 / 3 * E * (float(v) * L / 2) ** 3 / R) for v in values) + " /\n"
+    return (
+        "&indentation control='force' levels="
+        + ", ".join(repr(4 / 3 * E * (float(v) * L / 2) ** 3 / R) for v in values)
+        + " /\n"
+    )
 
 
 def main():
-    p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    p = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     p.add_argument("names", nargs="*")
     p.add_argument("--rsc", default="./rsc")
     o = p.parse_args()
@@ -169,36 +268,71 @@ def main():
                 fine, coarse = os.path.join(folder, "fine.nc"), os.path.join(folder, "map.nc")
                 z = measured(name, 2 * POINTS) * sigma
                 write_map(fine, z, L), write_map(coarse, z[::2, ::2], L)
-                surface, resolved = f"&surface source='heights' file='{coarse}' /\n", f"&surface source='heights' file='{fine}' /\n"
+                surface, resolved = (
+                    f"&surface source='heights' file='{coarse}' /\n",
+                    f"&surface source='heights' file='{fine}' /\n",
+                )
             else:
                 longest, shortest, hurst, plateau, points = body[7:12]
-                surface = (f"&surface L={L} sigma={sigma!r} L_lambda_l={longest} L_lambda_s={shortest} hurst={hurst} "
-                           f"plateau={'.true.' if plateau else '.false.'} n={2 * math.ceil(points * shortest / 2)} /\n")
+                surface = (
+                    f"&surface L={L} sigma={sigma!r} L_lambda_l={longest} L_lambda_s={shortest} hurst={hurst} "
+                    f"plateau={'.true.' if plateau else '.false.'} n={2 * math.ceil(points * shortest / 2)} /\n"
+                )
                 resolved = surface + "&elements points_per_wave=12 /\n"
             for law in ("default", "hertz", "elliptic", "fourth_order"):
-                by = "" if law == "default" else f"&solver model='asperities' /\n&asperities law='{law}' /\n"
+                by = (
+                    ""
+                    if law == "default"
+                    else f"&solver model='asperities' /\n&asperities law='{law}' /\n"
+                )
                 r = run(o.rsc, case + surface + pressed(what, E, L, R, boundary) + by, folder)
                 if isinstance(r, str):
                     print(f"{name:25s} {law:13s} refused: {r[:150]}", flush=True)
                     continue
                 levels = ", ".join(repr(float(v)) for v in r["separation"])
-                tip = f"centre={float(r['tip_x'][0])!r}, {float(r['tip_y'][0])!r}" if "tip_x" in r and not flats else ""
-                t = run(o.rsc, case + resolved + f"&indentation unit='length' levels={levels} {tip}{boundary} /\n&solver model='elements' /\n", folder)
+                tip = (
+                    f"centre={float(r['tip_x'][0])!r}, {float(r['tip_y'][0])!r}"
+                    if "tip_x" in r and not flats
+                    else ""
+                )
+                t = run(
+                    o.rsc,
+                    case
+                    + resolved
+                    + f"&indentation unit='length' levels={levels} {tip}{boundary} /\n&solver model='elements' /\n",
+                    folder,
+                )
                 if isinstance(t, str):
                     print(f"{name:25s} {law:13s} elements refused: {t[:150]}", flush=True)
                     continue
                 told = r.get("force_error_expected", np.full(len(r["force"]), np.nan))
                 told = np.where(told > 1e30, np.nan, told)
-                off = [a / b - 1 if b > 0 else (0.0 if a == 0 else math.inf) for a, b in zip(r["force"], t["force"])]
+                off = [
+                    a / b - 1 if b > 0 else (0.0 if a == 0 else math.inf)
+                    for a, b in zip(r["force"], t["force"])
+                ]
                 sure = [s == 0 for s in r["status"]]
                 wrong = sum(s and abs(e) > 0.1 for s, e in zip(sure, off))
                 total = count.setdefault(law, [0, 0, 0, 0, 0])
-                for k, more in enumerate((len(off), sum(sure), wrong, sum(not math.isnan(b) for b in told), sum(abs(e) <= b for e, b in zip(off, told)))):
+                for k, more in enumerate(
+                    (
+                        len(off),
+                        sum(sure),
+                        wrong,
+                        sum(not math.isnan(b) for b in told),
+                        sum(abs(e) <= b for e, b in zip(off, told)),
+                    )
+                ):
                     total[k] += more
-                print(f"{name:25s} {law:13s} status {' '.join(f'{int(s)}' for s in r['status'])}  off {' '.join(f'{100 * e:7.1f}' for e in off)}  told "
-                      f"{' '.join(f'{100 * b:6.1f}' for b in told)}  edge {' '.join(f'{int(v)}' for v in t['edge_contacts'])}{'  WRONG' if wrong else ''}", flush=True)
+                print(
+                    f"{name:25s} {law:13s} status {' '.join(f'{int(s)}' for s in r['status'])}  off {' '.join(f'{100 * e:7.1f}' for e in off)}  told "
+                    f"{' '.join(f'{100 * b:6.1f}' for b in told)}  edge {' '.join(f'{int(v)}' for v in t['edge_contacts'])}{'  WRONG' if wrong else ''}",
+                    flush=True,
+                )
     for law, (levels, sure, wrong, told, kept) in count.items():
-        print(f"{law:13s} {levels} levels, {sure} of status 0, {wrong} of these more than 10 % off; {kept} of {told} within what was told")
+        print(
+            f"{law:13s} {levels} levels, {sure} of status 0, {wrong} of these more than 10 % off; {kept} of {told} within what was told"
+        )
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@
                                              called again, finished surfaces are kept)
     python3 input/trust/trust.py asperities  solves the same levels by the three laws (likewise)
     python3 input/trust/trust.py fit         fits the bounds to the first surfaces, prints how often the others are within them, by
-                                             group, and writes src/contact/expected_error_table.hpp
+                                             group, and writes src/trust/expected_error_table.hpp
     python3 input/trust/trust.py slopes      N and A over those of elements by slope_ratio and law
 
 Options: --maps DIR  height maps measured by the reader or published, in any format that rsc reads: surfaces 600 and above, four for each map (with a
@@ -26,7 +26,9 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "output", "plot"))
+sys.path.insert(
+    0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "output", "plot")
+)
 from plot_python import needs
 
 if __name__ == "__main__":
@@ -35,18 +37,31 @@ if __name__ == "__main__":
 import numpy as np
 
 LAWS = ("hertz", "elliptic", "fourth_order")
-CALIBRATED = 300          # surfaces below this number are fitted, the others held out
-SMOOTH, SMOOTH_FITTED = 540, 552  # from this number on pairs of smooth surfaces of equal noise, few contacts of a large ball
-RICH, RICH_FITTED = 500, 530  # surfaces from the first number on have broad spectra, loaded as in the paper; fitted up to the second
-PUBLIC = 600      # from this number on surfaces of --maps; they give the factor of files
-POINTS, CUTOFF = 256, 6   # of their square windows a side, and the filter's in points
-RESOLVED = 0.02   # change of N with the grid of elements
-FITTED_SHARE = 0.94       # share of fitted levels within the bound, so that nine of ten of the others are
-REAL_SHARE = 0.9          # share of levels of measured maps within the bound times the factor of files
-ALONE = 0.15      # additional error of few large contacts on smooth summits: times q a/pi over their number (src/contact/expected_error.cpp)
+CALIBRATED = 300  # surfaces below this number are fitted, the others held out
+SMOOTH, SMOOTH_FITTED = (
+    540,
+    552,
+)  # from this number on pairs of smooth surfaces of equal noise, few contacts of a large ball
+RICH, RICH_FITTED = (
+    500,
+    530,
+)  # surfaces from the first number on have broad spectra, loaded as in the paper; fitted up to the second
+PUBLIC = 600  # from this number on surfaces of --maps; they give the factor of files
+POINTS, CUTOFF = 256, 6  # of their square windows a side, and the filter's in points
+RESOLVED = 0.02  # change of N with the grid of elements
+FITTED_SHARE = (
+    0.94  # share of fitted levels within the bound, so that nine of ten of the others are
+)
+REAL_SHARE = 0.9  # share of levels of measured maps within the bound times the factor of files
+ALONE = 0.15  # additional error of few large contacts on smooth summits: times q a/pi over their number (src/trust/expected_error.cpp)
 # Coefficients of the predictor `plastic`, found on random bodies that yield (test/README): those of the fit, 2.3 to 4.1, made bounds of a tenth of N
 # tens of times as large. Others are fitted.
-PLASTIC = {("hertz", "N"): 0.5, ("elliptic", "N"): 0.7, ("fourth_order", "N"): 0.6, ("fourth_order", "A"): 0.6}
+PLASTIC = {
+    ("hertz", "N"): 0.5,
+    ("elliptic", "N"): 0.7,
+    ("fourth_order", "N"): 0.6,
+    ("fourth_order", "A"): 0.6,
+}
 READ = ("anisotropic", "skewed", "stepped", "pitted", "measured")
 E_STAR = 1.0e5
 MAPS = []  # files of --maps
@@ -78,55 +93,116 @@ def band_noise(rng, n, longest, shortest, hurst, aspect=1.0, angle=0.0, plateau=
 def public(number, rsc, folder):
     """A surface of a map of --maps, L = 1: the middle of the map without its quadratic form."""
     path = MAPS[(number - PUBLIC) // 4]
-    r = run(rsc, f"&run length_unit='mm' /\n&surface source='heights' file='{path}' missing='fill' detrend='quadratic' /\n&solver model='elements' /\n"
-                 f"&indentation unit='sigma' levels=99 /\n&output file='{folder}/result.nc' fields='heights' field_window=-1e9, 1e9, -1e9, 1e9 map_cells=4 /\n", folder)
-    if r is None or "failed" in r or float(r.get("filled_points", 0)) > 0 or not math.isclose(*(np.diff(r["field_" + axis][:2])[0] for axis in "xy"), rel_tol=0.01):
+    r = run(
+        rsc,
+        f"&run length_unit='mm' /\n&surface source='heights' file='{path}' missing='fill' detrend='quadratic' /\n&solver model='elements' /\n"
+        f"&indentation unit='sigma' levels=99 /\n&output file='{folder}/result.nc' fields='heights' field_window=-1e9, 1e9, -1e9, 1e9 map_cells=4 /\n",
+        folder,
+    )
+    if (
+        r is None
+        or "failed" in r
+        or float(r.get("filled_points", 0)) > 0
+        or not math.isclose(*(np.diff(r["field_" + axis][:2])[0] for axis in "xy"), rel_tol=0.01)
+    ):
         return {"group": "measured", "levels": [], "z": None}
     z, n = r["field_height"], min(min(r["field_height"].shape) // 2 * 2, POINTS)
-    z = z[(z.shape[0] - n) // 2:, (z.shape[1] - n) // 2:][:n, :n] / (n * (r["field_x"][1] - r["field_x"][0]))
+    z = z[(z.shape[0] - n) // 2 :, (z.shape[1] - n) // 2 :][:n, :n] / (
+        n * (r["field_x"][1] - r["field_x"][0])
+    )
     if number // 2 % 2:  # Gaussian filter of ISO 16610-61 on the mirrored map
         from scipy.ndimage import gaussian_filter
+
         z = gaussian_filter(z, CUTOFF * math.sqrt(math.log(2) / 2) / math.pi, mode="reflect")
     sigma = float(z.std())
-    return {"group": "measured", "map": os.path.basename(path), "seed": 1, "sigma": sigma, "R": (0.3, 30.0)[number % 2], "levels": [1.5 * sigma, 0.5 * sigma, -0.5 * sigma],
-            "z": z - z.mean()}
+    return {
+        "group": "measured",
+        "map": os.path.basename(path),
+        "seed": 1,
+        "sigma": sigma,
+        "R": (0.3, 30.0)[number % 2],
+        "levels": [1.5 * sigma, 0.5 * sigma, -0.5 * sigma],
+        "z": z - z.mean(),
+    }
 
 
 def draw(number):
     """Surface `number`: group, keys of the case, and for maps their parameters."""
     rng = np.random.default_rng([20260, number])
-    kind = rng.choice(["isotropic", "anisotropic", "skewed", "stepped", "pitted", "flats"], p=[0.46, 0.18, 0.11, 0.07, 0.07, 0.11])
+    kind = rng.choice(
+        ["isotropic", "anisotropic", "skewed", "stepped", "pitted", "flats"],
+        p=[0.46, 0.18, 0.11, 0.07, 0.07, 0.11],
+    )
     shortest = int(rng.choice([12, 16, 24, 32, 48], p=[0.2, 0.3, 0.3, 0.15, 0.05]))
     if kind not in ("isotropic", "flats"):
         shortest = min(shortest, 16 if kind == "anisotropic" else 24)
     longest = float(rng.choice([1, 2, 4, 8, 16]))
     while longest > shortest / 3:
         longest /= 2
-    s = {"group": str(kind), "seed": int(rng.integers(1, 10**6)), "shortest": shortest, "longest": longest,
-         "hurst": round(float(rng.uniform(0.2, 1.0)), 3), "plateau": bool(rng.random() < 0.3),
-         "sigma": float(10 ** rng.uniform(-6, -2)), "R": float(10 ** rng.uniform(-1, 2)), "points": float(rng.choice([4, 5, 6, 8]))}
+    s = {
+        "group": str(kind),
+        "seed": int(rng.integers(1, 10**6)),
+        "shortest": shortest,
+        "longest": longest,
+        "hurst": round(float(rng.uniform(0.2, 1.0)), 3),
+        "plateau": bool(rng.random() < 0.3),
+        "sigma": float(10 ** rng.uniform(-6, -2)),
+        "R": float(10 ** rng.uniform(-1, 2)),
+        "points": float(rng.choice([4, 5, 6, 8])),
+    }
     if number >= RICH:
         kind = "rich"
-        s.update(group="rich", shortest=int(rng.choice([96, 128])), longest=float(rng.choice([2, 4, 8, 16])), hurst=round(float(rng.uniform(0.5, 1.0)), 3),
-                 sigma=float(10 ** rng.uniform(-2.7, -1.7)), R=float(rng.uniform(1, 5)), points=float(rng.choice([4, 6])))
+        s.update(
+            group="rich",
+            shortest=int(rng.choice([96, 128])),
+            longest=float(rng.choice([2, 4, 8, 16])),
+            hurst=round(float(rng.uniform(0.5, 1.0)), 3),
+            sigma=float(10 ** rng.uniform(-2.7, -1.7)),
+            R=float(rng.uniform(1, 5)),
+            points=float(rng.choice([4, 6])),
+        )
     if number >= SMOOTH:
         kind = "smooth"
-        s.update(group="smooth", seed=11 + (number - SMOOTH) // 2, shortest=64, longest=8.0, hurst=0.8, plateau=False, sigma=(1e-3, 4e-4)[number % 2], R=2.5,
-                 points=8.0, levels=[c * (1e-3, 4e-4)[number % 2] for c in (1, 0, -1)], aspect=1.0, angle=0.0)
+        s.update(
+            group="smooth",
+            seed=11 + (number - SMOOTH) // 2,
+            shortest=64,
+            longest=8.0,
+            hurst=0.8,
+            plateau=False,
+            sigma=(1e-3, 4e-4)[number % 2],
+            R=2.5,
+            points=8.0,
+            levels=[c * (1e-3, 4e-4)[number % 2] for c in (1, 0, -1)],
+            aspect=1.0,
+            angle=0.0,
+        )
         return s
     levels = [2.5, 1.5, 0.5] if rng.random() < 0.7 else [1.5, 0.5, -0.5]
     if kind == "flats":
         levels = [2.5, 1.8, 1.2]
     # Load level: contact radius of the smooth sphere, over L, at the smallest separation.
-    pressed = float(10 ** rng.uniform(-2, math.log10(0.2))) if rng.random() < 0.5 and kind not in ("flats", "rich") else 0.0
-    s["levels"] = [c * s["sigma"] - (pressed * (0.6, 0.8, 1.0)[i]) ** 2 / s["R"] for i, c in enumerate(levels)]
+    pressed = (
+        float(10 ** rng.uniform(-2, math.log10(0.2)))
+        if rng.random() < 0.5 and kind not in ("flats", "rich")
+        else 0.0
+    )
+    s["levels"] = [
+        c * s["sigma"] - (pressed * (0.6, 0.8, 1.0)[i]) ** 2 / s["R"] for i, c in enumerate(levels)
+    ]
     # approximate rms slope of the band, to scale the hardness
     if rng.random() < 0.2 and kind != "rich":
         s["hardness"] = float(10 ** rng.uniform(-1, 0))
     s["aspect"], s["angle"] = 1.0, 0.0
     if kind == "anisotropic":
-        s["aspect"], s["angle"] = float(10 ** rng.uniform(0.2, 0.9)), float(rng.choice([0, math.pi / 2, rng.uniform(0, math.pi)]))
-        s["longest"] = max(s["longest"], 2.0 * math.sqrt(s["aspect"])) if s["shortest"] > 8 * math.sqrt(s["aspect"]) else s["longest"]
+        s["aspect"], s["angle"] = float(10 ** rng.uniform(0.2, 0.9)), float(
+            rng.choice([0, math.pi / 2, rng.uniform(0, math.pi)])
+        )
+        s["longest"] = (
+            max(s["longest"], 2.0 * math.sqrt(s["aspect"]))
+            if s["shortest"] > 8 * math.sqrt(s["aspect"])
+            else s["longest"]
+        )
     return s
 
 
@@ -136,7 +212,9 @@ def height_map(s, fine):
         return s["z"] if fine == 2 else s["z"][::2, ::2]
     rng = np.random.default_rng(s["seed"])
     n = int(round(s["points"] * s["shortest"] * math.sqrt(s["aspect"]) / 2)) * 2 * fine
-    z = band_noise(rng, n, s["longest"], s["shortest"], s["hurst"], s["aspect"], s["angle"], s["plateau"])
+    z = band_noise(
+        rng, n, s["longest"], s["shortest"], s["hurst"], s["aspect"], s["angle"], s["plateau"]
+    )
     x = np.arange(n) / n
     if s["group"] == "skewed":
         tail = (0.25, -0.25, 0.5, -0.5)[s["seed"] % 4]  # log-normal of either sign
@@ -147,13 +225,14 @@ def height_map(s, fine):
     if s["group"] == "pitted":
         coarse = n // fine
         for i, j in zip(rng.integers(0, coarse, 20), rng.integers(0, coarse, 20)):
-            z[j * fine:(j + 1) * fine, i * fine:(i + 1) * fine] -= 10
+            z[j * fine : (j + 1) * fine, i * fine : (i + 1) * fine] -= 10
     z = z - z.mean()
     return z / z.std() * s["sigma"]
 
 
 def write_map(path, z, L=1.0):
     import netCDF4
+
     with netCDF4.Dataset(path, "w", format="NETCDF3_64BIT_DATA") as f:
         f.createDimension("y", z.shape[0]), f.createDimension("x", z.shape[1])
         for axis in "xy":
@@ -179,10 +258,13 @@ def case_text(s, folder, model, law, extra):
 def run(rsc, text, folder):
     """The variables of the result, or None if the case is refused or fails."""
     import netCDF4
+
     path = os.path.join(folder, "result.nc")
     if os.path.exists(path):
         os.remove(path)
-    done = subprocess.run([rsc, "-q", "--progress", "never"], input=text, text=True, capture_output=True)
+    done = subprocess.run(
+        [rsc, "-q", "--progress", "never"], input=text, text=True, capture_output=True
+    )
     if not os.path.exists(path):
         return None if done.returncode == 2 else {"failed": done.stderr[-300:]}
     with netCDF4.Dataset(path) as f:
@@ -191,8 +273,10 @@ def run(rsc, text, folder):
 
 
 def surface_keys(s, points_per_wave=None, n=None):
-    text = (f"&surface source='synthetic' L=1 n={n or int(math.ceil(s['points'] * s['shortest'] / 2)) * 2} hurst={s['hurst']!r} L_lambda_l={s['longest']!r} "
-            f"L_lambda_s={s['shortest']} sigma={s['sigma']!r} plateau={'.true.' if s['plateau'] else '.false.'} /\n")
+    text = (
+        f"&surface source='synthetic' L=1 n={n or int(math.ceil(s['points'] * s['shortest'] / 2)) * 2} hurst={s['hurst']!r} L_lambda_l={s['longest']!r} "
+        f"L_lambda_s={s['shortest']} sigma={s['sigma']!r} plateau={'.true.' if s['plateau'] else '.false.'} /\n"
+    )
     return text + (f"&elements points_per_wave={points_per_wave} /\n" if points_per_wave else "")
 
 
@@ -217,51 +301,111 @@ def prepared(number, rsc, folder):
 def solve_elements(rsc, number, folder):
     s = prepared(number, rsc, folder)
     if not s["levels"]:
-        return {"number": number, "group": s["group"], "refused": True, "why": "missing points or unlike steps"}
+        return {
+            "number": number,
+            "group": s["group"],
+            "refused": True,
+            "why": "missing points or unlike steps",
+        }
     answers = []
     for grid in (0, 1):  # coarse, fine
         if made_by_rsc(s):
-            text = f"&run seed={s['seed']} threads=1 /\n" + case_text(s, folder, "elements", "hertz", surface_keys(s, (4.5, 9)[grid])).replace("&run threads=1 /\n", "")
+            text = f"&run seed={s['seed']} threads=1 /\n" + case_text(
+                s, folder, "elements", "hertz", surface_keys(s, (4.5, 9)[grid])
+            ).replace("&run threads=1 /\n", "")
         else:
             z = height_map(s, 2)
             path = os.path.join(folder, "map.nc")
             write_map(path, z[::2, ::2] if grid == 0 else z)
-            text = case_text(s, folder, "elements", "hertz", f"&surface source='heights' file='{path}' detrend='none' sigma={s['sigma']!r} /\n")
+            text = case_text(
+                s,
+                folder,
+                "elements",
+                "hertz",
+                f"&surface source='heights' file='{path}' detrend='none' sigma={s['sigma']!r} /\n",
+            )
         answers.append(run(rsc, text, folder))
         if answers[-1] is None or "failed" in answers[-1]:
-            return {"number": number, "group": s["group"], "refused": True, "why": None if answers[-1] is None else answers[-1]["failed"]}
+            return {
+                "number": number,
+                "group": s["group"],
+                "refused": True,
+                "why": None if answers[-1] is None else answers[-1]["failed"],
+            }
     coarse, fine = answers
     take = lambda a, name: [float(v) for v in np.ravel(a[name])]
-    return {"number": number, "group": s["group"], "map": s.get("map"), "N": take(fine, "force"), "A": take(fine, "contact_area"), "N_coarse": take(coarse, "force"),
-            "A_coarse": take(coarse, "contact_area"), "status": take(fine, "status"), "edge": take(fine, "edge_contacts"), "contacts": take(fine, "contacts")}
+    return {
+        "number": number,
+        "group": s["group"],
+        "map": s.get("map"),
+        "N": take(fine, "force"),
+        "A": take(fine, "contact_area"),
+        "N_coarse": take(coarse, "force"),
+        "A_coarse": take(coarse, "contact_area"),
+        "status": take(fine, "status"),
+        "edge": take(fine, "edge_contacts"),
+        "contacts": take(fine, "contacts"),
+    }
 
 
-PREDICTORS = ("slope", "pressed", "overlap", "elongation", "crowding", "few", "coarse", "plastic", "flats")
+PREDICTORS = (
+    "slope",
+    "pressed",
+    "overlap",
+    "elongation",
+    "crowding",
+    "few",
+    "coarse",
+    "plastic",
+    "flats",
+)
 
 
 def predictors(s, r, level):
-    """The predictors of a bound, all known after a solution by asperities (src/contact/expected_error.cpp)."""
-    start, count = int(np.ravel(r["contact_start"])[level]) - 1, int(np.ravel(r["contact_count"])[level])
+    """The predictors of a bound, all known after a solution by asperities (src/trust/expected_error.cpp)."""
+    start, count = int(np.ravel(r["contact_start"])[level]) - 1, int(
+        np.ravel(r["contact_count"])[level]
+    )
     if count == 0:
         return None
-    which = np.ravel(r["contact_asperity"])[start:start + count].astype(int) - 1
-    f, a = np.ravel(r["contact_force"])[start:start + count], np.ravel(r["contact_radius"])[start:start + count]
+    which = np.ravel(r["contact_asperity"])[start : start + count].astype(int) - 1
+    f, a = (
+        np.ravel(r["contact_force"])[start : start + count],
+        np.ravel(r["contact_radius"])[start : start + count],
+    )
     share = f / f.sum()
     slope = float(np.ravel(r["slope_ratio"])[level]) if "slope_ratio" in r else None
     if slope is None:
         x, y = np.ravel(r["asperity_x"])[which] - 0.5, np.ravel(r["asperity_y"])[which] - 0.5
         rho = np.hypot(x, y).max()
-        slope = 0.0 if s["group"] == "flats" else rho / math.sqrt(max(s["R"] ** 2 - rho**2, 1e-30)) / float(np.ravel(r["rms_slope"])[0])
+        slope = (
+            0.0
+            if s["group"] == "flats"
+            else rho
+            / math.sqrt(max(s["R"] ** 2 - rho**2, 1e-30))
+            / float(np.ravel(r["rms_slope"])[0])
+        )
     kappa1, kappa2 = np.ravel(r["asperity_kappa1"])[which], np.ravel(r["asperity_kappa2"])[which]
     ratio = kappa1 / kappa2
-    biharmonic = np.ravel(r["asperity_biharmonic"])[which] if "asperity_biharmonic" in r else np.zeros(count)
+    biharmonic = (
+        np.ravel(r["asperity_biharmonic"])[which] if "asperity_biharmonic" in r else np.zeros(count)
+    )
     spacing = spacing_of(s, r)
     points = points_of(s, r)
     at = lambda name: float(np.ravel(r[name])[level])
-    return {"slope": math.log1p(min(slope / 0.2, 50.0) ** 2), "pressed": float(np.sum(share * np.clip(biharmonic / (kappa1 + kappa2) * (a / math.pi) ** 2, 0, 1))), "overlap": math.log1p(at("overlapping_pairs") / count),
-            "elongation": float(np.sum(share * np.log(np.minimum(ratio, 1e3)))), "crowding": math.log(max(float(np.sum(share * a)) / spacing, 1e-3)),
-            "few": 1 / math.sqrt(count), "coarse": min(4 / points, 1.5) if points > 0 else 1.0,
-            "plastic": at("plastic_contacts") / count if "plastic_contacts" in r else 0.0, "flats": 1.0 if s["group"] == "flats" else 0.0}
+    return {
+        "slope": math.log1p(min(slope / 0.2, 50.0) ** 2),
+        "pressed": float(
+            np.sum(share * np.clip(biharmonic / (kappa1 + kappa2) * (a / math.pi) ** 2, 0, 1))
+        ),
+        "overlap": math.log1p(at("overlapping_pairs") / count),
+        "elongation": float(np.sum(share * np.log(np.minimum(ratio, 1e3)))),
+        "crowding": math.log(max(float(np.sum(share * a)) / spacing, 1e-3)),
+        "few": 1 / math.sqrt(count),
+        "coarse": min(4 / points, 1.5) if points > 0 else 1.0,
+        "plastic": at("plastic_contacts") / count if "plastic_contacts" in r else 0.0,
+        "flats": 1.0 if s["group"] == "flats" else 0.0,
+    }
 
 
 def spacing_of(s, r):
@@ -293,19 +437,32 @@ def solve_asperities(rsc, number, folder):
         if r is None or "failed" in r:
             continue
         take = lambda name: [float(v) for v in np.ravel(r[name])]
-        out["laws"][law] = {"N": take("force"), "A": take("contact_area"), "status": take("status"), "edge": take("edge_contacts"),
-                            "told": take("force_error_expected") if "force_error_expected" in r else None,
-                            "x": [predictors(s, r, k) for k in range(len(s["levels"]))]}
+        out["laws"][law] = {
+            "N": take("force"),
+            "A": take("contact_area"),
+            "status": take("status"),
+            "edge": take("edge_contacts"),
+            "told": take("force_error_expected") if "force_error_expected" in r else None,
+            "x": [predictors(s, r, k) for k in range(len(s["levels"]))],
+        }
     return out
 
 
 def study(rsc, out, what, numbers):
     """Appends a line of JSON for each surface without one."""
     path = out / f"{what}.jsonl"
-    done = {json.loads(line)["number"] for line in path.read_text().splitlines()} if path.exists() else set()
+    done = (
+        {json.loads(line)["number"] for line in path.read_text().splitlines()}
+        if path.exists()
+        else set()
+    )
     solve = solve_elements if what == "elements" else solve_asperities
     if what == "asperities":  # only levels that elements can judge
-        numbers = [number for number, e in read(out, "elements").items() if number in numbers and any(usable(e, k) for k in range(3))]
+        numbers = [
+            number
+            for number, e in read(out, "elements").items()
+            if number in numbers and any(usable(e, k) for k in range(3))
+        ]
     with tempfile.TemporaryDirectory() as folder, open(path, "a") as file:
         for number in numbers:
             if number in done:
@@ -315,12 +472,20 @@ def study(rsc, out, what, numbers):
 
 
 def read(out, what):
-    return {r["number"]: r for r in map(json.loads, (out / f"{what}.jsonl").read_text().splitlines())}
+    return {
+        r["number"]: r for r in map(json.loads, (out / f"{what}.jsonl").read_text().splitlines())
+    }
 
 
 def usable(e, k):
     """True if elements are loaded at level k, resolved and away from the border."""
-    return not e.get("refused") and e["N"][k] > 0 and abs(e["N_coarse"][k] / e["N"][k] - 1) <= 2 * RESOLVED and e["edge"][k] == 0 and e["status"][k] != 4
+    return (
+        not e.get("refused")
+        and e["N"][k] > 0
+        and abs(e["N_coarse"][k] / e["N"][k] - 1) <= 2 * RESOLVED
+        and e["edge"][k] == 0
+        and e["status"][k] != 4
+    )
 
 
 def rows(elements, asperities, law):
@@ -333,8 +498,17 @@ def rows(elements, asperities, law):
         for k in range(len(e["N"])):
             if not usable(e, k) or a["status"][k] == 4:
                 continue
-            found.append({"number": number, "group": e["group"], "x": a["x"][k], "N": a["N"][k] / e["N"][k] - 1, "A": a["A"][k] / e["A"][k] - 1,
-                          "status": a["status"][k], "resolution": abs(e["N_coarse"][k] / e["N"][k] - 1) / 2})
+            found.append(
+                {
+                    "number": number,
+                    "group": e["group"],
+                    "x": a["x"][k],
+                    "N": a["N"][k] / e["N"][k] - 1,
+                    "A": a["A"][k] / e["A"][k] - 1,
+                    "status": a["status"][k],
+                    "resolution": abs(e["N_coarse"][k] / e["N"][k] - 1) / 2,
+                }
+            )
     return found
 
 
@@ -345,11 +519,16 @@ def quantile_fit(X, y, share, plastic=None):
     """Coefficients b for which X b is the share-quantile of y (Koenker and Bassett 1978), by linear programming; nonnegative for
     predictors that can only increase the error, and that of `plastic` as given."""
     from scipy.optimize import linprog
+
     n, p = X.shape
     c = np.concatenate([np.zeros(p), share * np.ones(n), (1 - share) * np.ones(n)])
     A = np.hstack([X, np.eye(n), -np.eye(n)])
     signed = {"crowding"}
-    bounds = [(None, None)] + [(None, None) if name in signed else (0, None) for name in PREDICTORS] + [(0, None)] * (2 * n)
+    bounds = (
+        [(None, None)]
+        + [(None, None) if name in signed else (0, None) for name in PREDICTORS]
+        + [(0, None)] * (2 * n)
+    )
     if plastic is not None:
         bounds[1 + PREDICTORS.index("plastic")] = (plastic, plastic)
     return linprog(c, A_eq=A, b_eq=y, bounds=bounds, method="highs").x[:p]
@@ -365,7 +544,11 @@ def fit(out, header):
     for law in LAWS:
         every = rows(elements, asperities, law)
         touching = [r for r in every if r["x"] is not None]
-        calibrated = lambda r: r["number"] < CALIBRATED or RICH <= r["number"] < RICH_FITTED or SMOOTH <= r["number"] < SMOOTH_FITTED
+        calibrated = (
+            lambda r: r["number"] < CALIBRATED
+            or RICH <= r["number"] < RICH_FITTED
+            or SMOOTH <= r["number"] < SMOOTH_FITTED
+        )
         fitted = [r for r in touching if calibrated(r)]
         held = [r for r in touching if not calibrated(r)]
         for what in ("N", "A"):
@@ -373,10 +556,23 @@ def fit(out, header):
             b = quantile_fit(matrix(fitted), y, FITTED_SHARE, PLASTIC.get((law, what)))
             table[law, what] = b
             bare = lambda some: np.clip(np.exp(matrix(some) @ b), LEAST, MOST)
-            alone = lambda some: np.array([ALONE * math.sqrt(r["x"]["pressed"]) * r["x"]["few"] ** 2 for r in some])
-            real = [r for r in touching if r["group"] == "measured"]  # maps of instruments are further off than heights made for this study
-            factor[law, what] = max(1.0, float(np.quantile(np.abs([r[what] for r in real]) / bare(real), REAL_SHARE))) if real else 1.0
-            bound = lambda some: bare(some) * np.where([r["group"] in READ for r in some], factor[law, what], 1.0) + alone(some)
+            alone = lambda some: np.array(
+                [ALONE * math.sqrt(r["x"]["pressed"]) * r["x"]["few"] ** 2 for r in some]
+            )
+            real = [
+                r for r in touching if r["group"] == "measured"
+            ]  # maps of instruments are further off than heights made for this study
+            factor[law, what] = (
+                max(
+                    1.0,
+                    float(np.quantile(np.abs([r[what] for r in real]) / bare(real), REAL_SHARE)),
+                )
+                if real
+                else 1.0
+            )
+            bound = lambda some: bare(some) * np.where(
+                [r["group"] in READ for r in some], factor[law, what], 1.0
+            ) + alone(some)
             line = f"{law:13s} {what}: {len(fitted)} levels fitted, {np.mean(np.abs([r[what] for r in fitted]) <= bound(fitted)):.3f} within"
             if held:
                 ok = np.abs([r[what] for r in held]) <= bound(held)
@@ -389,19 +585,40 @@ def fit(out, header):
                 line += f"; bound below 10 %: {sure.sum()}, of these beyond 10 %: {(wrong & sure).sum()}"
             report.append(line)
         missed = [r for r in every if r["x"] is None]
-        report.append(f"{law:13s} nothing touches where elements carry load: {len(missed)} of {len(every)} levels")
+        report.append(
+            f"{law:13s} nothing touches where elements carry load: {len(missed)} of {len(every)} levels"
+        )
     print("\n".join(report))
     (out / "report.txt").write_text("\n".join(report) + "\n")
-    lines = ["// Written by input/trust/trust.py from its study of asperities against elements; do not edit.", "#pragma once", "",
-             "namespace rsc {", "",
-             f"// ln of the bound = sum of coefficient times predictor, the first one 1: {', '.join(PREDICTORS)}.",
-             f"inline constexpr int kErrorPredictors = {len(PREDICTORS)};",
-             f"inline constexpr double kLeastError = {LEAST}, kMostError = {MOST};",
-             "inline constexpr double kErrorTable[3][2][kErrorPredictors + 1] = {", "    // hertz, elliptic, fourth_order; N, A"]
+    lines = [
+        "// Written by input/trust/trust.py from its study of asperities against elements; do not edit.",
+        "#pragma once",
+        "",
+        "namespace rsc {",
+        "",
+        f"// ln of the bound = sum of coefficient times predictor, the first one 1: {', '.join(PREDICTORS)}.",
+        f"inline constexpr int kErrorPredictors = {len(PREDICTORS)};",
+        f"inline constexpr double kLeastError = {LEAST}, kMostError = {MOST};",
+        "inline constexpr double kErrorTable[3][2][kErrorPredictors + 1] = {",
+        "    // hertz, elliptic, fourth_order; N, A",
+    ]
     for law in LAWS:
-        lines.append("    {" + ", ".join("{" + ", ".join(f"{v:.4g}" for v in table[law, what]) + "}" for what in ("N", "A")) + "},")
-    lines += ["};", "// Factor of the bound for heights read from a file: N, A.", "inline constexpr double kErrorOfFiles[3][2] = {"]
-    lines += ["    {" + ", ".join(f"{factor[law, what]:.3g}" for what in ("N", "A")) + "}," for law in LAWS]
+        lines.append(
+            "    {"
+            + ", ".join(
+                "{" + ", ".join(f"{v:.4g}" for v in table[law, what]) + "}" for what in ("N", "A")
+            )
+            + "},"
+        )
+    lines += [
+        "};",
+        "// Factor of the bound for heights read from a file: N, A.",
+        "inline constexpr double kErrorOfFiles[3][2] = {",
+    ]
+    lines += [
+        "    {" + ", ".join(f"{factor[law, what]:.3g}" for what in ("N", "A")) + "},"
+        for law in LAWS
+    ]
     lines += ["};", "", "}  // namespace rsc", ""]
     pathlib.Path(header).write_text("\n".join(lines))
 
@@ -422,20 +639,26 @@ def slopes(out):
             ratio = 0.2 * math.sqrt(math.expm1(x["slope"]))
             for law, a in laws.items():
                 if a["status"][k] != 4:
-                    found.setdefault((law, int(np.searchsorted(edges, ratio, "right")) - 1), []).append((a["N"][k] / e["N"][k], a["A"][k] / e["A"][k], a["status"][k] == 0))
+                    found.setdefault(
+                        (law, int(np.searchsorted(edges, ratio, "right")) - 1), []
+                    ).append((a["N"][k] / e["N"][k], a["A"][k] / e["A"][k], a["status"][k] == 0))
     for law in LAWS:
         for b in range(len(edges) - 1):
             v = np.array(found.get((law, b), []), float)
             if len(v):
                 n, a = np.percentile(v[:, 0], [50, 5, 95]), np.percentile(v[:, 1], [50, 5, 95])
                 sure = v[v[:, 2] == 1]
-                print(f"{law:13s} {edges[b]:5.2f} - {edges[b + 1]:5.2f}: {len(v):4d} levels  N {n[0]:5.2f} ({n[1]:5.2f} {n[2]:5.2f})  A {a[0]:5.2f} ({a[1]:5.2f} {a[2]:5.2f})  "
-                      f"status 0: {len(sure)}, of these N within 5 %: {np.sum(np.abs(sure[:, 0] - 1) <= 0.05)}, 10 %: {np.sum(np.abs(sure[:, 0] - 1) <= 0.1)}")
+                print(
+                    f"{law:13s} {edges[b]:5.2f} - {edges[b + 1]:5.2f}: {len(v):4d} levels  N {n[0]:5.2f} ({n[1]:5.2f} {n[2]:5.2f})  A {a[0]:5.2f} ({a[1]:5.2f} {a[2]:5.2f})  "
+                    f"status 0: {len(sure)}, of these N within 5 %: {np.sum(np.abs(sure[:, 0] - 1) <= 0.05)}, 10 %: {np.sum(np.abs(sure[:, 0] - 1) <= 0.1)}"
+                )
 
 
 def main():
     here = pathlib.Path(__file__).resolve().parents[2]
-    p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    p = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     p.add_argument("what", choices=["elements", "asperities", "fit", "slopes"])
     p.add_argument("--rsc", default="./rsc")
     p.add_argument("--out", type=pathlib.Path, default=here / "output" / "trust")

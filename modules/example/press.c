@@ -26,17 +26,21 @@ int main(void) {
     must(rsc_version(version, sizeof version, NULL));
     printf("rsc %s\n", version);
     must(rsc_case_create(&options));
-    must(rsc_case_read(options, "&surface n=512, L_lambda_l=8, L_lambda_s=128, sigma=0.005 / &solids E=70d3, 210d3, nu=0.33, 0.3 /"));
+    must(rsc_case_read(options,
+                       "&surface n=512, L_lambda_l=8, L_lambda_s=128, sigma=0.005 / &solids "
+                       "E=70d3, 210d3, nu=0.33, 0.3 /"));
     must(rsc_asperities_make(&asperities, options, 1));
     must(rsc_asperities_count(asperities, &n));
     must(rsc_contact_create_from_case(&contact, asperities, options));
-    printf("%lld asperities\n     N [N]      Z0 [mm]    A [mm2]   contacts  dN/dZ0 [N/mm]\n", (long long)n);
+    printf("%lld asperities\n     N [N]      Z0 [mm]    A [mm2]   contacts  dN/dZ0 [N/mm]\n",
+           (long long)n);
     for (N = 0.125; N <= 32; N *= 4) {
         must(rsc_contact_press(contact, N, &Z0));
         must(rsc_contact_result(contact, NULL, NULL, &A, &contacts));
         must(rsc_contact_stiffness(contact, &k));
         printf("%10.4f %12.6f %10.3e %10lld %14.4g\n", N, Z0, A, (long long)contacts, k);
-        if (!(Z0 < before && k < 0 && A > 0 && contacts > 0)) return 1; /* more force, less separation */
+        if (!(Z0 < before && k < 0 && A > 0 && contacts > 0))
+            return 1; /* more force, less separation */
         before = Z0;
     }
     force = malloc((size_t)n * sizeof *force);

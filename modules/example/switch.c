@@ -26,10 +26,13 @@ int main(void) {
     double* radius = malloc(100000 * sizeof *radius);
     if (!radius) return 1;
     must(rsc_case_create(&options));
-    must(rsc_case_read(options, "&surface n = 512, L_lambda_l = 8, L_lambda_s = 128, sigma = 1.0e-3 /"));
+    must(rsc_case_read(options,
+                       "&surface n = 512, L_lambda_l = 8, L_lambda_s = 128, sigma = 1.0e-3 /"));
     must(rsc_asperities_make(&asperities, options, 1));
     must(rsc_contact_create(&contact, asperities, E_star, 2.5, 0.5, 0.5, options));
-    printf("    N [N]   spots   resistance [mohm]   of the spots alone   of one spot with their area\n");
+    printf(
+        "    N [N]   spots   resistance [mohm]   of the spots alone   of one spot with their "
+        "area\n");
     for (N = 0.01; N < largest; N *= 3) {
         double Z0 = 0, k = 0, A = 0, resistance = 0, alone = 0, one = 0, sum = 0;
         int64_t spots = 0, i;
@@ -40,11 +43,14 @@ int main(void) {
         must(rsc_contact_spots(contact, 100000, NULL, NULL, radius, NULL));
         for (i = 0; i < spots; ++i) sum += radius[i];
         resistance = 2 * rho / (-2 * k / E_star);
-        alone = 2 * rho / (4 * sum);                            /* Holm's spots in parallel, without interaction */
+        alone = 2 * rho / (4 * sum); /* Holm's spots in parallel, without interaction */
         one = 2 * rho / (4 * sqrt(A / 3.14159265358979323846)); /* a single spot of the same area */
-        printf("%9.3f %7lld %19.5f %20.5f %29.5f\n", N, (long long)spots, 1e3 * resistance, 1e3 * alone, 1e3 * one);
+        printf("%9.3f %7lld %19.5f %20.5f %29.5f\n", N, (long long)spots, 1e3 * resistance,
+               1e3 * alone, 1e3 * one);
         /* The resistance decreases with force; it is between that of independent spots and that of one spot. */
-        if (!(resistance < before && resistance >= alone * (1 - 1e-6) && resistance <= one * (1 + 1e-6))) return 1;
+        if (!(resistance < before && resistance >= alone * (1 - 1e-6) &&
+              resistance <= one * (1 + 1e-6)))
+            return 1;
         before = resistance;
     }
     free(radius);

@@ -26,11 +26,18 @@ from _rsc_cube import cube  # noqa: E402
 
 
 def main(words=None):
-    parser = argparse.ArgumentParser(description="A study of rsc as one NetCDF file, its variables along the keys that vary.")
+    parser = argparse.ArgumentParser(
+        description="A study of rsc as one NetCDF file, its variables along the keys that vary."
+    )
     parser.add_argument("manifest", help="manifest of the study (..._manifest.nc)")
-    parser.add_argument("-o", "--output", metavar="FILE", help="file to write (default: ..._cube.nc)")
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", help="file to write (default: ..._cube.nc)"
+    )
     arguments = parser.parse_args(words)
-    path = arguments.output or arguments.manifest.removesuffix(".nc").removesuffix("_manifest") + "_cube.nc"
+    path = (
+        arguments.output
+        or arguments.manifest.removesuffix(".nc").removesuffix("_manifest") + "_cube.nc"
+    )
     try:
         found = cube(arguments.manifest)
         with netCDF4.Dataset(path, "w") as out:
@@ -40,11 +47,18 @@ def main(words=None):
                     if dimension not in out.dimensions:
                         out.createDimension(dimension, size)
                 text = values.dtype.kind in "OU"
-                variable = out.createVariable(name, str if text else values.dtype, dimensions, **({} if text else {"zlib": True}))
+                variable = out.createVariable(
+                    name,
+                    str if text else values.dtype,
+                    dimensions,
+                    **({} if text else {"zlib": True}),
+                )
                 variable.setncatts(about)
                 variable[...] = values.astype(object) if text else values
     except (OSError, IndexError, KeyError) as error:
-        sys.exit(f"cube.py: {arguments.manifest}: {error.strerror or error if isinstance(error, OSError) else 'no list of members in it'}; the manifest of a study (..._manifest.nc) is expected")
+        sys.exit(
+            f"cube.py: {arguments.manifest}: {error.strerror or error if isinstance(error, OSError) else 'no list of members in it'}; the manifest of a study (..._manifest.nc) is expected"
+        )
     print(path)
 
 

@@ -34,56 +34,98 @@ class Law:
 
     def __init__(self, path):
         with open_result(path) as file:
-            self.path, self.title, self.source = path, getattr(file, "title", ""), getattr(file, "source", "")
+            self.path, self.title, self.source = (
+                path,
+                getattr(file, "title", ""),
+                getattr(file, "source", ""),
+            )
             variables = file.variables
             for name in ("separation", "force", "status"):
                 if name not in variables:
-                    raise Refused(f"{path!r} is no result of indentation: it lacks the variable {name!r}")
+                    raise Refused(
+                        f"{path!r} is no result of indentation: it lacks the variable {name!r}"
+                    )
             if "pull_off_force" in variables:
-                raise Refused(f"{path!r} has adhesion (solids%adhesion): loading and unloading differ, and a table has only one curve")
+                raise Refused(
+                    f"{path!r} has adhesion (solids%adhesion): loading and unloading differ, and a table has only one curve"
+                )
             self.flats = "pressure" in variables
             if "time" in variables and "energy_lost" in variables:
-                raise Refused(f"{path!r} has bodies that relax (solids%relaxation_time): the load depends on time, and a table has only one curve")
+                raise Refused(
+                    f"{path!r} has bodies that relax (solids%relaxation_time): the load depends on time, and a table has only one curve"
+                )
             if not self.flats and getattr(file, "indenter", "") == "flat":
-                raise Refused(f"{path!r} is of two flats with a border: a law of an interface needs &indentation boundary='periodic'")
+                raise Refused(
+                    f"{path!r} is of two flats with a border: a law of an interface needs &indentation boundary='periodic'"
+                )
             self.yields = "plastic_contacts" in variables
             load, area = ("pressure", "area_fraction") if self.flats else ("force", "contact_area")
             self.realizations = len(file.dimensions["realization"])
-            self.units = {"approach": _unit(variables["separation"]), "load": _unit(variables[load]), "area": _unit(variables[area]) if area in variables else "1"}
-            meanings = [word.replace("_", " ") for word in variables["status"].flag_meanings.split()]
-            table = {name: self._by_realization(variables[name]) for name in {"separation", load, area, "status"} & set(variables)}
+            self.units = {
+                "approach": _unit(variables["separation"]),
+                "load": _unit(variables[load]),
+                "area": _unit(variables[area]) if area in variables else "1",
+            }
+            meanings = [
+                word.replace("_", " ") for word in variables["status"].flag_meanings.split()
+            ]
+            table = {
+                name: self._by_realization(variables[name])
+                for name in {"separation", load, area, "status"} & set(variables)
+            }
         z, n = table["separation"], table[load]
         a = table.get(area, np.full_like(n, np.nan))
         bad = (table["status"] == NOT_CONVERGED).any(axis=0)
         depth = -z.mean(axis=0)
         later = self.yields & (depth <= np.fmax.accumulate(np.append(-np.inf, depth[:-1])))
-        self.later, bad, z, n, a = int(later.sum()), bad[~later], z[:, ~later], n[:, ~later], a[:, ~later]
+        self.later, bad, z, n, a = (
+            int(later.sum()),
+            bad[~later],
+            z[:, ~later],
+            n[:, ~later],
+            a[:, ~later],
+        )
         table["status"] = table["status"][:, ~later]
         self.unconverged = int(bad.sum())
         status = table["status"].astype(int)
-        worst = status[GRAVITY[status].argmax(axis=0), np.arange(status.shape[1])][~bad & (n.mean(axis=0) > 0)]
-        self.statuses = ", ".join(f"{(worst == k).sum()} {word}" for k, word in enumerate(meanings) if (worst == k).any())
+        worst = status[GRAVITY[status].argmax(axis=0), np.arange(status.shape[1])][
+            ~bad & (n.mean(axis=0) > 0)
+        ]
+        self.statuses = ", ".join(
+            f"{(worst == k).sum()} {word}" for k, word in enumerate(meanings) if (worst == k).any()
+        )
         self._points(z[:, ~bad], n[:, ~bad], a[:, ~bad])
 
     def _by_realization(self, variable):
         """(realization, step), with the same row for all if a variable depends on steps only."""
         values = np.ma.filled(variable[:].astype(float), np.nan)
-        return np.broadcast_to(values, (self.realizations, values.shape[-1])).copy() if values.ndim == 1 else values
+        return (
+            np.broadcast_to(values, (self.realizations, values.shape[-1])).copy()
+            if values.ndim == 1
+            else values
+        )
 
     def _points(self, z, n, a):
         """The mean curve: loads at given separations, or separations at given loads, as prescribed in the run."""
-        spread = [np.std(v, axis=0, ddof=1) if np.any(np.ptp(v, axis=0) > 0) else np.zeros(v.shape[1]) for v in (z, n, a)]
+        spread = [
+            np.std(v, axis=0, ddof=1) if np.any(np.ptp(v, axis=0) > 0) else np.zeros(v.shape[1])
+            for v in (z, n, a)
+        ]
         self.prescribed = "separation" if not np.any(spread[0] > 0) else "load"
         depth, load, area = (v.mean(axis=0) for v in (-z, n, a))
         order = np.argsort(depth, kind="stable")
         depth, load, area, std = depth[order], load[order], area[order], [s[order] for s in spread]
         touching = load > 0
         if touching.sum() < 2:
-            raise Refused(f"{self.path!r} has {touching.sum()} levels with contact: a law needs at least two")
+            raise Refused(
+                f"{self.path!r} has {touching.sum()} levels with contact: a law needs at least two"
+            )
         first = int(np.argmax(touching))
         keep = []
         for k in range(first, depth.size):
-            if load[k] > 0 and (not keep or load[k] > load[keep[-1]] and depth[k] > depth[keep[-1]]):
+            if load[k] > 0 and (
+                not keep or load[k] > load[keep[-1]] and depth[k] > depth[keep[-1]]
+            ):
                 keep.append(k)
         self.not_increasing = int(touching.sum()) - len(keep)
         if len(keep) < 2:
@@ -97,23 +139,46 @@ class Law:
         self.origin = -start
         self.approach, self.load = np.append(0.0, depth[keep] - start), np.append(0.0, load[keep])
         self.load_std, self.area = np.append(0.0, std[1][keep]), np.append(0.0, area[keep])
-        self.area_std, self.separation_std = np.append(0.0, std[2][keep]), np.append(0.0, std[0][keep])
+        self.area_std, self.separation_std = np.append(0.0, std[2][keep]), np.append(
+            0.0, std[0][keep]
+        )
 
     def comment(self):
         """Comments for the reader of the deck."""
-        many = f"mean over {self.realizations} realizations" if self.realizations > 1 else "one realization"
+        many = (
+            f"mean over {self.realizations} realizations"
+            if self.realizations > 1
+            else "one realization"
+        )
         load, approach = ("pressure", "overclosure") if self.flats else ("force", "approach")
-        lines = [f"{self.title or os.path.basename(self.path)}: {load} against {approach}, {many}", f"units: {load} {self.units['load']}, {approach} {self.units['approach']}",
-                 f"{approach} = {self.origin:.9g} - separation of the {'mean planes' if self.flats else 'tip from the mean plane'}"
-                 + (f" (no level without contact: continued to zero {load} by its 2/3 power)" if self.extrapolated else f" (the last level without contact)"),
-                 f"{self.approach.size} points, {load} increasing; excluded: {self.unconverged} levels not converged, {self.not_increasing} not increasing"
-                 + (f", {self.later} after the first loading (solids%hardness): unloading differs" if self.yields else ""),
-                 f"status of the levels, the worst of the realizations: {self.statuses}",
-                 f"beyond the last point, {approach} {self.approach[-1]:.6g}, nothing was computed: most programs keep the {load} constant there"]
+        lines = [
+            f"{self.title or os.path.basename(self.path)}: {load} against {approach}, {many}",
+            f"units: {load} {self.units['load']}, {approach} {self.units['approach']}",
+            f"{approach} = {self.origin:.9g} - separation of the {'mean planes' if self.flats else 'tip from the mean plane'}"
+            + (
+                f" (no level without contact: continued to zero {load} by its 2/3 power)"
+                if self.extrapolated
+                else f" (the last level without contact)"
+            ),
+            f"{self.approach.size} points, {load} increasing; excluded: {self.unconverged} levels not converged, {self.not_increasing} not increasing"
+            + (
+                f", {self.later} after the first loading (solids%hardness): unloading differs"
+                if self.yields
+                else ""
+            ),
+            f"status of the levels, the worst of the realizations: {self.statuses}",
+            f"beyond the last point, {approach} {self.approach[-1]:.6g}, nothing was computed: most programs keep the {load} constant there",
+        ]
         if self.realizations > 1:
-            relative = self.load_std[-1] / self.load[-1] if self.prescribed == "separation" else self.separation_std[-1] / self.approach[-1]
-            lines.append(f"scatter over realizations at the last point: {100 * relative:.2g} % of the {load if self.prescribed == 'separation' else approach} (standard deviation); "
-                         "all of it with --table")
+            relative = (
+                self.load_std[-1] / self.load[-1]
+                if self.prescribed == "separation"
+                else self.separation_std[-1] / self.approach[-1]
+            )
+            lines.append(
+                f"scatter over realizations at the last point: {100 * relative:.2g} % of the {load if self.prescribed == 'separation' else approach} (standard deviation); "
+                "all of it with --table"
+            )
         lines.append(f"from {os.path.basename(self.path)}, {self.source}")
         # Texts of the file must neither end a comment nor contain terminal commands.
         return [re.sub(r"[\x00-\x1f\x7f-\x9f]", "?", line) for line in lines]
@@ -127,19 +192,29 @@ def _deck(law, name, comment):
     """The keywords common to CalculiX and Abaqus."""
     lines = [f"** {line}" for line in comment]
     if law.flats:
-        lines += [f"*SURFACE INTERACTION, NAME={name}", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR"]
+        lines += [
+            f"*SURFACE INTERACTION, NAME={name}",
+            "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR",
+        ]
         lines += [f"{p:.10g}, {c:.10g}" for c, p in zip(law.approach, law.load)]
     else:
         # In compression elongation and force are negative, and the table is in order of increasing elongation.
-        lines += ["** a spring between the tip and the plane (element type SPRINGA), longer than the whole approach; without tensile force",
-                  f"*SPRING, ELSET={name}, NONLINEAR", ""]
-        lines += [f"{0.0 - n:.10g}, {0.0 - d:.10g}" for d, n in zip(law.approach[::-1], law.load[::-1])]
+        lines += [
+            "** a spring between the tip and the plane (element type SPRINGA), longer than the whole approach; without tensile force",
+            f"*SPRING, ELSET={name}, NONLINEAR",
+            "",
+        ]
+        lines += [
+            f"{0.0 - n:.10g}, {0.0 - d:.10g}" for d, n in zip(law.approach[::-1], law.load[::-1])
+        ]
         lines += [f"0., {law.approach[-1]:.10g}"]
     return lines
 
 
 def calculix(law, name):
-    faces = ["the slave surface must be of element faces (*SURFACE, TYPE=ELEMENT): with one of nodes CalculiX gave 44 % more force"]
+    faces = [
+        "the slave surface must be of element faces (*SURFACE, TYPE=ELEMENT): with one of nodes CalculiX gave 44 % more force"
+    ]
     return _deck(law, name, law.comment() + (faces if law.flats else []))
 
 
@@ -147,7 +222,10 @@ def abaqus(law, name):
     lines = _deck(law, name, law.comment())
     if law.flats:
         pairs = [f"{v:.10g}" for point in zip(law.approach, law.load) for v in point]
-        lines += ["** the same for modules/example/uinter.f90, pairs of overclosure and pressure:", f"** *SURFACE INTERACTION, NAME={name}, USER, PROPERTIES={len(pairs) + 1}, UNSYMM"]
+        lines += [
+            "** the same for modules/example/uinter.f90, pairs of overclosure and pressure:",
+            f"** *SURFACE INTERACTION, NAME={name}, USER, PROPERTIES={len(pairs) + 1}, UNSYMM",
+        ]
         values = ["0."] + pairs  # the first property: 0, a table follows
         lines += ["** " + ", ".join(values[k : k + 8]) for k in range(0, len(values), 8)]
     return lines
@@ -156,20 +234,57 @@ def abaqus(law, name):
 def table(law, name):
     load, area = ("pressure", "area_fraction") if law.flats else ("force", "contact_area")
     approach = "overclosure" if law.flats else "approach"
-    header = [f"{approach} [{law.units['approach']}]", f"{load} [{law.units['load']}]", f"{load}_std", f"{area} [{law.units['area']}]", f"{area}_std", f"{approach}_std"]
+    header = [
+        f"{approach} [{law.units['approach']}]",
+        f"{load} [{law.units['load']}]",
+        f"{load}_std",
+        f"{area} [{law.units['area']}]",
+        f"{area}_std",
+        f"{approach}_std",
+    ]
     rows = zip(law.approach, law.load, law.load_std, law.area, law.area_std, law.separation_std)
-    return [f"# {line}" for line in law.comment()] + ["# " + "  ".join(header)] + ["  ".join(f"{v:.12e}" for v in row) for row in rows]
+    return (
+        [f"# {line}" for line in law.comment()]
+        + ["# " + "  ".join(header)]
+        + ["  ".join(f"{v:.12e}" for v in row) for row in rows]
+    )
 
 
 def main(words=None):
-    parser = argparse.ArgumentParser(description="A contact law for finite elements from a result file of rsc: an indenter as a nonlinear spring, flats as pressure against overclosure.")
+    parser = argparse.ArgumentParser(
+        description="A contact law for finite elements from a result file of rsc: an indenter as a nonlinear spring, flats as pressure against overclosure."
+    )
     parser.add_argument("result", help="result file (NetCDF)")
     kind = parser.add_mutually_exclusive_group(required=True)
-    kind.add_argument("--calculix", dest="write", action="store_const", const=calculix, help="keywords for a deck of CalculiX")
-    kind.add_argument("--abaqus", dest="write", action="store_const", const=abaqus, help="keywords for a deck of Abaqus")
-    kind.add_argument("--table", dest="write", action="store_const", const=table, help="columns: approach or overclosure, load, its scatter, area, its scatter")
-    parser.add_argument("-o", "--output", metavar="FILE", help="file to write (default: standard output)")
-    parser.add_argument("--name", default="ROUGH", help="name of the interaction or of the element set (default ROUGH)")
+    kind.add_argument(
+        "--calculix",
+        dest="write",
+        action="store_const",
+        const=calculix,
+        help="keywords for a deck of CalculiX",
+    )
+    kind.add_argument(
+        "--abaqus",
+        dest="write",
+        action="store_const",
+        const=abaqus,
+        help="keywords for a deck of Abaqus",
+    )
+    kind.add_argument(
+        "--table",
+        dest="write",
+        action="store_const",
+        const=table,
+        help="columns: approach or overclosure, load, its scatter, area, its scatter",
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="FILE", help="file to write (default: standard output)"
+    )
+    parser.add_argument(
+        "--name",
+        default="ROUGH",
+        help="name of the interaction or of the element set (default ROUGH)",
+    )
     arguments = parser.parse_args(words)
     try:
         lines = arguments.write(Law(arguments.result), arguments.name)

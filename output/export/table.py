@@ -28,7 +28,16 @@ import numpy as np
 
 NOT_CONVERGED = 4  # of the variable status
 GRAVITY = np.array([0, 3, 1, 2, 4])  # out of validity overrides overlapping and not unique
-COLUMNS = ["pressure", "force", "contact_area", "area_fraction", "separation", "stiffness", "resistance", "contacts"]
+COLUMNS = [
+    "pressure",
+    "force",
+    "contact_area",
+    "area_fraction",
+    "separation",
+    "stiffness",
+    "resistance",
+    "contacts",
+]
 EXPECTED = {"force": "force_error_expected", "contact_area": "area_error_expected"}
 
 
@@ -44,7 +53,9 @@ class Table:
         with open_result(path) as file:
             variables = file.variables
             if "force" not in variables or "status" not in variables:
-                raise Refused(f"{path!r} is no result of indentation: it lacks the variable 'force' or 'status'")
+                raise Refused(
+                    f"{path!r} is no result of indentation: it lacks the variable 'force' or 'status'"
+                )
             self.meanings = variables["status"].flag_meanings.split()
             self.remembers = "path" in file.ncattrs()  # levels depend on the levels before
             status = np.atleast_2d(np.ma.filled(variables["status"][:], NOT_CONVERGED)).astype(int)
@@ -62,14 +73,23 @@ class Table:
                 if many:
                     self._add(name + "_stderr", stderr, self.units[name])
                 if EXPECTED.get(name) in variables:
-                    self._add(name + "_expected_error", _mean(self._values(variables[EXPECTED[name]], good)[0])[0], "1")
+                    self._add(
+                        name + "_expected_error",
+                        _mean(self._values(variables[EXPECTED[name]], good)[0])[0],
+                        "1",
+                    )
         self.load = "pressure" if "pressure" in self.columns else "force"
 
     def _values(self, variable, good):
         """(realization, step), with NaN for levels that did not converge; and True if there are several realizations."""
         values = np.ma.filled(np.ma.asarray(variable[:]).astype(float), np.nan)
         many = values.ndim == 2 and values.shape[0] > 1
-        return np.where(good, values if values.ndim == 2 else np.broadcast_to(values, good.shape), np.nan), many
+        return (
+            np.where(
+                good, values if values.ndim == 2 else np.broadcast_to(values, good.shape), np.nan
+            ),
+            many,
+        )
 
     def _add(self, name, values, unit):
         self.columns[name], self.units[name] = values, unit
@@ -82,10 +102,16 @@ class Table:
             levels.sort(key=lambda k: depth[k])
         kept = []
         for k in levels:
-            if not kept or load[k] > load[kept[-1]] and (by != "separation" or depth[k] > depth[kept[-1]]):
+            if (
+                not kept
+                or load[k] > load[kept[-1]]
+                and (by != "separation" or depth[k] > depth[kept[-1]])
+            ):
                 kept.append(k)
         if len(kept) < 2:
-            raise Refused(f"{self.path!r} has fewer than two levels of increasing load: nothing can be interpolated")
+            raise Refused(
+                f"{self.path!r} has fewer than two levels of increasing load: nothing can be interpolated"
+            )
         return kept
 
     def at(self, wanted, by=None):
@@ -98,7 +124,9 @@ class Table:
         ends = sorted((known[0], known[-1]))
         for value in wanted:  # a prescribed load is exact only to the solver's tolerance
             if not ends[0] - 1e-4 * abs(ends[0]) <= value <= ends[1] + 1e-4 * abs(ends[1]):
-                raise Refused(f"--at {value:g}: {self.path!r} has {by} from {ends[0]:.6g} to {ends[1]:.6g} {self.units[by]}; nothing is extrapolated")
+                raise Refused(
+                    f"--at {value:g}: {self.path!r} has {by} from {ends[0]:.6g} to {ends[1]:.6g} {self.units[by]}; nothing is extrapolated"
+                )
         wanted = np.asarray(wanted, float)
         x, at = (-known, -wanted) if by == "separation" else (np.log(known), np.log(wanted))
         right = np.clip(np.searchsorted(x, at), 1, x.size - 1)
@@ -113,7 +141,9 @@ class Table:
         columns[by] = wanted
         status = np.array([self.status[levels][r - 1 : r + 1] for r in right])
         graver = np.where(GRAVITY[status[:, 0]] > GRAVITY[status[:, 1]], status[:, 0], status[:, 1])
-        return columns, np.where(share == 0, status[:, 0], np.where(share == 1, status[:, 1], graver))
+        return columns, np.where(
+            share == 0, status[:, 0], np.where(share == 1, status[:, 1], graver)
+        )
 
 
 def open_result(path):
@@ -129,7 +159,9 @@ def _mean(values):
     count = there.sum(axis=0)
     mean = np.where(there, values, 0.0).sum(axis=0) / np.where(count, count, np.nan)
     squares = np.where(there, (values - mean) ** 2, 0.0).sum(axis=0)
-    return mean, np.sqrt(squares / np.where(count > 1, count - 1, np.nan) / np.where(count, count, np.nan))
+    return mean, np.sqrt(
+        squares / np.where(count > 1, count - 1, np.nan) / np.where(count, count, np.nan)
+    )
 
 
 def members(path):
@@ -137,9 +169,21 @@ def members(path):
     with open_result(path) as file:
         if "member" not in file.dimensions or "file" not in file.variables:
             return None
-        texts = lambda variable: [str(t).strip("\0 ") for t in np.atleast_1d(netCDF4.chartostring(variable[:]))]
-        keys = {v.key: texts(v) if v.dtype.kind == "S" else [f"{x:.9g}" for x in np.atleast_1d(v[:])] for v in file.variables.values() if hasattr(v, "key")}
-        return [(os.path.join(os.path.dirname(path), name), {key: values[k] for key, values in keys.items()}) for k, name in enumerate(texts(file.variables["file"]))]
+        texts = lambda variable: [
+            str(t).strip("\0 ") for t in np.atleast_1d(netCDF4.chartostring(variable[:]))
+        ]
+        keys = {
+            v.key: texts(v) if v.dtype.kind == "S" else [f"{x:.9g}" for x in np.atleast_1d(v[:])]
+            for v in file.variables.values()
+            if hasattr(v, "key")
+        }
+        return [
+            (
+                os.path.join(os.path.dirname(path), name),
+                {key: values[k] for key, values in keys.items()},
+            )
+            for k, name in enumerate(texts(file.variables["file"]))
+        ]
 
 
 def rows(paths, at=None, by=None):
@@ -152,37 +196,92 @@ def rows(paths, at=None, by=None):
         table = Table(path)
         columns, status = table.at(at, by) if at else (table.columns, table.status)
         fixed = ({"file": os.path.basename(path)} if len(found) > 1 else {}) | keys
-        names = {name: f"{name} [{table.units[name]}]" if table.units[name] != "1" else name for name in columns}
+        names = {
+            name: f"{name} [{table.units[name]}]" if table.units[name] != "1" else name
+            for name in columns
+        }
         header |= {name: None for name in fixed} | {name: None for name in names.values()}
-        lines += [fixed | {names[n]: f"{round(v[k], 2) if n == 'contacts' else v[k]:.6g}" if np.isfinite(v[k]) else "" for n, v in columns.items()} | {"status": table.meanings[status[k]]} for k in range(len(status))]
+        lines += [
+            fixed
+            | {
+                names[n]: f"{round(v[k], 2) if n == 'contacts' else v[k]:.6g}"
+                if np.isfinite(v[k])
+                else ""
+                for n, v in columns.items()
+            }
+            | {"status": table.meanings[status[k]]}
+            for k in range(len(status))
+        ]
     header = [*header, "status"]
     return header, [[line.get(name, "") for name in header] for line in lines]
 
 
 def markdown(header, lines):
     widths = [max(map(len, column)) for column in zip(header, *lines)]
-    return "\n".join("| " + " | ".join(text.rjust(width) for text, width in zip(line, widths)) + " |" for line in [header, ["-" * (w - 1) + ":" for w in widths], *lines]) + "\n"
+    return (
+        "\n".join(
+            "| " + " | ".join(text.rjust(width) for text, width in zip(line, widths)) + " |"
+            for line in [header, ["-" * (w - 1) + ":" for w in widths], *lines]
+        )
+        + "\n"
+    )
 
 
 def numbers(text):
     try:
         return [float(word) for word in text.split(",")]
     except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r}: numbers with commas between are expected") from None
+        raise argparse.ArgumentTypeError(
+            f"{text!r}: numbers with commas between are expected"
+        ) from None
 
 
 def main(words=None):
-    parser = argparse.ArgumentParser(description="A table of loads from result files of rsc, with standard errors and expected errors.")
-    parser.add_argument("result", nargs="+", help="result files (NetCDF), or the manifest of a study (..._manifest.nc)")
-    parser.add_argument("--at", type=numbers, metavar="N,N,...", help="at these loads, between levels by interpolation (default: every level)")
-    parser.add_argument("--by", choices=["force", "pressure", "separation"], help="quantity of --at (default: force, for two flats pressure)")
-    parser.add_argument("--format", choices=["csv", "markdown"], help="default: markdown on a terminal, csv elsewhere")
-    parser.add_argument("-o", "--output", metavar="FILE", help="file to write (default: standard output); markdown if it ends in .md")
+    parser = argparse.ArgumentParser(
+        description="A table of loads from result files of rsc, with standard errors and expected errors."
+    )
+    parser.add_argument(
+        "result",
+        nargs="+",
+        help="result files (NetCDF), or the manifest of a study (..._manifest.nc)",
+    )
+    parser.add_argument(
+        "--at",
+        type=numbers,
+        metavar="N,N,...",
+        help="at these loads, between levels by interpolation (default: every level)",
+    )
+    parser.add_argument(
+        "--by",
+        choices=["force", "pressure", "separation"],
+        help="quantity of --at (default: force, for two flats pressure)",
+    )
+    parser.add_argument(
+        "--format",
+        choices=["csv", "markdown"],
+        help="default: markdown on a terminal, csv elsewhere",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="file to write (default: standard output); markdown if it ends in .md",
+    )
     arguments = parser.parse_args(words)
     try:
         header, lines = rows(arguments.result, arguments.at, arguments.by)
-        kind = arguments.format or ("markdown" if (arguments.output or "").endswith(".md") or not arguments.output and sys.stdout.isatty() else "csv")
-        out = open(arguments.output, "w", encoding="utf-8", newline="") if arguments.output else sys.stdout
+        kind = arguments.format or (
+            "markdown"
+            if (arguments.output or "").endswith(".md")
+            or not arguments.output
+            and sys.stdout.isatty()
+            else "csv"
+        )
+        out = (
+            open(arguments.output, "w", encoding="utf-8", newline="")
+            if arguments.output
+            else sys.stdout
+        )
         if kind == "markdown":
             out.write(markdown(header, lines))
         else:

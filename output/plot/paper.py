@@ -22,20 +22,43 @@ import paper_laws
 import paper_pressure
 import paper_surfaces
 
-FIGURES = [paper_surfaces.asperities, paper_surfaces.curvatures, paper_contact.area, paper_contact.maps, paper_contact.radial, paper_pressure.pressures, paper_pressure.hardness,
-           paper_pressure.full_pressure, paper_pressure.spots, paper_surfaces.density, paper_pressure.paper_method, paper_laws.laws]
+FIGURES = [
+    paper_surfaces.asperities,
+    paper_surfaces.curvatures,
+    paper_contact.area,
+    paper_contact.maps,
+    paper_contact.radial,
+    paper_pressure.pressures,
+    paper_pressure.hardness,
+    paper_pressure.full_pressure,
+    paper_pressure.spots,
+    paper_surfaces.density,
+    paper_pressure.paper_method,
+    paper_laws.laws,
+]
 
 
 def preface(report, folder):
     first = Result(os.path.join(folder, "maps.nc"))
-    report.lines += ["Comparison of rsc with the numbers of the paper", "==================================="]
-    report.note("V. A. Yastrebov, The Elastic Contact of Rough Spheres Investigated Using a Deterministic Multi-Asperity Model, Journal of Multiscale Modelling (2018). " + first.file.source + ".")
-    report.note("Columns: quantity, the paper's number, ours, its standard error over realizations (or parts of a surface), ours minus the paper's. '-' in the first column: not stated in the paper; '-' in the "
-            "third: no sampling error. "
-                "No parameter is tuned; variants of what the paper does not state are tried, and those that agree are named.")
+    report.lines += [
+        "Comparison of rsc with the numbers of the paper",
+        "===================================",
+    ]
+    report.note(
+        "V. A. Yastrebov, The Elastic Contact of Rough Spheres Investigated Using a Deterministic Multi-Asperity Model, Journal of Multiscale Modelling (2018). "
+        + first.file.source
+        + "."
+    )
+    report.note(
+        "Columns: quantity, the paper's number, ours, its standard error over realizations (or parts of a surface), ours minus the paper's. '-' in the first column: not stated in the paper; '-' in the "
+        "third: no sampling error. "
+        "No parameter is tuned; variants of what the paper does not state are tried, and those that agree are named."
+    )
     report.full = first.realizations == 2000
     if not report.full:
-        report.note("This is the SHORTENED version: few realizations on small grids. It shows that the command works; its numbers must not be compared with the paper's.")
+        report.note(
+            "This is the SHORTENED version: few realizations on small grids. It shows that the command works; its numbers must not be compared with the paper's."
+        )
 
 
 def times(report, folder):
@@ -46,13 +69,22 @@ def times(report, folder):
     with open(path, encoding="utf-8") as lines:
         rows = [line.split() for line in lines]
     again = [row[0] for row in rows if "resumed" in row]
-    report.note(f"Cases {sum(int(row[1]) for row in rows)} s in all with {os.cpu_count()} processors: " + ", ".join(f"{row[0]} {row[1]} s" for row in rows) + "."
-                + (f" Interrupted, with the time of the last run: {', '.join(again)}." if again else ""))
+    report.note(
+        f"Cases {sum(int(row[1]) for row in rows)} s in all with {os.cpu_count()} processors: "
+        + ", ".join(f"{row[0]} {row[1]} s" for row in rows)
+        + "."
+        + (f" Interrupted, with the time of the last run: {', '.join(again)}." if again else "")
+    )
 
 
 def main():
     parser = argparse.ArgumentParser(description="Pictures and report of the paper's figures.")
-    parser.add_argument("folder", nargs="?", default="output/paper", help="folder with the result files (default output/paper)")
+    parser.add_argument(
+        "folder",
+        nargs="?",
+        default="output/paper",
+        help="folder with the result files (default output/paper)",
+    )
     folder = parser.parse_args().folder
     report = Report()
     try:

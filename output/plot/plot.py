@@ -38,11 +38,31 @@ from plot_results import Result, members_of_manifest
 from plot_style import WIDTHS, plt
 
 # To add a picture, write a function of (results, options) that returns a figure, or None if the results lack its data.
-PICTURES = {"load": plot_curves.load, "area": plot_area.area, "flats": plot_flats.flats, "study": plot_study.study, "map": plot_map.maps, "radial": plot_radial.radial,
-            "spots": plot_spots.spots, "compare": plot_compare.compare, "distributions": plot_distributions.distributions, "surface": plot_surface.surface, "texture": plot_texture.texture, "stiffness": plot_curves.stiffness,
-            "resistance": plot_curves.resistance, "loop": plot_friction.loop, "stick": plot_friction.stick, "time": plot_time.time, "pull": plot_adhesion.pull}
+PICTURES = {
+    "load": plot_curves.load,
+    "area": plot_area.area,
+    "flats": plot_flats.flats,
+    "study": plot_study.study,
+    "map": plot_map.maps,
+    "radial": plot_radial.radial,
+    "spots": plot_spots.spots,
+    "compare": plot_compare.compare,
+    "distributions": plot_distributions.distributions,
+    "surface": plot_surface.surface,
+    "texture": plot_texture.texture,
+    "stiffness": plot_curves.stiffness,
+    "resistance": plot_curves.resistance,
+    "loop": plot_friction.loop,
+    "stick": plot_friction.stick,
+    "time": plot_time.time,
+    "pull": plot_adhesion.pull,
+}
 
-Options = namedtuple("Options", "width step say", defaults=(180.0, None, lambda text: print(f"plot.py: {text}", file=sys.stderr)))
+Options = namedtuple(
+    "Options",
+    "width step say",
+    defaults=(180.0, None, lambda text: print(f"plot.py: {text}", file=sys.stderr)),
+)
 
 
 def width(text):
@@ -51,20 +71,61 @@ def width(text):
     except ValueError:
         value = 0.0
     if not 40 <= value <= 1000:
-        raise argparse.ArgumentTypeError(f"{text!r}: {', '.join(WIDTHS)} or 40 to 1000 millimetres are expected")
+        raise argparse.ArgumentTypeError(
+            f"{text!r}: {', '.join(WIDTHS)} or 40 to 1000 millimetres are expected"
+        )
     return value
 
 
 def parse(words):
-    parser = argparse.ArgumentParser(description="Pictures of result files of rsc: several files in one picture.")
-    parser.add_argument("result", nargs="+", help="result files (NetCDF), or the manifest of a study (..._manifest.nc)")
-    parser.add_argument("-o", "--output", metavar="FOLDER", help="folder of the pictures (default: that of the first file)")
-    parser.add_argument("--name", help="beginning of the names of the pictures (default: the name of the file, or of the first and last)")
-    parser.add_argument("--only", metavar="PICTURE", action="append", choices=PICTURES, help="draw this picture only; repeatable: " + ", ".join(PICTURES))
-    parser.add_argument("--step", type=int, metavar="N", help="draw maps, radial means, spots and friction of level N (from 1) only")
-    parser.add_argument("--format", choices=["png", "pdf", "svg"], default="png", help="png by default")
-    parser.add_argument("--dpi", type=int, default=150, metavar="N", help="dots per inch of a png: 150 fit a screen (default), 300 or more a journal")
-    parser.add_argument("--width", type=width, default=180.0, metavar="MM", help="width of the pictures: single (85 mm), onehalf (130), double (175) or a number of mm (default 180)")
+    parser = argparse.ArgumentParser(
+        description="Pictures of result files of rsc: several files in one picture."
+    )
+    parser.add_argument(
+        "result",
+        nargs="+",
+        help="result files (NetCDF), or the manifest of a study (..._manifest.nc)",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="FOLDER",
+        help="folder of the pictures (default: that of the first file)",
+    )
+    parser.add_argument(
+        "--name",
+        help="beginning of the names of the pictures (default: the name of the file, or of the first and last)",
+    )
+    parser.add_argument(
+        "--only",
+        metavar="PICTURE",
+        action="append",
+        choices=PICTURES,
+        help="draw this picture only; repeatable: " + ", ".join(PICTURES),
+    )
+    parser.add_argument(
+        "--step",
+        type=int,
+        metavar="N",
+        help="draw maps, radial means, spots and friction of level N (from 1) only",
+    )
+    parser.add_argument(
+        "--format", choices=["png", "pdf", "svg"], default="png", help="png by default"
+    )
+    parser.add_argument(
+        "--dpi",
+        type=int,
+        default=150,
+        metavar="N",
+        help="dots per inch of a png: 150 fit a screen (default), 300 or more a journal",
+    )
+    parser.add_argument(
+        "--width",
+        type=width,
+        default=180.0,
+        metavar="MM",
+        help="width of the pictures: single (85 mm), onehalf (130), double (175) or a number of mm (default 180)",
+    )
     return parser.parse_args(words)
 
 
@@ -77,9 +138,13 @@ def open_results(paths):
             try:
                 result = Result(path, in_si=True)
             except OSError as error:
-                sys.exit(f"plot.py: cannot read {path!r}: {error.strerror or error}; a result file of rsc (NetCDF) is expected")
+                sys.exit(
+                    f"plot.py: cannot read {path!r}: {error.strerror or error}; a result file of rsc (NetCDF) is expected"
+                )
             if not getattr(result.file, "source", "").startswith("rsc"):
-                sys.exit(f"plot.py: {path!r} is no result file of rsc: its attribute 'source' is of another program")
+                sys.exit(
+                    f"plot.py: {path!r} is no result file of rsc: its attribute 'source' is of another program"
+                )
             opened.setdefault(os.path.realpath(path), result)
             stems.append(os.path.splitext(os.path.basename(path))[0])
         else:
@@ -97,11 +162,19 @@ def main(words=None):
         sys.exit("plot.py: the study has no results yet")
     for result in results if arguments.step is not None else []:
         if not 1 <= arguments.step <= result.steps:
-            sys.exit(f"plot.py: --step {arguments.step}: {result.path} has levels 1 to {result.steps}")
+            sys.exit(
+                f"plot.py: --step {arguments.step}: {result.path} has levels 1 to {result.steps}"
+            )
         if arguments.step - 1 not in result.loaded():
             touching = result.loaded() + 1
-            options.say(f"--step {arguments.step}: nothing touches at this level of {result.path}; "
-                        + (f"levels {touching.min()} to {touching.max()} have contact" if touching.size else "no level has contact"))
+            options.say(
+                f"--step {arguments.step}: nothing touches at this level of {result.path}; "
+                + (
+                    f"levels {touching.min()} to {touching.max()} have contact"
+                    if touching.size
+                    else "no level has contact"
+                )
+            )
     if not any(r.loaded().size for r in results) and "force" in results[0]:
         options.say("no level has contact, so there is little to draw")
     folder = arguments.output or os.path.dirname(arguments.result[0]) or "."

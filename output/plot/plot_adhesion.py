@@ -22,11 +22,15 @@ def pull(results, options):
         axis.plot(Z[: turn + 1], N[: turn + 1], "-", color=colour, label="down" + name)
         axis.plot(Z[turn:], N[turn:], "--", color=colour, label="up" + name)
         if len(found) == 1 and turn + 1 < len(Z):
-            if abs(Z[-1] - Z[0]) > 1e-9 * np.ptp(Z):  # an open loop is shaded where both branches exist
+            if abs(Z[-1] - Z[0]) > 1e-9 * np.ptp(
+                Z
+            ):  # an open loop is shaded where both branches exist
                 grid = np.linspace(Z[turn], min(Z[0], Z[-1]), 400)
             else:
                 grid = np.union1d(Z[: turn + 1], Z[turn:])
-            down, up = np.interp(grid, Z[turn::-1], N[turn::-1]), np.interp(grid, Z[turn:], N[turn:])
+            down, up = np.interp(grid, Z[turn::-1], N[turn::-1]), np.interp(
+                grid, Z[turn:], N[turn:]
+            )
             axis.fill_between(grid, up, down, color=colour, alpha=0.15, lw=0, label="work lost")
     label(axis, "x", "separation $Z_0$", found[0].dimension("separation"))
     label(axis, "y", "force $N$", found[0].dimension("force"))

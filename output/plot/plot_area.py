@@ -9,12 +9,20 @@ from plot_style import GREY, amount, label
 def area(results, options):
     """A(N). A single result is drawn with the smooth sphere (Hertz) and the two regimes of the paper with their crossing, two flats with the theories of
     Persson, of Bush, Gibson and Thomas, of Greenwood and Williamson."""
-    results = [r for r in results if "contact_area" in r and (np.nan_to_num(r.mean("contact_area")) > 0).any() and r.load_varies()]
+    results = [
+        r
+        for r in results
+        if "contact_area" in r
+        and (np.nan_to_num(r.mean("contact_area")) > 0).any()
+        and r.load_varies()
+    ]
     if not results:
         return None
     page, looks = begin(results, options)
     axis, alone = page.axes[0], len(results) == 1
-    pulls = any(r.pulls() for r in results)  # forces of either sign, to which the theories do not apply
+    pulls = any(
+        r.pulls() for r in results
+    )  # forces of either sign, to which the theories do not apply
     axis.set(xscale="linear" if pulls else "log", yscale="linear" if pulls else "log")
     for result, look in zip(results, looks):
         if alone:
@@ -26,7 +34,16 @@ def area(results, options):
             _scatter(page, axis, result, look[1])
         curve(page, axis, result, look, force, values, error="contact_area", alone=alone)
         if "compare_force" in result:
-            axis.plot(np.ravel(result["compare_force"]), np.ravel(result["compare_contact_area"]), "D", color=look[1], mfc="w", ms=5, zorder=4, gid="compare")
+            axis.plot(
+                np.ravel(result["compare_force"]),
+                np.ravel(result["compare_contact_area"]),
+                "D",
+                color=look[1],
+                mfc="w",
+                ms=5,
+                zorder=4,
+                gid="compare",
+            )
             page.entry("the same by elements", color=look[1], ls="none", marker="D", mfc="w")
         if alone:
             _elastic_until(page, axis, result)
@@ -44,7 +61,15 @@ def _scatter(page, axis, result, colour):
         if good.sum() < 2:
             return
         order = np.argsort(n[good])
-        curves.append(np.interp(np.log(force), np.log(n[good][order]), np.log(a[good][order]), left=np.nan, right=np.nan))
+        curves.append(
+            np.interp(
+                np.log(force),
+                np.log(n[good][order]),
+                np.log(a[good][order]),
+                left=np.nan,
+                right=np.nan,
+            )
+        )
     low, high = np.percentile(np.exp(curves), [16, 84], axis=0)
     band(page, axis, force, low, high, colour)
 
@@ -54,26 +79,58 @@ def _theories(page, result):
     order = at[np.argsort(result.mean("force")[at])]
     force = result.mean("force")[order]
     if not result.has_sphere():
-        for name, line, text in (("area_persson", "--", "Persson"), ("area_bgt", ":", "Bush, Gibson, Thomas"), ("area_gw", "-.", "Greenwood, Williamson")):
-            if name in result and np.isfinite(result.mean(name)[order]).any():  # shares of the nominal area
+        for name, line, text in (
+            ("area_persson", "--", "Persson"),
+            ("area_bgt", ":", "Bush, Gibson, Thomas"),
+            ("area_gw", "-.", "Greenwood, Williamson"),
+        ):
+            if (
+                name in result and np.isfinite(result.mean(name)[order]).any()
+            ):  # shares of the nominal area
                 nominal = result.mean("contact_area")[order] / result.mean("area_fraction")[order]
-                axis.plot(force, nominal * result.mean(name)[order], line, color=GREY, lw=1.0, label=text)
+                axis.plot(
+                    force, nominal * result.mean(name)[order], line, color=GREY, lw=1.0, label=text
+                )
         return
     top = order[-1]
     ends = np.array([force.min(), force.max()])
     crossing = float(result["transition_force"]) if "transition_force" in result else np.nan
-    near = np.isfinite(crossing) and ends[0] / 30 < crossing < ends[1] * 30 and not result.by_elements()
+    near = (
+        np.isfinite(crossing)
+        and ends[0] / 30 < crossing < ends[1] * 30
+        and not result.by_elements()
+    )
     if near:
         ends = np.array([min(ends[0], crossing / 2), max(ends[1], crossing * 2)])
-    laws = [("area_hertz", {"cone": 1, "punch": 0}.get(result.shape(), 2 / 3), ":", result.smooth())]
+    laws = [
+        ("area_hertz", {"cone": 1, "punch": 0}.get(result.shape(), 2 / 3), ":", result.smooth())
+    ]
     if not result.by_elements():  # the regimes hold for asperities far from merging
-        laws += [("area_I", 2 / 3, "--", r"$A_I\propto N^{2/3}$, one asperity"), ("area_II", 1, "-.", r"$A_{II}\propto N$, many")]
+        laws += [
+            ("area_I", 2 / 3, "--", r"$A_I\propto N^{2/3}$, one asperity"),
+            ("area_II", 1, "-.", r"$A_{II}\propto N$, many"),
+        ]
     for name, exponent, line, text in laws:
         value = result[name][top] if name in result else np.nan
         if np.isfinite(value) and value > 0:
-            axis.plot(ends, value * (ends / result.mean("force")[top]) ** exponent, line, color=GREY, lw=1.0, label=text)
+            axis.plot(
+                ends,
+                value * (ends / result.mean("force")[top]) ** exponent,
+                line,
+                color=GREY,
+                lw=1.0,
+                label=text,
+            )
     if near and "area_II" in result and np.isfinite(result["area_II"][top]):
-        axis.plot(crossing, result["area_II"][top] * crossing / result.mean("force")[top], "k*", ms=8, mfc="w", ls="none", label=f"crossing, $N^*$ = {amount(crossing, result.dimension('force'))}")
+        axis.plot(
+            crossing,
+            result["area_II"][top] * crossing / result.mean("force")[top],
+            "k*",
+            ms=8,
+            mfc="w",
+            ls="none",
+            label=f"crossing, $N^*$ = {amount(crossing, result.dimension('force'))}",
+        )
 
 
 def _elastic_until(page, axis, result):
@@ -83,9 +140,22 @@ def _elastic_until(page, axis, result):
     at, force, yields = result.loaded(), result.mean("force"), result.worst("plastic_contacts") > 0
     dimension, hardness = result.dimension("force"), result.case.get("solids%hardness", "")
     if not yields[at].any():
-        page.entry(f"elastic up to {amount(force[at].max(), dimension)}: pressures below the hardness {hardness}", ls="none")
+        page.entry(
+            f"elastic up to {amount(force[at].max(), dimension)}: pressures below the hardness {hardness}",
+            ls="none",
+        )
         return
-    first = at[np.argmax(yields[at])]  # in the order of the levels: a spot that yielded counts at lower forces after it too
+    first = at[
+        np.argmax(yields[at])
+    ]  # in the order of the levels: a spot that yielded counts at lower forces after it too
     begins, below = force[first], force[at[(at < first) & (force[at] < force[first])]]
-    axis.axvspan(begins, axis.get_xlim()[1], color="#f2b400", alpha=0.15, lw=0, gid="yields", zorder=0)
-    page.entry(f"contacts yield from {amount(begins, dimension)} on" + (f" (none at {amount(below.max(), dimension)})" if below.size else ""), color="#f2b400", alpha=0.3, lw=6)
+    axis.axvspan(
+        begins, axis.get_xlim()[1], color="#f2b400", alpha=0.15, lw=0, gid="yields", zorder=0
+    )
+    page.entry(
+        f"contacts yield from {amount(begins, dimension)} on"
+        + (f" (none at {amount(below.max(), dimension)})" if below.size else ""),
+        color="#f2b400",
+        alpha=0.3,
+        lw=6,
+    )

@@ -17,10 +17,15 @@ def _rayleigh(result, k, p):
 
 
 def _gamma(result, k, p):
-    alpha, beta, delta, factor = (result.attribute("pressure_pdf", a)[k] for a in ("alpha", "beta", "delta", "gamma"))
+    alpha, beta, delta, factor = (
+        result.attribute("pressure_pdf", a)[k] for a in ("alpha", "beta", "delta", "gamma")
+    )
     if not np.isfinite(alpha):
         return np.full_like(p, np.nan), ""
-    return factor * p**alpha * np.exp(-((p / delta) ** beta)), rf"; $\alpha$ = {alpha:.2f}, $\beta$ = {beta:.2f}"
+    return (
+        factor * p**alpha * np.exp(-((p / delta) ** beta)),
+        rf"; $\alpha$ = {alpha:.2f}, $\beta$ = {beta:.2f}",
+    )
 
 
 def _exponential(result, k, a):
@@ -28,14 +33,30 @@ def _exponential(result, k, a):
     return np.exp(-a / s) / s, ""
 
 
-PANELS = [("pressure_pdf", "pressure_bin", "pressure in the contact area", r"lines: $\gamma p^\alpha \exp(-(p/\delta)^\beta)$", _gamma),
-          ("pressure_mean_pdf", "pressure_mean_bin", "mean pressure of a contact", "lines: Rayleigh", _rayleigh),
-          ("spot_area_pdf", "spot_area_bin", "area of a contact", "lines: exponential", _exponential)]
+PANELS = [
+    (
+        "pressure_pdf",
+        "pressure_bin",
+        "pressure in the contact area",
+        r"lines: $\gamma p^\alpha \exp(-(p/\delta)^\beta)$",
+        _gamma,
+    ),
+    (
+        "pressure_mean_pdf",
+        "pressure_mean_bin",
+        "mean pressure of a contact",
+        "lines: Rayleigh",
+        _rayleigh,
+    ),
+    ("spot_area_pdf", "spot_area_bin", "area of a contact", "lines: exponential", _exponential),
+]
 
 
 def contacts_behind(result):
     """Number of contacts in the distributions of each pdf level."""
-    return np.nansum(result["spot_area_count"], axis=1) + result.attribute("spot_area_count", "overflow")
+    return np.nansum(result["spot_area_count"], axis=1) + result.attribute(
+        "spot_area_count", "overflow"
+    )
 
 
 def distributions(results, options):
@@ -44,19 +65,45 @@ def distributions(results, options):
     shown = []
     for result, name in zip(results, names(results) if results else []):
         counts = contacts_behind(result)
-        distinct = np.unique(np.where(result["pdf_step"] < 1, -np.arange(counts.size), result["pdf_step"]), return_index=True)[1]  # several pdf_levels may have the same nearest level
+        distinct = np.unique(
+            np.where(result["pdf_step"] < 1, -np.arange(counts.size), result["pdf_step"]),
+            return_index=True,
+        )[
+            1
+        ]  # several pdf_levels may have the same nearest level
         levels = np.sort(distinct[counts[distinct] >= ENOUGH])
         for k in levels if len(results) == 1 else levels[np.argsort(counts[levels])[-1:]]:
-            step, z = int(result["pdf_step"][k]) - 1, result["pdf_separation_sigma"][k]  # step -1: it differs between realizations
-            level = result.level_name(step) + result.warning(step) if step >= 0 else rf"$Z_0/\sigma$ = {z:.3g}" if np.isfinite(z) else f"level {k + 1}"
-            shown.append((result, int(k), f"{level}: {counts[k]:.0f} contacts" if len(results) == 1 else name))
+            step, z = (
+                int(result["pdf_step"][k]) - 1,
+                result["pdf_separation_sigma"][k],
+            )  # step -1: it differs between realizations
+            level = (
+                result.level_name(step) + result.warning(step)
+                if step >= 0
+                else rf"$Z_0/\sigma$ = {z:.3g}"
+                if np.isfinite(z)
+                else f"level {k + 1}"
+            )
+            shown.append(
+                (
+                    result,
+                    int(k),
+                    f"{level}: {counts[k]:.0f} contacts" if len(results) == 1 else name,
+                )
+            )
     if not shown:
         if results:
-            options.say(f"distributions: fewer than {ENOUGH} contacts at every level of &output pdf_levels: not drawn")
+            options.say(
+                f"distributions: fewer than {ENOUGH} contacts at every level of &output pdf_levels: not drawn"
+            )
         return None
     page = Page(options, 3, aspect=1.0)
     one = len(results) == 1
-    looks = panel_looks(page, [r for r, _, _ in shown], [what + (_gamma(r, k, np.ones(1))[1] if one else "") for r, k, what in shown])
+    looks = panel_looks(
+        page,
+        [r for r, _, _ in shown],
+        [what + (_gamma(r, k, np.ones(1))[1] if one else "") for r, k, what in shown],
+    )
     for axis, (name, bins, text, law, fit) in zip(page.axes, PANELS):
         end, smallest = 0.0, np.inf
         ends = [r[bins][r[name][k] > 0].max() for r, k, _ in shown if (r[name][k] > 0).any()]
@@ -68,13 +115,20 @@ def distributions(results, options):
                 continue
             x = (np.geomspace if decades else np.linspace)(centre[0] / 10, centre[good].max(), 300)
             values = fit(result, k, x / result.factor(bins))[0]
-            axis.plot(centre[good], density[good], marker, ms=2.5, mfc="none", mew=0.7, color=colour)
+            axis.plot(
+                centre[good], density[good], marker, ms=2.5, mfc="none", mew=0.7, color=colour
+            )
             if np.isfinite(values).all():
                 axis.plot(x, values * result.factor(name), line, color=colour, lw=1.0, gid="fit")
             end, smallest = max(end, centre[good].max()), min(smallest, density[good].min())
         axis.set_title(law)
         if decades:
-            axis.set(xscale="log", yscale="log", xlim=(min(ends) / 30, end * 1.3), ylim=(smallest / 3, None))
+            axis.set(
+                xscale="log",
+                yscale="log",
+                xlim=(min(ends) / 30, end * 1.3),
+                ylim=(smallest / 3, None),
+            )
         else:
             axis.set_xlim(0, end * 1.05 if end > 0 else None)
             if name == "spot_area_pdf" and np.isfinite(smallest):

@@ -18,7 +18,10 @@ def _level(results, options):
 
 def _slide_per_depth(result, step):
     """mu/m: the slide of full slip over the approach since first touch; m is the ratio of tangential to normal stiffness."""
-    return result.number("solids%friction") / (result["tangential_stiffness"][step] / -result["stiffness"].reshape(-1, result.steps)[0][step])
+    return result.number("solids%friction") / (
+        result["tangential_stiffness"][step]
+        / -result["stiffness"].reshape(-1, result.steps)[0][step]
+    )
 
 
 def loop(results, options):
@@ -37,8 +40,13 @@ def loop(results, options):
         full = _slide_per_depth(result, step) * (3 * N / (4 * E * np.sqrt(R))) ** (2 / 3)
         drop = lambda t: mu * N * (1 - np.clip(1 - t, 0, None) ** 1.5)
         t, back, reach = np.linspace(0, 1, 61), np.linspace(0, 0.9, 61), drop(0.9)
-        axis.plot(full * np.concatenate([t, 0.9 - 2 * back, -0.9 + 2 * back]), np.concatenate([drop(t), reach - 2 * drop(back), -reach + 2 * drop(back)]), STYLES[1][1], color=STYLES[1][2],
-                  label="smooth sphere (Mindlin)")
+        axis.plot(
+            full * np.concatenate([t, 0.9 - 2 * back, -0.9 + 2 * back]),
+            np.concatenate([drop(t), reach - 2 * drop(back), -reach + 2 * drop(back)]),
+            STYLES[1][1],
+            color=STYLES[1][2],
+            label="smooth sphere (Mindlin)",
+        )
     label(axis, "x", "tangential displacement", result.dimension("tangential_displacement"))
     label(axis, "y", "tangential force $Q$", result.dimension("tangential_force"))
     force = "" if result.control() == "force" else f", $N$ = {amount(N, result.dimension('force'))}"
@@ -63,11 +71,31 @@ def stick(results, options):
     for level, colour, text in ((step, STYLES[1][2], "slips"), (inner, STYLES[0][2], "sticks")):
         x, y, major, minor, angle = spots_of(result, level)[:5]
         wide = 2 * major
-        axis.add_collection(EllipseCollection(wide, 2 * minor, np.degrees(angle), units="xy", offsets=np.column_stack([x, y]), transOffset=axis.transData, facecolors=colour, edgecolors="none", gid=text))
+        axis.add_collection(
+            EllipseCollection(
+                wide,
+                2 * minor,
+                np.degrees(angle),
+                units="xy",
+                offsets=np.column_stack([x, y]),
+                transOffset=axis.transData,
+                facecolors=colour,
+                edgecolors="none",
+                gid=text,
+            )
+        )
         page.entry(text, marker="o", color=colour, ls="none")
         if level == step:
-            half, cx, cy = 0.55 * max(np.ptp(x) + wide.max(), np.ptp(y) + wide.max()), (x.min() + x.max()) / 2, (y.min() + y.max()) / 2
+            half, cx, cy = (
+                0.55 * max(np.ptp(x) + wide.max(), np.ptp(y) + wide.max()),
+                (x.min() + x.max()) / 2,
+                (y.min() + y.max()) / 2,
+            )
             axis.set(xlim=(cx - half, cx + half), ylim=(cy - half, cy + half), aspect="equal")
     for which in "xy":
         label(axis, which, f"${which}$", result.dimension("asperity_" + which))
-    return page.finish(result.heading(f"Spots at {result.level_name(step)}, slide {slides[inner] / full:.0%} of full slip"))
+    return page.finish(
+        result.heading(
+            f"Spots at {result.level_name(step)}, slide {slides[inner] / full:.0%} of full slip"
+        )
+    )

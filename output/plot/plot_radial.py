@@ -18,21 +18,38 @@ def radial(results, options):
     if not panels:
         return None
     if len({name for _, _, name in panels}) < len(panels):  # levels of equal separation
-        panels = [(r, level, f"{name}, $N$ = {amount(r.mean('force')[level], r.dimension('force'))}") for r, level, name in panels]
+        panels = [
+            (r, level, f"{name}, $N$ = {amount(r.mean('force')[level], r.dimension('force'))}")
+            for r, level, name in panels
+        ]
     page = Page(options, 2)
     end, all_pressures, lines = 0.0, [], False
-    for (result, level, _), (marker, line, colour) in zip(panels, panel_looks(page, [r for r, _, _ in panels], [name for _, _, name in panels])):
-        radius, pressure, a = result["radius"], result["radial_pressure"][level], hertz_radius(result, level) if _of_sphere(result, level) else np.nan
+    for (result, level, _), (marker, line, colour) in zip(
+        panels, panel_looks(page, [r for r, _, _ in panels], [name for _, _, name in panels])
+    ):
+        radius, pressure, a = (
+            result["radius"],
+            result["radial_pressure"][level],
+            hertz_radius(result, level) if _of_sphere(result, level) else np.nan,
+        )
         lines = lines or np.isfinite(a)
         all_pressures.append(pressure[pressure > 0])
         end = max(end, radius[pressure > 0].max(initial=0), 1.3 * a)
         for axis, logarithmic in zip(page.axes, (False, True)):
             good = pressure > 0 if logarithmic else np.isfinite(pressure)
-            axis.plot(radius[good], pressure[good], marker, ms=2.5, color=colour, mfc="none", mew=0.7)
+            axis.plot(
+                radius[good], pressure[good], marker, ms=2.5, color=colour, mfc="none", mew=0.7
+            )
             if not np.isfinite(a):
                 continue
             r = a * np.sin(np.linspace(0, np.pi / 2, 200)[: -1 if logarithmic else None])
-            axis.plot(r, 1.5 * result.mean("force")[level] / (np.pi * a * a) * np.sqrt(1 - (r / a) ** 2), line, color=colour, gid="hertz")
+            axis.plot(
+                r,
+                1.5 * result.mean("force")[level] / (np.pi * a * a) * np.sqrt(1 - (r / a) ** 2),
+                line,
+                color=colour,
+                gid="hertz",
+            )
     for entry in page.entries.values() if not lines else []:
         entry.set_linestyle("none")
     positive = np.concatenate(all_pressures)
@@ -46,4 +63,10 @@ def radial(results, options):
     page.axes[0].set_ylim(bottom=None if any(r.pulls() for r in results) else 0)
     for axis in page.axes:
         label(axis, "y", "pressure $p$", results[0].dimension("radial_pressure"))
-    return page.finish(title(results, "Radial mean of the pressure" + ("; points: rsc, lines: smooth sphere (Hertz)" if lines else "")))
+    return page.finish(
+        title(
+            results,
+            "Radial mean of the pressure"
+            + ("; points: rsc, lines: smooth sphere (Hertz)" if lines else ""),
+        )
+    )

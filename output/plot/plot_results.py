@@ -13,10 +13,24 @@ from plot_style import FEW, STYLES, amount, plt, si
 _NO_MATTER = ("run%title", "run%threads", "output%")
 # Symbol of a key in a legend, and the unit of its values: "length", "force", "modulus" or none.
 _SYMBOLS = {
-    "surface%sigma": (r"$\sigma$", "length"), "surface%hurst": ("$H$", ""), "surface%L": ("$L$", "length"), "surface%n": ("$n$", ""),
-    "surface%L_lambda_l": (r"$L/\lambda_l$", ""), "surface%L_lambda_s": (r"$L/\lambda_s$", ""), "solids%R": ("$R$", "length"), "solids%E": ("$E$", "modulus"),
-    "solids%nu": (r"$\nu$", ""), "solids%hardness": ("$H_0$", "modulus"), "solids%layer_thickness": ("layer thickness", "length"), "solids%layer_E": ("layer $E$", "modulus"), "solids%friction": (r"$\mu$", ""), "asperities%law": ("law", ""),
-    "solver%model": ("model", ""), "solver%method": ("method", ""), "solver%interaction": ("interaction", ""), "run%seed": ("seed", ""),
+    "surface%sigma": (r"$\sigma$", "length"),
+    "surface%hurst": ("$H$", ""),
+    "surface%L": ("$L$", "length"),
+    "surface%n": ("$n$", ""),
+    "surface%L_lambda_l": (r"$L/\lambda_l$", ""),
+    "surface%L_lambda_s": (r"$L/\lambda_s$", ""),
+    "solids%R": ("$R$", "length"),
+    "solids%E": ("$E$", "modulus"),
+    "solids%nu": (r"$\nu$", ""),
+    "solids%hardness": ("$H_0$", "modulus"),
+    "solids%layer_thickness": ("layer thickness", "length"),
+    "solids%layer_E": ("layer $E$", "modulus"),
+    "solids%friction": (r"$\mu$", ""),
+    "asperities%law": ("law", ""),
+    "solver%model": ("model", ""),
+    "solver%method": ("method", ""),
+    "solver%interaction": ("interaction", ""),
+    "run%seed": ("seed", ""),
 }
 
 
@@ -29,7 +43,9 @@ class Result:
         self.file = netCDF4.Dataset(path)
         self.cache = {}
         self.title = getattr(self.file, "title", "")
-        self.realizations = len(self.file.dimensions["realization"]) if "realization" in self.file.dimensions else 1
+        self.realizations = (
+            len(self.file.dimensions["realization"]) if "realization" in self.file.dimensions else 1
+        )
         self.steps = len(self.file.dimensions["step"]) if "step" in self.file.dimensions else 0
         self.case = _keys(getattr(self.file, "case", ""))
 
@@ -46,14 +62,25 @@ class Result:
 
     def window(self, name, *slices):
         """A part of a variable, read alone."""
-        return np.ma.filled(np.ma.asarray(self.file.variables[name][slices]).astype(float), np.nan) * self.factor(name)
+        return np.ma.filled(
+            np.ma.asarray(self.file.variables[name][slices]).astype(float), np.nan
+        ) * self.factor(name)
 
     def cells(self, name, level):
         """A map at one level, 0 where it has no value, and the sides x0, x1, y0, y1 of the surface. The last row may extend beyond the surface: its
         values are means over the part that does not."""
-        field, side, share = np.nan_to_num(self.window(name, level)), float(self["map_cell_side"]), float(getattr(self.file["y"], "share_of_last_row", 1.0))
+        field, side, share = (
+            np.nan_to_num(self.window(name, level)),
+            float(self["map_cell_side"]),
+            float(getattr(self.file["y"], "share_of_last_row", 1.0)),
+        )
         field[-1] /= share
-        return field, (self["x"][0] - side / 2, self["x"][-1] + side / 2, self["y"][0] - side / 2, self["y"][-1] + (share - 0.5) * side)
+        return field, (
+            self["x"][0] - side / 2,
+            self["x"][-1] + side / 2,
+            self["y"][0] - side / 2,
+            self["y"][-1] + (share - 0.5) * side,
+        )
 
     def mean(self, name):
         """A variable over steps: its mean over the realizations that have a value, if it depends on realizations."""
@@ -62,7 +89,9 @@ class Result:
             return values
         axis = self.file.variables[name].dimensions.index("realization")
         there = np.isfinite(values)
-        return np.where(there, values, 0).sum(axis=axis) / np.where(there.any(axis=axis), there.sum(axis=axis), np.nan)
+        return np.where(there, values, 0).sum(axis=axis) / np.where(
+            there.any(axis=axis), there.sum(axis=axis), np.nan
+        )
 
     def worst(self, name):
         """The maximum of a variable over realizations, for each step."""
@@ -70,8 +99,14 @@ class Result:
 
     def error(self, name):
         """The largest expected error of a variable over realizations relative to its mean, for each step; 0 if the file has none."""
-        of, mean = ("area" if name == "contact_area" else name) + "_error_expected", abs(self.mean(name))
-        worst = np.nan_to_num(abs(self[of] * self[name]).reshape(-1, self.steps)).max(axis=0) if of in self else 0 * mean
+        of, mean = ("area" if name == "contact_area" else name) + "_error_expected", abs(
+            self.mean(name)
+        )
+        worst = (
+            np.nan_to_num(abs(self[of] * self[name]).reshape(-1, self.steps)).max(axis=0)
+            if of in self
+            else 0 * mean
+        )
         return np.divide(worst, mean, out=np.zeros(self.steps), where=mean > 0)
 
     def unit(self, name):
@@ -85,7 +120,9 @@ class Result:
 
     def attribute(self, name, attribute):
         """One value for each pdf level; missing values as NaN."""
-        values = np.atleast_1d(np.asarray(getattr(self.file.variables[name], attribute), dtype=float))
+        values = np.atleast_1d(
+            np.asarray(getattr(self.file.variables[name], attribute), dtype=float)
+        )
         return np.where(values > 9e36, np.nan, values)
 
     def number(self, key):
@@ -99,7 +136,11 @@ class Result:
 
     def depth(self):
         """The separation of each level for an axis, (values, label, dimension): in sigma if the file has it."""
-        sigma = self.mean("separation_sigma") if "separation_sigma" in self else np.full(self.steps, np.nan)
+        sigma = (
+            self.mean("separation_sigma")
+            if "separation_sigma" in self
+            else np.full(self.steps, np.nan)
+        )
         if np.isfinite(sigma).all():
             return sigma, r"separation $Z_0/\sigma$", ""
         return self.mean("separation"), "separation $Z_0$", self.dimension("separation")
@@ -113,13 +154,21 @@ class Result:
         values, text, dimension = self.depth()
         symbol = text.partition(" ")[2]
         if self.control() in ("force", "pressure") and self.control() in self:
-            values, symbol, dimension = self.mean(self.control()), {"force": "$N$", "pressure": "$p$"}[self.control()], self.dimension(self.control())
+            values, symbol, dimension = (
+                self.mean(self.control()),
+                {"force": "$N$", "pressure": "$p$"}[self.control()],
+                self.dimension(self.control()),
+            )
         name = f"{symbol} = {amount(values[step], dimension)}"
         if "time" not in self:
             return name
         time = f"$t$ = {amount(self['time'][step], self.dimension('time'))}"
         # A prescribed load is exact only to the solver's tolerance.
-        return time if np.nanmax(values) - np.nanmin(values) <= 1e-3 * np.nanmax(abs(values)) else f"{name}, {time}"
+        return (
+            time
+            if np.nanmax(values) - np.nanmin(values) <= 1e-3 * np.nanmax(abs(values))
+            else f"{name}, {time}"
+        )
 
     def level_status(self):
         """The worst status of each level over realizations, 0 without contact, and the names of the numbers."""
@@ -127,7 +176,9 @@ class Result:
             return np.zeros(self.steps, int), ["converged"]
         grave = np.array([0, 3, 1, 2, 4])  # out of validity overrides overlapping and not unique
         status = np.nan_to_num(self["status"].reshape(-1, self.steps)).astype(int)
-        return status[grave[status].argmax(axis=0), np.arange(self.steps)], [name.replace("_", " ") for name in self.file.variables["status"].flag_meanings.split()]
+        return status[grave[status].argmax(axis=0), np.arange(self.steps)], [
+            name.replace("_", " ") for name in self.file.variables["status"].flag_meanings.split()
+        ]
 
     def warning(self, step):
         """Text of the status of a level, ' (overlapping)'; empty for a converged one."""
@@ -136,11 +187,21 @@ class Result:
 
     def loaded(self):
         """The levels with contact; with adhesion their forces may be negative."""
-        return np.flatnonzero(np.nan_to_num(self.mean("contact_area" if self.pulls() else "force")) > 0) if "force" in self else np.array([], int)
+        return (
+            np.flatnonzero(
+                np.nan_to_num(self.mean("contact_area" if self.pulls() else "force")) > 0
+            )
+            if "force" in self
+            else np.array([], int)
+        )
 
     def carrying(self):
         """The levels with contact or force: adhesion with a range attracts without contact."""
-        return np.union1d(self.loaded(), np.flatnonzero(np.nan_to_num(self.mean("force")))) if self.pulls() else self.loaded()
+        return (
+            np.union1d(self.loaded(), np.flatnonzero(np.nan_to_num(self.mean("force"))))
+            if self.pulls()
+            else self.loaded()
+        )
 
     def pulls(self):
         """True for a contact with adhesion."""
@@ -158,13 +219,31 @@ class Result:
             return [step - 1] if step - 1 in loaded else []
         if "status" in self:  # maps and radial means have nothing of levels that did not converge
             loaded = loaded[(self["status"].reshape(-1, self.steps)[:, loaded] < 4).any(axis=0)]
-        return sorted({int(s) for s in loaded[np.linspace(0, loaded.size - 1, count + 1).round().astype(int)[1:]]}) if loaded.size else []
+        return (
+            sorted(
+                {
+                    int(s)
+                    for s in loaded[
+                        np.linspace(0, loaded.size - 1, count + 1).round().astype(int)[1:]
+                    ]
+                }
+            )
+            if loaded.size
+            else []
+        )
 
     def branches(self):
         """The levels with a force as branches of loading or unloading, [(levels, unloading)]. If levels do not depend on the levels before,
         the levels in order of their separation are one branch."""
-        at, z = self.carrying(), self.mean("separation") if "separation" in self else self.depth()[0]
-        remembers = self.case.get("solids%hardness", "Infinity") != "Infinity" or ("jumps" in self and self.worst("jumps").any()) or ("time" in self and "energy_lost" in self)
+        at, z = (
+            self.carrying(),
+            self.mean("separation") if "separation" in self else self.depth()[0],
+        )
+        remembers = (
+            self.case.get("solids%hardness", "Infinity") != "Infinity"
+            or ("jumps" in self and self.worst("jumps").any())
+            or ("time" in self and "energy_lost" in self)
+        )
         if not remembers or at.size < 2:
             return [(at[np.argsort(-z[at], kind="stable")], False)]
         away = np.diff(z[at]) > 0
@@ -172,7 +251,11 @@ class Result:
         return [(at[a : b + 1], bool(away[a])) for a, b in zip(cuts[:-1], cuts[1:])]
 
     def heading(self, what):
-        many = f"mean over {self.realizations} realizations" if self.realizations > 1 else "one realization"
+        many = (
+            f"mean over {self.realizations} realizations"
+            if self.realizations > 1
+            else "one realization"
+        )
         return f"{what} ({many})\n{self.title}"
 
     def has_sphere(self):
@@ -188,10 +271,14 @@ class Result:
 
     def smooth(self):
         """Name of the smooth indenter."""
-        return f"smooth {self.shape()}" + (" (Hertz)" if self.shape() in ("sphere", "paraboloid") else "")
+        return f"smooth {self.shape()}" + (
+            " (Hertz)" if self.shape() in ("sphere", "paraboloid") else ""
+        )
 
     def by_elements(self):
-        model, source = (self.case.get(key, "").strip("'") for key in ("solver%model", "surface%source"))
+        model, source = (
+            self.case.get(key, "").strip("'") for key in ("solver%model", "surface%source")
+        )
         return "contact_x" in self or model == "elements" or model == "auto" and source == "heights"
 
 
@@ -217,7 +304,10 @@ def key_label(key, result):
     """(symbol, unit) of a key."""
     symbol, kind = _SYMBOLS.get(key, (key.split("%")[1].replace("_", " "), ""))
     length, force = (result.case.get(f"run%{k}_unit", "").strip("'") for k in ("length", "force"))
-    return symbol, {"length": length, "force": force, "modulus": f"{force} {length}$^{{-2}}$", "": ""}[kind]
+    return (
+        symbol,
+        {"length": length, "force": force, "modulus": f"{force} {length}$^{{-2}}$", "": ""}[kind],
+    )
 
 
 def axis_label(key, result):
@@ -240,13 +330,27 @@ def names(results):
     if keys:
         texts = []
         for result in results:
-            parts = [(*key_label(key, result), value_text(result.case.get(key, ""))) for key in keys]
-            texts.append(", ".join("elastic" if key == "solids%hardness" and value == "inf" else f"{symbol} = {value}" + (f" {unit}" if unit else "") if value else f"{symbol} at default"
-                                   for key, (symbol, unit, value) in zip(keys, parts)))
+            parts = [
+                (*key_label(key, result), value_text(result.case.get(key, ""))) for key in keys
+            ]
+            texts.append(
+                ", ".join(
+                    "elastic"
+                    if key == "solids%hardness" and value == "inf"
+                    else f"{symbol} = {value}" + (f" {unit}" if unit else "")
+                    if value
+                    else f"{symbol} at default"
+                    for key, (symbol, unit, value) in zip(keys, parts)
+                )
+            )
         if len(set(texts)) == len(texts) and max(map(len, texts)) < 90:
             return texts
     titles = [result.title for result in results]
-    return titles if len(set(titles)) == len(titles) and all(titles) else [os.path.splitext(os.path.basename(result.path))[0] for result in results]
+    return (
+        titles
+        if len(set(titles)) == len(titles) and all(titles)
+        else [os.path.splitext(os.path.basename(result.path))[0] for result in results]
+    )
 
 
 class Looks:
@@ -257,24 +361,47 @@ class Looks:
         self.names = names(results)
         self.scale = None
         if len(results) <= FEW:
-            self.of = [(STYLES[k][1], STYLES[k][2], name if len(results) > 1 else None) for k, name in enumerate(self.names)]
+            self.of = [
+                (STYLES[k][1], STYLES[k][2], name if len(results) > 1 else None)
+                for k, name in enumerate(self.names)
+            ]
             return
         keys = differing_keys(results)
         keys = sorted(keys, key=lambda key: -len({r.case.get(key) for r in results}))
         values = lambda key: sorted({r.case.get(key, "") for r in results}, key=_in_order)
-        if len(keys) in (1, 2) and len(values(keys[-1])) <= (len(STYLES) if len(keys) == 2 else len(results)):
+        if len(keys) in (1, 2) and len(values(keys[-1])) <= (
+            len(STYLES) if len(keys) == 2 else len(results)
+        ):
             first, shown = keys[0], values(keys[0])
-            texts, place = [value_text(v) for v in shown], [shown.index(r.case.get(first, "")) for r in results]
+            texts, place = [value_text(v) for v in shown], [
+                shown.index(r.case.get(first, "")) for r in results
+            ]
             title, second = axis_label(first, results[0]), keys[1] if len(keys) == 2 else None
         else:
             second = None
-            texts, place, title = [", ".join(value_text(r.case.get(key, "")) for key in keys) for r in results], list(range(len(results))), ", ".join(axis_label(key, results[0]) for key in keys)
+            texts, place, title = (
+                [", ".join(value_text(r.case.get(key, "")) for key in keys) for r in results],
+                list(range(len(results))),
+                ", ".join(axis_label(key, results[0]) for key in keys),
+            )
             if not keys or max(map(len, [title, *texts])) > 60:
                 texts, title = [str(k + 1) for k in place], "member"
         colours = plt.get_cmap("viridis")(np.linspace(0, 0.9, len(texts)))
         self.scale = title, texts, colours
-        lines = [STYLES[values(second).index(r.case.get(second, ""))][1] if second else "-" for r in results]
-        said = ["{} = {}{}".format(key_label(second, r)[0], value_text(r.case.get(second, "")), " " + key_label(second, r)[1] if key_label(second, r)[1] else "") if second else None for r in results]
+        lines = [
+            STYLES[values(second).index(r.case.get(second, ""))][1] if second else "-"
+            for r in results
+        ]
+        said = [
+            "{} = {}{}".format(
+                key_label(second, r)[0],
+                value_text(r.case.get(second, "")),
+                " " + key_label(second, r)[1] if key_label(second, r)[1] else "",
+            )
+            if second
+            else None
+            for r in results
+        ]
         self.of = [(line, colours[k], text) for line, k, text in zip(lines, place, said)]
 
 
@@ -291,11 +418,17 @@ def members_of_manifest(path):
         with netCDF4.Dataset(path) as file:
             if "member" not in file.dimensions or "file" not in file.variables:
                 return None
-            listed = [name.strip("\0 ") for name in np.atleast_1d(netCDF4.chartostring(file.variables["file"][:]))]
+            listed = [
+                name.strip("\0 ")
+                for name in np.atleast_1d(netCDF4.chartostring(file.variables["file"][:]))
+            ]
     except OSError:
         return None
     paths = [os.path.join(os.path.dirname(path), name) for name in listed]
     missing = [p for p in paths if not os.path.exists(p)]
     if missing:
-        print(f"plot.py: {len(missing)} of {len(paths)} members have no result yet: {os.path.basename(missing[0])}, ...", file=sys.stderr)
+        print(
+            f"plot.py: {len(missing)} of {len(paths)} members have no result yet: {os.path.basename(missing[0])}, ...",
+            file=sys.stderr,
+        )
     return [p for p in paths if os.path.exists(p)]

@@ -6,8 +6,14 @@ from plot_curves import error_band, title
 from plot_results import _in_order, axis_label, differing_keys, key_label, value_text
 from plot_style import FEW, Page, STYLES, colour_bar, label, short
 
-QUANTITIES = {"force": "force $N$", "pressure": "nominal pressure", "separation_sigma": r"separation $Z_0/\sigma$", "separation": "separation $Z_0$", "contact_area": "true contact area $A$",
-              "contacts": "number of contacts"}
+QUANTITIES = {
+    "force": "force $N$",
+    "pressure": "nominal pressure",
+    "separation_sigma": r"separation $Z_0/\sigma$",
+    "separation": "separation $Z_0$",
+    "contact_area": "true contact area $A$",
+    "contacts": "number of contacts",
+}
 
 
 def common_level(results, step):
@@ -22,9 +28,15 @@ def common_level(results, step):
         if all(name in levels for levels in named):
             return [levels[name] for levels in named], name
     relative = {r.case.get("indentation%unit", "").strip("'") for r in results}
-    if all(r.control() == "pressure" for r in results) and relative == {"relative"} and len({r.steps for r in results}) == 1:
+    if (
+        all(r.control() == "pressure" for r in results)
+        and relative == {"relative"}
+        and len({r.steps for r in results}) == 1
+    ):
         ends = {r.case.get(key) for r in results for key in ("indentation%stop",)}
-        return [r.steps - 1 for r in results], f"$p/(E^*h')$ = {ends.pop()}" if len(ends) == 1 and None not in ends else "the last level"
+        return [r.steps - 1 for r in results], f"$p/(E^*h')$ = {ends.pop()}" if len(
+            ends
+        ) == 1 and None not in ends else "the last level"
     return [r.steps - 1 for r in results], "the last level of each"
 
 
@@ -36,12 +48,22 @@ def _curves(page, axis, quantity, results, values, levels, numbers, others):
         x, y = numbers[at], values[at]
         axis.plot(x, y, marker, ls=line, color=colour, ms=3.5, label=other or None)
         off = np.array([results[k].error(quantity)[levels[k]] for k in at])
-        error_band(page, axis, x, y, off, f"expected error{' of ' + other if len(shown) > 1 else ''}", color=colour, alpha=0.15)
+        error_band(
+            page,
+            axis,
+            x,
+            y,
+            off,
+            f"expected error{' of ' + other if len(shown) > 1 else ''}",
+            color=colour,
+            alpha=0.15,
+        )
 
 
 def study(results, options):
     """Area, contacts and force (separation under force control) at one level against the keys that vary: curves over one key of numbers (of
-    more than two keys that with the most values), one for each value of the others; maps for two keys of numbers, or of none."""
+    more than two keys that with the most values), one for each value of the others; maps for two keys of numbers, or of none.
+    """
     results = [r for r in results if "force" in r and r.loaded().size]
     keys = differing_keys(results) if len(results) > 2 else []
     texts = [[r.case.get(key, "") for key in keys] for r in results]
@@ -54,13 +76,28 @@ def study(results, options):
     if curves:
         key, marks = keys[of_numbers[0]], [t[of_numbers[0]] for t in texts]
         x = np.array([_in_order(mark)[1] for mark in marks])
-        named = [value_text if _in_order(text)[0] else lambda value, label=key_label(name, results[0]): f"{label[0]} = {value_text(value)} {label[1]}".strip() for name, text in zip(keys, texts[0])]
-        others = [", ".join(named[i](text) for i, text in enumerate(t) if i != of_numbers[0]) for t in texts]
+        named = [
+            value_text
+            if _in_order(text)[0]
+            else lambda value, label=key_label(
+                name, results[0]
+            ): f"{label[0]} = {value_text(value)} {label[1]}".strip()
+            for name, text in zip(keys, texts[0])
+        ]
+        others = [
+            ", ".join(named[i](text) for i, text in enumerate(t) if i != of_numbers[0])
+            for t in texts
+        ]
         curves = len(set(others)) <= FEW
     if not curves and (len(keys) != 2 or len(results) < 4):
         return None
     levels, name = common_level(results, options.step)
-    given = {"force": ["separation_sigma" if all("separation_sigma" in r for r in results) else "separation"], "pressure": ["separation_sigma"]}.get(results[0].control(), ["force"])
+    given = {
+        "force": [
+            "separation_sigma" if all("separation_sigma" in r for r in results) else "separation"
+        ],
+        "pressure": ["separation_sigma"],
+    }.get(results[0].control(), ["force"])
     quantities = given + ["contact_area", "contacts"]
     page = Page(options, 3, aspect=0.9)
     for axis, quantity in zip(page.axes, quantities):
@@ -73,7 +110,10 @@ def study(results, options):
             label(axis, "x", axis_label(key, results[0]))
             if len(set(x)) <= 5:  # the values themselves
                 axis.minorticks_off()
-                axis.set_xticks(sorted(set(x)), [value_text(marks[list(x).index(value)]) for value in sorted(set(x))])
+                axis.set_xticks(
+                    sorted(set(x)),
+                    [value_text(marks[list(x).index(value)]) for value in sorted(set(x))],
+                )
             label(axis, "y", QUANTITIES[quantity], dimension)
             continue
         ends = [sorted({t[i] for t in texts}, key=_in_order) for i in (0, 1)]
@@ -83,14 +123,36 @@ def study(results, options):
         image = axis.imshow(np.ma.masked_invalid(table), cmap="cividis", aspect="auto")
         if np.nanmax(table) - np.nanmin(table) < 1e-9 * abs(np.nanmax(table)):
             image.set_clim(0.9 * np.nanmin(table), 1.1 * np.nanmax(table))
-        bar = colour_bar(page.figure, image, axis, QUANTITIES[quantity], dimension, location="bottom", pad=0.02, aspect=22)
+        bar = colour_bar(
+            page.figure,
+            image,
+            axis,
+            QUANTITIES[quantity],
+            dimension,
+            location="bottom",
+            pad=0.02,
+            aspect=22,
+        )
         middle = np.nanmean([np.nanmin(table), np.nanmax(table)])
         for (i, j), value in np.ndenumerate(table):
             if np.isfinite(value) and table.size <= 36:
-                axis.text(j, i, short(value / bar.size), ha="center", va="center", color="k" if value > middle else "w", fontsize=7)
-        for key, shown, place, set_label in ((keys[0], ends[0], axis.set_yticks, axis.set_ylabel), (keys[1], ends[1], axis.set_xticks, axis.set_xlabel)):
+                axis.text(
+                    j,
+                    i,
+                    short(value / bar.size),
+                    ha="center",
+                    va="center",
+                    color="k" if value > middle else "w",
+                    fontsize=7,
+                )
+        for key, shown, place, set_label in (
+            (keys[0], ends[0], axis.set_yticks, axis.set_ylabel),
+            (keys[1], ends[1], axis.set_xticks, axis.set_xlabel),
+        ):
             shown = [value_text(t) for t in shown]
-            every = -(-(len(shown) if key == keys[0] else sum(map(len, shown)) // 2) // 14)  # as many as there is room for
+            every = -(
+                -(len(shown) if key == keys[0] else sum(map(len, shown)) // 2) // 14
+            )  # as many as there is room for
             place(range(0, len(shown), every), shown[::every])
             set_label(axis_label(key, results[0]))
     return page.finish(title(results, f"Study at {name}"))

@@ -12,8 +12,17 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogFormatterSciNotation, MaxNLocator
 
 # Curves differ by line and marker as well as by colour, so that pictures are readable in grey.
-STYLES = [("o", "-", "#0b3c5d"), ("s", "--", "#c1440e"), ("^", "-.", "#4b8b3b"), ("D", ":", "#6a4c93"), ("v", "-", "#777777"), ("P", "--", "#b08d00"),
-          ("X", "-.", "#000000"), ("<", ":", "#1f9e9e"), (">", "-", "#a03060")]
+STYLES = [
+    ("o", "-", "#0b3c5d"),
+    ("s", "--", "#c1440e"),
+    ("^", "-.", "#4b8b3b"),
+    ("D", ":", "#6a4c93"),
+    ("v", "-", "#777777"),
+    ("P", "--", "#b08d00"),
+    ("X", "-.", "#000000"),
+    ("<", ":", "#1f9e9e"),
+    (">", "-", "#a03060"),
+]
 FEW = 6  # maximum number of curves with individual colours
 GREY = "0.4"  # theories and laws drawn beside the results
 # The mark of a level by its status, from 1 on; larger ones are more serious.
@@ -23,8 +32,20 @@ WIDTHS = {"single": 85.0, "onehalf": 130.0, "double": 175.0}  # columns of journ
 COLOURS = matplotlib.colormaps["viridis_r"].copy()
 COLOURS.set_bad("w")
 
-plt.rcParams.update({"font.size": 8, "axes.titlesize": 8, "legend.fontsize": 7.5, "image.origin": "lower", "axes.formatter.useoffset": False, "svg.fonttype": "none",
-                     "pdf.fonttype": 42, "lines.linewidth": 1.3, "axes.linewidth": 0.7, "figure.titlesize": 9})
+plt.rcParams.update(
+    {
+        "font.size": 8,
+        "axes.titlesize": 8,
+        "legend.fontsize": 7.5,
+        "image.origin": "lower",
+        "axes.formatter.useoffset": False,
+        "svg.fonttype": "none",
+        "pdf.fonttype": 42,
+        "lines.linewidth": 1.3,
+        "axes.linewidth": 0.7,
+        "figure.titlesize": 9,
+    }
+)
 
 # Units of pictures, from small to large: (size in SI, text). Keys are results of _reduced().
 _SHOWN = {
@@ -39,13 +60,38 @@ _SHOWN = {
     "N m-2": [(1.0, "Pa"), (1e3, "kPa"), (1e6, "MPa"), (1e9, "GPa")],
     "N-1 m2": [(1e-9, "1/GPa"), (1e-6, "1/MPa"), (1e-3, "1/kPa"), (1.0, "1/Pa")],
     # A case does not specify electrical or thermal resistivities.
-    "ohm": [(size, f"{p}Ω; thermal: {p}K/W") for size, p in ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"))],
+    "ohm": [
+        (size, f"{p}Ω; thermal: {p}K/W")
+        for size, p in ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"))
+    ],
 }
 _PREFIXES = {"": 1.0, "n": 1e-9, "u": 1e-6, "µ": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6}
-_BASES = {prefix + base: (size, base) for base in ("m", "N", "ohm", "s") for prefix, size in _PREFIXES.items()}
-_BASES |= {name: (size, "m") for names, size in (("inch in inches", 0.0254), ("ft foot feet", 0.3048), ("mil", 2.54e-5), ("nanometer", 1e-9), ("angstrom", 1e-10),
-                                                 ("micron micrometer", 1e-6), ("millimeter", 1e-3), ("meter", 1.0)) for name in names.split()}
-_BASES |= {"lbf": (4.4482216152605, "N"), "kgf": (9.80665, "N"), "gf": (9.80665e-3, "N"), "dyne": (1e-5, "N"), "newton": (1.0, "N")}
+_BASES = {
+    prefix + base: (size, base)
+    for base in ("m", "N", "ohm", "s")
+    for prefix, size in _PREFIXES.items()
+}
+_BASES |= {
+    name: (size, "m")
+    for names, size in (
+        ("inch in inches", 0.0254),
+        ("ft foot feet", 0.3048),
+        ("mil", 2.54e-5),
+        ("nanometer", 1e-9),
+        ("angstrom", 1e-10),
+        ("micron micrometer", 1e-6),
+        ("millimeter", 1e-3),
+        ("meter", 1.0),
+    )
+    for name in names.split()
+}
+_BASES |= {
+    "lbf": (4.4482216152605, "N"),
+    "kgf": (9.80665, "N"),
+    "gf": (9.80665e-3, "N"),
+    "dyne": (1e-5, "N"),
+    "newton": (1.0, "N"),
+}
 
 
 def si(text):
@@ -62,7 +108,9 @@ def si(text):
         factor *= size ** int(power or 1)
         powers[base] = powers.get(base, 0) + int(power or 1)
     order = sorted((base for base in powers if powers[base]), key=["N", "ohm", "m", "s"].index)
-    return factor, " ".join(base + (str(powers[base]) if powers[base] != 1 else "") for base in order)
+    return factor, " ".join(
+        base + (str(powers[base]) if powers[base] != 1 else "") for base in order
+    )
 
 
 def fitting(dimension, values):
@@ -72,13 +120,25 @@ def fitting(dimension, values):
     if not known:
         return 1.0, re.sub(r"(?<=[A-Za-z)])(-?\d+)\b", r"$^{\1}$", dimension)
     reach = 10.0 if dimension == "m2" else 1.0001  # 0.1 mm² rather than 100000 µm²
-    return max((unit for unit in known if unit[0] <= top * reach), key=lambda unit: unit[0], default=known[0]) if top > 0 else min(known, key=lambda unit: abs(np.log10(unit[0])))
+    return (
+        max(
+            (unit for unit in known if unit[0] <= top * reach),
+            key=lambda unit: unit[0],
+            default=known[0],
+        )
+        if top > 0
+        else min(known, key=lambda unit: abs(np.log10(unit[0])))
+    )
 
 
 def middle(dimension, ends):
     """The same for a logarithmic axis over decades: of the units within its ends the one nearest to its middle."""
     within = [unit for unit in _SHOWN.get(dimension, []) if 0 < ends[0] <= unit[0] <= ends[1]]
-    return min(within, key=lambda unit: abs(np.log(unit[0] ** 2 / (ends[0] * ends[1])))) if within else fitting(dimension, ends)
+    return (
+        min(within, key=lambda unit: abs(np.log(unit[0] ** 2 / (ends[0] * ends[1]))))
+        if within
+        else fitting(dimension, ends)
+    )
 
 
 def amount(value, dimension, digits=3):
@@ -114,10 +174,14 @@ def label(axis, which, text, dimension=""):
     """Writes the label of an axis ('x' or 'y') and its numbers in a unit suitable for its range."""
     side = getattr(axis, which + "axis")
     within = []
-    for of in which if axis.get_aspect() == "auto" else "xy":  # both axes of a map have the same unit
+    for of in (
+        which if axis.get_aspect() == "auto" else "xy"
+    ):  # both axes of a map have the same unit
         lo, hi = sorted(getattr(axis, f"get_{of}lim")())
         drawn = getattr(axis.dataLim, "interval" + of)  # the axis extends a little beyond it
-        within += [max(lo, drawn.min()), min(hi, drawn.max())] if np.isfinite(drawn).all() else [lo, hi]
+        within += (
+            [max(lo, drawn.min()), min(hi, drawn.max())] if np.isfinite(drawn).all() else [lo, hi]
+        )
     size, unit = (middle if side.get_scale() == "log" else fitting)(dimension, within)
     side.set_label_text(text + (f" [{unit}]" if unit else ""))
     if side.get_scale() == "log":
@@ -143,7 +207,14 @@ def colour_bar(figure, image, axes, text, dimension="", **how):
     """A colour bar in a suitable unit, right of the axes."""
     low, high = image.get_clim()
     size, unit = fitting(dimension, np.array([low, high]))
-    bar = figure.colorbar(image, ax=axes, label=text + (f" [{unit}]" if unit else ""), format=FuncFormatter(lambda v, _: _number(v / size, high / size)), ticks=MaxNLocator(5), **how)
+    bar = figure.colorbar(
+        image,
+        ax=axes,
+        label=text + (f" [{unit}]" if unit else ""),
+        format=FuncFormatter(lambda v, _: _number(v / size, high / size)),
+        ticks=MaxNLocator(5),
+        **how,
+    )
     bar.size = size
     return bar
 
@@ -157,7 +228,9 @@ class Page:
         columns = columns or max(1, min(count, int(self.width // least)))
         self.rows = -(-count // columns)
         self.body = self.rows * self.width / columns * aspect
-        self.figure = plt.figure(figsize=(self.width / 25.4, self.body / 25.4), constrained_layout=True)
+        self.figure = plt.figure(
+            figsize=(self.width / 25.4, self.body / 25.4), constrained_layout=True
+        )
         self.outer = self.figure.add_gridspec(2, 1, height_ratios=[1, 1e-3])
         grid = self.outer[0].subgridspec(self.rows, columns)
         self.axes = [self.figure.add_subplot(grid[k // columns, k % columns]) for k in range(count)]
@@ -176,14 +249,34 @@ class Page:
             last = value == len(MARKS) - 1
             if not last:
                 at = at[:: -(-at.size // 15)]
-            axis.plot(np.asarray(x)[at], np.asarray(y)[at], MARKS[value], color="r" if last else colour, mfc="w", ms=5 if last else 3.5, mew=0.8, ls="none", zorder=3, gid="status")
-            self.entry("level " + meanings[value], ls="none", marker=MARKS[value], mfc="w", color="r" if last else "k", ms=4)
+            axis.plot(
+                np.asarray(x)[at],
+                np.asarray(y)[at],
+                MARKS[value],
+                color="r" if last else colour,
+                mfc="w",
+                ms=5 if last else 3.5,
+                mew=0.8,
+                ls="none",
+                zorder=3,
+                gid="status",
+            )
+            self.entry(
+                "level " + meanings[value],
+                ls="none",
+                marker=MARKS[value],
+                mfc="w",
+                color="r" if last else "k",
+                ms=4,
+            )
 
     def scale(self, scale):
         """The colour scale of many results, (name of the key, texts of its values, colours), right of all panels."""
         name, texts, colours = scale
         colours = matplotlib.colors.ListedColormap(colours)
-        image = matplotlib.cm.ScalarMappable(matplotlib.colors.BoundaryNorm(np.arange(len(texts) + 1) - 0.5, len(texts)), colours)
+        image = matplotlib.cm.ScalarMappable(
+            matplotlib.colors.BoundaryNorm(np.arange(len(texts) + 1) - 0.5, len(texts)), colours
+        )
         bar = self.figure.colorbar(image, ax=self.axes, label=name, aspect=30, pad=0.01)
         some = np.arange(0, len(texts), max(1, -(-len(texts) // 16)))
         bar.set_ticks(some)
@@ -195,20 +288,35 @@ class Page:
         for axis in self.axes:
             for handle, text in zip(*axis.get_legend_handles_labels()):
                 self.entries.setdefault(text, handle)
-        self.entries = dict(sorted(self.entries.items(), key=lambda entry: entry[0].startswith("level ")))
+        self.entries = dict(
+            sorted(self.entries.items(), key=lambda entry: entry[0].startswith("level "))
+        )
         self.figure.suptitle(wrapped(self.figure, title, self.width, "figure.titlesize"))
         strip, handles = 0.1, list(self.entries.values())
         if handles:
             below = self.figure.add_subplot(self.outer[1])
             below.axis("off")
-            texts = [wrapped(self.figure, text, self.width - 10, "legend.fontsize") for text in self.entries]
+            texts = [
+                wrapped(self.figure, text, self.width - 10, "legend.fontsize")
+                for text in self.entries
+            ]
             for rows in range(1, len(texts) + 1):  # as few as fit the width
-                legend = below.legend(handles, texts, loc="center", ncol=-(-len(texts) // rows), borderaxespad=0, frameon=False)
+                legend = below.legend(
+                    handles,
+                    texts,
+                    loc="center",
+                    ncol=-(-len(texts) // rows),
+                    borderaxespad=0,
+                    frameon=False,
+                )
                 box = legend.get_window_extent()
                 if box.width < self.figure.bbox.width:
                     break
             strip = box.height / self.figure.dpi * 25.4
-        self.figure.set_size_inches(self.width / 25.4, (self.body + strip + 4.2 * (1 + self.figure._suptitle.get_text().count("\n"))) / 25.4)
+        self.figure.set_size_inches(
+            self.width / 25.4,
+            (self.body + strip + 4.2 * (1 + self.figure._suptitle.get_text().count("\n"))) / 25.4,
+        )
         self.outer.set_height_ratios([self.body, strip])
         wrap_titles(self.figure)
         return self.figure
@@ -231,11 +339,21 @@ def wrapped(figure, text, width, size):
 def wrap_titles(figure):
     """Wraps the titles of axes half way to the next axes or at the edge of the figure, and makes the figure higher by the lines that this adds."""
     figure.draw_without_rendering()  # for the positions of the axes; the next drawing also uses the widths of the tick labels of this one
-    centres = {axis: sum(axis.get_position().intervalx) / 2 for axis in figure.axes if axis.get_title()}
+    centres = {
+        axis: sum(axis.get_position().intervalx) / 2 for axis in figure.axes if axis.get_title()
+    }
     added = {}  # lines of each row of axes
     for axis, centre in centres.items():
-        half = min([centre, 1 - centre] + [abs(centre - other) / 2 for other in centres.values() if abs(centre - other) > 0.05])
-        text = wrapped(figure, axis.get_title(), 2 * half * 25.4 * figure.get_figwidth(), axis.title.get_fontsize())
+        half = min(
+            [centre, 1 - centre]
+            + [abs(centre - other) / 2 for other in centres.values() if abs(centre - other) > 0.05]
+        )
+        text = wrapped(
+            figure,
+            axis.get_title(),
+            2 * half * 25.4 * figure.get_figwidth(),
+            axis.title.get_fontsize(),
+        )
         row = axis.get_subplotspec().rowspan.start
         added[row] = max(added.get(row, 0), text.count("\n") - axis.get_title().count("\n"))
         axis.title.set_text(text)

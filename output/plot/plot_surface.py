@@ -16,15 +16,30 @@ def surface(results, options):
         return None
     spectra = [r for r in results if "psd" in r and "wavenumber" in r]
     maps = [(r, name) for r, name in zip(results, names(results)) if "height" in r][:3]
-    drawn = ["map"] * len(maps) + [name for name, there in (("spectrum", spectra), ("distribution", "height_pdf" in first or "height" in first)) if there]
+    drawn = ["map"] * len(maps) + [
+        name
+        for name, there in (
+            ("spectrum", spectra),
+            ("distribution", "height_pdf" in first or "height" in first),
+        )
+        if there
+    ]
     page = Page(options, len(drawn), aspect=0.82 if len(drawn) > 1 else 0.72)
     for axis, (result, name) in zip(page.axes, maps):
         _map(page, axis, result, f"{name}\n" if len(maps) > 1 else "")
     for axis, name in list(zip(page.axes, drawn))[len(maps) :]:
         {"spectrum": _spectrum, "distribution": _distribution}[name](page, axis, first, results)
-    slopes = [(name, r["rms_slope"]) for name, r in zip(names(results), results) if "rms_slope" in r] if len(results) > 1 else []
+    slopes = (
+        [(name, r["rms_slope"]) for name, r in zip(names(results), results) if "rms_slope" in r]
+        if len(results) > 1
+        else []
+    )
     for name, slope in slopes:
-        page.entry(f"{name}: rms slope {np.mean(slope):.3g}" + (f" ± {np.std(slope, ddof=1):.2g} ({slope.size} surfaces)" if slope.size > 1 else ""), ls="none")
+        page.entry(
+            f"{name}: rms slope {np.mean(slope):.3g}"
+            + (f" ± {np.std(slope, ddof=1):.2g} ({slope.size} surfaces)" if slope.size > 1 else ""),
+            ls="none",
+        )
     return page.finish(first.title if len(results) == 1 else title(results, "Surfaces"))
 
 
@@ -33,13 +48,31 @@ def _map(page, axis, result, name):
     image.set_cmap("viridis")
     low, high = np.nanpercentile(np.ma.filled(image.get_array(), np.nan), [0.1, 99.9])
     image.set_clim(low, high)
-    colour_bar(page.figure, image, axis, "height", result.dimension("height"), fraction=0.06, pad=0.03, aspect=20, extend="both")
+    colour_bar(
+        page.figure,
+        image,
+        axis,
+        "height",
+        result.dimension("height"),
+        fraction=0.06,
+        pad=0.03,
+        aspect=20,
+        extend="both",
+    )
     axis.locator_params(nbins=5)
     for which in "xy":
-        label(axis, which, f"${which}$", result.dimension("height_" + which if "height_" + which in result else which))
+        label(
+            axis,
+            which,
+            f"${which}$",
+            result.dimension("height_" + which if "height_" + which in result else which),
+        )
     sq = float(result["sq"]) if "sq" in result else float(np.nanstd(result["height"]))
     filled = int(result["filled_points"]) if "filled_points" in result else 0
-    axis.set_title(f"{name}rms height {amount(sq, result.dimension('height'))}" + (f",\n{filled} points filled" if filled else ""))
+    axis.set_title(
+        f"{name}rms height {amount(sq, result.dimension('height'))}"
+        + (f",\n{filled} points filled" if filled else "")
+    )
 
 
 def _spectrum(page, axis, _, results):
@@ -48,19 +81,45 @@ def _spectrum(page, axis, _, results):
     lows, tops = [], []
     for k, (result, name) in enumerate(zip(results, names(results))):
         marker, line, colour = STYLES[k % len(STYLES)]
-        q, psd = result["wavenumber"], result["psd"].reshape(-1, result["wavenumber"].size).mean(axis=0)
+        q, psd = result["wavenumber"], result["psd"].reshape(-1, result["wavenumber"].size).mean(
+            axis=0
+        )
         good = (q > 0) & (psd > 0)
         axis.plot(q[good], psd[good], marker, ms=2, mew=0.5, mfc="none", color=colour)
-        page.entry("measured" if len(results) == 1 else name, color=colour, marker=marker, ls="none", mfc="none", ms=3)
-        lows, tops = lows + [psd[psd > 1e-12 * psd.max()].min()], tops + [psd.max()]  # smaller values are rounding errors
+        page.entry(
+            "measured" if len(results) == 1 else name,
+            color=colour,
+            marker=marker,
+            ls="none",
+            mfc="none",
+            ms=3,
+        )
+        lows, tops = lows + [psd[psd > 1e-12 * psd.max()].min()], tops + [
+            psd.max()
+        ]  # smaller values are rounding errors
         if "psd_fit" in result:
             fit, about = np.ravel(result["psd_fit"])[: q.size], result.file.variables["psd_fit"]
-            axis.plot(q[fit > 0], fit[fit > 0], line, color=STYLES[1][2] if len(results) == 1 else colour, gid="fit", zorder=3)
+            axis.plot(
+                q[fit > 0],
+                fit[fit > 0],
+                line,
+                color=STYLES[1][2] if len(results) == 1 else colour,
+                gid="fit",
+                zorder=3,
+            )
             if len(results) == 1 and "hurst" in about.ncattrs():
-                waves = [2 * np.pi / (getattr(about, name) * result.factor("wavenumber")) for name in ("ks", "kl")]
+                waves = [
+                    2 * np.pi / (getattr(about, name) * result.factor("wavenumber"))
+                    for name in ("ks", "kl")
+                ]
                 length = result.dimension("wavenumber").removesuffix("-1")
-                page.entry(f"fit: $H$ = {about.hurst:.2f}" + (f" ± {about.hurst_error:.2f}" if "hurst_error" in about.ncattrs() else "") + rf", waves {' to '.join(amount(wave, length) for wave in waves)}",
-                           color=STYLES[1][2], ls="-")
+                page.entry(
+                    f"fit: $H$ = {about.hurst:.2f}"
+                    + (f" ± {about.hurst_error:.2f}" if "hurst_error" in about.ncattrs() else "")
+                    + rf", waves {' to '.join(amount(wave, length) for wave in waves)}",
+                    color=STYLES[1][2],
+                    ls="-",
+                )
             lows.append(max(fit[fit > 0].min() * 1e-4, lows[-1]) if (fit > 0).any() else lows[-1])
     axis.set_ylim(max(lows) / 3, max(tops) * 3)
     axis.set_title("power spectral density")

@@ -17,7 +17,15 @@ def time(results, options):
     if all(r.control() != "separation" for r in results):
         carried = [("separation", "separation $Z_0$")]
     page, looks = begin(results, options, 2)
-    for axis, (name, text) in zip(page.axes, carried + [("area_fraction", "true contact area $A/A_0$") if flat else ("contact_area", "true contact area $A$")]):
+    for axis, (name, text) in zip(
+        page.axes,
+        carried
+        + [
+            ("area_fraction", "true contact area $A/A_0$")
+            if flat
+            else ("contact_area", "true contact area $A$")
+        ],
+    ):
         for result, (line, colour, called) in zip(results, looks):
             t, y = result["time"] - result["time"][0], result.mean(name)
             axis.plot(t[1:], y[1:], ls=line, color=colour, marker=".", ms=3, gid="curve")
@@ -30,4 +38,6 @@ def time(results, options):
         axis.set_xscale("log")
         label(axis, "x", "time since the first level", results[0].dimension("time"))
         label(axis, "y", text, results[0].dimension(name))
-    return page.finish(title(results, f"{carried[0][1].split(' $')[0].capitalize()} and contact area against time"))
+    return page.finish(
+        title(results, f"{carried[0][1].split(' $')[0].capitalize()} and contact area against time")
+    )

@@ -2,21 +2,24 @@
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
+#include "base/parallel.hpp"
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
-#include "rough/parallel.hpp"
 #include "run/run.hpp"
 #include "run/team.hpp"
 
 namespace rsc::api {
 
 const Case& settings_of(const rsc_case* a_case) {
-    if (a_case && !a_case->tag.sound()) bad_input("the case was already released, or is a handle of another kind");
+    if (a_case && !a_case->tag.sound())
+        bad_input("the case was already released, or is a handle of another kind");
     static const Case defaults;
     return a_case ? a_case->settings : defaults;
 }
 
-int threads_of(const Case& settings) { return static_cast<int>(most_threads(settings.run.threads)); }
+int threads_of(const Case& settings) {
+    return static_cast<int>(most_threads(settings.run.threads));
+}
 
 }  // namespace rsc::api
 
@@ -51,7 +54,8 @@ int32_t rsc_case_read_file(rsc_case* a_case, const char* path) {
         rsc::Options options;
         options.case_path = path;
         rsc::ReadCase read = rsc::read_case(options);
-        if (read.study) refuse(2, "path", "must be a file with one case: &study belongs to the program");
+        if (read.study)
+            refuse(2, "path", "must be a file with one case: &study belongs to the program");
         a_case->settings = std::move(read.settings);
     });
 }
@@ -70,7 +74,8 @@ int32_t rsc_case_set(rsc_case* a_case, const char* name, const char* value) {
     });
 }
 
-int32_t rsc_case_get(const rsc_case* a_case, const char* name, char* buffer, int64_t size, int64_t* length) {
+int32_t rsc_case_get(const rsc_case* a_case, const char* name, char* buffer, int64_t size,
+                     int64_t* length) {
     return on(a_case, "a_case", 2, [&] {
         require(name, 2, "name");
         put_text(rsc::get_key(a_case->settings, name), buffer, size, length, 3);
@@ -78,7 +83,9 @@ int32_t rsc_case_get(const rsc_case* a_case, const char* name, char* buffer, int
 }
 
 int32_t rsc_case_text(const rsc_case* a_case, char* buffer, int64_t size, int64_t* length) {
-    return on(a_case, "a_case", 1, [&] { put_text(rsc::effective_namelist(a_case->settings), buffer, size, length, 2); });
+    return on(a_case, "a_case", 1, [&] {
+        put_text(rsc::effective_namelist(a_case->settings), buffer, size, length, 2);
+    });
 }
 
 int32_t rsc_key_count(int64_t* count) {
@@ -88,7 +95,8 @@ int32_t rsc_key_count(int64_t* count) {
 int32_t rsc_key_name(int64_t key, char* buffer, int64_t size, int64_t* length) {
     return guarded(0, [&] {
         const auto keys = rsc::registry();
-        if (key < 0 || key >= static_cast<int64_t>(keys.size())) refuse(1, "key", "must be the number of a key");
+        if (key < 0 || key >= static_cast<int64_t>(keys.size()))
+            refuse(1, "key", "must be the number of a key");
         put_text(rsc::full_name(keys[static_cast<std::size_t>(key)]), buffer, size, length, 2);
     });
 }
@@ -97,14 +105,19 @@ int32_t rsc_case_run(const rsc_case* a_case, int64_t* failed_levels) {
     return rsc_case_run_watched(a_case, nullptr, nullptr, failed_levels);
 }
 
-int32_t rsc_case_run_watched(const rsc_case* a_case, rsc_watch watch, void* data, int64_t* failed_levels) {
+int32_t rsc_case_run_watched(const rsc_case* a_case, rsc_watch watch, void* data,
+                             int64_t* failed_levels) {
     return on(a_case, "a_case", 1, [&] {
         rsc::require_valid(a_case->settings);
         rsc::RunOptions how;
         how.command = "rsc_case_run";
-        if (watch) how.report = [=](double done, double total) { return watch(done, total, data) != 0; };
+        if (watch)
+            how.report = [=](double done, double total) { return watch(done, total, data) != 0; };
         const long failed = rsc::run_case(a_case->settings, how);
         put(failed_levels, failed);
-        if (failed > 0) throw Outcome{RSC_NOT_CONVERGED, "some levels did not converge; their values are in the file with status = 4"};
+        if (failed > 0)
+            throw Outcome{
+                RSC_NOT_CONVERGED,
+                "some levels did not converge; their values are in the file with status = 4"};
     });
 }

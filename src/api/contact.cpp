@@ -5,30 +5,37 @@
 #include "contact/answers.hpp"
 #include "contact/deflection.hpp"
 #include "observe/quantities.hpp"
-#include "rough/asperities.hpp"
+#include "surface/asperities.hpp"
 
 namespace rsc::api {
 namespace {
 
 // The level statuses of rsc.h are those of contact/level.hpp.
-static_assert(kLevelStatusNames.size() == RSC_LEVEL_LAST_ + 1 && static_cast<int>(LevelStatus::converged) == RSC_LEVEL_CONVERGED &&
+static_assert(kLevelStatusNames.size() == RSC_LEVEL_LAST_ + 1 &&
+              static_cast<int>(LevelStatus::converged) == RSC_LEVEL_CONVERGED &&
               static_cast<int>(LevelStatus::out_of_validity) == RSC_LEVEL_OUT_OF_VALIDITY &&
               static_cast<int>(LevelStatus::overlapping) == RSC_LEVEL_OVERLAPPING &&
               static_cast<int>(LevelStatus::not_unique) == RSC_LEVEL_NOT_UNIQUE &&
               static_cast<int>(LevelStatus::not_converged) == RSC_LEVEL_NOT_CONVERGED);
 
 void require_contact_keys(const Case& settings) {
-    require_valid(settings, {"solver", "solids%resistivity", "solids%relaxation_share", "solids%relaxation_time", "asperities%law",
-                             "indentation%selection", "indentation%selection_factor", "surface%sigma", "surface%L"});
+    require_valid(settings, {"solver", "solids%resistivity", "solids%relaxation_share",
+                             "solids%relaxation_time", "asperities%law", "indentation%selection",
+                             "indentation%selection_factor", "surface%sigma", "surface%L"});
 }
 
-// Asperities, and points for elements, are made for one solver%model: a case with the other model is refused. 'auto' accepts both.
+// Asperities, and points for elements, are made for one solver%model: a case with the other model
+// is refused. 'auto' accepts both.
 void require_model(const SurfaceModel& on, const Case& settings, int argument) {
     if (settings.solver.model == Model::automatic) return;
     const bool elements = settings.solver.model == Model::elements;
-    if (elements && !on.points) refuse(argument, "a_case", "has solver%model = 'elements', but the asperities were made without it");
+    if (elements && !on.points)
+        refuse(argument, "a_case",
+               "has solver%model = 'elements', but the asperities were made without it");
     if (!elements && on.points)
-        refuse(argument, "a_case", "has solver%model = 'asperities', but these were made with solver%model = 'elements'");
+        refuse(
+            argument, "a_case",
+            "has solver%model = 'asperities', but these were made with solver%model = 'elements'");
 }
 
 const char kNoState[] = "the solver found no state: there are no results";
@@ -37,7 +44,9 @@ const char kNoState[] = "the solver found no state: there are no results";
 const Level& last_level_of(const rsc_contact* contact) {
     require(contact, 1, "contact");
     if (!contact->known.level)
-        throw Outcome{RSC_NO_RESULT, "the contact has no result yet: call rsc_contact_indent or rsc_contact_press first"};
+        throw Outcome{
+            RSC_NO_RESULT,
+            "the contact has no result yet: call rsc_contact_indent or rsc_contact_press first"};
     return *contact->known.level;
 }
 
@@ -47,7 +56,8 @@ const Level& level_of(const rsc_contact* contact) {
     return level;
 }
 
-// Computes a level. After an exception the contact has no result; a level that did not converge is kept with that status.
+// Computes a level. After an exception the contact has no result; a level that did not converge is
+// kept with that status.
 template <class Compute>
 void compute(rsc_contact& contact, Compute&& level) {
     auto& known = contact.known;
@@ -63,18 +73,24 @@ void compute(rsc_contact& contact, Compute&& level) {
 
 void put_finite(double* to, double value) {
     if (std::isnan(value)) throw Outcome{RSC_NO_RESULT, "the level has no such value"};
-    if (!std::isfinite(value)) throw Outcome{RSC_NO_RESULT, "the result overflows double precision: choose other units"};
+    if (!std::isfinite(value))
+        throw Outcome{RSC_NO_RESULT, "the result overflows double precision: choose other units"};
     put(to, value);
 }
 
 void tell_convergence(const rsc_contact& contact) {
     if (contact.known.level->status == LevelStatus::not_converged) {
         if (contact.known.level->fallback == rsc::Fallback::held)
-            throw Outcome{RSC_NOT_CONVERGED, "no state has this force: the result is the level of smallest force"};
+            throw Outcome{RSC_NOT_CONVERGED,
+                          "no state has this force: the result is the level of smallest force"};
         if (contact.known.level->fallback == rsc::Fallback::jump)
-            throw Outcome{RSC_NOT_CONVERGED, "the force jumps over this one: the result is a state at one side of the jump"};
+            throw Outcome{
+                RSC_NOT_CONVERGED,
+                "the force jumps over this one: the result is a state at one side of the jump"};
         if (std::isnan(contact.known.level->force)) throw Outcome{RSC_NOT_CONVERGED, kNoState};
-        throw Outcome{RSC_NOT_CONVERGED, "the solver did not reach its tolerance; the results are those of its last iterate"};
+        throw Outcome{
+            RSC_NOT_CONVERGED,
+            "the solver did not reach its tolerance; the results are those of its last iterate"};
     }
 }
 
@@ -86,7 +102,8 @@ double stiffness_of(rsc_contact& contact) {
 }
 
 double conductance_length_of(rsc_contact& contact) {
-    if (contact.contact.indenter().layers.count > 0) throw Outcome{RSC_NO_RESULT, "conductance is not available for a body with layers"};
+    if (contact.contact.indenter().layers.count > 0)
+        throw Outcome{RSC_NO_RESULT, "conductance is not available for a body with layers"};
     double& known = contact.known.level->conductance_length;
     const double stiffness = stiffness_of(contact);
     if (std::isnan(known)) known = conductance_length(contact.contact, stiffness);
@@ -96,12 +113,16 @@ double conductance_length_of(rsc_contact& contact) {
 double resistance_of(rsc_contact& contact) {
     const auto& resistivity = contact.keys->solids.resistivity;
     if (!(resistivity[0] + resistivity[1] > 0))
-        throw Outcome{RSC_NO_RESULT, "there is no resistance: solids%resistivity is 0 in the case of this contact"};
-    if (contact.known.level->contacts == 0) throw Outcome{RSC_NO_RESULT, "there is no contact: the resistance is infinite"};
+        throw Outcome{
+            RSC_NO_RESULT,
+            "there is no resistance: solids%resistivity is 0 in the case of this contact"};
+    if (contact.known.level->contacts == 0)
+        throw Outcome{RSC_NO_RESULT, "there is no contact: the resistance is infinite"};
     return constriction_resistance(conductance_length_of(contact), resistivity);
 }
 
-// Quantities that are not direct members of a level, by the names of the result file (vectors by component).
+// Quantities that are not direct members of a level, by the names of the result file (vectors by
+// component).
 struct Derived {
     std::string_view name;
     double (*of)(rsc_contact&);
@@ -118,17 +139,20 @@ constexpr Derived kDerived[] = {
     {"moment_y", [](rsc_contact& c) { return c.answer().moment.y; }},
 };
 
-// Quantities of the result file that rsc_contact_value does not return: those of maps, which the library does not compute, and vectors
+// Quantities of the result file that rsc_contact_value does not return: those of maps, which the
+// library does not compute, and vectors
 // (their components have names).
 bool of_map(std::string_view name) {
-    return name == "crowded_cells" || name == "contacts_outside_map" || name == "lateral_force" || name == "moment";
+    return name == "crowded_cells" || name == "contacts_outside_map" || name == "lateral_force" ||
+           name == "moment";
 }
 
 std::string known_values() {
     std::string names;
     for (const Derived& d : kDerived) names += (names.empty() ? "" : ", ") + std::string(d.name);
     for (const LevelQuantity& q : level_quantities()) {
-        const bool derived = std::any_of(std::begin(kDerived), std::end(kDerived), [&](const Derived& d) { return d.name == q.name; });
+        const bool derived = std::any_of(std::begin(kDerived), std::end(kDerived),
+                                         [&](const Derived& d) { return d.name == q.name; });
         if (!derived && !of_map(q.name)) names += std::string(", ") + q.name;
     }
     return names;
@@ -139,30 +163,37 @@ std::string known_values() {
 
 using namespace rsc::api;
 
-int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperities, double E_star, double R, double x0, double y0,
-                           const rsc_case* a_case) {
+int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperities, double E_star,
+                           double R, double x0, double y0, const rsc_case* a_case) {
     return constructed(7, contact, "contact", [&] {
         require(asperities, 2, "asperities");
         if (!rsc::usable_positive(E_star)) refuse(3, "E_star", rsc::kPositiveBounds);
-        if (!rsc::usable_positive(R) && !(R > 0 && std::isinf(R))) refuse(4, "R", "must be from 1e-50 to 1e50, or Infinity");
+        if (!rsc::usable_positive(R) && !(R > 0 && std::isinf(R)))
+            refuse(4, "R", "must be from 1e-50 to 1e50, or Infinity");
         require_finite(x0, 5, "x0");
         require_finite(y0, 6, "y0");
         const rsc::Case& settings = settings_of(a_case);
         require_contact_keys(settings);
         if (!settings.solids.layer_thickness.empty())
-            refuse(7, "a_case", "has layers, which one modulus E* does not describe: use rsc_contact_create_from_case");
-        if (settings.indenter.shape != 0) refuse(7, "a_case", "has a shape other than a sphere: use rsc_contact_create_from_case");
+            refuse(7, "a_case",
+                   "has layers, which one modulus E* does not describe: use "
+                   "rsc_contact_create_from_case");
+        if (settings.indenter.shape != 0)
+            refuse(7, "a_case",
+                   "has a shape other than a sphere: use rsc_contact_create_from_case");
         const auto& on = asperities->model;
         require_model(*on, settings, 7);
         const rsc::SurfaceDomain domain = domain_of(settings, *on);
         const rsc::Indenter indenter{E_star, R, x0, y0, rsc::period_of(settings, domain)};
-        auto made = std::make_unique<rsc_contact>(on, std::make_shared<const rsc::Case>(settings), surrounded(indenter, domain));
+        auto made = std::make_unique<rsc_contact>(on, std::make_shared<const rsc::Case>(settings),
+                                                  surrounded(indenter, domain));
         made->given = {E_star, R};
         return made.release();
     });
 }
 
-int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities* asperities, const rsc_case* a_case) {
+int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities* asperities,
+                                     const rsc_case* a_case) {
     return constructed(3, contact, "contact", [&] {
         require(asperities, 2, "asperities");
         const rsc::Case& settings = settings_of(a_case);
@@ -171,7 +202,8 @@ int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities
         const auto& on = asperities->model;
         require_model(*on, settings, 3);
         const rsc::SurfaceDomain domain = domain_of(settings, *on);
-        return new rsc_contact(on, std::make_shared<const rsc::Case>(settings), surrounded(rsc::indenter_of(settings, domain), domain));
+        return new rsc_contact(on, std::make_shared<const rsc::Case>(settings),
+                               surrounded(rsc::indenter_of(settings, domain), domain));
     });
 }
 
@@ -184,14 +216,17 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
         const rsc::Vec2 place = place_of(*contact, x0, y0);
         const rsc::Indenter& now = contact->contact.indenter();
         if (place.x == now.x0 && place.y == now.y0) return;
-        // Contacts with a memory follow the tip at once: what can be asked of the last level is kept.
+        // Contacts with a memory follow the tip at once: what can be asked of the last level is
+        // kept.
         const bool remembers = contact->contact.pulls() || contact->contact.path_dependent();
         if (remembers && contact->known.level) {
             (void)(now.layers.count > 0 ? stiffness_of(*contact) : conductance_length_of(*contact));
             contact->answer();
         }
-        // So is, at the first move on a surface that repeats, what other images of its spots would change.
-        if (now.repeats.finite() && !now.around.finite()) contact->answer(), contact->answer_committed();
+        // So is, at the first move on a surface that repeats, what other images of its spots would
+        // change.
+        if (now.repeats.finite() && !now.around.finite())
+            contact->answer(), contact->answer_committed();
         const rsc::Asperities* const before = contact->contact.asperities();
         contact->contact.move_tip(place.x, place.y);
         if (!remembers && contact->contact.asperities() != before)
@@ -218,11 +253,14 @@ int32_t rsc_contact_first_touch(const rsc_contact* contact, double* separation) 
 int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* force) {
     return on(contact, "contact", 2, [&] {
         require_finite(separation, 2, "separation");
-        // The present level is not computed again, unless the state may have changed on a way of the tip there and back.
+        // The present level is not computed again, unless the state may have changed on a way of
+        // the tip there and back.
         const rsc::Indenter& tip = contact->contact.indenter();
         const auto& known = contact->known;
-        const bool same = known.level && known.level->separation == separation && known.x0 == tip.x0 && known.y0 == tip.y0 &&
-                          !contact->contact.pulls() && (!contact->contact.relaxes() || known.level->time == contact->contact.time());
+        const bool same =
+            known.level && known.level->separation == separation && known.x0 == tip.x0 &&
+            known.y0 == tip.y0 && !contact->contact.pulls() &&
+            (!contact->contact.relaxes() || known.level->time == contact->contact.time());
         if (!same) compute(*contact, [&] { return contact->contact.at_separation(separation); });
         put(force, contact->known.level->force);
         tell_convergence(*contact);
@@ -239,16 +277,22 @@ int32_t rsc_contact_set_time(rsc_contact* contact, double time) {
 int32_t rsc_contact_press(rsc_contact* contact, double force, double* separation) {
     return on(contact, "contact", 2, [&] {
         const bool pulls = contact->contact.pulls();
-        if (!(force >= 0 || pulls) || !std::isfinite(force)) refuse(2, "force", "must be positive or zero, and finite");
+        if (!(force >= 0 || pulls) || !std::isfinite(force))
+            refuse(2, "force", "must be positive or zero, and finite");
         const double touch = contact->contact.first_touch();
-        if (!std::isfinite(touch)) refuse(1, "contact", "has no asperity under its sphere, so its force is always 0");
-        compute(*contact, [&] { return force > 0 || pulls ? contact->contact.at_force(force) : contact->contact.at_separation(touch); });
+        if (!std::isfinite(touch))
+            refuse(1, "contact", "has no asperity under its sphere, so its force is always 0");
+        compute(*contact, [&] {
+            return force > 0 || pulls ? contact->contact.at_force(force)
+                                      : contact->contact.at_separation(touch);
+        });
         put(separation, contact->known.level->separation);
         tell_convergence(*contact);
     });
 }
 
-int32_t rsc_contact_result(const rsc_contact* contact, double* separation, double* force, double* area, int64_t* contacts) {
+int32_t rsc_contact_result(const rsc_contact* contact, double* separation, double* force,
+                           double* area, int64_t* contacts) {
     return guarded(0, [&] {
         const rsc::Level& level = level_of(contact);
         put(separation, level.separation);
@@ -258,8 +302,8 @@ int32_t rsc_contact_result(const rsc_contact* contact, double* separation, doubl
     });
 }
 
-int32_t rsc_contact_level(const rsc_contact* contact, int32_t* level_status, int64_t* candidates, int64_t* iterations,
-                          int64_t* overlapping_pairs, double* residual) {
+int32_t rsc_contact_level(const rsc_contact* contact, int32_t* level_status, int64_t* candidates,
+                          int64_t* iterations, int64_t* overlapping_pairs, double* residual) {
     return guarded(0, [&] {
         const rsc::Level& level = last_level_of(contact);
         put(level_status, level.status);
@@ -286,9 +330,11 @@ int32_t rsc_contact_energy(const rsc_contact* contact, double* energy) {
     });
 }
 
-int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* force, double* stiffness, double* area, double* energy,
-                           double* lateral_x, double* lateral_y, int32_t* level_status, int64_t* contacts, int64_t* overlapping_pairs,
-                           int64_t* large_contacts, int64_t* beyond_law, int64_t* edge_contacts) {
+int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* force,
+                           double* stiffness, double* area, double* energy, double* lateral_x,
+                           double* lateral_y, int32_t* level_status, int64_t* contacts,
+                           int64_t* overlapping_pairs, int64_t* large_contacts, int64_t* beyond_law,
+                           int64_t* edge_contacts) {
     return guarded(0, [&] {
         const rsc::Level& level = level_of(contact);
         double dN_dZ0 = 0, W = 0;  // nothing is written until all values are known to be finite
@@ -323,16 +369,21 @@ int32_t rsc_contact_value(rsc_contact* contact, const char* name, double* value)
                 return put_finite(value, quantity.of(*contact));
             }
         const rsc::LevelQuantity* quantity = rsc::find_quantity(asked);
-        if (!quantity || of_map(asked)) refuse(2, "name", ("must be one of " + known_values()).c_str());
+        if (!quantity || of_map(asked))
+            refuse(2, "name", ("must be one of " + known_values()).c_str());
         put_finite(value, quantity->of(level));
     });
 }
 
-int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperity, double* force, double* radius, double* penetration) {
+int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperity, double* force,
+                          double* radius, double* penetration) {
     return guarded(0, [&] {
         const rsc::Level& level = level_of(contact);
         if (n < static_cast<int64_t>(level.asperity.size())) {
-            refuse(2, "n", ("must be at least the number of contacts, " + std::to_string(level.asperity.size())).c_str());
+            refuse(2, "n",
+                   ("must be at least the number of contacts, " +
+                    std::to_string(level.asperity.size()))
+                       .c_str());
         }
         if (asperity) std::copy(level.asperity.begin(), level.asperity.end(), asperity);
         if (force) std::copy(level.f.begin(), level.f.end(), force);
@@ -341,12 +392,15 @@ int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperi
     });
 }
 
-int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force, double* radius, double* penetration) {
+int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force,
+                                 double* radius, double* penetration) {
     return guarded(0, [&] {
         const rsc::Level& level = level_of(contact);
-        if (contact->on->points) refuse(1, "contact", "has no asperities: it is solved by boundary elements");
+        if (contact->on->points)
+            refuse(1, "contact", "has no asperities: it is solved by boundary elements");
         if (n != static_cast<int64_t>(contact->contact.asperities()->size()))
-            refuse(2, "n", "must be the number of the contact's asperities (rsc_contact_asperities)");
+            refuse(2, "n",
+                   "must be the number of the contact's asperities (rsc_contact_asperities)");
         const auto spread = [&](double* output, const std::vector<double>& values) {
             if (!output) return;
             std::fill(output, output + n, 0.0);
@@ -374,7 +428,8 @@ int32_t rsc_contact_asperities(rsc_asperities** asperities, const rsc_contact* c
     });
 }
 
-int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x, const double* y, double* deflection) {
+int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x,
+                               const double* y, double* deflection) {
     return guarded(0, [&] {
         const rsc::Level& last = level_of(contact);
         if (n < 0) refuse(2, "n", "must not be negative");
@@ -384,7 +439,8 @@ int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const doub
         require(deflection, 5, "deflection");
         rsc::Indenter indenter = contact->contact.indenter();
         indenter.x0 = contact->known.x0, indenter.y0 = contact->known.y0;
-        const auto kernel = rsc::make_kernel(rsc::Interaction::point, rsc::substrate_of(indenter), indenter.period);
+        const auto kernel =
+            rsc::make_kernel(rsc::Interaction::point, rsc::substrate_of(indenter), indenter.period);
         const std::optional<rsc::Level> lasting = contact->contact.lasting_loads(last);
         const rsc::Level& level = lasting ? *lasting : last;
         for (int64_t i = 0; i < n; ++i) {

@@ -8,7 +8,9 @@ using namespace rsc::api;
 namespace rsc::api {
 
 SurfaceDomain domain_of(const Case& settings, const SurfaceModel& on) {
-    return on.list && settings.surface.L ? list_domain(on.asperities, settings.surface.L, "the asperities") : on.domain;
+    return on.list && settings.surface.L
+               ? list_domain(on.asperities, settings.surface.L, "the asperities")
+               : on.domain;
 }
 
 namespace {
@@ -24,7 +26,8 @@ double onto(double v, double first, double length) {
 Vec2 place_of(const rsc_contact& contact, double x0, double y0) {
     const Indenter& indenter = contact.contact.indenter();
     SurfaceDomain domain = contact.on->domain;
-    if (indenter.period.finite() || indenter.repeats.finite()) return {onto(x0, domain.x0, domain.Lx), onto(y0, domain.y0, domain.Ly)};
+    if (indenter.period.finite() || indenter.repeats.finite())
+        return {onto(x0, domain.x0, domain.Lx), onto(y0, domain.y0, domain.Ly)};
     if (const Rectangle& known = contact.options.surface; known.known()) {
         domain = {known.x0, known.y0, known.Lx, known.Ly};
         domain.guessed = false;
@@ -36,7 +39,8 @@ Vec2 place_of(const rsc_contact& contact, double x0, double y0) {
 Indenter surrounded(Indenter indenter, const SurfaceDomain& domain) {
     if (!domain.repeats || indenter.period.finite()) return indenter;
     indenter.repeats = {domain.Lx, domain.Ly};
-    indenter.x0 = onto(indenter.x0, domain.x0, domain.Lx), indenter.y0 = onto(indenter.y0, domain.y0, domain.Ly);
+    indenter.x0 = onto(indenter.x0, domain.x0, domain.Lx),
+    indenter.y0 = onto(indenter.y0, domain.y0, domain.Ly);
     return indenter;
 }
 
@@ -51,8 +55,8 @@ void put_tip(rsc_contact& contact, double x0, double y0) {
 }  // namespace
 }  // namespace rsc::api
 
-rsc_contact::rsc_contact(std::shared_ptr<const rsc::SurfaceModel> on_, std::shared_ptr<const rsc::Case> keys_,
-                         const rsc::Indenter& indenter)
+rsc_contact::rsc_contact(std::shared_ptr<const rsc::SurfaceModel> on_,
+                         std::shared_ptr<const rsc::Case> keys_, const rsc::Indenter& indenter)
     : on(std::move(on_)),
       keys(std::move(keys_)),
       options(rsc::solver_of(*keys, domain_of(*keys, *on))),
@@ -60,7 +64,10 @@ rsc_contact::rsc_contact(std::shared_ptr<const rsc::SurfaceModel> on_, std::shar
       contact(*model),
       committed(state()) {}
 
-rsc_contact::rsc_contact(const rsc_contact& like) : rsc_contact(like.on, like.keys, like.contact.indenter()) { given = like.given; }
+rsc_contact::rsc_contact(const rsc_contact& like)
+    : rsc_contact(like.on, like.keys, like.contact.indenter()) {
+    given = like.given;
+}
 
 const rsc_contact::Known& rsc_contact::answer() {
     if (!known.level || !std::isnan(known.lateral.x)) return known;
@@ -78,7 +85,8 @@ const rsc_contact::Known& rsc_contact::answer() {
         try {
             put_tip(*this, known.x0, known.y0);
             // Laws that know the summits only around the penetrations of levels need this level.
-            if (!contact.pulls() && !contact.path_dependent() && (!recalled || contact.asperities() != used))
+            if (!contact.pulls() && !contact.path_dependent() &&
+                (!recalled || contact.asperities() != used))
                 contact.recall({}, &*known.level), recalled = true;
             force = contact.lateral(*known.level);
         } catch (...) {
@@ -95,10 +103,13 @@ void rsc_contact::answer_committed() {
     Known& of = committed.known;
     if (!of.level || !std::isnan(of.lateral.x)) return;
     const State now = state();
-    if (known.level && known.level->separation == of.level->separation && known.energy == of.energy && now.memory == committed.memory)
+    if (known.level && known.level->separation == of.level->separation &&
+        known.energy == of.energy && now.memory == committed.memory)
         return void(of = known);
     const rsc::Asperities* const used = contact.asperities();
-    const bool moves = used && used != &on->asperities;  // the lateral force is one of the state, not of its level alone
+    const bool moves =
+        used &&
+        used != &on->asperities;  // the lateral force is one of the state, not of its level alone
     const double time = contact.time();
     const auto back = [&] {
         if (moves) go_back(now), contact.set_time(time);
@@ -115,29 +126,36 @@ void rsc_contact::answer_committed() {
     back();
 }
 
-rsc_contact::State rsc_contact::state() const { return {contact.indenter().x0, contact.indenter().y0, contact.memory(), known}; }
+rsc_contact::State rsc_contact::state() const {
+    return {contact.indenter().x0, contact.indenter().y0, contact.memory(), known};
+}
 
 void rsc_contact::go_back(const State& state) {
     const bool path = contact.path_dependent();
     const bool moves = contact.indenter().x0 != state.x0 || contact.indenter().y0 != state.y0;
-    if (contact.pulls() || (path && moves)) contact.forget();  // what is replaced below would follow the tip
+    if (contact.pulls() || (path && moves))
+        contact.forget();  // what is replaced below would follow the tip
     put_tip(*this, state.x0, state.y0);
     known = state.known;
     if (path)
         recall(state.memory);
     else
-        recalled = !known.level;  // an elastic contact restores its level only when more results are needed
+        recalled =
+            !known
+                 .level;  // an elastic contact restores its level only when more results are needed
 }
 
 void rsc_contact::recall(const std::vector<double>& memory) {
     const double x0 = contact.indenter().x0, y0 = contact.indenter().y0;
-    if (known.level && !contact.pulls()) {                                                     // with adhesion the memory has the tip
-        if (contact.path_dependent() && (known.x0 != x0 || known.y0 != y0)) contact.forget();  // what it holds would follow the tip
+    if (known.level && !contact.pulls()) {  // with adhesion the memory has the tip
+        if (contact.path_dependent() && (known.x0 != x0 || known.y0 != y0))
+            contact.forget();  // what it holds would follow the tip
         put_tip(*this, known.x0, known.y0);
     }
     contact.recall(memory, known.level ? &*known.level : nullptr);
     const bool moves = contact.indenter().x0 != x0 || contact.indenter().y0 != y0;
-    if (known.level && moves && std::isnan(known.level->stiffness)) known.level->stiffness = contact.stiffness();  // lost by the move
+    if (known.level && moves && std::isnan(known.level->stiffness))
+        known.level->stiffness = contact.stiffness();  // lost by the move
     put_tip(*this, x0, y0);
     recalled = true;
 }

@@ -3,7 +3,7 @@
 #include "api/guard.hpp"
 #include "api/handles.hpp"
 #include "contact/equivalent.hpp"
-#include "rough/asperities.hpp"
+#include "surface/asperities.hpp"
 
 namespace rsc::api {
 namespace {
@@ -22,13 +22,17 @@ const FrictionHistory& path_of(const rsc_friction* friction) {
 
 const FrictionHistory& contact_of(const rsc_friction* friction) {
     const FrictionHistory& history = path_of(friction);
-    if (history.state().nodes.empty()) throw Outcome{RSC_NO_RESULT, "friction: there is no contact yet"};
+    if (history.state().nodes.empty())
+        throw Outcome{RSC_NO_RESULT, "friction: there is no contact yet"};
     return history;
 }
 
 void require_elastic(const rsc_contact& contact) {
-    if (contact.contact.path_dependent()) refuse(2, "contact", "must be elastic: friction is not available with hardness or adhesion");
-    if (contact.contact.indenter().layers.count > 0) refuse(2, "contact", "has layers: friction is not available for them yet");
+    if (contact.contact.path_dependent())
+        refuse(2, "contact",
+               "must be elastic: friction is not available with hardness or adhesion");
+    if (contact.contact.indenter().layers.count > 0)
+        refuse(2, "contact", "has layers: friction is not available for them yet");
 }
 
 // Moves the tip of both contacts of the load curve.
@@ -46,7 +50,8 @@ double shared_force(const Level& first, const Level& second) {
     std::size_t k = 0;
     for (std::size_t j = 0; j < first.asperity.size(); ++j) {
         while (k < second.asperity.size() && second.asperity[k] < first.asperity[j]) ++k;
-        if (k < second.asperity.size() && second.asperity[k] == first.asperity[j]) shared += std::min(first.f[j], second.f[k]);
+        if (k < second.asperity.size() && second.asperity[k] == first.asperity[j])
+            shared += std::min(first.f[j], second.f[k]);
     }
     return std::min(1.0, shared / first.force);
 }
@@ -57,7 +62,9 @@ void with_levels(rsc_friction& friction, Ask&& ask) {
     const long failed = friction.curve.failed();
     ask();
     if (friction.curve.failed() > failed) {
-        throw Outcome{RSC_NOT_CONVERGED, "the solver did not reach its tolerance; the results are those of its last iterates"};
+        throw Outcome{
+            RSC_NOT_CONVERGED,
+            "the solver did not reach its tolerance; the results are those of its last iterates"};
     }
 }
 
@@ -66,7 +73,9 @@ void with_levels(rsc_friction& friction, Ask&& ask) {
 
 using namespace rsc::api;
 
-int32_t rsc_tangential_ratio(const double* E, const double* nu, double* ratio) { return rsc_stiffness_ratio(E, nu, ratio); }
+int32_t rsc_tangential_ratio(const double* E, const double* nu, double* ratio) {
+    return rsc_stiffness_ratio(E, nu, ratio);
+}
 
 int32_t rsc_stiffness_ratio(const double* E, const double* nu, double* ratio) {
     return on(E, "E", 1, [&] {
@@ -79,23 +88,28 @@ int32_t rsc_stiffness_ratio(const double* E, const double* nu, double* ratio) {
     });
 }
 
-int32_t rsc_friction_create(rsc_friction** friction, const rsc_contact* contact, double mu, double ratio) {
+int32_t rsc_friction_create(rsc_friction** friction, const rsc_contact* contact, double mu,
+                            double ratio) {
     return constructed(3, friction, "friction", [&] {
         require(contact, 2, "contact");
         require_elastic(*contact);
-        if (!(mu >= 0) || !rsc::usable(mu)) refuse(3, "mu", "must be zero or positive, and at most 1e50");
+        if (!(mu >= 0) || !rsc::usable(mu))
+            refuse(3, "mu", "must be zero or positive, and at most 1e50");
         if (!rsc::usable_positive(ratio)) refuse(4, "ratio", rsc::kPositiveBounds);
         return new rsc_friction(*contact, {mu, ratio});
     });
 }
 
-int32_t rsc_friction_create_from_case(rsc_friction** friction, const rsc_contact* contact, const rsc_case* a_case) {
+int32_t rsc_friction_create_from_case(rsc_friction** friction, const rsc_contact* contact,
+                                      const rsc_case* a_case) {
     return constructed(3, friction, "friction", [&] {
         require(contact, 2, "contact");
         require_elastic(*contact);
         const rsc::Case& settings = settings_of(a_case);
         rsc::require_valid(settings, {"solids"});
-        return new rsc_friction(*contact, {settings.solids.friction, rsc::tangential_ratio(settings.solids.E, settings.solids.nu)});
+        return new rsc_friction(*contact,
+                                {settings.solids.friction,
+                                 rsc::tangential_ratio(settings.solids.E, settings.solids.nu)});
     });
 }
 
@@ -111,8 +125,8 @@ int32_t rsc_friction_copy(rsc_friction** friction, const rsc_friction* original)
 
 int32_t rsc_friction_destroy(rsc_friction** friction) { return destroyed(friction, "friction"); }
 
-int32_t rsc_friction_update(rsc_friction* friction, double separation, double x, double y, double* force, double* force_x, double* force_y,
-                            double* lost) {
+int32_t rsc_friction_update(rsc_friction* friction, double separation, double x, double y,
+                            double* force, double* force_x, double* force_y, double* lost) {
     return on(friction, "friction", 2, [&] {
         require_usable(separation, 2, "separation");
         require_usable(x, 3, "x");
@@ -141,10 +155,13 @@ int32_t rsc_friction_move_tip(rsc_friction* friction, double x0, double y0) {
             rsc::FrictionHistory& history = friction->history;
             const double delta = history.approach();
             try {
-                const rsc::Level here = history.force() > 0 ? friction->curve.level(delta) : rsc::Level{};
+                const rsc::Level here =
+                    history.force() > 0 ? friction->curve.level(delta) : rsc::Level{};
                 put_tip(*friction, to);
                 if (history.state().begun)
-                    history.move(friction->curve, here.force > 0 ? shared_force(here, friction->curve.level(delta)) : 0);
+                    history.move(
+                        friction->curve,
+                        here.force > 0 ? shared_force(here, friction->curve.level(delta)) : 0);
             } catch (...) {
                 put_tip(*friction, before);
                 throw;
@@ -153,7 +170,8 @@ int32_t rsc_friction_move_tip(rsc_friction* friction, double x0, double y0) {
     });
 }
 
-int32_t rsc_friction_stiffness(rsc_friction* friction, double* xx, double* xy, double* yx, double* yy) {
+int32_t rsc_friction_stiffness(rsc_friction* friction, double* xx, double* xy, double* yx,
+                               double* yy) {
     return on(friction, "friction", 0, [&] {
         with_levels(*friction, [&] {
             const auto tangent = friction->history.stiffness(friction->curve);
@@ -165,8 +183,9 @@ int32_t rsc_friction_stiffness(rsc_friction* friction, double* xx, double* xy, d
     });
 }
 
-int32_t rsc_friction_state(const rsc_friction* friction, double* separation, double* x, double* y, double* force, double* force_x,
-                           double* force_y, double* energy, double* tangential_energy, double* lost, double* stick_separation) {
+int32_t rsc_friction_state(const rsc_friction* friction, double* separation, double* x, double* y,
+                           double* force, double* force_x, double* force_y, double* energy,
+                           double* tangential_energy, double* lost, double* stick_separation) {
     return guarded(0, [&] {
         const rsc::FrictionHistory& history = path_of(friction);
         const rsc::Slide Q = history.tangential_force();
@@ -198,7 +217,8 @@ int32_t rsc_friction_rollback(rsc_friction* friction) {
     });
 }
 
-int32_t rsc_friction_first_loading(rsc_friction* friction, int64_t n, const double* slide, double* force, double* stick_separation) {
+int32_t rsc_friction_first_loading(rsc_friction* friction, int64_t n, const double* slide,
+                                   double* force, double* stick_separation) {
     return guarded(3, [&] {
         const rsc::FrictionHistory& history = contact_of(friction);
         if (n < 0) refuse(2, "n", "must not be negative");
@@ -206,7 +226,8 @@ int32_t rsc_friction_first_loading(rsc_friction* friction, int64_t n, const doub
         require_finite(slide, n, 3, "slide");
         require(force, 4, "force");
         with_levels(*friction, [&] {
-            const auto points = rsc::slide_to(friction->curve, history.friction(), history.approach(), {slide, slide + n});
+            const auto points = rsc::slide_to(friction->curve, history.friction(),
+                                              history.approach(), {slide, slide + n});
             for (std::size_t k = 0; k < points.size(); ++k) {
                 force[k] = points[k].force;
                 if (stick_separation) stick_separation[k] = -points[k].stick_approach;
@@ -220,8 +241,11 @@ int32_t rsc_friction_slide(rsc_friction* friction, double force, double* slide) 
         const rsc::FrictionHistory& history = contact_of(friction);
         require_finite(force, 2, "force");
         require(slide, 3, "slide");
-        with_levels(*friction,
-                    [&] { put(slide, rsc::slide_at_force(friction->curve, history.friction(), history.approach(), force).displacement); });
+        with_levels(*friction, [&] {
+            put(slide,
+                rsc::slide_at_force(friction->curve, history.friction(), history.approach(), force)
+                    .displacement);
+        });
     });
 }
 
@@ -233,15 +257,17 @@ int32_t rsc_friction_full_slip(const rsc_friction* friction, double* slide, doub
     });
 }
 
-int32_t rsc_friction_spots(rsc_friction* friction, int64_t n, int64_t* count, int32_t* asperity, double* radius, double* stick_radius,
-                           double* force_x, double* force_y) {
+int32_t rsc_friction_spots(rsc_friction* friction, int64_t n, int64_t* count, int32_t* asperity,
+                           double* radius, double* stick_radius, double* force_x, double* force_y) {
     return guarded(0, [&] {
         const rsc::FrictionHistory& history = path_of(friction);
         with_levels(*friction, [&] {
             const auto spots = rsc::slip_of_spots(friction->curve, history);
             put(count, spots.size());
             if (n < static_cast<int64_t>(spots.size()))
-                refuse(2, "n", ("must be at least the number of spots, " + std::to_string(spots.size())).c_str());
+                refuse(2, "n",
+                       ("must be at least the number of spots, " + std::to_string(spots.size()))
+                           .c_str());
             for (std::size_t k = 0; k < spots.size(); ++k) {
                 if (asperity) asperity[k] = spots[k].asperity;
                 if (radius) radius[k] = spots[k].radius;

@@ -1,9 +1,9 @@
 #include "api/guard.hpp"
 
-#include "read/input_netcdf.hpp"
-#include "rough/asperities.hpp"
-#include "rough/library_lock.hpp"
-#include "version.h"
+#include "base/library_lock.hpp"
+#include "base/version.h"
+#include "io/input_netcdf.hpp"
+#include "surface/asperities.hpp"
 
 namespace rsc::api {
 namespace {
@@ -14,7 +14,8 @@ thread_local char last_message[kMessageSize];
 
 #define RSC_TEXT(x) #x
 #define RSC_DOTTED(a, b, c) RSC_TEXT(a) "." RSC_TEXT(b) "." RSC_TEXT(c)
-static_assert(std::string_view(RSC_VERSION) == RSC_DOTTED(RSC_VERSION_MAJOR, RSC_VERSION_MINOR, RSC_VERSION_PATCH));
+static_assert(std::string_view(RSC_VERSION) ==
+              RSC_DOTTED(RSC_VERSION_MAJOR, RSC_VERSION_MINOR, RSC_VERSION_PATCH));
 #undef RSC_DOTTED
 #undef RSC_TEXT
 
@@ -57,15 +58,22 @@ void refuse(int argument, const char* name, const char* why) {
 void require_finite(const double* values, std::int64_t n, int argument, const char* name) {
     require(values, argument, name);
     for (std::int64_t k = 0; k < n; ++k) {
-        if (!usable(values[k])) refuse(argument, name, (std::string(kNumberBounds) + ": entry " + std::to_string(k) + " is not").c_str());
-        // NetCDF's value for unwritten or masked data; in single precision it differs in the eighth digit.
+        if (!usable(values[k]))
+            refuse(
+                argument, name,
+                (std::string(kNumberBounds) + ": entry " + std::to_string(k) + " is not").c_str());
+        // NetCDF's value for unwritten or masked data; in single precision it differs in the eighth
+        // digit.
         constexpr double fill = 9.969209968386869e36;
         if (std::abs(values[k] / fill - 1) < 1e-6)
-            refuse(argument, name, ("holds the fill value of NetCDF: entry " + std::to_string(k) + " is missing").c_str());
+            refuse(argument, name,
+                   ("holds the fill value of NetCDF: entry " + std::to_string(k) + " is missing")
+                       .c_str());
     }
 }
 
-void put_text(std::string_view text, char* buffer, std::int64_t size, std::int64_t* length, int first) {
+void put_text(std::string_view text, char* buffer, std::int64_t size, std::int64_t* length,
+              int first) {
     if (size < 0) refuse(first + 1, "size", "must not be negative");
     if (!buffer && size > 0) refuse(first, "buffer", "must not be null unless size is 0");
     if (size > 0) {
@@ -93,7 +101,8 @@ int32_t rsc_lock(void) {
 
 int32_t rsc_unlock(void) {
     return guarded(0, [] {
-        if (!rsc::library_lock().unlock()) throw Outcome{RSC_NO_RESULT, "this thread does not hold the lock"};
+        if (!rsc::library_lock().unlock())
+            throw Outcome{RSC_NO_RESULT, "this thread does not hold the lock"};
     });
 }
 
@@ -106,7 +115,9 @@ int32_t rsc_message(char* buffer, int64_t size, int64_t* length) {
 
 int32_t rsc_status_text(int32_t status, char* buffer, int64_t size, int64_t* length) {
     return guarded(0, [&] {
-        const std::string text = status < 0 ? "argument " + std::to_string(-static_cast<int64_t>(status)) + " is wrong" : meaning(status);
+        const std::string text =
+            status < 0 ? "argument " + std::to_string(-static_cast<int64_t>(status)) + " is wrong"
+                       : meaning(status);
         put_text(text, buffer, size, length, 2);
     });
 }

@@ -1,7 +1,8 @@
-// Every function of rsc.h runs inside guarded(), which converts every exception into a status and a message.
+// Every function of rsc.h runs inside guarded(), which converts every exception into a status and a
+// message.
 #pragma once
 
-#include "error.hpp"
+#include "base/error.hpp"
 #include "rsc.h"
 #include "run/signals.hpp"
 
@@ -19,11 +20,13 @@ struct Outcome {
     const char* message;
 };
 
-// Stores the message for rsc_message, truncated if too long, and returns the status. Never fails, because it also reports lack of memory.
+// Stores the message for rsc_message, truncated if too long, and returns the status. Never fails,
+// because it also reports lack of memory.
 std::int32_t failed(std::int32_t status, std::string_view message) noexcept;
 std::int32_t status_of(const Error& error, int input) noexcept;
 
-// Runs the body of a function. `input`: the number of the argument to blame if the core throws bad_input; 0: none.
+// Runs the body of a function. `input`: the number of the argument to blame if the core throws
+// bad_input; 0: none.
 template <class Body>
 std::int32_t guarded(int input, Body&& body) noexcept {
     try {
@@ -55,7 +58,8 @@ template <class T>
 void require(T* pointer, int argument, const char* name) {
     if (!pointer) refuse(argument, name, "must not be null");
     if constexpr (requires { pointer->tag.sound(); })
-        if (!pointer->tag.sound()) refuse(argument, name, "was already released, or is a handle of another kind");
+        if (!pointer->tag.sound())
+            refuse(argument, name, "was already released, or is a handle of another kind");
 }
 
 inline void require_finite(double value, int argument, const char* name) {
@@ -71,7 +75,8 @@ void put(T* output, const U& value) {
 }
 
 // Copies text into a caller's buffer: arguments number `first` (buffer) and first + 1 (size).
-void put_text(std::string_view text, char* buffer, std::int64_t size, std::int64_t* length, int first);
+void put_text(std::string_view text, char* buffer, std::int64_t size, std::int64_t* length,
+              int first);
 
 // guarded() for a function of an object, its argument 1.
 template <class Handle, class Body>
@@ -82,7 +87,8 @@ std::int32_t on(Handle* handle, const char* name, int input, Body&& body) noexce
     });
 }
 
-// guarded() for a function that creates a handle, its argument 1. The handle is null unless the function succeeds.
+// guarded() for a function that creates a handle, its argument 1. The handle is null unless the
+// function succeeds.
 template <class Handle, class Make>
 std::int32_t constructed(int input, Handle** handle, const char* name, Make&& make) noexcept {
     return guarded(input, [&] {

@@ -3,15 +3,15 @@
 
 #include "case/registry.hpp"
 #include "contact/answers.hpp"
-#include "contact/contact_curve.hpp"
-#include "contact/friction.hpp"
+#include "physics/friction/contact_curve.hpp"
+#include "physics/friction/friction.hpp"
 #include "rsc.h"
 #include "run/prepare.hpp"
 
 namespace rsc::api {
 
-// The first member of every handle: identifies its kind during its lifetime, so that released handles and those of another kind are
-// recognised as long as their memory can be read.
+// The first member of every handle: identifies its kind during its lifetime, so that released
+// handles and those of another kind are recognised as long as their memory can be read.
 template <std::uint64_t kKind>
 struct Tag {
     Tag() = default;
@@ -19,7 +19,8 @@ struct Tag {
     Tag& operator=(const Tag&) { return *this; }
     ~Tag() { kind = 0; }
     bool sound() const { return kind == kKind; }
-    volatile std::uint64_t kind = kKind;  // volatile: compilers omit stores before memory is released
+    volatile std::uint64_t kind =
+        kKind;  // volatile: compilers omit stores before memory is released
 };
 
 }  // namespace rsc::api
@@ -41,12 +42,15 @@ struct rsc_asperities {
 
 struct rsc_contact {
     rsc::api::Tag<0x7273635f636f6e74> tag;
-    // All but the indenter is determined by the keys of the case. Throws Error(bad_input) for invalid keys.
-    rsc_contact(std::shared_ptr<const rsc::SurfaceModel> on, std::shared_ptr<const rsc::Case> keys, const rsc::Indenter& indenter);
+    // All but the indenter is determined by the keys of the case. Throws Error(bad_input) for
+    // invalid keys.
+    rsc_contact(std::shared_ptr<const rsc::SurfaceModel> on, std::shared_ptr<const rsc::Case> keys,
+                const rsc::Indenter& indenter);
     explicit rsc_contact(const rsc_contact& like);  // a copy of the contact without a result
     std::shared_ptr<const rsc::SurfaceModel> on;
     std::shared_ptr<const rsc::Case> keys;
-    std::optional<std::array<double, 2>> given;  // E* and R of rsc_contact_create; none: those of the case
+    std::optional<std::array<double, 2>>
+        given;  // E* and R of rsc_contact_create; none: those of the case
     rsc::SolverOptions options;
     std::unique_ptr<rsc::Contact> model;
     rsc::Contact& contact;
@@ -55,10 +59,12 @@ struct rsc_contact {
         std::optional<rsc::Level> level;
         double x0 = 0, y0 = 0;  // tip of that level; it may have moved since
         double energy = 0;
-        rsc::Vec2 lateral{rsc::kNotComputed, rsc::kNotComputed}, moment{};  // NaN until they are asked for
+        rsc::Vec2 lateral{rsc::kNotComputed, rsc::kNotComputed},
+            moment{};  // NaN until they are asked for
     };
     Known known;
-    // Adds the lateral force and the moment to the last level, at whose tip a contact with a memory must be.
+    // Adds the lateral force and the moment to the last level, at whose tip a contact with a memory
+    // must be.
     const Known& answer();
     // The same for the committed level.
     void answer_committed();
@@ -97,11 +103,12 @@ const Case& settings_of(const rsc_case* a_case);
 
 int threads_of(const Case& settings);
 
-// The position of the tip for the contact: on a periodic surface moved by whole periods onto its rectangle. Refuses argument 2 for a
-// position outside the surface.
+// The position of the tip for the contact: on a periodic surface moved by whole periods onto its
+// rectangle. Refuses argument 2 for a position outside the surface.
 Vec2 place_of(const rsc_contact& contact, double x0, double y0);
 
-// The indenter of a contact of the library, which can move across the borders of a periodic surface.
+// The indenter of a contact of the library, which can move across the borders of a periodic
+// surface.
 Indenter surrounded(Indenter indenter, const SurfaceDomain& domain);
 
 // For asperities from arrays the size of the surface is that of the case (surface%L).

@@ -1,17 +1,18 @@
 // Contacts and friction saved in files.
 //
-// The file has a line with its kind, a checksum, and named entries: texts and arrays of numbers in the machine's format. Later additions
-// get new names, so that later versions can read files of earlier ones.
+// The file has a line with its kind, a checksum, and named entries: texts and arrays of numbers in
+// the machine's format. Later additions get new names, so that later versions can read files of
+// earlier ones.
 
 #include <unistd.h>
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
-#include "archive.hpp"
+#include "base/archive.hpp"
+#include "base/version.h"
 #include "case/read_case.hpp"
-#include "file/whole_file.hpp"
+#include "io/whole_file.hpp"
 #include "observe/quantities.hpp"
-#include "version.h"
 
 namespace rsc::api {
 namespace {
@@ -27,17 +28,20 @@ std::uint64_t mix(std::uint64_t hash, const void* data, std::size_t n) {  // FNV
 }
 constexpr std::uint64_t kHash = 0xcbf29ce484222325ull;
 
-// Checksum of the asperities, or points of a surface, to recognise those of a saved contact. Missing columns are not included.
+// Checksum of the asperities, or points of a surface, to recognise those of a saved contact.
+// Missing columns are not included.
 double digest(const SurfaceModel& on) {
     std::uint64_t hash = kHash;
     for (const AsperityColumn& column : kAsperityColumns) {
         const auto& values = on.asperities.*column.values;
         if (values.empty()) continue;
-        hash = mix(mix(hash, column.name, std::strlen(column.name)), values.data(), values.size() * sizeof(double));
+        hash = mix(mix(hash, column.name, std::strlen(column.name)), values.data(),
+                   values.size() * sizeof(double));
     }
     if (on.points)
         for (int j = 0; j < on.points->ny; ++j)
-            hash = mix(hash, on.points->row(j), static_cast<std::size_t>(on.points->nx) * sizeof(double));
+            hash = mix(hash, on.points->row(j),
+                       static_cast<std::size_t>(on.points->nx) * sizeof(double));
     return static_cast<double>(hash >> 11);  // exact as a double
 }
 
@@ -57,7 +61,8 @@ struct Entries {
 
 const std::string kStart = "rsc save of ";
 constexpr const char *kContact = "a contact", *kFriction = "a contact with friction";
-const FileKind kSave{"saved contact", [](const std::string& path) { return begins_with(path, kStart); }};
+const FileKind kSave{"saved contact",
+                     [](const std::string& path) { return begins_with(path, kStart); }};
 
 std::vector<char> characters(const std::string& text) { return {text.begin(), text.end()}; }
 
@@ -66,7 +71,8 @@ void write(const std::string& path, const char* what, Entries& entries) {
     entries.texts["rsc"] = RSC_VERSION;
     ArchiveWriter writer;
     writer(static_cast<std::uint64_t>(entries.texts.size()));
-    for (const auto& [name, text] : entries.texts) writer(characters(name)), writer(characters(text));
+    for (const auto& [name, text] : entries.texts)
+        writer(characters(name)), writer(characters(text));
     writer(static_cast<std::uint64_t>(entries.numbers.size()));
     for (const auto& [name, numbers] : entries.numbers) writer(characters(name)), writer(numbers);
     const std::uint64_t hash = mix(kHash, writer.bytes.data(), writer.bytes.size());
@@ -100,7 +106,8 @@ Entries read(const std::string& path, const char* what) {
     }
     reader.end();
     if (entries.one("format") > kFormat)
-        refuse("was saved by rsc " + entries.texts["rsc"] + ", which this version (" RSC_VERSION ") cannot read");
+        refuse("was saved by rsc " + entries.texts["rsc"] +
+               ", which this version (" RSC_VERSION ") cannot read");
     return entries;
 }
 
@@ -122,33 +129,41 @@ void put_making(Entries& to, const rsc_contact& contact) {
 
 std::unique_ptr<rsc_contact> get_making(const Entries& from, const rsc_asperities& asperities) {
     const SurfaceModel& on = *asperities.model;
-    if (from.one("ground") != digest(on)) refuse(2, "asperities", "must be the ones that the file was saved with");
+    if (from.one("ground") != digest(on))
+        refuse(2, "asperities", "must be the ones that the file was saved with");
     const Numbers& tip = from.of("tip");
     if (tip.size() != 2 || !from.texts.contains("case")) bad_input(kBroken);
     const auto keys = std::make_shared<const Case>(read_namelist(from.texts.at("case")).settings);
     const SurfaceDomain domain = domain_of(*keys, on);
     const bool told = from.numbers.contains("given");
-    Indenter indenter =
-        told ? Indenter{from.of("given").at(0), from.of("given").at(1), 0, 0, period_of(*keys, domain)} : indenter_of(*keys, domain);
+    Indenter indenter = told ? Indenter{from.of("given").at(0), from.of("given").at(1), 0, 0,
+                                        period_of(*keys, domain)}
+                             : indenter_of(*keys, domain);
     indenter.x0 = tip[0], indenter.y0 = tip[1];
     indenter = surrounded(std::move(indenter), domain);
-    if (from.numbers.contains("moved") && from.one("moved") != 0) indenter.around = indenter.repeats;
+    if (from.numbers.contains("moved") && from.one("moved") != 0)
+        indenter.around = indenter.repeats;
     auto made = std::make_unique<rsc_contact>(asperities.model, keys, indenter);
     if (told) made->given = {from.of("given")[0], from.of("given")[1]};
     return made;
 }
 
-// --- states -----------------------------------------------------------------------------------------------------------------------------
+// --- states
+// -----------------------------------------------------------------------------------------------------------------------------
 
 // Visits the arrays of a level with their names.
 template <class Visit>
 void visit_arrays(Level& level, Visit&& visit) {
     visit("asperity", level.asperity), visit("yields", level.yields);
-    visit("x", level.x), visit("y", level.y), visit("f", level.f), visit("a", level.a), visit("u", level.u);
-    visit("pixel", level.pixels.index), visit("pixel_contact", level.pixels.contact), visit("pixel_pressure", level.pixels.pressure);
+    visit("x", level.x), visit("y", level.y), visit("f", level.f), visit("a", level.a),
+        visit("u", level.u);
+    visit("pixel", level.pixels.index), visit("pixel_contact", level.pixels.contact),
+        visit("pixel_pressure", level.pixels.pressure);
     LevelTractions& t = level.tractions;
-    visit("attached_x", t.x), visit("attached_y", t.y), visit("attached_a", t.a), visit("attached_c", t.c);
-    visit("attached_pressed", t.pressed), visit("attached_pulled", t.pulled), visit("pixel_cohesive", level.pixels.cohesive);
+    visit("attached_x", t.x), visit("attached_y", t.y), visit("attached_a", t.a),
+        visit("attached_c", t.c);
+    visit("attached_pressed", t.pressed), visit("attached_pulled", t.pulled),
+        visit("pixel_cohesive", level.pixels.cohesive);
 }
 
 void put_state(Entries& to, const std::string& prefix, const rsc_contact::State& state) {
@@ -157,7 +172,8 @@ void put_state(Entries& to, const std::string& prefix, const rsc_contact::State&
     if (!state.known.level) return;
     Level level = *state.known.level;
     const auto& k = state.known;
-    to.numbers[prefix + "level"] = {level.separation, k.x0, k.y0, k.energy, k.lateral.x, k.lateral.y, k.moment.x, k.moment.y};
+    to.numbers[prefix + "level"] = {level.separation, k.x0,        k.y0,       k.energy,
+                                    k.lateral.x,      k.lateral.y, k.moment.x, k.moment.y};
     for (const LevelQuantity& q : level_quantities()) {
         to.numbers[prefix + "level." + q.name] = {q.of(level)};
         if (q.y) to.numbers[prefix + "level." + q.name + ".y"] = {level.*q.y};
@@ -169,7 +185,8 @@ void put_state(Entries& to, const std::string& prefix, const rsc_contact::State&
     to.numbers[prefix + "level.pixels"] = {double(p.columns), p.x0, p.y0, p.dx, p.dy, p.tension};
 }
 
-rsc_contact::State get_state(const Entries& from, const std::string& prefix, const rsc_contact& contact) {
+rsc_contact::State get_state(const Entries& from, const std::string& prefix,
+                             const rsc_contact& contact) {
     rsc_contact::State state;
     const Numbers& tip = from.of(prefix + "tip");
     state.memory = from.of(prefix + "memory");
@@ -182,7 +199,8 @@ rsc_contact::State get_state(const Entries& from, const std::string& prefix, con
     Level level;
     level.separation = known[0];
     state.known = {{}, known[1], known[2], known[3], {known[4], known[5]}, {known[6], known[7]}};
-    for (const LevelQuantity& q : level_quantities()) {  // entries missing in files of earlier versions keep their defaults
+    for (const LevelQuantity& q :
+         level_quantities()) {  // entries missing in files of earlier versions keep their defaults
         const std::string name = prefix + "level." + q.name;
         if (from.numbers.contains(name)) q.put(level, from.one(name));
         if (q.y && from.numbers.contains(name + ".y")) level.*q.y = from.one(name + ".y");
@@ -190,13 +208,16 @@ rsc_contact::State get_state(const Entries& from, const std::string& prefix, con
     visit_arrays(level, [&](const char* name, auto& values) {
         const auto found = from.numbers.find(prefix + "level." + name);
         if (found == from.numbers.end()) return;
-        for (const double value : found->second) values.push_back(static_cast<std::decay_t<decltype(values[0])>>(value));
+        for (const double value : found->second)
+            values.push_back(static_cast<std::decay_t<decltype(values[0])>>(value));
     });
     level.pixels.columns = static_cast<int>(pixels[0]);
-    level.pixels.x0 = pixels[1], level.pixels.y0 = pixels[2], level.pixels.dx = pixels[3], level.pixels.dy = pixels[4];
+    level.pixels.x0 = pixels[1], level.pixels.y0 = pixels[2], level.pixels.dx = pixels[3],
+    level.pixels.dy = pixels[4];
     if (pixels.size() == 6) level.pixels.tension = pixels[5];
     const auto& points = contact.on->points;
-    const int places = points ? points->nx * points->ny : static_cast<int>(contact.contact.asperities()->size());
+    const int places =
+        points ? points->nx * points->ny : static_cast<int>(contact.contact.asperities()->size());
     const auto outside = [&](int k) { return k < 0 || k >= places; };
     const std::size_t n = level.asperity.size();
     const LevelTractions& t = level.tractions;
@@ -204,24 +225,28 @@ rsc_contact::State get_state(const Entries& from, const std::string& prefix, con
         if (values->size() != t.x.size()) bad_input(kBroken);
     if (std::any_of(level.pixels.cohesive.begin(), level.pixels.cohesive.end(), outside) ||
         std::any_of(level.asperity.begin(), level.asperity.end(), outside) ||
-        std::any_of(level.pixels.index.begin(), level.pixels.index.end(), outside) || level.x.size() != n || level.y.size() != n ||
-        level.f.size() != n || level.a.size() != n || level.u.size() != n)
+        std::any_of(level.pixels.index.begin(), level.pixels.index.end(), outside) ||
+        level.x.size() != n || level.y.size() != n || level.f.size() != n || level.a.size() != n ||
+        level.u.size() != n)
         bad_input(kBroken);
     state.known.level = std::move(level);
     return state;
 }
 
 void put_path(Entries& to, const std::string& prefix, const FrictionHistory::State& path) {
-    to.numbers[prefix] = {double(path.begun), path.delta, path.xi.x, path.xi.y, path.lost, path.step_lost};
+    to.numbers[prefix] = {double(path.begun), path.delta, path.xi.x,
+                          path.xi.y,          path.lost,  path.step_lost};
     Numbers& nodes = to.numbers[prefix + ".nodes"];
     for (const auto& node : path.nodes)
-        nodes.insert(nodes.end(), {node.approach, node.load, node.energy, node.deflection.x, node.deflection.y});
+        nodes.insert(nodes.end(),
+                     {node.approach, node.load, node.energy, node.deflection.x, node.deflection.y});
 }
 
 FrictionHistory::State get_path(const Entries& from, const std::string& prefix) {
     const Numbers &values = from.of(prefix), &nodes = from.of(prefix + ".nodes");
     if (values.size() != 6 || nodes.size() % 5 != 0) bad_input(kBroken);
-    FrictionHistory::State path{values[0] != 0, values[1], {values[2], values[3]}, {}, values[4], values[5]};
+    FrictionHistory::State path{values[0] != 0, values[1], {values[2], values[3]}, {},
+                                values[4],      values[5]};
     for (std::size_t k = 0; k < nodes.size(); k += 5)
         path.nodes.push_back({nodes[k], nodes[k + 1], nodes[k + 2], {nodes[k + 3], nodes[k + 4]}});
     return path;
@@ -241,12 +266,14 @@ int32_t rsc_contact_save(rsc_contact* contact, const char* path) {
         put_state(entries, "", now);
         put_state(entries, "committed.", contact->committed);
         write(path, kContact, entries);
-        contact->contact.forget();  // so that the saved and the restored contact start from the same state
+        contact->contact
+            .forget();  // so that the saved and the restored contact start from the same state
         contact->recall(now.memory);
     });
 }
 
-int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperities, const char* path) {
+int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperities,
+                            const char* path) {
     return constructed(3, contact, "contact", [&] {
         require(asperities, 2, "asperities");
         require_path(path, 3);
@@ -264,7 +291,8 @@ int32_t rsc_friction_save(rsc_friction* friction, const char* path) {
         require_path(path, 2);
         Entries entries;
         put_making(entries, friction->outer);
-        entries.numbers["friction"] = {friction->history.friction().coefficient, friction->history.friction().ratio};
+        entries.numbers["friction"] = {friction->history.friction().coefficient,
+                                       friction->history.friction().ratio};
         put_path(entries, "path", friction->history.state());
         put_path(entries, "committed", friction->history.committed());
         entries.numbers["committed_tip"] = {friction->committed_tip.x, friction->committed_tip.y};
@@ -275,14 +303,16 @@ int32_t rsc_friction_save(rsc_friction* friction, const char* path) {
     });
 }
 
-int32_t rsc_friction_restore(rsc_friction** friction, const rsc_asperities* asperities, const char* path) {
+int32_t rsc_friction_restore(rsc_friction** friction, const rsc_asperities* asperities,
+                             const char* path) {
     return constructed(3, friction, "friction", [&] {
         require(asperities, 2, "asperities");
         require_path(path, 3);
         const Entries entries = read(path, kFriction);
         const Numbers& with = entries.of("friction");
         if (with.size() != 2) rsc::bad_input(kBroken);
-        auto made = std::make_unique<rsc_friction>(*get_making(entries, *asperities), rsc::Friction{with[0], with[1]});
+        auto made = std::make_unique<rsc_friction>(*get_making(entries, *asperities),
+                                                   rsc::Friction{with[0], with[1]});
         const Numbers& tip = entries.of("committed_tip");
         if (tip.size() != 2) rsc::bad_input(kBroken);
         made->history.restore(get_path(entries, "path"), get_path(entries, "committed"));

@@ -2,15 +2,15 @@
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
-#include "rough/parallel.hpp"
+#include "base/parallel.hpp"
 
 namespace rsc::api {
 namespace {
 
 // `value`, `last`: numbers of the arguments with the values and the threads.
 template <class Each>
-std::int32_t for_all(std::int64_t n, rsc_contact** contacts, const double* given, int value, std::int32_t* status, std::int32_t threads,
-                     int last, Each&& each) {
+std::int32_t for_all(std::int64_t n, rsc_contact** contacts, const double* given, int value,
+                     std::int32_t* status, std::int32_t threads, int last, Each&& each) {
     std::int32_t first = RSC_SUCCESS;
     const std::int32_t whole = guarded(0, [&] {
         if (n < 0) refuse(1, "n", "must not be negative");
@@ -21,7 +21,8 @@ std::int32_t for_all(std::int64_t n, rsc_contact** contacts, const double* given
         std::set<const rsc_contact*> different;
         for (std::int64_t k = 0; k < n; ++k) {
             require(contacts[k], 2, "contacts: one of them");
-            if (!different.insert(contacts[k]).second) refuse(2, "contacts", "must be different handles");
+            if (!different.insert(contacts[k]).second)
+                refuse(2, "contacts", "must be different handles");
         }
         std::vector<std::int32_t> outcome(static_cast<std::size_t>(n), RSC_SUCCESS);
         std::vector<std::string> reason(static_cast<std::size_t>(n));
@@ -33,7 +34,8 @@ std::int32_t for_all(std::int64_t n, rsc_contact** contacts, const double* given
             reason[k] = text;
         });
         if (status) std::copy(outcome.begin(), outcome.end(), status);
-        const auto bad = std::find_if(outcome.begin(), outcome.end(), [](std::int32_t s) { return s != RSC_SUCCESS; });
+        const auto bad = std::find_if(outcome.begin(), outcome.end(),
+                                      [](std::int32_t s) { return s != RSC_SUCCESS; });
         if (bad == outcome.end()) return;
         const auto k = static_cast<std::size_t>(bad - outcome.begin());
         first = failed(*bad < 0 ? -2 : *bad, "contact " + std::to_string(k) + ": " + reason[k]);
@@ -46,19 +48,25 @@ std::int32_t for_all(std::int64_t n, rsc_contact** contacts, const double* given
 
 using namespace rsc::api;
 
-int32_t rsc_contacts_press(int64_t n, rsc_contact** contacts, const double* force, double* separation, int32_t* status, int32_t threads) {
-    return for_all(n, contacts, force, 3, status, threads, 6,
-                   [&](int64_t k) { return rsc_contact_press(contacts[k], force[k], separation ? separation + k : nullptr); });
+int32_t rsc_contacts_press(int64_t n, rsc_contact** contacts, const double* force,
+                           double* separation, int32_t* status, int32_t threads) {
+    return for_all(n, contacts, force, 3, status, threads, 6, [&](int64_t k) {
+        return rsc_contact_press(contacts[k], force[k], separation ? separation + k : nullptr);
+    });
 }
 
-int32_t rsc_contacts_indent(int64_t n, rsc_contact** contacts, const double* separation, double* force, int32_t* status, int32_t threads) {
-    return for_all(n, contacts, separation, 3, status, threads, 6,
-                   [&](int64_t k) { return rsc_contact_indent(contacts[k], separation[k], force ? force + k : nullptr); });
+int32_t rsc_contacts_indent(int64_t n, rsc_contact** contacts, const double* separation,
+                            double* force, int32_t* status, int32_t threads) {
+    return for_all(n, contacts, separation, 3, status, threads, 6, [&](int64_t k) {
+        return rsc_contact_indent(contacts[k], separation[k], force ? force + k : nullptr);
+    });
 }
 
-int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0, const double* y0, int32_t by_force, const double* value,
-                          double* separation, double* force, double* stiffness, double* lateral_x, double* lateral_y, double* moment_x,
-                          double* moment_y, int32_t* level_status, int32_t* status, int32_t threads) {
+int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0, const double* y0,
+                          int32_t by_force, const double* value, double* separation, double* force,
+                          double* stiffness, double* lateral_x, double* lateral_y, double* moment_x,
+                          double* moment_y, int32_t* level_status, int32_t* status,
+                          int32_t threads) {
     const int32_t sound = guarded(0, [&] {
         if (!x0 != !y0) refuse(x0 ? 4 : 3, x0 ? "y0" : "x0", "must be null if the other is");
         if (by_force != 0 && by_force != 1) refuse(5, "by_force", "must be 0 or 1");
@@ -67,18 +75,25 @@ int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0, c
     return for_all(n, contacts, value, 6, status, threads, 16, [&](int64_t k) {
         rsc_contact* const contact = contacts[k];
         if (x0)
-            if (const int32_t moved = rsc_contact_move_tip(contact, x0[k], y0[k]); moved != RSC_SUCCESS) return moved;
-        const int32_t reached = by_force ? rsc_contact_press(contact, value[k], nullptr) : rsc_contact_indent(contact, value[k], nullptr);
+            if (const int32_t moved = rsc_contact_move_tip(contact, x0[k], y0[k]);
+                moved != RSC_SUCCESS)
+                return moved;
+        const int32_t reached = by_force ? rsc_contact_press(contact, value[k], nullptr)
+                                         : rsc_contact_indent(contact, value[k], nullptr);
         if (reached != RSC_SUCCESS && reached != RSC_NOT_CONVERGED) return reached;
         double slope = 0;
         if (stiffness)
-            if (const int32_t found = rsc_contact_stiffness(contact, &slope); found != RSC_SUCCESS) return found;
-        const auto& known = lateral_x || lateral_y || moment_x || moment_y ? contact->answer() : contact->known;
+            if (const int32_t found = rsc_contact_stiffness(contact, &slope); found != RSC_SUCCESS)
+                return found;
+        const auto& known =
+            lateral_x || lateral_y || moment_x || moment_y ? contact->answer() : contact->known;
         const auto to = [&](auto* output, auto of) {
             if (output) output[k] = static_cast<std::decay_t<decltype(*output)>>(of);
         };
-        to(separation, known.level->separation), to(force, known.level->force), to(stiffness, slope);
-        to(lateral_x, known.lateral.x), to(lateral_y, known.lateral.y), to(moment_x, known.moment.x), to(moment_y, known.moment.y);
+        to(separation, known.level->separation), to(force, known.level->force),
+            to(stiffness, slope);
+        to(lateral_x, known.lateral.x), to(lateral_y, known.lateral.y),
+            to(moment_x, known.moment.x), to(moment_y, known.moment.y);
         to(level_status, known.level->status);
         return reached;
     });

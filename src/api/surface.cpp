@@ -2,9 +2,9 @@
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
-#include "rough/asperities.hpp"
-#include "rough/form.hpp"
-#include "rough/measured.hpp"
+#include "surface/asperities.hpp"
+#include "surface/form.hpp"
+#include "surface/measured.hpp"
 
 namespace rsc::api {
 namespace {
@@ -24,7 +24,9 @@ rsc_asperities* share(SurfaceModel&& model) {
 void require_positive(const std::vector<double>& values, int argument, const char* name) {
     for (std::size_t k = 0; k < values.size(); ++k) {
         if (!usable_positive(values[k]))
-            refuse(argument, name, (std::string(kPositiveBounds) + ": entry " + std::to_string(k) + " is not").c_str());
+            refuse(argument, name,
+                   (std::string(kPositiveBounds) + ": entry " + std::to_string(k) + " is not")
+                       .c_str());
     }
 }
 
@@ -43,8 +45,8 @@ int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case, in
     });
 }
 
-int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double dx, double dy, double x0, double y0, int32_t periodic,
-                         const double* heights) {
+int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double dx, double dy,
+                         double x0, double y0, int32_t periodic, const double* heights) {
     return constructed(0, surface, "surface", [&] {
         if (nx < 3 || nx > kMost) refuse(2, "nx", "must be from 3 to 2147483647");
         if (ny < 3 || ny > kMost) refuse(3, "ny", "must be from 3 to 2147483647");
@@ -70,8 +72,9 @@ int32_t rsc_surface_copy(rsc_surface** surface, const rsc_surface* original) {
     return constructed(0, surface, "surface", [&] {
         require(original, 2, "original");
         const rsc::Surface& from = original->surface;
-        return new rsc_surface{
-            {}, {from.map.copy(), from.sigma, from.points_per_wave, from.theory, from.sampled, from.differences, from.name, from.measured}};
+        return new rsc_surface{{},
+                               {from.map.copy(), from.sigma, from.points_per_wave, from.theory,
+                                from.sampled, from.differences, from.name, from.measured}};
     });
 }
 
@@ -81,8 +84,10 @@ int32_t rsc_surface_detrend(rsc_surface* surface, const char* how, double* rms_l
     return on(surface, "surface", 0, [&] {
         require(how, 2, "how");
         const std::string_view word = how;
-        const auto form = std::find(rsc::kDetrendNames.begin(), rsc::kDetrendNames.end(), word) - rsc::kDetrendNames.begin();
-        if (form == std::ssize(rsc::kDetrendNames)) refuse(2, "how", "must be \"none\", \"mean\", \"plane\", \"quadratic\" or \"sphere\"");
+        const auto form = std::find(rsc::kDetrendNames.begin(), rsc::kDetrendNames.end(), word) -
+                          rsc::kDetrendNames.begin();
+        if (form == std::ssize(rsc::kDetrendNames))
+            refuse(2, "how", "must be \"none\", \"mean\", \"plane\", \"quadratic\" or \"sphere\"");
         const double left = [&] {
             try {
                 return rsc::detrend(surface->surface.map, static_cast<rsc::Detrend>(form)).rms;
@@ -101,12 +106,13 @@ int32_t rsc_surface_filter(rsc_surface* surface, double cutoff) {
         if (!rsc::usable_positive(cutoff)) refuse(2, "cutoff", rsc::kPositiveBounds);
         rsc::gaussian_filter(surface->surface.map, cutoff);
         surface->surface.differences.reset();
-        if (!surface->surface.theory) surface->surface.sigma = rsc::roughness(surface->surface.map).height;
+        if (!surface->surface.theory)
+            surface->surface.sigma = rsc::roughness(surface->surface.map).height;
     });
 }
 
-int32_t rsc_surface_grid(const rsc_surface* surface, int64_t* nx, int64_t* ny, double* dx, double* dy, double* x0, double* y0,
-                         int32_t* periodic) {
+int32_t rsc_surface_grid(const rsc_surface* surface, int64_t* nx, int64_t* ny, double* dx,
+                         double* dy, double* x0, double* y0, int32_t* periodic) {
     return on(surface, "surface", 0, [&] {
         const rsc::HeightMap& map = surface->surface.map;
         put(nx, map.nx);
@@ -124,7 +130,9 @@ int32_t rsc_surface_heights(const rsc_surface* surface, int64_t n, double* heigh
         const rsc::HeightMap& map = surface->surface.map;
         if (n != static_cast<int64_t>(map.nx) * map.ny) refuse(2, "n", "must be nx*ny");
         require(heights, 3, "heights");
-        for (int j = 0; j < map.ny; ++j) std::copy(map.row(j), map.row(j) + map.nx, heights + static_cast<std::ptrdiff_t>(j) * map.nx);
+        for (int j = 0; j < map.ny; ++j)
+            std::copy(map.row(j), map.row(j) + map.nx,
+                      heights + static_cast<std::ptrdiff_t>(j) * map.nx);
     });
 }
 
@@ -137,7 +145,8 @@ int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, double* m2, 
     });
 }
 
-int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surface, const rsc_case* a_case) {
+int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surface,
+                            const rsc_case* a_case) {
     return constructed(2, asperities, "asperities", [&] {
         require(surface, 2, "surface");
         const rsc::Case& settings = settings_of(a_case);
@@ -145,7 +154,8 @@ int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surf
     });
 }
 
-int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case, int64_t realization) {
+int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case,
+                            int64_t realization) {
     return constructed(2, asperities, "asperities", [&] {
         const rsc::Case& settings = settings_of(a_case);
         rsc::require_valid(settings, {"surface", "run", "asperities%curvature", "asperities%law"});
@@ -153,16 +163,22 @@ int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case,
     });
 }
 
-int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double* x, const double* y, const double* z, const double* radius,
-                            const double* kappa1, const double* kappa2, const double* angle, const double* biharmonic) {
+int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double* x,
+                            const double* y, const double* z, const double* radius,
+                            const double* kappa1, const double* kappa2, const double* angle,
+                            const double* biharmonic) {
     return constructed(0, asperities, "asperities", [&] {
         if (n < 1 || n > kMost) refuse(2, "n", "must be from 1 to 2147483647");
         if ((kappa1 || kappa2 || angle) && !(kappa1 && kappa2 && angle)) {
-            refuse(!kappa1 ? 7 : !kappa2 ? 8 : 9, "curvature", "is missing: kappa1, kappa2 and angle go together");
+            refuse(!kappa1   ? 7
+                   : !kappa2 ? 8
+                             : 9,
+                   "curvature", "is missing: kappa1, kappa2 and angle go together");
         }
         rsc::SurfaceModel model;
         rsc::Asperities& a = model.asperities;
-        const auto take = [n](std::vector<double>& to, const double* from, int argument, const char* name) {
+        const auto take = [n](std::vector<double>& to, const double* from, int argument,
+                              const char* name) {
             require_finite(from, n, argument, name);
             to.assign(from, from + n);
         };
@@ -178,13 +194,16 @@ int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double
             require_positive(a.kappa2, 8, "kappa2");
             for (std::size_t k = 0; k < a.size(); ++k) {
                 if (!(a.kappa1[k] >= a.kappa2[k]))
-                    refuse(7, "kappa1", ("must be at least kappa2: entry " + std::to_string(k) + " is less").c_str());
+                    refuse(7, "kappa1",
+                           ("must be at least kappa2: entry " + std::to_string(k) + " is less")
+                               .c_str());
             }
         }
         if (biharmonic) take(a.biharmonic, biharmonic, 10, "biharmonic");
         if (const auto same = rsc::coincident(a))
             refuse(3, "x",
-                   ("and y: entries " + std::to_string(same->first) + " and " + std::to_string(same->second) + " are at the same position")
+                   ("and y: entries " + std::to_string(same->first) + " and " +
+                    std::to_string(same->second) + " are at the same position")
                        .c_str());
         model.domain = rsc::list_domain(a, {}, "the asperities");
         model.list = true;
@@ -199,7 +218,9 @@ int32_t rsc_asperities_copy(rsc_asperities** asperities, const rsc_asperities* o
     });
 }
 
-int32_t rsc_asperities_destroy(rsc_asperities** asperities) { return destroyed(asperities, "asperities"); }
+int32_t rsc_asperities_destroy(rsc_asperities** asperities) {
+    return destroyed(asperities, "asperities");
+}
 
 int32_t rsc_asperities_count(const rsc_asperities* asperities, int64_t* n) {
     return on(asperities, "asperities", 0, [&] {
@@ -208,7 +229,8 @@ int32_t rsc_asperities_count(const rsc_asperities* asperities, int64_t* n) {
     });
 }
 
-int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, double* x, double* y, double* z, double* radius) {
+int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, double* x, double* y,
+                           double* z, double* radius) {
     return on(asperities, "asperities", 0, [&] {
         const rsc::Asperities& a = asperities->model->asperities;
         if (n != static_cast<int64_t>(a.size())) refuse(2, "n", "must be the number of asperities");
@@ -219,7 +241,8 @@ int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, double* 
     });
 }
 
-int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int64_t n, double* kappa1, double* kappa2, double* angle) {
+int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int64_t n, double* kappa1,
+                                  double* kappa2, double* angle) {
     return on(asperities, "asperities", 0, [&] {
         const rsc::Asperities& a = asperities->model->asperities;
         if (a.kappa1.empty()) refuse(1, "asperities", "were given without curvatures");

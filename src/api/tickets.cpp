@@ -11,21 +11,23 @@ struct Kind {
     void (*destroy)(void*);
     void* (*copy)(const void*);  // throws if the copy fails
 };
-#define RSC_KIND(type)                                                                                \
-    Kind {                                                                                            \
-        [](void* handle) {                                                                            \
-            auto* typed = static_cast<type*>(handle);                                                 \
-            type##_destroy(&typed);                                                                   \
-        },                                                                                            \
-            [](const void* handle) -> void* {                                                         \
-                type* made = nullptr;                                                                 \
-                if (const std::int32_t status = type##_copy(&made, static_cast<const type*>(handle))) \
-                    throw Outcome{status, "an object could not be copied"};                           \
-                return made;                                                                          \
-            }                                                                                         \
+#define RSC_KIND(type)                                                        \
+    Kind {                                                                    \
+        [](void* handle) {                                                    \
+            auto* typed = static_cast<type*>(handle);                         \
+            type##_destroy(&typed);                                           \
+        },                                                                    \
+            [](const void* handle) -> void* {                                 \
+                type* made = nullptr;                                         \
+                if (const std::int32_t status =                               \
+                        type##_copy(&made, static_cast<const type*>(handle))) \
+                    throw Outcome{status, "an object could not be copied"};   \
+                return made;                                                  \
+            }                                                                 \
     }
 // In the order of RSC_KIND_LIST, which begins at 1.
-const Kind kKinds[] = {RSC_KIND(rsc_case), RSC_KIND(rsc_surface), RSC_KIND(rsc_asperities), RSC_KIND(rsc_contact), RSC_KIND(rsc_friction)};
+const Kind kKinds[] = {RSC_KIND(rsc_case), RSC_KIND(rsc_surface), RSC_KIND(rsc_asperities),
+                       RSC_KIND(rsc_contact), RSC_KIND(rsc_friction)};
 #undef RSC_KIND
 
 struct Entry {
@@ -49,8 +51,9 @@ public:
         }
     }
 
-    // The entry of the ticket at a place, or one with a null handle. A copied ticket belongs to the first place that uses it, and thus to
-    // this one; a ticket that belonged to this place before was overwritten by an assignment of the compiler.
+    // The entry of the ticket at a place, or one with a null handle. A copied ticket belongs to the
+    // first place that uses it, and thus to this one; a ticket that belonged to this place before
+    // was overwritten by an assignment of the compiler.
     Entry find(Place place) {
         const std::lock_guard lock(mutex_);
         const auto at = entries_.find(*place);
@@ -62,14 +65,16 @@ public:
         return at->second;
     }
 
-    // As find(), but without a change of ownership, because the place may be a temporary of the compiler.
+    // As find(), but without a change of ownership, because the place may be a temporary of the
+    // compiler.
     Entry look(Place place) {
         const std::lock_guard lock(mutex_);
         const auto at = entries_.find(*place);
         return at == entries_.end() ? Entry{} : at->second;
     }
 
-    // A new number for a ticket that belongs to the place and will be changed, so that bitwise copies of it do not refer to the change.
+    // A new number for a ticket that belongs to the place and will be changed, so that bitwise
+    // copies of it do not refer to the change.
     void renew(std::int64_t* ticket) {
         const std::lock_guard lock(mutex_);
         auto entry = entries_.extract(*ticket);
@@ -78,10 +83,12 @@ public:
         entries_.insert(std::move(entry));
     }
 
-    // Destroys the object of the ticket if it belongs to this place, but not if it belongs to another place or to none yet.
+    // Destroys the object of the ticket if it belongs to this place, but not if it belongs to
+    // another place or to none yet.
     void release(std::int64_t* ticket) {
         const std::lock_guard lock(mutex_);
-        if (const auto at = entries_.find(*ticket); at != entries_.end() && at->second.place == ticket) {
+        if (const auto at = entries_.find(*ticket);
+            at != entries_.end() && at->second.place == ticket) {
             drop(*ticket);
             at_place_.erase(ticket);
         }
@@ -97,7 +104,7 @@ private:
     std::mutex mutex_;
     std::unordered_map<std::int64_t, Entry> entries_;
     std::unordered_map<Place, std::int64_t> at_place_;  // tickets of the entries that have a place
-    std::int64_t last_ = 0x5253435f00000000;            // unlike typical values of uninitialised memory
+    std::int64_t last_ = 0x5253435f00000000;  // unlike typical values of uninitialised memory
 };
 
 // Never destroyed, because objects may be released while the program ends.

@@ -1,15 +1,18 @@
-// A case: every key of the namelist, with its value. The registry (registry.hpp) names, checks, prints and describes them.
+// A case: every key of the namelist, with its value. The registry (registry.hpp) names, checks,
+// prints and describes them.
 #pragma once
 
 #include "contact/indentation.hpp"
-#include "rough/form.hpp"
-#include "rough/measured.hpp"
-#include "rough/surface.hpp"
+#include "surface/form.hpp"
+#include "surface/measured.hpp"
+#include "surface/surface.hpp"
 
 namespace rsc {
 
-// Enumerations with the spellings of their values, in their order. Those of the contact are in contact/indentation.hpp.
-// Twins, TwinHeights: properties of the measured map that surfaces with source = 'spectrum' reproduce.
+// Enumerations with the spellings of their values, in their order. Those of the contact are in
+// contact/indentation.hpp.
+// Twins, TwinHeights: properties of the measured map that surfaces with source = 'spectrum'
+// reproduce.
 enum class Twins { radial, directional };
 inline constexpr std::array kTwinsNames = {"radial", "directional"};
 enum class TwinHeights { gaussian, measured };
@@ -46,7 +49,8 @@ struct Case {
         double hardness = kInfinity, size_effect = 0.0, resistivity[2] = {0.0, 0.0}, friction = 0.0;
         double adhesion = 0.0, adhesion_range = 0.0;
         std::vector<double> layer_thickness, layer_E, layer_nu;  // from the top; empty: none
-        std::vector<double> relaxation_share, relaxation_time;   // g_k, tau_k of body 1; empty: elastic
+        std::vector<double> relaxation_share,
+            relaxation_time;  // g_k, tau_k of body 1; empty: elastic
     } solids;
     struct Surface {
         Source source = Source::synthetic;
@@ -55,7 +59,8 @@ struct Case {
         int n = 2048;
         double hurst = 0.8, L_lambda_l = 24.0, L_lambda_s = 512.0;
         bool plateau = false;
-        std::optional<double> sigma;  // default: 0.01 if synthetic, otherwise the rms of the data read
+        std::optional<double>
+            sigma;  // default: 0.01 if synthetic, otherwise the rms of the data read
         double aspect = 1.0, direction = 0.0, skewness = 0.0, kurtosis = 3.0;
         Twins twins = Twins::radial;
         TwinHeights twin_heights = TwinHeights::gaussian;
@@ -74,7 +79,7 @@ struct Case {
         LawKind law = LawKind::hertz;
     } asperities;
     struct IndenterKeys {
-        int shape = 0;                   // row of kShapes (contact/indenter/shapes.hpp); a sphere takes solids%R
+        int shape = 0;  // row of kShapes (physics/indenter/shapes.hpp); a sphere takes solids%R
         std::optional<double> radii[2];  // paraboloid; default: the sphere's radius
         double angle = 0;                // [degree]
         std::optional<double> slope;     // cone
@@ -89,7 +94,7 @@ struct Case {
         int steps = 100;
         LevelUnit unit = LevelUnit::sigma;
         Spacing spacing = Spacing::linear;
-        std::vector<double> levels;       // explicit list instead, in `unit`; empty: start, stop, steps
+        std::vector<double> levels;  // explicit list instead, in `unit`; empty: start, stop, steps
         std::optional<double> duration;   // from the first to the last level
         std::vector<double> times;        // explicit list instead
         std::optional<double> centre[2];  // default: the middle of the surface
@@ -121,8 +126,8 @@ struct Case {
         std::vector<double> pdf_levels = {2.0, 2.5, 3.0};
         int pdf_bins = 60;
         int compression = 4;
-        std::vector<double> fields;             // numbers of kFieldNames; empty: none
-        std::vector<double> field_levels;       // in `unit` of the indentation; empty: the last level
+        std::vector<double> fields;        // numbers of kFieldNames; empty: none
+        std::vector<double> field_levels;  // in `unit` of the indentation; empty: the last level
         std::optional<double> field_window[4];  // x0, x1, y0, y1; default: about the contact
     } output;
 
@@ -137,8 +142,11 @@ struct ModelChoice {
 ModelChoice model_of(const Case& settings);
 // True if body 1 relaxes, i.e. a share is positive.
 bool relaxes(const Case& settings);
-// True if closed forms of areas and pressures hold: body 1 is an elastic half-space without layers, and the only rough body.
+// True if closed forms of areas and pressures hold: body 1 is an elastic half-space without layers,
+// and the only rough body.
 bool has_closed_forms(const Case& settings);
-inline bool by_elements(const Case& settings) { return model_of(settings).model == Model::elements; }
+inline bool by_elements(const Case& settings) {
+    return model_of(settings).model == Model::elements;
+}
 
 }  // namespace rsc

@@ -12,11 +12,15 @@ bool is_name(int c) { return is_letter(c) || is_digit(c) || c == '_' || c == '%'
 bool is_blank(int c) { return c == ' ' || c == '\t'; }
 bool is_line_end(int c) { return c == '\n' || c == '\r'; }
 // Characters that end a value; '!' begins a comment.
-bool is_separator(int c) { return is_blank(c) || is_line_end(c) || c == ',' || c == ';' || c == '/' || c == '!' || c == kEnd; }
+bool is_separator(int c) {
+    return is_blank(c) || is_line_end(c) || c == ',' || c == ';' || c == '/' || c == '!' ||
+           c == kEnd;
+}
 
 class Parser {
 public:
-    Parser(std::string_view text, const std::vector<std::string_view>& known) : text_(text), known_(known) {
+    Parser(std::string_view text, const std::vector<std::string_view>& known)
+        : text_(text), known_(known) {
         lines_.push_back(0);
         for (std::size_t i = 0; i < text.size(); ++i)
             if (text[i] == '\n') lines_.push_back(i + 1);
@@ -34,7 +38,8 @@ public:
             if (name.empty() || !is_separator(peek())) continue;
             if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
                 if (name != "end" && first_on_line(sign, resumed))
-                    fault(sign, "unknown group '&" + name.substr(0, 63) + "'" + suggestion(name, known_, "&"));
+                    fault(sign, "unknown group '&" + name.substr(0, 63) + "'" +
+                                    suggestion(name, known_, "&"));
                 continue;
             }
             Group group{name, {}, position(sign)};
@@ -51,14 +56,17 @@ public:
         Group group{"", {}, {}};
         alone_ = true;
         body(group);
-        if (at_ < text_.size()) fault(at_, "nothing may follow the value, found '" + excerpt(at_) + "'");
+        if (at_ < text_.size())
+            fault(at_, "nothing may follow the value, found '" + excerpt(at_) + "'");
         document_.groups.push_back(std::move(group));
         return std::move(document_);
     }
 
 private:
-    // --- characters -------------------------------------------------------------------------------------------------------
-    // at_eol_: the last character read, even if put back, ended a line. The separators below depend on it.
+    // --- characters
+    // -------------------------------------------------------------------------------------------------------
+    // at_eol_: the last character read, even if put back, ended a line. The separators below depend
+    // on it.
     int next() {
         const int c = peek();
         if (c != kEnd) ++at_;
@@ -68,7 +76,9 @@ private:
     void back(int c) {
         if (c != kEnd) --at_;
     }
-    int at(std::size_t offset) const { return offset < text_.size() ? static_cast<unsigned char>(text_[offset]) : kEnd; }
+    int at(std::size_t offset) const {
+        return offset < text_.size() ? static_cast<unsigned char>(text_[offset]) : kEnd;
+    }
     int peek() const { return at(at_); }
     int skip_blanks() {
         int c = next();
@@ -83,10 +93,15 @@ private:
 
     Position position(std::size_t offset) const {
         const auto line = std::upper_bound(lines_.begin(), lines_.end(), offset) - lines_.begin();
-        return {static_cast<int>(line), static_cast<int>(offset - lines_[static_cast<std::size_t>(line - 1)] + 1)};
+        return {static_cast<int>(line),
+                static_cast<int>(offset - lines_[static_cast<std::size_t>(line - 1)] + 1)};
     }
-    void fault(std::size_t offset, const std::string& text) { report(document_.faults, position(offset), text); }
-    void warn(std::size_t offset, const std::string& text) { report(document_.warnings, position(offset), text); }
+    void fault(std::size_t offset, const std::string& text) {
+        report(document_.faults, position(offset), text);
+    }
+    void warn(std::size_t offset, const std::string& text) {
+        report(document_.warnings, position(offset), text);
+    }
     void report(std::vector<Fault>& faults, Position at, const std::string& text) {
         if (faults.size() < kMostFaults) faults.push_back({at, context_ + text});
     }
@@ -94,7 +109,8 @@ private:
     // The word at an offset, for a message.
     std::string excerpt(std::size_t offset) const {
         std::string word;
-        while (offset < text_.size() && word.size() < 40 && (word.empty() || !is_separator(text_[offset]))) {
+        while (offset < text_.size() && word.size() < 40 &&
+               (word.empty() || !is_separator(text_[offset]))) {
             const char c = text_[offset++];
             word += static_cast<unsigned char>(c) < ' ' ? '?' : c;
         }
@@ -109,13 +125,16 @@ private:
             if (text_[i] == '!') i = text_.find('\n', i);
             if (i == std::string_view::npos) return;
             if (is_blank(text_[i]) || is_line_end(text_[i]) || text_[i] == '/') continue;
-            if (lower_case(text_.substr(i, 4)) == "$end" || lower_case(text_.substr(i, 4)) == "&end") {
+            if (lower_case(text_.substr(i, 4)) == "$end" ||
+                lower_case(text_.substr(i, 4)) == "&end") {
                 i += 3;
                 continue;
             }
-            if (text_[i] == '!' || text_[i] == '&' || text_[i] == '$') return;  // a comment to the end, or a group already reported
-            fault(i,
-                  "'" + excerpt(i) + "' after the last group would be ignored: write keys between &name and '/', and comments after '!'");
+            if (text_[i] == '!' || text_[i] == '&' || text_[i] == '$')
+                return;  // a comment to the end, or a group already reported
+            fault(i, "'" + excerpt(i) +
+                         "' after the last group would be ignored: write keys between &name and "
+                         "'/', and comments after '!'");
             return;
         }
     }
@@ -125,8 +144,10 @@ private:
         return offset == resumed || text_[offset - 1] == '\n';
     }
 
-    // --- separators, the way gfortran does them ---------------------------------------------------------------------------
-    // After a value: blanks, then at most one comma, or the end of the line with all that is blank or comment after it.
+    // --- separators, the way gfortran does them
+    // ---------------------------------------------------------------------------
+    // After a value: blanks, then at most one comma, or the end of the line with all that is blank
+    // or comment after it.
     void skip_separator() {
         skip_blanks();
         comma_ = false;
@@ -152,7 +173,8 @@ private:
             back(c);
         }
     }
-    // Before the next value, if the previous one ended its line: a comma counts only if none preceded.
+    // Before the next value, if the previous one ended its line: a comma counts only if none
+    // preceded.
     void finish_separator() {
         for (;;) {
             int c = skip_blanks();
@@ -179,7 +201,8 @@ private:
         if (!complete_ && at_eol_) finish_separator();
     }
 
-    // --- a group ----------------------------------------------------------------------------------------------------------
+    // --- a group
+    // ----------------------------------------------------------------------------------------------------------
     void body(Group& group) {
         context_ = alone_ ? "" : "&" + group.name + ": ";
         bool lost = false;  // a fault was reported and no valid assignment followed yet
@@ -189,16 +212,20 @@ private:
             const std::size_t start = at_;
             const int c = next();
             if (c == kEnd) {
-                if (!alone_) report(document_.faults, group.at, "the group is not closed by '/' before the end of the text");
+                if (!alone_)
+                    report(document_.faults, group.at,
+                           "the group is not closed by '/' before the end of the text");
                 break;
             }
             if (c == '&' || c == '$') {
                 const bool end = !alone_ && lower_case(text_.substr(at_, 3)) == "end";
-                if (!end && !alone_) fault(start, "the group is not closed by '/' before '" + excerpt(start) + "'");
+                if (!end && !alone_)
+                    fault(start, "the group is not closed by '/' before '" + excerpt(start) + "'");
                 at_ = end ? at_ + 3 : start;
                 break;
             }
-            if (c == '?') continue;  // gfortran's query, which does nothing unless typed at a terminal
+            if (c == '?')
+                continue;  // gfortran's query, which does nothing unless typed at a terminal
             if (c == '=' && peek() == '?') {
                 next();
                 continue;
@@ -216,8 +243,8 @@ private:
         context_.clear();
     }
 
-    // key[(subscript)] = values. On a fault nothing is added and reading continues after the word; consecutive faults give one
-    // message.
+    // key[(subscript)] = values. On a fault nothing is added and reading continues after the word;
+    // consecutive faults give one message.
     void assignment(Group& group, std::size_t start, bool quiet) {
         Assignment a;
         a.at = position(start);
@@ -237,7 +264,8 @@ private:
                 complete_ = false;
                 at_ = after_name;
                 problem = "'=' must follow " + shown(a);
-                if (is_blank(peek()) && skip_blanks() == '(') problem = "no blank may stand between " + shown(a) + " and its subscript";
+                if (is_blank(peek()) && skip_blanks() == '(')
+                    problem = "no blank may stand between " + shown(a) + " and its subscript";
                 at_ = after_name;
             }
         }
@@ -253,7 +281,8 @@ private:
     // One dimension, blanks allowed between its parts. Returns an error message.
     std::string subscript(Assignment& a) {
         const std::string of = "the subscript of '" + a.key + "' ";
-        const std::string wanted = of + "must be (first), (first:last) or (first:last:step), found '" + excerpt(at_) + "'";
+        const std::string wanted =
+            of + "must be (first), (first:last) or (first:last:step), found '" + excerpt(at_) + "'";
         const std::size_t close = text_.find_first_of(")\n", at_);
         if (close == std::string_view::npos || text_[close] != ')') return wanted;
         std::string_view inside = text_.substr(at_ + 1, close - at_ - 1);
@@ -274,7 +303,8 @@ private:
         }
         if (parts.size() > 3) return of + "has too many colons";
         if (parts.size() == 1 && !parts[0]) return of + "is empty";
-        if (parts.size() == 3 && parts[2].value_or(0) == 0) return "the step in " + of + "must be an integer other than 0";
+        if (parts.size() == 3 && parts[2].value_or(0) == 0)
+            return "the step in " + of + "must be an integer other than 0";
         s.section = parts.size() > 1;
         s.first = parts[0];
         if (parts.size() > 1) s.last = parts[1];
@@ -283,10 +313,12 @@ private:
         return {};
     }
 
-    // --- values -----------------------------------------------------------------------------------------------------------
+    // --- values
+    // -----------------------------------------------------------------------------------------------------------
     // Up to the next key, the end of the group or the end of the text.
     void values(Assignment& a) {
-        std::size_t doubtful = std::string_view::npos;  // offset of a null value for gfortran but not for the Fortran standard
+        std::size_t doubtful = std::string_view::
+            npos;  // offset of a null value for gfortran but not for the Fortran standard
         skip_blanks();
         bool after_line = false;
         for (;;) {
@@ -305,7 +337,8 @@ private:
             if (key_follows()) return;
             if (doubtful != std::string_view::npos) {
                 warn(doubtful, "the value of " + shown(a) +
-                                   " here is empty, as gfortran reads it: a comment straight after '=' or ',', or a line that "
+                                   " here is empty, as gfortran reads it: a comment straight after "
+                                   "'=' or ',', or a line that "
                                    "begins with a comma, makes a null value");
                 doubtful = std::string_view::npos;
             }
@@ -335,7 +368,8 @@ private:
 
     void add(Assignment& a, Item item) {
         if (a.items.size() == kMostItems)
-            report(document_.faults, item.at, "more than " + std::to_string(kMostItems) + " values for " + shown(a));
+            report(document_.faults, item.at,
+                   "more than " + std::to_string(kMostItems) + " values for " + shown(a));
         if (a.items.size() <= kMostItems) a.items.push_back(std::move(item));
     }
 
@@ -353,7 +387,8 @@ private:
         }
         if (c == '"' || c == '\'') {
             if (!quoted(item)) {
-                fault(start, "the text that begins here is not closed by " + std::string(1, static_cast<char>(c)));
+                fault(start, "the text that begins here is not closed by " +
+                                 std::string(1, static_cast<char>(c)));
                 return false;
             }
             if (!is_separator(peek())) fault(at_, "a blank or comma must follow the closing quote");
@@ -362,8 +397,10 @@ private:
             while (!is_separator(peek())) ++at_;
             item.text = std::string(text_.substr(word, at_ - word));
             item.commented = peek() == '!';
-            // After Infinity or NaN gfortran searches, also on later lines, for the '=' of a key with that name.
-            const bool named = item.text.find_first_of("iInN") != std::string::npos && to_real(item.text);
+            // After Infinity or NaN gfortran searches, also on later lines, for the '=' of a key
+            // with that name.
+            const bool named =
+                item.text.find_first_of("iInN") != std::string::npos && to_real(item.text);
             if (named && (peek() == ' ' || is_line_end(peek())))
                 while (peek() == ' ' || is_line_end(peek())) ++at_;
         }
@@ -431,7 +468,9 @@ private:
 
 }  // namespace
 
-Document parse(std::string_view text, const std::vector<std::string_view>& known_groups) { return Parser(text, known_groups).document(); }
+Document parse(std::string_view text, const std::vector<std::string_view>& known_groups) {
+    return Parser(text, known_groups).document();
+}
 
 Document parse_assignments(std::string_view text) {
     const std::vector<std::string_view> none;
@@ -440,7 +479,8 @@ Document parse_assignments(std::string_view text) {
 
 std::string format(const std::string& name, const Fault& fault) {
     if (fault.at.line == 0) return name + ": " + fault.text;
-    return name + ":" + std::to_string(fault.at.line) + ":" + std::to_string(fault.at.column) + ": " + fault.text;
+    return name + ":" + std::to_string(fault.at.line) + ":" + std::to_string(fault.at.column) +
+           ": " + fault.text;
 }
 
 }  // namespace rsc::namelist

@@ -1,10 +1,12 @@
-// Parser of Fortran namelist text, independent of the keys: groups of assignments, each with its subscript and its list of values.
+// Parser of Fortran namelist text, independent of the keys: groups of assignments, each with its
+// subscript and its list of values.
 // Separators, repeat counts, null values and comments are interpreted as by gfortran's runtime.
 //
-// Existing parsers are parts of Fortran runtimes: they need the keys declared beforehand, and stop at the first error without its position.
+// Existing parsers are parts of Fortran runtimes: they need the keys declared beforehand, and stop
+// at the first error without its position.
 #pragma once
 
-#include "std.hpp"
+#include "base/std.hpp"
 
 namespace rsc::namelist {
 
@@ -21,7 +23,8 @@ struct Fault {
 
 // One value of a list, or a null value (which keeps the default), repeated `repeat` times.
 struct Item {
-    std::string text;  // as written; if `quoted`, without the quotes and with doubled ones replaced by one
+    std::string
+        text;  // as written; if `quoted`, without the quotes and with doubled ones replaced by one
     bool null = false;
     bool quoted = false;
     bool counted = false;    // a repeat count was written
@@ -62,8 +65,8 @@ inline constexpr long kLargestRepeat = 200'000'000;                // gfortran's
 inline constexpr std::size_t kMostItems = 100'000;                 // in one assignment
 inline constexpr std::size_t kMostFaults = 100;                    // reported at once
 
-// Parses a whole text: groups of the given (lower case) names; text outside of groups is ignored. Never throws on invalid text:
-// faults are collected.
+// Parses a whole text: groups of the given (lower case) names; text outside of groups is ignored.
+// Never throws on invalid text: faults are collected.
 Document parse(std::string_view text, const std::vector<std::string_view>& known_groups);
 
 // Parses the assignments of one group, without its &name and its end: `sigma = 0.01`.
@@ -71,8 +74,10 @@ Document parse_assignments(std::string_view text);
 
 // The candidate closest in spelling to `word`; empty if none is close.
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates);
-// "; did you mean 'sigma'?" for the nearest candidate, with `mark` ('&', '--') before it; empty if none is close.
-std::string suggestion(std::string_view word, const std::vector<std::string_view>& candidates, const char* mark = "");
+// "; did you mean 'sigma'?" for the nearest candidate, with `mark` ('&', '--') before it; empty if
+// none is close.
+std::string suggestion(std::string_view word, const std::vector<std::string_view>& candidates,
+                       const char* mark = "");
 
 std::string lower_case(std::string_view word);
 
@@ -83,10 +88,12 @@ std::string format(const std::string& name, const Fault& fault);
 
 // Empty if gfortran would reject the text for a variable of that type.
 std::optional<std::int64_t> to_integer(std::string_view word);  // empty also beyond 64 bits
-std::optional<double> to_real(std::string_view word);           // 1.5, .5, 5., 1e3, 1d3, 1q3, 1.5+3, Inf, Infinity, NaN, NaN(...)
-std::optional<bool> to_logical(std::string_view word);          // any text that begins with t, f, .t or .f
+std::optional<double> to_real(
+    std::string_view word);  // 1.5, .5, 5., 1e3, 1d3, 1q3, 1.5+3, Inf, Infinity, NaN, NaN(...)
+std::optional<bool> to_logical(std::string_view word);  // any text that begins with t, f, .t or .f
 
-// Shortest spelling that reads back to the same bits and is a Fortran real: 0.01, 3.0, 1e-06, Infinity.
+// Shortest spelling that reads back to the same bits and is a Fortran real: 0.01, 3.0, 1e-06,
+// Infinity.
 std::string from_real(double value);
 std::string from_logical(bool value);
 std::string from_string(std::string_view value);  // in single quotes, with quotes inside doubled

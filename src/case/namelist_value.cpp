@@ -10,7 +10,8 @@ char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + '
 // Infinity or zero, for a number too large or too small for a double.
 double out_of_range(std::string_view plain) {
     long double wide = 0;
-    if (std::from_chars(plain.data(), plain.data() + plain.size(), wide).ec == std::errc{}) return static_cast<double>(wide);
+    if (std::from_chars(plain.data(), plain.data() + plain.size(), wide).ec == std::errc{})
+        return static_cast<double>(wide);
     return plain.find("e-") == std::string_view::npos ? kInfinity : 0.0;
 }
 
@@ -21,8 +22,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
     for (std::size_t i = 1; i <= a.size(); ++i)
         for (std::size_t j = 1; j <= b.size(); ++j) {
-            d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+            d[i][j] = std::min(
+                {d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1])});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
         }
     return d[a.size()][b.size()];
 }
@@ -36,7 +39,8 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
     std::size_t least = std::max<std::size_t>(1, w.size() / 3) + 1;
     for (const std::string_view candidate : candidates) {
         std::size_t distance = edit_distance(w, lower_case(candidate));
-        if (w.size() >= 3 && distance >= least && lower_case(candidate).starts_with(w)) distance = least - 1;  // cut short
+        if (w.size() >= 3 && distance >= least && lower_case(candidate).starts_with(w))
+            distance = least - 1;  // cut short
         if (distance < least) {
             least = distance;
             best = candidate;
@@ -45,7 +49,8 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
     return best;
 }
 
-std::string suggestion(std::string_view word, const std::vector<std::string_view>& candidates, const char* mark) {
+std::string suggestion(std::string_view word, const std::vector<std::string_view>& candidates,
+                       const char* mark) {
     const std::string_view near = nearest(word, candidates);
     return near.empty() ? "" : std::string("; did you mean '") + mark + std::string(near) + "'?";
 }
@@ -70,17 +75,20 @@ std::optional<std::int64_t> to_integer(std::string_view word) {
 std::optional<double> to_real(std::string_view word) {
     std::string plain = lower_case(word);
     if (plain.starts_with('+') && !plain.starts_with("+-")) plain.erase(0, 1);
-    if (const std::size_t open = plain.find("nan("); open <= plain.starts_with('-') && plain.find(')') == plain.size() - 1)
+    if (const std::size_t open = plain.find("nan(");
+        open <= plain.starts_with('-') && plain.find(')') == plain.size() - 1)
         return std::numeric_limits<double>::quiet_NaN();
     // An exponent begins with any of e, d and q, or only with its sign.
     if (const std::size_t letter = plain.find_first_of("dq"); letter != std::string::npos)
         plain[letter] = 'e';
-    else if (const std::size_t sign = plain.find_first_of("+-", 1); sign != std::string::npos && plain[sign - 1] != 'e')
+    else if (const std::size_t sign = plain.find_first_of("+-", 1);
+             sign != std::string::npos && plain[sign - 1] != 'e')
         plain.insert(sign, "e");
     double value = 0;
     const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value);
     if (end != plain.data() + plain.size() || error == std::errc::invalid_argument) return {};
-    return error == std::errc{} ? value : std::copysign(out_of_range(plain), plain[0] == '-' ? -1.0 : 1.0);
+    return error == std::errc{} ? value
+                                : std::copysign(out_of_range(plain), plain[0] == '-' ? -1.0 : 1.0);
 }
 
 std::optional<bool> to_logical(std::string_view word) {

@@ -1,8 +1,8 @@
 #include "case/options.hpp"
 
+#include "base/error.hpp"
+#include "base/version.h"
 #include "case/namelist.hpp"
-#include "error.hpp"
-#include "version.h"
 
 namespace rsc {
 namespace {
@@ -15,14 +15,25 @@ struct Flag {
 };
 
 constexpr Flag kFlags[] = {
-    {'\0', "case", &Options::show_case}, {'o', "output", nullptr, true},         {'s', "set", nullptr, true},
-    {'\0', "check", &Options::check},    {'\0', "describe", &Options::describe}, {'\0', "list", &Options::list},
-    {'\0', "member", nullptr, true},     {'\0', "resume", &Options::resume},     {'\0', "merge"},
-    {'\0', "progress", nullptr, true},   {'q', "quiet", &Options::quiet},        {'h', "help", &Options::help},
-    {'\0', "man", &Options::man},        {'\0', "version", &Options::version},
+    {'\0', "case", &Options::show_case},
+    {'o', "output", nullptr, true},
+    {'s', "set", nullptr, true},
+    {'\0', "check", &Options::check},
+    {'\0', "describe", &Options::describe},
+    {'\0', "list", &Options::list},
+    {'\0', "member", nullptr, true},
+    {'\0', "resume", &Options::resume},
+    {'\0', "merge"},
+    {'\0', "progress", nullptr, true},
+    {'q', "quiet", &Options::quiet},
+    {'h', "help", &Options::help},
+    {'\0', "man", &Options::man},
+    {'\0', "version", &Options::version},
 };
 
-[[noreturn]] void refuse(const std::string& text) { bad_input(text + " (--help lists the options)"); }
+[[noreturn]] void refuse(const std::string& text) {
+    bad_input(text + " (--help lists the options)");
+}
 
 const Flag& find_long(std::string_view name) {
     std::vector<std::string_view> names;
@@ -30,7 +41,8 @@ const Flag& find_long(std::string_view name) {
         if (flag.name == name) return flag;
         names.push_back(flag.name);
     }
-    refuse("unknown option '--" + std::string(name) + "'" + namelist::suggestion(name, names, "--"));
+    refuse("unknown option '--" + std::string(name) + "'" +
+           namelist::suggestion(name, names, "--"));
 }
 
 const Flag& find_short(char letter) {
@@ -45,18 +57,21 @@ void apply(Options& options, const Flag& flag, const std::string& value) {
         if (options.output) refuse("--output is given twice");
         options.output = value;
     } else if (flag.name == "set") {
-        if (value.find('=') == std::string::npos) refuse("--set " + value + ": expected 'group%key=value'");
+        if (value.find('=') == std::string::npos)
+            refuse("--set " + value + ": expected 'group%key=value'");
         options.set.push_back(value);
     } else if (flag.name == "member") {
         int member = 0;
-        const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), member);
+        const auto [end, error] =
+            std::from_chars(value.data(), value.data() + value.size(), member);
         if (error != std::errc{} || end != value.data() + value.size() || member < 1)
             refuse("--member " + value + ": expected the number of a member, 1 or more");
         options.member = member;
     } else if (flag.name == "progress") {
         constexpr std::string_view kWords[] = {"auto", "always", "never"};
         const auto* const word = std::find(std::begin(kWords), std::end(kWords), value);
-        if (word == std::end(kWords)) refuse("--progress " + value + ": expected auto, always or never");
+        if (word == std::end(kWords))
+            refuse("--progress " + value + ": expected auto, always or never");
         options.progress = static_cast<Progress>(word - kWords);
     } else if (flag.name == "merge") {
         options.merge.emplace_back();
@@ -89,15 +104,21 @@ Options parse_options(int argc, const char* const* argv) {
         if (word[1] == '-') {
             const std::size_t equals = word.find('=');
             const bool attached = equals != std::string::npos;
-            const Flag& flag = find_long(std::string_view(word).substr(2, attached ? equals - 2 : std::string::npos));
-            if (attached && !flag.takes_value) refuse("--" + std::string(flag.name) + " takes no value");
-            apply(options, flag, attached ? word.substr(equals + 1) : flag.takes_value ? value_after(flag) : "");
+            const Flag& flag = find_long(
+                std::string_view(word).substr(2, attached ? equals - 2 : std::string::npos));
+            if (attached && !flag.takes_value)
+                refuse("--" + std::string(flag.name) + " takes no value");
+            apply(options, flag,
+                  attached           ? word.substr(equals + 1)
+                  : flag.takes_value ? value_after(flag)
+                                     : "");
         } else {
             // -q, -qh, -oFILE, -o FILE
             for (std::size_t k = 1; k < word.size(); ++k) {
                 const Flag& flag = find_short(word[k]);
                 if (flag.takes_value) {
-                    apply(options, flag, k + 1 < word.size() ? word.substr(k + 1) : value_after(flag));
+                    apply(options, flag,
+                          k + 1 < word.size() ? word.substr(k + 1) : value_after(flag));
                     break;
                 }
                 apply(options, flag, "");
@@ -113,12 +134,14 @@ Options parse_options(int argc, const char* const* argv) {
     if (!options.merge.empty()) {
         if (paths.size() < 2) refuse("--merge needs two result files or more");
         if (!options.output) refuse("--merge needs --output FILE, the result to write");
-        if (!options.set.empty() || options.check || options.list || options.member || options.resume || options.show_case)
+        if (!options.set.empty() || options.check || options.list || options.member ||
+            options.resume || options.show_case)
             refuse("--merge can only be combined with --output, --quiet and --progress");
         options.merge = paths;
         return options;
     }
-    if (paths.size() > 1) refuse("one case at a time: both '" + paths[0] + "' and '" + paths[1] + "' are given");
+    if (paths.size() > 1)
+        refuse("one case at a time: both '" + paths[0] + "' and '" + paths[1] + "' are given");
     if (options.show_case && paths.empty()) refuse("--case needs the name of a result file");
     if (!paths.empty()) {
         if (paths.front().empty()) refuse("the name of the case is empty");
@@ -128,22 +151,29 @@ Options parse_options(int argc, const char* const* argv) {
 }
 
 std::string usage_text() {
-    return "usage: rsc [options] < case.nml      run a case; also: rsc [options] case.nml, or a result file, to run its case again\n"
+    return "usage: rsc [options] < case.nml      run a case; also: rsc [options] case.nml, or a "
+           "result file, to run its case again\n"
            "  -o, --output FILE                write the result to FILE instead of &output file\n"
-           "  -s, --set 'group%key=value'      override one key, the value in namelist syntax; repeatable\n"
-           "      --check                      read and check the case, print it with every default, run nothing\n"
+           "  -s, --set 'group%key=value'      override one key, the value in namelist syntax; "
+           "repeatable\n"
+           "      --check                      read and check the case, print it with every "
+           "default, run nothing\n"
            "      --case FILE.nc               print the case inside a result file\n"
-           "      --describe [group[%key]]     describe keys: type, unit, default, bounds, meaning\n"
+           "      --describe [group[%key]]     describe keys: type, unit, default, bounds, "
+           "meaning\n"
            "      --list                       list the members of a &study\n"
            "      --member K                   run only member K of a &study\n"
-           "      --resume                     resume an interrupted campaign, or add realizations to a finished one\n"
-           "      --merge FILE.nc FILE.nc ...  merge results of parts of a campaign into the FILE of --output\n"
+           "      --resume                     resume an interrupted campaign, or add realizations "
+           "to a finished one\n"
+           "      --merge FILE.nc FILE.nc ...  merge results of parts of a campaign into the FILE "
+           "of --output\n"
            "      --progress auto|always|never show progress on stderr (auto: on a terminal)\n"
            "  -q, --quiet                      no table on stdout\n"
            "  -h, --help                       print this text\n"
            "      --man                        print the manual page: rsc --man | man -l -\n"
            "      --version                    print the version\n"
-           "Exit status: 0 success, 1 failed while running, 2 refused before running, 130/143 stopped by a signal.\n";
+           "Exit status: 0 success, 1 failed while running, 2 refused before running, 130/143 "
+           "stopped by a signal.\n";
 }
 
 std::string version_text() { return "rsc " RSC_VERSION "\n"; }

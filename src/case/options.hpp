@@ -1,7 +1,7 @@
 // The command line; main.cpp uses it.
 #pragma once
 
-#include "std.hpp"
+#include "base/std.hpp"
 
 namespace rsc {
 
@@ -26,7 +26,8 @@ struct Options {
     bool version = false;
 };
 
-// Throws Error(bad_input) for an invalid command line. Options after --help and --version are not read.
+// Throws Error(bad_input) for an invalid command line. Options after --help and --version are not
+// read.
 Options parse_options(int argc, const char* const* argv);
 
 std::string usage_text();

@@ -1,6 +1,6 @@
 #include "case/read_case.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 namespace rsc {
 namespace {
@@ -21,7 +21,8 @@ Position place(const Ledger& ledger, const Problem& problem) {
     return {};
 }
 
-// True if the value of a key of the problem could not be read. That key still has its default, so that the problem is not reported.
+// True if the value of a key of the problem could not be read. That key still has its default, so
+// that the problem is not reported.
 bool concerns_faulty(const Ledger& ledger, const Problem& problem) {
     return std::any_of(problem.keys.begin(), problem.keys.end(), [&](const Key* key) {
         const Ledger::Entry* entry = ledger.find(*key);
@@ -29,18 +30,20 @@ bool concerns_faulty(const Ledger& ledger, const Problem& problem) {
     });
 }
 
-// True if the study varies a key of the problem. Each member is checked later, so the problem is reported there;
-// the case itself is not run.
+// True if the study varies a key of the problem. Each member is checked later, so the problem is
+// reported there; the case itself is not run.
 bool varied(const Study& study, const Problem& problem) {
     return std::any_of(study.axes.begin(), study.axes.end(), [&](const Study::Axis& axis) {
         const std::string_view name = std::string_view(axis.key).substr(0, axis.key.find('('));
-        return std::any_of(problem.keys.begin(), problem.keys.end(), [&](const Key* key) { return name == full_name(*key); });
+        return std::any_of(problem.keys.begin(), problem.keys.end(),
+                           [&](const Key* key) { return name == full_name(*key); });
     });
 }
 
 std::string known_groups_text() {
     std::string text;
-    for (const std::string_view group : group_names()) text += (text.empty() ? "&" : ", &") + std::string(group);
+    for (const std::string_view group : group_names())
+        text += (text.empty() ? "&" : ", &") + std::string(group);
     return text;
 }
 
@@ -55,7 +58,8 @@ std::string limited_text(std::istream& in, const std::string& name) {
     return text;
 }
 
-// Refuses keys without effect: those of a synthetic surface if the surface is read from a file, and those replaced by a list of levels.
+// Refuses keys without effect: those of a synthetic surface if the surface is read from a file, and
+// those replaced by a list of levels.
 // Their defaults are accepted, because the effective namelist contains every key.
 void keys_without_meaning(const Reading& reading, std::vector<Fault>& faults) {
     static const Case defaults;
@@ -68,18 +72,22 @@ void keys_without_meaning(const Reading& reading, std::vector<Fault>& faults) {
         const std::string value = get_key(reading.settings, name);
         if (!entry || value == get_key(defaults, name)) return;
         const Key& key = *entry->key;
-        faults.push_back(
-            {entry->given.front().second, "&" + std::string(key.group) + ": " + key.name + " = " + value + ": has no effect " + why});
+        faults.push_back({entry->given.front().second, "&" + std::string(key.group) + ": " +
+                                                           key.name + " = " + value +
+                                                           ": has no effect " + why});
     };
     // A namelist with all of these keys was printed by rsc.
-    const std::array replaced = {"indentation%start", "indentation%stop", "indentation%steps", "indentation%spacing"};
+    const std::array replaced = {"indentation%start", "indentation%stop", "indentation%steps",
+                                 "indentation%spacing"};
     if (given("indentation%levels") && !std::all_of(replaced.begin(), replaced.end(), given))
         for (const char* name : replaced) refuse(name, "beside levels");
     const Source source = reading.settings.surface.source;
-    if (!given("surface%source") || (source != Source::heights && source != Source::asperities)) return;
-    for (const char* name :
-         {"surface%n", "surface%hurst", "surface%L_lambda_l", "surface%L_lambda_s", "surface%plateau", "surface%normalise"})
-        refuse(name, "with source = " + get_key(reading.settings, "surface%source") + ", whose surface is read from the file");
+    if (!given("surface%source") || (source != Source::heights && source != Source::asperities))
+        return;
+    for (const char* name : {"surface%n", "surface%hurst", "surface%L_lambda_l",
+                             "surface%L_lambda_s", "surface%plateau", "surface%normalise"})
+        refuse(name, "with source = " + get_key(reading.settings, "surface%source") +
+                         ", whose surface is read from the file");
 }
 
 // Applies "--set surface%sigma=1"; returns an error message, or nothing.
@@ -103,15 +111,19 @@ Reading read_namelist(std::string_view text) {
     reading.warnings = std::move(document.warnings);
     std::vector<const namelist::Group*> seen;
     for (const namelist::Group& group : document.groups) {
-        const auto same = std::find_if(seen.begin(), seen.end(), [&](const namelist::Group* g) { return g->name == group.name; });
+        const auto same = std::find_if(seen.begin(), seen.end(), [&](const namelist::Group* g) {
+            return g->name == group.name;
+        });
         if (same != seen.end()) {
             if (reading.duplicates.size() < namelist::kMostFaults)
-                reading.duplicates.push_back(
-                    {group.at, "&" + group.name + ": this group is already at line " + std::to_string((*same)->at.line)});
+                reading.duplicates.push_back({group.at, "&" + group.name +
+                                                            ": this group is already at line " +
+                                                            std::to_string((*same)->at.line)});
             continue;
         }
         seen.push_back(&group);
-        reading.groups.push_back(*std::find(group_names().begin(), group_names().end(), group.name));
+        reading.groups.push_back(
+            *std::find(group_names().begin(), group_names().end(), group.name));
         if (group.name == "study") {
             reading.study = read_study(group, reading.faults);
             continue;
@@ -121,8 +133,10 @@ Reading read_namelist(std::string_view text) {
             if (const Key* key = find_key(group.name, assignment.key))
                 assign(reading.settings, *key, assignment, reading.ledger, reading.faults);
             else
-                reading.faults.push_back({assignment.at, "&" + group.name + ": unknown key '" + assignment.key.substr(0, 63) + "'" +
-                                                             suggest_key(group.name, assignment.key)});
+                reading.faults.push_back(
+                    {assignment.at, "&" + group.name + ": unknown key '" +
+                                        assignment.key.substr(0, 63) + "'" +
+                                        suggest_key(group.name, assignment.key)});
         }
     }
     finish_lists(reading.settings, reading.ledger, reading.faults);
@@ -131,37 +145,48 @@ Reading read_namelist(std::string_view text) {
 
 ReadCase read_case_text(std::string_view text, const std::string& name, const Options& options) {
     if (text.size() > namelist::kLargestText)
-        bad_input(name + ": larger than " + std::to_string(namelist::kLargestText) + " bytes, the limit for a case");
+        bad_input(name + ": larger than " + std::to_string(namelist::kLargestText) +
+                  " bytes, the limit for a case");
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
         bad_input(name + ": is text in UTF-16; save it as UTF-8 or plain ASCII");
     if (text.starts_with("CDF") || text.starts_with("\x89HDF"))
-        bad_input(name + ": is a NetCDF file; to run the case of a result again, give its name: rsc FILE.nc");
+        bad_input(
+            name +
+            ": is a NetCDF file; to run the case of a result again, give its name: rsc FILE.nc");
     Reading reading = read_namelist(text);
     std::vector<Fault> faults = std::move(reading.faults);
     faults.insert(faults.end(), reading.duplicates.begin(), reading.duplicates.end());
     keys_without_meaning(reading, faults);
     if (reading.groups.empty() && faults.empty())
-        faults.push_back({{}, "no namelist group found; expected at least one of " + known_groups_text()});
+        faults.push_back(
+            {{}, "no namelist group found; expected at least one of " + known_groups_text()});
 
     Case& settings = reading.settings;
     std::vector<std::string> set_faults;
     for (const std::string& argument : options.set)
-        if (std::string problem = apply_set(settings, argument); !problem.empty()) set_faults.push_back(std::move(problem));
+        if (std::string problem = apply_set(settings, argument); !problem.empty())
+            set_faults.push_back(std::move(problem));
     if (options.output) settings.output.file = *options.output;
 
     for (const Problem& problem : check_case(settings))
-        if (!concerns_faulty(reading.ledger, problem) && !(reading.study && varied(*reading.study, problem)))
-            faults.push_back({place(reading.ledger, problem), "&" + std::string(problem.keys.front()->group) + ": " + problem.text});
-    if (reading.study && faults.empty() && set_faults.empty()) faults = check_study(settings, *reading.study);
+        if (!concerns_faulty(reading.ledger, problem) &&
+            !(reading.study && varied(*reading.study, problem)))
+            faults.push_back(
+                {place(reading.ledger, problem),
+                 "&" + std::string(problem.keys.front()->group) + ": " + problem.text});
+    if (reading.study && faults.empty() && set_faults.empty())
+        faults = check_study(settings, *reading.study);
 
     if (!faults.empty() || !set_faults.empty())  // other errors are reported when the file is read
         for (const char* const group : {"surface", "indenter"}) {
             const Ledger::Entry* const entry = reading.ledger.find(*find_key(group, "file"));
-            const std::string& file = group == std::string_view("surface") ? settings.surface.file : settings.indenter.file;
-            if (!entry || entry->given.empty() || entry->faulty || file.empty() || file.find_first_of("*?[") != std::string::npos ||
-                std::ifstream(file))
+            const std::string& file = group == std::string_view("surface") ? settings.surface.file
+                                                                           : settings.indenter.file;
+            if (!entry || entry->given.empty() || entry->faulty || file.empty() ||
+                file.find_first_of("*?[") != std::string::npos || std::ifstream(file))
                 continue;
-            faults.push_back({entry->given.front().second, "&" + std::string(group) + ": file = '" + file + "': cannot be opened"});
+            faults.push_back({entry->given.front().second, "&" + std::string(group) + ": file = '" +
+                                                               file + "': cannot be opened"});
         }
 
     std::stable_sort(faults.begin(), faults.end(), [](const Fault& a, const Fault& b) {
@@ -177,18 +202,23 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
     if (count > 0) bad_input(message);
 
     ReadCase read{std::move(settings), std::move(reading.study), {}};
-    for (const Fault& warning : reading.warnings) read.warnings.push_back(namelist::format(name, warning));
+    for (const Fault& warning : reading.warnings)
+        read.warnings.push_back(namelist::format(name, warning));
     for (const char* const key_name : {"E", "nu", "R"}) {
         const Ledger::Entry* entry = reading.ledger.find(*find_key("solids", key_name));
         if (!entry || entry->given.size() != 1) continue;
-        const std::string other = std::string("solids%") + key_name + (entry->given.front().first == 1 ? "(2)" : "(1)");
-        read.warnings.push_back(name + ": &solids: " + key_name + ": one value of two; " + other + " = " + get_key(read.settings, other) +
-                                " taken by default");
+        const std::string other =
+            std::string("solids%") + key_name + (entry->given.front().first == 1 ? "(2)" : "(1)");
+        read.warnings.push_back(name + ": &solids: " + key_name + ": one value of two; " + other +
+                                " = " + get_key(read.settings, other) + " taken by default");
     }
     const auto& indentation = read.settings.indentation;
-    if (indentation.levels.empty() && indentation.control == Control::separation && indentation.start < indentation.stop)
-        read.warnings.push_back(name + ": &indentation: start = " + get_key(read.settings, "indentation%start") + " is less than stop = " +
-                                get_key(read.settings, "indentation%stop") + ": separations increase, so that the levels are an unloading");
+    if (indentation.levels.empty() && indentation.control == Control::separation &&
+        indentation.start < indentation.stop)
+        read.warnings.push_back(
+            name + ": &indentation: start = " + get_key(read.settings, "indentation%start") +
+            " is less than stop = " + get_key(read.settings, "indentation%stop") +
+            ": separations increase, so that the levels are an unloading");
     return read;
 }
 
@@ -201,7 +231,8 @@ ReadCase read_case(const Options& options) {
     std::ifstream in(options.case_path, std::ios::binary);
     if (!in) bad_input(options.case_path + ": cannot be opened");
     // A directory can be opened, but not read.
-    if (in.peek() == std::ifstream::traits_type::eof() && in.bad()) bad_input(options.case_path + ": cannot be read");
+    if (in.peek() == std::ifstream::traits_type::eof() && in.bad())
+        bad_input(options.case_path + ": cannot be read");
     in.clear();
     return read_case(in, options.case_path, options);
 }

@@ -1,8 +1,8 @@
 #include "case/registry.hpp"
 
-#include "contact/indenter/shapes.hpp"
-#include "error.hpp"
+#include "base/error.hpp"
 #include "observe/fields.hpp"
+#include "physics/indenter/shapes.hpp"
 
 namespace rsc {
 namespace {
@@ -17,7 +17,8 @@ constexpr Bounds above(double low, double high) { return {low, high, true, false
 
 template <class T>
 Slot choice_slot(T& member) {
-    return ChoiceSlot{&member, [](const void* p) { return static_cast<int>(*static_cast<const T*>(p)); },
+    return ChoiceSlot{&member,
+                      [](const void* p) { return static_cast<int>(*static_cast<const T*>(p)); },
                       [](void* p, int i) { *static_cast<T*>(p) = static_cast<T>(i); }};
 }
 
@@ -32,23 +33,32 @@ Slot slot_of(T& member) {
         return &member;
 }
 
-// A key has the name of its member of Case, which also determines its type and the size of an array.
+// A key has the name of its member of Case, which also determines its type and the size of an
+// array.
 struct Place {
     const char *group, *name;
     std::size_t extent;
     Slot (*slot)(Case&);
 };
-#define RSC_KEY(group, name) place(#group, #name, std::extent_v<decltype(Case().group.name)>, [](Case& c) { return slot_of(c.group.name); })
-Place place(const char* group, const char* name, std::size_t extent, Slot (*slot)(Case&)) { return {group, name, extent, slot}; }
+#define RSC_KEY(group, name)                                         \
+    place(#group, #name, std::extent_v<decltype(Case().group.name)>, \
+          [](Case& c) { return slot_of(c.group.name); })
+Place place(const char* group, const char* name, std::size_t extent, Slot (*slot)(Case&)) {
+    return {group, name, extent, slot};
+}
 
-Key number(const Place& at, const char* unit, Bounds bounds, const char* meaning, const char* unset = "") {
+Key number(const Place& at, const char* unit, Bounds bounds, const char* meaning,
+           const char* unset = "") {
     static Case any;
     constexpr Type types[] = {Type::logical, Type::integer, Type::long_integer, Type::real,
                               Type::real,    Type::string,  Type::real,         Type::choice};
     const Type type = types[at.slot(any).index()];
-    return {at.group, at.name, type, std::max(static_cast<int>(at.extent), 1), false, 0, unit, bounds, {}, unset, meaning, at.slot};
+    return {at.group, at.name, type,    std::max(static_cast<int>(at.extent), 1),
+            false,    0,       unit,    bounds,
+            {},       unset,   meaning, at.slot};
 }
-Key list(const Place& at, int most, const char* unit, Bounds bounds, const char* unset, const char* meaning) {
+Key list(const Place& at, int most, const char* unit, Bounds bounds, const char* unset,
+         const char* meaning) {
     Key key = number(at, unit, bounds, meaning, unset);
     key.list = true, key.size = most;
     return key;
@@ -91,190 +101,250 @@ std::vector<const char*> shape_names() {
 std::vector<Key> make_registry() {
     return {
         changing(Changes::file, text(RSC_KEY(run, title), 1024, "title of the result file")),
-        number(RSC_KEY(run, seed), "1", kAny, "seed of the random surface; seed and realization number determine it"),
+        number(RSC_KEY(run, seed), "1", kAny,
+               "seed of the random surface; seed and realization number determine it"),
         number(RSC_KEY(run, realizations), "1", between(1, 1e7), "number of surfaces"),
         number(RSC_KEY(run, first_realization), "1", between(1, 2147483647.0),
                "number of the first surface; realization k of a seed is always the same surface"),
         changing(Changes::nothing,
-                 number(RSC_KEY(run, threads), "1", between(0, 4096), "number of threads, 0 for all; results do not depend on it")),
-        text(RSC_KEY(run, length_unit), 64, "unit of every length, as UDUNITS spells it; '1' for dimensionless lengths"),
-        text(RSC_KEY(run, force_unit), 64, "unit of every force, as UDUNITS spells it; '1' for dimensionless forces"),
-        text(RSC_KEY(run, time_unit), 64, "unit of every time, as UDUNITS spells it; '1' for dimensionless times"),
+                 number(RSC_KEY(run, threads), "1", between(0, 4096),
+                        "number of threads, 0 for all; results do not depend on it")),
+        text(RSC_KEY(run, length_unit), 64,
+             "unit of every length, as UDUNITS spells it; '1' for dimensionless lengths"),
+        text(RSC_KEY(run, force_unit), 64,
+             "unit of every force, as UDUNITS spells it; '1' for dimensionless forces"),
+        text(RSC_KEY(run, time_unit), 64,
+             "unit of every time, as UDUNITS spells it; '1' for dimensionless times"),
 
         number(RSC_KEY(solids, E), "force/length^2", kPositiveOrInfinite,
                "Young's modulus of body 1 (rough) and of body 2 (the indenter); Infinity: rigid"),
         number(RSC_KEY(solids, nu), "1", above(-1, 0.5), "Poisson's ratio of the two bodies"),
-        number(RSC_KEY(solids, R), "length", kPositiveOrInfinite, "radius of curvature of the two bodies; Infinity: flat"),
+        number(RSC_KEY(solids, R), "length", kPositiveOrInfinite,
+               "radius of curvature of the two bodies; Infinity: flat"),
+        number(RSC_KEY(solids, hardness), "force/length^2", kPositiveOrInfinite,
+               "hardness H0: upper limit of the mean pressure of an asperity, H0 sqrt(1 + "
+               "size_effect/r), and of the pressure on an element, H0; each level then "
+               "depends on the levels before it"),
         number(
-            RSC_KEY(solids, hardness), "force/length^2", kPositiveOrInfinite,
-            "hardness H0: upper limit of the mean pressure of an asperity, H0 sqrt(1 + size_effect/r), and of the pressure on an element, H0; each level then "
-            "depends on the levels before it"),
-        number(RSC_KEY(solids, size_effect), "length", kNotNegative,
-               "characteristic length of the indentation size effect on the hardness of asperities"),
+            RSC_KEY(solids, size_effect), "length", kNotNegative,
+            "characteristic length of the indentation size effect on the hardness of asperities"),
         number(RSC_KEY(solids, resistivity), "resistance*length", kNotNegative,
-               "electrical or thermal resistivity of the two bodies, for the constriction resistance of the contact"),
+               "electrical or thermal resistivity of the two bodies, for the constriction "
+               "resistance of the contact"),
         number(RSC_KEY(solids, friction), "1", kNotNegative,
-               "coefficient of friction mu; if above 0, the result has the tangential force at each level (one realization only)"),
+               "coefficient of friction mu; if above 0, the result has the tangential force at "
+               "each level (one realization only)"),
         number(RSC_KEY(solids, adhesion), "force/length", kNotNegative,
-               "work of adhesion w; above 0 forces may be negative, and each level depends on the levels before it"),
+               "work of adhesion w; above 0 forces may be negative, and each level depends on the "
+               "levels before it"),
         number(RSC_KEY(solids, adhesion_range), "length", kNotNegative,
-               "range z0 of the attraction, a constant traction w/z0 across gaps below z0 (Dugdale); 0: attraction of zero range (JKR)"),
+               "range z0 of the attraction, a constant traction w/z0 across gaps below z0 "
+               "(Dugdale); 0: attraction of zero range (JKR)"),
         list(RSC_KEY(solids, layer_thickness), kMostLayers, "length", kPositive, "none",
-             "thicknesses of layers on body 1, top first; E(1) and nu(1) then belong to the body below them"),
-        list(RSC_KEY(solids, layer_E), kMostLayers, "force/length^2", kPositive, "none", "Young's moduli of the layers"),
-        list(RSC_KEY(solids, layer_nu), kMostLayers, "1", above(-1, 0.5), "none", "Poisson's ratios of the layers"),
+             "thicknesses of layers on body 1, top first; E(1) and nu(1) then belong to the body "
+             "below them"),
+        list(RSC_KEY(solids, layer_E), kMostLayers, "force/length^2", kPositive, "none",
+             "Young's moduli of the layers"),
+        list(RSC_KEY(solids, layer_nu), kMostLayers, "1", above(-1, 0.5), "none",
+             "Poisson's ratios of the layers"),
 
         list(RSC_KEY(solids, relaxation_share), kMostRelaxations, "1", between(0, 1), "none",
-             "shares g_k of E(1) that body 1 loses by relaxation, E(t) = E(1) (1 - sum g_k (1 - exp(-t/tau_k))); their sum is at most 1"),
-        list(RSC_KEY(solids, relaxation_time), kMostRelaxations, "time", kPositive, "none", "relaxation times tau_k, one for each share"),
+             "shares g_k of E(1) that body 1 loses by relaxation, E(t) = E(1) (1 - sum g_k (1 - "
+             "exp(-t/tau_k))); their sum is at most 1"),
+        list(RSC_KEY(solids, relaxation_time), kMostRelaxations, "time", kPositive, "none",
+             "relaxation times tau_k, one for each share"),
 
-        choice(
-            RSC_KEY(surface, source), kSourceNames,
-            "synthetic: a random surface with the keys below; heights, asperities: read from `file`; spectrum: random surfaces with the spectrum in `file`"),
-        text(
-            RSC_KEY(surface, file), 4096,
-            "file with the heights (NetCDF, .gwy, .sdf, text), the asperities or the spectrum (NetCDF, text); for heights also a pattern such as maps/*.gwy: "
-            "realization k is then the k-th file in alphabetical order"),
+        choice(RSC_KEY(surface, source), kSourceNames,
+               "synthetic: a random surface with the keys below; heights, asperities: read from "
+               "`file`; spectrum: random surfaces with the spectrum in `file`"),
+        text(RSC_KEY(surface, file), 4096,
+             "file with the heights (NetCDF, .gwy, .sdf, text), the asperities or the spectrum "
+             "(NetCDF, text); for heights also a pattern such as maps/*.gwy: "
+             "realization k is then the k-th file in alphabetical order"),
         number(RSC_KEY(surface, L), "length", kPositive, "side of the surface (x extent of a map)",
-               "1.0; for heights and asperities from the file; for a spectrum 2 pi over its smallest wavenumber"),
+               "1.0; for heights and asperities from the file; for a spectrum 2 pi over its "
+               "smallest wavenumber"),
         number(RSC_KEY(surface, n), "1", between(2, 32768), "points along a side, even"),
         number(RSC_KEY(surface, hurst), "1", between(0, 1), "Hurst exponent H"),
-        number(RSC_KEY(surface, L_lambda_l), "1", between(1, 32768), "L / lambda_l: the longest wavelength of the self-affine band"),
-        number(RSC_KEY(surface, L_lambda_s), "1", between(1, 32768), "L / lambda_s: the shortest wavelength"),
-        number(RSC_KEY(surface, plateau), "", kAny, "constant spectrum between the wavelengths L and lambda_l instead of zero"),
-        number(
-            RSC_KEY(surface, sigma), "length", kPositive,
-            "rms height of a random surface; for heights and asperities only the unit of length for unit = 'sigma' and delta0 (default for several files: that of the first)",
-            "0.01; for data from a file the rms height of the data or of the spectrum"),
-        number(
-            RSC_KEY(surface, aspect), "1", between(0.01, 100),
-            "ratio of the correlation lengths of a random surface along and across `direction`: the surface is stretched by sqrt(aspect) along it and compressed across it"),
+        number(RSC_KEY(surface, L_lambda_l), "1", between(1, 32768),
+               "L / lambda_l: the longest wavelength of the self-affine band"),
+        number(RSC_KEY(surface, L_lambda_s), "1", between(1, 32768),
+               "L / lambda_s: the shortest wavelength"),
+        number(RSC_KEY(surface, plateau), "", kAny,
+               "constant spectrum between the wavelengths L and lambda_l instead of zero"),
+        number(RSC_KEY(surface, sigma), "length", kPositive,
+               "rms height of a random surface; for heights and asperities only the unit of length "
+               "for unit = 'sigma' and delta0 (default for several files: that of the first)",
+               "0.01; for data from a file the rms height of the data or of the spectrum"),
+        number(RSC_KEY(surface, aspect), "1", between(0.01, 100),
+               "ratio of the correlation lengths of a random surface along and across `direction`: "
+               "the surface is stretched by sqrt(aspect) along it and compressed across it"),
         number(RSC_KEY(surface, direction), "degree", between(-360, 360),
                "direction of the long correlation length, from the x axis towards the y axis"),
-        number(RSC_KEY(surface, skewness), "1", between(-6, 6), "skewness of the heights of a random surface; 0: symmetric"),
+        number(RSC_KEY(surface, skewness), "1", between(-6, 6),
+               "skewness of the heights of a random surface; 0: symmetric"),
         number(RSC_KEY(surface, kurtosis), "1", between(1, 100),
-               "kurtosis of the heights of a random surface, greater than skewness^2 + 1; 3: Gaussian"),
+               "kurtosis of the heights of a random surface, greater than skewness^2 + 1; 3: "
+               "Gaussian"),
         choice(RSC_KEY(surface, twins), kTwinsNames,
-               "source = 'spectrum': use the spectrum averaged over all directions, or the spectrum by direction"),
+               "source = 'spectrum': use the spectrum averaged over all directions, or the "
+               "spectrum by direction"),
         choice(RSC_KEY(surface, twin_heights), kTwinHeightsNames,
-               "source = 'spectrum': Gaussian heights, or the height distribution of the map that the spectrum was measured on"),
-        choice(RSC_KEY(surface, normalise), kNormaliseNames, "sample: each surface has exactly the rms height sigma; ensemble: on average"),
+               "source = 'spectrum': Gaussian heights, or the height distribution of the map that "
+               "the spectrum was measured on"),
+        choice(RSC_KEY(surface, normalise), kNormaliseNames,
+               "sample: each surface has exactly the rms height sigma; ensemble: on average"),
         choice(RSC_KEY(surface, detrend), kDetrendNames,
-               "form to subtract from a height map, fitted by least squares; separations are measured from z = 0 afterwards"),
+               "form to subtract from a height map, fitted by least squares; separations are "
+               "measured from z = 0 afterwards"),
         choice(RSC_KEY(surface, missing), kMissingNames,
-               "missing points of a height map: refuse the map, or fill them with the harmonic function of the heights around them"),
-        number(
-            RSC_KEY(surface, filter_cutoff), "length", between(0, kNoLimit),
-            "cutoff wavelength of the Gaussian low-pass filter (ISO 16610-61) of a height map, 0 for none; waves of that length keep half of their amplitude"),
-        text(
-            RSC_KEY(surface, channel), 1024,
-            "channel of a .gwy file (its title, or its number in Gwyddion, from 0), or variable of a NetCDF file; if empty, the first one with heights"),
-        text(RSC_KEY(surface, height_unit), 64, "unit of the heights in a text file, as UDUNITS spells it; run%length_unit if empty"),
-        number(RSC_KEY(surface, pixel), "length", kPositive, "distance between neighbouring points of a text matrix, instead of L",
-               "from L"),
+               "missing points of a height map: refuse the map, or fill them with the harmonic "
+               "function of the heights around them"),
+        number(RSC_KEY(surface, filter_cutoff), "length", between(0, kNoLimit),
+               "cutoff wavelength of the Gaussian low-pass filter (ISO 16610-61) of a height map, "
+               "0 for none; waves of that length keep half of their amplitude"),
+        text(RSC_KEY(surface, channel), 1024,
+             "channel of a .gwy file (its title, or its number in Gwyddion, from 0), or variable "
+             "of a NetCDF file; if empty, the first one with heights"),
+        text(RSC_KEY(surface, height_unit), 64,
+             "unit of the heights in a text file, as UDUNITS spells it; run%length_unit if empty"),
+        number(RSC_KEY(surface, pixel), "length", kPositive,
+               "distance between neighbouring points of a text matrix, instead of L", "from L"),
         number(RSC_KEY(surface, window), "length", kAny,
-               "x0, x1, y0, y1: use only this part of a height map, in the coordinates of the map", "the whole map"),
+               "x0, x1, y0, y1: use only this part of a height map, in the coordinates of the map",
+               "the whole map"),
         number(
             RSC_KEY(surface, outliers), "1", between(0, kNoLimit),
-            "points of a height map that differ from the median of the means of opposite points around them (5 x 5 points) by more than this "
-            "number of standard deviations (estimated from the 90 % quantile of the differences) are filled like missing ones; 0: none; 6 removes spikes and keeps roughness"),
+            "points of a height map that differ from the median of the means of opposite points "
+            "around them (5 x 5 points) by more than this "
+            "number of standard deviations (estimated from the 90 % quantile of the differences) "
+            "are filled like missing ones; 0: none; 6 removes spikes and keeps roughness"),
 
-        choice(RSC_KEY(asperities, curvature), kCurvatureNames, "mean of the principal curvatures that defines the radius of an asperity"),
-        choice(
-            RSC_KEY(asperities, law), kLawNames,
-            "contact law of asperities: hertz: a sphere at a grid point (the paper's); elliptic: an elliptic paraboloid at the summit between the "
-            "points; fourth_order: the paraboloid corrected by the fourth derivatives at the summit, under a steep indenter the most loaded ellipse; the latter two count "
-            "overlapping areas once"),
+        choice(RSC_KEY(asperities, curvature), kCurvatureNames,
+               "mean of the principal curvatures that defines the radius of an asperity"),
+        choice(RSC_KEY(asperities, law), kLawNames,
+               "contact law of asperities: hertz: a sphere at a grid point (the paper's); "
+               "elliptic: an elliptic paraboloid at the summit between the "
+               "points; fourth_order: the paraboloid corrected by the fourth derivatives at the "
+               "summit, under a steep indenter the most loaded ellipse; the latter two count "
+               "overlapping areas once"),
 
-        choice(
-            {"indenter", "shape", 0, [](Case& c) { return choice_slot(c.indenter.shape); }}, shape_names(),
-            "shape of body 2: a sphere of solids%R (Infinity: a flat), a paraboloid of two radii (one Infinity: a cylinder), a cone, a flat "
-            "punch, or a second rough body read from a height map"),
+        choice({"indenter", "shape", 0, [](Case& c) { return choice_slot(c.indenter.shape); }},
+               shape_names(),
+               "shape of body 2: a sphere of solids%R (Infinity: a flat), a paraboloid of two "
+               "radii (one Infinity: a cylinder), a cone, a flat "
+               "punch, or a second rough body read from a height map"),
         number(RSC_KEY(indenter, radii), "length", kPositiveOrInfinite,
-               "shape = 'paraboloid': principal radii of curvature; Infinity: straight", "solids%R(2), twice"),
+               "shape = 'paraboloid': principal radii of curvature; Infinity: straight",
+               "solids%R(2), twice"),
         number(RSC_KEY(indenter, angle), "degree", between(-360, 360),
                "shape = 'paraboloid': angle from the x axis to the direction of the first radius"),
-        number(RSC_KEY(indenter, slope), "1", kPositive,
-               "shape = 'cone': slope of its side, the tangent of the angle between side and surface", "none: shape = 'cone' needs it"),
-        number(RSC_KEY(indenter, radius), "length", kPositive, "shape = 'punch': radius of its flat end", "none: shape = 'punch' needs it"),
+        number(
+            RSC_KEY(indenter, slope), "1", kPositive,
+            "shape = 'cone': slope of its side, the tangent of the angle between side and surface",
+            "none: shape = 'cone' needs it"),
+        number(RSC_KEY(indenter, radius), "length", kPositive,
+               "shape = 'punch': radius of its flat end", "none: shape = 'punch' needs it"),
         number(RSC_KEY(indenter, rim_radius), "length", kNotNegative,
                "shape = 'punch': radius of the rounded rim around the flat end; 0: sharp"),
-        text(
-            RSC_KEY(indenter, file), 4096,
-            "shape = 'map': file with the heights of body 2, positive towards body 1, at the x and y of body 1 (those of a body that is measured and "
-            "then turned over are mirrored: not done here); its centre lies at indentation%centre, and surface%detrend, missing, outliers, "
-            "filter_cutoff, height_unit and pixel apply to it, too"),
-        text(RSC_KEY(indenter, channel), 1024, "shape = 'map': channel or variable of that file, as surface%channel"),
+        text(RSC_KEY(indenter, file), 4096,
+             "shape = 'map': file with the heights of body 2, positive towards body 1, at the x "
+             "and y of body 1 (those of a body that is measured and "
+             "then turned over are mirrored: not done here); its centre lies at "
+             "indentation%centre, and surface%detrend, missing, outliers, "
+             "filter_cutoff, height_unit and pixel apply to it, too"),
+        text(RSC_KEY(indenter, channel), 1024,
+             "shape = 'map': channel or variable of that file, as surface%channel"),
 
-        choice(
-            RSC_KEY(indentation, boundary), kBoundaryNames,
-            "free: the surface ends at its border; periodic: two flats (solids%R = Infinity, Infinity), surface and contact are periodic"),
+        choice(RSC_KEY(indentation, boundary), kBoundaryNames,
+               "free: the surface ends at its border; periodic: two flats (solids%R = Infinity, "
+               "Infinity), surface and contact are periodic"),
         choice(RSC_KEY(indentation, control), kControlNames,
-               "quantity given by start, stop and levels; pressure: nominal pressure N/L^2, periodic boundary only"),
+               "quantity given by start, stop and levels; pressure: nominal pressure N/L^2, "
+               "periodic boundary only"),
         number(RSC_KEY(indentation, start), "`unit`", kAny, "first level"),
         number(RSC_KEY(indentation, stop), "`unit`", kAny, "last level"),
-        number(RSC_KEY(indentation, steps), "1", between(1, 1e6), "number of levels, both ends included"),
-        choice(
-            RSC_KEY(indentation, unit), kLevelUnitNames,
-            "unit of separations: sigma or length; of pressures: relative, p/(E* sqrt(2 m2)), m2 of both bodies, or pressure; forces have the force unit"),
+        number(RSC_KEY(indentation, steps), "1", between(1, 1e6),
+               "number of levels, both ends included"),
+        choice(RSC_KEY(indentation, unit), kLevelUnitNames,
+               "unit of separations: sigma or length; of pressures: relative, p/(E* sqrt(2 m2)), "
+               "m2 of both bodies, or pressure; forces have the force unit"),
         choice(RSC_KEY(indentation, spacing), kSpacingNames, "spacing of the levels"),
-        list(RSC_KEY(indentation, levels), 10000, "`unit`", kAny, "start, stop and steps give the levels",
+        list(RSC_KEY(indentation, levels), 10000, "`unit`", kAny,
+             "start, stop and steps give the levels",
              "list of levels instead of start, stop and steps"),
         number(RSC_KEY(indentation, duration), "time", kPositive,
-               "for a body that relaxes, time from the first to the last level, in equal steps; the first level is reached at once",
+               "for a body that relaxes, time from the first to the last level, in equal steps; "
+               "the first level is reached at once",
                "none"),
         list(RSC_KEY(indentation, times), 10000, "time", kAny, "none",
-             "time of each level, increasing, instead of `duration`; separations, or forces, change linearly in between"),
-        number(RSC_KEY(indentation, centre), "length", kAny, "x and y of the tip of the indenter", "the middle of the surface"),
+             "time of each level, increasing, instead of `duration`; separations, or forces, "
+             "change linearly in between"),
+        number(RSC_KEY(indentation, centre), "length", kAny, "x and y of the tip of the indenter",
+               "the middle of the surface"),
         choice(RSC_KEY(indentation, selection), kSelectionNames,
-               "asperities in the system of equations: all that can touch, or those within selection_factor times the paper's radius"),
-        number(RSC_KEY(indentation, selection_factor), "1", kPositive, "factor for selection = 'paper'"),
+               "asperities in the system of equations: all that can touch, or those within "
+               "selection_factor times the paper's radius"),
+        number(RSC_KEY(indentation, selection_factor), "1", kPositive,
+               "factor for selection = 'paper'"),
 
         choice(RSC_KEY(solver, method), kMethodNames,
-               "dgesv: the paper's method; direct, mesh: matrix-free Newton's method, products by pairs or by fast Fourier transforms"),
+               "dgesv: the paper's method; direct, mesh: matrix-free Newton's method, products by "
+               "pairs or by fast Fourier transforms"),
         number(RSC_KEY(solver, tolerance), "1", between(1e-14, 0.1),
                "relative residual of F - C<G0 - B F>^(3/2); for dgesv also on |dF|/|F|"),
-        number(RSC_KEY(solver, max_iterations), "1", between(1, 1e6), "maximum number of Newton steps at a level"),
-        number(RSC_KEY(solver, delta0), "sigma", above(0, 1e3), "initial regularisation of the paper's method"),
+        number(RSC_KEY(solver, max_iterations), "1", between(1, 1e6),
+               "maximum number of Newton steps at a level"),
+        number(RSC_KEY(solver, delta0), "sigma", above(0, 1e3),
+               "initial regularisation of the paper's method"),
         choice(RSC_KEY(solver, interaction), kInteractionNames,
                "deflection of the surface around an asperity: that of a point force, or none"),
 
         choice(RSC_KEY(solver, model), kModelNames,
-               "asperities: the summits of the surface; elements: boundary elements on every point of the surface (slower, more accurate). "
-               "auto: asperities for random surfaces, elements for height maps unless another key needs asperities"),
+               "asperities: the summits of the surface; elements: boundary elements on every point "
+               "of the surface (slower, more accurate). "
+               "auto: asperities for random surfaces, elements for height maps unless another key "
+               "needs asperities"),
 
-        number(
-            RSC_KEY(elements, points_per_wave), "1", between(4, 64),
-            "grid steps in the shortest wavelength for model = 'elements'; &compare starts with it and refines the grid until N converges; a "
-            "height map is used on its own grid"),
+        number(RSC_KEY(elements, points_per_wave), "1", between(4, 64),
+               "grid steps in the shortest wavelength for model = 'elements'; &compare starts with "
+               "it and refines the grid until N converges; a "
+               "height map is used on its own grid"),
 
         or_word(
             kCompareNames, [](Case& c) { return slot_of(c.compare.what); },
-            list(
-                RSC_KEY(compare, levels), 1000, "`unit` of the indentation", kAny, "",
-                "after the run, solves the level nearest to each of these by elements on the first realization, to measure the error of the "
-                "asperity model on this surface. auto: the last level of a single run of the program, if elements are "
-                "expected to take less than 2 s")),
+            list(RSC_KEY(compare, levels), 1000, "`unit` of the indentation", kAny, "",
+                 "after the run, solves the level nearest to each of these by elements on the "
+                 "first realization, to measure the error of the "
+                 "asperity model on this surface. auto: the last level of a single run of the "
+                 "program, if elements are "
+                 "expected to take less than 2 s")),
 
         changing(Changes::file, text(RSC_KEY(output, file), 4096, "the result file")),
-        changing(Changes::file, choice(RSC_KEY(output, format), kFormatNames, "format of the result file")),
+        changing(Changes::file,
+                 choice(RSC_KEY(output, format), kFormatNames, "format of the result file")),
         choice(RSC_KEY(output, contacts), kContactsNames,
-               "levels whose contacts are written; auto: all levels of a single realization, none of a campaign"),
+               "levels whose contacts are written; auto: all levels of a single realization, none "
+               "of a campaign"),
         number(RSC_KEY(output, heights), "", kAny, "write the height map to the result"),
-        words(choice(
-            RSC_KEY(output, fields), kFieldNames,
-            "quantities to write at the points of the surface, for a single realization. Elements: the pressure and gap of the solution. Asperities: "
-            "the pressure in their contact spots, and the gap that follows from it")),
-        list(RSC_KEY(output, field_levels), 1000, "`unit` of the indentation", kAny, "the last level",
-             "levels whose fields are written, the nearest level to each"),
-        number(RSC_KEY(output, field_window), "length", kAny, "x0, x1, y0, y1 of the region in which fields are written",
+        words(choice(RSC_KEY(output, fields), kFieldNames,
+                     "quantities to write at the points of the surface, for a single realization. "
+                     "Elements: the pressure and gap of the solution. Asperities: "
+                     "the pressure in their contact spots, and the gap that follows from it")),
+        list(RSC_KEY(output, field_levels), 1000, "`unit` of the indentation", kAny,
+             "the last level", "levels whose fields are written, the nearest level to each"),
+        number(RSC_KEY(output, field_window), "length", kAny,
+               "x0, x1, y0, y1 of the region in which fields are written",
                "a region around the contact at these levels; two flats: the whole surface"),
-        number(RSC_KEY(output, map_cells), "1", between(1, 4096), "cells along a side of the coarse maps"),
-        number(RSC_KEY(output, radial_bins), "1", between(1, 100000), "number of radii of the radial means"),
+        number(RSC_KEY(output, map_cells), "1", between(1, 4096),
+               "cells along a side of the coarse maps"),
+        number(RSC_KEY(output, radial_bins), "1", between(1, 100000),
+               "number of radii of the radial means"),
         list(RSC_KEY(output, pdf_levels), 100, "sigma", kAny, "",
              "separations at which distributions are written (the nearest level to each)"),
         number(RSC_KEY(output, pdf_bins), "1", between(1, 100000), "bins of the distributions"),
-        changing(Changes::file, number(RSC_KEY(output, compression), "1", between(0, 9), "deflate level of netcdf4")),
+        changing(Changes::file, number(RSC_KEY(output, compression), "1", between(0, 9),
+                                       "deflate level of netcdf4")),
     };
 }
 
@@ -291,7 +361,9 @@ constexpr std::pair<const char*, const char*> kGroups[] = {
     {"elements", "grid of boundary elements"},
     {"compare", "comparison of asperities with elements"},
     {"output", "the result file"},
-    {"study", "lists of values for any keys; each member of the study is a run: surface%sigma = 0.001, 0.01  mode = 'product' ('zip')"},
+    {"study",
+     "lists of values for any keys; each member of the study is a run: surface%sigma = 0.001, 0.01 "
+     " mode = 'product' ('zip')"},
 };
 
 }  // namespace
@@ -328,7 +400,8 @@ std::string suggest_key(std::string_view group, std::string_view name) {
     for (const Key& key : registry())
         if (namelist::lower_case(group) == key.group) here.push_back(key.name);
     for (const Key& key : registry())
-        if (find_key(key.group, name)) return "; '" + std::string(name) + "' belongs to &" + find_key(key.group, name)->group;
+        if (find_key(key.group, name))
+            return "; '" + std::string(name) + "' belongs to &" + find_key(key.group, name)->group;
     return namelist::suggestion(name, here);
 }
 
@@ -344,11 +417,14 @@ const Key& key_of(std::string_view name) {
             if (namelist::lower_case(strip(name)) == namelist::lower_case(key.name))
                 meant += (meant.empty() ? "" : " or ") + full_name(key);
         bad_input("expected group%key, found '" + std::string(name) + "'" +
-                  (meant.empty() ? namelist::suggestion(name, group_names()) : "; did you mean " + meant + "?"));
+                  (meant.empty() ? namelist::suggestion(name, group_names())
+                                 : "; did you mean " + meant + "?"));
     }
-    const std::string_view group = strip(name.substr(0, percent)), bare = strip(name.substr(percent + 1));
+    const std::string_view group = strip(name.substr(0, percent)),
+                           bare = strip(name.substr(percent + 1));
     if (!group_meaning(namelist::lower_case(group)))
-        bad_input("unknown group '" + std::string(group) + "'" + namelist::suggestion(group, group_names()));
+        bad_input("unknown group '" + std::string(group) + "'" +
+                  namelist::suggestion(group, group_names()));
     const Key* const key = find_key(group, bare);
     if (!key) bad_input("unknown key '" + std::string(bare) + "'" + suggest_key(group, bare));
     return *key;
@@ -363,7 +439,8 @@ bool Bounds::hold(double value) const {
 
 std::string Bounds::text() const {
     const auto number = [](double value) {
-        if (value == std::floor(value) && std::abs(value) < 1e15) return std::to_string(static_cast<long long>(value));
+        if (value == std::floor(value) && std::abs(value) < 1e15)
+            return std::to_string(static_cast<long long>(value));
         return namelist::from_real(value);
     };
     std::string result;

@@ -1,5 +1,5 @@
-// The key registry: one row for each key of the namelist, used by the reader, --describe, --check, the `case` attribute of result files,
-// and the functions that set and get keys by name.
+// The key registry: one row for each key of the namelist, used by the reader, --describe, --check,
+// the `case` attribute of result files, and the functions that set and get keys by name.
 #pragma once
 
 #include "case/case.hpp"
@@ -7,8 +7,8 @@
 
 namespace rsc {
 
-// Nominal pressure over E* sqrt(2 m2) above which two flats are near full contact: less than 5 % of the area is gap, by Persson's
-// erf(sqrt(2) p/(E* h')).
+// Nominal pressure over E* sqrt(2 m2) above which two flats are near full contact: less than 5 % of
+// the area is gap, by Persson's erf(sqrt(2) p/(E* h')).
 inline constexpr double kClosingPressure = 1;
 
 // The effect of a key on a result: on its numbers, only on their storage in the file, or none.
@@ -33,7 +33,8 @@ struct ChoiceSlot {
 };
 
 // The place of a key in a Case: the value, the first of `size` values, or a list.
-using Slot = std::variant<bool*, int*, std::int64_t*, double*, std::optional<double>*, std::string*, std::vector<double>*, ChoiceSlot>;
+using Slot = std::variant<bool*, int*, std::int64_t*, double*, std::optional<double>*, std::string*,
+                          std::vector<double>*, ChoiceSlot>;
 
 struct Key {
     const char* group;
@@ -49,7 +50,9 @@ struct Key {
     const char* meaning;
     Slot (*slot)(Case&);
     Changes changes = Changes::numbers;
-    Slot (*word)(Case&) = nullptr;  // a list that may be one of `choices` instead, which applies while the list is empty
+    Slot (*word)(Case&) =
+        // a list that may be one of `choices` instead, which applies while the list is empty
+        nullptr;
 };
 
 // All keys, group by group in the documented order.
@@ -61,23 +64,27 @@ const char* group_meaning(std::string_view group);
 const Key* find_key(std::string_view group, std::string_view name);
 // "; did you mean 'sigma'?", "; it belongs to &surface" or nothing.
 std::string suggest_key(std::string_view group, std::string_view name);
-// The key "group%key", blanks around the names ignored. Throws Error(bad_input) with the nearest names.
+// The key "group%key", blanks around the names ignored. Throws Error(bad_input) with the nearest
+// names.
 const Key& key_of(std::string_view name);
 std::string full_name(const Key& key);  // "group%key"
 
-// --- values by name -----------------------------------------------------------------------------------------------------------
+// --- values by name
+// -----------------------------------------------------------------------------------------------------------
 
-// The elements of keys that have been given, with their positions, to detect duplicates and to locate messages.
+// The elements of keys that have been given, with their positions, to detect duplicates and to
+// locate messages.
 class Ledger {
 public:
     // The elements given, for each key; for a list also the values, until finish().
     struct Entry {
         const Key* key;
-        std::vector<std::pair<long, namelist::Position>> given;  // 1-based element (character of a string), where
-        std::vector<std::optional<double>> values;               // lists only
-        bool whole = false;                                      // a list was given without a subscript
-        std::optional<int> word;                                 // the number of the word given instead of a list
-        namelist::Position at;                                   // of the key
+        std::vector<std::pair<long, namelist::Position>>
+            given;  // 1-based element (character of a string), where
+        std::vector<std::optional<double>> values;  // lists only
+        bool whole = false;                         // a list was given without a subscript
+        std::optional<int> word;  // the number of the word given instead of a list
+        namelist::Position at;    // of the key
         bool faulty = false;
     };
     Entry& entry(const Key& key);
@@ -89,29 +96,34 @@ private:
 };
 
 // Stores the values of one assignment and reports errors in them. Lists are stored by finish_lists.
-void assign(Case& settings, const Key& key, const namelist::Assignment& assignment, Ledger& ledger, std::vector<namelist::Fault>& faults);
+void assign(Case& settings, const Key& key, const namelist::Assignment& assignment, Ledger& ledger,
+            std::vector<namelist::Fault>& faults);
 void finish_lists(Case& settings, Ledger& ledger, std::vector<namelist::Fault>& faults);
 
-// Sets "group%key", "group%key(2)" or "group%key(1:2)" to a value (or values) in namelist syntax. Checks type, choice, shape and
-// the key's own bounds, not its relation to other keys (check_case does). Throws Error(bad_input); the case is then unchanged.
+// Sets "group%key", "group%key(2)" or "group%key(1:2)" to a value (or values) in namelist syntax.
+// Checks type, choice, shape and the key's own bounds, not its relation to other keys (check_case
+// does). Throws Error(bad_input); the case is then unchanged.
 // `whole`: a name without subscript needs all values of an array of fixed size.
 void set_key(Case& settings, std::string_view name, std::string_view value, bool whole = false);
 
-// The value in namelist syntax, as set_key accepts it; an element with "group%key(2)". Empty for an unset value. Throws
+// The value in namelist syntax, as set_key accepts it; an element with "group%key(2)". Empty for an
+// unset value. Throws
 // Error(bad_input) for an unknown name.
 std::string get_key(const Case& settings, std::string_view name);
 
-// --- a whole case -------------------------------------------------------------------------------------------------------------
+// --- a whole case
+// -------------------------------------------------------------------------------------------------------------
 
-// An error in a case or a single value, and the keys ("surface%n") it concerns, the most important first.
+// An error in a case or a single value, and the keys ("surface%n") it concerns, the most important
+// first.
 struct Problem {
     std::vector<const Key*> keys;
     long element;      // 1-based for arrays, 0 otherwise
     std::string text;  // begins with the key: "n must be even"
 };
 std::vector<Problem> check_case(const Case& settings);
-// Throws Error(bad_input) with a line for each problem; if names are given, for those whose first key is one of these ("group%key"), or in
-// one of these groups.
+// Throws Error(bad_input) with a line for each problem; if names are given, for those whose first
+// key is one of these ("group%key"), or in one of these groups.
 void require_valid(const Case& settings, std::initializer_list<std::string_view> names = {});
 
 // The case with all keys that do not affect a result at their defaults.
@@ -120,7 +132,8 @@ Case without_idle_keys(const Case& settings);
 // Every key with its value, as namelist input that restores the same bits.
 std::string effective_namelist(const Case& settings);
 
-// Describes all keys (empty name), a group or a group%key. Throws Error(bad_input) for an unknown one.
+// Describes all keys (empty name), a group or a group%key. Throws Error(bad_input) for an unknown
+// one.
 std::string describe(std::string_view name);
 
 // The manual page rsc(1) in roff, composed of the texts of --help and --describe.

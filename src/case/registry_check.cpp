@@ -1,17 +1,19 @@
 // The checks of a case, key by key and as a whole.
 
+#include "base/error.hpp"
 #include "case/case.hpp"
 #include "case/registry.hpp"
 #include "case/units.hpp"
-#include "contact/indenter/shapes.hpp"
-#include "error.hpp"
-#include "rough/asperities.hpp"
+#include "physics/indenter/shapes.hpp"
+#include "surface/asperities.hpp"
 
 namespace rsc {
 namespace {
 
-constexpr double kMostMapValues = 1e9;    // of one map variable: 8 GB
-constexpr double kMostCircles = 2e6;      // radial_bins times map_cells, to which the work of the radial means is proportional: a second
+constexpr double kMostMapValues = 1e9;  // of one map variable: 8 GB
+constexpr double kMostCircles =
+    // radial_bins times map_cells, to which the work of the radial means is proportional: a second
+    2e6;
 constexpr double kMostLevelValues = 1e9;  // realizations x levels
 
 std::string count(double n) { return std::to_string(static_cast<long long>(n)); }
@@ -22,8 +24,9 @@ public:
         : c_(settings),
           elements_(by_elements(settings)),
           by_(settings.indentation.levels.empty() ? "indentation%steps" : "indentation%levels"),
-          levels_(settings.indentation.levels.empty() ? settings.indentation.steps
-                                                      : static_cast<double>(settings.indentation.levels.size())) {}
+          levels_(settings.indentation.levels.empty()
+                      ? settings.indentation.steps
+                      : static_cast<double>(settings.indentation.levels.size())) {}
 
     std::vector<Problem> check() {
         for (const Key& key : registry()) check_key(key);
@@ -41,16 +44,19 @@ public:
     }
 
 private:
-    // A problem of the first key, in which the others take part. Its text is preceded by the first key's name, and its value if it is short.
+    // A problem of the first key, in which the others take part. Its text is preceded by the first
+    // key's name, and its value if it is short.
     void complain(std::initializer_list<std::string_view> names, const std::string& text) {
         Problem problem{{}, 0, {}};
         for (const std::string_view name : names) problem.keys.push_back(&key_of(name));
         const Key& key = *problem.keys.front();
-        const std::string value = key.list || key.type == Type::string ? "" : get_key(c_, *names.begin());
+        const std::string value =
+            key.list || key.type == Type::string ? "" : get_key(c_, *names.begin());
         problem.text = key.name + (value.empty() ? "" : " = " + value) + ": " + text;
         problems_.push_back(std::move(problem));
     }
-    void require(bool right, std::initializer_list<std::string_view> names, const std::string& text) {
+    void require(bool right, std::initializer_list<std::string_view> names,
+                 const std::string& text) {
         if (!right) complain(names, text);
     }
 
@@ -59,19 +65,25 @@ private:
         const Slot slot = key.slot(const_cast<Case&>(c_));
         const auto number = [&](double value, std::size_t element) {
             const bool overflows = std::isfinite(value) && !usable(value);
-            const bool vanishes = value > 0 && key.bounds.low == 0 && key.bounds.open && !usable_positive(value) && std::isfinite(value);
+            const bool vanishes = value > 0 && key.bounds.low == 0 && key.bounds.open &&
+                                  !usable_positive(value) && std::isfinite(value);
             if (key.bounds.hold(value) && !overflows && !vanishes) return;
-            const std::string bounds = overflows || vanishes ? "of a magnitude from 1e-50 to 1e50" : key.bounds.text();
-            problems_.push_back({{&key},
-                                 static_cast<long>(element),
-                                 std::string(key.name) + (element > 0 ? "(" + std::to_string(element) + ")" : "") + " = " +
-                                     (key.type == Type::integer ? count(value) : namelist::from_real(value)) + ": must be " + bounds +
-                                     (bounds.empty()                                ? "finite"
-                                      : std::isfinite(value) || key.bounds.infinity ? ""
-                                                                                    : " and finite")});
+            const std::string bounds =
+                overflows || vanishes ? "of a magnitude from 1e-50 to 1e50" : key.bounds.text();
+            problems_.push_back(
+                {{&key},
+                 static_cast<long>(element),
+                 std::string(key.name) + (element > 0 ? "(" + std::to_string(element) + ")" : "") +
+                     " = " +
+                     (key.type == Type::integer ? count(value) : namelist::from_real(value)) +
+                     ": must be " + bounds +
+                     (bounds.empty()                                ? "finite"
+                      : std::isfinite(value) || key.bounds.infinity ? ""
+                                                                    : " and finite")});
         };
         const auto each = [&](const auto* values, std::size_t size) {
-            for (std::size_t i = 0; i < size; ++i) number(static_cast<double>(values[i]), key.size > 1 ? i + 1 : 0);
+            for (std::size_t i = 0; i < size; ++i)
+                number(static_cast<double>(values[i]), key.size > 1 ? i + 1 : 0);
         };
         const auto size = static_cast<std::size_t>(key.size);
         if (const auto* n = std::get_if<int*>(&slot)) each(*n, size);
@@ -81,8 +93,11 @@ private:
                 if ((*o)[i]) number(*(*o)[i], size > 1 ? i + 1 : 0);
         if (const auto* v = std::get_if<std::vector<double>*>(&slot)) {
             const std::vector<double>& list = **v;
-            if (list.size() > size) problems_.push_back({{&key}, 0, key.name + (": at most " + std::to_string(size)) + " values"});
-            if (list.empty() && !*key.unset && !key.word) problems_.push_back({{&key}, 0, std::string(key.name) + ": at least one value"});
+            if (list.size() > size)
+                problems_.push_back(
+                    {{&key}, 0, key.name + (": at most " + std::to_string(size)) + " values"});
+            if (list.empty() && !*key.unset && !key.word)
+                problems_.push_back({{&key}, 0, std::string(key.name) + ": at least one value"});
             each(list.data(), std::min(list.size(), size));
         }
         if (const auto* s = std::get_if<std::string*>(&slot)) check_text(key, **s);
@@ -90,7 +105,9 @@ private:
 
     // Text that the effective namelist could not reproduce is refused.
     void check_text(const Key& key, const std::string& text) {
-        const auto control = [](char c) { return (static_cast<unsigned char>(c) < 32 && c != '\t') || c == 127; };
+        const auto control = [](char c) {
+            return (static_cast<unsigned char>(c) < 32 && c != '\t') || c == 127;
+        };
         std::string wrong;
         if (std::any_of(text.begin(), text.end(), control))
             wrong = "control characters are not allowed";
@@ -108,16 +125,21 @@ private:
             {"run%force_unit", c_.run.force_unit, Quantity::force},
             {"run%time_unit", c_.run.time_unit, Quantity::time}};
         for (const auto& [key, unit, quantity] : units)
-            if (const std::string wrong = unit_problem(unit, quantity); !wrong.empty()) complain({key}, wrong);
+            if (const std::string wrong = unit_problem(unit, quantity); !wrong.empty())
+                complain({key}, wrong);
     }
 
     // Pairs of keys that exclude each other.
     void check_exclusive() {
         const Case::Solids& s = c_.solids;
-        const bool adhesion = s.adhesion > 0, range = s.adhesion_range > 0, hard = std::isfinite(s.hardness), friction = s.friction > 0;
-        const bool relaxes = rsc::relaxes(c_), layers = !s.layer_thickness.empty(), compare = c_.compare.listed();
-        const bool dgesv = c_.solver.method == Method::dgesv, paper = c_.indentation.selection == Selection::paper;
-        const bool size_effect = hard && s.size_effect > 0, resistivity = s.resistivity[0] > 0 || s.resistivity[1] > 0;
+        const bool adhesion = s.adhesion > 0, range = s.adhesion_range > 0,
+                   hard = std::isfinite(s.hardness), friction = s.friction > 0;
+        const bool relaxes = rsc::relaxes(c_), layers = !s.layer_thickness.empty(),
+                   compare = c_.compare.listed();
+        const bool dgesv = c_.solver.method == Method::dgesv,
+                   paper = c_.indentation.selection == Selection::paper;
+        const bool size_effect = hard && s.size_effect > 0,
+                   resistivity = s.resistivity[0] > 0 || s.resistivity[1] > 0;
         const bool fourth_order = c_.asperities.law == LawKind::fourth_order;
         const struct {
             bool both;
@@ -127,16 +149,25 @@ private:
             {adhesion && friction, "solids%adhesion", "solids%friction", ""},
             {adhesion && relaxes, "solids%adhesion", "solids%relaxation_share", ""},
             {adhesion && range && !elements_ && fourth_order, "solids%adhesion", "asperities%law",
-             "with adhesion_range > 0 law = 'fourth_order' is for elements; give 'hertz' or 'elliptic'"},
-            {adhesion && !range && elements_, "solids%adhesion", "solver%model", "elements need adhesion_range > 0"},
-            {adhesion && !range && compare, "solids%adhesion", "compare%levels", "elements need adhesion_range > 0"},
-            {adhesion && dgesv, "solids%adhesion", "solver%method", "'dgesv' has no tensile forces"},
-            {adhesion && paper, "solids%adhesion", "indentation%selection", "asperities beyond the circle of 'paper' attract, too"},
-            {hard && friction, "solids%hardness", "solids%friction", "friction needs elastic asperities"},
-            {size_effect && elements_, "solids%size_effect", "solver%model", "it needs the radius of asperities"},
-            {size_effect && compare, "solids%size_effect", "compare%levels", "it needs the radius of asperities"},
+             "with adhesion_range > 0 law = 'fourth_order' is for elements; give 'hertz' or "
+             "'elliptic'"},
+            {adhesion && !range && elements_, "solids%adhesion", "solver%model",
+             "elements need adhesion_range > 0"},
+            {adhesion && !range && compare, "solids%adhesion", "compare%levels",
+             "elements need adhesion_range > 0"},
+            {adhesion && dgesv, "solids%adhesion", "solver%method",
+             "'dgesv' has no tensile forces"},
+            {adhesion && paper, "solids%adhesion", "indentation%selection",
+             "asperities beyond the circle of 'paper' attract, too"},
+            {hard && friction, "solids%hardness", "solids%friction",
+             "friction needs elastic asperities"},
+            {size_effect && elements_, "solids%size_effect", "solver%model",
+             "it needs the radius of asperities"},
+            {size_effect && compare, "solids%size_effect", "compare%levels",
+             "it needs the radius of asperities"},
             {friction && elements_, "solids%friction", "solver%model", "it is for asperities"},
-            {friction && layers, "solids%friction", "solids%layer_thickness", "it is not for layers"},
+            {friction && layers, "solids%friction", "solids%layer_thickness",
+             "it is not for layers"},
             {resistivity && layers, "solids%resistivity", "solids%layer_thickness",
              "with layers the conductance does not follow from the stiffness"},
             {relaxes && hard, "solids%relaxation_share", "solids%hardness", ""},
@@ -146,64 +177,82 @@ private:
             {relaxes && dgesv, "solids%relaxation_share", "solver%method", ""},
         };
         for (const auto& [both, key, other, why] : pairs)
-            require(!both, {key, other}, std::string("not available together with ") + other + (*why ? std::string("; ") + why : ""));
+            require(!both, {key, other},
+                    std::string("not available together with ") + other +
+                        (*why ? std::string("; ") + why : ""));
     }
 
     void check_solids() {
         const Case::Solids& s = c_.solids;
         const std::size_t layers = s.layer_thickness.size(), shares = s.relaxation_share.size();
-        require(s.adhesion > 0 || !(s.adhesion_range > 0), {"solids%adhesion_range", "solids%adhesion"}, "needs solids%adhesion > 0");
-        const auto as_many = [&](const std::vector<double>& values, std::size_t wanted, const char* key, const char* other) {
+        require(s.adhesion > 0 || !(s.adhesion_range > 0),
+                {"solids%adhesion_range", "solids%adhesion"}, "needs solids%adhesion > 0");
+        const auto as_many = [&](const std::vector<double>& values, std::size_t wanted,
+                                 const char* key, const char* other) {
             require(values.size() == wanted, {key, other},
-                    std::to_string(values.size()) + " values for the " + std::to_string(wanted) + " of " + other);
+                    std::to_string(values.size()) + " values for the " + std::to_string(wanted) +
+                        " of " + other);
         };
         as_many(s.layer_E, layers, "solids%layer_E", "solids%layer_thickness");
         as_many(s.layer_nu, layers, "solids%layer_nu", "solids%layer_thickness");
         as_many(s.relaxation_time, shares, "solids%relaxation_time", "solids%relaxation_share");
-        const double sum = std::accumulate(s.relaxation_share.begin(), s.relaxation_share.end(), 0.0);
-        require(!(sum > 1 + 1e-12), {"solids%relaxation_share"}, "the shares add up to " + namelist::from_real(sum) + ", more than 1");
+        const double sum =
+            std::accumulate(s.relaxation_share.begin(), s.relaxation_share.end(), 0.0);
+        require(!(sum > 1 + 1e-12), {"solids%relaxation_share"},
+                "the shares add up to " + namelist::from_real(sum) + ", more than 1");
         if (!std::isinf(s.E[0])) return;
-        require(layers > 0 || !std::isinf(s.E[1]), {"solids%E"}, "two rigid bodies do not deform; at most one body may be rigid");
+        require(layers > 0 || !std::isinf(s.E[1]), {"solids%E"},
+                "two rigid bodies do not deform; at most one body may be rigid");
         require(layers > 0 || !std::isfinite(s.hardness), {"solids%hardness", "solids%E"},
                 "the asperities of body 1 yield, so body 1 must not be rigid (E(1) = Infinity)");
-        require(!relaxes(c_), {"solids%relaxation_share", "solids%E"}, "E(1) = Infinity makes body 1 rigid");
+        require(!relaxes(c_), {"solids%relaxation_share", "solids%E"},
+                "E(1) = Infinity makes body 1 rigid");
     }
 
     void check_times() {
         const Case::Indentation& i = c_.indentation;
         if (i.times.empty()) return;
-        require(!i.duration, {"indentation%duration", "indentation%times"}, "times are given as well; give only one of the two");
+        require(!i.duration, {"indentation%duration", "indentation%times"},
+                "times are given as well; give only one of the two");
         require(static_cast<double>(i.times.size()) == levels_, {"indentation%times", by_},
                 std::to_string(i.times.size()) + " values for " + count(levels_) + " levels");
-        require(std::ranges::adjacent_find(i.times, std::ranges::greater_equal()) == i.times.end(), {"indentation%times"},
-                "must increase from each level to the next");
+        require(std::ranges::adjacent_find(i.times, std::ranges::greater_equal()) == i.times.end(),
+                {"indentation%times"}, "must increase from each level to the next");
     }
 
     void check_surface() {
         const Case::Surface& s = c_.surface;
-        require(s.source == Source::synthetic || !s.file.empty(), {"surface%source", "surface%file"}, "needs a file");
+        require(s.source == Source::synthetic || !s.file.empty(),
+                {"surface%source", "surface%file"}, "needs a file");
         check_window("surface%window", "surface%source", s.window);
         const bool of_file = s.source == Source::heights || s.source == Source::asperities;
         const bool maps = s.source == Source::heights || shape() == "map";
-        const std::pair<const char*, bool> of_maps[] = {{"surface%height_unit", !s.height_unit.empty()},
-                                                        {"surface%pixel", s.pixel.has_value()},
-                                                        {"surface%window", s.window[0].has_value()},
-                                                        {"surface%outliers", s.outliers > 0}};
+        const std::pair<const char*, bool> of_maps[] = {
+            {"surface%height_unit", !s.height_unit.empty()},
+            {"surface%pixel", s.pixel.has_value()},
+            {"surface%window", s.window[0].has_value()},
+            {"surface%outliers", s.outliers > 0}};
         for (const auto& [key, given] : of_maps)
             require(maps || !given, {key, "surface%source"},
-                    "is only for heights read from files, here source = " + get_key(c_, "surface%source"));
+                    "is only for heights read from files, here source = " +
+                        get_key(c_, "surface%source"));
         if (of_file) {
-            const bool several = s.source == Source::heights && s.file.find_first_of("*?[") != std::string::npos;
+            const bool several =
+                s.source == Source::heights && s.file.find_first_of("*?[") != std::string::npos;
             require(several || c_.run.realizations == 1, {"run%realizations", "surface%source"},
-                    "a surface from one file is one realization; for several height maps give a pattern such as maps/*.gwy as the file");
+                    "a surface from one file is one realization; for several height maps give a "
+                    "pattern such as maps/*.gwy as the file");
             return;
         }
         require(s.kurtosis > s.skewness * s.skewness + 1, {"surface%kurtosis", "surface%skewness"},
-                "must be greater than skewness^2 + 1 = " + namelist::from_real(s.skewness * s.skewness + 1) +
+                "must be greater than skewness^2 + 1 = " +
+                    namelist::from_real(s.skewness * s.skewness + 1) +
                     ", the lower bound for any distribution");
         require(s.n % 2 == 0, {"surface%n"}, "must be even");
-        const bool measured = s.twin_heights == TwinHeights::measured, directional = s.twins == Twins::directional;
-        require(!measured || (s.skewness == 0 && s.kurtosis == 3), {"surface%twin_heights", "surface%skewness", "surface%kurtosis"},
+        const bool measured = s.twin_heights == TwinHeights::measured,
+                   directional = s.twins == Twins::directional;
+        require(!measured || (s.skewness == 0 && s.kurtosis == 3),
+                {"surface%twin_heights", "surface%skewness", "surface%kurtosis"},
                 "excludes skewness and kurtosis, because the file gives the height distribution");
         require(!directional || s.aspect == 1, {"surface%twins", "surface%aspect"},
                 "excludes aspect, because the spectrum has its own direction");
@@ -213,16 +262,25 @@ private:
         require(s.L_lambda_s > s.L_lambda_l, {"surface%L_lambda_s", "surface%L_lambda_l"},
                 "must be larger than L_lambda_l = " + namelist::from_real(s.L_lambda_l));
         require(s.n > 2 * shortest(), {"surface%n", "surface%L_lambda_s", "surface%aspect"},
-                std::string("must be larger than 2 L_lambda_s") + (s.aspect == 1 ? "" : " sqrt(aspect)") + " = " +
-                    namelist::from_real(2 * shortest()) + " so that the grid resolves the shortest wavelength");
+                std::string("must be larger than 2 L_lambda_s") +
+                    (s.aspect == 1 ? "" : " sqrt(aspect)") + " = " +
+                    namelist::from_real(2 * shortest()) +
+                    " so that the grid resolves the shortest wavelength");
         const double L = s.L.value_or(1.0);
-        require(std::ranges::none_of(c_.indentation.centre, [&](const auto& x) { return x && (*x < 0 || *x > L); }),
-                {"indentation%centre", "surface%L"}, "must lie on the surface, 0 to L = " + namelist::from_real(L));
+        require(std::ranges::none_of(c_.indentation.centre,
+                                     [&](const auto& x) { return x && (*x < 0 || *x > L); }),
+                {"indentation%centre", "surface%L"},
+                "must lie on the surface, 0 to L = " + namelist::from_real(L));
     }
 
     // L over the shortest wavelength of a synthetic surface, in the direction across its lay.
-    double shortest() const { return c_.surface.L_lambda_s * std::sqrt(std::max(c_.surface.aspect, 1 / c_.surface.aspect)); }
-    std::string_view shape() const { return kShapes.at(static_cast<std::size_t>(c_.indenter.shape)).name; }
+    double shortest() const {
+        return c_.surface.L_lambda_s *
+               std::sqrt(std::max(c_.surface.aspect, 1 / c_.surface.aspect));
+    }
+    std::string_view shape() const {
+        return kShapes.at(static_cast<std::size_t>(c_.indenter.shape)).name;
+    }
 
     void check_window(const char* key, const char* beside, const std::optional<double> (&w)[4]) {
         if (!w[0] && !w[1] && !w[2] && !w[3]) return;
@@ -237,13 +295,16 @@ private:
         require(c_.surface.source != Source::asperities, {key, "surface%source"},
                 "elements need a surface, and source = 'asperities' has only summits");
         require(!elements_ || !compare, {"compare%levels", "solver%model"},
-                "&compare compares asperities with elements; with model = 'elements' there is nothing to compare");
-        require(!elements_ || c_.solver.method == Method::automatic, {"solver%method", "solver%model"},
+                "&compare compares asperities with elements; with model = 'elements' there is "
+                "nothing to compare");
+        require(!elements_ || c_.solver.method == Method::automatic,
+                {"solver%method", "solver%model"},
                 "is for model = 'asperities'; with elements only 'auto' is possible");
         require(c_.solver.interaction == Interaction::point, {key, "solver%interaction"},
                 "interaction = 'none' is for asperities; elements always interact");
         const double points = std::ceil(c_.elements.points_per_wave * shortest());
-        require(c_.surface.source != Source::synthetic || points <= 32768, {"elements%points_per_wave", "surface%L_lambda_s"},
+        require(c_.surface.source != Source::synthetic || points <= 32768,
+                {"elements%points_per_wave", "surface%L_lambda_s"},
                 "gives a grid of " + count(points) + " points a side; the maximum is 32768");
     }
 
@@ -251,35 +312,46 @@ private:
         const Case::IndenterKeys& i = c_.indenter;
         const ShapeRow& row = kShapes.at(static_cast<std::size_t>(i.shape));
         const auto takes = [](const ShapeRow& shape, std::string_view key, bool needed) {
-            return std::ranges::any_of(shape.keys,
-                                       [&](std::string_view k) { return k == std::string(key) + '!' || (!needed && k == key); });
+            return std::ranges::any_of(shape.keys, [&](std::string_view k) {
+                return k == std::string(key) + '!' || (!needed && k == key);
+            });
         };
         for (const Key& key : registry()) {
-            if (key.group != std::string_view("indenter") || key.name == std::string_view("shape")) continue;
+            if (key.group != std::string_view("indenter") || key.name == std::string_view("shape"))
+                continue;
             const std::string name = std::string("indenter%") + key.name;
             const bool given = get_key(c_, name) != get_key(Case{}, name);
-            if (!given && takes(row, key.name, true)) complain({"indenter%shape", name}, std::string("needs ") + key.name);
+            if (!given && takes(row, key.name, true))
+                complain({"indenter%shape", name}, std::string("needs ") + key.name);
             if (!given || takes(row, key.name, false)) continue;
             std::string shapes;
             for (const ShapeRow& other : kShapes)
-                if (takes(other, key.name, false)) shapes += (shapes.empty() ? "'" : " or '") + std::string(other.name) + "'";
-            complain({name, "indenter%shape"}, "is only for shape = " + shapes + ", here shape = " + get_key(c_, "indenter%shape"));
+                if (takes(other, key.name, false))
+                    shapes += (shapes.empty() ? "'" : " or '") + std::string(other.name) + "'";
+            complain({name, "indenter%shape"}, "is only for shape = " + shapes + ", here shape = " +
+                                                   get_key(c_, "indenter%shape"));
         }
-        require(i.radii[0].has_value() == i.radii[1].has_value(), {"indenter%radii"}, "two values are needed");
+        require(i.radii[0].has_value() == i.radii[1].has_value(), {"indenter%radii"},
+                "two values are needed");
         if (shape() == "sphere") return;
-        require(std::isinf(c_.solids.R[0]) || shape() == "paraboloid", {"solids%R", "indenter%shape"},
+        require(std::isinf(c_.solids.R[0]) || shape() == "paraboloid",
+                {"solids%R", "indenter%shape"},
                 "a curved body 1 is for shape = 'sphere' and 'paraboloid'; give R(1) = Infinity");
-        require(c_.indentation.selection != Selection::paper, {"indentation%selection", "indenter%shape"}, "is defined for a sphere only");
+        require(c_.indentation.selection != Selection::paper,
+                {"indentation%selection", "indenter%shape"}, "is defined for a sphere only");
     }
 
     void check_levels() {
         const Case::Indentation& i = c_.indentation;
-        const bool separation = i.control == Control::separation, with_log = i.spacing == Spacing::log && i.levels.empty();
+        const bool separation = i.control == Control::separation,
+                   with_log = i.spacing == Spacing::log && i.levels.empty();
         if (separation ? !with_log : c_.solids.adhesion > 0 && !with_log) return;
         const std::string of = separation || c_.solids.adhesion > 0 ? "spacing" : "control";
-        const std::string text = "must be positive with " + of + " = " + get_key(c_, "indentation%" + of);
+        const std::string text =
+            "must be positive with " + of + " = " + get_key(c_, "indentation%" + of);
         if (!i.levels.empty()) {
-            require(*std::ranges::min_element(i.levels) > 0, {"indentation%levels", "indentation%control"}, text);
+            require(*std::ranges::min_element(i.levels) > 0,
+                    {"indentation%levels", "indentation%control"}, text);
             return;
         }
         require(i.start > 0, {"indentation%start", "indentation%spacing"}, text);
@@ -288,50 +360,67 @@ private:
 
     void check_boundary() {
         const Case::Indentation& i = c_.indentation;
-        const bool periodic = i.boundary == Boundary::periodic, relative = i.unit == LevelUnit::relative;
+        const bool periodic = i.boundary == Boundary::periodic,
+                   relative = i.unit == LevelUnit::relative;
         if (periodic) {
-            require(shape() == "sphere" || shape() == "map", {"indentation%boundary", "indenter%shape"},
-                    "is for two flats, smooth or rough, but shape = " + get_key(c_, "indenter%shape") + " is not flat");
-            require(shape() != "sphere" || (std::isinf(c_.solids.R[0]) && std::isinf(c_.solids.R[1])), {"indentation%boundary", "solids%R"},
-                    "is for two flats, but R = " + get_key(c_, "solids%R") + "; give R = Infinity, Infinity");
-            require(i.selection != Selection::paper, {"indentation%selection", "indentation%boundary"},
+            require(
+                shape() == "sphere" || shape() == "map", {"indentation%boundary", "indenter%shape"},
+                "is for two flats, smooth or rough, but shape = " + get_key(c_, "indenter%shape") +
+                    " is not flat");
+            require(
+                shape() != "sphere" || (std::isinf(c_.solids.R[0]) && std::isinf(c_.solids.R[1])),
+                {"indentation%boundary", "solids%R"},
+                "is for two flats, but R = " + get_key(c_, "solids%R") +
+                    "; give R = Infinity, Infinity");
+            require(i.selection != Selection::paper,
+                    {"indentation%selection", "indentation%boundary"},
                     "is defined for a sphere only, not for two flats");
-            require(c_.surface.source != Source::asperities || c_.surface.L, {"surface%L", "indentation%boundary"},
+            require(c_.surface.source != Source::asperities || c_.surface.L,
+                    {"surface%L", "indentation%boundary"},
                     "give the period of the list of asperities");
         }
-        const bool pressure = i.control == Control::pressure, of_pressure = relative || i.unit == LevelUnit::pressure;
+        const bool pressure = i.control == Control::pressure,
+                   of_pressure = relative || i.unit == LevelUnit::pressure;
         require(!pressure || periodic, {"indentation%control", "indentation%boundary"},
                 "a nominal pressure needs a nominal area, that of boundary = 'periodic'");
         require(of_pressure == pressure, {"indentation%unit", "indentation%control"},
                 "with control = " + get_key(c_, "indentation%control") + " it is " +
                     (of_pressure ? "'sigma' or 'length'" : "'relative' or 'pressure'"));
         if (!pressure || !relative || elements_) return;
-        const double most = i.levels.empty() ? std::max(i.start, i.stop) : *std::ranges::max_element(i.levels);
-        require(
-            most < kClosingPressure, {i.levels.empty() ? "indentation%start" : "indentation%levels", "indentation%unit"},
-            "a pressure of " + namelist::from_real(most) +
-                " E* sqrt(2 m2): at 1 and above less than 5 % of the area is gap, too little for the asperity model; use solver%model = "
-                "'elements', which is valid up to full contact");
+        const double most =
+            i.levels.empty() ? std::max(i.start, i.stop) : *std::ranges::max_element(i.levels);
+        require(most < kClosingPressure,
+                {i.levels.empty() ? "indentation%start" : "indentation%levels", "indentation%unit"},
+                "a pressure of " + namelist::from_real(most) +
+                    " E* sqrt(2 m2): at 1 and above less than 5 % of the area is gap, too little "
+                    "for the asperity model; use solver%model = "
+                    "'elements', which is valid up to full contact");
     }
 
     void check_sizes() {
         const Case::Output& o = c_.output;
         const double cells = o.map_cells;
         const auto at_most = [&](double values, double most, const char* key) {
-            require(values <= most, {key, by_}, "with " + count(levels_) + " levels more than " + count(most) + " values");
+            require(values <= most, {key, by_},
+                    "with " + count(levels_) + " levels more than " + count(most) + " values");
         };
         at_most(levels_ * cells * cells, kMostMapValues, "output%map_cells");
         at_most(levels_ * o.radial_bins, kMostMapValues, "output%radial_bins");
         at_most(levels_ * c_.run.realizations, kMostLevelValues, "run%realizations");
         require(cells * o.radial_bins <= kMostCircles, {"output%radial_bins", "output%map_cells"},
                 "times map_cells at most " + count(kMostCircles));
-        require(!(c_.solids.friction > 0) || c_.run.realizations == 1, {"run%realizations"}, "only one with solids%friction > 0");
-        require(double(c_.run.first_realization) + c_.run.realizations - 1 <= 2147483647.0, {"run%first_realization", "run%realizations"},
+        require(!(c_.solids.friction > 0) || c_.run.realizations == 1, {"run%realizations"},
+                "only one with solids%friction > 0");
+        require(double(c_.run.first_realization) + c_.run.realizations - 1 <= 2147483647.0,
+                {"run%first_realization", "run%realizations"},
                 "the last realization would be beyond 2147483647");
         check_window("output%field_window", "output%fields", o.field_window);
-        require(!o.fields.empty() || !o.field_window[0], {"output%field_window", "output%fields"}, "no fields are requested");
-        require(!o.fields.empty() || o.field_levels.empty(), {"output%field_levels", "output%fields"}, "no fields are requested");
-        require(o.fields.empty() || c_.surface.source != Source::asperities, {"output%fields", "surface%source"},
+        require(!o.fields.empty() || !o.field_window[0], {"output%field_window", "output%fields"},
+                "no fields are requested");
+        require(!o.fields.empty() || o.field_levels.empty(),
+                {"output%field_levels", "output%fields"}, "no fields are requested");
+        require(o.fields.empty() || c_.surface.source != Source::asperities,
+                {"output%fields", "surface%source"},
                 "need the points of a surface, and source = 'asperities' has none");
         require(!o.file.empty(), {"output%file"}, "must not be empty");
     }
@@ -351,7 +440,9 @@ void require_valid(const Case& settings, std::initializer_list<std::string_view>
     std::string text;
     for (const Problem& problem : check_case(settings)) {
         const Key& key = *problem.keys.front();
-        const auto is_key = [&](std::string_view name) { return name == key.group || name == full_name(key); };
+        const auto is_key = [&](std::string_view name) {
+            return name == key.group || name == full_name(key);
+        };
         if (names.size() == 0 || std::ranges::any_of(names, is_key))
             text += (text.empty() ? "&" : "\n&") + std::string(key.group) + ": " + problem.text;
     }
@@ -362,19 +453,25 @@ bool relaxes(const Case& settings) {
     return std::ranges::any_of(settings.solids.relaxation_share, [](double g) { return g > 0; });
 }
 
-bool has_closed_forms(const Case& c) { return c.solids.layer_thickness.empty() && !relaxes(c) && c.indenter.file.empty(); }
+bool has_closed_forms(const Case& c) {
+    return c.solids.layer_thickness.empty() && !relaxes(c) && c.indenter.file.empty();
+}
 
 ModelChoice model_of(const Case& c) {
     if (c.solver.model != Model::automatic) return {c.solver.model};
     // With 'auto', elements solve height maps unless a key asks for what only asperities have.
     const std::pair<bool, const char*> reasons[] = {
-        {c.surface.source == Source::synthetic || c.surface.source == Source::spectrum, "the surface is synthetic"},
+        {c.surface.source == Source::synthetic || c.surface.source == Source::spectrum,
+         "the surface is synthetic"},
         {c.surface.source == Source::asperities, "only asperities are given"},
         {c.compare.listed(), "compare%levels compares them with elements"},
-        {c.solids.adhesion > 0 && !(c.solids.adhesion_range > 0), "solids%adhesion without adhesion_range needs them"},
+        {c.solids.adhesion > 0 && !(c.solids.adhesion_range > 0),
+         "solids%adhesion without adhesion_range needs them"},
         {c.solids.friction > 0, "solids%friction needs them"},
-        {c.solids.hardness < Case::kInfinity && c.solids.size_effect > 0, "solids%size_effect needs them"},
-        {c.asperities.law != LawKind::hertz || c.asperities.curvature != Curvature::geometric, "&asperities is set"},
+        {c.solids.hardness < Case::kInfinity && c.solids.size_effect > 0,
+         "solids%size_effect needs them"},
+        {c.asperities.law != LawKind::hertz || c.asperities.curvature != Curvature::geometric,
+         "&asperities is set"},
         {c.solver.method != Method::automatic, "solver%method needs them"},
         {c.solver.interaction != Interaction::point, "solver%interaction needs them"},
         {c.indentation.selection != Selection::overlap, "indentation%selection needs them"},

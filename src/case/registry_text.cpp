@@ -1,16 +1,17 @@
 // The registry as text: the effective namelist, --describe and the manual page.
 
+#include "base/error.hpp"
+#include "base/format.hpp"
+#include "base/version.h"
 #include "case/options.hpp"
 #include "case/registry.hpp"
-#include "error.hpp"
-#include "format.hpp"
-#include "version.h"
 
 namespace rsc {
 namespace {
 
 // In the order of Type.
-constexpr const char* kTypeNames[] = {"logical", "integer", "integer (64 bits)", "real", "text", "choice"};
+constexpr const char* kTypeNames[] = {"logical", "integer", "integer (64 bits)",
+                                      "real",    "text",    "choice"};
 
 void describe_key(std::ostream& out, const Key& key) {
     static const Case defaults;
@@ -20,8 +21,8 @@ void describe_key(std::ostream& out, const Key& key) {
     else if (key.size > 1)
         out << "(" << key.size << ")";
     const std::string value = get_key(defaults, full_name(key));
-    out << " = " << (value.empty() ? "(unset: " + std::string(key.unset) + ")" : value) << "\n      "
-        << kTypeNames[static_cast<std::size_t>(key.type)];
+    out << " = " << (value.empty() ? "(unset: " + std::string(key.unset) + ")" : value)
+        << "\n      " << kTypeNames[static_cast<std::size_t>(key.type)];
     if (key.type == Type::string) out << " of at most " << key.length << " characters";
     if (*key.unit) out << ", unit " << key.unit;
     const std::string bounds = key.bounds.text();
@@ -37,9 +38,11 @@ void describe_group(std::ostream& out, std::string_view group) {
     for (const Key& key : registry())
         if (group == key.group) describe_key(out, key);
     if (group == "study") {
-        out << "  group%key = value, value, ...   for any key of any group; elements of arrays with a subscript: "
+        out << "  group%key = value, value, ...   for any key of any group; elements of arrays "
+               "with a subscript: "
                "solids%R(2)\n"
-               "  mode = 'product'\n      choice: 'product' (every combination, the first key slowest), 'zip' (the lists side by "
+               "  mode = 'product'\n      choice: 'product' (every combination, the first key "
+               "slowest), 'zip' (the lists side by "
                "side)\n";
     }
 }
@@ -50,7 +53,8 @@ Case without_idle_keys(const Case& settings) {
     static const Case defaults;
     Case result = settings;
     for (const Key& key : registry())
-        if (key.changes == Changes::nothing) set_key(result, full_name(key), get_key(defaults, full_name(key)));
+        if (key.changes == Changes::nothing)
+            set_key(result, full_name(key), get_key(defaults, full_name(key)));
     return result;
 }
 
@@ -62,7 +66,8 @@ std::string effective_namelist(const Case& settings) {
         for (const Key& key : registry()) {
             if (group != key.group) continue;
             const std::string value = get_key(settings, full_name(key));
-            text += format("  %-17s = ", key.name) + (value.empty() ? ",  ! unset: " + std::string(key.unset) : value) + "\n";
+            text += format("  %-17s = ", key.name) +
+                    (value.empty() ? ",  ! unset: " + std::string(key.unset) : value) + "\n";
         }
         text += "/\n";
     }
@@ -91,11 +96,14 @@ std::string describe(std::string_view name) {
 
 std::string manual_page() {
     std::string page = ".TH RSC 1 \"\" \"rsc " RSC_VERSION
-                       "\"\n.SH NAME\nrsc \\- elastic contact of rough spheres by a deterministic multi\\-asperity model\n";
-    for (const auto& [section, text] : {std::pair{"SYNOPSIS", usage_text()}, {"CASES", describe("")}}) {
+                       "\"\n.SH NAME\nrsc \\- elastic contact of rough spheres by a deterministic "
+                       "multi\\-asperity model\n";
+    for (const auto& [section, text] :
+         {std::pair{"SYNOPSIS", usage_text()}, {"CASES", describe("")}}) {
         page += std::string(".SH ") + section + "\n.nf\n";
         for (const char c : text) {
-            if (page.back() == '\n' && (c == '.' || c == '\'')) page += "\\&";  // not a command of roff
+            if (page.back() == '\n' && (c == '.' || c == '\''))
+                page += "\\&";  // not a command of roff
             page += c == '\\' ? "\\e" : c == '-' ? "\\-" : std::string(1, c);
         }
         page += ".fi\n";

@@ -1,7 +1,7 @@
 // Stores the assignments of a namelist in a Case, and returns values by name.
 
+#include "base/error.hpp"
 #include "case/registry.hpp"
-#include "error.hpp"
 
 namespace rsc {
 namespace {
@@ -17,7 +17,8 @@ struct Walk {
 
 std::string list_choices(const Key& key) {
     std::string text;
-    for (const char* choice : key.choices) text += (text.empty() ? "'" : ", '") + std::string(choice) + "'";
+    for (const char* choice : key.choices)
+        text += (text.empty() ? "'" : ", '") + std::string(choice) + "'";
     return text;
 }
 
@@ -29,7 +30,8 @@ std::string quote(const Item& item) {
 // For a number that is wrong, or surplus: the most frequent causes.
 std::string hint(const Item& item) {
     return item.quoted ? "; numbers are written without quotes"
-                       : "; numbers are written with a decimal point and without their unit, comments begin with '!'";
+                       : "; numbers are written with a decimal point and without their unit, "
+                         "comments begin with '!'";
 }
 
 // Trailing blanks are not significant in Fortran.
@@ -38,13 +40,15 @@ std::string trimmed(std::string text) {
     return text;
 }
 
-// The elements of a subscript, or an error message. (i) alone extends to the end of the array, as in gfortran.
+// The elements of a subscript, or an error message. (i) alone extends to the end of the array, as
+// in gfortran.
 std::string resolve(const Assignment& a, long size, Walk& walk, const std::string& what) {
     const namelist::Subscript& s = *a.subscript;
     const long first = s.first.value_or(1);
     const long last = s.section ? s.last.value_or(size) : size;
     const auto outside = [&](long i) { return i < 1 || i > size; };
-    if (outside(first) || outside(last)) return "the subscript of " + what + " must be within 1 to " + std::to_string(size);
+    if (outside(first) || outside(last))
+        return "the subscript of " + what + " must be within 1 to " + std::to_string(size);
     if ((last - first) * s.step < 0) return "the subscript of " + what + " runs the wrong way";
     walk = {first, s.step, (last - first) / s.step + 1};
     return {};
@@ -55,7 +59,8 @@ void put(Slot& slot, long element, Number value) {
     std::visit(
         [&](auto& place) {
             using T = std::remove_reference_t<decltype(place)>;
-            if constexpr (std::is_same_v<T, int*> || std::is_same_v<T, std::int64_t*> || std::is_same_v<T, double*>)
+            if constexpr (std::is_same_v<T, int*> || std::is_same_v<T, std::int64_t*> ||
+                          std::is_same_v<T, double*>)
                 place[element - 1] = static_cast<std::remove_pointer_t<T>>(value);
             else if constexpr (std::is_same_v<T, std::optional<double>*>)
                 place[element - 1] = static_cast<double>(value);
@@ -79,9 +84,12 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
         const auto value = item.quoted ? std::nullopt : namelist::to_integer(item.text);
         const bool small = key.type == Type::integer;
         if (!value || (small && *value != static_cast<int>(*value))) {
-            const bool digits = !item.quoted && item.text.find_first_not_of("+-0123456789") == std::string::npos && item.text.size() > 5;
+            const bool digits = !item.quoted &&
+                                item.text.find_first_not_of("+-0123456789") == std::string::npos &&
+                                item.text.size() > 5;
             return digits ? quote(item) + " is not an integer of " + (small ? "32" : "64") + " bits"
-                          : "expected an integer, found " + quote(item) + (item.quoted ? hint(item) : "");
+                          : "expected an integer, found " + quote(item) +
+                                (item.quoted ? hint(item) : "");
         }
         put(slot, element, *value);
     } else if (key.type == Type::real && !word) {
@@ -91,7 +99,8 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
         key.list ? to_list(*value) : put(slot, element, *value);
     } else {
         // gfortran takes a text without quotes when a digit or a repeat count comes first.
-        if (!item.quoted && (item.commented || !(item.counted || (item.text[0] >= '0' && item.text[0] <= '9'))))
+        if (!item.quoted &&
+            (item.commented || !(item.counted || (item.text[0] >= '0' && item.text[0] <= '9'))))
             return "text must be in quotes, found " + quote(item);
         const std::string text = trimmed(item.text);
         if (!word && static_cast<long>(text.size()) > key.length)
@@ -103,9 +112,11 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
         const std::string lower = namelist::lower_case(text);
         const auto found = std::ranges::find(key.choices, lower);
         if (found == key.choices.end())
-            return quote(item) + " is none of " + list_choices(key) + namelist::suggestion(lower, {key.choices.begin(), key.choices.end()});
+            return quote(item) + " is none of " + list_choices(key) +
+                   namelist::suggestion(lower, {key.choices.begin(), key.choices.end()});
         const auto number = static_cast<int>(found - key.choices.begin());
-        if (key.word && (element != 1 || !entry.values.empty() || entry.word)) return "one word, or a list of numbers";
+        if (key.word && (element != 1 || !entry.values.empty() || entry.word))
+            return "one word, or a list of numbers";
         if (key.word)
             entry.word = number;
         else if (key.list)
@@ -116,29 +127,36 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
     return {};
 }
 
-// title(3:5) = 'abc': replaces characters of the text, which is extended by blanks if it is shorter.
-std::string store_substring(Slot slot, const Key& key, const Walk& walk, Item item, Ledger::Entry& entry) {
+// title(3:5) = 'abc': replaces characters of the text, which is extended by blanks if it is
+// shorter.
+std::string store_substring(Slot slot, const Key& key, const Walk& walk, Item item,
+                            Ledger::Entry& entry) {
     std::string* text = std::get_if<std::string*>(&slot) ? std::get<std::string*>(slot) : nullptr;
     if (!text) return "a choice has no substring";
-    const auto first = static_cast<std::size_t>(walk.first - 1), count = static_cast<std::size_t>(walk.count);
+    const auto first = static_cast<std::size_t>(walk.first - 1),
+               count = static_cast<std::size_t>(walk.count);
     std::string part;
     Key whole = key;
     whole.slot = nullptr;
     Slot part_slot = &part;
     item.text = item.text.substr(0, count);
-    if (std::string problem = store(part_slot, whole, 1, item, entry); !problem.empty()) return problem;
+    if (std::string problem = store(part_slot, whole, 1, item, entry); !problem.empty())
+        return problem;
     part.resize(count, ' ');
     if (text->size() < first + count) text->resize(first + count, ' ');
     *text = trimmed(text->replace(first, count, part));
     return {};
 }
 
-std::string at_line(const namelist::Position& at) { return at.line > 0 ? " at line " + std::to_string(at.line) : ""; }
+std::string at_line(const namelist::Position& at) {
+    return at.line > 0 ? " at line " + std::to_string(at.line) : "";
+}
 
 }  // namespace
 
 Ledger::Entry& Ledger::entry(const Key& key) {
-    if (const Entry* found = find(key)) return entries_[static_cast<std::size_t>(found - entries_.data())];
+    if (const Entry* found = find(key))
+        return entries_[static_cast<std::size_t>(found - entries_.data())];
     entries_.emplace_back().key = &key;
     return entries_.back();
 }
@@ -149,7 +167,8 @@ const Ledger::Entry* Ledger::find(const Key& key) const {
     return nullptr;
 }
 
-void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger, std::vector<Fault>& faults) {
+void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
+            std::vector<Fault>& faults) {
     Ledger::Entry& entry = ledger.entry(key);
     if (entry.at.line == 0) entry.at = a.at;
     const std::string context = "&" + std::string(key.group) + ": " + key.name + ": ";
@@ -177,12 +196,14 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
         entry.whole = true;
     }
 
-    // Elements are marked as given if a value, not a null, is stored in them; the elements of a text are its characters.
+    // Elements are marked as given if a value, not a null, is stored in them; the elements of a
+    // text are its characters.
     const long elements = is_text ? 1 : walk.count;
     const long before = static_cast<long>(entry.given.size());
     const auto mark = [&](long first, long count, const namelist::Position& at) {
         if (entry.faulty) return;  // one message for a key given several times is enough
-        for (const auto& [element, where] : std::span(entry.given).first(static_cast<std::size_t>(before)))
+        for (const auto& [element, where] :
+             std::span(entry.given).first(static_cast<std::size_t>(before)))
             if (element >= first && element < first + count) {
                 fault(at, "given twice, first" + at_line(where));
                 break;
@@ -202,21 +223,25 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
             continue;
         }
         if (left == 0 || item.repeat > left) {
-            const std::string room = elements == 1 ? "one value" : std::to_string(elements) + " values";
+            const std::string room =
+                elements == 1 ? "one value" : std::to_string(elements) + " values";
             return fault(item.at, item.counted
                                       ? "the repeat count is too large: " + room + " at most"
-                                      : "too many values: " + room + " at most, found " + quote(item) + (is_text ? "" : hint(item)));
+                                      : "too many values: " + room + " at most, found " +
+                                            quote(item) + (is_text ? "" : hint(item)));
         }
         if (!item.null) {
             for (long k = 0; k < item.repeat; ++k) {
                 const long element = walk.first + (done + k) * walk.step;
-                const std::string problem =
-                    is_text && a.subscript ? store_substring(slot, key, walk, item, entry) : store(slot, key, element, item, entry);
+                const std::string problem = is_text && a.subscript
+                                                ? store_substring(slot, key, walk, item, entry)
+                                                : store(slot, key, element, item, entry);
                 if (!problem.empty()) {
                     fault(item.at, problem);
                     break;
                 }
-                mark(is_text ? walk.first : element, is_text ? (a.subscript ? walk.count : key.length) : 1, item.at);
+                mark(is_text ? walk.first : element,
+                     is_text ? (a.subscript ? walk.count : key.length) : 1, item.at);
             }
         }
         done += item.repeat;
@@ -235,11 +260,13 @@ void finish_lists(Case& settings, Ledger& ledger, std::vector<Fault>& faults) {
         }
         const std::vector<double> old = list;
         std::vector<double> next;
-        const std::size_t size = entry.whole ? entry.values.size() : std::max(entry.values.size(), old.size());
+        const std::size_t size =
+            entry.whole ? entry.values.size() : std::max(entry.values.size(), old.size());
         for (std::size_t i = 0; i < size; ++i) {
             const bool given = i < entry.values.size() && entry.values[i];
             if (!given && i >= old.size()) {
-                faults.push_back({entry.at, "&" + std::string(entry.key->group) + ": " + entry.key->name + ": element " +
+                faults.push_back({entry.at, "&" + std::string(entry.key->group) + ": " +
+                                                entry.key->name + ": element " +
                                                 std::to_string(i + 1) + " has no value"});
                 entry.faulty = true;
                 break;
@@ -261,7 +288,8 @@ struct Named {
 Named named(std::string_view name, std::string_view value) {
     const Key& key = key_of(name.substr(0, name.find('(')));
     const std::string_view rest = name.substr(name.find_first_not_of(' ', name.find('%') + 1));
-    const namelist::Document document = namelist::parse_assignments(std::string(rest) + " = " + std::string(value));
+    const namelist::Document document =
+        namelist::parse_assignments(std::string(rest) + " = " + std::string(value));
     if (!document.faults.empty()) bad_input(document.faults.front().text);
     const std::vector<Assignment>& assignments = document.groups.front().assignments;
     if (assignments.size() != 1) bad_input("expected one value for one key");
@@ -274,15 +302,18 @@ std::string element_text(const Key& key, const Slot& slot, long element) {
     if (auto* n = std::get_if<int*>(&slot)) return std::to_string((*n)[i]);
     if (auto* n = std::get_if<std::int64_t*>(&slot)) return std::to_string((*n)[i]);
     if (auto* x = std::get_if<double*>(&slot)) return namelist::from_real((*x)[i]);
-    if (auto* o = std::get_if<std::optional<double>*>(&slot)) return (*o)[i] ? namelist::from_real(*(*o)[i]) : "";
+    if (auto* o = std::get_if<std::optional<double>*>(&slot))
+        return (*o)[i] ? namelist::from_real(*(*o)[i]) : "";
     if (auto* s = std::get_if<std::string*>(&slot)) return namelist::from_string(**s);
     if (auto* v = std::get_if<std::vector<double>*>(&slot)) {
         if (i >= (*v)->size()) return "";
-        return key.type == Type::choice ? namelist::from_string(key.choices.at(static_cast<std::size_t>((**v)[i])))
-                                        : namelist::from_real((**v)[i]);
+        return key.type == Type::choice
+                   ? namelist::from_string(key.choices.at(static_cast<std::size_t>((**v)[i])))
+                   : namelist::from_real((**v)[i]);
     }
     const ChoiceSlot& choice = std::get<ChoiceSlot>(slot);
-    return namelist::from_string(key.choices.at(static_cast<std::size_t>(choice.get(choice.object))));
+    return namelist::from_string(
+        key.choices.at(static_cast<std::size_t>(choice.get(choice.object))));
 }
 
 // The part of check_case for one key.
@@ -300,8 +331,8 @@ void set_key(Case& settings, std::string_view name, std::string_view value, bool
         long given = 0;
         for (const auto& item : assignment.items) given += item.repeat;
         if (given > 0 && given < key->size)
-            bad_input(std::string(key->name) + " has " + std::to_string(key->size) + " values: give all of them, or one as " +
-                      full_name(*key) + "(1)");
+            bad_input(std::string(key->name) + " has " + std::to_string(key->size) +
+                      " values: give all of them, or one as " + full_name(*key) + "(1)");
     }
     Case changed = settings;
     Ledger ledger;
@@ -314,7 +345,8 @@ void set_key(Case& settings, std::string_view name, std::string_view value, bool
         const std::string& text = faults.front().text;
         bad_input(text.starts_with(context) ? text.substr(context.size()) : text);
     }
-    if (const std::string problem = out_of_bounds(changed, *key); !problem.empty()) bad_input(problem);
+    if (const std::string problem = out_of_bounds(changed, *key); !problem.empty())
+        bad_input(problem);
     settings = std::move(changed);
 }
 
@@ -323,15 +355,19 @@ std::string get_key(const Case& settings, std::string_view name) {
     // Slots point to non-const values; here they are only read.
     const Slot slot = key->slot(const_cast<Case&>(settings));
     long size = key->size;
-    if (const auto* list = std::get_if<std::vector<double>*>(&slot)) size = static_cast<long>((*list)->size());
+    if (const auto* list = std::get_if<std::vector<double>*>(&slot))
+        size = static_cast<long>((*list)->size());
     if (key->word && size == 0) {
         const ChoiceSlot word = std::get<ChoiceSlot>(key->word(const_cast<Case&>(settings)));
-        return namelist::from_string(key->choices.at(static_cast<std::size_t>(word.get(word.object))));
+        return namelist::from_string(
+            key->choices.at(static_cast<std::size_t>(word.get(word.object))));
     }
     Walk walk{1, 1, size};
     if (assignment.subscript) {
-        if (key->size == 1) bad_input(std::string(key->name) + " is no array: it takes no subscript");
-        if (std::string problem = resolve(assignment, size, walk, key->name); !problem.empty()) bad_input(problem);
+        if (key->size == 1)
+            bad_input(std::string(key->name) + " is no array: it takes no subscript");
+        if (std::string problem = resolve(assignment, size, walk, key->name); !problem.empty())
+            bad_input(problem);
         if (!assignment.subscript->section) walk.count = 1;
     }
     std::string text;

@@ -1,7 +1,7 @@
 #include "case/study.hpp"
 
+#include "base/error.hpp"
 #include "case/registry.hpp"
-#include "error.hpp"
 
 namespace rsc {
 namespace {
@@ -14,7 +14,8 @@ std::string axis_key(const namelist::Assignment& a, std::vector<Fault>& faults) 
         faults.push_back({a.at, "&study: " + text});
         return std::string();
     };
-    if (a.key.find('%') == std::string::npos) return fault("unknown key '" + a.key + "'; expected group%key = values, or mode");
+    if (a.key.find('%') == std::string::npos)
+        return fault("unknown key '" + a.key + "'; expected group%key = values, or mode");
     const Key* key = nullptr;
     try {
         key = &key_of(a.key);
@@ -23,16 +24,21 @@ std::string axis_key(const namelist::Assignment& a, std::vector<Fault>& faults) 
     }
     const std::string full = full_name(*key);
     const bool array = key->size > 1;
-    if (!a.subscript) return array ? fault(full + " is an array: vary one element of it, as in " + full + "(1) = ...") : full;
+    if (!a.subscript)
+        return array ? fault(full + " is an array: vary one element of it, as in " + full +
+                             "(1) = ...")
+                     : full;
     if (!array) return fault(full + " is no array: it takes no subscript");
-    if (a.subscript->section || !a.subscript->first) return fault(full + ": vary one element of it, as in " + full + "(1) = ...");
+    if (a.subscript->section || !a.subscript->first)
+        return fault(full + ": vary one element of it, as in " + full + "(1) = ...");
     return full + "(" + std::to_string(*a.subscript->first) + ")";
 }
 
 std::size_t member_count(const Study& study) {
     if (study.mode == StudyMode::zip) return study.axes.front().values.size();
     std::size_t count = 1;
-    for (const Study::Axis& axis : study.axes) count = std::min(count * axis.values.size(), kMostMembers + 1);
+    for (const Study::Axis& axis : study.axes)
+        count = std::min(count * axis.values.size(), kMostMembers + 1);
     return count;
 }
 
@@ -40,7 +46,8 @@ std::size_t member_count(const Study& study) {
 
 std::string values_text(const Member& member) {
     std::string text;
-    for (const auto& [key, value] : member.values) text += (text.empty() ? "" : " ") + key + "=" + value;
+    for (const auto& [key, value] : member.values)
+        text += (text.empty() ? "" : " ") + key + "=" + value;
     return text;
 }
 
@@ -50,14 +57,20 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
     bool mode_given = false;
     for (const namelist::Assignment& a : group.assignments) {
         if (faults.size() >= namelist::kMostFaults) break;
-        const auto fault = [&](const namelist::Position& at, const std::string& text) { faults.push_back({at, "&study: " + text}); };
+        const auto fault = [&](const namelist::Position& at, const std::string& text) {
+            faults.push_back({at, "&study: " + text});
+        };
         if (a.key == "mode") {
             if (mode_given) fault(a.at, "mode: given twice");
             mode_given = true;
-            const std::string word = !a.items.empty() && a.items[0].quoted && !a.subscript ? namelist::lower_case(a.items[0].text) : "";
+            const std::string word = !a.items.empty() && a.items[0].quoted && !a.subscript
+                                         ? namelist::lower_case(a.items[0].text)
+                                         : "";
             study.mode = word == "zip" ? StudyMode::zip : StudyMode::product;
-            const bool more = std::any_of(a.items.begin() + !a.items.empty(), a.items.end(), [](const auto& item) { return !item.null; });
-            if (more || (word != "zip" && word != "product")) fault(a.at, "mode: must be 'product' or 'zip'");
+            const bool more = std::any_of(a.items.begin() + !a.items.empty(), a.items.end(),
+                                          [](const auto& item) { return !item.null; });
+            if (more || (word != "zip" && word != "product"))
+                fault(a.at, "mode: must be 'product' or 'zip'");
             continue;
         }
         Study::Axis axis;
@@ -71,13 +84,15 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
         const std::size_t before = faults.size();
         for (std::size_t i = 0; i < a.items.size(); ++i) {
             const namelist::Item& item = a.items[i];
-            if (item.null && !item.counted && i + 1 == a.items.size()) break;  // a comma after the last value
+            if (item.null && !item.counted && i + 1 == a.items.size())
+                break;  // a comma after the last value
             if (item.null) {
                 fault(item.at, axis.key + ": a value is missing");
                 break;
             }
             if (axis.values.size() + static_cast<std::size_t>(item.repeat) > kMostMembers) {
-                fault(item.at, axis.key + ": more than " + std::to_string(kMostMembers) + " values");
+                fault(item.at,
+                      axis.key + ": more than " + std::to_string(kMostMembers) + " values");
                 break;
             }
             const std::string value = item.quoted ? namelist::from_string(item.text) : item.text;
@@ -90,43 +105,54 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
             study.axes.push_back(std::move(axis));
         }
     }
-    if (study.axes.empty() && faults.empty()) faults.push_back({group.at, "&study: no lists of values"});
+    if (study.axes.empty() && faults.empty())
+        faults.push_back({group.at, "&study: no lists of values"});
     return study;
 }
 
 std::vector<Fault> check_study(const Case& base, const Study& study) {
     std::vector<Fault> faults;
     if (study.axes.empty()) return {{study.at, "&study: no lists of values"}};
-    // Every member stores a copy of the list of levels: without this limit a short text could use all memory.
+    // Every member stores a copy of the list of levels: without this limit a short text could use
+    // all memory.
     const std::size_t held = member_count(study) * base.indentation.levels.size();
     if (held > kMostLevels)
         return {{study.at, "&study: " + std::to_string(member_count(study)) + " members of " +
-                               std::to_string(base.indentation.levels.size()) + " explicit levels each: more than " +
-                               std::to_string(kMostLevels) + " levels in all; give indentation%start, stop and steps instead"}};
+                               std::to_string(base.indentation.levels.size()) +
+                               " explicit levels each: more than " + std::to_string(kMostLevels) +
+                               " levels in all; give indentation%start, stop and steps instead"}};
     for (const Study::Axis& axis : study.axes)
-        for (std::size_t i = 0; i < axis.values.size() && faults.size() < namelist::kMostFaults; ++i) {
-            if (i > 0 && axis.values[i] == axis.values[i - 1]) continue;  // a repeated value, 10000*0.1, is checked and reported once
+        for (std::size_t i = 0; i < axis.values.size() && faults.size() < namelist::kMostFaults;
+             ++i) {
+            if (i > 0 && axis.values[i] == axis.values[i - 1])
+                continue;  // a repeated value, 10000*0.1, is checked and reported once
             Case trial = base;
             try {
                 set_key(trial, axis.key, axis.values[i]);
             } catch (const Error& error) {
-                faults.push_back({i < axis.places.size() ? axis.places[i] : axis.at, "&study: " + axis.key + ": " + error.what()});
+                faults.push_back({i < axis.places.size() ? axis.places[i] : axis.at,
+                                  "&study: " + axis.key + ": " + error.what()});
             }
         }
     const std::size_t length = study.axes.front().values.size();
     if (study.mode == StudyMode::zip)
         for (const Study::Axis& axis : study.axes)
             if (axis.values.size() != length)
-                faults.push_back({axis.at, "&study: " + axis.key + " has " + std::to_string(axis.values.size()) + " values, " +
-                                               study.axes.front().key + " has " + std::to_string(length) +
-                                               ": mode = 'zip' needs the same number of values for every key"});
-    if (member_count(study) > kMostMembers) faults.push_back({study.at, "&study: more than " + std::to_string(kMostMembers) + " members"});
+                faults.push_back(
+                    {axis.at, "&study: " + axis.key + " has " + std::to_string(axis.values.size()) +
+                                  " values, " + study.axes.front().key + " has " +
+                                  std::to_string(length) +
+                                  ": mode = 'zip' needs the same number of values for every key"});
+    if (member_count(study) > kMostMembers)
+        faults.push_back(
+            {study.at, "&study: more than " + std::to_string(kMostMembers) + " members"});
     return faults;
 }
 
 std::vector<Member> expand_study(const Case& base, const Study& study) {
     std::string wrong;
-    for (const Fault& fault : check_study(base, study)) wrong += (wrong.empty() ? "" : "\n") + fault.text;
+    for (const Fault& fault : check_study(base, study))
+        wrong += (wrong.empty() ? "" : "\n") + fault.text;
     if (!wrong.empty()) bad_input(wrong);
 
     const std::size_t count = member_count(study);
@@ -139,7 +165,8 @@ std::vector<Member> expand_study(const Case& base, const Study& study) {
         std::size_t slower = count;
         for (const Study::Axis& axis : study.axes) {
             slower /= study.mode == StudyMode::product ? axis.values.size() : 1;
-            const std::size_t i = study.mode == StudyMode::product ? m / slower % axis.values.size() : m;
+            const std::size_t i =
+                study.mode == StudyMode::product ? m / slower % axis.values.size() : m;
             member.values.emplace_back(axis.key, axis.values[i]);
         }
         // The bounds of each key were checked before; only relations between keys remain.
@@ -147,8 +174,9 @@ std::vector<Member> expand_study(const Case& base, const Study& study) {
         member.settings.output.file = member_file(member.settings.output.file, member.index, count);
         for (const Problem& problem : check_case(member.settings))
             if (++wrong_members <= namelist::kMostFaults)
-                wrong += (wrong.empty() ? "" : "\n") + std::string("&study: member ") + std::to_string(member.index) + " (" +
-                         values_text(member) + "): &" + problem.keys.front()->group + ": " + problem.text;
+                wrong += (wrong.empty() ? "" : "\n") + std::string("&study: member ") +
+                         std::to_string(member.index) + " (" + values_text(member) + "): &" +
+                         problem.keys.front()->group + ": " + problem.text;
     }
     if (!wrong.empty()) bad_input(wrong);
     return members;
@@ -169,10 +197,12 @@ std::string effective_namelist(const Study& study) {
     std::string text = "&study\n";
     for (const Study::Axis& axis : study.axes) {
         text += "  " + axis.key + " = ";
-        for (std::size_t i = 0; i < axis.values.size(); ++i) text += (i > 0 ? ", " : "") + axis.values[i];
+        for (std::size_t i = 0; i < axis.values.size(); ++i)
+            text += (i > 0 ? ", " : "") + axis.values[i];
         text += "\n";
     }
-    return text + "  mode = " + (study.mode == StudyMode::product ? "'product'" : "'zip'") + "\n/\n";
+    return text + "  mode = " + (study.mode == StudyMode::product ? "'product'" : "'zip'") +
+           "\n/\n";
 }
 
 }  // namespace rsc

@@ -6,7 +6,8 @@
 
 namespace rsc {
 
-// product: every combination, the first key varying slowest; zip: the k-th values of all lists together.
+// product: every combination, the first key varying slowest; zip: the k-th values of all lists
+// together.
 struct Study {
     struct Axis {
         std::string key;                  // "surface%sigma" or an element, "solids%R(2)"
@@ -37,7 +38,8 @@ Study read_study(const namelist::Group& group, std::vector<namelist::Fault>& fau
 // Faults in the study's keys, values and lengths, each checked alone on `base`.
 std::vector<namelist::Fault> check_study(const Case& base, const Study& study);
 
-// All members in order, each of them checked (check_case). Throws Error(bad_input) with the names of invalid members.
+// All members in order, each of them checked (check_case). Throws Error(bad_input) with the names
+// of invalid members.
 std::vector<Member> expand_study(const Case& base, const Study& study);
 
 // "output/rsc.nc" -> "output/rsc_007.nc"; as many digits as `members` needs, three at least.

@@ -3,25 +3,31 @@
 namespace rsc {
 namespace {
 
-// Calls add(dx, dy, f) for every force of a level, with its offset from the tip. The forces are those of pixels, if any; for smooth
-// periodic flats those of contacts, which lie within one period, and of points that attract without contact.
+// Calls add(dx, dy, f) for every force of a level, with its offset from the tip. The forces are
+// those of pixels, if any; for smooth periodic flats those of contacts, which lie within one
+// period, and of points that attract without contact.
 template <class Add>
 void for_each_force(const Indenter& indenter, const Level& level, Add add) {
     const LevelPixels& pixels = level.pixels;
     const bool by_contacts = indenter.period.finite() && indenter.shape->flat();
     for (std::size_t k = 0; k < pixels.index.size() && !by_contacts; ++k)
-        add(pixels.x(k) - indenter.x0, pixels.y(k) - indenter.y0, pixels.pressure[k] * pixels.dx * pixels.dy);
+        add(pixels.x(k) - indenter.x0, pixels.y(k) - indenter.y0,
+            pixels.pressure[k] * pixels.dx * pixels.dy);
     for (const std::int32_t k : pixels.cohesive)
-        add(pixels.x_of(k) - indenter.x0, pixels.y_of(k) - indenter.y0, pixels.tension * pixels.dx * pixels.dy);
+        add(pixels.x_of(k) - indenter.x0, pixels.y_of(k) - indenter.y0,
+            pixels.tension * pixels.dx * pixels.dy);
     if (!by_contacts && !(pixels.index.empty() && pixels.cohesive.empty())) return;
     const LevelTractions& t = level.tractions;  // also of asperities that attract before contact
-    for (std::size_t k = 0; k < t.x.size(); ++k) add(t.x[k] - indenter.x0, t.y[k] - indenter.y0, t.pressed[k] + t.pulled[k]);
-    // The pressure is a sum of those of flat punches on all spots since the first touch at the summit. If the centre of the spot has moved
-    // in proportion to u, and the force is ~ u^(3/2), the force acts at 3/5 of the way.
+    for (std::size_t k = 0; k < t.x.size(); ++k)
+        add(t.x[k] - indenter.x0, t.y[k] - indenter.y0, t.pressed[k] + t.pulled[k]);
+    // The pressure is a sum of those of flat punches on all spots since the first touch at the
+    // summit. If the centre of the spot has moved in proportion to u, and the force is ~ u^(3/2),
+    // the force acts at 3/5 of the way.
     constexpr double way = 0.6;
     for (std::size_t k = 0; k < level.f.size() && t.x.empty(); ++k) {
         double x = level.x[k], y = level.y[k];
-        if (!level.spots.empty()) x += way * (level.spots[k].x - x), y += way * (level.spots[k].y - y);
+        if (!level.spots.empty())
+            x += way * (level.spots[k].x - x), y += way * (level.spots[k].y - y);
         add(x - indenter.x0, y - indenter.y0, level.f[k]);
     }
 }

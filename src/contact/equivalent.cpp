@@ -1,12 +1,13 @@
 #include "contact/equivalent.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 namespace rsc {
 namespace {
 
 [[noreturn]] void refuse(const std::string& what, int body, const std::string& expected) {
-    throw Error(Failure::bad_input, what + " of body " + std::to_string(body + 1) + " must be " + expected);
+    throw Error(Failure::bad_input,
+                what + " of body " + std::to_string(body + 1) + " must be " + expected);
 }
 
 }  // namespace
@@ -18,7 +19,9 @@ double equivalent_modulus(const double (&E)[2], const double (&nu)[2]) {
         if (!(nu[i] >= -1 && nu[i] <= 0.5)) refuse("Poisson's ratio", i, "between -1 and 0.5");
         compliance += (1 - nu[i] * nu[i]) / E[i];  // 0 for E = Infinity
     }
-    if (!(compliance > 0)) throw Error(Failure::bad_input, "both bodies are rigid: at least one modulus E must be finite");
+    if (!(compliance > 0))
+        throw Error(Failure::bad_input,
+                    "both bodies are rigid: at least one modulus E must be finite");
     return 1 / compliance;
 }
 

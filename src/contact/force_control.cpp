@@ -1,29 +1,33 @@
 // Force control: solves N(Z0) = N for the separation Z0.
 
+#include "base/error.hpp"
+#include "base/format.hpp"
 #include "contact/contact.hpp"
-#include "error.hpp"
-#include "format.hpp"
 
 namespace rsc {
 namespace {
 
-constexpr double kUnresolved = 1e-6;  // accepted relative error of the force due to rounding of the separation
-constexpr double kFarAbove = 100;     // relative to the requested force
-constexpr int kPasses = 2;            // number of failures after which only full solves are used
+constexpr double kUnresolved =
+    1e-6;  // accepted relative error of the force due to rounding of the separation
+constexpr double kFarAbove = 100;  // relative to the requested force
+constexpr int kPasses = 2;         // number of failures after which only full solves are used
 
-// Evaluation of a level at z: it is the solution (or failed), or lies above it; `next` is the next separation by Newton's method,
+// Evaluation of a level at z: it is the solution (or failed), or lies above it; `next` is the next
+// separation by Newton's method,
 // -Infinity: none.
 struct Verdict {
     bool found, above;
     double next;
 };
 
-// Bracketed Newton's method with the slopes of levels; a root finder without slopes takes about twice as many levels. It first uses
-// intermediate levels (pass()), the last of which settle() completes; if this fails, only full solves. `look` computes the level at a
-// separation, intermediate or full; `settle` completes an intermediate level; `judge` evaluates a level. While no lower bound is known,
-// reach(next, z, high, i) limits the next separation.
+// Bracketed Newton's method with the slopes of levels; a root finder without slopes takes about
+// twice as many levels. It first uses intermediate levels (pass()), the last of which settle()
+// completes; if this fails, only full solves. `look` computes the level at a separation,
+// intermediate or full; `settle` completes an intermediate level; `judge` evaluates a level. While
+// no lower bound is known, reach(next, z, high, i) limits the next separation.
 template <class Look, class Settle, class Judge, class Reach>
-Level search(double begin, double below, double above, int most, Look&& look, Settle&& settle, Judge&& judge, Reach&& reach, bool& stuck) {
+Level search(double begin, double below, double above, int most, Look&& look, Settle&& settle,
+             Judge&& judge, Reach&& reach, bool& stuck) {
     Level level;
     std::int32_t iterations = 0;
     std::int64_t products = 0;
@@ -84,7 +88,8 @@ Level Contact::at_separation(double Z0) {
 
 Level Contact::at_force(double N) {
     if (!(N > 0 || pulls()) || !std::isfinite(N))
-        throw Error(Failure::bad_input, pulls() ? "the force must be finite" : "the force must be positive and finite");
+        throw Error(Failure::bad_input,
+                    pulls() ? "the force must be finite" : "the force must be positive and finite");
     return in_steps(force_, N, &Contact::to_force);
 }
 
@@ -105,7 +110,8 @@ Level Contact::in_steps(double from, double to, Level (Contact::*reach)(double))
         for (double k = 1; k <= steps; ++k) {
             time_ = k < steps ? start + k / steps * (end - start) : end;
             level = (this->*reach)(k < steps ? from + k / steps * (to - from) : to);
-            level.iterations = iterations += level.iterations, level.products = products += level.products;
+            level.iterations = iterations += level.iterations,
+            level.products = products += level.products;
             if (level.status == LevelStatus::not_converged) break;
         }
     } catch (...) {
@@ -136,12 +142,16 @@ void Contact::finish(Level& level) {
         Level nothing;
         nothing.separation = level.separation;
         nothing.force = nothing.area = kNotComputed;
-        nothing.residual = std::isfinite(level.residual) ? level.residual : std::numeric_limits<double>::max();
-        nothing.candidates = level.candidates, nothing.iterations = level.iterations, nothing.products = level.products;
-        nothing.status = level.status, nothing.method = level.method, nothing.fallback = level.fallback;
+        nothing.residual =
+            std::isfinite(level.residual) ? level.residual : std::numeric_limits<double>::max();
+        nothing.candidates = level.candidates, nothing.iterations = level.iterations,
+        nothing.products = level.products;
+        nothing.status = level.status, nothing.method = level.method,
+        nothing.fallback = level.fallback;
         level = std::move(nothing);
     }
-    if (!converged && level.fallback != Fallback::held) level.force_error_expected = level.area_error_expected = kNotComputed;
+    if (!converged && level.fallback != Fallback::held)
+        level.force_error_expected = level.area_error_expected = kNotComputed;
     if (relaxes()) level.time = time_;
     last_force_ = converged ? level.force : 0.0;
     if (const Period& period = indenter().period; period.finite()) {
@@ -153,7 +163,9 @@ void Contact::finish(Level& level) {
 void Contact::set_time(double time) {
     if (!std::isfinite(time)) throw Error(Failure::bad_input, "the time must be finite");
     if (relaxes() && accepted_ && time < *accepted_)
-        throw Error(Failure::bad_input, format("a time of %.9g is earlier than that of the last level, %.9g", time, *accepted_));
+        throw Error(Failure::bad_input,
+                    format("a time of %.9g is earlier than that of the last level, %.9g", time,
+                           *accepted_));
     time_ = time;
 }
 
@@ -163,7 +175,8 @@ std::vector<double> Contact::last_accepted() const {
 }
 
 std::span<const double> Contact::recall_accepted(std::span<const double> memory) {
-    if (memory.size() < 3) throw Error(Failure::bad_input, "the state does not belong to a body that relaxes");
+    if (memory.size() < 3)
+        throw Error(Failure::bad_input, "the state does not belong to a body that relaxes");
     accepted_.reset();
     if (std::isfinite(memory[0])) accepted_ = memory[0];
     time_ = accepted_.value_or(0.0), separation_ = memory[1], force_ = memory[2];
@@ -175,8 +188,8 @@ double Contact::slope() {
     return S / (1 - shift() * S);
 }
 
-// Solves z + shift() N(z) = Z0, where z is the separation of solve(). The left side increases with z and is convex as long as N is a
-// function of Z0.
+// Solves z + shift() N(z) = Z0, where z is the separation of solve(). The left side increases with
+// z and is convex as long as N is a function of Z0.
 Level Contact::solve_between_planes(double Z0) {
     const double c = shift();
     if (Z0 >= first_touch()) return solve(Z0);
@@ -192,9 +205,11 @@ Level Contact::solve_between_planes(double Z0) {
         miss = z + c * level.force - Z0;
         last_ = {z, level.force, rise};
         // An error of Z0 corresponds to an error of the force of -rise/steep times as much.
-        const double rounding = 4 * std::numeric_limits<double>::epsilon() * (std::abs(Z0) + std::abs(z));
-        const bool found = level.status == LevelStatus::not_converged || std::abs(miss) <= rounding ||
-                           (steep > 0 && std::abs(miss * rise) <= 0.1 * tolerance() * level.force * steep);
+        const double rounding =
+            4 * std::numeric_limits<double>::epsilon() * (std::abs(Z0) + std::abs(z));
+        const bool found =
+            level.status == LevelStatus::not_converged || std::abs(miss) <= rounding ||
+            (steep > 0 && std::abs(miss * rise) <= 0.1 * tolerance() * level.force * steep);
         return Verdict{found, miss > 0, steep > 0 ? z - miss / steep : -kInfinity};
     };
     const auto reach = [&](double next, double z, double above, int) {
@@ -203,11 +218,14 @@ Level Contact::solve_between_planes(double Z0) {
     constexpr int most = 60;
     bool stuck;
     Level level = search(
-        begin, -kInfinity, Z0, most, [&](double z, bool passing) { return passing ? pass(z) : solve(z); },
+        begin, -kInfinity, Z0, most,
+        [&](double z, bool passing) { return passing ? pass(z) : solve(z); },
         [&](const Level& passed) { return settle(passed); }, judge, reach, stuck);
     if (stuck) level.status = LevelStatus::not_converged;
-    // Without a solution the search goes on to forces without bounds: a level far from Z0 is no state of it.
-    if (level.status == LevelStatus::not_converged) level.residual = std::max(level.residual, std::abs(miss) / (first_touch() - Z0));
+    // Without a solution the search goes on to forces without bounds: a level far from Z0 is no
+    // state of it.
+    if (level.status == LevelStatus::not_converged)
+        level.residual = std::max(level.residual, std::abs(miss) / (first_touch() - Z0));
     level.separation = Z0;
     return level;
 }
@@ -216,50 +234,62 @@ Level Contact::solve_between_planes(double Z0) {
 Level Contact::to_force(double N) {
     begin();
     double above = first_touch();  // upper bound of the separation
-    if (!std::isfinite(above)) throw Error(Failure::bad_input, "no asperity lies under the indenter, so that it cannot carry a force");
+    if (!std::isfinite(above))
+        throw Error(Failure::bad_input,
+                    "no asperity lies under the indenter, so that it cannot carry a force");
     if (std::optional<Level> level = solve_under(N)) {
         finish(*level);
         return std::move(*level);
     }
     double below = closed();  // lower bound of the separation
     // Initial depth: the force cannot be reached before half of it.
-    double depth = std::numeric_limits<double>::epsilon() * std::max(std::abs(above), std::numeric_limits<double>::min());
+    double depth = std::numeric_limits<double>::epsilon() *
+                   std::max(std::abs(above), std::numeric_limits<double>::min());
     const std::optional<double> guess = last_force_ > 0 ? std::nullopt : guessed_separation(N);
-    const std::optional<double> likely = last_force_ > 0.5 * N && last_force_ < 2 * N ? likely_separation() : guess;
+    const std::optional<double> likely =
+        last_force_ > 0.5 * N && last_force_ < 2 * N ? likely_separation() : guess;
     if (likely && *likely < above)
         depth = above - *likely;
     else
         while (force_at_most(depth) < N) depth *= 2;
     double Z0 = guess && *guess < above ? *guess : above - 0.25 * depth;
-    // Starts from the last level unless it failed, had no contact, or is so much deeper that a start from first touch takes fewer steps.
+    // Starts from the last level unless it failed, had no contact, or is so much deeper that a
+    // start from first touch takes fewer steps.
     if (last_force_ > 0 && last_force_ < kFarAbove * N) {
         Z0 = likely_separation().value_or(Z0);
         if (last_ && last_->force > 0)
             Z0 = last_->separation + std::log(N / last_->force) * last_->force / last_->slope;
-        else if (rise_ < 0 && levels_since_move() > 0)  // otherwise it is extrapolated to the new place, with the change of the force
+        else if (
+            rise_ < 0 &&
+            levels_since_move() >
+                0)  // otherwise it is extrapolated to the new place, with the change of the force
             Z0 += std::log(N / last_force_) / rise_;
         if (!(Z0 < above)) Z0 = above - 0.25 * depth;
     }
     if (!(Z0 > below)) Z0 = 0.5 * (above + below);
     const auto judge = [&](const Level& level, double z) {
         const double miss = level.force / N - 1;
-        const bool found = std::abs(miss) <= tolerance() || level.status == LevelStatus::not_converged;
+        const bool found =
+            std::abs(miss) <= tolerance() || level.status == LevelStatus::not_converged;
         if (found) return Verdict{true, false, z};
         if (!(level.force > 0)) return Verdict{false, true, -kInfinity};
         rise_ = slope() / level.force;
         return Verdict{false, miss < 0, z - std::log1p(miss) / rise_};
     };
     const auto reach = [&](double next, double z, double highest, int i) {
-        const double furthest = highest - 2 * (levels_since_move() > 1 ? highest - z : 0.0) - std::ldexp(depth, i);
+        const double furthest =
+            highest - 2 * (levels_since_move() > 1 ? highest - z : 0.0) - std::ldexp(depth, i);
         return std::isfinite(next) && next < highest ? std::max(next, furthest) : furthest;
     };
     constexpr int most = 200;
     bool stuck;
     Level level = search(
-        Z0, below, above, most, [&](double z, bool passing) { return passing ? pass(z) : solve(z); },
+        Z0, below, above, most,
+        [&](double z, bool passing) { return passing ? pass(z) : solve(z); },
         [&](const Level& passed) { return settle(passed); }, judge, reach, stuck);
     if (stuck) {
-        // Z0 is exact to its last bit. A larger error of the force is due to a jump of N(Z0): no separation has the force N.
+        // Z0 is exact to its last bit. A larger error of the force is due to a jump of N(Z0): no
+        // separation has the force N.
         Z0 = level.separation;
         const double ulp = std::nextafter(std::abs(Z0), kInfinity) - std::abs(Z0);
         const double resolved = 2 * ulp * std::abs(slope()) + force_at_most(2 * ulp);
@@ -267,7 +297,8 @@ Level Contact::to_force(double N) {
             level.status = LevelStatus::not_converged, level.fallback = Fallback::jump;
         else if (std::abs(level.force / N - 1) > kUnresolved)  // N is proportional to depth^(3/2)
             throw Error(Failure::bad_input,
-                        format("a force of %.9g is too small for the resolution of the separation: near %.9g the smallest possible "
+                        format("a force of %.9g is too small for the resolution of the separation: "
+                               "near %.9g the smallest possible "
                                "force is %.9g",
                                N, Z0, force_at_most(1.5 * ulp / kUnresolved)));
     }

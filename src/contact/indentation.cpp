@@ -1,14 +1,16 @@
 #include "contact/indentation.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 namespace rsc {
 
 void require_sound(const Indenter& indenter) {
-    if (!(indenter.E_star > 0) || std::isinf(indenter.E_star)) throw Error(Failure::bad_input, "E* must be positive and finite");
+    if (!(indenter.E_star > 0) || std::isinf(indenter.E_star))
+        throw Error(Failure::bad_input, "E* must be positive and finite");
     if (!indenter.shape) throw Error(Failure::bad_input, "the indenter has no shape");
     if (indenter.period.finite() && !indenter.shape->repeats(indenter.period.x, indenter.period.y))
-        throw Error(Failure::bad_input, "periodic boundaries require two flats: both radii must be Infinity");
+        throw Error(Failure::bad_input,
+                    "periodic boundaries require two flats: both radii must be Infinity");
 }
 
 }  // namespace rsc

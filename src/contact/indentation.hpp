@@ -1,17 +1,18 @@
 // A rough surface pressed by an indenter: the problem (paper, section 4).
 #pragma once
 
-#include "contact/indenter/shape.hpp"
-#include "contact/law/relaxation.hpp"
 #include "contact/period.hpp"
-#include "rough/asperities.hpp"
+#include "physics/indenter/shape.hpp"
+#include "physics/relaxation/relaxation.hpp"
+#include "surface/asperities.hpp"
 
 namespace rsc {
 
 // Enumerations and their names in namelists and result files, in the same order.
 enum class Method : std::int32_t { automatic, dgesv, direct, mesh };
 inline constexpr std::array kMethodNames = {"auto", "dgesv", "direct", "mesh"};
-// asperity_contact.hpp, element_contact.hpp; automatic: boundary elements for heights read from files, asperities for synthetic surfaces.
+// asperity_contact.hpp, element_contact.hpp; automatic: boundary elements for heights read from
+// files, asperities for synthetic surfaces.
 enum class Model : std::int32_t { asperities, elements, automatic };
 inline constexpr std::array kModelNames = {"asperities", "elements", "auto"};
 enum class Selection { overlap, paper };
@@ -21,10 +22,12 @@ inline constexpr std::array kInteractionNames = {"point", "none"};
 enum class LawKind { hertz, elliptic, fourth_order };  // law/law.hpp
 inline constexpr std::array kLawNames = {"hertz", "elliptic", "fourth_order"};
 
-// Layers of body 1, from the top, bonded to each other and to a half-space of E, nu (interaction/layers.hpp).
+// Layers of body 1, from the top, bonded to each other and to a half-space of E, nu
+// (interaction/layers.hpp).
 inline constexpr int kMostLayers = 8;
 struct Layer {
-    double thickness = 0, E = 0, nu = 0;  // [length], Young's modulus [force/length^2], Poisson's ratio
+    double thickness = 0, E = 0,
+           nu = 0;  // [length], Young's modulus [force/length^2], Poisson's ratio
     friend bool operator==(const Layer&, const Layer&) = default;
 };
 struct LayeredBody {
@@ -34,35 +37,41 @@ struct LayeredBody {
     friend bool operator==(const LayeredBody&, const LayeredBody&) = default;
 };
 
-// Equivalent problem: elastic half-space E_star (with layers, that of the top layer) and a rigid indenter with its tip above (x0, y0).
+// Equivalent problem: elastic half-space E_star (with layers, that of the top layer) and a rigid
+// indenter with its tip above (x0, y0).
 struct Indenter {
     double E_star = 0;  // [force/length^2]
     Shape shape;        // a number is the radius of a sphere, Infinity a flat
     double x0 = 0, y0 = 0;
-    Period period = {};  // finite: surface and contact are periodic (two flats, boundary='periodic')
+    Period period =
+        {};  // finite: surface and contact are periodic (two flats, boundary='periodic')
     LayeredBody layers = {};
-    // `repeats`: finite if the surface is periodic although the bodies are not, for example a ball on a synthetic surface. The surface ends
-    // at its border until the tip is moved; then `around` is set to it, and the image of each point nearest to the tip is used.
+    // `repeats`: finite if the surface is periodic although the bodies are not, for example a ball
+    // on a synthetic surface. The surface ends at its border until the tip is moved; then `around`
+    // is set to it, and the image of each point nearest to the tip is used.
     Period repeats = {}, around = {};
 
     void move(double x, double y) { x0 = x, y0 = y, around = repeats; }
 
-    Vec2 from_tip(double x, double y) const { return {around.nearest_x(x - x0), around.nearest_y(y - y0)}; }
+    Vec2 from_tip(double x, double y) const {
+        return {around.nearest_x(x - x0), around.nearest_y(y - y0)};
+    }
     // The image of a point that is nearest to the tip.
     Vec2 image(double x, double y) const {
         const Vec2 d = from_tip(x, y);
         return {x + (d.x - (x - x0)), y + (d.y - (y - y0))};
     }
 
-    // Height z of a point minus the indenter's face above it, z - s; -Infinity outside the indenter. The penetration without interaction is
-    // g0 = clearance - Z0.
+    // Height z of a point minus the indenter's face above it, z - s; -Infinity outside the
+    // indenter. The penetration without interaction is g0 = clearance - Z0.
     double clearance(double x, double y, double z) const {
         const Vec2 d = from_tip(x, y);
         return z - shape->height(d.x, d.y);
     }
 };
 
-// Throws Error(bad_input) unless E* is positive and finite and there is a shape, which must be periodic if the period is finite.
+// Throws Error(bad_input) unless E* is positive and finite and there is a shape, which must be
+// periodic if the period is finite.
 void require_sound(const Indenter& indenter);
 
 // Rectangle of a free surface.
@@ -71,7 +80,8 @@ struct Rectangle {
     bool known() const { return Lx > 0 && Ly > 0; }
 };
 
-// Pressures are limited to H = H0 sqrt(1 + length/r), where r is the radius of an asperity (law/hardness.hpp).
+// Pressures are limited to H = H0 sqrt(1 + length/r), where r is the radius of an asperity
+// (law/hardness.hpp).
 struct Hardness {
     double H0 = __builtin_huge_val();  // [force/length^2]; Infinity: elastic
     double length = 0;                 // length of the size effect [length]
@@ -85,12 +95,15 @@ struct Adhesion {
 
 // Points of a measured map that asperities do not represent.
 struct MapMarks {
-    std::vector<std::array<double, 3>> border;  // x, y, z of the outermost points of the map, where no summits are found [length]
-    std::vector<std::array<double, 2>> spikes;  // x, y of the spikes one point wide (rough/defects.hpp) [length]
-    double reach = 0;                           // a grid step [length]
+    std::vector<std::array<double, 3>>
+        border;  // x, y, z of the outermost points of the map, where no summits are found [length]
+    std::vector<std::array<double, 2>>
+        spikes;        // x, y of the spikes one point wide (surface/defects.hpp) [length]
+    double reach = 0;  // a grid step [length]
 };
 
-// Heights of a surface at points of the plane, -Infinity outside; empty if only its summits are known.
+// Heights of a surface at points of the plane, -Infinity outside; empty if only its summits are
+// known.
 using SurfaceHeights = std::function<std::vector<double>(const std::vector<Vec2>&)>;
 
 struct SolverOptions {
@@ -105,16 +118,25 @@ struct SolverOptions {
     double sigma = 0;         // rms height [length], the unit of delta0 and of selection='paper'
     double tolerance = 1e-6;  // relative residual of F - C<G0 - B F>^(3/2)
     int max_iterations = 100;
-    double delta0 = 0.01;        // initial regularisation of the paper's method, in units of sigma
-    double delta_cut = 5.0;      // the paper's method divides delta by this each iteration (the paper: 2 to 10)
-    double mean_spacing = 0;     // <d> = 1/sqrt(D), for counting contacts with a > <d>/4 or near the border; 0: not counted
+    double delta0 = 0.01;  // initial regularisation of the paper's method, in units of sigma
+    double delta_cut =
+        5.0;  // the paper's method divides delta by this each iteration (the paper: 2 to 10)
+    double mean_spacing =
+        // <d> = 1/sqrt(D), for counting contacts with a > <d>/4 or near the border; 0: not counted
+        0;
     double points_per_wave = 0;  // grid points in the shortest wave of the surface; 0: unknown
     double grid_step = 0;        // of the grid on which the summits were found [length]; 0: unknown
-    double rms_slope = 0;        // rms slope sqrt(2 m2) of the surface, for comparison with slopes of the indenter; 0: unknown
-    Rectangle surface = {};      // the free surface, for counting contacts near its border; not counted if unknown
-    bool measured = false;       // heights of either body from a file or a caller, for which expected errors are larger
+    double rms_slope =
+        // rms slope sqrt(2 m2) of the surface, for comparison with slopes of the indenter; 0:
+        // unknown
+        0;
+    Rectangle surface =
+        {};  // the free surface, for counting contacts near its border; not counted if unknown
+    bool measured =
+        // heights of either body from a file or a caller, for which expected errors are larger
+        false;
     std::shared_ptr<const MapMarks> marks = nullptr;  // marks of a measured map, or null
-    SurfaceHeights heights = {};                      // of the surface between its summits, for indenters with an edge
+    SurfaceHeights heights = {};  // of the surface between its summits, for indenters with an edge
 };
 
 }  // namespace rsc

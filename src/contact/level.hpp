@@ -1,74 +1,107 @@
-// Level: the solution at one separation, returned by contact models and used by observations, files and libraries.
+// Level: the solution at one separation, returned by contact models and used by observations, files
+// and libraries.
 #pragma once
 
+#include "asperities/spots.hpp"
 #include "contact/indentation.hpp"
-#include "contact/spots.hpp"
 
 namespace rsc {
 
-// Outcome of a level, with the values of `status` in the result file. If several apply, the most serious is stored, in the order converged,
-// overlapping, not_unique, out_of_validity, not_converged.
-enum class LevelStatus : std::int32_t { converged = 0, out_of_validity = 1, overlapping = 2, not_unique = 3, not_converged = 4 };
-inline constexpr std::array kLevelStatusNames = {"converged", "out_of_validity", "overlapping", "not_unique", "not_converged"};
+// Outcome of a level, with the values of `status` in the result file. If several apply, the most
+// serious is stored, in the order converged, overlapping, not_unique, out_of_validity,
+// not_converged.
+enum class LevelStatus : std::int32_t {
+    converged = 0,
+    out_of_validity = 1,
+    overlapping = 2,
+    not_unique = 3,
+    not_converged = 4
+};
+inline constexpr std::array kLevelStatusNames = {"converged", "out_of_validity", "overlapping",
+                                                 "not_unique", "not_converged"};
 constexpr LevelStatus graver(LevelStatus a, LevelStatus b) {
     constexpr int seriousness[] = {0, 3, 1, 2, 4};
-    return seriousness[static_cast<std::size_t>(a)] < seriousness[static_cast<std::size_t>(b)] ? b : a;
+    return seriousness[static_cast<std::size_t>(a)] < seriousness[static_cast<std::size_t>(b)] ? b
+                                                                                               : a;
 }
 
-// Reason why a level was solved by another method than requested, with the values of `fallback` in the result file.
+// Reason why a level was solved by another method than requested, with the values of `fallback` in
+// the result file.
 enum class Fallback : std::int32_t {
     none = 0,
     no_interaction = 1,       // mesh: there is no interaction
     dgesv_not_converged = 2,  // the paper's iteration did not reach the tolerance in max_iterations
     dgesv_singular = 3,       // its matrix was singular
-    not_unique = 4,           // it converged, but the solution is not proved unique, and the default method was used
-    held = 5,                 // adhesion: no state has the requested force; the level is the last stable state, of the smallest force
-    jump = 6,                 // the force jumps over the requested one at a separation; the level is the state at one side of the jump
+    not_unique =
+        4,  // it converged, but the solution is not proved unique, and the default method was used
+    held =
+        // adhesion: no state has the requested force; the level is the last stable state, of the
+    // smallest force
+    5,
+    jump =
+        // the force jumps over the requested one at a separation; the level is the state at one
+    // side of the jump
+    6,
 };
-inline constexpr std::array kFallbackNames = {"none", "no_interaction", "dgesv_not_converged", "dgesv_singular", "not_unique", "held",
-                                              "jump"};
+inline constexpr std::array kFallbackNames = {
+    "none", "no_interaction", "dgesv_not_converged", "dgesv_singular", "not_unique", "held",
+    "jump"};
 // No metal is elastic at mean pressures above this share of E*.
-inline constexpr double kExtreme = 0.1, kExtremeShare = 0.01;  // reported above this share of the contact area
+inline constexpr double kExtreme = 0.1,
+                        kExtremeShare = 0.01;  // reported above this share of the contact area
 
 inline constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
 
-// Scalars of a level, written to checkpoints as they are. One row of the table in observe/quantities.cpp declares each to files, screen and
-// libraries.
+// Scalars of a level, written to checkpoints as they are. One row of the table in
+// observe/quantities.cpp declares each to files, screen and libraries.
 struct LevelValues {
-    double separation = 0;                     // Z0 [length]
-    double force = 0;                          // N = sum f [force]
-    double area = 0;                           // A = sum pi a^2 (hertz), or the area of the union of elliptic spots [length^2]
-    double area_pixels = kNotComputed;         // boundary elements: all pixels under pressure, without border correction [length^2]
-    double pressure = kNotComputed;            // two flats: nominal pressure N/A0 [force/length^2]
-    double area_fraction = kNotComputed;       // two flats: A/A0
-    double residual = 0;                       // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
-    double pixels_per_contact = kNotComputed;  // boundary elements: median pixels per contact, weighted by area
-    // Expected relative errors of N and A: of asperities relative to boundary elements (expected_error.hpp), of these relative to finer
-    // grids.
+    double separation = 0;  // Z0 [length]
+    double force = 0;       // N = sum f [force]
+    double area =
+        0;  // A = sum pi a^2 (hertz), or the area of the union of elliptic spots [length^2]
+    double area_pixels =
+        // boundary elements: all pixels under pressure, without border correction [length^2]
+        kNotComputed;
+    double pressure = kNotComputed;       // two flats: nominal pressure N/A0 [force/length^2]
+    double area_fraction = kNotComputed;  // two flats: A/A0
+    double residual = 0;  // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
+    double pixels_per_contact =
+        kNotComputed;  // boundary elements: median pixels per contact, weighted by area
+    // Expected relative errors of N and A: of asperities relative to boundary elements
+    // (expected_error.hpp), of these relative to finer grids.
     double force_error_expected = kNotComputed, area_error_expected = kNotComputed;
-    std::int32_t error_cause = 0;        // asperities: predictor that increases it most (expected_error.hpp); 0: none
-    double slope_ratio = kNotComputed;   // asperities: largest slope of the indenter at a contact over the rms slope of the surface
+    std::int32_t error_cause =
+        0;  // asperities: predictor that increases it most (expected_error.hpp); 0: none
+    double slope_ratio =
+        // asperities: largest slope of the indenter at a contact over the rms slope of the surface
+        kNotComputed;
     double filled_share = kNotComputed;  // share of the contact area in holes of a measured map
     // Set by add_answers (contact/answers.hpp):
-    double stiffness = kNotComputed;                            // dN/dZ0, negative [force/length]
-    double energy = kNotComputed;                               // elastic energy W, dW/dZ0 = -N [force length]
-    double lateral_x = kNotComputed, lateral_y = kNotComputed;  // lateral force on the indenter, -dW/d(x0, y0) [force]
-    double moment_x = kNotComputed, moment_y = kNotComputed;    // moment of the contact forces about the tip [force length]
-    double conductance_length = kNotComputed;                   // -2 (dN/dZ0)/E* [length]
-    double resistance = kNotComputed;                           // constriction resistance; NaN without contact or resistivities
-    std::int64_t products = 0;                                  // products with B (matrix-free methods) or linear solves (dgesv)
-    std::int64_t overlapping_pairs = 0;                         // pairs with d < a_i + a_j
-    std::int64_t beyond_law = 0;                                // contacts beyond the range of validity of the law
-    double extreme_area_fraction = 0;                           // share of the contact area whose mean pressure exceeds kExtreme E*
-    double plastic_work = kNotComputed;                         // plastic work since the first level [force length]
+    double stiffness = kNotComputed;  // dN/dZ0, negative [force/length]
+    double energy = kNotComputed;     // elastic energy W, dW/dZ0 = -N [force length]
+    double lateral_x = kNotComputed,
+           lateral_y = kNotComputed;  // lateral force on the indenter, -dW/d(x0, y0) [force]
+    double moment_x = kNotComputed,
+           moment_y = kNotComputed;  // moment of the contact forces about the tip [force length]
+    double conductance_length = kNotComputed;  // -2 (dN/dZ0)/E* [length]
+    double resistance =
+        kNotComputed;           // constriction resistance; NaN without contact or resistivities
+    std::int64_t products = 0;  // products with B (matrix-free methods) or linear solves (dgesv)
+    std::int64_t overlapping_pairs = 0;  // pairs with d < a_i + a_j
+    std::int64_t beyond_law = 0;         // contacts beyond the range of validity of the law
+    double extreme_area_fraction =
+        0;  // share of the contact area whose mean pressure exceeds kExtreme E*
+    double plastic_work = kNotComputed;  // plastic work since the first level [force length]
     // Adhesion:
-    double least_force = kNotComputed;          // smallest force since the beginning [force]
-    double cohesive_area = kNotComputed;        // area of the points that attract without contact [length^2]
-    double cohesive_resolution = kNotComputed;  // boundary elements: ratio of z0 to the side of a pixel
-    std::int32_t jumps = 0;                     // number of jumps since the previous level
-    std::int32_t plastic_contacts = 0;          // yielding contacts at this level
-    double time = kNotComputed;                 // time of the level, relaxing bodies [time]
-    double energy_lost = kNotComputed;          // energy dissipated since the first level [force length]
+    double least_force = kNotComputed;  // smallest force since the beginning [force]
+    double cohesive_area =
+        kNotComputed;  // area of the points that attract without contact [length^2]
+    double cohesive_resolution =
+        kNotComputed;                   // boundary elements: ratio of z0 to the side of a pixel
+    std::int32_t jumps = 0;             // number of jumps since the previous level
+    std::int32_t plastic_contacts = 0;  // yielding contacts at this level
+    double time = kNotComputed;         // time of the level, relaxing bodies [time]
+    double energy_lost = kNotComputed;  // energy dissipated since the first level [force length]
     std::int32_t contacts = 0;
     std::int32_t candidates = 0;  // asperities or pixels passed to the solver
     std::int32_t iterations = 0;  // Newton steps
@@ -78,8 +111,12 @@ struct LevelValues {
     std::int32_t large_contacts = 0;     // contacts with a > <d>/4
     // Layers, asperities: share of the contacts with a > h/5, h the top layer's thickness.
     double wide_contacts = kNotComputed;
-    std::int32_t edge_contacts = 0;  // contacts within <d> of the border of a free surface, or crossing it
-    double nominal_area = 0;         // smallest disc about the tip that contains all contacts, at most the area of the surface [length^2]
+    std::int32_t edge_contacts =
+        0;  // contacts within <d> of the border of a free surface, or crossing it
+    double nominal_area =
+        // smallest disc about the tip that contains all contacts, at most the area of the surface
+        // [length^2]
+        0;
     // Of the coarse map (observe/map.hpp):
     std::int32_t crowded_cells = 0;  // cells with an area fraction above pi/16
     std::int32_t outside_map = 0;    // contacts outside the map
@@ -87,14 +124,15 @@ struct LevelValues {
 
 // Boundary elements: pixels under pressure, row by row. Empty for asperities.
 struct LevelPixels {
-    int columns = 0;                     // columns of the map
-    double x0 = 0, y0 = 0;               // centre of the first pixel of the map [length]
-    double dx = 0, dy = 0;               // sides of a pixel [length]
-    std::vector<std::int32_t> index;     // row * columns + column, 0-based
-    std::vector<std::int32_t> contact;   // index of the contact to which it belongs
-    std::vector<double> pressure;        // [force/length^2]
-    std::vector<std::int32_t> cohesive;  // adhesion: pixels that are attracted without contact, row by row
-    double tension = 0;                  // their traction [force/length^2]
+    int columns = 0;                    // columns of the map
+    double x0 = 0, y0 = 0;              // centre of the first pixel of the map [length]
+    double dx = 0, dy = 0;              // sides of a pixel [length]
+    std::vector<std::int32_t> index;    // row * columns + column, 0-based
+    std::vector<std::int32_t> contact;  // index of the contact to which it belongs
+    std::vector<double> pressure;       // [force/length^2]
+    std::vector<std::int32_t>
+        cohesive;        // adhesion: pixels that are attracted without contact, row by row
+    double tension = 0;  // their traction [force/length^2]
     double x_of(std::int32_t pixel) const { return x0 + pixel % columns * dx; }
     double y_of(std::int32_t pixel) const { return y0 + pixel / columns * dy; }
     double x(std::size_t k) const { return x_of(index[k]); }
@@ -107,29 +145,40 @@ struct ResidualProfile {
     double dx = 0, dy = 0;            // sides of a pixel [length]
 };
 
-// Adhesive asperities, in contact or attracted before it: the traction of each is a Hertz pressure of the force `pressed` over the contact
-// radius a, and a tension of the force `pulled` (negative) up to the radius c >= a: that of a flat punch if c = a (JKR), otherwise that of a
-// cohesive ring (contact/deflection.hpp). Empty without adhesion.
+// Adhesive asperities, in contact or attracted before it: the traction of each is a Hertz pressure
+// of the force `pressed` over the contact radius a, and a tension of the force `pulled` (negative)
+// up to the radius c >= a: that of a flat punch if c = a (JKR), otherwise that of a cohesive ring
+// (contact/deflection.hpp). Empty without adhesion.
 struct LevelTractions {
     std::vector<double> x, y, a, c, pressed, pulled;
 };
 
 // A level with its contacts, by increasing index: spots of asperities, or connected sets of pixels.
 struct Level : LevelValues {
-    std::vector<int> asperity;  // index of the asperity (0-based), or of the pixel of the spot with the highest pressure
-    std::vector<double> x, y;   // position of the summit, or centroid of the pressure [length]
-    std::vector<double> f;      // force [force]
-    std::vector<double> a;  // contact radius: the spot's area is pi a^2; of an ellipse, the root of the product of its semi-axes [length]
+    std::vector<int>
+        // index of the asperity (0-based), or of the pixel of the spot with the highest pressure
+        asperity;
+    std::vector<double> x, y;  // position of the summit, or centroid of the pressure [length]
+    std::vector<double> f;     // force [force]
+    std::vector<double>
+        // contact radius: the spot's area is pi a^2; of an ellipse, the root of the product of its
+        // semi-axes [length]
+        a;
     std::vector<double> u;  // penetration with interaction [length]
     LevelPixels pixels;
     LevelTractions tractions;
-    std::vector<double> own_area;  // area of an elliptic spot not covered by earlier spots; the sum is the area of the union; empty: pi a^2
-    // Laws with elliptic spots: the spots whose union is the contact area; that of a contact within the spot of another one is the other's.
+    std::vector<double>
+        // area of an elliptic spot not covered by earlier spots; the sum is the area of the union;
+        // empty: pi a^2
+        own_area;
+    // Laws with elliptic spots: the spots whose union is the contact area; that of a contact within
+    // the spot of another one is the other's.
     // Empty: circles of radius a.
     std::vector<Spot> spots;
     std::vector<int> yields;  // nonzero if the contact yields (hardness); empty or one per contact
 
-    void add_contact(int index, double x_, double y_, double force_, double radius, double penetration) {
+    void add_contact(int index, double x_, double y_, double force_, double radius,
+                     double penetration) {
         asperity.push_back(index);
         x.push_back(x_), y.push_back(y_);
         f.push_back(force_), a.push_back(radius), u.push_back(penetration);

@@ -1,7 +1,7 @@
 // Periods in two directions.
 #pragma once
 
-#include "std.hpp"
+#include "base/std.hpp"
 
 namespace rsc {
 

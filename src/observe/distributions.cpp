@@ -1,18 +1,20 @@
 #include "observe/distributions.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 namespace rsc {
 namespace {
 
 void add_value(Histogram& h, double value, double weight, double width) {
     const double position = value / width;
-    (position < static_cast<double>(h.weight.size()) ? h.weight[static_cast<std::size_t>(position)] : h.overflow) += weight;
+    (position < static_cast<double>(h.weight.size()) ? h.weight[static_cast<std::size_t>(position)]
+                                                     : h.overflow) += weight;
     double power = weight;
     for (double& sum : h.power) sum += power *= value;
 }
 
-// Adds `area` distributed with the density 2 p / p0^2 on [0, p0], whose cumulative distribution is (p/p0)^2.
+// Adds `area` distributed with the density 2 p / p0^2 on [0, p0], whose cumulative distribution is
+// (p/p0)^2.
 void spread_pressure(Histogram& h, double p0, double area, double width) {
     double below = 0;
     for (std::size_t b = 0; b < h.weight.size() && below < 1; ++b) {
@@ -31,7 +33,8 @@ void spread_pressure(Histogram& h, double p0, double area, double width) {
     }
 }
 
-// Adds the pressures of pixels, each with its area. The number of contacts is the number of independent observations.
+// Adds the pressures of pixels, each with its area. The number of contacts is the number of
+// independent observations.
 void add_pixels(Histogram& h, const Level& level, double width) {
     const LevelPixels& pixels = level.pixels;
     const double area = pixels.dx * pixels.dy;
@@ -63,10 +66,14 @@ std::vector<double> density(const Binned& binned) {
 }  // namespace
 
 PdfBins make_pdf_bins(int bins, double E_star, double sigma, double sqrt_m4, double hardest) {
-    if (bins < 1) bad_input("distributions: the number of bins must be at least 1, not " + std::to_string(bins));
+    if (bins < 1)
+        bad_input("distributions: the number of bins must be at least 1, not " +
+                  std::to_string(bins));
     const double pressure = E_star * std::sqrt(sigma * sqrt_m4), area = sigma / sqrt_m4;
     if (!(pressure > 0) || !std::isfinite(pressure) || !(area > 0) || !std::isfinite(area))
-        bad_input("distributions: E*, the rms height and the curvature scale must be positive and finite");
+        bad_input(
+            "distributions: E*, the rms height and the curvature scale must be positive and "
+            "finite");
     return {bins, std::min(1.2 * pressure, hardest), 10 * area};
 }
 
@@ -81,7 +88,8 @@ Distributions distributions_of(const PdfBins& bins, const Level& level, std::int
         const double p = level.f[k] / area;
         add_value(d.spot_area, area, 1, bins.area_width());
         if (!(p < 0)) add_value(d.mean_pressure, p, 1, bins.mean_pressure_width());
-        if (!std::isnan(level.least_force)) continue;  // with adhesion the pressure within a spot is not Hertzian
+        if (!std::isnan(level.least_force))
+            continue;  // with adhesion the pressure within a spot is not Hertzian
         if (!level.pixels.index.empty()) continue;
         if (k < level.yields.size() && level.yields[k]) {
             add_value(d.pressure, p, area, bins.pressure_width());
@@ -94,13 +102,15 @@ Distributions distributions_of(const PdfBins& bins, const Level& level, std::int
     return d;
 }
 
-// This quantum resolves the powers of small values, and sums over a million realizations remain exact.
+// This quantum resolves the powers of small values, and sums over a million realizations remain
+// exact.
 constexpr int kSumBits = 84;
 
 void add(DistributionSums& sums, const PdfBins& bins, const Distributions& one) {
     DistributionSums term{one.step, {}};
-    for_each_number(one, bins,
-                    [&term](double number, double scale) { term.numbers.push_back(exact_term(number, quantum_of(scale, kSumBits))); });
+    for_each_number(one, bins, [&term](double number, double scale) {
+        term.numbers.push_back(exact_term(number, quantum_of(scale, kSumBits)));
+    });
     add(sums, term);
 }
 
@@ -113,25 +123,29 @@ void add(DistributionSums& sums, const DistributionSums& more) {
     for (std::size_t k = 0; k < sums.numbers.size(); ++k) sums.numbers[k].add(more.numbers[k]);
 }
 
-Distributions rounded(const DistributionSums& sums, const PdfBins& bins, std::int64_t realizations) {
+Distributions rounded(const DistributionSums& sums, const PdfBins& bins,
+                      std::int64_t realizations) {
     Distributions d = no_contacts(bins);
     d.levels = sums.numbers.empty() ? 0 : realizations;
     d.step = sums.step;
     auto next = sums.numbers.begin();
-    if (!sums.numbers.empty()) for_each_number(d, bins, [&next](double& number, double) { number = (next++)->high; });
+    if (!sums.numbers.empty())
+        for_each_number(d, bins, [&next](double& number, double) { number = (next++)->high; });
     return d;
 }
 
 DistributionMoments moments_of(double count, const std::array<double, 4>& power) {
     DistributionMoments m;
     if (!(count > 0)) return m;
-    const double m1 = power[0] / count, m2 = power[1] / count, m3 = power[2] / count, m4 = power[3] / count;
+    const double m1 = power[0] / count, m2 = power[1] / count, m3 = power[2] / count,
+                 m4 = power[3] / count;
     const double variance = std::max(0.0, m2 - m1 * m1);
     m.mean = m1;
     m.deviation = std::sqrt(variance);
     if (variance > 1e-12 * m2) {  // smaller differences are rounding errors
         m.skewness = (m3 - 3 * m1 * m2 + 2 * m1 * m1 * m1) / (variance * m.deviation);
-        m.kurtosis = (m4 - 4 * m1 * m3 + 6 * m1 * m1 * m2 - 3 * m1 * m1 * m1 * m1) / (variance * variance);
+        m.kurtosis =
+            (m4 - 4 * m1 * m3 + 6 * m1 * m1 * m2 - 3 * m1 * m1 * m1 * m1) / (variance * variance);
     }
     return m;
 }
@@ -139,7 +153,8 @@ DistributionMoments moments_of(double count, const std::array<double, 4>& power)
 FittedDistributions fit_distributions(const PdfBins& bins, const Distributions& sum) {
     FittedDistributions out;
     out.sum = sum;
-    const Binned mean_pressure{bins.mean_pressure_width(), sum.mean_pressure.weight, sum.mean_pressure.overflow};
+    const Binned mean_pressure{bins.mean_pressure_width(), sum.mean_pressure.weight,
+                               sum.mean_pressure.overflow};
     const Binned spot_area{bins.area_width(), sum.spot_area.weight, sum.spot_area.overflow};
     const Binned pressure{bins.pressure_width(), sum.pressure.weight, sum.pressure.overflow};
     const double contacts = mean_pressure.total();  // without those under tension
@@ -156,7 +171,8 @@ FittedDistributions fit_distributions(const PdfBins& bins, const Distributions& 
     out.pressure_moments = moments_of(sum.pressure.total, sum.pressure.power);
     if (sum.pressure.squares > 0)
         out.gamma =
-            fit_generalised_gamma(pressure, out.pressure_moments.mean, sum.pressure.total * sum.pressure.total / sum.pressure.squares);
+            fit_generalised_gamma(pressure, out.pressure_moments.mean,
+                                  sum.pressure.total * sum.pressure.total / sum.pressure.squares);
     return out;
 }
 

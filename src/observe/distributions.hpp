@@ -6,11 +6,12 @@
 
 namespace rsc {
 
-// Sums over realizations are independent of the order and grouping of their terms, bit for bit, so that the results of two campaigns can be
-// merged.
+// Sums over realizations are independent of the order and grouping of their terms, bit for bit, so
+// that the results of two campaigns can be merged.
 
-// A sum without rounding errors, stored as two doubles (T. J. Dekker, Numer. Math. 18, 1971; D. E. Knuth): high is the rounded sum, low the
-// remainder. Every term is a multiple of a power of two, the quantum; sums up to 2^105 quanta are exact.
+// A sum without rounding errors, stored as two doubles (T. J. Dekker, Numer. Math. 18, 1971; D. E.
+// Knuth): high is the rounded sum, low the remainder. Every term is a multiple of a power of two,
+// the quantum; sums up to 2^105 quanta are exact.
 struct ExactSum {
     double high = 0, low = 0;
 
@@ -25,20 +26,25 @@ struct ExactSum {
     }
 };
 
-// Quantum for terms of the magnitude `scale`: a power of two about 2^bits times smaller. 0 (no quantum) if it would underflow.
+// Quantum for terms of the magnitude `scale`: a power of two about 2^bits times smaller. 0 (no
+// quantum) if it would underflow.
 inline double quantum_of(double scale, int bits) {
-    const double quantum = scale > 0 && std::isfinite(scale) ? std::ldexp(1.0, std::ilogb(scale) - bits) : 0.0;
+    const double quantum =
+        scale > 0 && std::isfinite(scale) ? std::ldexp(1.0, std::ilogb(scale) - bits) : 0.0;
     return quantum > std::numeric_limits<double>::min() ? quantum : 0.0;
 }
 
 // The value rounded to a multiple of the quantum.
-inline ExactSum exact_term(double value, double quantum) { return {quantum > 0 ? std::nearbyint(value / quantum) * quantum : value, 0.0}; }
+inline ExactSum exact_term(double value, double quantum) {
+    return {quantum > 0 ? std::nearbyint(value / quantum) * quantum : value, 0.0};
+}
 
-// Distributions are histograms, which add up over realizations without storing contacts. The bins follow from theory, so that all
-// realizations use the same.
+// Distributions are histograms, which add up over realizations without storing contacts. The bins
+// follow from theory, so that all realizations use the same.
 
-// Bins of equal width from 0: the mean pressure of a contact to `pressure_max`, the pressure at a point to 1.5 pressure_max (the
-// peak of a Hertz contact is 1.5 times its mean), the area of a spot to `area_max`. Larger values count as overflow.
+// Bins of equal width from 0: the mean pressure of a contact to `pressure_max`, the pressure at a
+// point to 1.5 pressure_max (the peak of a Hertz contact is 1.5 times its mean), the area of a spot
+// to `area_max`. Larger values count as overflow.
 struct PdfBins {
     int bins = 60;
     double pressure_max = 0;  // [force/length^2]
@@ -48,17 +54,24 @@ struct PdfBins {
     double area_width() const { return area_max / bins; }
 };
 
-// Bins that contain nearly all values at separations above about one sigma. A summit of curvature k and penetration g has the mean pressure
-// 4/(3 pi) E* sqrt(k g) and the area pi g / k; the ranges follow from multiples of sigma for g and sqrt(m4) for k. Without interaction one
-// contact in a thousand is beyond them at a separation of 2 sigma; interaction reduces g. `hardest` is the largest possible mean pressure
-// (Infinity: no limit). Throws Error(bad_input) unless all other arguments are positive and finite.
+// Bins that contain nearly all values at separations above about one sigma. A summit of curvature k
+// and penetration g has the mean pressure 4/(3 pi) E* sqrt(k g) and the area pi g / k; the ranges
+// follow from multiples of sigma for g and sqrt(m4) for k. Without interaction one contact in a
+// thousand is beyond them at a separation of 2 sigma; interaction reduces g. `hardest` is the
+// largest possible mean pressure (Infinity: no limit). Throws Error(bad_input) unless all other
+// arguments are positive and finite.
 PdfBins make_pdf_bins(int bins, double E_star, double sigma, double sqrt_m4, double hardest);
 
-// Histogram of values by weight: the number of contacts, or the area on which the pressure has the value [length^2].
+// Histogram of values by weight: the number of contacts, or the area on which the pressure has the
+// value [length^2].
 struct Histogram {
-    std::vector<double> weight;     // of each bin
-    double overflow = 0;            // weight beyond the last bin
-    double total = 0, squares = 0;  // of the pressure: sums of pi a^2 and (pi a^2)^2; total^2/squares is the effective number of contacts
+    std::vector<double> weight;  // of each bin
+    double overflow = 0;         // weight beyond the last bin
+    double total = 0,
+           squares =
+               // of the pressure: sums of pi a^2 and (pi a^2)^2; total^2/squares is the effective
+           // number of contacts
+           0;
     std::array<double, 4> power{};  // sums of weight times the powers 1 to 4 of the value
 };
 
@@ -71,12 +84,14 @@ struct Distributions {
     Histogram pressure;                  // at a random point of the contact area
 };
 
-// Distributions of one level. The mean pressure of a contact is f/(pi a^2). Each contact contributes the Hertzian density 2 p/p0^2 of its
-// point pressures on [0, p0], p0 = 1.5 f/(pi a^2), integrated exactly over each bin; the pressure of a yielding contact is uniform.
+// Distributions of one level. The mean pressure of a contact is f/(pi a^2). Each contact
+// contributes the Hertzian density 2 p/p0^2 of its point pressures on [0, p0], p0 = 1.5 f/(pi a^2),
+// integrated exactly over each bin; the pressure of a yielding contact is uniform.
 // Contacts without area are ignored. If the level has pixels, the point pressures are theirs.
 Distributions distributions_of(const PdfBins& bins, const Level& level, std::int32_t step);
 
-// Calls visit(number, scale) for every number of `d` that is summed over realizations, in a fixed order. `scale` is its typical magnitude,
+// Calls visit(number, scale) for every number of `d` that is summed over realizations, in a fixed
+// order. `scale` is its typical magnitude,
 // 0 for integers.
 template <class D, class Visit>
 void for_each_number(D& d, const PdfBins& bins, Visit visit) {
@@ -110,11 +125,13 @@ void add(DistributionSums& sums, const DistributionSums& more);
 Distributions rounded(const DistributionSums& sums, const PdfBins& bins, std::int64_t realizations);
 
 struct DistributionMoments {
-    double mean = kAbsent, deviation = kAbsent, skewness = kAbsent, kurtosis = kAbsent;  // kurtosis is 3 for a Gaussian
+    double mean = kAbsent, deviation = kAbsent, skewness = kAbsent,
+           kurtosis = kAbsent;  // kurtosis is 3 for a Gaussian
 };
 DistributionMoments moments_of(double count, const std::array<double, 4>& power);
 
-// Results for the file: probability densities (integral 1 including the overflow), moments and fits.
+// Results for the file: probability densities (integral 1 including the overflow), moments and
+// fits.
 struct FittedDistributions {
     Distributions sum;
     std::vector<double> mean_pressure_pdf, pressure_pdf, spot_area_pdf;

@@ -1,9 +1,9 @@
 #include "observe/fields.hpp"
 
-#include "contact/interaction/kernel.hpp"
-#include "contact/interaction/periodic_pixels.hpp"
-#include "contact/interaction/pixel_products.hpp"
-#include "error.hpp"
+#include "base/error.hpp"
+#include "elements/periodic_pixels.hpp"
+#include "elements/pixel_products.hpp"
+#include "interaction/kernel.hpp"
 
 namespace rsc {
 namespace {
@@ -25,24 +25,30 @@ std::size_t at(std::int64_t k) { return static_cast<std::size_t>(k); }
 
 // Indices of the points within [low, high] along one axis.
 Range points_within(double origin, double step, int n, double low, double high) {
-    const auto number = [&](double x) { return std::clamp((x - origin) / step, -1.0, static_cast<double>(n)); };
-    return {std::max(0, static_cast<int>(std::ceil(number(low)))), std::min(n - 1, static_cast<int>(std::floor(number(high))))};
+    const auto number = [&](double x) {
+        return std::clamp((x - origin) / step, -1.0, static_cast<double>(n));
+    };
+    return {std::max(0, static_cast<int>(std::ceil(number(low)))),
+            std::min(n - 1, static_cast<int>(std::floor(number(high))))};
 }
 
-// Adds a force over the points within a spot, or the nearest point, in proportion to shape(t), t being 1 at the centre and 0 at the rim
-// (Spot::inside). Points with t above `beside` touch. If `whole`, the integral of the shape over the spot, is positive, points with t < edge
-// share equally what the others leave of it.
+// Adds a force over the points within a spot, or the nearest point, in proportion to shape(t), t
+// being 1 at the centre and 0 at the rim (Spot::inside). Points with t above `beside` touch. If
+// `whole`, the integral of the shape over the spot, is positive, points with t < edge share equally
+// what the others leave of it.
 template <class Shape>
-void add_spot(Pressures& all, const HeightMap& map, bool repeats, const Spot& s, double force, double beside, Shape&& shape,
-              double whole = 0, double edge = 0) {
-    const auto range = [&](double origin, double step, int n, double centre, double along, double across) {
+void add_spot(Pressures& all, const HeightMap& map, bool repeats, const Spot& s, double force,
+              double beside, Shape&& shape, double whole = 0, double edge = 0) {
+    const auto range = [&](double origin, double step, int n, double centre, double along,
+                           double across) {
         const double half = std::hypot(s.major * along, s.minor * across);
         const Range r{static_cast<int>(std::ceil((centre - half - origin) / step)),
                       static_cast<int>(std::floor((centre + half - origin) / step))};
         return repeats ? r : Range{std::max(r.first, 0), std::min(r.last, n - 1)};
     };
     const double cosine = std::cos(s.angle), sine = std::sin(s.angle);
-    const Range columns = range(map.x0, map.dx, map.nx, s.x, cosine, sine), rows = range(map.y0, map.dy, map.ny, s.y, sine, cosine);
+    const Range columns = range(map.x0, map.dx, map.nx, s.x, cosine, sine),
+                rows = range(map.y0, map.dy, map.ny, s.y, sine, cosine);
     Pressures spot;
     double sum = 0;
     std::vector<Load*> outermost;
@@ -66,7 +72,9 @@ void add_spot(Pressures& all, const HeightMap& map, bool repeats, const Spot& s,
             return repeats ? wrapped(i, n) : std::clamp(i, 0, n - 1);
         };
         sum = 1;
-        spot = {{std::int64_t{nearest(map.y0, map.dy, map.ny, s.y)} * map.nx + nearest(map.x0, map.dx, map.nx, s.x), {1.0, beside < 1}}};
+        spot = {{std::int64_t{nearest(map.y0, map.dy, map.ny, s.y)} * map.nx +
+                     nearest(map.x0, map.dx, map.nx, s.x),
+                 {1.0, beside < 1}}};
     }
     for (const auto& [point, load] : spot) {
         Load& here = all[point];
@@ -77,33 +85,43 @@ void add_spot(Pressures& all, const HeightMap& map, bool repeats, const Spot& s,
 
 Pressures pressures_of(const HeightMap& map, bool repeats, const Level& level) {
     Pressures all;
-    for (std::size_t k = 0; k < level.pixels.index.size(); ++k) all[level.pixels.index[k]] = {level.pixels.pressure[k], true};
+    for (std::size_t k = 0; k < level.pixels.index.size(); ++k)
+        all[level.pixels.index[k]] = {level.pixels.pressure[k], true};
     for (const std::int32_t k : level.pixels.cohesive) all[k] = {level.pixels.tension, false};
     if (!all.empty()) return all;
     const auto hertz = [](double t) { return std::sqrt(t); };
     const LevelTractions& at = level.tractions;
     for (std::size_t k = 0; k < at.x.size(); ++k) {
         const double a = at.a[k], c = at.c[k];
-        if (a > 0) add_spot(all, map, repeats, {at.x[k], at.y[k], a, a, 0}, at.pressed[k], 0, hertz);
+        if (a > 0)
+            add_spot(all, map, repeats, {at.x[k], at.y[k], a, a, 0}, at.pressed[k], 0, hertz);
         const auto tension = [&](double t) {
             if (c == a) return 1 / std::sqrt(t);
-            return 2 / std::numbers::pi * std::atan2(std::sqrt(c * c - a * a), std::sqrt(std::max(a * a - (1 - t) * c * c, 0.0)));
+            return 2 / std::numbers::pi *
+                   std::atan2(std::sqrt(c * c - a * a),
+                              std::sqrt(std::max(a * a - (1 - t) * c * c, 0.0)));
         };
-        // The tension of JKR is infinite at the edge: points within a step of it have the mean there.
-        add_spot(all, map, repeats, {at.x[k], at.y[k], c, c, 0}, at.pulled[k], 1 - a * a / (c * c), tension,
-                 c == a ? 2 * std::numbers::pi * a * a : 0, 2 * std::max(map.dx, map.dy) / c);
+        // The tension of JKR is infinite at the edge: points within a step of it have the mean
+        // there.
+        add_spot(all, map, repeats, {at.x[k], at.y[k], c, c, 0}, at.pulled[k], 1 - a * a / (c * c),
+                 tension, c == a ? 2 * std::numbers::pi * a * a : 0,
+                 2 * std::max(map.dx, map.dy) / c);
     }
     if (!at.x.empty()) return all;
     for (std::size_t k = 0; k < level.f.size(); ++k) {
         const bool uniform = k < level.yields.size() && level.yields[k];
-        const Spot spot = level.spots.empty() ? Spot{level.x[k], level.y[k], level.a[k], level.a[k], 0} : level.spots[k];
-        add_spot(all, map, repeats, spot, level.f[k], 0, [&](double t) { return uniform ? 1.0 : std::sqrt(t); });
+        const Spot spot = level.spots.empty()
+                              ? Spot{level.x[k], level.y[k], level.a[k], level.a[k], 0}
+                              : level.spots[k];
+        add_spot(all, map, repeats, spot, level.f[k], 0,
+                 [&](double t) { return uniform ? 1.0 : std::sqrt(t); });
     }
     return all;
 }
 
 // Deflections caused by the pressures at the points of a window, row by row.
-std::vector<double> deflections(const HeightMap& map, const Indenter& indenter, const Pressures& pressures, Range columns, Range rows) {
+std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
+                                const Pressures& pressures, Range columns, Range rows) {
     std::vector<double> u(at(columns.size()) * at(rows.size()), 0.0);
     if (pressures.empty()) return u;
     const Substrate body = substrate_of(indenter);
@@ -115,13 +133,15 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter, 
             [&](int j, double* row) {
                 std::fill_n(row, map.nx, 0.0);
                 const std::int64_t begin = std::int64_t{j} * map.nx;
-                for (auto k = pressures.lower_bound(begin); k != pressures.end() && k->first < begin + map.nx; ++k)
+                for (auto k = pressures.lower_bound(begin);
+                     k != pressures.end() && k->first < begin + map.nx; ++k)
                     row[k->first - begin] = k->second.pressure / body.modulus();
             },
             [&](int j, const double* row) {
                 if (j < rows.first || j > rows.last) return;
                 for (int i = columns.first; i <= columns.last; ++i)
-                    u[at(j - rows.first) * at(columns.size()) + at(i - columns.first)] = whole.unit() * row[i];
+                    u[at(j - rows.first) * at(columns.size()) + at(i - columns.first)] =
+                        whole.unit() * row[i];
             });
         return u;
     }
@@ -144,39 +164,49 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter, 
     return u;
 }
 
-// Sets the columns and rows to those of all points under pressure with a margin, or to the whole map if there are none.
-void about_contact(const HeightMap& map, const std::vector<Pressures>& levels, Range& columns, Range& rows) {
+// Sets the columns and rows to those of all points under pressure with a margin, or to the whole
+// map if there are none.
+void about_contact(const HeightMap& map, const std::vector<Pressures>& levels, Range& columns,
+                   Range& rows) {
     columns = {map.nx, -1}, rows = {map.ny, -1};
     for (const Pressures& pressures : levels)
         for (const auto& [point, p] : pressures) {
             const int i = static_cast<int>(point % map.nx), j = static_cast<int>(point / map.nx);
-            columns = {std::min(columns.first, i), std::max(columns.last, i)}, rows = {std::min(rows.first, j), std::max(rows.last, j)};
+            columns = {std::min(columns.first, i), std::max(columns.last, i)},
+            rows = {std::min(rows.first, j), std::max(rows.last, j)};
         }
     const auto widened = [](Range r, int n, double margin) {
-        const int more = std::max(4, static_cast<int>(std::ceil(std::min(margin, static_cast<double>(n)))));
-        return r.last < 0 ? Range{0, n - 1} : Range{std::max(0, r.first - more), std::min(n - 1, r.last + more)};
+        const int more =
+            std::max(4, static_cast<int>(std::ceil(std::min(margin, static_cast<double>(n)))));
+        return r.last < 0 ? Range{0, n - 1}
+                          : Range{std::max(0, r.first - more), std::min(n - 1, r.last + more)};
     };
     const double margin = 0.15 * std::max(columns.size() * map.dx, rows.size() * map.dy);
-    columns = widened(columns, map.nx, margin / map.dx), rows = widened(rows, map.ny, margin / map.dy);
+    columns = widened(columns, map.nx, margin / map.dx),
+    rows = widened(rows, map.ny, margin / map.dy);
 }
 
 }  // namespace
 
-ResidualProfile lowered_summits(const HeightMap& map, bool repeats, const Asperities& asperities, const std::vector<double>& depths) {
+ResidualProfile lowered_summits(const HeightMap& map, bool repeats, const Asperities& asperities,
+                                const std::vector<double>& depths) {
     ResidualProfile lowered;
     for (std::size_t k = 0; k < depths.size(); ++k) {
         if (!(depths[k] > 0)) continue;
-        const double radius = std::sqrt(2 * asperities.radius[k] * depths[k]), top = asperities.z[k] - depths[k];
+        const double radius = std::sqrt(2 * asperities.radius[k] * depths[k]),
+                     top = asperities.z[k] - depths[k];
         const double x = asperities.x[k], y = asperities.y[k];
         const auto range = [radius](double centre, double step) {
-            return Range{static_cast<int>(std::ceil((centre - radius) / step)), static_cast<int>(std::floor((centre + radius) / step))};
+            return Range{static_cast<int>(std::ceil((centre - radius) / step)),
+                         static_cast<int>(std::floor((centre + radius) / step))};
         };
         const Range columns = range(x - map.x0, map.dx), rows = range(y - map.y0, map.dy);
         for (int j = rows.first; j <= rows.last; ++j)
             for (int i = columns.first; i <= columns.last; ++i) {
                 if (!repeats && (i < 0 || j < 0 || i >= map.nx || j >= map.ny)) continue;
                 const int column = wrapped(i, map.nx), row = wrapped(j, map.ny);
-                if (!(map(column, row) > top) || std::hypot(map.x(i) - x, map.y(j) - y) > radius) continue;
+                if (!(map(column, row) > top) || std::hypot(map.x(i) - x, map.y(j) - y) > radius)
+                    continue;
                 lowered.x.push_back(map.x(column)), lowered.y.push_back(map.y(row));
                 lowered.depth.push_back(map(column, row) - top);
             }
@@ -184,8 +214,8 @@ ResidualProfile lowered_summits(const HeightMap& map, bool repeats, const Asperi
     return lowered;
 }
 
-Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction interaction, const std::vector<FieldLevel>& levels,
-                 const FieldsAsked& asked) {
+Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction interaction,
+                 const std::vector<FieldLevel>& levels, const FieldsAsked& asked) {
     Fields f;
     if (!asked.any()) return f;
     const bool repeats = indenter.period.finite();
@@ -197,8 +227,10 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
     Range columns{0, map.nx - 1}, rows{0, map.ny - 1};
     if (asked.window) {
         const auto& w = *asked.window;
-        columns = points_within(map.x0, map.dx, map.nx, w[0], w[1]), rows = points_within(map.y0, map.dy, map.ny, w[2], w[3]);
-        if (columns.size() < 1 || rows.size() < 1) bad_input("output%field_window contains no point of the surface");
+        columns = points_within(map.x0, map.dx, map.nx, w[0], w[1]),
+        rows = points_within(map.y0, map.dy, map.ny, w[2], w[3]);
+        if (columns.size() < 1 || rows.size() < 1)
+            bad_input("output%field_window contains no point of the surface");
     } else if (!repeats) {
         about_contact(map, pressures, columns, rows);
     }
@@ -207,13 +239,15 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
     const std::size_t points = f.x.size() * f.y.size();
     if (asked.heights)
         for (int j = rows.first; j <= rows.last; ++j)
-            f.heights.insert(f.heights.end(), map.row(j) + columns.first, map.row(j) + columns.last + 1);
+            f.heights.insert(f.heights.end(), map.row(j) + columns.first,
+                             map.row(j) + columns.last + 1);
     for (std::size_t s = 0; s < levels.size(); ++s) {
         const Level& level = *levels[s].level;
         std::vector<double> p(points, 0.0);
         std::vector<std::int32_t> touches(points, 0);
         for (const auto& [point, load] : pressures[s]) {
-            const int i = static_cast<int>(point % map.nx) - columns.first, j = static_cast<int>(point / map.nx) - rows.first;
+            const int i = static_cast<int>(point % map.nx) - columns.first,
+                      j = static_cast<int>(point / map.nx) - rows.first;
             if (i < 0 || i >= columns.size() || j < 0 || j >= rows.size()) continue;
             p[at(j) * f.x.size() + at(i)] = load.pressure;
             touches[at(j) * f.x.size() + at(i)] = load.touches;
@@ -223,21 +257,28 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
             std::vector<double> gap(points, 0.0);
             if (interaction != Interaction::none) {
                 const std::optional<Level>& lasting = levels[s].lasting;
-                gap = deflections(map, indenter, lasting ? pressures_of(map, repeats, *lasting) : pressures[s], columns, rows);
+                gap = deflections(map, indenter,
+                                  lasting ? pressures_of(map, repeats, *lasting) : pressures[s],
+                                  columns, rows);
             }
             const ResidualProfile& lowered = levels[s].lowered;
             for (std::size_t k = 0; k < lowered.depth.size(); ++k) {
-                const int i = static_cast<int>(std::round((lowered.x[k] - map.x0) / map.dx)) - columns.first;
-                const int j = static_cast<int>(std::round((lowered.y[k] - map.y0) / map.dy)) - rows.first;
-                if (i >= 0 && i < columns.size() && j >= 0 && j < rows.size()) gap[at(j) * f.x.size() + at(i)] += lowered.depth[k];
+                const int i =
+                    static_cast<int>(std::round((lowered.x[k] - map.x0) / map.dx)) - columns.first;
+                const int j =
+                    static_cast<int>(std::round((lowered.y[k] - map.y0) / map.dy)) - rows.first;
+                if (i >= 0 && i < columns.size() && j >= 0 && j < rows.size())
+                    gap[at(j) * f.x.size() + at(i)] += lowered.depth[k];
             }
             for (std::size_t k = 0; k < points; ++k) {
                 const std::size_t i = k % f.x.size(), j = k / f.x.size();
-                const double z = map(columns.first + static_cast<int>(i), rows.first + static_cast<int>(j));
+                const double z =
+                    map(columns.first + static_cast<int>(i), rows.first + static_cast<int>(j));
                 gap[k] += level.separation - indenter.clearance(f.x[i], f.y[j], z);
-                gap[k] = touches[k]              ? 0
-                         : std::isfinite(gap[k]) ? std::max(gap[k], 0.0)
-                                                 : kNotComputed;  // NaN outside a map of the indenter
+                gap[k] = touches[k] ? 0
+                         : std::isfinite(gap[k])
+                             ? std::max(gap[k], 0.0)
+                             : kNotComputed;  // NaN outside a map of the indenter
             }
             f.gap.insert(f.gap.end(), gap.begin(), gap.end());
         }

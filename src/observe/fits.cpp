@@ -13,21 +13,25 @@ double ks_distance(const Binned& binned, Cdf cdf) {
     double below = 0, distance = 0;
     for (std::size_t b = 0; b < binned.weight.size(); ++b) {
         below += binned.weight[b];
-        distance = std::max(distance, std::abs(below / total - cdf(binned.width * static_cast<double>(b + 1))));
+        distance = std::max(
+            distance, std::abs(below / total - cdf(binned.width * static_cast<double>(b + 1))));
     }
     return distance;
 }
 
-// Regularised incomplete gamma functions P and Q = 1 - P, each accurate where it is small; NaN instead of exceptions.
+// Regularised incomplete gamma functions P and Q = 1 - P, each accurate where it is small; NaN
+// instead of exceptions.
 std::array<double, 2> gamma_tails(double a, double x) {
     using namespace boost::math::policies;
-    using Quiet = policy<domain_error<ignore_error>, overflow_error<ignore_error>, evaluation_error<ignore_error>, promote_double<false>>;
+    using Quiet = policy<domain_error<ignore_error>, overflow_error<ignore_error>,
+                         evaluation_error<ignore_error>, promote_double<false>>;
     if (!(x > 0)) return {0, 1};
     if (std::isinf(x)) return {1, 0};
     return {boost::math::gamma_p(a, x, Quiet()), boost::math::gamma_q(a, x, Quiet())};
 }
 
-// Upper bound of the shape (alpha + 1)/beta, so that std::tgamma does not overflow (std::lgamma writes a global variable).
+// Upper bound of the shape (alpha + 1)/beta, so that std::tgamma does not overflow (std::lgamma
+// writes a global variable).
 constexpr double kLargestShape = 150;
 
 // Unbounded parameters for Fisher scoring: log(alpha + 1), log(beta), log(delta / unit).
@@ -35,12 +39,16 @@ using Parameters = std::array<double, 3>;
 
 // Probabilities of the bins and of the overflow.
 std::vector<double> probabilities(const Parameters& theta, std::size_t bins, double width) {
-    const double a = std::exp(theta[0] - theta[1]), beta = std::exp(theta[1]), delta = std::exp(theta[2]);
+    const double a = std::exp(theta[0] - theta[1]), beta = std::exp(theta[1]),
+                 delta = std::exp(theta[2]);
     std::vector<double> p(bins + 1);
     std::array<double, 2> low{0, 1};
     for (std::size_t b = 0; b <= bins; ++b) {
-        const std::array high = gamma_tails(a, b < bins ? std::pow(width * static_cast<double>(b + 1) / delta, beta) : HUGE_VAL);
-        p[b] = low[0] < 0.5 ? high[0] - low[0] : low[1] - high[1];  // difference of the smaller tails, to avoid cancellation
+        const std::array high = gamma_tails(
+            a, b < bins ? std::pow(width * static_cast<double>(b + 1) / delta, beta) : HUGE_VAL);
+        p[b] = low[0] < 0.5
+                   ? high[0] - low[0]
+                   : low[1] - high[1];  // difference of the smaller tails, to avoid cancellation
         low = high;
     }
     return p;
@@ -49,7 +57,8 @@ std::vector<double> probabilities(const Parameters& theta, std::size_t bins, dou
 double log_likelihood(const std::vector<double>& weight, const std::vector<double>& p) {
     double sum = 0;
     for (std::size_t b = 0; b < p.size(); ++b)
-        if (weight[b] > 0) sum += weight[b] * std::log(p[b]);  // -inf or NaN if p vanishes; rejected by the caller
+        if (weight[b] > 0)
+            sum += weight[b] * std::log(p[b]);  // -inf or NaN if p vanishes; rejected by the caller
     return sum;
 }
 
@@ -58,8 +67,10 @@ struct Score {
     std::array<std::array<double, 3>, 3> information{};
 };
 
-Score score(const Parameters& theta, const std::vector<double>& weight, const std::vector<double>& p, double width) {
-    constexpr double h = 1e-5;  // truncation and rounding errors of the central difference are both near 1e-10
+Score score(const Parameters& theta, const std::vector<double>& weight,
+            const std::vector<double>& p, double width) {
+    constexpr double h =
+        1e-5;  // truncation and rounding errors of the central difference are both near 1e-10
     const std::size_t bins = weight.size() - 1;
     std::array<std::vector<double>, 3> slope;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -74,7 +85,8 @@ Score score(const Parameters& theta, const std::vector<double>& weight, const st
         if (!(p[b] > 1e-290)) continue;
         for (std::size_t i = 0; i < 3; ++i) {
             s.gradient[i] += weight[b] / p[b] * slope[i][b];
-            for (std::size_t j = 0; j < 3; ++j) s.information[i][j] += slope[i][b] * slope[j][b] / p[b];
+            for (std::size_t j = 0; j < 3; ++j)
+                s.information[i][j] += slope[i][b] * slope[j][b] / p[b];
         }
     }
     return s;
@@ -100,8 +112,10 @@ double gamma_normalisation(const Parameters& theta) {
     return beta / (std::pow(delta, alpha1) * std::tgamma(alpha1 / beta));
 }
 
-// Performs one step of Fisher scoring, halved until the likelihood does not decrease. Returns false if no step succeeds.
-bool improve(Parameters& theta, std::vector<double>& p, double& likelihood, const std::vector<double>& weight, double width, double& size) {
+// Performs one step of Fisher scoring, halved until the likelihood does not decrease. Returns false
+// if no step succeeds.
+bool improve(Parameters& theta, std::vector<double>& p, double& likelihood,
+             const std::vector<double>& weight, double width, double& size) {
     const Score s = score(theta, weight, p, width);
     Matrix inverse;
     if (!invert(s.information, inverse)) return false;
@@ -138,7 +152,8 @@ ScaleFit fit_rayleigh(double count, double sum_of_squares, const Binned& binned)
     const double s2 = sum_of_squares / (2 * count);
     fit.scale = std::sqrt(s2);
     fit.scale_error = fit.scale / (2 * std::sqrt(count));
-    fit.ks_distance = ks_distance(binned, [s2](double x) { return -std::expm1(-x * x / (2 * s2)); });
+    fit.ks_distance =
+        ks_distance(binned, [s2](double x) { return -std::expm1(-x * x / (2 * s2)); });
     return fit;
 }
 
@@ -159,7 +174,8 @@ double generalised_gamma_cdf(double x, double alpha, double beta, double delta) 
 GammaFit fit_generalised_gamma(const Binned& binned, double mean, double independent) {
     GammaFit fit;
     const double total = binned.total();
-    const auto filled = std::count_if(binned.weight.begin(), binned.weight.end(), [](double w) { return w > 0; });
+    const auto filled =
+        std::count_if(binned.weight.begin(), binned.weight.end(), [](double w) { return w > 0; });
     if (!(total > 0) || !(mean > 0) || filled < 5 || !(independent >= 10)) return fit;
 
     // In units of the mean all numbers below are of order one.
@@ -170,7 +186,8 @@ GammaFit fit_generalised_gamma(const Binned& binned, double mean, double indepen
 
     // <x> = delta Gamma((alpha+2)/beta) / Gamma((alpha+1)/beta)
     const double alpha = 2.0 / 3.0, beta = 1.5;
-    Parameters theta{std::log(alpha + 1), std::log(beta), std::log(std::tgamma((alpha + 1) / beta) / std::tgamma((alpha + 2) / beta))};
+    Parameters theta{std::log(alpha + 1), std::log(beta),
+                     std::log(std::tgamma((alpha + 1) / beta) / std::tgamma((alpha + 2) / beta))};
     std::vector<double> p = probabilities(theta, binned.weight.size(), width);
     double likelihood = log_likelihood(weight, p), size = 1;
     if (!std::isfinite(likelihood)) return fit;
@@ -206,7 +223,9 @@ GammaFit fit_generalised_gamma(const Binned& binned, double mean, double indepen
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) variance += slope[i] * covariance[i][j] * slope[j];
     fit.gamma_error = std::sqrt(variance);
-    fit.ks_distance = ks_distance(binned, [&fit](double x) { return generalised_gamma_cdf(x, fit.alpha, fit.beta, fit.delta); });
+    fit.ks_distance = ks_distance(binned, [&fit](double x) {
+        return generalised_gamma_cdf(x, fit.alpha, fit.beta, fit.delta);
+    });
     return fit;
 }
 

@@ -1,25 +1,30 @@
 #include "observe/map.hpp"
 
-#include "error.hpp"
-#include "rough/parallel.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
 
 namespace rsc {
 
 int MapGrid::cell(double px, double py) const {
     const double u = (px - x0) / side, v = (py - y0) / side;
     if (!(u >= 0 && u <= nx && v >= 0 && v <= ny)) return -1;
-    // Grid points lie on the borders of cells; rounding must not move some of them to the previous cell.
+    // Grid points lie on the borders of cells; rounding must not move some of them to the previous
+    // cell.
     const double up = 1 + 8 * std::numeric_limits<double>::epsilon();
-    const int i = std::min(static_cast<int>(u * up), nx - 1), j = std::min(static_cast<int>(v * up), ny - 1);
+    const int i = std::min(static_cast<int>(u * up), nx - 1),
+              j = std::min(static_cast<int>(v * up), ny - 1);
     return j * nx + i;
 }
 
 MapGrid make_map_grid(double x0, double y0, double Lx, double Ly, int cells) {
     if (!(Lx > 0) || !(Ly > 0) || !std::isfinite(Lx) || !std::isfinite(Ly))
         bad_input("coarse map: the sides of the surface must be positive and finite");
-    if (cells < 1) bad_input("coarse map: the number of cells must be at least 1, not " + std::to_string(cells));
+    if (cells < 1)
+        bad_input("coarse map: the number of cells must be at least 1, not " +
+                  std::to_string(cells));
     MapGrid grid{x0, y0, Lx / cells, cells, 0};
-    const double exactly = Ly / grid.side, rows = std::ceil(exactly * (1 - 8 * std::numeric_limits<double>::epsilon()));
+    const double exactly = Ly / grid.side,
+                 rows = std::ceil(exactly * (1 - 8 * std::numeric_limits<double>::epsilon()));
     // Ly may be a whole number of cells up to rounding.
     const bool whole = rows <= exactly * (1 + 8 * std::numeric_limits<double>::epsilon());
     grid.Ly = whole ? rows * grid.side : Ly;
@@ -31,12 +36,14 @@ MapGrid make_map_grid(double x0, double y0, double Lx, double Ly, int cells) {
 
 namespace {
 
-// Calls visit(cell, share) for the cells along one axis that [from, from + length] overlaps, in units of cells. Parts outside the map are
-// added to its last cell.
+// Calls visit(cell, share) for the cells along one axis that [from, from + length] overlaps, in
+// units of cells. Parts outside the map are added to its last cell.
 template <class Visit>
 void share_out(double from, double length, int cells, Visit visit) {
     const double to = from + length;
-    const auto clamped = [cells](double u) { return std::clamp(static_cast<int>(std::floor(u)), 0, cells - 1); };
+    const auto clamped = [cells](double u) {
+        return std::clamp(static_cast<int>(std::floor(u)), 0, cells - 1);
+    };
     const int first = clamped(from), last = clamped(std::nextafter(to, from));
     for (int c = first; c <= last; ++c) {
         const double low = c == first ? from : c, high = c == last ? to : c + 1;
@@ -60,31 +67,42 @@ MapLevel map_level(const MapGrid& grid, const Level& level) {
     };
     const auto add_pixel = [&](double x, double y, double area, double pressure) {
         if (grid.cell(x, y) < 0) return;
-        const double u = (x - grid.x0) / grid.side, v = (y - grid.y0) / grid.side, force = pressure * pixels.dx * pixels.dy;
+        const double u = (x - grid.x0) / grid.side, v = (y - grid.y0) / grid.side,
+                     force = pressure * pixels.dx * pixels.dy;
         share_out(v, pixels.dy / grid.side, grid.ny, [&](int j, double part_y) {
             share_out(u, pixels.dx / grid.side, grid.nx, [&](int i, double part_x) {
-                entries.push_back({j * grid.nx + i, part_x * part_y * area, part_x * part_y * force});
+                entries.push_back(
+                    {j * grid.nx + i, part_x * part_y * area, part_x * part_y * force});
             });
         });
     };
-    for (std::size_t k = 0; k < level.asperity.size(); ++k) map.outside += grid.cell(level.x[k], level.y[k]) < 0;
+    for (std::size_t k = 0; k < level.asperity.size(); ++k)
+        map.outside += grid.cell(level.x[k], level.y[k]) < 0;
     if (pixels.index.empty()) {
         for (std::size_t k = 0; k < level.asperity.size(); ++k) {
-            const double area = level.own_area.empty() ? std::numbers::pi * level.a[k] * level.a[k] : level.own_area[k];
+            const double area = level.own_area.empty() ? std::numbers::pi * level.a[k] * level.a[k]
+                                                       : level.own_area[k];
             add_spot(level.x[k], level.y[k], area, t.x.empty() ? level.f[k] : 0);
         }
     } else {
-        // Each pixel has an equal share of the area of its contact. It covers the cell of the surface that begins at its point.
+        // Each pixel has an equal share of the area of its contact. It covers the cell of the
+        // surface that begins at its point.
         std::vector<double> share(level.a.size(), 0.0);
-        for (const std::int32_t contact : pixels.contact) share[static_cast<std::size_t>(contact)] += 1;
-        for (std::size_t c = 0; c < share.size(); ++c) share[c] = std::numbers::pi * level.a[c] * level.a[c] / share[c];
+        for (const std::int32_t contact : pixels.contact)
+            share[static_cast<std::size_t>(contact)] += 1;
+        for (std::size_t c = 0; c < share.size(); ++c)
+            share[c] = std::numbers::pi * level.a[c] * level.a[c] / share[c];
         for (std::size_t k = 0; k < pixels.index.size(); ++k)
-            add_pixel(pixels.x(k), pixels.y(k), share[static_cast<std::size_t>(pixels.contact[k])], pixels.pressure[k]);
+            add_pixel(pixels.x(k), pixels.y(k), share[static_cast<std::size_t>(pixels.contact[k])],
+                      pixels.pressure[k]);
     }
     // With adhesion, places also attract without contact.
-    for (const std::int32_t k : pixels.cohesive) add_pixel(pixels.x_of(k), pixels.y_of(k), 0, pixels.tension);
-    for (std::size_t k = 0; k < t.x.size(); ++k) add_spot(t.x[k], t.y[k], 0, t.pressed[k] + t.pulled[k]);
-    std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.cell < b.cell; });
+    for (const std::int32_t k : pixels.cohesive)
+        add_pixel(pixels.x_of(k), pixels.y_of(k), 0, pixels.tension);
+    for (std::size_t k = 0; k < t.x.size(); ++k)
+        add_spot(t.x[k], t.y[k], 0, t.pressed[k] + t.pulled[k]);
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const Entry& a, const Entry& b) { return a.cell < b.cell; });
     for (const Entry& e : entries) {
         if (map.cell.empty() || map.cell.back() != e.cell) {
             map.cell.push_back(e.cell);
@@ -99,7 +117,8 @@ MapLevel map_level(const MapGrid& grid, const Level& level) {
 
 std::int32_t count_crowded_cells(const MapGrid& grid, const MapLevel& map) {
     const double limit = kCrowdedFraction * grid.side * grid.side;
-    return static_cast<std::int32_t>(std::count_if(map.area.begin(), map.area.end(), [&](double area) { return area > limit; }));
+    return static_cast<std::int32_t>(
+        std::count_if(map.area.begin(), map.area.end(), [&](double area) { return area > limit; }));
 }
 
 BezierWeights bezier_weights(int n, double s) {
@@ -109,10 +128,13 @@ BezierWeights bezier_weights(int n, double s) {
     const double t = s - i, q = 1 - t;
     if (n == 2) return {0, 2, {q, t, 0, 0}};
 
-    const double b0 = q * q * q, b1 = 3 * q * q * t, b2 = 3 * q * t * t, b3 = t * t * t;  // Bernstein polynomials
+    const double b0 = q * q * q, b1 = 3 * q * q * t, b2 = 3 * q * t * t,
+                 b3 = t * t * t;  // Bernstein polynomials
     w.first = std::clamp(i - 1, 0, std::max(n - 4, 0));
     w.count = std::min(n, 4);
-    const auto at = [&w](int node) -> double& { return w.weight[static_cast<std::size_t>(node - w.first)]; };
+    const auto at = [&w](int node) -> double& {
+        return w.weight[static_cast<std::size_t>(node - w.first)];
+    };
     at(i) += b0 + b1;
     at(i + 1) += b2 + b3;
     const auto add_tangent = [&](int node, double factor) {
@@ -140,14 +162,16 @@ void for_each_weight(const MapGrid& grid, double px, double py, Use use) {
         for (int i = 0; i < wx.count; ++i) {
             const double covered = wy.first + j == grid.ny - 1 ? grid.last_row : 1;
             use(static_cast<std::size_t>((wy.first + j) * grid.nx + wx.first + i),
-                wy.weight[static_cast<std::size_t>(j)] * wx.weight[static_cast<std::size_t>(i)] / covered);
+                wy.weight[static_cast<std::size_t>(j)] * wx.weight[static_cast<std::size_t>(i)] /
+                    covered);
         }
 }
 
 }  // namespace
 
 RadialMean::RadialMean(const MapGrid& grid, double x0, double y0, int bins) {
-    const double largest = std::min({x0 - grid.x0, grid.x0 + grid.Lx() - x0, y0 - grid.y0, grid.y0 + grid.Ly - y0});
+    const double largest =
+        std::min({x0 - grid.x0, grid.x0 + grid.Lx() - x0, y0 - grid.y0, grid.y0 + grid.Ly - y0});
     if (!(largest > 0) || bins < 1) return;
     const double ring_width = largest / bins;
     std::vector<double> row(static_cast<std::size_t>(grid.cells()));
@@ -157,18 +181,21 @@ RadialMean::RadialMean(const MapGrid& grid, double x0, double y0, int bins) {
         const double r = (b + 0.5) * ring_width;
         radii_.push_back(r);
         // A multiple of 4 preserves the symmetry of a square with the tip at its centre.
-        const int angles = 4 * std::max(16, static_cast<int>(std::ceil(4 * std::numbers::pi * r / grid.side)));
+        const int angles =
+            4 * std::max(16, static_cast<int>(std::ceil(4 * std::numbers::pi * r / grid.side)));
         touched.clear();
         for (int k = 0; k < angles; ++k) {
             const double phi = 2 * std::numbers::pi * (k + 0.5) / angles;
-            for_each_weight(grid, x0 + r * std::cos(phi), y0 + r * std::sin(phi), [&](std::size_t cell, double weight) {
-                if (row[cell] == 0) touched.push_back(cell);
-                row[cell] += weight / angles;
-            });
+            for_each_weight(grid, x0 + r * std::cos(phi), y0 + r * std::sin(phi),
+                            [&](std::size_t cell, double weight) {
+                                if (row[cell] == 0) touched.push_back(cell);
+                                row[cell] += weight / angles;
+                            });
         }
         for (const std::size_t c : touched)
             if (const double weight = std::exchange(row[c], 0.0); weight != 0)
-                parts_.push_back({static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(b), weight});
+                parts_.push_back(
+                    {static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(b), weight});
     }
     std::ranges::stable_sort(parts_, {}, &Part::cell);
     for (std::size_t k = 0; k < parts_.size(); ++k)
@@ -180,7 +207,8 @@ std::vector<double> RadialMean::operator()(const double* values) const {
     std::vector<double> mean(radii_.size());
     for (std::size_t c = 0; c + 1 < first_.size(); ++c)
         if (const double value = values[parts_[first_[c]].cell]; value != 0)
-            for (std::size_t k = first_[c]; k < first_[c + 1]; ++k) mean[parts_[k].circle] += parts_[k].weight * value;
+            for (std::size_t k = first_[c]; k < first_[c + 1]; ++k)
+                mean[parts_[k].circle] += parts_[k].weight * value;
     return mean;
 }
 

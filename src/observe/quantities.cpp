@@ -16,7 +16,7 @@ constexpr LevelQuantity kQuantities[] = {
     {.name = "contact_area_pixels", .member = &V::area_pixels, .length_power = 2,
      .meaning = "area of the pixels under pressure, without border correction",
      .comment = "boundary elements: contact_area is smaller by (pi - 1 + ln 2)/24 of a pixel for each pixel side on the border; yielding "
-                "borders: see src/contact/pixel_spots.hpp",
+                "borders: see src/elements/pixel_spots.hpp",
      .always = false},
     {.name = "pressure", .member = &V::pressure, .length_power = -2, .force_power = 1, .meaning = "nominal pressure between two flats, N/A0",
      .always = false, .statistics = true, .plain = "pressure", .heading = "p", .width = 14, .digits = 6},
@@ -139,7 +139,9 @@ double LevelQuantity::of(const LevelValues& level) const {
 }
 
 void LevelQuantity::put(LevelValues& level, double value) const {
-    std::visit([&](auto m) { level.*m = static_cast<std::remove_reference_t<decltype(level.*m)>>(value); }, member);
+    std::visit(
+        [&](auto m) { level.*m = static_cast<std::remove_reference_t<decltype(level.*m)>>(value); },
+        member);
 }
 
 std::span<const LevelQuantity> level_quantities() { return kQuantities; }

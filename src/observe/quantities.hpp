@@ -1,5 +1,6 @@
-// Quantities of a level. Each is defined by one row in quantities.cpp and one member of LevelValues (contact/level.hpp); result files,
-// checkpoints, screen output, means of campaigns and rsc_contact_value() use this table.
+// Quantities of a level. Each is defined by one row in quantities.cpp and one member of LevelValues
+// (contact/level.hpp); result files, checkpoints, screen output, means of campaigns and
+// rsc_contact_value() use this table.
 #pragma once
 
 #include "contact/level.hpp"
@@ -7,19 +8,23 @@
 namespace rsc {
 
 struct LevelQuantity {
-    using Member = std::variant<double LevelValues::*, std::int32_t LevelValues::*, std::int64_t LevelValues::*, LevelStatus LevelValues::*,
+    using Member = std::variant<double LevelValues::*, std::int32_t LevelValues::*,
+                                std::int64_t LevelValues::*, LevelStatus LevelValues::*,
                                 Method LevelValues::*, Fallback LevelValues::*>;
-    const char* name;                       // of the variable in files and in calls by name
-    Member member;                          // NaN (double): not computed
-    double LevelValues::*y = nullptr;       // second component of a vector, whose first is `member`; adds a dimension in files
+    const char* name;  // of the variable in files and in calls by name
+    Member member;     // NaN (double): not computed
+    double LevelValues::*y =
+        // second component of a vector, whose first is `member`; adds a dimension in files
+        nullptr;
     int length_power = 0, force_power = 0;  // powers in its unit
-    const char* unit = nullptr;             // unit that replaces these powers; "time": the unit of times
-    bool of_step = false;                   // has the same value in every realization
-    const char* meaning = "";               // long_name
+    const char* unit = nullptr;  // unit that replaces these powers; "time": the unit of times
+    bool of_step = false;        // has the same value in every realization
+    const char* meaning = "";    // long_name
     const char* comment = "";
-    bool always = true;                     // false: written only if some level has it
-    double LevelValues::*beside = nullptr;  // a count: written with this quantity, even if it is 0 at all levels
-    bool statistics = false;                // files also have name_mean and name_std over realizations
+    bool always = true;  // false: written only if some level has it
+    double LevelValues::*beside =
+        nullptr;              // a count: written with this quantity, even if it is 0 at all levels
+    bool statistics = false;  // files also have name_mean and name_std over realizations
     const char* plain = "";
     const char* heading = nullptr;  // of its column on the screen; null: not shown
     int width = 0, digits = 0;      // of the column; significant digits of a double, 0: "%.1e"

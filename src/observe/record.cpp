@@ -1,22 +1,29 @@
 #include "observe/record.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 namespace rsc {
 namespace {
 
 void require_finite(const Level& level, std::size_t step) {
-    if (std::isnan(level.force) && level.status == LevelStatus::not_converged) return;  // reported by its status
-    bool finite =
-        std::isfinite(level.separation) && std::isfinite(level.force) && std::isfinite(level.area) && std::isfinite(level.residual);
-    for (std::size_t k = 0; k < level.asperity.size(); ++k) finite = finite && std::isfinite(level.f[k]) && std::isfinite(level.a[k]);
-    if (!finite) throw Error(Failure::internal, "level " + std::to_string(step + 1) + " holds a value that is not a finite number");
+    if (std::isnan(level.force) && level.status == LevelStatus::not_converged)
+        return;  // reported by its status
+    bool finite = std::isfinite(level.separation) && std::isfinite(level.force) &&
+                  std::isfinite(level.area) && std::isfinite(level.residual);
+    for (std::size_t k = 0; k < level.asperity.size(); ++k)
+        finite = finite && std::isfinite(level.f[k]) && std::isfinite(level.a[k]);
+    if (!finite)
+        throw Error(Failure::internal, "level " + std::to_string(step + 1) +
+                                           " holds a value that is not a finite number");
 }
 
 // Divisor that turns the sum of a cell over realizations into its mean area fraction or pressure.
-double map_divisor(const MapGrid& grid, std::int32_t converged) { return grid.side * grid.side * std::max(1, converged); }
+double map_divisor(const MapGrid& grid, std::int32_t converged) {
+    return grid.side * grid.side * std::max(1, converged);
+}
 
-// Product rounded to a double; volatile prevents the compiler from fusing it with the following sum.
+// Product rounded to a double; volatile prevents the compiler from fusing it with the following
+// sum.
 double rounded_product(double a, double b) {
     const volatile double product = a * b;
     return product;
@@ -28,13 +35,14 @@ std::int32_t nearest_level(const std::vector<double>& levels, double wanted) {
     std::int32_t best = -1;
     double least = kInfinity;
     for (std::size_t k = 0; k < levels.size(); ++k)
-        if (const double distance = std::abs(levels[k] - wanted); best < 0 || distance < least - 1e-9 * (least + std::abs(wanted)))
+        if (const double distance = std::abs(levels[k] - wanted);
+            best < 0 || distance < least - 1e-9 * (least + std::abs(wanted)))
             best = static_cast<std::int32_t>(k), least = distance;
     return best;
 }
 
-RealizationRecord observe(const ObserveOptions& options, std::int64_t realization, const SurfaceStatistics& surface,
-                          const std::vector<Level>& levels) {
+RealizationRecord observe(const ObserveOptions& options, std::int64_t realization,
+                          const SurfaceStatistics& surface, const std::vector<Level>& levels) {
     RealizationRecord record;
     record.realization = realization;
     record.surface = surface;
@@ -45,7 +53,8 @@ RealizationRecord observe(const ObserveOptions& options, std::int64_t realizatio
         row.outside_map = map.outside;
         row.crowded_cells = count_crowded_cells(options.map, map);
         record.levels.push_back(row);
-        record.maps.push_back(row.status == LevelStatus::not_converged ? MapLevel{} : std::move(map));
+        record.maps.push_back(row.status == LevelStatus::not_converged ? MapLevel{}
+                                                                       : std::move(map));
     }
     std::vector<double> separations;
     for (const Level& level : levels) separations.push_back(level.separation);
@@ -56,13 +65,15 @@ RealizationRecord observe(const ObserveOptions& options, std::int64_t realizatio
         Level no_contacts;
         no_contacts.separation = level.separation;
         const bool failed = level.status == LevelStatus::not_converged;
-        record.distributions.push_back(distributions_of(options.pdf, failed ? no_contacts : level, step));
+        record.distributions.push_back(
+            distributions_of(options.pdf, failed ? no_contacts : level, step));
     }
     return record;
 }
 
 // Two passes over the realizations in order.
-LevelStatistics Observations::statistics(const std::function<double(const LevelValues&)>& of) const {
+LevelStatistics Observations::statistics(
+    const std::function<double(const LevelValues&)>& of) const {
     LevelStatistics s;
     s.mean.assign(steps, kAbsent);
     s.deviation = s.error = s.mean;
@@ -88,46 +99,57 @@ LevelStatistics Observations::statistics(const std::function<double(const LevelV
     return s;
 }
 
-Accumulators::Accumulators(const ObserveOptions& options_, std::size_t steps_) : Realizations{options_, steps_, {}, {}, {}} {
+Accumulators::Accumulators(const ObserveOptions& options_, std::size_t steps_)
+    : Realizations{options_, steps_, {}, {}, {}} {
     map_area.assign(steps * static_cast<std::size_t>(options.map.cells()), ExactSum{});
     map_force = map_area;
     distributions.resize(steps > 0 ? options.pdf_levels.size() : 0);
 }
 
 void Accumulators::add(const RealizationRecord& record) {
-    if (record.levels.size() != steps || record.maps.size() != steps || record.distributions.size() != distributions.size())
-        throw Error(Failure::internal, "realization " + std::to_string(record.realization) + " has " +
-                                           std::to_string(record.levels.size()) + " levels, the others " + std::to_string(steps));
+    if (record.levels.size() != steps || record.maps.size() != steps ||
+        record.distributions.size() != distributions.size())
+        throw Error(Failure::internal, "realization " + std::to_string(record.realization) +
+                                           " has " + std::to_string(record.levels.size()) +
+                                           " levels, the others " + std::to_string(steps));
     if (!realization.empty() && record.realization <= realization.back())
-        throw Error(Failure::internal,
-                    "realization " + std::to_string(record.realization) + " added after realization " + std::to_string(realization.back()));
+        throw Error(Failure::internal, "realization " + std::to_string(record.realization) +
+                                           " added after realization " +
+                                           std::to_string(realization.back()));
     realization.push_back(record.realization);
     surface.push_back(record.surface);
     rows.insert(rows.end(), record.levels.begin(), record.levels.end());
     const auto cells = static_cast<std::size_t>(options.map.cells());
     constexpr int kBits = 64;  // a full cell is 2^64 quanta, 11 bits more than a double has
-    const double cell_area = options.map.side * options.map.side, area_quantum = quantum_of(cell_area, kBits),
+    const double cell_area = options.map.side * options.map.side,
+                 area_quantum = quantum_of(cell_area, kBits),
                  force_quantum = quantum_of(options.pdf.pressure_max * cell_area, kBits);
     for (std::size_t s = 0; s < steps; ++s) {
         const MapLevel& map = record.maps[s];
         for (std::size_t k = 0; k < map.cell.size(); ++k) {
-            map_area[s * cells + static_cast<std::size_t>(map.cell[k])].add(exact_term(map.area[k], area_quantum));
-            map_force[s * cells + static_cast<std::size_t>(map.cell[k])].add(exact_term(map.force[k], force_quantum));
+            map_area[s * cells + static_cast<std::size_t>(map.cell[k])].add(
+                exact_term(map.area[k], area_quantum));
+            map_force[s * cells + static_cast<std::size_t>(map.cell[k])].add(
+                exact_term(map.force[k], force_quantum));
         }
     }
-    for (std::size_t d = 0; d < distributions.size(); ++d) rsc::add(distributions[d], options.pdf, record.distributions[d]);
+    for (std::size_t d = 0; d < distributions.size(); ++d)
+        rsc::add(distributions[d], options.pdf, record.distributions[d]);
 }
 
 void Accumulators::append(const Accumulators& later) {
-    if (later.steps != steps || later.map_area.size() != map_area.size() || later.distributions.size() != distributions.size() ||
-        (!realization.empty() && !later.realization.empty() && later.realization.front() <= realization.back()))
+    if (later.steps != steps || later.map_area.size() != map_area.size() ||
+        later.distributions.size() != distributions.size() ||
+        (!realization.empty() && !later.realization.empty() &&
+         later.realization.front() <= realization.back()))
         throw Error(Failure::internal, "sums can only be added in the order of their realizations");
     realization.insert(realization.end(), later.realization.begin(), later.realization.end());
     surface.insert(surface.end(), later.surface.begin(), later.surface.end());
     rows.insert(rows.end(), later.rows.begin(), later.rows.end());
     for (std::size_t k = 0; k < map_area.size(); ++k) map_area[k].add(later.map_area[k]);
     for (std::size_t k = 0; k < map_force.size(); ++k) map_force[k].add(later.map_force[k]);
-    for (std::size_t d = 0; d < distributions.size(); ++d) rsc::add(distributions[d], later.distributions[d]);
+    for (std::size_t d = 0; d < distributions.size(); ++d)
+        rsc::add(distributions[d], later.distributions[d]);
 }
 
 Observations Accumulators::finish() const {
@@ -139,13 +161,15 @@ Observations Accumulators::finish() const {
 
     const std::vector<std::int32_t> counts = converged();
     const auto cells = static_cast<std::size_t>(options.map.cells());
-    const auto divide = [&](const std::vector<ExactSum>& sums, std::vector<double>& means, std::vector<double>& rests) {
+    const auto divide = [&](const std::vector<ExactSum>& sums, std::vector<double>& means,
+                            std::vector<double>& rests) {
         means.reserve(sums.size());
         if (o.realizations > 1) rests.reserve(sums.size());
         for (const ExactSum& sum : sums) {
             const double divisor = map_divisor(options.map, counts[means.size() / cells]);
             means.push_back(sum.high / divisor);
-            if (o.realizations > 1) rests.push_back((sum.high - rounded_product(means.back(), divisor)) + sum.low);
+            if (o.realizations > 1)
+                rests.push_back((sum.high - rounded_product(means.back(), divisor)) + sum.low);
         }
     };
     divide(map_area, o.map_area_fraction, o.map_area_rest);
@@ -154,27 +178,31 @@ Observations Accumulators::finish() const {
     const RadialMean mean(options.map, options.tip_x, options.tip_y, options.radial_bins);
     o.radii = mean.radii();
     for (std::size_t s = 0; s < steps && !o.radii.empty(); ++s) {
-        for (double v : mean(o.map_area_fraction.data() + s * cells)) o.radial_area_fraction.push_back(v);
+        for (double v : mean(o.map_area_fraction.data() + s * cells))
+            o.radial_area_fraction.push_back(v);
         for (double v : mean(o.map_pressure.data() + s * cells)) o.radial_pressure.push_back(v);
     }
     for (const DistributionSums& d : distributions)
-        o.distributions.push_back(fit_distributions(options.pdf, rounded(d, options.pdf, static_cast<std::int64_t>(o.realizations))));
+        o.distributions.push_back(fit_distributions(
+            options.pdf, rounded(d, options.pdf, static_cast<std::int64_t>(o.realizations))));
     o.distribution_sums = distributions;
     return o;
 }
 
 std::vector<std::int32_t> Accumulators::converged() const {
     std::vector<std::int32_t> counts(steps, 0);
-    for (std::size_t k = 0; k < rows.size(); ++k) counts[k % steps] += rows[k].status != LevelStatus::not_converged;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        counts[k % steps] += rows[k].status != LevelStatus::not_converged;
     return counts;
 }
 
-std::vector<ExactSum> map_sums(const MapGrid& grid, const std::vector<std::int32_t>& converged, const std::vector<double>& means,
-                               const std::vector<double>& rests) {
+std::vector<ExactSum> map_sums(const MapGrid& grid, const std::vector<std::int32_t>& converged,
+                               const std::vector<double>& means, const std::vector<double>& rests) {
     std::vector<ExactSum> sums(means.size());
     const auto cells = static_cast<std::size_t>(grid.cells());
     for (std::size_t k = 0; k < sums.size(); ++k)
-        sums[k] = ExactSum::of_two(rounded_product(means[k], map_divisor(grid, converged[k / cells])), rests[k]);
+        sums[k] = ExactSum::of_two(
+            rounded_product(means[k], map_divisor(grid, converged[k / cells])), rests[k]);
     return sums;
 }
 

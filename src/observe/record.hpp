@@ -1,14 +1,16 @@
 // Record of one realization, and sums over realizations (paper, section 5).
 //
-// observe() reduces one realization to a RealizationRecord of plain numbers and vectors, which can be written to a checkpoint.
-// Accumulators::add() adds records in the order of their realizations, independent of the thread, rank or run that computed them; sums are
-// exact (ExactSum), so that the sums of two campaigns can be merged. finish() computes means, radial means and fits.
+// observe() reduces one realization to a RealizationRecord of plain numbers and vectors, which can
+// be written to a checkpoint.
+// Accumulators::add() adds records in the order of their realizations, independent of the thread,
+// rank or run that computed them; sums are exact (ExactSum), so that the sums of two campaigns can
+// be merged. finish() computes means, radial means and fits.
 #pragma once
 
 #include "contact/level.hpp"
 #include "observe/distributions.hpp"
 #include "observe/map.hpp"
-#include "rough/spectrum.hpp"
+#include "surface/spectrum.hpp"
 
 namespace rsc {
 
@@ -16,18 +18,22 @@ struct ObserveOptions {
     double tip_x = 0, tip_y = 0;  // centre of the radial means [length]
     MapGrid map;
     int radial_bins = 50;
-    std::vector<double> pdf_levels;  // separations at whose nearest levels distributions are computed [length]
+    std::vector<double>
+        pdf_levels;  // separations at whose nearest levels distributions are computed [length]
     PdfBins pdf;
 };
 
 // Surface of a realization. NaN means absent (for example m2 of asperities read from a file).
 struct SurfaceStatistics {
-    double sigma = kAbsent;             // rms height [length]
-    double m2 = kAbsent, m4 = kAbsent;  // profile moments from the modes drawn (synthetic) or the grid (measured)
-    MomentTensor tensor{kAbsent, kAbsent, kAbsent, kAbsent, kAbsent, kAbsent, kAbsent, kAbsent};  // by direction
-    double skewness = kAbsent, kurtosis = kAbsent;                                                // of non-Gaussian synthetic heights
-    double m2_grid = kAbsent, m4_grid = kAbsent;                                                  // from finite differences
-    double mean_kappa_g = kAbsent, mean_kappa_a = kAbsent;  // means of the summits' curvatures [1/length]
+    double sigma = kAbsent;  // rms height [length]
+    double m2 = kAbsent,
+           m4 = kAbsent;  // profile moments from the modes drawn (synthetic) or the grid (measured)
+    MomentTensor tensor{kAbsent, kAbsent, kAbsent, kAbsent,
+                        kAbsent, kAbsent, kAbsent, kAbsent};  // by direction
+    double skewness = kAbsent, kurtosis = kAbsent;            // of non-Gaussian synthetic heights
+    double m2_grid = kAbsent, m4_grid = kAbsent;              // from finite differences
+    double mean_kappa_g = kAbsent,
+           mean_kappa_a = kAbsent;  // means of the summits' curvatures [1/length]
     std::int64_t summits = 0, saddles = 0;
 };
 
@@ -37,22 +43,26 @@ struct MomentComponent {
     double MomentTensor::*of;
 };
 inline constexpr MomentComponent kMomentComponents[] = {
-    {"m20", &MomentTensor::m20}, {"m11", &MomentTensor::m11}, {"m02", &MomentTensor::m02}, {"m40", &MomentTensor::m40},
-    {"m31", &MomentTensor::m31}, {"m22", &MomentTensor::m22}, {"m13", &MomentTensor::m13}, {"m04", &MomentTensor::m04}};
+    {"m20", &MomentTensor::m20}, {"m11", &MomentTensor::m11}, {"m02", &MomentTensor::m02},
+    {"m40", &MomentTensor::m40}, {"m31", &MomentTensor::m31}, {"m22", &MomentTensor::m22},
+    {"m13", &MomentTensor::m13}, {"m04", &MomentTensor::m04}};
 
 struct RealizationRecord {
     std::int64_t realization = 1;
     SurfaceStatistics surface;
     std::vector<LevelValues> levels;
-    std::vector<MapLevel> maps;                // one per level; empty if it did not converge, as are distributions
+    std::vector<MapLevel>
+        maps;  // one per level; empty if it did not converge, as are distributions
     std::vector<Distributions> distributions;  // one per pdf level
 };
 
-// Reduces the levels of one realization to a record. Throws Error(internal) if a level holds a value that is not finite.
-RealizationRecord observe(const ObserveOptions& options, std::int64_t realization, const SurfaceStatistics& surface,
-                          const std::vector<Level>& levels);
+// Reduces the levels of one realization to a record. Throws Error(internal) if a level holds a
+// value that is not finite.
+RealizationRecord observe(const ObserveOptions& options, std::int64_t realization,
+                          const SurfaceStatistics& surface, const std::vector<Level>& levels);
 
-// Index of the level (its separation, force or pressure) nearest to the wanted one, the first of those that are equally near but for rounding;
+// Index of the level (its separation, force or pressure) nearest to the wanted one, the first of
+// those that are equally near but for rounding;
 // -1 if there are no levels.
 std::int32_t nearest_level(const std::vector<double>& levels, double wanted);
 
@@ -69,21 +79,26 @@ struct Realizations {
 
 // Sums over realizations, written to the checkpoint of a campaign.
 struct Accumulators : Realizations {
-    std::vector<ExactSum> map_area, map_force;    // [step][cell], sums over realizations [length^2], [force]
+    std::vector<ExactSum> map_area,
+        map_force;  // [step][cell], sums over realizations [length^2], [force]
     std::vector<DistributionSums> distributions;  // [pdf level]
 
     Accumulators() = default;
     Accumulators(const ObserveOptions& options, std::size_t steps);
-    // Records must be added by increasing realization and with the same number of levels; otherwise throws Error(internal).
+    // Records must be added by increasing realization and with the same number of levels; otherwise
+    // throws Error(internal).
     void add(const RealizationRecord& record);
-    // Appends the sums over later realizations of the same case. The result is the same, bit for bit, as adding all records one by one.
+    // Appends the sums over later realizations of the same case. The result is the same, bit for
+    // bit, as adding all records one by one.
     void append(const Accumulators& later);
-    std::vector<std::int32_t> converged() const;  // number of realizations that converged, for each step
+    std::vector<std::int32_t> converged()
+        const;  // number of realizations that converged, for each step
     Observations finish() const;
 };
 
-// Statistics of a quantity over the M realizations that converged and have it, for each step: mean (NaN if M = 0), sample standard
-// deviation (divisor M - 1; NaN if M = 1) and standard error of the mean, deviation/sqrt(M).
+// Statistics of a quantity over the M realizations that converged and have it, for each step: mean
+// (NaN if M = 0), sample standard deviation (divisor M - 1; NaN if M = 1) and standard error of the
+// mean, deviation/sqrt(M).
 struct LevelStatistics {
     std::vector<double> mean, deviation, error;
     std::vector<std::int32_t> count;  // M
@@ -97,7 +112,8 @@ struct Observations : Realizations {
     std::vector<double> radii;                                  // middle of the rings [length]
     std::vector<double> radial_area_fraction, radial_pressure;  // [step][radius]
     std::vector<FittedDistributions> distributions;             // [pdf level]
-    // Rounding errors of the means above, which restore the exact sums over several realizations (map_sums): [step][j][i]
+    // Rounding errors of the means above, which restore the exact sums over several realizations
+    // (map_sums): [step][j][i]
     std::vector<double> map_area_rest, map_force_rest;  // [length^2], [force]
     std::vector<DistributionSums> distribution_sums;    // [pdf level]
     const LevelValues& row(std::size_t k, std::size_t step) const { return rows[k * steps + step]; }
@@ -105,7 +121,7 @@ struct Observations : Realizations {
 };
 
 // Restores the exact sums of a map from the means and rests computed by finish().
-std::vector<ExactSum> map_sums(const MapGrid& grid, const std::vector<std::int32_t>& converged, const std::vector<double>& means,
-                               const std::vector<double>& rests);
+std::vector<ExactSum> map_sums(const MapGrid& grid, const std::vector<std::int32_t>& converged,
+                               const std::vector<double>& means, const std::vector<double>& rests);
 
 }  // namespace rsc

@@ -1,6 +1,6 @@
 #include "observe/regimes.hpp"
 
-#include "error.hpp"
+#include "base/error.hpp"
 
 namespace rsc {
 
@@ -15,13 +15,17 @@ double Hertz::pressure(double r) const {
 }
 
 Hertz hertz_contact(double force, double R, double E_star) {
-    if (!(force >= 0) || !std::isfinite(force)) bad_input("Hertz contact: the force must be finite and not negative");
-    if (!(R > 0) || !std::isfinite(R)) bad_input("Hertz contact: the radius must be positive and finite");
-    if (!(E_star > 0) || !std::isfinite(E_star)) bad_input("Hertz contact: E* must be positive and finite");
+    if (!(force >= 0) || !std::isfinite(force))
+        bad_input("Hertz contact: the force must be finite and not negative");
+    if (!(R > 0) || !std::isfinite(R))
+        bad_input("Hertz contact: the radius must be positive and finite");
+    if (!(E_star > 0) || !std::isfinite(E_star))
+        bad_input("Hertz contact: E* must be positive and finite");
     Hertz h;
     h.radius = std::cbrt(3 * force * R / (4 * E_star));
     h.penetration = h.radius * h.radius / R;
-    h.peak = 2 * E_star * h.radius / (pi * R);  // = 3 N / (2 pi a^2), and 0 rather than 0/0 without load
+    h.peak =
+        2 * E_star * h.radius / (pi * R);  // = 3 N / (2 pi a^2), and 0 rather than 0/0 without load
     return h;
 }
 
@@ -35,7 +39,8 @@ double area_proportional(double force, double m2, double E_star, double beta) {
 }
 
 double transition_force(const Moments& moments, double E_star, double beta) {
-    // A_I = A_II solved for N: N^(1/3) = pi (3 r_g / (4 E*))^(2/3) sqrt(2 m2) E* / (beta sqrt(2 pi)).
+    // A_I = A_II solved for N: N^(1/3) = pi (3 r_g / (4 E*))^(2/3) sqrt(2 m2) E* / (beta sqrt(2
+    // pi)).
     const double r_g = moments.mean_radius();
     const double root = std::sqrt(pi * moments.m2) / beta;  // pi sqrt(2 m2) / (beta sqrt(2 pi))
     return 9.0 / 16.0 * r_g * r_g * root * root * root * E_star;
@@ -54,7 +59,10 @@ double greenwood_williamson(double n, double h) {
     double sum = 0;
     for (int k = 0; k <= steps; ++k) {
         const double w = end * k / steps, t = h + w * w;
-        sum += (k == 0 || k == steps ? 1 : k % 2 ? 4 : 2) * 2 * std::pow(w, 2 * n + 1) * std::exp(-t * t / 2) / std::sqrt(2 * pi);
+        sum += (k == 0 || k == steps ? 1
+                : k % 2              ? 4
+                                     : 2) *
+               2 * std::pow(w, 2 * n + 1) * std::exp(-t * t / 2) / std::sqrt(2 * pi);
     }
     return sum * end / (3 * steps);
 }
@@ -63,7 +71,8 @@ double greenwood_williamson(double n, double h) {
 
 double area_gw(double p_over_E_star, const FlatSummits& s) {
     if (!(p_over_E_star > 0)) return 0;
-    const double unit = 4.0 / 3 * s.density * std::sqrt(s.radius) * s.deviation * std::sqrt(s.deviation);
+    const double unit =
+        4.0 / 3 * s.density * std::sqrt(s.radius) * s.deviation * std::sqrt(s.deviation);
     double low = -50, high = 12;
     for (int k = 0; k < 60; ++k) {
         const double h = 0.5 * (low + high);

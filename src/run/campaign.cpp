@@ -1,11 +1,11 @@
 #include "run/run.hpp"
 
+#include "base/error.hpp"
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
-#include "error.hpp"
-#include "file/netcdf_writer.hpp"
-#include "file/whole_file.hpp"
-#include "read/inputs.hpp"
+#include "io/inputs.hpp"
+#include "io/netcdf_writer.hpp"
+#include "io/whole_file.hpp"
 #include "run/checkpoint.hpp"
 #include "run/compare.hpp"
 #include "run/screen.hpp"
@@ -20,11 +20,14 @@ const char* const kGoesOn = "to continue, run the same command with --resume";
 
 using Clock = std::chrono::steady_clock;
 
-// The finished realizations of a campaign: those in the sums, and those that wait for an earlier one.
+// The finished realizations of a campaign: those in the sums, and those that wait for an earlier
+// one.
 class Progressing {
 public:
-    // `earlier`: the sums of a finished campaign that this one continues, if the checkpoint has none.
-    Progressing(const Job& job, Checkpoint& checkpoint, std::size_t workers, const std::function<std::optional<Accumulators>()>& earlier)
+    // `earlier`: the sums of a finished campaign that this one continues, if the checkpoint has
+    // none.
+    Progressing(const Job& job, Checkpoint& checkpoint, std::size_t workers,
+                const std::function<std::optional<Accumulators>()>& earlier)
         : first_(job.settings.run.first_realization),
           count_(job.settings.run.realizations),
           window_(static_cast<std::int64_t>(4 * workers + 32)),
@@ -44,7 +47,8 @@ public:
         next_ = next_to_add();
     }
 
-    // The next realization to start. None starts far ahead of a slow one, because finished ones that wait for it are held in memory.
+    // The next realization to start. None starts far ahead of a slow one, because finished ones
+    // that wait for it are held in memory.
     std::optional<std::int64_t> next() {
         while (waiting_.contains(next_)) ++next_;
         if (next_ >= first_ + count_ || next_ >= next_to_add() + window_) return {};
@@ -69,10 +73,12 @@ private:
     std::int64_t next_to_add() const { return first_ + static_cast<std::int64_t>(added()); }
     void take(std::string record) {
         const std::int64_t number = realization_of(record);
-        if (number >= next_to_add() && number < first_ + count_) waiting_.emplace(number, std::move(record));
+        if (number >= next_to_add() && number < first_ + count_)
+            waiting_.emplace(number, std::move(record));
     }
     void add_in_order() {
-        for (auto found = waiting_.find(next_to_add()); found != waiting_.end(); found = waiting_.find(next_to_add())) {
+        for (auto found = waiting_.find(next_to_add()); found != waiting_.end();
+             found = waiting_.find(next_to_add())) {
             sums_.add(record_from_bytes(found->second));
             waiting_.erase(found);
         }
@@ -93,8 +99,9 @@ bool input_is_newer(const Case& settings) {
     return false;
 }
 
-// The sums in the result file of the case, if it contains the first realizations of the same campaign and no others. Otherwise the reason
-// is written to `messages`, because that result will be replaced.
+// The sums in the result file of the case, if it contains the first realizations of the same
+// campaign and no others. Otherwise the reason is written to `messages`, because that result will
+// be replaced.
 std::optional<Accumulators> earlier_sums(const Job& job, std::ostream* messages) {
     const std::string& file = job.settings.output.file;
     std::string why;
@@ -103,9 +110,11 @@ std::optional<Accumulators> earlier_sums(const Job& job, std::ostream* messages)
         if (!head) return {};
         const Reading there = read_namelist(head->case_text);
         if (there.study) bad_input("it is not the result of a campaign");
-        if (!head->this_version() || !there.faults.empty()) bad_input("it was written by another version of rsc");
+        if (!head->this_version() || !there.faults.empty())
+            bad_input("it was written by another version of rsc");
         if (input_is_newer(job.settings)) bad_input("an input has changed since");
-        for (const std::string& line : Checkpoint::differences(there.settings, without_idle_keys(job.settings)))
+        for (const std::string& line :
+             Checkpoint::differences(there.settings, without_idle_keys(job.settings)))
             why += (why.empty() ? "" : "; ") + line;
         if (why.empty()) return read_sums(file, job.observe, job.levels.size());
     } catch (const Error& error) {
@@ -117,36 +126,44 @@ std::optional<Accumulators> earlier_sums(const Job& job, std::ostream* messages)
     return {};
 }
 
-// The contents of a campaign's result file. Levels of &compare are solved by elements here and reported on `table`. If a signal is caught
-// meanwhile, the result is incomplete.
+// The contents of a campaign's result file. Levels of &compare are solved by elements here and
+// reported on `table`. If a signal is caught meanwhile, the result is incomplete.
 Result campaign_result(const Job& job, const Accumulators& sums, std::ostream* table) {
     const Case& settings = job.settings;
     Observations observations = sums.finish();
-    const std::vector<LevelValues> first(observations.rows.begin(),
-                                         observations.rows.begin() + static_cast<std::ptrdiff_t>(observations.steps));
+    const std::vector<LevelValues> first(
+        observations.rows.begin(),
+        observations.rows.begin() + static_cast<std::ptrdiff_t>(observations.steps));
     ComparedLevels compared;
     if (compares(job, false))
-        compared = compare_levels(job, settings.run.first_realization, 1, first, table, [] { return caught_signal() != 0; });
-    Result result = make_result(settings, case_text(settings), job.indenter, job.sigma, job.theory, std::move(observations));
+        compared = compare_levels(job, settings.run.first_realization, 1, first, table,
+                                  [] { return caught_signal() != 0; });
+    Result result = make_result(settings, case_text(settings), job.indenter, job.sigma, job.theory,
+                                std::move(observations));
     result.compared = std::move(compared);
     return result;
 }
 
 std::string how_far(const Progressing& state, const Case& settings) {
     return std::to_string(state.finished()) + " of " + std::to_string(settings.run.realizations) +
-           " realizations are finished and saved in '" + checkpoint_name(settings.output.file) + "'";
+           " realizations are finished and saved in '" + checkpoint_name(settings.output.file) +
+           "'";
 }
 
 }  // namespace
 
-RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& team, std::int32_t member, std::shared_ptr<const Job> job) {
+RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& team,
+                        std::int32_t member, std::shared_ptr<const Job> job) {
     const auto start = Clock::now();
-    const auto seconds = [start] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    const auto seconds = [start] {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    };
     const std::string& file = settings.output.file;
     const bool replaces = check_result_path(settings, options);
     contacts_kept(settings);
     std::error_code ignored;
-    if (const fs::path folder = fs::path(file).parent_path(); !folder.empty()) fs::create_directories(folder, ignored);
+    if (const fs::path folder = fs::path(file).parent_path(); !folder.empty())
+        fs::create_directories(folder, ignored);
 
     Checkpoint checkpoint(file, settings, options.resume);
     Progressing state(*job, checkpoint, team.workers(), [&]() -> std::optional<Accumulators> {
@@ -160,7 +177,8 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
     const std::size_t batch = std::max<std::size_t>(1, total / 20);
     if (options.report)
         team.meanwhile = [&] {
-            if (options.report(static_cast<double>(state.finished()), static_cast<double>(total))) throw Interrupted(0, "stopped");
+            if (options.report(static_cast<double>(state.finished()), static_cast<double>(total)))
+                throw Interrupted(0, "stopped");
         };
     try {
         ProgressLine line(options, "realizations", static_cast<double>(already));
@@ -180,20 +198,24 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
             },
             1);
     } catch (const Interrupted& stop) {
-        throw Interrupted(stop.signal(), std::string(stop.what()) + "; " + how_far(state, settings) + ": " + kGoesOn);
+        throw Interrupted(stop.signal(), std::string(stop.what()) + "; " +
+                                             how_far(state, settings) + ": " + kGoesOn);
     } catch (const Error& error) {
         throw Error(error.kind() == Failure::bad_input ? Failure::internal : error.kind(),
                     std::string(error.what()) + "\n" + how_far(state, settings) + ": " + kGoesOn);
     }
 
-    if (state.added() != total) throw Error(Failure::internal, "a campaign ended with " + how_far(state, settings));
+    if (state.added() != total)
+        throw Error(Failure::internal, "a campaign ended with " + how_far(state, settings));
     const Result result = campaign_result(*job, state.sums(), table);
     leave_if_interrupted("; " + how_far(state, settings) + ": " + kGoesOn);
     try {
-        write_result(result, file, {settings.output.format, settings.output.compression, options.command});
+        write_result(result, file,
+                     {settings.output.format, settings.output.compression, options.command});
     } catch (const Error& error) {
         throw Error(error.kind(), std::string(error.what()) + "\n" + how_far(state, settings) +
-                                      ": run the same command with --resume to write the file without computing them again");
+                                      ": run the same command with --resume to write the file "
+                                      "without computing them again");
     }
     checkpoint.remove();
     const RunSummary summary = campaign_summary(result);
@@ -204,7 +226,9 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
 
 std::optional<RunSummary> finished_result(const Case& settings) {
     const std::optional<ResultHead> head = head_of_result(settings.output.file);
-    if (!head || !head->this_version() || head->case_text != case_text(settings) || input_is_newer(settings)) return {};
+    if (!head || !head->this_version() || head->case_text != case_text(settings) ||
+        input_is_newer(settings))
+        return {};
     const std::optional<LevelCount> count = count_levels(settings.output.file);
     if (!count) return {};
     RunSummary summary;
@@ -224,16 +248,21 @@ struct Part {
 };
 
 std::string numbers(std::int64_t from, std::int64_t to) {
-    return (from == to ? "realization " : "realizations ") + std::to_string(from) + (from == to ? "" : " to " + std::to_string(to));
+    return (from == to ? "realization " : "realizations ") + std::to_string(from) +
+           (from == to ? "" : " to " + std::to_string(to));
 }
 
 Part open_part(const std::string& file) {
     const std::optional<ResultHead> head = head_of_result(file);
     if (!head) refuse("'" + file + "' is no result of rsc");
     const ReadCase read = read_case_text(head->case_text, file);
-    if (read.study) refuse("'" + file + "' is the manifest of a study, not the result of a campaign");
-    if (!head->this_version()) refuse("'" + file + "' is of another version (" + head->source.substr(0, head->source.find(',')) + ")");
-    if (read.settings.run.realizations == 1) refuse("'" + file + "' holds a single realization, not a campaign");
+    if (read.study)
+        refuse("'" + file + "' is the manifest of a study, not the result of a campaign");
+    if (!head->this_version())
+        refuse("'" + file + "' is of another version (" +
+               head->source.substr(0, head->source.find(',')) + ")");
+    if (read.settings.run.realizations == 1)
+        refuse("'" + file + "' holds a single realization, not a campaign");
     return {file, read.settings};
 }
 
@@ -241,27 +270,32 @@ void require_same_case(const Part& first, Part other) {
     other.settings.run.first_realization = first.settings.run.first_realization;
     other.settings.run.realizations = first.settings.run.realizations;
     std::string changed;
-    for (const std::string& line :
-         Checkpoint::differences(first.settings, other.settings, "in '" + first.file + "'", "in '" + other.file + "'"))
+    for (const std::string& line : Checkpoint::differences(
+             first.settings, other.settings, "in '" + first.file + "'", "in '" + other.file + "'"))
         changed += "\n  " + line;
-    if (!changed.empty()) refuse("'" + other.file + "' is of another case than '" + first.file + "':" + changed);
+    if (!changed.empty())
+        refuse("'" + other.file + "' is of another case than '" + first.file + "':" + changed);
 }
 
 void require_adjacent(const Part& before, const Part& after) {
     if (after.first() <= before.last())
-        refuse(numbers(after.first(), std::min(before.last(), after.last())) + " are in '" + before.file + "' and in '" + after.file + "'");
+        refuse(numbers(after.first(), std::min(before.last(), after.last())) + " are in '" +
+               before.file + "' and in '" + after.file + "'");
     if (after.first() > before.last() + 1)
-        refuse(numbers(before.last() + 1, after.first() - 1) + " of the campaign are missing from the files");
+        refuse(numbers(before.last() + 1, after.first() - 1) +
+               " of the campaign are missing from the files");
 }
 
 }  // namespace
 
-RunSummary merge_campaigns(const std::vector<std::string>& files, const std::string& output, const RunOptions& options) {
+RunSummary merge_campaigns(const std::vector<std::string>& files, const std::string& output,
+                           const RunOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<Part> parts;
     for (const std::string& file : files) parts.push_back(open_part(file));
     for (const Part& part : parts) require_same_case(parts.front(), part);
-    std::stable_sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.first() < b.first(); });
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](const Part& a, const Part& b) { return a.first() < b.first(); });
     for (std::size_t k = 1; k < parts.size(); ++k) require_adjacent(parts[k - 1], parts[k]);
     const bool replaces = check_output(output, files);
 
@@ -272,8 +306,10 @@ RunSummary merge_campaigns(const std::vector<std::string>& files, const std::str
     Accumulators sums = read_sums(parts.front().file, job.observe, job.levels.size());
     for (std::size_t k = 1; k < parts.size(); ++k) {
         const Accumulators more = read_sums(parts[k].file, job.observe, job.levels.size());
-        if (whole.indentation.control == Control::separation && more.rows.front().separation != sums.rows.front().separation)
-            refuse("the levels of '" + parts[k].file + "' differ from those of '" + parts.front().file + "'");
+        if (whole.indentation.control == Control::separation &&
+            more.rows.front().separation != sums.rows.front().separation)
+            refuse("the levels of '" + parts[k].file + "' differ from those of '" +
+                   parts.front().file + "'");
         sums.append(more);
     }
     std::ostream* const table = options.table;
@@ -281,7 +317,8 @@ RunSummary merge_campaigns(const std::vector<std::string>& files, const std::str
     leave_if_interrupted("; nothing is written");
     write_result(result, output, {whole.output.format, whole.output.compression, options.command});
     const RunSummary summary = campaign_summary(result);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (table) print_campaign_summary(*table, job, result.observations, seconds, output, replaces);
     tell_failed(options, summary);
     return summary;

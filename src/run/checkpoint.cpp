@@ -5,18 +5,22 @@
 #include <unistd.h>
 #include <zlib.h>
 
-#include "archive.hpp"
+#include "base/archive.hpp"
+#include "base/error.hpp"
+#include "base/version.h"
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
-#include "error.hpp"
-#include "file/whole_file.hpp"
+#include "io/whole_file.hpp"
 #include "run/run.hpp"
-#include "version.h"
 
 namespace rsc {
 namespace {
 
-enum : std::uint32_t { kHeader = 0x68637372, kSums = 0x73637372, kRecord = 0x72637372 };  // "rsch", "rscs", "rscr"
+enum : std::uint32_t {
+    kHeader = 0x68637372,
+    kSums = 0x73637372,
+    kRecord = 0x72637372
+};  // "rsch", "rscs", "rscr"
 
 struct FrameHead {
     std::uint32_t kind = 0, checksum = 0;
@@ -24,13 +28,16 @@ struct FrameHead {
 };
 
 constexpr std::uint64_t kSmallLog = std::uint64_t{16} << 20;  // smaller files are not rewritten
-constexpr double kSyncShare = 0.01;                           // largest share of the time spent on waiting for the disk
+constexpr double kSyncShare = 0.01;  // largest share of the time spent on waiting for the disk
 constexpr double kSyncSeconds = 5;
 
-// Any file may be replaced here, because the process holds its lock, and load() refuses files that are no checkpoints.
+// Any file may be replaced here, because the process holds its lock, and load() refuses files that
+// are no checkpoints.
 const FileKind kCheckpoint{"checkpoint", [](const std::string&) { return true; }};
 
-uLong add(uLong crc, const void* data, std::size_t n) { return crc32_z(crc, static_cast<const Bytef*>(data), n); }
+uLong add(uLong crc, const void* data, std::size_t n) {
+    return crc32_z(crc, static_cast<const Bytef*>(data), n);
+}
 
 // CRC-32 of kind, length and bytes.
 std::uint32_t checksum_of(const FrameHead& head, std::string_view bytes) {
@@ -71,12 +78,16 @@ std::uint32_t kind_at(std::string_view file) {
 bool still_named(int fd, const std::string& name) {
     struct stat open {
     }, named{};
-    return ::fstat(fd, &open) == 0 && ::stat(name.c_str(), &named) == 0 && open.st_ino == named.st_ino && open.st_dev == named.st_dev;
+    return ::fstat(fd, &open) == 0 && ::stat(name.c_str(), &named) == 0 &&
+           open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
-std::string header_start() { return std::string("rsc ") + RSC_VERSION + "\n" + archive_layout() + "\n"; }
+std::string header_start() {
+    return std::string("rsc ") + RSC_VERSION + "\n" + archive_layout() + "\n";
+}
 
-// A comment of the namelist with the CRC-32 of the input files: realizations of changed inputs are not those of one campaign.
+// A comment of the namelist with the CRC-32 of the input files: realizations of changed inputs are
+// not those of one campaign.
 std::string inputs_line(const Case& settings) {
     uLong crc = 0;
     for (const std::string& name : input_files(settings)) {
@@ -97,20 +108,24 @@ Checkpoint::Checkpoint(const std::string& result_file, const Case& settings, boo
       header_(header_start() + inputs_line(settings) + effective_namelist(settings)),
       last_sync_(std::chrono::steady_clock::now()) {
     for (int attempt = 0; fd_ < 0; ++attempt) {
-        if (const std::string why = reason_to_leave(name_, kCheckpoint); !why.empty()) bad_input("'" + name_ + "': " + why);
+        if (const std::string why = reason_to_leave(name_, kCheckpoint); !why.empty())
+            bad_input("'" + name_ + "': " + why);
         fd_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (fd_ < 0) fail_to_write(name_, errno);
         // File systems without locks (ENOLCK, ENOTSUP) are used without one.
         const bool busy = lock_file(fd_) == EAGAIN;
-        if (!busy && still_named(fd_, name_)) break;  // otherwise the file was replaced or removed meanwhile
+        if (!busy && still_named(fd_, name_))
+            break;  // otherwise the file was replaced or removed meanwhile
         ::close(std::exchange(fd_, -1));
-        if (busy || attempt == 100) bad_input("'" + name_ + "': another process is running this campaign");
+        if (busy || attempt == 100)
+            bad_input("'" + name_ + "': another process is running this campaign");
     }
     try {
         load(settings);
         if (base_size_ > 0 && !resume)
             bad_input("'" + name_ +
-                      "' is the checkpoint of an interrupted campaign: continue with --resume, or remove that file to "
+                      "' is the checkpoint of an interrupted campaign: continue with --resume, or "
+                      "remove that file to "
                       "start from the beginning");
         if (base_size_ == 0) create();
     } catch (...) {
@@ -131,7 +146,8 @@ void Checkpoint::create() {
 
 // Leaves the first `size` bytes, after which the next frame is written.
 void Checkpoint::cut(std::uint64_t size) {
-    if (::ftruncate(fd_, static_cast<off_t>(size)) != 0 || ::lseek(fd_, 0, SEEK_END) < 0) fail_to_write(name_, errno);
+    if (::ftruncate(fd_, static_cast<off_t>(size)) != 0 || ::lseek(fd_, 0, SEEK_END) < 0)
+        fail_to_write(name_, errno);
     size_ = size;
 }
 
@@ -147,20 +163,24 @@ void Checkpoint::write(const std::string& bytes) {
 void Checkpoint::load(const Case& settings) {
     std::ifstream in(name_, std::ios::binary);
     const std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    if (!in.is_open() || in.bad()) throw Error(Failure::file_system, "cannot read '" + name_ + "': " + std::strerror(errno));
+    if (!in.is_open() || in.bad())
+        throw Error(Failure::file_system, "cannot read '" + name_ + "': " + std::strerror(errno));
     std::string_view left = all;
     const auto refuse = [this](const std::string& text) { bad_input("'" + name_ + "' " + text); };
     const std::optional<Frame> header = take_frame(left);
     if (!header) {
-        // The incomplete first frame of a killed process is accepted; anything else is no checkpoint.
+        // The incomplete first frame of a killed process is accepted; anything else is no
+        // checkpoint.
         if (kind_at(all) != kHeader || all.size() > sizeof(FrameHead) + header_.size())
             refuse("is damaged, or no checkpoint of rsc; remove it to start from the beginning");
         return;
     }
     if (header->kind != kHeader) refuse("is not a checkpoint of rsc");
     if (!header->bytes.starts_with(header_start()))
-        refuse("was written by another version of rsc (" + std::string(header->bytes.substr(0, header->bytes.find('\n'))) +
-               "), whose numbers may differ in the last bits: finish it with that version, or remove the file to start from the "
+        refuse("was written by another version of rsc (" +
+               std::string(header->bytes.substr(0, header->bytes.find('\n'))) +
+               "), whose numbers may differ in the last bits: finish it with that version, or "
+               "remove the file to start from the "
                "beginning");
     const Reading there = read_namelist(header->bytes.substr(header_start().size()));
     if (!there.faults.empty()) refuse("is damaged; remove it to start from the beginning");
@@ -168,17 +188,22 @@ void Checkpoint::load(const Case& settings) {
     for (const std::string& line : differences(there.settings, settings)) changed += "\n  " + line;
     if (!changed.empty())
         refuse("belongs to another case: it cannot be resumed with" + changed +
-               "\nRestore the old values of these keys, or remove the file to start from the beginning.");
+               "\nRestore the old values of these keys, or remove the file to start from the "
+               "beginning.");
     if (!header->bytes.substr(header_start().size()).starts_with(inputs_line(settings)))
-        refuse("belongs to other contents of the input files: restore them, or remove the checkpoint to start from the beginning");
+        refuse(
+            "belongs to other contents of the input files: restore them, or remove the checkpoint "
+            "to start from the beginning");
     if (!left.empty() && kind_at(left) == kSums) {
         // Sums are written before the file gets its name, so incomplete sums are a disk error.
         const std::optional<Frame> sums = take_frame(left);
-        if (!sums) refuse("is damaged: its checksum is wrong; remove it to start from the beginning");
+        if (!sums)
+            refuse("is damaged: its checksum is wrong; remove it to start from the beginning");
         contents_.sums = sums->bytes;
     }
     std::uint64_t whole = base_size_ = all.size() - left.size();
-    for (auto record = take_frame(left); record && record->kind == kRecord; record = take_frame(left)) {
+    for (auto record = take_frame(left); record && record->kind == kRecord;
+         record = take_frame(left)) {
         contents_.records.emplace_back(record->bytes);
         whole = all.size() - left.size();
     }
@@ -190,7 +215,9 @@ void Checkpoint::append(const std::string& record) {
     sync_now_and_then();
 }
 
-bool Checkpoint::wants_rewrite() const { return size_ - base_size_ > std::max({kSmallLog, base_size_, next_rewrite_}); }
+bool Checkpoint::wants_rewrite() const {
+    return size_ - base_size_ > std::max({kSmallLog, base_size_, next_rewrite_});
+}
 
 void Checkpoint::rewrite(const std::string& sums, const std::vector<const std::string*>& records) {
     try {
@@ -214,7 +241,8 @@ void Checkpoint::rewrite(const std::string& sums, const std::vector<const std::s
     }
 }
 
-// After kill -9 the file is complete, because the system still writes its buffers. A crash of the machine loses what is not on the disk.
+// After kill -9 the file is complete, because the system still writes its buffers. A crash of the
+// machine loses what is not on the disk.
 void Checkpoint::sync_now_and_then() {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
@@ -231,23 +259,30 @@ void Checkpoint::remove() {
     if (::unlink(name_.c_str()) != 0 && errno != ENOENT) fail_to_write(name_, errno);
 }
 
-std::vector<std::string> Checkpoint::differences(const Case& there, const Case& now, const std::string& of_there,
+std::vector<std::string> Checkpoint::differences(const Case& there, const Case& now,
+                                                 const std::string& of_there,
                                                  const std::string& of_now) {
     std::vector<std::string> lines;
-    const auto shown = [](const std::string& value) { return value.empty() ? std::string("unset") : value; };
+    const auto shown = [](const std::string& value) {
+        return value.empty() ? std::string("unset") : value;
+    };
     for (const Key& key : registry()) {
-        const std::string name = std::string(key.group) + "%" + key.name, a = get_key(there, name), b = get_key(now, name);
+        const std::string name = std::string(key.group) + "%" + key.name, a = get_key(there, name),
+                          b = get_key(now, name);
         // A campaign may grow: realizations of the smaller one are part of the larger one.
         if (name == "run%realizations" && there.run.realizations < now.run.realizations) continue;
         if (a != b && key.changes == Changes::numbers)
-            lines.push_back(name + ": " + shown(a) + " " + of_there + ", " + shown(b) + " " + of_now);
+            lines.push_back(name + ": " + shown(a) + " " + of_there + ", " + shown(b) + " " +
+                            of_now);
     }
     return lines;
 }
 
 namespace {
 
-ArchiveReader reader_of(std::string_view bytes) { return {bytes, Failure::internal, "a record of a realization has the wrong length"}; }
+ArchiveReader reader_of(std::string_view bytes) {
+    return {bytes, Failure::internal, "a record of a realization has the wrong length"};
+}
 
 template <class Archive, class T>
 void transfer(Archive& a, T& x);
@@ -256,7 +291,8 @@ template <class Archive, class T>
 void transfer_each(Archive& a, T& vector) {
     std::uint64_t size = vector.size();
     a(size);
-    // When reading, items are appended one by one: a wrong size fails at the end of the bytes, before much memory is allocated.
+    // When reading, items are appended one by one: a wrong size fails at the end of the bytes,
+    // before much memory is allocated.
     if constexpr (!Archive::writing) vector.clear();
     for (std::uint64_t k = 0; k < size; ++k) {
         if constexpr (!Archive::writing) vector.emplace_back();
@@ -297,7 +333,8 @@ std::string to_bytes(const RealizationRecord& record) {
 
 std::string to_bytes(const Accumulators& sums) {
     ArchiveWriter writer;
-    writer.bytes.reserve(32 * sums.map_area.size() + sizeof(LevelValues) * sums.rows.size() + 65536);
+    writer.bytes.reserve(32 * sums.map_area.size() + sizeof(LevelValues) * sums.rows.size() +
+                         65536);
     transfer(writer, sums);
     return std::move(writer.bytes);
 }
@@ -315,8 +352,10 @@ void sums_from_bytes(std::string_view bytes, Accumulators& sums) {
     ArchiveReader reader = reader_of(bytes);
     transfer(reader, read);
     reader.end();
-    if (read.map_area.size() != sums.map_area.size() || read.map_force.size() != sums.map_force.size() ||
-        read.distributions.size() != sums.distributions.size() || read.rows.size() != read.realization.size() * sums.steps ||
+    if (read.map_area.size() != sums.map_area.size() ||
+        read.map_force.size() != sums.map_force.size() ||
+        read.distributions.size() != sums.distributions.size() ||
+        read.rows.size() != read.realization.size() * sums.steps ||
         read.surface.size() != read.realization.size())
         throw Error(Failure::internal, "the sums of a campaign do not match its case");
     sums = std::move(read);
@@ -333,7 +372,8 @@ std::string archive_layout() {
     const std::uint32_t order = 0x01020304;
     char first = 0;
     std::memcpy(&first, &order, 1);
-    return "4," + std::to_string(first) + "," + std::to_string(sizeof(SurfaceStatistics)) + "," + std::to_string(sizeof(LevelValues));
+    return "4," + std::to_string(first) + "," + std::to_string(sizeof(SurfaceStatistics)) + "," +
+           std::to_string(sizeof(LevelValues));
 }
 
 }  // namespace rsc

@@ -1,11 +1,11 @@
 #include "run/compare.hpp"
 
-#include "contact/element_contact.hpp"
-#include "error.hpp"
-#include "format.hpp"
+#include "base/error.hpp"
+#include "base/format.hpp"
+#include "elements/element_contact.hpp"
 #include "run/forecast.hpp"
-#include "run/resolution.hpp"
 #include "run/screen.hpp"
+#include "trust/resolution.hpp"
 
 namespace rsc {
 namespace {
@@ -18,47 +18,68 @@ constexpr double kAutoSeconds = 2;
 constexpr double kWithCoarser = 1.25;
 
 // "A = 1.2 mm2 (itself +- 0.4 %)"
-std::string itself(double error) { return std::isnan(error) ? " (error unknown)" : format(" (itself +- %s)", percent(error).c_str()); }
+std::string itself(double error) {
+    return std::isnan(error) ? " (error unknown)"
+                             : format(" (itself +- %s)", percent(error).c_str());
+}
 
-void print(std::ostream& out, const Job& job, const ComparedLevel& c, const LevelValues& asperities, bool by_force) {
+void print(std::ostream& out, const Job& job, const ComparedLevel& c, const LevelValues& asperities,
+           bool by_force) {
     const char *l = job.settings.run.length_unit.c_str(), *f = job.settings.run.force_unit.c_str();
     if (std::isnan(c.force)) {
-        out << format("level %d: ELEMENTS DID NOT CONVERGE, raise solver%%max_iterations\n", c.step + 1);
+        out << format("level %d: ELEMENTS DID NOT CONVERGE, raise solver%%max_iterations\n",
+                      c.step + 1);
         return;
     }
-    out << format("level %d, Z0/sigma %.5g: elements on %d x %d points N = %.6g %s%s, A = %.5g %s2%s, %d contacts; asperities ", c.step + 1,
-                  c.separation / job.sigma, c.columns, c.rows, c.force, f, by_force ? "" : itself(c.force_error_expected).c_str(), c.area,
-                  l, itself(c.area_error_expected).c_str(), c.contacts);
+    out << format(
+        "level %d, Z0/sigma %.5g: elements on %d x %d points N = %.6g %s%s, A = %.5g %s2%s, %d "
+        "contacts; asperities ",
+        c.step + 1, c.separation / job.sigma, c.columns, c.rows, c.force, f,
+        by_force ? "" : itself(c.force_error_expected).c_str(), c.area, l,
+        itself(c.area_error_expected).c_str(), c.contacts);
     if (std::isnan(asperities.force))
         out << "did not converge\n";
     else if (std::isnan(c.area_error) && c.contacts > 0)
         out << "not compared: ELEMENTS DID NOT CONVERGE, raise solver%max_iterations\n";
     else if (c.contacts == 0)
-        out << format("N = %.6g %s, A = %.5g %s2, %d contacts\n", asperities.force, f, asperities.area, l, asperities.contacts);
+        out << format("N = %.6g %s, A = %.5g %s2, %d contacts\n", asperities.force, f,
+                      asperities.area, l, asperities.contacts);
     else if (by_force)
-        out << format("at the same force Z0 %+.3g %s (%+.3f sigma), A %+.2f %%, contacts %+.1f %%\n", c.separation_error, l,
-                      c.separation_error / job.sigma, 100 * c.area_error, 100 * c.contacts_error);
+        out << format(
+            "at the same force Z0 %+.3g %s (%+.3f sigma), A %+.2f %%, contacts %+.1f %%\n",
+            c.separation_error, l, c.separation_error / job.sigma, 100 * c.area_error,
+            100 * c.contacts_error);
     else
-        out << format("N %+.2f %%, A %+.2f %%, contacts %+.1f %%\n", 100 * c.force_error, 100 * c.area_error, 100 * c.contacts_error);
+        out << format("N %+.2f %%, A %+.2f %%, contacts %+.1f %%\n", 100 * c.force_error,
+                      100 * c.area_error, 100 * c.contacts_error);
     if (c.force_error_expected > kUnresolved)
-        out << format("  warning: a finer grid may change N of the elements by %s, so they are not a reliable reference.\n",
-                      percent(c.force_error_expected).c_str());
+        out << format(
+            "  warning: a finer grid may change N of the elements by %s, so they are not a "
+            "reliable reference.\n",
+            percent(c.force_error_expected).c_str());
 }
 
-// The levels to compare: the nearest one to each of compare%levels. If levels depend on the levels before, they are in the order of the
-// path, and of equally near levels one that is not in the list yet is taken, so that loading and unloading can both be compared.
-std::vector<std::size_t> steps_to_compare(const Job& job, const std::vector<LevelValues>& levels, bool path_dependent) {
+// The levels to compare: the nearest one to each of compare%levels. If levels depend on the levels
+// before, they are in the order of the path, and of equally near levels one that is not in the list
+// yet is taken, so that loading and unloading can both be compared.
+std::vector<std::size_t> steps_to_compare(const Job& job, const std::vector<LevelValues>& levels,
+                                          bool path_dependent) {
     if (!job.settings.compare.listed()) return {levels.size() - 1};
     const bool by_force = job.settings.indentation.control != Control::separation;
     std::vector<std::size_t> steps;
     for (const double wanted : job.settings.compare.levels) {
         std::size_t step = 0;
         const auto miss = [&](std::size_t k) {
-            return std::abs((by_force ? levels[k].force : levels[k].separation) - wanted * job.level_unit);
+            return std::abs((by_force ? levels[k].force : levels[k].separation) -
+                            wanted * job.level_unit);
         };
-        const auto taken = [&](std::size_t k) { return std::find(steps.begin(), steps.end(), k) != steps.end(); };
+        const auto taken = [&](std::size_t k) {
+            return std::find(steps.begin(), steps.end(), k) != steps.end();
+        };
         for (std::size_t k = 1; k < levels.size(); ++k) {
-            if (miss(k) < miss(step) || (path_dependent && miss(k) == miss(step) && taken(step) && !taken(k))) step = k;
+            if (miss(k) < miss(step) ||
+                (path_dependent && miss(k) == miss(step) && taken(step) && !taken(k)))
+                step = k;
         }
         steps.push_back(step);
     }
@@ -66,18 +87,21 @@ std::vector<std::size_t> steps_to_compare(const Job& job, const std::vector<Leve
     return steps;
 }
 
-// True if the direction of the path is reversed at a level, if it rests there, or if the path begins with unloading.
+// True if the direction of the path is reversed at a level, if it rests there, or if the path
+// begins with unloading.
 bool turns(const std::vector<LevelValues>& levels, std::size_t k) {
     if (k + 1 >= levels.size()) return false;
     const double on = levels[k + 1].separation - levels[k].separation;
     return k == 0 ? on >= 0 : (levels[k].separation - levels[k - 1].separation) * on <= 0;
 }
 
-// Elements on the surface of a realization, with a second grid for their error. Synthetic surfaces are refined if the error is too large,
-// unless they yield, because the path would have to be repeated.
+// Elements on the surface of a realization, with a second grid for their error. Synthetic surfaces
+// are refined if the error is too large, unless they yield, because the path would have to be
+// repeated.
 class Reference {
 public:
-    Reference(const Job& job, std::int64_t number, int threads) : job_(job), number_(number), threads_(threads) {
+    Reference(const Job& job, std::int64_t number, int threads)
+        : job_(job), number_(number), threads_(threads) {
         points_per_wave_ = job.settings.elements.points_per_wave;
         map_ = make(points_per_wave_);
         contact_ = make_element_contact(*map_, job.indenter, job.solver);
@@ -90,14 +114,18 @@ public:
     // The level at a separation, or under the force of `level`, and its own error.
     Level solve(const LevelValues& level, bool by_force, std::optional<GridError>& error) {
         for (;;) {
-            Level truth = by_force && level.force > 0 ? contact_->at_force(level.force) : contact_->at_separation(level.separation);
-            error = truth.status == LevelStatus::not_converged ? std::nullopt : other_->error(truth);
+            Level truth = by_force && level.force > 0 ? contact_->at_force(level.force)
+                                                      : contact_->at_separation(level.separation);
+            error =
+                truth.status == LevelStatus::not_converged ? std::nullopt : other_->error(truth);
             if (error) {
                 truth.stiffness = contact_->stiffness();
                 const GridError crests = Crests(job_, *map_).error(truth);
-                error = GridError{std::max(error->force, crests.force), std::max(error->area, crests.area)};
+                error = GridError{std::max(error->force, crests.force),
+                                  std::max(error->area, crests.area)};
             }
-            const bool enough = error ? error->force <= kUnresolved : truth.contacts == 0 && level.contacts == 0;
+            const bool enough =
+                error ? error->force <= kUnresolved : truth.contacts == 0 && level.contacts == 0;
             if (enough || !refine(truth)) return truth;
         }
     }
@@ -106,7 +134,8 @@ private:
     std::unique_ptr<HeightMap> make(double points_per_wave) const {
         Case settings = job_.settings;
         settings.elements.points_per_wave = points_per_wave;
-        auto map = std::make_unique<HeightMap>(make_element_surface(settings, number_, threads_).map);
+        auto map =
+            std::make_unique<HeightMap>(make_element_surface(settings, number_, threads_).map);
         map->x0 = job_.domain.x0;  // the position of several measured maps is that of the first
         map->y0 = job_.domain.y0;
         return map;
@@ -114,9 +143,12 @@ private:
 
     // Doubles the points a side; false if that is impossible or would take too long.
     bool refine(const Level& level) {
-        if (!job_.spectrum || contact_->path_dependent() || level.status == LevelStatus::not_converged) return false;
+        if (!job_.spectrum || contact_->path_dependent() ||
+            level.status == LevelStatus::not_converged)
+            return false;
         const double finer = 2 * points_per_wave_;
-        if (finer * job_.spectrum->L_lambda_s > kMostElementPoints || points_per_wave_ >= kMostPointsPerWave ||
+        if (finer * job_.spectrum->L_lambda_s > kMostElementPoints ||
+            points_per_wave_ >= kMostPointsPerWave ||
             element_seconds(job_, level.separation, finer) > kRefineSeconds)
             return false;
         std::unique_ptr<HeightMap> map = make(finer);
@@ -144,60 +176,89 @@ private:
 
 double comparison_seconds(const Job& job) {
     const Case& c = job.settings;
-    const double once = c.indentation.control == Control::separation ? 1 : 6;  // separations tried for a force
+    const double once =
+        c.indentation.control == Control::separation ? 1 : 6;  // separations tried for a force
     double seconds = 0;
-    for (std::size_t k = 0; k < (c.compare.listed() ? c.compare.levels.size() : 1) && !job.levels.empty(); ++k)
-        seconds +=
-            once * kWithCoarser *
-            element_seconds(job, likely_separation(job, c.compare.listed() ? c.compare.levels[k] * job.level_unit : job.levels.back()),
-                            c.elements.points_per_wave);
+    for (std::size_t k = 0;
+         k < (c.compare.listed() ? c.compare.levels.size() : 1) && !job.levels.empty(); ++k)
+        seconds += once * kWithCoarser *
+                   element_seconds(job,
+                                   likely_separation(job, c.compare.listed()
+                                                              ? c.compare.levels[k] * job.level_unit
+                                                              : job.levels.back()),
+                                   c.elements.points_per_wave);
     return seconds;
 }
 
 bool compares(const Job& job, bool automatically) {
     const Case& c = job.settings;
     if (c.compare.listed()) return true;
-    if (c.compare.what == CompareWhat::none || !automatically || by_elements(c) || c.run.realizations > 1) return false;
-    const bool possible = c.surface.source != Source::asperities && c.solver.interaction == Interaction::point &&
-                          !(std::isfinite(c.solids.hardness) && c.solids.size_effect > 0) && !relaxes(c) && !(c.solids.adhesion > 0);
-    if (!possible || (job.spectrum && !too_large_for_elements(c, *job.spectrum).empty())) return false;
+    if (c.compare.what == CompareWhat::none || !automatically || by_elements(c) ||
+        c.run.realizations > 1)
+        return false;
+    const bool possible = c.surface.source != Source::asperities &&
+                          c.solver.interaction == Interaction::point &&
+                          !(std::isfinite(c.solids.hardness) && c.solids.size_effect > 0) &&
+                          !relaxes(c) && !(c.solids.adhesion > 0);
+    if (!possible || (job.spectrum && !too_large_for_elements(c, *job.spectrum).empty()))
+        return false;
     return !job.levels.empty() && comparison_seconds(job) < kAutoSeconds;
 }
 
-ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads, const std::vector<LevelValues>& levels, std::ostream* table,
+ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads,
+                              const std::vector<LevelValues>& levels, std::ostream* table,
                               const std::function<bool()>& stop) {
     ComparedLevels c;
     if (levels.empty()) return c;
     Reference reference(job, number, threads);
-    const bool by_force = job.settings.indentation.control != Control::separation && !reference.contact().path_dependent();
-    if (table) *table << "\ncompared with elements (asperities over elements - 1" << (by_force ? ", at equal force" : "") << "):\n";
+    const bool by_force = job.settings.indentation.control != Control::separation &&
+                          !reference.contact().path_dependent();
+    if (table)
+        *table << "\ncompared with elements (asperities over elements - 1"
+               << (by_force ? ", at equal force" : "") << "):\n";
     std::size_t next = 0;
     bool on_path = true;  // all reversals of the path converged
-    for (const std::size_t step : steps_to_compare(job, levels, reference.contact().path_dependent())) {
+    for (const std::size_t step :
+         steps_to_compare(job, levels, reference.contact().path_dependent())) {
         const LevelValues& level = levels[step];
         Level truth;
         std::optional<GridError> own;
         try {
             for (; reference.contact().path_dependent() && next < step; ++next)
                 if (turns(levels, next))
-                    on_path = reference.contact().at_separation(levels[next].separation).status != LevelStatus::not_converged && on_path;
+                    on_path = reference.contact().at_separation(levels[next].separation).status !=
+                                  LevelStatus::not_converged &&
+                              on_path;
             truth = reference.solve(level, by_force, own);
-        } catch (const Error& error) {  // two flats closer than their mean planes, which only the asperity model allows
+        } catch (
+            const Error&
+                // two flats closer than their mean planes, which only the asperity model allows
+                error) {
             if (error.kind() != Failure::bad_input) throw;
             if (table)
-                *table << format("level %zu, Z0/sigma %.5g: not compared: %s\n", step + 1, level.separation / job.sigma, error.what());
+                *table << format("level %zu, Z0/sigma %.5g: not compared: %s\n", step + 1,
+                                 level.separation / job.sigma, error.what());
             continue;
         }
         const bool found = truth.status != LevelStatus::not_converged && on_path;
         c.failed += !found;
-        const auto error = [&](double model, double elements) { return found && elements != 0 ? model / elements - 1 : kNotComputed; };
-        ComparedLevel row{static_cast<std::int32_t>(step), truth.separation, truth.force, truth.area, truth.area_pixels, truth.residual};
+        const auto error = [&](double model, double elements) {
+            return found && elements != 0 ? model / elements - 1 : kNotComputed;
+        };
+        ComparedLevel row{static_cast<std::int32_t>(step),
+                          truth.separation,
+                          truth.force,
+                          truth.area,
+                          truth.area_pixels,
+                          truth.residual};
         row.force_error_expected = truth.force_error_expected;
         if (own) row.force_error_expected = own->force, row.area_error_expected = own->area;
-        row.contacts = truth.contacts, row.columns = reference.map().nx, row.rows = reference.map().ny;
+        row.contacts = truth.contacts, row.columns = reference.map().nx,
+        row.rows = reference.map().ny;
         if (!by_force) row.force_error = error(level.force, truth.force);
         if (by_force && found) row.separation_error = level.separation - truth.separation;
-        row.area_error = error(level.area, truth.area), row.contacts_error = error(level.contacts, truth.contacts);
+        row.area_error = error(level.area, truth.area),
+        row.contacts_error = error(level.contacts, truth.contacts);
         c.levels.push_back(row);
         c.pixels = std::move(truth.pixels);
         if (table) print(*table, job, row, level, by_force);

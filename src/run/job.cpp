@@ -1,19 +1,19 @@
 #include "run/job.hpp"
 
+#include "asperities/asperity_contact.hpp"
+#include "asperities/ranking.hpp"
+#include "base/error.hpp"
+#include "base/format.hpp"
 #include "case/registry.hpp"
-#include "contact/adhesive_elements.hpp"
 #include "contact/answers.hpp"
-#include "contact/asperity_contact.hpp"
-#include "contact/contact_curve.hpp"
-#include "contact/element_contact.hpp"
 #include "contact/equivalent.hpp"
-#include "contact/expected_error.hpp"
-#include "contact/ranking.hpp"
-#include "error.hpp"
-#include "format.hpp"
-#include "read/inputs.hpp"
-#include "rough/synthesis.hpp"
-#include "run/resolution.hpp"
+#include "elements/element_contact.hpp"
+#include "io/inputs.hpp"
+#include "physics/adhesion/adhesive_elements.hpp"
+#include "physics/friction/contact_curve.hpp"
+#include "surface/synthesis.hpp"
+#include "trust/expected_error.hpp"
+#include "trust/resolution.hpp"
 
 namespace rsc {
 namespace {
@@ -22,85 +22,110 @@ namespace {
 std::vector<double> times_of(const Case::Indentation& keys, std::size_t levels) {
     if (!keys.duration) return keys.times;
     std::vector<double> times(levels, 0.0);
-    for (std::size_t k = 1; k < levels; ++k) times[k] = *keys.duration * static_cast<double>(k) / static_cast<double>(levels - 1);
+    for (std::size_t k = 1; k < levels; ++k)
+        times[k] = *keys.duration * static_cast<double>(k) / static_cast<double>(levels - 1);
     return times;
 }
 
 // As many files as realizations.
 void require_maps(const Case& settings) {
     const auto files = static_cast<std::int64_t>(matching_files(settings.surface.file).size());
-    const std::int64_t last = std::int64_t{settings.run.first_realization} + settings.run.realizations - 1;
+    const std::int64_t last =
+        std::int64_t{settings.run.first_realization} + settings.run.realizations - 1;
     if (last > files)
-        bad_input(settings.surface.file + ": realizations up to " + std::to_string(last) + " are requested, but " + std::to_string(files) +
-                  " files match");
+        bad_input(settings.surface.file + ": realizations up to " + std::to_string(last) +
+                  " are requested, but " + std::to_string(files) + " files match");
 }
 
-// The sphere touches every map at the same position, so that all maps must have the same size; their origins do not matter.
+// The sphere touches every map at the same position, so that all maps must have the same size;
+// their origins do not matter.
 void move_to(const Domain& place, HeightMap& map, std::int64_t number) {
     constexpr double kSame = 1e-6;
-    if (!(std::abs(map.Lx() - place.Lx) <= kSame * place.Lx && std::abs(map.Ly() - place.Ly) <= kSame * place.Ly))
-        bad_input("the map of realization " + std::to_string(number) + " is " + text_of(map.Lx()) + " x " + text_of(map.Ly()) +
-                  ", the first is " + text_of(place.Lx) + " x " + text_of(place.Ly) + "; maps of one size are expected");
+    if (!(std::abs(map.Lx() - place.Lx) <= kSame * place.Lx &&
+          std::abs(map.Ly() - place.Ly) <= kSame * place.Ly))
+        bad_input("the map of realization " + std::to_string(number) + " is " + text_of(map.Lx()) +
+                  " x " + text_of(map.Ly()) + ", the first is " + text_of(place.Lx) + " x " +
+                  text_of(place.Ly) + "; maps of one size are expected");
     map.x0 = place.x0, map.y0 = place.y0;
 }
 
-// The m2 for relative pressures, common to all realizations: that of the map or of the single synthetic surface, or the expectation
-// over the modes of several surfaces; of two rough bodies the sum. Negative or NaN: not known.
+// The m2 for relative pressures, common to all realizations: that of the map or of the single
+// synthetic surface, or the expectation over the modes of several surfaces; of two rough bodies the
+// sum. Negative or NaN: not known.
 double m2_of_pressures(const Job& job) {
     const auto& second = job.indenter.shape->keys().map;
     const double other = second ? grid_moments(*second).m2 : 0.0;
     if (!job.spectrum) return job.given ? job.given->statistics.m2 + other : kAbsent;
     const Case& c = job.settings;
     if (c.run.realizations > 1) return discrete_moments(*job.spectrum).m2 + other;
-    const int n = 2 * static_cast<int>(std::ceil(shortest_wave(*job.spectrum))) + 2;  // the modes are the same on every grid
-    return RowSource(*job.spectrum, n, c.surface.normalise, c.run.seed, c.run.first_realization, 1).sampled().m2 + other;
+    const int n = 2 * static_cast<int>(std::ceil(shortest_wave(*job.spectrum))) +
+                  2;  // the modes are the same on every grid
+    return RowSource(*job.spectrum, n, c.surface.normalise, c.run.seed, c.run.first_realization, 1)
+               .sampled()
+               .m2 +
+           other;
 }
 
-// Jump of the heights across the border of a periodic map, relative to that between neighbouring points (rms).
+// Jump of the heights across the border of a periodic map, relative to that between neighbouring
+// points (rms).
 double seam(const HeightMap& map) {
     double across = 0, within = 0;
     long n_across = 0, n_within = 0;
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i) {
-            const double right = map((i + 1) % map.nx, j) - map(i, j), up = map(i, (j + 1) % map.ny) - map(i, j);
+            const double right = map((i + 1) % map.nx, j) - map(i, j),
+                         up = map(i, (j + 1) % map.ny) - map(i, j);
             const bool at_end = i + 1 == map.nx, at_top = j + 1 == map.ny;
             (at_end ? across : within) += right * right;
             (at_top ? across : within) += up * up;
             ++(at_end ? n_across : n_within), ++(at_top ? n_across : n_within);
         }
-    return std::sqrt(across / static_cast<double>(n_across) / (within / static_cast<double>(n_within)));
+    return std::sqrt(across / static_cast<double>(n_across) /
+                     (within / static_cast<double>(n_within)));
 }
 
 // The key that asks for the largest pressure, as messages begin.
 std::string key_of_largest(const Case::Indentation& keys) {
-    return std::string("indentation%") + (!keys.levels.empty() ? "levels" : keys.start > keys.stop ? "start" : "stop") + ": ";
+    return std::string("indentation%") +
+           (!keys.levels.empty()     ? "levels"
+            : keys.start > keys.stop ? "start"
+                                     : "stop") +
+           ": ";
 }
 
-// Two elastic flats by elements have no level at the separation of their mean planes, where they are in full contact, nor below it.
+// Two elastic flats by elements have no level at the separation of their mean planes, where they
+// are in full contact, nor below it.
 void require_open(const Job& job) {
-    if (!job.indenter.period.finite() || std::isfinite(job.settings.solids.hardness) || job.levels.empty()) return;
+    if (!job.indenter.period.finite() || std::isfinite(job.settings.solids.hardness) ||
+        job.levels.empty())
+        return;
     double mean = 0;  // that of a synthetic surface
     for (int j = 0; job.given && job.given_heights && j < job.given_heights->ny; ++j) {
         const HeightMap& map = *job.given_heights;
         double row = 0;
-        for (int i = 0; i < map.nx; ++i) row += job.indenter.clearance(map.x(i), map.y(j), map(i, j)) / map.nx;
+        for (int i = 0; i < map.nx; ++i)
+            row += job.indenter.clearance(map.x(i), map.y(j), map(i, j)) / map.nx;
         mean += row / map.ny;
     }
     constexpr double kRounding = 1e-12;
     const double least = *std::min_element(job.levels.begin(), job.levels.end());
     if (!(least > mean + kRounding * job.sigma))
         bad_input(
-            format("indentation: a separation of %.9g %s is not above that of full contact, %.9g %s; give larger separations, or pressures",
-                   least, job.settings.run.length_unit.c_str(), std::abs(mean) > kRounding * job.sigma ? mean : 0.0,
+            format("indentation: a separation of %.9g %s is not above that of full contact, %.9g "
+                   "%s; give larger separations, or pressures",
+                   least, job.settings.run.length_unit.c_str(),
+                   std::abs(mean) > kRounding * job.sigma ? mean : 0.0,
                    job.settings.run.length_unit.c_str()));
 }
 
-// The levels whose fields are requested, in ascending order: the nearest to each of output%field_levels.
+// The levels whose fields are requested, in ascending order: the nearest to each of
+// output%field_levels.
 std::vector<std::int32_t> steps_of_fields(const Job& job) {
     const auto& keys = job.settings.output;
     if (keys.fields.empty()) return {};
     std::vector<std::int32_t> steps;
-    for (const double wanted : keys.field_levels) steps.push_back(nearest_level(job.levels, wanted * job.level_unit));
+    for (const double wanted : keys.field_levels)
+        steps.push_back(nearest_level(job.levels, wanted * job.level_unit));
     if (steps.empty()) steps.push_back(static_cast<std::int32_t>(job.levels.size()) - 1);
     return steps;
 }
@@ -111,13 +136,15 @@ FieldsAsked fields_asked(const Case& settings) {
         const auto& all = settings.output.fields;
         return std::find(all.begin(), all.end(), static_cast<double>(f)) != all.end();
     };
-    FieldsAsked asked{has(Field::pressure), has(Field::gap), has(Field::contact), has(Field::heights), {}};
+    FieldsAsked asked{
+        has(Field::pressure), has(Field::gap), has(Field::contact), has(Field::heights), {}};
     if (w[0]) asked.window = {*w[0], *w[1], *w[2], *w[3]};
     return asked;
 }
 
 // Adds the friction loop of a level. `curve`: of copies of the contact, whose path is not changed.
-void add_friction(ContactCurve& curve, const Friction& friction, const Level& level, FrictionLoops& loops) {
+void add_friction(ContactCurve& curve, const Friction& friction, const Level& level,
+                  FrictionLoops& loops) {
     constexpr int steps = 40;  // of first loading
     const double delta = -level.separation;
     loops.points = slide_cycle_points(steps);
@@ -130,7 +157,8 @@ void add_friction(ContactCurve& curve, const Friction& friction, const Level& le
         cycle.displacement = cycle.force = std::vector<double>(loops.points, kNotComputed);
     loops.stiffness.push_back(touches ? -friction.ratio * level.stiffness : kNotComputed);
     loops.cycle_work.push_back(touches ? cycle.work : kNotComputed);
-    loops.displacement.insert(loops.displacement.end(), cycle.displacement.begin(), cycle.displacement.end());
+    loops.displacement.insert(loops.displacement.end(), cycle.displacement.begin(),
+                              cycle.displacement.end());
     loops.force.insert(loops.force.end(), cycle.force.begin(), cycle.force.end());
 }
 
@@ -144,7 +172,9 @@ Job prepare(const Case& settings) {
     if (has_spectrum(settings)) {
         job.spectrum = spectrum_of(settings);
         if (elements || settings.compare.listed())
-            if (const std::string why = too_large_for_elements(settings, *job.spectrum); !why.empty()) bad_input(why);
+            if (const std::string why = too_large_for_elements(settings, *job.spectrum);
+                !why.empty())
+                bad_input(why);
         job.domain = synthetic_domain(*job.spectrum, settings.surface.n);
         job.theory = theoretical_moments(*job.spectrum);
         sqrt_m4 = std::sqrt(job.theory->m4);
@@ -160,14 +190,18 @@ Job prepare(const Case& settings) {
         }
         job.domain = model.domain;
         job.measured = model.measured;
-        sqrt_m4 = model.statistics.m4 > 0 ? std::sqrt(model.statistics.m4) : elements ? 0.0 : typical_sqrt_m4(model.asperities);
-        if (!differs_by_realization(settings) || settings.run.realizations == 1) job.given = std::move(model);
+        sqrt_m4 = model.statistics.m4 > 0 ? std::sqrt(model.statistics.m4)
+                  : elements              ? 0.0
+                                          : typical_sqrt_m4(model.asperities);
+        if (!differs_by_realization(settings) || settings.run.realizations == 1)
+            job.given = std::move(model);
         if (differs_by_realization(settings)) require_maps(settings);
     }
     job.sigma = sigma_of(settings, job.domain);
     if (!(job.sigma > 0)) {
         bad_input(
-            "surface%sigma: the rms height of the data read is 0; give a sigma > 0 (it scales unit='sigma' "
+            "surface%sigma: the rms height of the data read is 0; give a sigma > 0 (it scales "
+            "unit='sigma' "
             "and solver%delta0), and unit='length' if the levels are lengths");
     }
     job.solver = solver_of(settings, job.domain);
@@ -177,7 +211,8 @@ Job prepare(const Case& settings) {
         const HeightMap& map = *job.given_heights;
         for (int j = 0; j < map.ny; ++j)
             for (int i = 0; i < map.nx; ++i)
-                job.points_touch = std::max(job.points_touch, job.indenter.clearance(map.x(i), map.y(j), map(i, j)));
+                job.points_touch = std::max(job.points_touch,
+                                            job.indenter.clearance(map.x(i), map.y(j), map(i, j)));
     }
 
     const auto& indentation = settings.indentation;
@@ -185,42 +220,52 @@ Job prepare(const Case& settings) {
     job.times = times_of(indentation, job.levels.size());
     if (relaxes(settings) && job.times.empty())
         bad_input(
-            "indentation%duration: solids%relaxation_share lets body 1 relax, and the levels have no times; give "
+            "indentation%duration: solids%relaxation_share lets body 1 relax, and the levels have "
+            "no times; give "
             "duration or times");
-    if (indentation.control == Control::separation && indentation.unit == LevelUnit::sigma) job.level_unit = job.sigma;
+    if (indentation.control == Control::separation && indentation.unit == LevelUnit::sigma)
+        job.level_unit = job.sigma;
     if (indentation.control == Control::pressure) {
         const double m2 = m2_of_pressures(job), full = job.indenter.E_star * std::sqrt(2 * m2);
         const bool relative = indentation.unit == LevelUnit::relative;
         if (relative && !(m2 > 0)) {
-            bad_input("indentation%unit = 'relative': the rms slope of the surface is not known, only its summits; use unit = 'pressure'");
+            bad_input(
+                "indentation%unit = 'relative': the rms slope of the surface is not known, only "
+                "its summits; use unit = 'pressure'");
         }
         const double unit = relative ? full : 1.0;
         for (double level : job.levels) {
             if (!elements && level * unit >= kClosingPressure * full)
                 bad_input(key_of_largest(settings.indentation) +
-                          format("a pressure of %g: at E* sqrt(2 m2) = %g and above less than 5 %% of the area is gap, too little for the "
-                                 "asperity model; use solver%%model = 'elements', which is valid up to full contact",
+                          format("a pressure of %g: at E* sqrt(2 m2) = %g and above less than 5 %% "
+                                 "of the area is gap, too little for the "
+                                 "asperity model; use solver%%model = 'elements', which is valid "
+                                 "up to full contact",
                                  level * unit, full));
             if (!(level * unit < settings.solids.hardness))
                 bad_input(key_of_largest(settings.indentation) +
-                          format("a nominal pressure of %.9g exceeds the hardness, %.9g", level * unit, settings.solids.hardness));
+                          format("a nominal pressure of %.9g exceeds the hardness, %.9g",
+                                 level * unit, settings.solids.hardness));
         }
         job.level_unit = unit * job.indenter.period.area();
     }
     for (double& level : job.levels) level *= job.level_unit;
-    if (elements && indentation.control == Control::separation && (job.given_heights || (job.spectrum && job.indenter.shape->flat())))
+    if (elements && indentation.control == Control::separation &&
+        (job.given_heights || (job.spectrum && job.indenter.shape->flat())))
         require_open(job);
     if (elements && settings.solids.adhesion > 0) {
-        const double side = job.given_heights ? std::max(job.given_heights->dx, job.given_heights->dy)
-                            : job.spectrum    ? job.spectrum->L / element_points(settings, *job.spectrum)
-                                              : 0.0;
+        const double side =
+            job.given_heights ? std::max(job.given_heights->dx, job.given_heights->dy)
+            : job.spectrum    ? job.spectrum->L / element_points(settings, *job.spectrum)
+                              : 0.0;
         require_resolved(settings.solids.adhesion_range, side);
     }
     job.observe = observe_options(settings, job.domain, job.indenter, job.sigma, sqrt_m4);
     return job;
 }
 
-Realization realize(const Job& job, std::int64_t number, int threads, const std::function<bool(std::size_t, const Level&)>& on_level) {
+Realization realize(const Job& job, std::int64_t number, int threads,
+                    const std::function<bool(std::size_t, const Level&)>& on_level) {
     Realization r;
     const auto& settings = job.settings;
     std::unique_ptr<Contact> contact;
@@ -234,7 +279,8 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         if (job.given) {
             r.statistics = job.given->statistics;
         } else {
-            Surface surface = make_element_surface(settings, number, threads, &job.indenter, job.levels);
+            Surface surface =
+                make_element_surface(settings, number, threads, &job.indenter, job.levels);
             if (!job.spectrum) move_to(job.domain, surface.map, number);  // one of several maps
             r.statistics = make_bare_model(surface).statistics;
             measured = surface.measured;
@@ -243,7 +289,8 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         const HeightMap& map = job.given ? *job.given_heights : *r.heights;
         side = std::max(map.dx, map.dy);
         contact = make_element_contact(map, job.indenter, job.solver);
-        if (settings.run.realizations == 1 && !(settings.solids.adhesion > 0)) resolution.emplace(job, number, threads, map);
+        if (settings.run.realizations == 1 && !(settings.solids.adhesion > 0))
+            resolution.emplace(job, number, threads, map);
         ridges.emplace(job, map);
     } else {
         if ((settings.output.heights || !settings.output.fields.empty()) && job.spectrum)
@@ -269,20 +316,24 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
     std::unique_ptr<Contact> slid[2];  // with friction
     std::optional<ContactCurve> curve;
     if (settings.solids.friction > 0) {
-        for (auto& copy : slid) copy = std::make_unique<AsperityContact>(r.asperities, job.indenter, solver, search);
+        for (auto& copy : slid)
+            copy = std::make_unique<AsperityContact>(r.asperities, job.indenter, solver, search);
         curve.emplace(*slid[0], *slid[1]);
     }
     r.levels.reserve(job.levels.size());
     const std::vector<std::int32_t> field_steps = steps_of_fields(job);
     const std::vector<FilledPoints> filled = filled_points(job, measured.get());
-    // Share of the missing points that are filled by their neighbours: with 30 % N of elements was 1 to 3.4 % too low.
+    // Share of the missing points that are filled by their neighbours: with 30 % N of elements was
+    // 1 to 3.4 % too low.
     constexpr double kScattered = 0.15;
     const double scattered =
-        measured ? static_cast<double>(measured->missing - std::count(measured->filled.begin(), measured->filled.end(), 1)) /
+        measured ? static_cast<double>(measured->missing - std::count(measured->filled.begin(),
+                                                                      measured->filled.end(), 1)) /
                        static_cast<double>(measured->points())
                  : 0.0;
     std::vector<FieldLevel> fields;
-    if (settings.indentation.control != Control::separation && !job.levels.empty())  // before the levels below it are solved
+    if (settings.indentation.control != Control::separation &&
+        !job.levels.empty())  // before the levels below it are solved
         try {
             contact->require_gap(*std::max_element(job.levels.begin(), job.levels.end()));
         } catch (const Error& error) {
@@ -306,30 +357,39 @@ Realization realize(const Job& job, std::int64_t number, int threads, const std:
         judge_filled(level, filled, job.indenter, job.sigma);
         if (by_elements(settings) && level.force_error_expected >= 0) {
             level.force_error_expected += kScattered * scattered;
-            if (level.force_error_expected > (settings.solids.adhesion > 0 ? kMuchError : kUnresolved))
+            if (level.force_error_expected >
+                (settings.solids.adhesion > 0 ? kMuchError : kUnresolved))
                 level.status = graver(level.status, LevelStatus::out_of_validity);
         }
-        if (level.force == 0 && level.separation < job.points_touch)  // contact at points that are no summits
+        if (level.force == 0 &&
+            level.separation < job.points_touch)  // contact at points that are no summits
             level.status = graver(level.status, LevelStatus::out_of_validity);
         if (curve) {
             const long failed = curve->failed();
-            add_friction(*curve, {settings.solids.friction, tangential_ratio(settings.solids.E, settings.solids.nu)}, level, r.friction);
+            add_friction(
+                *curve,
+                {settings.solids.friction, tangential_ratio(settings.solids.E, settings.solids.nu)},
+                level, r.friction);
             if (curve->failed() > failed) level.status = LevelStatus::not_converged;
         }
-        const bool field = std::find(field_steps.begin(), field_steps.end(), static_cast<std::int32_t>(k)) != field_steps.end();
-        if (const Asperities* yielding = contact->asperities(); field && !std::isnan(level.force))  // a level without a state has none
-            fields.push_back({static_cast<std::int32_t>(k), &level,
-                              yielding ? lowered_summits(job.given_heights ? *job.given_heights : *r.heights, job.indenter.period.finite(),
-                                                         *yielding, contact->residual_depths())
-                                       : contact->residual_profile(),
-                              contact->lasting_loads(level)});
+        const bool field = std::find(field_steps.begin(), field_steps.end(),
+                                     static_cast<std::int32_t>(k)) != field_steps.end();
+        if (const Asperities* yielding = contact->asperities();
+            field && !std::isnan(level.force))  // a level without a state has none
+            fields.push_back(
+                {static_cast<std::int32_t>(k), &level,
+                 yielding ? lowered_summits(job.given_heights ? *job.given_heights : *r.heights,
+                                            job.indenter.period.finite(), *yielding,
+                                            contact->residual_depths())
+                          : contact->residual_profile(),
+                 contact->lasting_loads(level)});
         if (on_level && !on_level(k, r.levels.back())) break;
     }
     r.residual_depth = contact->residual_depths();
     r.residual_profile = contact->residual_profile();
     if (!fields.empty())
-        r.fields = fields_of(job.given_heights ? *job.given_heights : *r.heights, job.indenter, job.solver.interaction, fields,
-                             fields_asked(settings));
+        r.fields = fields_of(job.given_heights ? *job.given_heights : *r.heights, job.indenter,
+                             job.solver.interaction, fields, fields_asked(settings));
     if (const Asperities* touched = contact->asperities(); touched && touched != &r.asperities) {
         Asperities used = *touched;
         curve.reset(), contact.reset();

@@ -1,12 +1,13 @@
-// A prepared case, with everything that is read, computed and checked once, and the run of one realization.
+// A prepared case, with everything that is read, computed and checked once, and the run of one
+// realization.
 #pragma once
 
 #include "case/case.hpp"
 #include "contact/contact.hpp"
-#include "file/result.hpp"
+#include "io/result.hpp"
 #include "observe/record.hpp"
-#include "rough/asperities.hpp"
 #include "run/prepare.hpp"
+#include "surface/asperities.hpp"
 
 namespace rsc {
 
@@ -15,8 +16,9 @@ struct Job {
     SurfaceDomain domain;
     Indenter indenter;
     SolverOptions solver;
-    double sigma = 0;                  // unit of length for unit = 'sigma' and delta0
-    std::vector<double> levels;        // separations [length], or forces [force] with control='force' or 'pressure'
+    double sigma = 0;  // unit of length for unit = 'sigma' and delta0
+    std::vector<double>
+        levels;  // separations [length], or forces [force] with control='force' or 'pressure'
     std::vector<double> times;         // of the levels; empty: no times
     double level_unit = 1;             // factor from the levels of the case to `levels`
     std::optional<Spectrum> spectrum;  // of a synthetic surface
@@ -26,11 +28,12 @@ struct Job {
     std::optional<SurfaceModel> given;
     std::shared_ptr<const Measured> measured;  // of a measured map, the first of several
     double points_touch = -kInfinity;          // of a map: Z0 at which one of its points touches
-    double seam = 0;                           // of a periodic map: jump across the border relative to that between points
-    std::optional<HeightMap> given_heights;    // if the case or its elements need them
+    double seam = 0;  // of a periodic map: jump across the border relative to that between points
+    std::optional<HeightMap> given_heights;  // if the case or its elements need them
 };
 
-// Reads the inputs of the case, determines levels, domain and ranges. Throws Error(bad_input) if the case cannot be run.
+// Reads the inputs of the case, determines levels, domain and ranges. Throws Error(bad_input) if
+// the case cannot be run.
 Job prepare(const Case& settings);
 
 // One realization: its surface, its asperities, its levels.
@@ -39,14 +42,18 @@ struct Realization {
     Asperities asperities;
     std::vector<Level> levels;
     FrictionLoops friction;
-    std::vector<double> residual_depth;  // residual depth of the asperities after the last level; empty without hardness
-    ResidualProfile residual_profile;    // of elements that yielded, likewise
-    std::optional<HeightMap> heights;    // if requested by the case
-    Fields fields;                       // likewise
+    std::vector<double>
+        // residual depth of the asperities after the last level; empty without hardness
+        residual_depth;
+    ResidualProfile residual_profile;  // of elements that yielded, likewise
+    std::optional<HeightMap> heights;  // if requested by the case
+    Fields fields;                     // likewise
 };
 
-// Realization `number` of the case. `on_level` is called after each level with its number; returning false stops the run there.
+// Realization `number` of the case. `on_level` is called after each level with its number;
+// returning false stops the run there.
 // `threads`: number of threads for the surface; results do not depend on it.
-Realization realize(const Job& job, std::int64_t number, int threads, const std::function<bool(std::size_t, const Level&)>& on_level = {});
+Realization realize(const Job& job, std::int64_t number, int threads,
+                    const std::function<bool(std::size_t, const Level&)>& on_level = {});
 
 }  // namespace rsc

@@ -5,7 +5,7 @@
 
 #include <mpi.h>
 
-#include "archive.hpp"
+#include "base/archive.hpp"
 #include "run/signals.hpp"
 
 namespace rsc {
@@ -27,8 +27,10 @@ std::optional<Message> receive() {
     if (!there) return {};
     int length = 0;
     MPI_Get_count(&status, MPI_BYTE, &length);
-    Message message{status.MPI_SOURCE, status.MPI_TAG, std::string(static_cast<std::size_t>(length), '\0')};
-    MPI_Recv(message.bytes.data(), length, MPI_BYTE, message.rank, message.tag, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    Message message{status.MPI_SOURCE, status.MPI_TAG,
+                    std::string(static_cast<std::size_t>(length), '\0')};
+    MPI_Recv(message.bytes.data(), length, MPI_BYTE, message.rank, message.tag, MPI_COMM_WORLD,
+             MPI_STATUS_IGNORE);
     return message;
 }
 
@@ -37,9 +39,12 @@ class Outbox {
 public:
     void send(int rank, Tag tag, std::string bytes) {
         if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-            throw Error(Failure::internal, "a result of more than 2 GiB cannot be sent by MPI; use fewer map_cells or levels");
+            throw Error(
+                Failure::internal,
+                "a result of more than 2 GiB cannot be sent by MPI; use fewer map_cells or levels");
         Letter& letter = letters_.emplace_back(Letter{std::move(bytes), MPI_REQUEST_NULL});
-        MPI_Isend(letter.bytes.data(), static_cast<int>(letter.bytes.size()), MPI_BYTE, rank, tag, MPI_COMM_WORLD, &letter.request);
+        MPI_Isend(letter.bytes.data(), static_cast<int>(letter.bytes.size()), MPI_BYTE, rank, tag,
+                  MPI_COMM_WORLD, &letter.request);
     }
     void tidy() {
         for (int arrived = 1; !letters_.empty();) {
@@ -82,7 +87,8 @@ std::string packed(const std::exception_ptr& error) {
 
 [[noreturn]] void rethrow(const Message& message) {
     throw Error(static_cast<Failure>(first_of<std::int32_t>(message.bytes)),
-                "rank " + std::to_string(message.rank) + ": " + message.bytes.substr(std::min(message.bytes.size(), sizeof(std::int32_t))));
+                "rank " + std::to_string(message.rank) + ": " +
+                    message.bytes.substr(std::min(message.bytes.size(), sizeof(std::int32_t))));
 }
 
 class MpiTeam : public Team {
@@ -96,7 +102,10 @@ public:
         leave_if_interrupted();
         WorkerThreads local(work_, threads_);
         std::vector<std::size_t> at_work(ranks_, 0);
-        const auto wait = ahead > 0 ? 2ms : 10ms;  // between checks for messages: a realization takes less time than a member
+        const auto wait =
+            ahead > 0
+                ? 2ms
+                : 10ms;  // between checks for messages: a realization takes less time than a member
         for (;;) {
             const std::size_t unfinished = hand_out(next, local, at_work, ahead);
             if (unfinished == 0) return;
@@ -120,8 +129,10 @@ public:
     }
 
 private:
-    // Distributes one task to every worker before a second one. Returns the number of unfinished tasks.
-    std::size_t hand_out(const Next& next, WorkerThreads& local, std::vector<std::size_t>& at_work, int ahead) {
+    // Distributes one task to every worker before a second one. Returns the number of unfinished
+    // tasks.
+    std::size_t hand_out(const Next& next, WorkerThreads& local, std::vector<std::size_t>& at_work,
+                         int ahead) {
         bool more = true;
         for (std::size_t deep = 1; more && deep <= static_cast<std::size_t>(1 + ahead); ++deep)
             for (std::size_t rank = 0; more && rank < ranks_; ++rank)
@@ -147,7 +158,9 @@ private:
 
 }  // namespace
 
-std::size_t threads_of_rank(int threads) { return threads > 0 ? static_cast<std::size_t>(threads) : 1; }
+std::size_t threads_of_rank(int threads) {
+    return threads > 0 ? static_cast<std::size_t>(threads) : 1;
+}
 
 MpiJob::MpiJob(int& argc, char**& argv) {
     int provided = 0;
@@ -163,14 +176,17 @@ MpiJob::~MpiJob() { MPI_Finalize(); }
 
 std::unique_ptr<Team> MpiJob::team(Work work, std::size_t threads, const std::string& case_text) {
     const std::string text = bytes_of(static_cast<std::uint64_t>(threads)) + case_text;
-    for (int rank = 1; rank < size_; ++rank) MPI_Send(text.data(), static_cast<int>(text.size()), MPI_BYTE, rank, kCase, MPI_COMM_WORLD);
+    for (int rank = 1; rank < size_; ++rank)
+        MPI_Send(text.data(), static_cast<int>(text.size()), MPI_BYTE, rank, kCase, MPI_COMM_WORLD);
     return std::make_unique<MpiTeam>(std::move(work), threads, size_);
 }
 
 void MpiJob::dismiss(int status) {
     const auto value = static_cast<std::int32_t>(status);
-    for (int rank = 1; rank < size_; ++rank) MPI_Send(&value, sizeof value, MPI_BYTE, rank, kStop, MPI_COMM_WORLD);
-    // Results that are no longer needed must still be received until all ranks have left, because their senders wait for it.
+    for (int rank = 1; rank < size_; ++rank)
+        MPI_Send(&value, sizeof value, MPI_BYTE, rank, kStop, MPI_COMM_WORLD);
+    // Results that are no longer needed must still be received until all ranks have left, because
+    // their senders wait for it.
     MPI_Request left = MPI_REQUEST_NULL;
     MPI_Ibarrier(MPI_COMM_WORLD, &left);
     for (int all = 0; !all; MPI_Test(&left, &all, MPI_STATUS_IGNORE))
@@ -193,11 +209,13 @@ int MpiJob::serve(const std::function<Work(const std::string&, std::size_t)>& ma
                 }
                 try {
                     if (message->tag == kCase) {
-                        const auto count = static_cast<std::size_t>(first_of<std::uint64_t>(message->bytes));
+                        const auto count =
+                            static_cast<std::size_t>(first_of<std::uint64_t>(message->bytes));
                         work = make(message->bytes.substr(sizeof(std::uint64_t)), count);
                         threads.emplace(work, count);
                     }
-                    if (message->tag == kTask && threads) threads->push(first_of<Task>(message->bytes));
+                    if (message->tag == kTask && threads)
+                        threads->push(first_of<Task>(message->bytes));
                 } catch (...) {
                     outbox.send(0, kError, packed(std::current_exception()));
                 }
@@ -212,14 +230,16 @@ int MpiJob::serve(const std::function<Work(const std::string&, std::size_t)>& ma
                 done = threads->pop(2ms);
             else
                 std::this_thread::sleep_for(2ms);
-            if (done && done->error && caught_signal() == 0) outbox.send(0, kError, packed(done->error));
+            if (done && done->error && caught_signal() == 0)
+                outbox.send(0, kError, packed(done->error));
             if (done && !done->error) outbox.send(0, kAnswer, bytes_of(done->task) + done->answer);
             outbox.tidy();
         }
     }
     MPI_Request left = MPI_REQUEST_NULL;
     MPI_Ibarrier(MPI_COMM_WORLD, &left);
-    for (int all = 0; !all; MPI_Test(&left, &all, MPI_STATUS_IGNORE)) std::this_thread::sleep_for(1ms);
+    for (int all = 0; !all; MPI_Test(&left, &all, MPI_STATUS_IGNORE))
+        std::this_thread::sleep_for(1ms);
     return status;
 }
 

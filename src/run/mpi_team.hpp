@@ -1,8 +1,10 @@
 // The ranks of an MPI job as a team. Only rsc_mpi is built with it.
 //
-// Rank 0 reads the case, distributes tasks, adds up the results, and writes files and messages; its own threads also compute.
-// The other ranks receive the case and process tasks until they are dismissed. Only the main thread of a rank calls MPI,
-// and it sleeps between checks for messages, so that the processors are available to the computing threads.
+// Rank 0 reads the case, distributes tasks, adds up the results, and writes files and messages; its
+// own threads also compute.
+// The other ranks receive the case and process tasks until they are dismissed. Only the main thread
+// of a rank calls MPI, and it sleeps between checks for messages, so that the processors are
+// available to the computing threads.
 #pragma once
 
 #include "run/team.hpp"

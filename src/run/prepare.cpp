@@ -2,15 +2,15 @@
 
 #include <unistd.h>
 
+#include "asperities/law.hpp"
+#include "base/error.hpp"
+#include "base/format.hpp"
+#include "base/parallel.hpp"
 #include "contact/equivalent.hpp"
-#include "contact/indenter/shapes.hpp"
-#include "contact/law/law.hpp"
-#include "error.hpp"
-#include "format.hpp"
-#include "read/inputs.hpp"
-#include "rough/defects.hpp"
-#include "rough/detection.hpp"
-#include "rough/parallel.hpp"
+#include "io/inputs.hpp"
+#include "physics/indenter/shapes.hpp"
+#include "surface/defects.hpp"
+#include "surface/detection.hpp"
 
 namespace rsc {
 namespace {
@@ -26,8 +26,11 @@ int fast_size(double least) {
     }
 }
 
-// Hertz asperities are at grid points, as in the paper; the other laws need the summits between the points.
-Detail detail_of(const Case& settings) { return traits(settings.asperities.law).between_points ? Detail::subgrid : Detail::grid; }
+// Hertz asperities are at grid points, as in the paper; the other laws need the summits between the
+// points.
+Detail detail_of(const Case& settings) {
+    return traits(settings.asperities.law).between_points ? Detail::subgrid : Detail::grid;
+}
 
 // Largest number of points along a side of a synthetic surface whose heights are kept for the law.
 constexpr int kMostPointsKept = 4096;
@@ -63,7 +66,8 @@ void count_summits(const SummitCount& count, SurfaceStatistics& s) {
     s.saddles = count.saddles + count.repeated;
 }
 
-// Of a synthetic surface, from its modes. Skewness and kurtosis are stored only for heights that are not Gaussian.
+// Of a synthetic surface, from its modes. Skewness and kurtosis are stored only for heights that
+// are not Gaussian.
 void set_sampled(const Moments& sampled, SurfaceStatistics& s) {
     s.sigma = std::sqrt(sampled.m0);
     s.m2 = sampled.m2;
@@ -83,22 +87,33 @@ std::string map_file(const std::string& name, std::int64_t number) {
     if (!is_pattern(name)) return name;
     const std::vector<std::string> files = matching_files(name);
     if (number < 1 || number > static_cast<std::int64_t>(files.size()))
-        bad_input(name + ": realization " + std::to_string(number) + " is requested, but only " + std::to_string(files.size()) +
-                  " files match");
+        bad_input(name + ": realization " + std::to_string(number) + " is requested, but only " +
+                  std::to_string(files.size()) + " files match");
     return files[static_cast<std::size_t>(number - 1)];
 }
 
 // The points of a map within x0, x1, y0, y1.
-HeightMap part_of(const HeightMap& map, const std::optional<double> (&window)[4], const std::string& path) {
-    const auto number = [](double x, double origin, double step, int n) { return std::clamp((x - origin) / step, -1.0, n + 0.0); };
-    constexpr double slack = 1e-6;  // points on the border of the window belong to it, however they are rounded
-    const int i0 = std::max(0, static_cast<int>(std::ceil(number(*window[0], map.x0, map.dx, map.nx) - slack))),
-              i1 = std::min(map.nx - 1, static_cast<int>(std::floor(number(*window[1], map.x0, map.dx, map.nx) + slack))),
-              j0 = std::max(0, static_cast<int>(std::ceil(number(*window[2], map.y0, map.dy, map.ny) - slack))),
-              j1 = std::min(map.ny - 1, static_cast<int>(std::floor(number(*window[3], map.y0, map.dy, map.ny) + slack)));
+HeightMap part_of(const HeightMap& map, const std::optional<double> (&window)[4],
+                  const std::string& path) {
+    const auto number = [](double x, double origin, double step, int n) {
+        return std::clamp((x - origin) / step, -1.0, n + 0.0);
+    };
+    constexpr double slack =
+        1e-6;  // points on the border of the window belong to it, however they are rounded
+    const int i0 = std::max(0, static_cast<int>(
+                                   std::ceil(number(*window[0], map.x0, map.dx, map.nx) - slack))),
+              i1 = std::min(
+                  map.nx - 1,
+                  static_cast<int>(std::floor(number(*window[1], map.x0, map.dx, map.nx) + slack))),
+              j0 = std::max(0, static_cast<int>(
+                                   std::ceil(number(*window[2], map.y0, map.dy, map.ny) - slack))),
+              j1 = std::min(
+                  map.ny - 1,
+                  static_cast<int>(std::floor(number(*window[3], map.y0, map.dy, map.ny) + slack)));
     if (i1 - i0 < 2 || j1 - j0 < 2)
         bad_input(
-            format("%s: fewer than 3 x 3 of its points lie in surface%%window; they go from %.6g to %.6g in x and from "
+            format("%s: fewer than 3 x 3 of its points lie in surface%%window; they go from %.6g "
+                   "to %.6g in x and from "
                    "%.6g to %.6g in y",
                    path.c_str(), map.x0, map.x(map.nx - 1), map.y0, map.y(map.ny - 1)));
     HeightMap part;
@@ -108,21 +123,24 @@ HeightMap part_of(const HeightMap& map, const std::optional<double> (&window)[4]
     return part;
 }
 
-Surface read_map(const Case& settings, const std::string& path, std::optional<double> L, const std::string& channel,
-                 bool windowed = false) {
+Surface read_map(const Case& settings, const std::string& path, std::optional<double> L,
+                 const std::string& channel, bool windowed = false) {
     const auto& keys = settings.surface;
     const bool part = windowed && keys.window[0];
     // Of two maps one may be a text file, to which alone these keys apply.
-    const std::string other = windowed ? settings.indenter.file : keys.source == Source::heights ? map_file(keys.file, 1) : "";
+    const std::string other = windowed                         ? settings.indenter.file
+                              : keys.source == Source::heights ? map_file(keys.file, 1)
+                                                               : "";
     const bool for_other = !other.empty() && is_text_map(other) && !is_text_map(path);
     Surface surface;
-    surface.map = read_heights(path, L, settings.run.length_unit, channel, part ? Missing::fill : keys.missing,
+    surface.map = read_heights(path, L, settings.run.length_unit, channel,
+                               part ? Missing::fill : keys.missing,
                                for_other ? TextMap{} : TextMap{keys.height_unit, keys.pixel});
     if (part) surface.map = part_of(surface.map, keys.window, path);
     surface.name = path;
     try {
-        surface.measured =
-            std::make_shared<const Measured>(measure(surface.map, {keys.missing, keys.detrend, keys.filter_cutoff, keys.outliers}));
+        surface.measured = std::make_shared<const Measured>(
+            measure(surface.map, {keys.missing, keys.detrend, keys.filter_cutoff, keys.outliers}));
     } catch (const Error& error) {
         throw Error(error.kind(), path + ": " + error.what());
     }
@@ -134,7 +152,8 @@ SurfaceModel read_list(const Case& settings) {
     const auto& keys = settings.surface;
     SurfaceModel model;
     model.asperities = read_asperities(keys.file, settings.run.length_unit);
-    make_law(settings.asperities.law, model.asperities, 1);  // refuses asperities without the properties that the law needs
+    make_law(settings.asperities.law, model.asperities,
+             1);  // refuses asperities without the properties that the law needs
     model.domain = list_domain(model.asperities, keys.L, "the asperities in " + keys.file);
     model.statistics.summits = static_cast<std::int64_t>(model.asperities.size());
     model.statistics.sigma = model.domain.sigma;
@@ -147,10 +166,12 @@ SurfaceModel read_list(const Case& settings) {
 Spectrum spectrum_of(const Case& settings) {
     const auto& keys = settings.surface;
     if (keys.source == Source::spectrum) {
-        const auto found = read_spectrum(keys.file, settings.run.length_unit, keys.twins == Twins::directional,
-                                         keys.twin_heights == TwinHeights::measured);
-        Spectrum spectrum = tabulated_spectrum(found.table, keys.L.value_or(2 * std::numbers::pi / found.table->lowest()),
-                                               keys.sigma.value_or(found.sigma));
+        const auto found =
+            read_spectrum(keys.file, settings.run.length_unit, keys.twins == Twins::directional,
+                          keys.twin_heights == TwinHeights::measured);
+        Spectrum spectrum = tabulated_spectrum(
+            found.table, keys.L.value_or(2 * std::numbers::pi / found.table->lowest()),
+            keys.sigma.value_or(found.sigma));
         spectrum.aspect = keys.aspect, spectrum.direction = keys.direction;
         spectrum.shape = {keys.skewness, keys.kurtosis};
         spectrum.heights = found.heights;
@@ -162,29 +183,35 @@ Spectrum spectrum_of(const Case& settings) {
 }
 
 bool differs_by_realization(const Case& settings) {
-    return has_spectrum(settings) || (settings.surface.source == Source::heights && is_pattern(settings.surface.file));
+    return has_spectrum(settings) ||
+           (settings.surface.source == Source::heights && is_pattern(settings.surface.file));
 }
 
 bool has_spectrum(const Case& settings) {
-    return settings.surface.source == Source::synthetic || settings.surface.source == Source::spectrum;
+    return settings.surface.source == Source::synthetic ||
+           settings.surface.source == Source::spectrum;
 }
 
-Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads, const RowSource::Wanted& wanted) {
+Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_t number,
+                     int threads, const RowSource::Wanted& wanted) {
     const auto& keys = settings.surface;
     Surface surface;
     surface.sigma = spectrum.sigma;
     surface.points_per_wave = keys.n / shortest_wave(spectrum);
     surface.theory = theoretical_moments(spectrum);
-    const RowSource source(spectrum, keys.n, keys.normalise, settings.run.seed, number, threads, 0, RowSource::Lines::narrowest);
+    const RowSource source(spectrum, keys.n, keys.normalise, settings.run.seed, number, threads, 0,
+                           RowSource::Lines::narrowest);
     surface.sampled = source.sampled(), surface.differences = source.differences();
     surface.map = source.all(threads, wanted);
     return surface;
 }
 
 Surface make_surface(const Case& settings, std::int64_t number, int threads) {
-    if (has_spectrum(settings)) return make_surface(settings, spectrum_of(settings), number, threads);
+    if (has_spectrum(settings))
+        return make_surface(settings, spectrum_of(settings), number, threads);
     if (settings.surface.source == Source::heights) {
-        Surface surface = read_map(settings, map_file(settings.surface.file, number), settings.surface.L, settings.surface.channel, true);
+        Surface surface = read_map(settings, map_file(settings.surface.file, number),
+                                   settings.surface.L, settings.surface.channel, true);
         surface.map.periodic = settings.indentation.boundary == Boundary::periodic;
         return surface;
     }
@@ -196,22 +223,30 @@ int element_points(const Case& settings, const Spectrum& spectrum) {
 }
 
 std::string too_large_for_elements(const Case& settings, const Spectrum& spectrum) {
-    const double points_per_wave = settings.elements.points_per_wave, wanted = points_per_wave * shortest_wave(spectrum);
+    const double points_per_wave = settings.elements.points_per_wave,
+                 wanted = points_per_wave * shortest_wave(spectrum);
     constexpr double most = 32768;
     if (wanted > most)
-        return format("&elements points_per_wave = %g: gives a grid of %.0f points a side; the maximum is %.0f", points_per_wave, wanted,
-                      most);
+        return format(
+            "&elements points_per_wave = %g: gives a grid of %.0f points a side; the maximum is "
+            "%.0f",
+            points_per_wave, wanted, most);
     const int n = element_points(settings, spectrum);
-    // Memory for two flats: heights, the pressures on some pixels, transforms in single and double precision.
+    // Memory for two flats: heights, the pressures on some pixels, transforms in single and double
+    // precision.
     const bool periodic = settings.indentation.boundary == Boundary::periodic;
-    const double elastic = reads_high_points(settings) ? 3.0 : 8.0, bytes = (periodic ? 28.0 : elastic) * n * n,
-                 memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    const double elastic = reads_high_points(settings) ? 3.0 : 8.0,
+                 bytes = (periodic ? 28.0 : elastic) * n * n,
+                 memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                          static_cast<double>(sysconf(_SC_PAGESIZE));
     constexpr double beside = 1.5;  // first the modes during synthesis, later the pixels in contact
     if (!(memory > 0) || beside * bytes <= memory) return {};
     return format(
-        "&elements points_per_wave = %g: %s, %d x %d points, need %.3g GB, but the machine has %.3g GB of memory; use fewer points per wave "
+        "&elements points_per_wave = %g: %s, %d x %d points, need %.3g GB, but the machine has "
+        "%.3g GB of memory; use fewer points per wave "
         "or a smaller surface%%L_lambda_s",
-        points_per_wave, periodic ? "heights and their transforms" : "the heights", n, n, 1e-9 * bytes, 1e-9 * memory);
+        points_per_wave, periodic ? "heights and their transforms" : "the heights", n, n,
+        1e-9 * bytes, 1e-9 * memory);
 }
 
 // Values between start and stop, both included.
@@ -220,8 +255,8 @@ std::vector<double> spaced(const Case::Indentation& keys) {
     std::vector<double> values(static_cast<std::size_t>(keys.steps));
     for (std::size_t k = 0; k < values.size(); ++k) {
         const double t = keys.steps > 1 ? static_cast<double>(k) / (keys.steps - 1) : 0.0;
-        values[k] =
-            keys.spacing == Spacing::log ? keys.start * std::pow(keys.stop / keys.start, t) : keys.start + t * (keys.stop - keys.start);
+        values[k] = keys.spacing == Spacing::log ? keys.start * std::pow(keys.stop / keys.start, t)
+                                                 : keys.start + t * (keys.stop - keys.start);
     }
     if (keys.steps > 1) values.back() = keys.stop;  // exactly
     return values;
@@ -229,68 +264,88 @@ std::vector<double> spaced(const Case::Indentation& keys) {
 
 bool reads_high_points(const Case& c) {
     const std::vector<double> levels = spaced(c.indentation);
-    return has_spectrum(c) && !levels.empty() && c.indentation.boundary == Boundary::free && c.indentation.control == Control::separation &&
-           std::all_of(levels.begin(), levels.end(), [](double level) { return level > 0; }) && c.indenter.file.empty() &&
-           !std::isfinite(c.solids.hardness) && !(c.solids.adhesion > 0) && !relaxes(c) && !c.output.heights && c.output.fields.empty();
+    return has_spectrum(c) && !levels.empty() && c.indentation.boundary == Boundary::free &&
+           c.indentation.control == Control::separation &&
+           std::all_of(levels.begin(), levels.end(), [](double level) { return level > 0; }) &&
+           c.indenter.file.empty() && !std::isfinite(c.solids.hardness) &&
+           !(c.solids.adhesion > 0) && !relaxes(c) && !c.output.heights && c.output.fields.empty();
 }
 
-Surface make_element_surface(const Case& settings, std::int64_t number, int threads, const Indenter* indenter,
-                             std::span<const double> levels) {
+Surface make_element_surface(const Case& settings, std::int64_t number, int threads,
+                             const Indenter* indenter, std::span<const double> levels) {
     if (!has_spectrum(settings)) return make_surface(settings, number, threads);
     const Spectrum spectrum = spectrum_of(settings);
-    if (const std::string why = too_large_for_elements(settings, spectrum); !why.empty()) bad_input(why);
+    if (const std::string why = too_large_for_elements(settings, spectrum); !why.empty())
+        bad_input(why);
     Case finer = settings;
     finer.surface.n = element_points(settings, spectrum);
-    if (!indenter || !reads_high_points(settings)) return make_surface(finer, spectrum, number, threads);
-    // Faces are nowhere below 0, so that a height of 0 lies below the indenter at every separation above 0. The highest point is kept.
-    const double step = spectrum.L / finer.surface.n, least = *std::min_element(levels.begin(), levels.end()) * (1 - 1e-9);
+    if (!indenter || !reads_high_points(settings))
+        return make_surface(finer, spectrum, number, threads);
+    // Faces are nowhere below 0, so that a height of 0 lies below the indenter at every separation
+    // above 0. The highest point is kept.
+    const double step = spectrum.L / finer.surface.n,
+                 least = *std::min_element(levels.begin(), levels.end()) * (1 - 1e-9);
     std::atomic<double> top = -kInfinity;
-    Surface surface = make_surface(finer, spectrum, number, threads, [&](int row, int first, int count, const double* z) {
-        double before = top, highest = -kInfinity;
-        const double from = std::min(least, before);
-        for (int k = 0; k < count; ++k)
-            if (z[k] > from) highest = std::max(highest, indenter->clearance((first + k) * step, row * step, z[k]));
-        while (highest > before && !top.compare_exchange_weak(before, highest)) {
-        }
-        return highest > from;
-    });
+    Surface surface = make_surface(
+        finer, spectrum, number, threads, [&](int row, int first, int count, const double* z) {
+            double before = top, highest = -kInfinity;
+            const double from = std::min(least, before);
+            for (int k = 0; k < count; ++k)
+                if (z[k] > from)
+                    highest = std::max(highest,
+                                       indenter->clearance((first + k) * step, row * step, z[k]));
+            while (highest > before && !top.compare_exchange_weak(before, highest)) {
+            }
+            return highest > from;
+        });
     const bool complete = top == -kInfinity;  // made in another order, with all heights
-    return complete || top > 0 ? std::move(surface) : make_surface(finer, spectrum, number, threads);
+    return complete || top > 0 ? std::move(surface)
+                               : make_surface(finer, spectrum, number, threads);
 }
 
 SurfaceDomain synthetic_domain(const Spectrum& spectrum, int n) {
     const Moments theory = theoretical_moments(spectrum);
-    SurfaceDomain domain{{0, 0, spectrum.L, spectrum.L}, spectrum.sigma, false, theory.mean_spacing()};
+    SurfaceDomain domain{
+        {0, 0, spectrum.L, spectrum.L}, spectrum.sigma, false, theory.mean_spacing()};
     domain.points_per_wave = n / spectrum.L_lambda_s, domain.step = spectrum.L / n;
     domain.rms_slope = theory.rms_slope();
     domain.repeats = true;
     return domain;
 }
 
-SurfaceDomain list_domain(const Asperities& asperities, std::optional<double> L, const std::string& whose) {
+SurfaceDomain list_domain(const Asperities& asperities, std::optional<double> L,
+                          const std::string& whose) {
     const auto [left, right] = std::ranges::minmax(asperities.x);
     const auto [below, above] = std::ranges::minmax(asperities.y);
     const double extent = std::max(right - left, above - below);
-    if (L && extent > *L) bad_input("surface%L = " + text_of(*L) + " is less than the extent of " + whose + ", " + text_of(extent));
+    if (L && extent > *L)
+        bad_input("surface%L = " + text_of(*L) + " is less than the extent of " + whose + ", " +
+                  text_of(extent));
     SurfaceDomain domain;
     if (L && std::min(left, below) >= 0 && std::max(right, above) <= *L) {
         domain = {0, 0, *L, *L};
     } else {
         const double side = L.value_or(extent > 0 ? extent : 1.0);
-        domain = {0.5 * (left + right) - 0.5 * side, 0.5 * (below + above) - 0.5 * side, side, side};
+        domain = {0.5 * (left + right) - 0.5 * side, 0.5 * (below + above) - 0.5 * side, side,
+                  side};
     }
     domain.sigma = rms(asperities.z);
     domain.guessed = !L;
-    if (L || extent > 0) domain.mean_spacing = std::sqrt(domain.Lx * domain.Ly / static_cast<double>(asperities.size()));
+    if (L || extent > 0)
+        domain.mean_spacing =
+            std::sqrt(domain.Lx * domain.Ly / static_cast<double>(asperities.size()));
     return domain;
 }
 
 std::shared_ptr<const MapMarks> marks_of(const HeightMap& map, const Breaks& breaks) {
     auto marks = std::make_shared<MapMarks>();
-    const auto border = [&](int i, int j) { marks->border.push_back({map.x(i), map.y(j), map(i, j)}); };
+    const auto border = [&](int i, int j) {
+        marks->border.push_back({map.x(i), map.y(j), map(i, j)});
+    };
     for (int i = 0; i < map.nx; ++i) border(i, 0), border(i, map.ny - 1);
     for (int j = 1; j < map.ny - 1; ++j) border(0, j), border(map.nx - 1, j);
-    for (const Breaks::Place& spike : breaks.spikes) marks->spikes.push_back({map.x(spike.i), map.y(spike.j)});
+    for (const Breaks::Place& spike : breaks.spikes)
+        marks->spikes.push_back({map.x(spike.i), map.y(spike.j)});
     marks->reach = std::max(map.dx, map.dy);
     return marks;
 }
@@ -311,23 +366,30 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
     auto seen = std::make_shared<HeightMap>(map.copy());
     if (!breaks->pits.empty()) raise_pits(*seen, *breaks);
     if (step > 0) smooth_rounded(*seen, step);
-    model.asperities = find_asperities(*seen, settings.asperities.curvature, &count, threads, detail_of(settings), surface.points_per_wave,
-                                       nullptr, breaks.get());
+    model.asperities =
+        find_asperities(*seen, settings.asperities.curvature, &count, threads, detail_of(settings),
+                        surface.points_per_wave, nullptr, breaks.get());
     if (detail_of(settings) == Detail::subgrid)
-        model.search = [kept = std::shared_ptr<const HeightMap>(seen), curvature = settings.asperities.curvature, threads,
-                        waves = surface.points_per_wave, breaks, lay = count.lay](const Indenter& indenter) {
+        model.search = [kept = std::shared_ptr<const HeightMap>(seen),
+                        curvature = settings.asperities.curvature, threads,
+                        waves = surface.points_per_wave, breaks,
+                        lay = count.lay](const Indenter& indenter) {
             const Face face(indenter);
             FoundSummits found{{}, kept, waves, threads, breaks, lay};
-            found.summits = find_asperities(*kept, curvature, nullptr, threads, Detail::subgrid, waves, &face, breaks.get(), lay);
+            found.summits = find_asperities(*kept, curvature, nullptr, threads, Detail::subgrid,
+                                            waves, &face, breaks.get(), lay);
             return found;
         };
-    model.domain.heights = [kept = std::shared_ptr<const HeightMap>(seen)](const std::vector<Vec2>& points) {
-        std::vector<double> z;
-        for (const Vec2& p : points) z.push_back(height_at(*kept, p.x, p.y));
-        return z;
-    };
+    model.domain.heights =
+        [kept = std::shared_ptr<const HeightMap>(seen)](const std::vector<Vec2>& points) {
+            std::vector<double> z;
+            for (const Vec2& p : points) z.push_back(height_at(*kept, p.x, p.y));
+            return z;
+        };
     require_summits(model, surface.name, map.periodic ? "" : " inside the map");
-    if (!surface.theory) model.domain.mean_spacing = std::sqrt(map.Lx() * map.Ly() / static_cast<double>(model.asperities.size()));
+    if (!surface.theory)
+        model.domain.mean_spacing =
+            std::sqrt(map.Lx() * map.Ly() / static_cast<double>(model.asperities.size()));
     if (!map.periodic) model.domain.marks = marks_of(map, *breaks);
     count_summits(count, model.statistics);
     return model;
@@ -339,10 +401,12 @@ SurfaceModel make_bare_model(const Surface& surface) {
     model.measured = surface.measured;
     model.domain = {map.x0, map.y0, map.Lx(), map.Ly()};
     model.domain.measured = !surface.theory;
-    if (!surface.theory) model.domain.half_step_x = 0.5 * map.dx, model.domain.half_step_y = 0.5 * map.dy;
+    if (!surface.theory)
+        model.domain.half_step_x = 0.5 * map.dx, model.domain.half_step_y = 0.5 * map.dy;
     model.domain.repeats = map.periodic;
     model.domain.sigma = surface.sigma;
-    model.domain.points_per_wave = model.measured ? model.measured->points_per_wave() : surface.points_per_wave;
+    model.domain.points_per_wave =
+        model.measured ? model.measured->points_per_wave() : surface.points_per_wave;
     model.domain.step = std::max(map.dx, map.dy);
     if (surface.theory) model.domain.mean_spacing = surface.theory->mean_spacing();
     auto& s = model.statistics;
@@ -356,16 +420,21 @@ SurfaceModel make_bare_model(const Surface& surface) {
     return model;
 }
 
-SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, std::int64_t number, int threads) {
+SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, std::int64_t number,
+                                int threads) {
     const auto& keys = settings.surface;
     SurfaceModel model;
     model.domain = synthetic_domain(spectrum, keys.n);
     SummitCount count;
     Moments sampled, differences;
-    const auto rows = std::make_shared<Kept<RowSource>>();  // to draw the modes again takes longer than hundreds of rows
-    model.asperities = make_asperities(spectrum, keys.n, keys.normalise, settings.run.seed, number, settings.asperities.curvature, &count,
-                                       &sampled, threads, detail_of(settings), &differences, nullptr, &rows->made);
-    if (const int n = summit_points(spectrum, keys.n); n > kMostPointsKept || (rows->made && rows->made->n() != n)) rows->made.reset();
+    const auto rows = std::make_shared<
+        Kept<RowSource>>();  // to draw the modes again takes longer than hundreds of rows
+    model.asperities = make_asperities(spectrum, keys.n, keys.normalise, settings.run.seed, number,
+                                       settings.asperities.curvature, &count, &sampled, threads,
+                                       detail_of(settings), &differences, nullptr, &rows->made);
+    if (const int n = summit_points(spectrum, keys.n);
+        n > kMostPointsKept || (rows->made && rows->made->n() != n))
+        rows->made.reset();
     require_summits(model, "the surface", "");
     auto& s = model.statistics;
     set_sampled(sampled, s);
@@ -373,9 +442,11 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
     s.m4_grid = differences.m4;
     count_summits(count, s);
     model.domain.rms_slope = std::sqrt(2 * s.m2);
-    model.domain.heights = [keys, spectrum, seed = settings.run.seed, number, threads, rows](const std::vector<Vec2>& points) {
+    model.domain.heights = [keys, spectrum, seed = settings.run.seed, number, threads,
+                            rows](const std::vector<Vec2>& points) {
         const int n = summit_points(spectrum, keys.n);
-        const auto source = rows->get(true, [&] { return RowSource(spectrum, n, keys.normalise, seed, number, threads); });
+        const auto source = rows->get(
+            true, [&] { return RowSource(spectrum, n, keys.normalise, seed, number, threads); });
         RowSource::Scratch scratch(*source);
         HeightMap two;
         two.allocate(n, 2, (n + 7) / 8 * 8), two.dx = two.dy = spectrum.L / n, two.periodic = true;
@@ -385,25 +456,31 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
             stopping_point();
             const double x = source->exchanged() ? p.y : p.x, y = source->exchanged() ? p.x : p.y;
             const int j = static_cast<int>(std::floor(y / two.dy));
-            if (z.empty() || j != made) source->rows(j, 2, two.row(0), two.stride, scratch), made = j;
+            if (z.empty() || j != made)
+                source->rows(j, 2, two.row(0), two.stride, scratch), made = j;
             two.y0 = j * two.dy;
             z.push_back(height_at(two, x, y));
         }
         return z;
     };
     if (detail_of(settings) == Detail::subgrid)
-        model.search = [keys, spectrum, seed = settings.run.seed, number, curvature = settings.asperities.curvature, threads,
-                        lay = count.lay, kept = std::make_shared<Kept<HeightMap>>()](const Indenter& indenter) {
+        model.search = [keys, spectrum, seed = settings.run.seed, number,
+                        curvature = settings.asperities.curvature, threads, lay = count.lay,
+                        kept = std::make_shared<Kept<HeightMap>>()](const Indenter& indenter) {
             const Face face(indenter);
             FoundSummits found{{}, nullptr, 0, threads, nullptr, lay};
             const int n = summit_points(spectrum, keys.n);
             if (n <= kMostPointsKept) {  // the same summits, with the heights
-                found.map = kept->get(false, [&] { return synthesize(spectrum, n, keys.normalise, seed, number, nullptr, threads); });
+                found.map = kept->get(false, [&] {
+                    return synthesize(spectrum, n, keys.normalise, seed, number, nullptr, threads);
+                });
                 found.points_per_wave = n / shortest_wave(spectrum);
                 found.summits =
-                    find_asperities(*found.map, curvature, nullptr, threads, Detail::subgrid, found.points_per_wave, &face, nullptr, lay);
+                    find_asperities(*found.map, curvature, nullptr, threads, Detail::subgrid,
+                                    found.points_per_wave, &face, nullptr, lay);
             } else {
-                found.summits = make_asperities(spectrum, keys.n, keys.normalise, seed, number, curvature, nullptr, nullptr, threads,
+                found.summits = make_asperities(spectrum, keys.n, keys.normalise, seed, number,
+                                                curvature, nullptr, nullptr, threads,
                                                 Detail::subgrid, nullptr, &face, nullptr, lay);
             }
             return found;
@@ -418,7 +495,8 @@ SurfaceModel make_surface_model(const Case& settings, std::int64_t number, int t
         model.points = std::make_shared<HeightMap>(std::move(surface.map));
         return model;
     }
-    if (has_spectrum(settings)) return make_surface_model(settings, spectrum_of(settings), number, threads);
+    if (has_spectrum(settings))
+        return make_surface_model(settings, spectrum_of(settings), number, threads);
     if (settings.surface.source == Source::asperities) return read_list(settings);
     return make_surface_model(make_surface(settings, number, threads), settings, threads);
 }
@@ -427,7 +505,9 @@ Shape shape_of(const Case& settings) {
     const Case::IndenterKeys& keys = settings.indenter;
     ShapeKeys made;
     made.R = equivalent_radius(settings.solids.R);
-    for (int k = 0; k < 2; ++k) made.radii[k] = equivalent_radius({settings.solids.R[0], keys.radii[k].value_or(settings.solids.R[1])});
+    for (int k = 0; k < 2; ++k)
+        made.radii[k] =
+            equivalent_radius({settings.solids.R[0], keys.radii[k].value_or(settings.solids.R[1])});
     made.angle = keys.angle * std::numbers::pi / 180;
     made.slope = keys.slope.value_or(0);
     made.radius = keys.radius.value_or(0);
@@ -437,9 +517,13 @@ Shape shape_of(const Case& settings) {
         made.told = report(*second.measured, settings.run.length_unit);
         made.filled = second.measured->filled;
         SummitCount count;
-        if (!by_elements(settings)) (void)find_asperities(second.map, settings.asperities.curvature, &count, 1);
-        if (count.summits > 0) made.spacing = std::sqrt(second.map.Lx() * second.map.Ly() / static_cast<double>(count.summits));
-        made.shortest_wave = second.measured->points_per_wave() * std::max(second.map.dx, second.map.dy);
+        if (!by_elements(settings))
+            (void)find_asperities(second.map, settings.asperities.curvature, &count, 1);
+        if (count.summits > 0)
+            made.spacing =
+                std::sqrt(second.map.Lx() * second.map.Ly() / static_cast<double>(count.summits));
+        made.shortest_wave =
+            second.measured->points_per_wave() * std::max(second.map.dx, second.map.dy);
         auto map = std::make_shared<HeightMap>(std::move(second.map));
         map->periodic = settings.indentation.boundary == Boundary::periodic;
         made.map = std::move(map);

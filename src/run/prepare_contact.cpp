@@ -1,10 +1,10 @@
 // The contact of a case: indenter, tip and solver of &indenter, &solids, &indentation and &solver.
 
-#include "contact/asperity_contact.hpp"
-#include "contact/element_contact.hpp"
+#include "asperities/asperity_contact.hpp"
+#include "base/error.hpp"
+#include "base/format.hpp"
 #include "contact/equivalent.hpp"
-#include "error.hpp"
-#include "format.hpp"
+#include "elements/element_contact.hpp"
 #include "run/prepare.hpp"
 
 namespace rsc {
@@ -32,19 +32,24 @@ void require_tip_above(const SurfaceDomain& domain, const Shape& shape, double x
     const double beyond = domain.guessed ? shape->reach() : 0;
     const auto within = [&](double v, double first, double length) {
         const double rounding = 1e-12 * (std::abs(first) + length);
-        return usable(v) && v >= first - beyond - rounding && v <= first + length + beyond + rounding;
+        return usable(v) && v >= first - beyond - rounding &&
+               v <= first + length + beyond + rounding;
     };
     if (within(x, d.x0, d.Lx) && within(y, d.y0, d.Ly)) return;
-    bad_input("the tip at x = " + text_of(x) + ", y = " + text_of(y) + " is not above the surface, which reaches from x = " +
-              text_of(d.x0) + " to " + text_of(d.x0 + d.Lx) + " and from y = " + text_of(d.y0) + " to " + text_of(d.y0 + d.Ly) +
-              (domain.guessed ? " (the extent of the asperities; set surface%L for a larger one)" : ""));
+    bad_input(
+        "the tip at x = " + text_of(x) + ", y = " + text_of(y) +
+        " is not above the surface, which reaches from x = " + text_of(d.x0) + " to " +
+        text_of(d.x0 + d.Lx) + " and from y = " + text_of(d.y0) + " to " + text_of(d.y0 + d.Ly) +
+        (domain.guessed ? " (the extent of the asperities; set surface%L for a larger one)" : ""));
 }
 
 Indenter indenter_of(const Case& settings, const SurfaceDomain& domain) {
     const auto& centre = settings.indentation.centre;
     const Domain& d = domain;
-    Indenter indenter{surface_modulus(settings.solids), shape_of(settings), centre[0].value_or(d.x0 + 0.5 * d.Lx - domain.half_step_x),
-                      centre[1].value_or(d.y0 + 0.5 * d.Ly - domain.half_step_y), period_of(settings, domain)};
+    Indenter indenter{surface_modulus(settings.solids), shape_of(settings),
+                      centre[0].value_or(d.x0 + 0.5 * d.Lx - domain.half_step_x),
+                      centre[1].value_or(d.y0 + 0.5 * d.Ly - domain.half_step_y),
+                      period_of(settings, domain)};
     indenter.layers = layers_in(settings.solids);
     try {
         require_tip_above(domain, indenter.shape, indenter.x0, indenter.y0);
@@ -55,15 +60,19 @@ Indenter indenter_of(const Case& settings, const SurfaceDomain& domain) {
 }
 
 Period period_of(const Case& settings, const SurfaceDomain& domain) {
-    return settings.indentation.boundary == Boundary::periodic ? Period{domain.Lx, domain.Ly} : Period{};
+    return settings.indentation.boundary == Boundary::periodic ? Period{domain.Lx, domain.Ly}
+                                                               : Period{};
 }
 
-std::unique_ptr<Contact> make_contact(const SurfaceModel& model, const Indenter& indenter, const SolverOptions& options) {
+std::unique_ptr<Contact> make_contact(const SurfaceModel& model, const Indenter& indenter,
+                                      const SolverOptions& options) {
     if (model.points) return make_element_contact(*model.points, indenter, options);
     return make_asperity_contact(model.asperities, indenter, options, model.search);
 }
 
-double sigma_of(const Case& settings, const SurfaceDomain& domain) { return settings.surface.sigma.value_or(domain.sigma); }
+double sigma_of(const Case& settings, const SurfaceDomain& domain) {
+    return settings.surface.sigma.value_or(domain.sigma);
+}
 
 SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     SolverOptions options;
@@ -73,7 +82,8 @@ SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     if (relaxes(settings)) {
         const Case::Solids& s = settings.solids;
         const auto compliance = [&](int i) { return (1 - s.nu[i] * s.nu[i]) / s.E[i]; };
-        options.relaxation = {s.relaxation_share, s.relaxation_time, compliance(0) / (compliance(0) + compliance(1))};
+        options.relaxation = {s.relaxation_share, s.relaxation_time,
+                              compliance(0) / (compliance(0) + compliance(1))};
     }
     options.adhesion = {settings.solids.adhesion, settings.solids.adhesion_range};
     options.interaction = settings.solver.interaction;
@@ -92,9 +102,11 @@ SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     options.measured = domain.measured || !settings.indenter.file.empty();
     if (free) options.marks = domain.marks;
     if (!domain.guessed && free) options.surface = {domain.x0, domain.y0, domain.Lx, domain.Ly};
-    if (!(options.sigma > 0) && (options.method == Method::dgesv || options.selection == Selection::paper)) {
+    if (!(options.sigma > 0) &&
+        (options.method == Method::dgesv || options.selection == Selection::paper)) {
         bad_input(
-            "surface%sigma: needed by solver%method = 'dgesv' and indentation%selection = 'paper', and the "
+            "surface%sigma: needed by solver%method = 'dgesv' and indentation%selection = 'paper', "
+            "and the "
             "asperities, which all have the same height, do not give one");
     }
     return options;

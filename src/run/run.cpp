@@ -2,14 +2,14 @@
 
 #include <unistd.h>
 
+#include "base/error.hpp"
+#include "base/format.hpp"
+#include "base/parallel.hpp"
 #include "case/registry.hpp"
-#include "error.hpp"
-#include "file/netcdf_writer.hpp"
-#include "file/whole_file.hpp"
-#include "format.hpp"
+#include "io/inputs.hpp"
+#include "io/netcdf_writer.hpp"
+#include "io/whole_file.hpp"
 #include "observe/regimes.hpp"
-#include "read/inputs.hpp"
-#include "rough/parallel.hpp"
 #include "run/compare.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
@@ -19,7 +19,8 @@ namespace rsc {
 
 std::vector<std::string> input_files(const Case& settings) {
     std::vector<std::string> files;
-    if (settings.surface.source != Source::synthetic && !settings.surface.file.empty()) files = matching_files(settings.surface.file);
+    if (settings.surface.source != Source::synthetic && !settings.surface.file.empty())
+        files = matching_files(settings.surface.file);
     if (!settings.indenter.file.empty()) files.push_back(settings.indenter.file);
     return files;
 }
@@ -30,18 +31,22 @@ bool check_result_path(const Case& settings, const RunOptions& options) {
     return check_output(settings.output.file, inputs);
 }
 
-std::string case_text(const Case& settings) { return effective_namelist(without_idle_keys(settings)); }
+std::string case_text(const Case& settings) {
+    return effective_namelist(without_idle_keys(settings));
+}
 
 void tell_failed(const RunOptions& options, const RunSummary& summary) {
     if (summary.failed == 0 || !options.messages) return;
-    *options.messages << "rsc: " << summary.failed << " of " << summary.levels
-                      << " levels did not converge; their values are in the file with status = 4.\n";
+    *options.messages
+        << "rsc: " << summary.failed << " of " << summary.levels
+        << " levels did not converge; their values are in the file with status = 4.\n";
 }
 
 namespace {
 
-void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s, std::span<const LevelValues> levels, double seconds,
-               const std::string& file, bool replaces, const std::string& twins) {
+void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s,
+               std::span<const LevelValues> levels, double seconds, const std::string& file,
+               bool replaces, const std::string& twins) {
     out << '\n';
     if (by_elements(job.settings))
         out << "elements, ";
@@ -49,19 +54,23 @@ void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s, st
         out << s.summits << " asperities (" << s.saddles << " saddles excluded), ";
     out << levels.size() << " levels in " << duration(seconds) << '\n';
     if (const double slope = std::sqrt(2 * s.m2); slope > 0)
-        out << format("surface: rms height %.6g %s, rms slope %.4g%s\n", s.sigma, job.settings.run.length_unit.c_str(), slope,
-                      slope_remark(slope));
+        out << format("surface: rms height %.6g %s, rms slope %.4g%s\n", s.sigma,
+                      job.settings.run.length_unit.c_str(), slope, slope_remark(slope));
     tell_unreached_heights(out, {&s, 1}, job);
     print_remarks(out, levels, job);
     if (!twins.empty()) out << twins << '\n';
     print_result(out, file, replaces);
 }
 
-constexpr const char* kMark = "! Written by rsc with the result of a measured map, and replaced with it: edit a copy.\n";
-const FileKind kTwins{"case of twins", [](const std::string& path) { return begins_with(path, kMark); }};
+constexpr const char* kMark =
+    "! Written by rsc with the result of a measured map, and replaced with it: edit a copy.\n";
+const FileKind kTwins{"case of twins",
+                      [](const std::string& path) { return begins_with(path, kMark); }};
 constexpr int kRealizations = 100;
 
-std::string stem(const std::string& result) { return result.ends_with(".nc") ? result.substr(0, result.size() - 3) : result; }
+std::string stem(const std::string& result) {
+    return result.ends_with(".nc") ? result.substr(0, result.size() - 3) : result;
+}
 
 }  // namespace
 
@@ -73,7 +82,8 @@ std::string twins_text(const Job& job, const std::string& result) {
         for (double& level : keys.levels) level *= factor;
     };
     const double L = std::max(m.Lx(), m.Ly());
-    twins.run.title = "Surfaces with the spectrum of " + std::filesystem::path(job.settings.surface.file).filename().string();
+    twins.run.title = "Surfaces with the spectrum of " +
+                      std::filesystem::path(job.settings.surface.file).filename().string();
     twins.run.realizations = kRealizations;
     twins.run.first_realization = 1;
     const Case::Surface keys = twins.surface;
@@ -81,25 +91,33 @@ std::string twins_text(const Job& job, const std::string& result) {
     twins.surface.source = Source::spectrum;
     twins.surface.file = result;
     twins.surface.L = L;
-    twins.surface.n = 2 * static_cast<int>(std::ceil(m.spectrum.wavenumber.back() * L / (2 * std::numbers::pi) * (1 - 1e-12))) +
+    twins.surface.n = 2 * static_cast<int>(std::ceil(m.spectrum.wavenumber.back() * L /
+                                                     (2 * std::numbers::pi) * (1 - 1e-12))) +
                       2;  // one more point for heights of any distribution
     twins.surface.twins = m.isotropy < kIsotropic ? Twins::directional : Twins::radial;
     twins.surface.twin_heights = m.gaussian() ? TwinHeights::gaussian : TwinHeights::measured;
     twins.surface.sigma = m.parameters.sq;
-    twins.surface.normalise = Normalise::ensemble;  // the rms height of the map is that of one sample; that of the twins scatters likewise
-    if (keys.sigma && twins.indentation.control == Control::separation && twins.indentation.unit == LevelUnit::sigma) {
+    twins.surface.normalise = Normalise::
+        // the rms height of the map is that of one sample; that of the twins scatters likewise
+        ensemble;
+    if (keys.sigma && twins.indentation.control == Control::separation &&
+        twins.indentation.unit == LevelUnit::sigma) {
         // For the map sigma was a unit of length; for twins it is the rms height.
         twins.indentation.unit = LevelUnit::length;
         scale_levels(job.sigma);
     }
-    if (job.indenter.period.finite() && twins.indentation.control == Control::force) {  // the area of the twins may be another
+    if (job.indenter.period.finite() &&
+        twins.indentation.control == Control::force) {  // the area of the twins may be another
         twins.indentation.control = Control::pressure, twins.indentation.unit = LevelUnit::pressure;
         scale_levels(1 / job.indenter.period.area());
     }
-    // The square begins at 0 and has the longer side of the map; the tip keeps its distance from the middle.
+    // The square begins at 0 and has the longer side of the map; the tip keeps its distance from
+    // the middle.
     const Domain& d = job.domain;
-    if (auto& x = twins.indentation.centre[0]) x = std::clamp(*x - (d.x0 + 0.5 * d.Lx) + 0.5 * L, 0.0, L);
-    if (auto& y = twins.indentation.centre[1]) y = std::clamp(*y - (d.y0 + 0.5 * d.Ly) + 0.5 * L, 0.0, L);
+    if (auto& x = twins.indentation.centre[0])
+        x = std::clamp(*x - (d.x0 + 0.5 * d.Lx) + 0.5 * L, 0.0, L);
+    if (auto& y = twins.indentation.centre[1])
+        y = std::clamp(*y - (d.y0 + 0.5 * d.Ly) + 0.5 * L, 0.0, L);
     twins.output.file = stem(result) + "_twins.nc";
     twins.output.contacts = Contacts::automatic;
     twins.output.heights = false;
@@ -107,9 +125,10 @@ std::string twins_text(const Job& job, const std::string& result) {
     return kMark + effective_namelist(twins);
 }
 
-// States the exponent of the twins' spectrum, where the map is smoother or rougher than elsewhere if it is high, and how far the rms slope of
-// the twins is from the map's. The spectrum does not hold waves longer than the
-// map, nor those shorter than its wider grid step, and is scaled to the rms height of the map.
+// States the exponent of the twins' spectrum, where the map is smoother or rougher than elsewhere
+// if it is high, and how far the rms slope of the twins is from the map's. The spectrum does not
+// hold waves longer than the map, nor those shorter than its wider grid step, and is scaled to the
+// rms height of the map.
 constexpr double kTold = 0.05;  // a difference of slopes, or an exponent, that is stated
 static std::string other_slopes(const Measured& m) {
     const MeasuredSpectrum& s = m.spectrum;
@@ -117,44 +136,59 @@ static std::string other_slopes(const Measured& m) {
     const bool directional = m.isotropy < kIsotropic;
     const double exponent = directional ? s.plane_exponent : s.exponent;
     std::string said =
-        std::abs(exponent) < kTold ? "" : format("\nspectrum of the twins: that of the map times k^%.2f, for its rms slope", exponent);
+        std::abs(exponent) < kTold
+            ? ""
+            : format("\nspectrum of the twins: that of the map times k^%.2f, for its rms slope",
+                     exponent);
     constexpr double smoother = 0.8, rougher = 1.25;
     if (const double high = m.parameters.high_slope; high < smoother || high > rougher)
         said += format(
-            "\nwarning: where the map is more than one rms height above its mean plane, its rms slope is %.2g times that of the whole; the twins "
-            "do not keep this, and their contact area at a given force may differ from the map's by a factor of two and more",
+            "\nwarning: where the map is more than one rms height above its mean plane, its rms "
+            "slope is %.2g times that of the whole; the twins "
+            "do not keep this, and their contact area at a given force may differ from the map's "
+            "by a factor of two and more",
             high);
     const Spectrum twin = tabulated_spectrum(
-        directional ? std::make_shared<SpectrumTable>(s.plane_wavenumber, tilted(s.plane_psd, s.plane_wavenumber, exponent),
-                                                      MeasuredSpectrum::kAngles)
-                    : std::make_shared<SpectrumTable>(s.wavenumber, tilted(s.psd, s.wavenumber, exponent)),
+        directional
+            ? std::make_shared<SpectrumTable>(s.plane_wavenumber,
+                                              tilted(s.plane_psd, s.plane_wavenumber, exponent),
+                                              MeasuredSpectrum::kAngles)
+            : std::make_shared<SpectrumTable>(s.wavenumber, tilted(s.psd, s.wavenumber, exponent)),
         L, sigma);
     const double slope = theoretical_moments(twin).rms_slope(), held = twin.table->sigma() / sigma;
     if (std::abs(slope / m.parameters.sdq - 1) < kTold) return said;
-    said += format("\nwarning: the rms slope of the twins is %.3g, the map's %.3g", slope, m.parameters.sdq);
-    if (exponent != 0 && std::abs(exponent) < kMostExponent * (1 - 1e-9))  // which makes the slopes by first differences equal
+    said += format("\nwarning: the rms slope of the twins is %.3g, the map's %.3g", slope,
+                   m.parameters.sdq);
+    if (exponent != 0 &&
+        std::abs(exponent) <
+            kMostExponent * (1 - 1e-9))  // which makes the slopes by first differences equal
         return said +
-               ": by first differences with the step of the map both are equal, but this step smooths the shortest waves; elements see the "
+               ": by first differences with the step of the map both are equal, but this step "
+               "smooths the shortest waves; elements see the "
                "twins, on their finer grid, steeper than the map";
-    return said +
-           format(
-               ", and their contact area at a given force differs about as much in the opposite direction: the spectrum holds %.0f %% of "
-               "the mean square height and is scaled to 100 %%",
-               100 * held * held);
+    return said + format(
+                      ", and their contact area at a given force differs about as much in the "
+                      "opposite direction: the spectrum holds %.0f %% of "
+                      "the mean square height and is scaled to 100 %%",
+                      100 * held * held);
 }
 
-// Writes twins_text() to NAME_twins.nml for the result NAME.nc of a measured map. Returns a line for the screen, which also reports a file
-// of that name that was not written by rsc and is not replaced; empty for other surfaces, and for maps too small for a spectrum.
+// Writes twins_text() to NAME_twins.nml for the result NAME.nc of a measured map. Returns a line
+// for the screen, which also reports a file of that name that was not written by rsc and is not
+// replaced; empty for other surfaces, and for maps too small for a spectrum.
 static std::string write_twins(const Job& job, const std::string& result) {
     if (!job.measured || !job.measured->fit) return {};
     const std::string path = stem(result) + "_twins.nml";
-    if (const std::string why = reason_to_leave(path, kTwins); !why.empty()) return "twins: " + path + ": " + why;
+    if (const std::string why = reason_to_leave(path, kTwins); !why.empty())
+        return "twins: " + path + ": " + why;
     write_whole(path, kTwins, twins_text(job, result));
-    const char* const kept = job.measured->gaussian()
-                                 ? ""
-                                 : " and these heights; not kept: which waves carry the skewness: some 10 % of N, and a "
-                                   "factor of several in A where few summits touch";
-    return "twins: " + path + " (surfaces with this spectrum" + kept + ": rsc < " + path + ")" + other_slopes(*job.measured);
+    const char* const kept =
+        job.measured->gaussian()
+            ? ""
+            : " and these heights; not kept: which waves carry the skewness: some 10 % of N, and a "
+              "factor of several in A where few summits touch";
+    return "twins: " + path + " (surfaces with this spectrum" + kept + ": rsc < " + path + ")" +
+           other_slopes(*job.measured);
 }
 
 RunSummary run_realization(const Case& settings, const RunOptions& options) {
@@ -169,7 +203,8 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     double done = 0;
     const auto go_on = [&] {
         leave_if_interrupted("; nothing is written");
-        if ((options.abandoned && *options.abandoned) || (options.report && options.report(done, total)))
+        if ((options.abandoned && *options.abandoned) ||
+            (options.report && options.report(done, total)))
             throw Interrupted(0, "stopped; nothing is written");
     };
     const Watch watch(go_on);
@@ -178,22 +213,26 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     {
         // A table on the terminal shows the progress itself.
         ProgressLine progress(options, "levels", 0, table && isatty(STDOUT_FILENO) != 0);
-        r = realize(job, settings.run.first_realization, threads, [&](std::size_t k, const Level& level) {
-            if (table) print_level(*table, job, k, level);
-            done = static_cast<double>(k + 1);
-            progress.show(done, total);
-            go_on();
-            return true;
-        });
+        r = realize(job, settings.run.first_realization, threads,
+                    [&](std::size_t k, const Level& level) {
+                        if (table) print_level(*table, job, k, level);
+                        done = static_cast<double>(k + 1);
+                        progress.show(done, total);
+                        go_on();
+                        return true;
+                    });
     }
     Accumulators sums(job.observe, job.levels.size());
-    const RealizationRecord record = observe(job.observe, settings.run.first_realization, r.statistics, r.levels);
+    const RealizationRecord record =
+        observe(job.observe, settings.run.first_realization, r.statistics, r.levels);
     sums.add(record);
     ComparedLevels compared;
     if (compares(job, options.compare_automatically))
-        compared = compare_levels(job, settings.run.first_realization, threads, record.levels, table, [] { return false; });
+        compared = compare_levels(job, settings.run.first_realization, threads, record.levels,
+                                  table, [] { return false; });
     go_on();
-    Result result = make_result(settings, case_text(settings), job.indenter, job.sigma, job.theory, sums.finish());
+    Result result = make_result(settings, case_text(settings), job.indenter, job.sigma, job.theory,
+                                sums.finish());
     keep_contacts(result, r.levels, keep);
     const SurfaceStatistics statistics = r.statistics;
     result.friction = std::move(r.friction);
@@ -203,18 +242,27 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     result.measured = job.measured;
     result.compared = std::move(compared);
     result.fields = std::move(r.fields);
-    if (settings.output.heights) result.heights = std::move(job.given_heights ? job.given_heights : r.heights);
-    write_result(result, settings.output.file, {settings.output.format, settings.output.compression, options.command});
+    if (settings.output.heights)
+        result.heights = std::move(job.given_heights ? job.given_heights : r.heights);
+    write_result(result, settings.output.file,
+                 {settings.output.format, settings.output.compression, options.command});
 
     const std::string twins = write_twins(job, settings.output.file);
 
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (table) summarise(*table, job, statistics, record.levels, seconds, settings.output.file, replaces, twins);
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (table)
+        summarise(*table, job, statistics, record.levels, seconds, settings.output.file, replaces,
+                  twins);
     const LevelValues& last = record.levels.back();
-    const auto failed = [](const LevelValues& level) { return level.status == LevelStatus::not_converged; };
-    const RunSummary summary{static_cast<long>(record.levels.size() + result.compared.levels.size()),
-                             static_cast<long>(std::count_if(record.levels.begin(), record.levels.end(), failed)) + result.compared.failed,
-                             last.separation, last.force, last.area};
+    const auto failed = [](const LevelValues& level) {
+        return level.status == LevelStatus::not_converged;
+    };
+    const RunSummary summary{
+        static_cast<long>(record.levels.size() + result.compared.levels.size()),
+        static_cast<long>(std::count_if(record.levels.begin(), record.levels.end(), failed)) +
+            result.compared.failed,
+        last.separation, last.force, last.area};
     tell_failed(options, summary);
     return summary;
 }

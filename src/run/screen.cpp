@@ -2,8 +2,8 @@
 
 #include <unistd.h>
 
+#include "base/format.hpp"
 #include "case/units.hpp"
-#include "format.hpp"
 #include "observe/quantities.hpp"
 #include "observe/regimes.hpp"
 
@@ -28,13 +28,16 @@ namespace {
 
 // Columns that only two flats have are shown for two flats only.
 bool shown(const LevelQuantity& q, const Job& job) {
-    return q.heading && (q.always || (q.of_step ? !job.times.empty() : job.indenter.period.finite()));
+    return q.heading &&
+           (q.always || (q.of_step ? !job.times.empty() : job.indenter.period.finite()));
 }
 
 }  // namespace
 
 std::string percent(double share) {
-    return std::abs(share) > 10 ? "more than 1000 %" : format(std::abs(share) < 0.995 ? "%.2g %%" : "%.0f %%", 100 * share);
+    return std::abs(share) > 10
+               ? "more than 1000 %"
+               : format(std::abs(share) < 0.995 ? "%.2g %%" : "%.0f %%", 100 * share);
 }
 
 std::string status_text(LevelStatus status) {
@@ -55,39 +58,53 @@ void print_case(std::ostream& out, const Job& job) {
     const char* f = run.force_unit.c_str();
     if (!run.title.empty()) out << run.title << '\n';
     if (const Period& period = job.indenter.period; period.finite())
-        out << format("two flats, a rough half-space that repeats every %g x %g %s, E* = %g %s/%s2, sigma = %g %s\n", period.x, period.y, l,
-                      job.indenter.E_star, f, l, job.sigma, l);
+        out << format(
+            "two flats, a rough half-space that repeats every %g x %g %s, E* = %g %s/%s2, sigma = "
+            "%g %s\n",
+            period.x, period.y, l, job.indenter.E_star, f, l, job.sigma, l);
     else
         out << job.indenter.shape->text(l)
-            << format(" on a rough half-space, E* = %g %s/%s2, sigma = %g %s\n", job.indenter.E_star, f, l, job.sigma, l);
+            << format(" on a rough half-space, E* = %g %s/%s2, sigma = %g %s\n",
+                      job.indenter.E_star, f, l, job.sigma, l);
     if (job.settings.solver.model == Model::automatic) {
         const ModelChoice choice = model_of(job.settings);
-        out << format("by %s: %s (solver%%model = 'auto')\n", kModelNames[static_cast<std::size_t>(choice.model)], choice.why);
+        out << format("by %s: %s (solver%%model = 'auto')\n",
+                      kModelNames[static_cast<std::size_t>(choice.model)], choice.why);
     }
     if (job.theory) {
         const Moments& m = *job.theory;
-        out << format("theory: rms slope %.4g, Nayak parameter %.4g, summit density %.5g 1/%s2, r_g %.4g %s", m.rms_slope(), m.nayak(),
-                      m.summit_density(), l, m.mean_radius(), l);
-        if (has_closed_forms(job.settings)) out << format(", transition force N* %.5g %s", transition_force(m, job.indenter.E_star), f);
+        out << format(
+            "theory: rms slope %.4g, Nayak parameter %.4g, summit density %.5g 1/%s2, r_g %.4g %s",
+            m.rms_slope(), m.nayak(), m.summit_density(), l, m.mean_radius(), l);
+        if (has_closed_forms(job.settings))
+            out << format(", transition force N* %.5g %s", transition_force(m, job.indenter.E_star),
+                          f);
         out << '\n';
     }
-    // Moduli in another unit than that of the case are a common mistake. No solid is stiffer than diamond, 1.2e12 Pa, or softer than a gel.
+    // Moduli in another unit than that of the case are a common mistake. No solid is stiffer than
+    // diamond, 1.2e12 Pa, or softer than a gel.
     constexpr double stiffest = 2e12, softest = 100;
-    const double pascals = run.length_unit == "mm" && run.force_unit == "N" ? 1e6 : unit_factor(unit_of(l, -2, f, 1), "Pa");
+    const double pascals = run.length_unit == "mm" && run.force_unit == "N"
+                               ? 1e6
+                               : unit_factor(unit_of(l, -2, f, 1), "Pa");
     for (const double E : job.settings.solids.E)
         if (pascals > 0 && std::isfinite(E) && (E * pascals > stiffest || E * pascals < softest))
-            out << format("warning: solids%%E = %g %s/%s2 is %.2g Pa, which no solid has: is it in %s/%s2?\n", E, f, l, E * pascals, f, l);
+            out << format(
+                "warning: solids%%E = %g %s/%s2 is %.2g Pa, which no solid has: is it in %s/%s2?\n",
+                E, f, l, E * pascals, f, l);
 }
 
 // The treatment of a measured map, or of the first of several maps.
 void print_measured(std::ostream& out, const Job& job) {
     if (!job.measured) return;
     if (!job.given) out << "the first of the maps:\n";
-    for (const std::string& line : report(*job.measured, job.settings.run.length_unit)) out << line << '\n';
+    for (const std::string& line : report(*job.measured, job.settings.run.length_unit))
+        out << line << '\n';
     constexpr double most = 3;
     if (job.seam > most)
         out << format(
-            "warning: the map is not periodic: heights jump across its border %.2g times as much as between neighbouring points; contacts at "
+            "warning: the map is not periodic: heights jump across its border %.2g times as much "
+            "as between neighbouring points; contacts at "
             "the border are artefacts\n",
             job.seam);
 }
@@ -100,16 +117,22 @@ void print_second(std::ostream& out, const Job& job) {
     const HeightMap& map = *keys.map;
     const Domain& d = job.domain;
     double dx = job.measured ? job.measured->dx : 0, dy = job.measured ? job.measured->dy : 0;
-    if (job.spectrum && by_elements(job.settings)) dx = dy = d.Lx / element_points(job.settings, *job.spectrum);
+    if (job.spectrum && by_elements(job.settings))
+        dx = dy = d.Lx / element_points(job.settings, *job.spectrum);
     const auto between = [](double step, double steps_of_2, int points, double tip, double first) {
         const double at = (first - tip) / steps_of_2 + 0.5 * (points - 1);
         return !(std::abs(step / steps_of_2 - 1) <= 1e-9) || std::abs(at - std::round(at)) > 1e-6;
     };
-    if (!between(dx, map.dx, map.nx, job.indenter.x0, d.x0) && !between(dy, map.dy, map.ny, job.indenter.y0, d.y0)) return;
+    if (!between(dx, map.dx, map.nx, job.indenter.x0, d.x0) &&
+        !between(dy, map.dy, map.ny, job.indenter.y0, d.y0))
+        return;
     const char* l = job.settings.run.length_unit.c_str();
-    out << format("body 2 is interpolated between its points, at a spacing of %g x %g %s", map.dx, map.dy, l);
+    out << format("body 2 is interpolated between its points, at a spacing of %g x %g %s", map.dx,
+                  map.dy, l);
     if (dx > 0) out << format("; the spacing of body 1 is %g x %g %s", dx, dy, l);
-    out << (dx > 1.000001 * map.dx || dy > 1.000001 * map.dy ? ", which is coarser, so that details of body 2 are missed\n" : "\n");
+    out << (dx > 1.000001 * map.dx || dy > 1.000001 * map.dy
+                ? ", which is coarser, so that details of body 2 are missed\n"
+                : "\n");
 }
 
 }  // namespace
@@ -124,7 +147,8 @@ void print_heading(std::ostream& out, const Job& job) {
     for (const LevelQuantity& q : level_quantities()) {
         if (!shown(q, job)) continue;
         std::string heading = q.heading;
-        if (q.length_power != 0 || q.force_power != 0) heading += " [" + unit_of(l, q.length_power, f, q.force_power) + "]";
+        if (q.length_power != 0 || q.force_power != 0)
+            heading += " [" + unit_of(l, q.length_power, f, q.force_power) + "]";
         if (q.of_step) heading += " [" + job.settings.run.time_unit + "]";
         out << format(" %*s", q.width, heading.c_str());
     }
@@ -138,7 +162,8 @@ void print_level(std::ostream& out, const Job& job, std::size_t number, const Le
         if (std::holds_alternative<LevelStatus LevelValues::*>(q.member))
             out << "  " << status_text(level.status)
                 << (level.fallback == Fallback::none ? ""
-                                                     : std::string(", ") + name_of(level.method) + ": " + fallback_text(level.fallback));
+                                                     : std::string(", ") + name_of(level.method) +
+                                                           ": " + fallback_text(level.fallback));
         else if (q.integer())
             out << format(" %*.0f", q.width, q.of(level));
         else if (q.digits > 0)
@@ -149,7 +174,8 @@ void print_level(std::ostream& out, const Job& job, std::size_t number, const Le
     out << '\n';
 }
 
-// Path of the plotting script: in a clone, in the installation, or in the clone where the program was built.
+// Path of the plotting script: in a clone, in the installation, or in the clone where the program
+// was built.
 static std::string plot_script() {
     const std::string here = "output/plot/plot.py";
     std::error_code error;
@@ -161,20 +187,30 @@ static std::string plot_script() {
 }
 
 void print_result(std::ostream& out, const std::string& file, bool replaces) {
-    out << "result: " << file << (replaces ? " (replaces an earlier result)" : "") << "\npicture: python3 " << plot_script() << ' ' << file
-        << std::endl;
+    out << "result: " << file << (replaces ? " (replaces an earlier result)" : "")
+        << "\npicture: python3 " << plot_script() << ' ' << file << std::endl;
 }
 
 std::string duration(double seconds) {
     if (seconds < 1) return format("%.0f ms", 1000 * seconds);
     if (seconds < 100) return format("%.1f s", seconds);
-    if (seconds < 5400) return format("%d min %02d s", static_cast<int>(seconds) / 60, static_cast<int>(seconds) % 60);
-    return format("%d h %02d min", static_cast<int>(seconds / 3600), static_cast<int>(seconds / 60) % 60);
+    if (seconds < 5400)
+        return format("%d min %02d s", static_cast<int>(seconds) / 60,
+                      static_cast<int>(seconds) % 60);
+    return format("%d h %02d min", static_cast<int>(seconds / 3600),
+                  static_cast<int>(seconds / 60) % 60);
 }
 
-ProgressLine::ProgressLine(const RunOptions& options, const char* unit, double already, bool scrolls)
-    : terminal_(isatty(STDERR_FILENO) != 0), unit_(unit), already_(already), start_(Clock::now()), last_(start_) {
-    if (options.progress == Progress::always || (options.progress == Progress::automatic && terminal_ && !scrolls)) out_ = options.messages;
+ProgressLine::ProgressLine(const RunOptions& options, const char* unit, double already,
+                           bool scrolls)
+    : terminal_(isatty(STDERR_FILENO) != 0),
+      unit_(unit),
+      already_(already),
+      start_(Clock::now()),
+      last_(start_) {
+    if (options.progress == Progress::always ||
+        (options.progress == Progress::automatic && terminal_ && !scrolls))
+        out_ = options.messages;
 }
 
 ProgressLine::~ProgressLine() { wipe(); }
@@ -187,19 +223,23 @@ void ProgressLine::wipe() {
 void ProgressLine::show(double done, double total) {
     if (!out_) return;
     const auto now = Clock::now();
-    const double since = std::chrono::duration<double>(now - last_).count(), spent = std::chrono::duration<double>(now - start_).count();
+    const double since = std::chrono::duration<double>(now - last_).count(),
+                 spent = std::chrono::duration<double>(now - start_).count();
     if (since < (terminal_ ? 0.1 : 30.0)) return;
     last_ = now;
     drawn_ = true;
     const double rate = (done - already_) / spent;
-    const std::string left = rate > 0 ? format("%.3g a second, ", rate) + duration((total - done) / rate) + " left" : "";
+    const std::string left =
+        rate > 0 ? format("%.3g a second, ", rate) + duration((total - done) / rate) + " left" : "";
     if (terminal_) {
         constexpr int width = 30;
         const int filled = static_cast<int>(width * done / total);
-        *out_ << "\r[" << std::string(static_cast<std::size_t>(filled), '#') << std::string(static_cast<std::size_t>(width - filled), '.')
+        *out_ << "\r[" << std::string(static_cast<std::size_t>(filled), '#')
+              << std::string(static_cast<std::size_t>(width - filled), '.')
               << format("] %.0f/%.0f %s, %s\033[K", done, total, unit_, left.c_str()) << std::flush;
     } else {
-        *out_ << format("rsc: %.0f of %.0f %s, %s\n", done, total, unit_, left.c_str()) << std::flush;
+        *out_ << format("rsc: %.0f of %.0f %s, %s\n", done, total, unit_, left.c_str())
+              << std::flush;
     }
 }
 
@@ -210,52 +250,68 @@ std::vector<std::size_t> shown_steps(std::size_t steps) {
     constexpr std::size_t most = 11;
     std::vector<std::size_t> shown;
     const std::size_t rows = std::min(steps, most);
-    for (std::size_t r = 0; r < rows; ++r) shown.push_back(rows > 1 ? r * (steps - 1) / (rows - 1) : 0);
+    for (std::size_t r = 0; r < rows; ++r)
+        shown.push_back(rows > 1 ? r * (steps - 1) / (rows - 1) : 0);
     return shown;
 }
 
 }  // namespace
 
-void print_campaign_heading(std::ostream& out, const Job& job, std::size_t workers, std::size_t done) {
+void print_campaign_heading(std::ostream& out, const Job& job, std::size_t workers,
+                            std::size_t done) {
     print_case(out, job);
     print_measured(out, job);
     const auto& run = job.settings.run;
-    out << format("%d realizations of %zu levels, %zu in parallel", run.realizations, job.levels.size(), workers);
+    out << format("%d realizations of %zu levels, %zu in parallel", run.realizations,
+                  job.levels.size(), workers);
     if (done > 0) out << format("; %zu of them are finished", done);
-    out << "\n\nMeans over the realizations so far at the last level; scatter is the standard deviation of one realization.\n"
-        << format("%12s %14s %10s %14s %10s %12s %10s\n", "realizations", format("N [%s]", run.force_unit.c_str()).c_str(), "scatter",
-                  format("A [%s2]", run.length_unit.c_str()).c_str(), "scatter", "elapsed", "a second")
+    out << "\n\nMeans over the realizations so far at the last level; scatter is the standard "
+           "deviation of one realization.\n"
+        << format("%12s %14s %10s %14s %10s %12s %10s\n", "realizations",
+                  format("N [%s]", run.force_unit.c_str()).c_str(), "scatter",
+                  format("A [%s2]", run.length_unit.c_str()).c_str(), "scatter", "elapsed",
+                  "a second")
         << std::flush;
 }
 
-void print_batch(std::ostream& out, const Job&, const Accumulators& sums, double seconds, std::size_t done_in_this_run) {
+void print_batch(std::ostream& out, const Job&, const Accumulators& sums, double seconds,
+                 std::size_t done_in_this_run) {
     const std::size_t count = sums.realization.size();
     Observations last;  // the last level of each realization
     last.realizations = count, last.steps = 1;
     for (std::size_t k = 1; k <= count; ++k) last.rows.push_back(sums.rows[k * sums.steps - 1]);
     const LevelStatistics force = last.statistics([](const LevelValues& l) { return l.force; });
     const LevelStatistics area = last.statistics([](const LevelValues& l) { return l.area; });
-    const auto scatter = [](const LevelStatistics& s) { return s.count[0] > 1 ? s.deviation[0] : 0.0; };
-    out << format("%12zu %14.8g %10.3g %14.8g %10.3g %12s %10.3g\n", count, force.mean[0], scatter(force), area.mean[0], scatter(area),
-                  duration(seconds).c_str(), static_cast<double>(done_in_this_run) / std::max(seconds, 1e-3))
+    const auto scatter = [](const LevelStatistics& s) {
+        return s.count[0] > 1 ? s.deviation[0] : 0.0;
+    };
+    out << format("%12zu %14.8g %10.3g %14.8g %10.3g %12s %10.3g\n", count, force.mean[0],
+                  scatter(force), area.mean[0], scatter(area), duration(seconds).c_str(),
+                  static_cast<double>(done_in_this_run) / std::max(seconds, 1e-3))
         << std::flush;
 }
 
-void print_campaign_summary(std::ostream& out, const Job& job, const Observations& o, double seconds, const std::string& file,
-                            bool replaces) {
+void print_campaign_summary(std::ostream& out, const Job& job, const Observations& o,
+                            double seconds, const std::string& file, bool replaces) {
     const auto& run = job.settings.run;
-    out << format("\nmean curve of %zu realizations\n%5s %12s %9s %14s %10s %14s %10s\n", o.realizations, "level",
-                  format("Z0 [%s]", run.length_unit.c_str()).c_str(), "Z0/sigma", format("N [%s]", run.force_unit.c_str()).c_str(),
-                  "scatter", format("A [%s2]", run.length_unit.c_str()).c_str(), "scatter");
+    out << format("\nmean curve of %zu realizations\n%5s %12s %9s %14s %10s %14s %10s\n",
+                  o.realizations, "level", format("Z0 [%s]", run.length_unit.c_str()).c_str(),
+                  "Z0/sigma", format("N [%s]", run.force_unit.c_str()).c_str(), "scatter",
+                  format("A [%s2]", run.length_unit.c_str()).c_str(), "scatter");
     for (const std::size_t s : shown_steps(o.steps))
-        out << format("%5zu %12.6g %9.5f %14.8g %10.3g %14.8g %10.3g\n", s + 1, o.separation.mean[s], o.separation.mean[s] / job.sigma,
-                      o.force.mean[s], o.force.deviation[s], o.area.mean[s], o.area.deviation[s]);
+        out << format("%5zu %12.6g %9.5f %14.8g %10.3g %14.8g %10.3g\n", s + 1,
+                      o.separation.mean[s], o.separation.mean[s] / job.sigma, o.force.mean[s],
+                      o.force.deviation[s], o.area.mean[s], o.area.deviation[s]);
 
-    out << '\n' << o.realizations << " realizations, " << o.rows.size() << " levels in " << duration(seconds) << '\n';
+    out << '\n'
+        << o.realizations << " realizations, " << o.rows.size() << " levels in "
+        << duration(seconds) << '\n';
     if (!o.surface.empty() && o.surface.front().m2 > 0) {
         double m2 = 0;
-        for (const SurfaceStatistics& surface : o.surface) m2 += surface.m2 / static_cast<double>(o.surface.size());
-        out << format("surfaces: rms slope %.4g", std::sqrt(2 * m2)) << slope_remark(std::sqrt(2 * m2)) << '\n';
+        for (const SurfaceStatistics& surface : o.surface)
+            m2 += surface.m2 / static_cast<double>(o.surface.size());
+        out << format("surfaces: rms slope %.4g", std::sqrt(2 * m2))
+            << slope_remark(std::sqrt(2 * m2)) << '\n';
     }
     tell_unreached_heights(out, o.surface, job);
     print_remarks(out, o.rows, job);

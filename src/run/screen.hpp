@@ -10,20 +10,24 @@ namespace rsc {
 
 std::string status_text(LevelStatus status);
 std::string name_of(Method method);
-const char* fallback_text(Fallback fallback);  // why another method solved the level than the one asked for; empty: none
+const char* fallback_text(
+    Fallback fallback);  // why another method solved the level than the one asked for; empty: none
 
-// The title, the bodies, the theoretical properties or the treatment of the surface, and the column heads; then one line for each level.
+// The title, the bodies, the theoretical properties or the treatment of the surface, and the column
+// heads; then one line for each level.
 void print_heading(std::ostream& out, const Job& job);
 void print_level(std::ostream& out, const Job& job, std::size_t number, const Level& level);
 
-// Methods of the levels with reasons for fallbacks; number of levels, meaning and remedy of each status; warnings.
+// Methods of the levels with reasons for fallbacks; number of levels, meaning and remedy of each
+// status; warnings.
 void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const Job& job);
 
 // A remark on rms slopes too large for the theory; empty for small ones.
 const char* slope_remark(double rms_slope);
 
 // Reports synthetic surfaces that miss the skewness or kurtosis asked for.
-void tell_unreached_heights(std::ostream& out, std::span<const SurfaceStatistics> surfaces, const Job& job);
+void tell_unreached_heights(std::ostream& out, std::span<const SurfaceStatistics> surfaces,
+                            const Job& job);
 
 // The last lines: the result file, a note if it replaced another one, and the command for pictures.
 void print_result(std::ostream& out, const std::string& file, bool replaces);
@@ -34,12 +38,15 @@ std::string percent(double share);
 // "12.3 s", "4 min 10 s", ...
 std::string duration(double seconds);
 
-// Progress with rate and remaining time: a line that is redrawn on a terminal, a line every 30 s on other streams.
+// Progress with rate and remaining time: a line that is redrawn on a terminal, a line every 30 s on
+// other streams.
 class ProgressLine {
 public:
-    // On options.messages, as options.progress says. `already`: done by an earlier run, not included in the rate; `scrolls`: with
+    // On options.messages, as options.progress says. `already`: done by an earlier run, not
+    // included in the rate; `scrolls`: with
     // Progress::automatic there is no line.
-    ProgressLine(const RunOptions& options, const char* unit, double already = 0, bool scrolls = false);
+    ProgressLine(const RunOptions& options, const char* unit, double already = 0,
+                 bool scrolls = false);
     ~ProgressLine();  // erases the line
     void show(double done, double total);
     void wipe();  // before other output to the same terminal
@@ -53,17 +60,22 @@ private:
     Clock::time_point start_, last_;
 };
 
-// A campaign on stdout: a line for each batch of realizations, and at the end the mean curve with its scatter.
+// A campaign on stdout: a line for each batch of realizations, and at the end the mean curve with
+// its scatter.
 
-// Prints the case, the numbers of realizations and workers, and the column heads. `done`: realizations of an interrupted run.
-void print_campaign_heading(std::ostream& out, const Job& job, std::size_t workers, std::size_t done);
+// Prints the case, the numbers of realizations and workers, and the column heads. `done`:
+// realizations of an interrupted run.
+void print_campaign_heading(std::ostream& out, const Job& job, std::size_t workers,
+                            std::size_t done);
 
-// Prints means and scatter (standard deviation of one realization) of the last level over the realizations so far.
-void print_batch(std::ostream& out, const Job& job, const Accumulators& sums, double seconds, std::size_t done_in_this_run);
+// Prints means and scatter (standard deviation of one realization) of the last level over the
+// realizations so far.
+void print_batch(std::ostream& out, const Job& job, const Accumulators& sums, double seconds,
+                 std::size_t done_in_this_run);
 
 // Prints the mean curve, statuses, warnings and the name of the file.
-void print_campaign_summary(std::ostream& out, const Job& job, const Observations& observations, double seconds, const std::string& file,
-                            bool replaces);
+void print_campaign_summary(std::ostream& out, const Job& job, const Observations& observations,
+                            double seconds, const std::string& file, bool replaces);
 
 RunSummary campaign_summary(const Result& result);
 

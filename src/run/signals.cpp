@@ -14,8 +14,8 @@ long seconds_now() {
     return static_cast<long>(now.tv_sec);
 }
 
-// One request to stop often arrives twice, for the process and for its group (timeout, mpirun, batch systems). A second signal counts
-// only if it arrives some seconds later.
+// One request to stop often arrives twice, for the process and for its group (timeout, mpirun,
+// batch systems). A second signal counts only if it arrives some seconds later.
 extern "C" void remember(int signal) {
     if (caught_signal() == 0) {
         caught_at = seconds_now();
@@ -50,7 +50,10 @@ void note_signal(int signal) noexcept {
 }
 
 const char* signal_name(int signal) noexcept {
-    return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : signal == SIGHUP ? "SIGHUP" : "a signal";
+    return signal == SIGINT    ? "SIGINT"
+           : signal == SIGTERM ? "SIGTERM"
+           : signal == SIGHUP  ? "SIGHUP"
+                               : "a signal";
 }
 
 }  // namespace rsc

@@ -1,19 +1,19 @@
 #include "run/study.hpp"
 
-#include "archive.hpp"
+#include "base/archive.hpp"
+#include "base/error.hpp"
+#include "base/format.hpp"
+#include "base/version.h"
 #include "case/registry.hpp"
 #include "case/units.hpp"
-#include "error.hpp"
-#include "file/netcdf_file.hpp"
-#include "file/netcdf_writer.hpp"
-#include "file/result.hpp"
-#include "file/whole_file.hpp"
-#include "format.hpp"
+#include "io/netcdf_file.hpp"
+#include "io/netcdf_writer.hpp"
+#include "io/result.hpp"
+#include "io/whole_file.hpp"
 #include "run/checkpoint.hpp"
 #include "run/forecast.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
-#include "version.h"
 
 namespace rsc {
 namespace fs = std::filesystem;
@@ -47,7 +47,8 @@ std::string units_of(const Key& key, const std::vector<Member>& members) {
 // The path of the file relative to the folder of the manifest.
 std::string relative_name(const std::string& file, const std::string& manifest) {
     const fs::path folder = fs::path(manifest).parent_path();
-    const fs::path relative = fs::path(file).lexically_relative(folder.empty() ? fs::path(".") : folder);
+    const fs::path relative =
+        fs::path(file).lexically_relative(folder.empty() ? fs::path(".") : folder);
     return relative.empty() ? file : relative.string();
 }
 
@@ -57,20 +58,29 @@ std::size_t longest(const std::vector<std::string>& texts) {
     return most;
 }
 
-void add_axis(NetcdfFile& file, const std::string& axis, const std::vector<Member>& members, std::size_t number) {
+void add_axis(NetcdfFile& file, const std::string& axis, const std::vector<Member>& members,
+              std::size_t number) {
     const Key& key = key_of(axis.substr(0, axis.find('(')));
     const std::string name = variable_name(axis);
     const NetcdfAttributes attributes{{"key", axis}};
     if (key.type == Type::real || key.type == Type::integer) {
         std::vector<double> values;
         for (const Member& member : members)
-            if (const std::string text = get_key(member.settings, axis); !text.empty() && text.find("Inf") == std::string::npos)
+            if (const std::string text = get_key(member.settings, axis);
+                !text.empty() && text.find("Inf") == std::string::npos)
                 values.push_back(std::stod(text));
         const bool finite = values.size() == members.size();
         if (finite && key.type == Type::integer)
+            return file.variable({name,
+                                  {"member"},
+                                  "1",
+                                  key.meaning,
+                                  std::vector<std::int32_t>(values.begin(), values.end()),
+                                  attributes,
+                                  false});
+        if (finite)
             return file.variable(
-                {name, {"member"}, "1", key.meaning, std::vector<std::int32_t>(values.begin(), values.end()), attributes, false});
-        if (finite) return file.variable({name, {"member"}, units_of(key, members), key.meaning, values, attributes, false});
+                {name, {"member"}, units_of(key, members), key.meaning, values, attributes, false});
     }
     std::vector<std::string> values;
     for (const Member& member : members) values.push_back(member.values[number].second);
@@ -91,17 +101,20 @@ std::string manifest_file(const std::string& output_file) {
 
 }  // namespace
 
-void write_manifest(const ReadCase& read, const std::vector<Member>& members, const std::string& command) {
+void write_manifest(const ReadCase& read, const std::vector<Member>& members,
+                    const std::string& command) {
     const std::string path = manifest_file(read.settings.output.file);
     const Case base = without_idle_keys(read.settings);
     NetcdfFile file;
     file.attribute("Conventions", "CF-1.10");
-    file.attribute("title", read.settings.run.title.empty() ? "Manifest of a study" : read.settings.run.title + ": manifest of the study");
+    file.attribute("title", read.settings.run.title.empty()
+                                ? "Manifest of a study"
+                                : read.settings.run.title + ": manifest of the study");
     file.attribute("source", "rsc " RSC_VERSION);
     file.attribute("history", history_text(command));
-    file.attribute(
-        "comment",
-        "the result of member k is `file`(k), relative to this file; the other variables are the keys that differ between members");
+    file.attribute("comment",
+                   "the result of member k is `file`(k), relative to this file; the other "
+                   "variables are the keys that differ between members");
     file.attribute("case", effective_namelist(base) + effective_namelist(*read.study));
     file.dimension("member", members.size());
     std::vector<std::int32_t> numbers;
@@ -112,20 +125,25 @@ void write_manifest(const ReadCase& read, const std::vector<Member>& members, co
     }
     file.dimension("file_length", longest(names));
     file.variable({"member", {"member"}, "1", "number of the member", numbers, {}, false});
-    file.variable({"file", {"member", "file_length"}, "", "result file of the member", names, {}, false});
-    for (std::size_t k = 0; k < members.front().values.size(); ++k) add_axis(file, members.front().values[k].first, members, k);
+    file.variable(
+        {"file", {"member", "file_length"}, "", "result file of the member", names, {}, false});
+    for (std::size_t k = 0; k < members.front().values.size(); ++k)
+        add_axis(file, members.front().values[k].first, members, k);
     file.write(path, read.settings.output.format, read.settings.output.compression);
 }
 
 // "member 3 (surface%sigma=0.001)"; empty for a case that is no member of a study.
 static std::string member_name(const Member& member) {
-    return member.values.empty() ? "" : "member " + std::to_string(member.index) + " (" + values_text(member) + ")";
+    return member.values.empty()
+               ? ""
+               : "member " + std::to_string(member.index) + " (" + values_text(member) + ")";
 }
 
 std::string list_members(const std::vector<Member>& members) {
     std::string text;
     for (const Member& member : members)
-        text += std::to_string(member.index) + "  " + member.settings.output.file + "  " + values_text(member) + "\n";
+        text += std::to_string(member.index) + "  " + member.settings.output.file + "  " +
+                values_text(member) + "\n";
     return text;
 }
 
@@ -136,8 +154,10 @@ Error named(const Error& error, const Member& member) {
     return {error.kind(), name.empty() ? error.what() : name + ": " + error.what()};
 }
 
-// Checks everything that can be checked without preparing the case (prepare). Returns true if a result exists already.
-bool look_at(const Member& member, const RunOptions& options, const std::vector<std::string>& inputs) {
+// Checks everything that can be checked without preparing the case (prepare). Returns true if a
+// result exists already.
+bool look_at(const Member& member, const RunOptions& options,
+             const std::vector<std::string>& inputs) {
     const Case& settings = member.settings;
     (void)input_files(settings);  // refuses a pattern without files
     const bool there = check_output(settings.output.file, inputs);
@@ -150,7 +170,8 @@ bool look_at(const Member& member, const RunOptions& options, const std::vector<
 // Prepares a case, unless its maps were read for other members.
 void prepare_once(const Case& settings, std::set<std::vector<std::string>>& files_read) {
     const std::vector<std::string> files = input_files(settings);
-    if (settings.surface.source == Source::synthetic || files_read.insert(files).second) prepare(settings);
+    if (settings.surface.source == Source::synthetic || files_read.insert(files).second)
+        prepare(settings);
 }
 
 std::vector<std::string> inputs_of(const std::vector<Member>& members, const RunOptions& options) {
@@ -171,25 +192,28 @@ void check_manifest(const std::string& output_file, const std::vector<std::strin
     std::error_code error;
     for (const std::string& input : inputs)
         if (fs::equivalent(input, path, error)) why = "this is an input of the run";
-    if (!why.empty()) bad_input("the manifest of the study, '" + path + "': " + why + " (give &output file another name)");
+    if (!why.empty())
+        bad_input("the manifest of the study, '" + path + "': " + why +
+                  " (give &output file another name)");
 }
 
-std::vector<const Member*> wanted_of(const ReadCase& read, const std::vector<Member>& all, std::optional<int> only) {
+std::vector<const Member*> wanted_of(const ReadCase& read, const std::vector<Member>& all,
+                                     std::optional<int> only) {
     std::vector<const Member*> wanted;
     for (const Member& member : all)
         if (!only || member.index == *only) wanted.push_back(&member);
     if (only && (!read.study || wanted.empty()))
-        bad_input(read.study ? "--member " + std::to_string(*only) + ": the study has " + std::to_string(all.size()) +
-                                   " members (--list names them)"
+        bad_input(read.study ? "--member " + std::to_string(*only) + ": the study has " +
+                                   std::to_string(all.size()) + " members (--list names them)"
                              : "--member: the case has no &study");
     return wanted;
 }
 
-// Calls look_at and then `ready(member, true if a result exists)` for every wanted member; errors name the member. No result may replace an
-// input of any of `all`.
+// Calls look_at and then `ready(member, true if a result exists)` for every wanted member; errors
+// name the member. No result may replace an input of any of `all`.
 template <class Ready>
-void look_at_all(const ReadCase& read, const std::vector<Member>& all, const std::vector<const Member*>& wanted, const RunOptions& options,
-                 Ready ready) {
+void look_at_all(const ReadCase& read, const std::vector<Member>& all,
+                 const std::vector<const Member*>& wanted, const RunOptions& options, Ready ready) {
     const std::vector<std::string> inputs = inputs_of(all, options);
     if (read.study) check_manifest(read.settings.output.file, inputs);
     for (const Member* member : wanted) {
@@ -201,7 +225,8 @@ void look_at_all(const ReadCase& read, const std::vector<Member>& all, const std
     }
 }
 
-// The summary of a result file that is complete, from the same case, and whose inputs have not changed.
+// The summary of a result file that is complete, from the same case, and whose inputs have not
+// changed.
 std::optional<RunSummary> finished(const Member& member) {
     const Case& settings = member.settings;
     std::error_code error;
@@ -239,7 +264,8 @@ public:
         try {
             if (table_ && members_ > 1) *table_ << member_name(member) << '\n';
             const bool campaign = member.settings.run.realizations > 1;
-            add(campaign ? run_campaign(member.settings, options_, team_, member.index - 1, work_.job(member.index - 1))
+            add(campaign ? run_campaign(member.settings, options_, team_, member.index - 1,
+                                        work_.job(member.index - 1))
                          : run_realization(member.settings, options_));
             if (table_ && members_ > 1) *table_ << '\n' << std::flush;
         } catch (const Error& error) {
@@ -249,8 +275,9 @@ public:
 
     void already(const Member& member, const RunSummary& summary) {
         if (options_.messages)
-            *options_.messages << "rsc: " << (member.values.empty() ? "" : member_name(member) + ": ") << "'" << member.settings.output.file
-                               << "' is complete: nothing to do\n";
+            *options_.messages << "rsc: "
+                               << (member.values.empty() ? "" : member_name(member) + ": ") << "'"
+                               << member.settings.output.file << "' is complete: nothing to do\n";
         add(summary);
     }
 
@@ -266,12 +293,15 @@ private:
 
     void tell(const Member& member, const RunSummary& summary) {
         if (table_) {
-            const char *l = member.settings.run.length_unit.c_str(), *f = member.settings.run.force_unit.c_str();
+            const char *l = member.settings.run.length_unit.c_str(),
+                       *f = member.settings.run.force_unit.c_str();
             *table_ << member_name(member)
-                    << format(": N = %.8g %s, A = %.8g %s2 at Z0 = %.6g %s; ", summary.force, f, summary.area, l, summary.separation, l)
+                    << format(": N = %.8g %s, A = %.8g %s2 at Z0 = %.6g %s; ", summary.force, f,
+                              summary.area, l, summary.separation, l)
                     << member.settings.output.file << std::endl;
         }
-        if (summary.failed > 0 && options_.messages) *options_.messages << "rsc: " << member_name(member) << ":\n";
+        if (summary.failed > 0 && options_.messages)
+            *options_.messages << "rsc: " << member_name(member) << ":\n";
         tell_failed(options_, summary);
     }
 
@@ -291,19 +321,23 @@ std::vector<Member> members_of(const ReadCase& read) {
     return {Member{1, {}, read.settings}};
 }
 
-CampaignWork make_work(const std::vector<Member>& members, const RunOptions& options, std::size_t threads) {
+CampaignWork make_work(const std::vector<Member>& members, const RunOptions& options,
+                       std::size_t threads) {
     std::vector<Case> cases;
     for (const Member& member : members) {
         cases.push_back(member.settings);
-        cases.back().run.threads = static_cast<int>(std::max<std::size_t>(1, threads / std::min(threads, members.size())));
+        cases.back().run.threads =
+            static_cast<int>(std::max<std::size_t>(1, threads / std::min(threads, members.size())));
     }
     return {std::move(cases), options};
 }
 
-Forecast check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options, std::size_t threads) {
+Forecast check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options,
+                       std::size_t threads) {
     const std::vector<Member> all = members_of(read);
     const std::vector<const Member*> wanted = wanted_of(read, all, only);
-    constexpr std::size_t samples = 20;  // members whose time is estimated; the others are assumed similar
+    constexpr std::size_t samples =
+        20;  // members whose time is estimated; the others are assumed similar
     Forecast all_members;
     std::size_t timed = 0;
     std::set<std::vector<std::string>> files_read;
@@ -312,16 +346,21 @@ Forecast check_members(const ReadCase& read, std::optional<int> only, const RunO
         if (timed == samples) return prepare_once(member.settings, files_read);
         ++timed;
         // Members of one realization run in parallel.
-        const double side_by_side = campaign || wanted.size() == 1 ? 1.0 : static_cast<double>(std::min(threads, wanted.size()));
+        const double side_by_side = campaign || wanted.size() == 1
+                                        ? 1.0
+                                        : static_cast<double>(std::min(threads, wanted.size()));
         const Job job = prepare(member.settings);
         all_members.seconds += expected_seconds(job, static_cast<double>(threads)) / side_by_side;
-        all_members.megabytes = std::max(all_members.megabytes, expected_megabytes(job, static_cast<double>(threads)) * side_by_side);
+        all_members.megabytes =
+            std::max(all_members.megabytes,
+                     expected_megabytes(job, static_cast<double>(threads)) * side_by_side);
     });
     all_members.seconds *= static_cast<double>(wanted.size()) / static_cast<double>(timed);
     return all_members;
 }
 
-RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunOptions& options, CampaignWork& work, Team& team) {
+RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunOptions& options,
+                       CampaignWork& work, Team& team) {
     const std::vector<Member> all = members_of(read);
     const std::vector<const Member*> wanted = wanted_of(read, all, only);
     std::set<std::vector<std::string>> files_read;
@@ -337,15 +376,18 @@ RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunO
     try {
         std::vector<const Member*> left;
         for (const Member* member : wanted) {
-            const std::optional<RunSummary> done = options.resume ? finished(*member) : std::nullopt;
+            const std::optional<RunSummary> done =
+                options.resume ? finished(*member) : std::nullopt;
             if (done)
                 run.already(*member, *done);
             else
                 left.push_back(member);
         }
-        const auto replaced = std::count_if(left.begin(), left.end(), [&](const Member* m) { return there.contains(m); });
+        const auto replaced = std::count_if(left.begin(), left.end(),
+                                            [&](const Member* m) { return there.contains(m); });
         if (read.study && replaced > 0 && options.messages)
-            *options.messages << "rsc: the results of " << replaced << " of the members exist already and will be replaced\n";
+            *options.messages << "rsc: the results of " << replaced
+                              << " of the members exist already and will be replaced\n";
         const auto is_campaign = [](const Member* m) { return m->settings.run.realizations > 1; };
         for (auto from = left.begin(); from != left.end();) {
             leave_if_interrupted();
@@ -358,12 +400,14 @@ RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunO
         }
     } catch (const Interrupted& stop) {
         if (wanted.size() == 1) throw;
-        throw Interrupted(stop.signal(), std::string(stop.what()) + "; " + std::to_string(run.finished()) + " of " +
-                                             std::to_string(wanted.size()) +
-                                             " members are finished; the same command with --resume keeps them");
+        throw Interrupted(stop.signal(),
+                          std::string(stop.what()) + "; " + std::to_string(run.finished()) +
+                              " of " + std::to_string(wanted.size()) +
+                              " members are finished; the same command with --resume keeps them");
     }
     if (read.study && options.table)
-        *options.table << wanted.size() << " of " << all.size() << " members; the manifest: " << manifest_file(read.settings.output.file)
+        *options.table << wanted.size() << " of " << all.size()
+                       << " members; the manifest: " << manifest_file(read.settings.output.file)
                        << std::endl;
     return run.sum();
 }

@@ -1,14 +1,15 @@
 #include "run/team.hpp"
 
-#include "archive.hpp"
-#include "rough/parallel.hpp"
+#include "base/archive.hpp"
+#include "base/parallel.hpp"
 #include "run/checkpoint.hpp"
 #include "run/signals.hpp"
 
 namespace rsc {
 
 void leave_if_interrupted(const std::string& state) {
-    if (const int signal = caught_signal()) throw Interrupted(signal, std::string("stopped by ") + signal_name(signal) + state);
+    if (const int signal = caught_signal())
+        throw Interrupted(signal, std::string("stopped by ") + signal_name(signal) + state);
 }
 
 WorkerThreads::WorkerThreads(const Work& work, std::size_t threads) : work_(work) {
@@ -68,7 +69,8 @@ std::optional<WorkerThreads::Done> WorkerThreads::pop(std::chrono::microseconds 
     return done;
 }
 
-ThreadTeam::ThreadTeam(Work work, int threads) : work_(std::move(work)), threads_(most_threads(threads)) {}
+ThreadTeam::ThreadTeam(Work work, int threads)
+    : work_(std::move(work)), threads_(most_threads(threads)) {}
 
 void ThreadTeam::run(const Next& next, const Collect& collect, int ahead) {
     leave_if_interrupted();
@@ -90,7 +92,8 @@ void ThreadTeam::run(const Next& next, const Collect& collect, int ahead) {
     }
 }
 
-CampaignWork::CampaignWork(std::vector<Case> members, RunOptions whole) : members_(std::move(members)), whole_(std::move(whole)) {
+CampaignWork::CampaignWork(std::vector<Case> members, RunOptions whole)
+    : members_(std::move(members)), whole_(std::move(whole)) {
     whole_.table = whole_.messages = nullptr;
     whole_.progress = Progress::never;
     whole_.compare_automatically = false;
@@ -109,7 +112,8 @@ std::string CampaignWork::operator()(const Task& task, const std::atomic<bool>& 
     if (task.realization == 0) {
         RunOptions options = whole_;
         options.abandoned = &abandoned;
-        return bytes_of(run_realization(members_.at(static_cast<std::size_t>(task.member)), options));
+        return bytes_of(
+            run_realization(members_.at(static_cast<std::size_t>(task.member)), options));
     }
     const std::shared_ptr<const Job> ready = job(task.member);
     const std::string which = "realization " + std::to_string(task.realization) + ": ";

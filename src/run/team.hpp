@@ -7,8 +7,9 @@
 
 namespace rsc {
 
-// Workers of campaigns and studies: the threads of this process, or the ranks of an MPI job (mpi_team.hpp). Tasks
-// are distributed one by one to idle workers; results do not depend on the distribution.
+// Workers of campaigns and studies: the threads of this process, or the ranks of an MPI job
+// (mpi_team.hpp). Tasks are distributed one by one to idle workers; results do not depend on the
+// distribution.
 
 // A task: one realization of a member, or the whole member (realization 0).
 struct Task {
@@ -16,7 +17,8 @@ struct Task {
     std::int64_t realization = 0;
 };
 
-// Executes a task and returns its result as bytes. Once `abandoned` is true the result is no longer needed.
+// Executes a task and returns its result as bytes. Once `abandoned` is true the result is no longer
+// needed.
 using Work = std::function<std::string(const Task&, const std::atomic<bool>& abandoned)>;
 
 class Team {
@@ -28,12 +30,14 @@ public:
 
     virtual ~Team() = default;
     virtual std::size_t workers() const = 0;
-    // Runs until `next` has no more tasks and every result has arrived. `ahead`: tasks queued for a worker in addition to its present one.
-    // Rethrows exceptions of tasks and of `collect`, and throws Interrupted once a signal has been caught; unfinished tasks are then
-    // abandoned.
+    // Runs until `next` has no more tasks and every result has arrived. `ahead`: tasks queued for a
+    // worker in addition to its present one.
+    // Rethrows exceptions of tasks and of `collect`, and throws Interrupted once a signal has been
+    // caught; unfinished tasks are then abandoned.
     virtual void run(const Next& next, const Collect& collect, int ahead) = 0;
 
-    std::function<void()> meanwhile;  // called several times a second by the thread that called run(); may throw
+    std::function<void()>
+        meanwhile;  // called several times a second by the thread that called run(); may throw
 };
 
 // Threads that execute tasks from a queue. Loops within a task run on its thread only.
@@ -84,15 +88,18 @@ private:
 // Throws Interrupted if a signal has been caught; `state` ends its message.
 void leave_if_interrupted(const std::string& state = "");
 
-// The work of a worker: realizations of the members of a study (or of the one case there is), or whole members.
+// The work of a worker: realizations of the members of a study (or of the one case there is), or
+// whole members.
 
-// Any thread may request any task. A member is prepared on the first request and kept until another member is requested.
+// Any thread may request any task. A member is prepared on the first request and kept until another
+// member is requested.
 class CampaignWork {
 public:
     // `whole`: options for running whole members, with `threads` threads.
     CampaignWork(std::vector<Case> members, RunOptions whole);
-    // The record of the realization as bytes (campaign_archive.hpp), or for a whole member those of its RunSummary. Throws Error with the
-    // number of the realization, and Interrupted when abandoned.
+    // The record of the realization as bytes (campaign_archive.hpp), or for a whole member those of
+    // its RunSummary. Throws Error with the number of the realization, and Interrupted when
+    // abandoned.
     std::string operator()(const Task& task, const std::atomic<bool>& abandoned);
     std::shared_ptr<const Job> job(std::int32_t member);
 

@@ -1,15 +1,16 @@
-// What rsc costs: processor times, and their ratios in one run, on one thread. `rsc_bench` runs all parts but those of minutes and
-// gigabytes; `rsc_bench NAME...` only the parts named, in the table at the end of this file.
+// What rsc costs: processor times, and their ratios in one run, on one thread. `rsc_bench` runs all
+// parts but those of minutes and gigabytes; `rsc_bench NAME...` only the parts named, in the table
+// at the end of this file.
 #include "bench.hpp"
 
 #include <fftw3.h>
 
 #include <random>
 
-#include "contact/asperity_contact.hpp"
-#include "contact/interaction/pairs.hpp"
-#include "rough/detection.hpp"
-#include "rough/parallel.hpp"
+#include "asperities/asperity_contact.hpp"
+#include "base/parallel.hpp"
+#include "interaction/pairs.hpp"
+#include "surface/detection.hpp"
 
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
@@ -18,7 +19,8 @@ using bench::kGold, bench::middle, bench::now, bench::shortest;
 
 namespace bench {
 
-// About n asperities on a jittered lattice in the unit square, Gaussian heights, lognormal radii, under a nearly flat sphere.
+// About n asperities on a jittered lattice in the unit square, Gaussian heights, lognormal radii,
+// under a nearly flat sphere.
 Asperities lattice(int n) {
     const int side = static_cast<int>(std::lround(std::sqrt(n)));
     std::mt19937_64 random(1);
@@ -46,11 +48,13 @@ Asperities surface(double sigma, std::int64_t realization) {
     return make_asperities(spectrum, 2048, Normalise::sample, 1, realization, Curvature::geometric);
 }
 
-std::vector<Level> indent(const Asperities& asperities, double sigma, Method method, int steps, LawKind law = LawKind::hertz) {
+std::vector<Level> indent(const Asperities& asperities, double sigma, Method method, int steps,
+                          LawKind law = LawKind::hertz) {
     SolverOptions options{.method = method, .law = law, .sigma = sigma};
     AsperityContact contact(asperities, kGold, options);
     std::vector<Level> levels;
-    for (int k = 0; k < steps; ++k) levels.push_back(contact.at_separation(sigma * (4 - 3.0 * k / (steps - 1))));
+    for (int k = 0; k < steps; ++k)
+        levels.push_back(contact.at_separation(sigma * (4 - 3.0 * k / (steps - 1))));
     return levels;
 }
 
@@ -61,7 +65,9 @@ long sum(const std::vector<Level>& levels, long Level::*field) {
 }
 
 void bench_solve() {
-    std::printf("\nsolve: 100 levels from 4 to 1 sigma, default surface, solving only, one core (paper's method / direct)\n");
+    std::printf(
+        "\nsolve: 100 levels from 4 to 1 sigma, default surface, solving only, one core (paper's "
+        "method / direct)\n");
     double all_direct = 0, all_dgesv = 0;
     for (int realization = 1; realization <= 4; ++realization) {
         const Asperities a = surface(0.01, realization);
@@ -71,15 +77,18 @@ void bench_solve() {
         double differ = 0;
         long steps = 0, solves = 0, not_unique = 0;
         for (std::size_t k = 0; k < direct.size(); ++k) {
-            if (direct[k].force > 0) differ = std::max(differ, std::abs(dgesv[k].force / direct[k].force - 1));
+            if (direct[k].force > 0)
+                differ = std::max(differ, std::abs(dgesv[k].force / direct[k].force - 1));
             steps += direct[k].iterations;
             solves += dgesv[k].iterations;
             not_unique += direct[k].status == LevelStatus::not_unique;
         }
         std::printf(
-            "  realization %d: dgesv %.3f s (%ld solves), direct %.4f s (%ld Newton steps, %ld products), ratio %.0f; "
+            "  realization %d: dgesv %.3f s (%ld solves), direct %.4f s (%ld Newton steps, %ld "
+            "products), ratio %.0f; "
             "loads differ %.1e; %ld levels not unique\n",
-            realization, t_dgesv, solves, t_direct, steps, sum(direct, &Level::products), t_dgesv / t_direct, differ, not_unique);
+            realization, t_dgesv, solves, t_direct, steps, sum(direct, &Level::products),
+            t_dgesv / t_direct, differ, not_unique);
         all_direct += t_direct;
         all_dgesv += t_dgesv;
     }
@@ -89,7 +98,8 @@ void bench_solve() {
 double bare_transform(int n) {
     const auto size = static_cast<std::size_t>(n);
     double* data = fftw_alloc_real(size * 2 * (size / 2 + 1));
-    const fftw_plan plan = fftw_plan_dft_c2r_2d(n, n, reinterpret_cast<fftw_complex*>(data), data, FFTW_ESTIMATE);
+    const fftw_plan plan =
+        fftw_plan_dft_c2r_2d(n, n, reinterpret_cast<fftw_complex*>(data), data, FFTW_ESTIMATE);
     std::fill(data, data + size * 2 * (size / 2 + 1), 1e-3);
     const double time = shortest(5, [&] {
         fftw_execute(plan);
@@ -101,7 +111,9 @@ double bare_transform(int n) {
 }
 
 void bench_realization() {
-    std::printf("\nrealization: 2048^2 surface, detection and 100 levels, one core (all in / bare in-place c2r transform of the grid)\n");
+    std::printf(
+        "\nrealization: 2048^2 surface, detection and 100 levels, one core (all in / bare in-place "
+        "c2r transform of the grid)\n");
     const double bare = bare_transform(2048);
     double make = 1e300, solve = 1e300, whole = 1e300;
     for (int i = 0; i < 5; ++i) {
@@ -114,12 +126,15 @@ void bench_realization() {
         solve = std::min(solve, done - made);
         whole = std::min(whole, done - start);
     }
-    std::printf("  bare %.1f ms, surface and detection %.1f ms, levels %.1f ms, all in %.1f ms, ratio %.2f (wanted: 2.5)\n", 1e3 * bare,
-                1e3 * make, 1e3 * solve, 1e3 * whole, whole / bare);
+    std::printf(
+        "  bare %.1f ms, surface and detection %.1f ms, levels %.1f ms, all in %.1f ms, ratio %.2f "
+        "(wanted: 2.5)\n",
+        1e3 * bare, 1e3 * make, 1e3 * solve, 1e3 * whole, whole / bare);
 }
 
 void bench_pairs() {
-    std::printf("\npairs: sums over pairs f/d, directed pairs a second on one core, %s\n", pair_instruction_set());
+    std::printf("\npairs: sums over pairs f/d, directed pairs a second on one core, %s\n",
+                pair_instruction_set());
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(0, 1);
     for (std::size_t n : {200, 500, 2000, 10000}) {
@@ -141,14 +156,19 @@ void bench_pairs() {
             for (int i = 0; i < repeat; ++i) sums.among(true, f.data(), phi.data());
         });
         const double t_apart = shortest(5, [&] {
-            for (int i = 0; i < repeat; ++i) sums.onto(false, n, x.data(), y.data(), f.data(), phi.data());
+            for (int i = 0; i < repeat; ++i)
+                sums.onto(false, n, x.data(), y.data(), f.data(), phi.data());
         });
-        std::printf("  n = %5zu: float %.2f G/s, double %.2f G/s, double with targets apart %.2f G/s (wanted: 5 and 2)\n", n,
-                    1e-9 * pairs * repeat / t_single, 1e-9 * pairs * repeat / t_double, 1e-9 * pairs * repeat / t_apart);
+        std::printf(
+            "  n = %5zu: float %.2f G/s, double %.2f G/s, double with targets apart %.2f G/s "
+            "(wanted: 5 and 2)\n",
+            n, 1e-9 * pairs * repeat / t_single, 1e-9 * pairs * repeat / t_double,
+            1e-9 * pairs * repeat / t_apart);
     }
 }
 
-// A loop of adhesive asperities, 100 levels from 3 sigma down to 1 sigma and 100 up, against the elastic levels down.
+// A loop of adhesive asperities, 100 levels from 3 sigma down to 1 sigma and 100 up, against the
+// elastic levels down.
 void bench_adhesion() {
     const Asperities a = surface(0.01, 1);
     SolverOptions options{.sigma = 0.01};
@@ -164,9 +184,11 @@ void bench_adhesion() {
         return jumps;
     };
     double jumps = 0;
-    const double elastic = middle(5, [&] { levels(0); }), loop = middle(5, [&] { jumps = levels(1e-4); });
+    const double elastic = middle(5, [&] { levels(0); }),
+                 loop = middle(5, [&] { jumps = levels(1e-4); });
     std::printf(
-        "\nadhesion: 100 levels down and up %.2f s, %.0f jumps, 100 elastic levels %.3f s: %.1f times (wanted: 10); N %.9g, lost %.9g\n",
+        "\nadhesion: 100 levels down and up %.2f s, %.0f jumps, 100 elastic levels %.3f s: %.1f "
+        "times (wanted: 10); N %.9g, lost %.9g\n",
         loop, jumps, elastic, loop / elastic, last.force, last.energy_lost);
 }
 
@@ -192,7 +214,8 @@ int main(int argc, char** argv) {
     const LoopThreads loops(1);
     if (openblas_set_num_threads) openblas_set_num_threads(1);
     for (int k = 1; k < argc; ++k) {
-        if (std::any_of(std::begin(kParts), std::end(kParts), [&](const Part& part) { return std::strcmp(argv[k], part.name) == 0; }))
+        if (std::any_of(std::begin(kParts), std::end(kParts),
+                        [&](const Part& part) { return std::strcmp(argv[k], part.name) == 0; }))
             continue;
         std::fprintf(stderr, "rsc_bench: no part %s; there are", argv[k]);
         for (const Part& part : kParts) std::fprintf(stderr, " %s", part.name);
@@ -200,7 +223,9 @@ int main(int argc, char** argv) {
         return 2;
     }
     for (const Part& part : kParts) {
-        const bool named = std::any_of(argv + 1, argv + argc, [&](const char* arg) { return std::strcmp(arg, part.name) == 0; });
+        const bool named = std::any_of(argv + 1, argv + argc, [&](const char* arg) {
+            return std::strcmp(arg, part.name) == 0;
+        });
         if (named || (argc == 1 && !part.only_named)) part.run();
         std::fflush(stdout);
     }

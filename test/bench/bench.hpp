@@ -1,4 +1,5 @@
-// What the parts of the bench share. A part is a function without arguments that prints its rows; bench.cpp lists them all.
+// What the parts of the bench share. A part is a function without arguments that prints its rows;
+// bench.cpp lists them all.
 #pragma once
 
 #include <sys/resource.h>
@@ -7,7 +8,8 @@
 
 namespace bench {
 
-// Processor time of all threads: a machine busy with other things spoils it less than the time on the wall.
+// Processor time of all threads: a machine busy with other things spoils it less than the time on
+// the wall.
 inline double now() {
     timespec t{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);

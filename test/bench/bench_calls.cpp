@@ -1,4 +1,5 @@
-// What one call costs in a time loop: a prescribed force while the tip moves, through the C interface, on one thread.
+// What one call costs in a time loop: a prescribed force while the tip moves, through the C
+// interface, on one thread.
 #include "bench.hpp"
 #include "rsc.h"
 
@@ -37,16 +38,20 @@ void calls(const char* law, double step, bool force) {
         if (step > 0) check(rsc_contact_move_tip(contact, x + step * k, y));
         const double share = step > 0 ? 1 : 1 + 1e-4 * std::sin(0.1 * k);
         double now = 0;
-        check(force ? rsc_contact_press(contact, N * share, &Z0) : rsc_contact_indent(contact, Z0 * share, &now));
+        check(force ? rsc_contact_press(contact, N * share, &Z0)
+                    : rsc_contact_indent(contact, Z0 * share, &now));
         times.push_back(1e6 * (thread_time() - start));
         double one = 0;
         check(rsc_contact_value(contact, "products", &one)), products += one / count;
         check(rsc_contact_value(contact, "iterations", &one)), iterations += one / count;
     }
     std::sort(times.begin(), times.end());
-    std::printf("  %-13s %s %-12s %3ld contacts, %4.1f products, %4.1f steps: median %6.1f us, least %6.1f us\n", law,
-                force ? "force,     " : "separation,", step > 0 ? (step > 1e-5 ? "moved 1e-4" : "moved 1e-6") : "tip at rest",
-                static_cast<long>(contacts), products, iterations, times[count / 2], times[0]);
+    std::printf(
+        "  %-13s %s %-12s %3ld contacts, %4.1f products, %4.1f steps: median %6.1f us, least %6.1f "
+        "us\n",
+        law, force ? "force,     " : "separation,",
+        step > 0 ? (step > 1e-5 ? "moved 1e-4" : "moved 1e-6") : "tip at rest",
+        static_cast<long>(contacts), products, iterations, times[count / 2], times[0]);
     check(rsc_contact_destroy(&contact));
     check(rsc_asperities_destroy(&asperities));
     check(rsc_case_destroy(&c));
@@ -55,7 +60,9 @@ void calls(const char* law, double step, bool force) {
 }  // namespace
 
 void calls() {
-    std::printf("\ncalls: processor time of one call in a time loop, default surface (wanted at moved tips and 250 contacts: 30 us)\n");
+    std::printf(
+        "\ncalls: processor time of one call in a time loop, default surface (wanted at moved tips "
+        "and 250 contacts: 30 us)\n");
     for (const char* law : {"fourth_order", "hertz"})
         for (const bool force : {true, false})
             for (const double step : {1e-6, 1e-4, 0.0}) calls(law, step, force);

@@ -1,16 +1,18 @@
-// What the second thread brings on an idle machine, and that it costs nothing beside processes that keep the processors busy:
-// (time on the wall with all threads) / (with one), beside 0, 1 and 2 busy processes. Medians of several runs, the two kinds in turn.
+// What the second thread brings on an idle machine, and that it costs nothing beside processes that
+// keep the processors busy:
+// (time on the wall with all threads) / (with one), beside 0, 1 and 2 busy processes. Medians of
+// several runs, the two kinds in turn.
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "asperities/asperity_contact.hpp"
+#include "base/parallel.hpp"
 #include "bench.hpp"
 #include "case/read_case.hpp"
-#include "contact/asperity_contact.hpp"
-#include "contact/element_contact.hpp"
-#include "rough/parallel.hpp"
-#include "rough/synthesis.hpp"
+#include "elements/element_contact.hpp"
 #include "run/job.hpp"
 #include "run/team.hpp"
+#include "surface/synthesis.hpp"
 
 namespace bench {
 namespace {
@@ -56,7 +58,8 @@ void compare(const char* what, const std::function<void()>& work) {
             all.push_back(seconds(0, work));
             ratio.push_back(all.back() / one.back());
         }
-        for (auto* v : {&one, &all, &ratio}) std::nth_element(v->begin(), v->begin() + runs / 2, v->end());
+        for (auto* v : {&one, &all, &ratio})
+            std::nth_element(v->begin(), v->begin() + runs / 2, v->end());
         std::printf("  %.2f / %.2f s: %.2f", all[runs / 2], one[runs / 2], ratio[runs / 2]);
         std::fflush(stdout);
     }
@@ -72,9 +75,14 @@ void levels(const HeightMap& map, int count) {
 }  // namespace
 
 void threads() {
-    std::printf("\nthreads: time with all threads / with one, beside 0, 1, 2 busy processes (wanted: at most 1.1 everywhere)\n");
+    std::printf(
+        "\nthreads: time with all threads / with one, beside 0, 1, 2 busy processes (wanted: at "
+        "most 1.1 everywhere)\n");
     Spectrum spectrum{.L_lambda_s = 512};
-    const auto make = [&] { return synthesize(spectrum, 4096, Normalise::sample, 1, 1, nullptr, static_cast<int>(most_threads(0))); };
+    const auto make = [&] {
+        return synthesize(spectrum, 4096, Normalise::sample, 1, 1, nullptr,
+                          static_cast<int>(most_threads(0)));
+    };
     compare("synthesis, 4096^2", make);
     const HeightMap map = make();
     compare("elements, 4096^2, 100 levels from 4 to 1 sigma", [&] { levels(map, 100); });
@@ -83,12 +91,12 @@ void threads() {
     compare("asperities by mesh, 1e5, a third in contact", [&] {
         AsperityContact(a, {1.0, 1e4, 0.5, 0.5}, options).at_separation(-11.3 * options.sigma);
     });
-    const Case settings =
-        read_case_text(
-            "&run realizations = 16 / &surface n = 1024, L_lambda_s = 256 / &indentation start = 4, stop = 1, steps = 20 /\n"
-            "&output map_cells = 200, radial_bins = 1000 /\n",
-            "bench.nml")
-            .settings;
+    const Case settings = read_case_text(
+                              "&run realizations = 16 / &surface n = 1024, L_lambda_s = 256 / "
+                              "&indentation start = 4, stop = 1, steps = 20 /\n"
+                              "&output map_cells = 200, radial_bins = 1000 /\n",
+                              "bench.nml")
+                              .settings;
     CampaignWork work({settings}, {});
     compare("campaign, 16 realizations of 1024^2, 20 levels, observing", [&] {
         ThreadTeam team(std::ref(work), static_cast<int>(most_threads(0)));

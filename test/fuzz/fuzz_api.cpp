@@ -1,5 +1,6 @@
-// The C interface driven by random calls, in any order, with null and odd arguments. No crash, no leak, no status that is not in rsc.h or
-// that confesses an internal error, no number that is not finite among the results of a call that succeeded.
+// The C interface driven by random calls, in any order, with null and odd arguments. No crash, no
+// leak, no status that is not in rsc.h or that confesses an internal error, no number that is not
+// finite among the results of a call that succeeded.
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include "promise.hpp"
@@ -19,7 +20,8 @@ class Session {
 public:
     Session(const std::uint8_t* data, std::size_t size) : in_(data, size) {}
     ~Session() {
-        hold(case_, nullptr), hold(surface_, nullptr), hold(asperities_, nullptr), hold(contacts_[0], nullptr), hold(contacts_[1], nullptr);
+        hold(case_, nullptr), hold(surface_, nullptr), hold(asperities_, nullptr),
+            hold(contacts_[0], nullptr), hold(contacts_[1], nullptr);
     }
     void run() {
         for (int calls = 0; calls < 40 && in_.remaining_bytes() > 0; ++calls) call();
@@ -34,7 +36,9 @@ private:
     template <class T>
     void hold(T*& held, const std::function<std::int32_t(std::type_identity_t<T>**)>& make) {
         T* made = nullptr;
-        if (make) PROMISE(told(make(&made)) == (made != nullptr), "a handle that does not match the status");
+        if (make)
+            PROMISE(told(make(&made)) == (made != nullptr),
+                    "a handle that does not match the status");
         PROMISE(destroy(&held) == RSC_SUCCESS && !held, "a handle that is not destroyed");
         held = made;
     }
@@ -48,10 +52,13 @@ private:
     void finite(double v, const char* what) { PROMISE(std::isfinite(v), what); }
 
     double number() {
-        static const double odd[] = {0, 1, -1, 1e-3, 1e3, 1e-9, 1e9, 1e-300, 1e300, -1e300, 5e-324, kInfinity, -kInfinity, NAN, 0.5, 2};
+        static const double odd[] = {0,          1,      -1,    1e-3,   1e3,    1e-9,
+                                     1e9,        1e-300, 1e300, -1e300, 5e-324, kInfinity,
+                                     -kInfinity, NAN,    0.5,   2};
         const auto k = in_.ConsumeIntegral<std::uint8_t>();
         if (k < 32) return odd[k % 16];
-        return std::ldexp(static_cast<double>(in_.ConsumeIntegral<std::int16_t>()) / 32768, k % 16 - 12);
+        return std::ldexp(static_cast<double>(in_.ConsumeIntegral<std::int16_t>()) / 32768,
+                          k % 16 - 12);
     }
     double positive() {
         const double v = std::abs(number());
@@ -73,17 +80,26 @@ private:
         std::int64_t length = 0;
         const std::int64_t size = in_.ConsumeIntegralInRange<std::int64_t>(-1, 64);
         if (told(get(rare() ? nullptr : buffer, size, &length)) && size > 0)
-            PROMISE(std::char_traits<char>::length(buffer) < static_cast<std::size_t>(size), "text not ended");
+            PROMISE(std::char_traits<char>::length(buffer) < static_cast<std::size_t>(size),
+                    "text not ended");
     }
 
     // What the program would do without complaint, but for hours.
     void keep_small(bool run) {
         if (!case_) return;
-        static const char* const small[][2] = {
-            {"surface%n", "32"},       {"surface%L_lambda_s", "12"},    {"surface%L_lambda_l", "2"},      {"run%threads", "1"},
-            {"output%map_cells", "5"}, {"output%radial_bins", "5"},     {"output%pdf_bins", "5"},         {"indentation%steps", "3"},
-            {"run%realizations", "1"}, {"solver%max_iterations", "50"}, {"surface%source", "'synthetic'"}};
-        for (std::size_t k = 0; k < (run ? std::size(small) : 4); ++k) told(rsc_case_set(case_, small[k][0], small[k][1]));
+        static const char* const small[][2] = {{"surface%n", "32"},
+                                               {"surface%L_lambda_s", "12"},
+                                               {"surface%L_lambda_l", "2"},
+                                               {"run%threads", "1"},
+                                               {"output%map_cells", "5"},
+                                               {"output%radial_bins", "5"},
+                                               {"output%pdf_bins", "5"},
+                                               {"indentation%steps", "3"},
+                                               {"run%realizations", "1"},
+                                               {"solver%max_iterations", "50"},
+                                               {"surface%source", "'synthetic'"}};
+        for (std::size_t k = 0; k < (run ? std::size(small) : 4); ++k)
+            told(rsc_case_set(case_, small[k][0], small[k][1]));
         told(rsc_case_set(case_, "solver%max_iterations", "50"));
         const std::string file = "'" + scratch("fuzz_api.nc") + "'";
         told(rsc_case_set(case_, "output%file", file.c_str()));
@@ -96,13 +112,23 @@ private:
             case 1: told(rsc_case_read(case_, in_.ConsumeRandomLengthString(200).c_str())); break;
             case 2: {
                 char name[64];
-                if (!told(rsc_key_name(in_.ConsumeIntegralInRange<std::int64_t>(-1, 60), name, sizeof name, nullptr))) break;
-                const std::string value = in_.ConsumeBool() ? std::to_string(number()) : "'" + in_.ConsumeRandomLengthString(12) + "'";
+                if (!told(rsc_key_name(in_.ConsumeIntegralInRange<std::int64_t>(-1, 60), name,
+                                       sizeof name, nullptr)))
+                    break;
+                const std::string value = in_.ConsumeBool()
+                                              ? std::to_string(number())
+                                              : "'" + in_.ConsumeRandomLengthString(12) + "'";
                 told(rsc_case_set(case_, name, value.c_str()));
-                text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_case_get(case_, name, b, n, l); });
+                text([&](char* b, std::int64_t n, std::int64_t* l) {
+                    return rsc_case_get(case_, name, b, n, l);
+                });
                 break;
             }
-            case 3: text([&](char* b, std::int64_t n, std::int64_t* l) { return rsc_case_text(case_, b, n, l); }); break;
+            case 3:
+                text([&](char* b, std::int64_t n, std::int64_t* l) {
+                    return rsc_case_text(case_, b, n, l);
+                });
+                break;
             case 4:
                 hold(case_, [&](rsc_case** c) { return rsc_case_copy(c, case_); });
                 hold(surface_, [&](rsc_surface** s) { return rsc_surface_copy(s, surface_); });
@@ -110,47 +136,68 @@ private:
             case 5:
                 if (!case_) break;  // the defaults are a large surface
                 keep_small(false);
-                hold(surface_, [&](rsc_surface** s) { return rsc_surface_synthesize(s, case_, in_.ConsumeIntegral<std::int64_t>()); });
+                hold(surface_, [&](rsc_surface** s) {
+                    return rsc_surface_synthesize(s, case_, in_.ConsumeIntegral<std::int64_t>());
+                });
                 break;
             case 6: {
-                const auto nx = in_.ConsumeIntegralInRange<std::int64_t>(2, 9), ny = in_.ConsumeIntegralInRange<std::int64_t>(2, 9);
+                const auto nx = in_.ConsumeIntegralInRange<std::int64_t>(2, 9),
+                           ny = in_.ConsumeIntegralInRange<std::int64_t>(2, 9);
                 const auto z = numbers(static_cast<std::size_t>(nx * ny));
                 hold(surface_, [&](rsc_surface** s) {
-                    return rsc_surface_take(s, rare() ? std::int64_t{1} << 33 : nx, ny, positive(), positive(), number(), number(),
-                                            in_.ConsumeIntegralInRange(0, 1), rare() ? nullptr : z.data());
+                    return rsc_surface_take(s, rare() ? std::int64_t{1} << 33 : nx, ny, positive(),
+                                            positive(), number(), number(),
+                                            in_.ConsumeIntegralInRange(0, 1),
+                                            rare() ? nullptr : z.data());
                 });
                 break;
             }
             case 7: {
-                static const char* const how[] = {"none", "mean", "plane", "quadratic", "sphere", "other"};
-                if (told(rsc_surface_detrend(surface_, in_.PickValueInArray(how), v))) finite(v[0], "rms");
+                static const char* const how[] = {"none",      "mean",   "plane",
+                                                  "quadratic", "sphere", "other"};
+                if (told(rsc_surface_detrend(surface_, in_.PickValueInArray(how), v)))
+                    finite(v[0], "rms");
                 told(rsc_surface_filter(surface_, positive()));
-                if (told(rsc_surface_moments(surface_, &v[0], &v[1], &v[2]))) finite(v[0] + v[1] + v[2], "moments");
+                if (told(rsc_surface_moments(surface_, &v[0], &v[1], &v[2])))
+                    finite(v[0] + v[1] + v[2], "moments");
                 break;
             }
             case 8:
-                hold(asperities_, [&](rsc_asperities** a) { return rsc_asperities_find(a, surface_, rare() ? nullptr : case_); });
+                hold(asperities_, [&](rsc_asperities** a) {
+                    return rsc_asperities_find(a, surface_, rare() ? nullptr : case_);
+                });
                 break;
             case 9:
                 if (!case_) break;
                 keep_small(false);
-                hold(asperities_, [&](rsc_asperities** a) { return rsc_asperities_make(a, case_, in_.ConsumeIntegral<std::int64_t>()); });
+                hold(asperities_, [&](rsc_asperities** a) {
+                    return rsc_asperities_make(a, case_, in_.ConsumeIntegral<std::int64_t>());
+                });
                 break;
             case 10:
             case 11: take_asperities(); break;
             case 12:
                 hold(contacts_[0], [&](rsc_contact** c) {
-                    return rsc_contact_create(c, asperities_, positive(), positive(), number(), number(), case_);
+                    return rsc_contact_create(c, asperities_, positive(), positive(), number(),
+                                              number(), case_);
                 });
                 break;
-            case 13: hold(contacts_[0], [&](rsc_contact** c) { return rsc_contact_create_from_case(c, asperities_, case_); }); break;
-            case 14: hold(contacts_[1], [&](rsc_contact** c) { return rsc_contact_copy(c, contacts_[0]); }); break;
+            case 13:
+                hold(contacts_[0], [&](rsc_contact** c) {
+                    return rsc_contact_create_from_case(c, asperities_, case_);
+                });
+                break;
+            case 14:
+                hold(contacts_[1],
+                     [&](rsc_contact** c) { return rsc_contact_copy(c, contacts_[0]); });
+                break;
             case 15: {
                 rsc_contact* const c = contact();
                 told(rsc_contact_move_tip(c, number(), number()));
                 if (told(rsc_contact_stiffness(c, v))) finite(v[0], "stiffness");
                 const auto x = numbers(3), y = numbers(3);
-                if (told(rsc_contact_deflection(c, 3, x.data(), y.data(), v))) finite(v[0] + v[1] + v[2], "deflection");
+                if (told(rsc_contact_deflection(c, 3, x.data(), y.data(), v)))
+                    finite(v[0] + v[1] + v[2], "deflection");
                 break;
             }
             case 16: {
@@ -169,7 +216,9 @@ private:
             case 18:
                 if (!case_) break;
                 told(rsc_case_set(case_, "solids%adhesion", std::to_string(positive()).c_str()));
-                if (in_.ConsumeBool()) told(rsc_case_set(case_, "solids%adhesion_range", std::to_string(positive()).c_str()));
+                if (in_.ConsumeBool())
+                    told(rsc_case_set(case_, "solids%adhesion_range",
+                                      std::to_string(positive()).c_str()));
                 break;
             case 19: {
                 if (!case_) break;
@@ -183,14 +232,15 @@ private:
     void take_asperities() {
         const auto n = in_.ConsumeIntegralInRange<std::size_t>(0, 12);
         const bool curved = in_.ConsumeBool(), flattened = in_.ConsumeBool();
-        const auto x = numbers(n), y = numbers(n), z = numbers(n), r = numbers(n, true), k2 = numbers(n, true), angle = numbers(n),
-                   b = numbers(n);
+        const auto x = numbers(n), y = numbers(n), z = numbers(n), r = numbers(n, true),
+                   k2 = numbers(n, true), angle = numbers(n), b = numbers(n);
         std::vector<double> k1 = k2;
         for (double& k : k1) k *= 1 + std::abs(number());
         hold(asperities_, [&](rsc_asperities** a) {
-            return rsc_asperities_take(a, rare() ? -1 : static_cast<std::int64_t>(n), x.data(), y.data(), z.data(), r.data(),
-                                       curved ? k1.data() : nullptr, curved ? k2.data() : nullptr, curved ? angle.data() : nullptr,
-                                       flattened ? b.data() : nullptr);
+            return rsc_asperities_take(
+                a, rare() ? -1 : static_cast<std::int64_t>(n), x.data(), y.data(), z.data(),
+                r.data(), curved ? k1.data() : nullptr, curved ? k2.data() : nullptr,
+                curved ? angle.data() : nullptr, flattened ? b.data() : nullptr);
         });
     }
 
@@ -207,18 +257,23 @@ private:
         std::int64_t contacts = 0, candidates = 0, pairs = 0;
         std::int32_t level = 0;
         if (!told(rsc_contact_result(c, &separation, &force, &area, &contacts))) return;
-        PROMISE(told(rsc_contact_level(c, &level, &candidates, nullptr, &pairs, &residual)), "level");
+        PROMISE(told(rsc_contact_level(c, &level, &candidates, nullptr, &pairs, &residual)),
+                "level");
         finite(separation, "separation");
         PROMISE(std::isfinite(force), "force " + std::to_string(force));  // negative with adhesion
         PROMISE(std::isfinite(area) && area >= 0, "area " + std::to_string(area));
         PROMISE(level >= 0 && level < RSC_LEVEL_LAST_ + 1 && contacts <= candidates, "level");
-        PROMISE(std::isfinite(residual), "residual at separation " + std::to_string(separation) + ", force " + std::to_string(force) +
-                                             ", status " + std::to_string(level) + ", " + std::to_string(contacts) + " contacts");
+        PROMISE(std::isfinite(residual), "residual at separation " + std::to_string(separation) +
+                                             ", force " + std::to_string(force) + ", status " +
+                                             std::to_string(level) + ", " +
+                                             std::to_string(contacts) + " contacts");
         if (told(rsc_contact_energy(c, &energy))) finite(energy, "energy");
         std::vector<double> f(static_cast<std::size_t>(contacts)), a(f), u(f);
         std::vector<std::int32_t> which(f.size());
-        PROMISE(told(rsc_contact_spots(c, contacts, which.data(), f.data(), a.data(), u.data())), "spots");
-        for (std::size_t k = 0; k < f.size(); ++k) PROMISE(std::isfinite(f[k]) && std::isfinite(a[k]) && std::isfinite(u[k]), "a spot");
+        PROMISE(told(rsc_contact_spots(c, contacts, which.data(), f.data(), a.data(), u.data())),
+                "spots");
+        for (std::size_t k = 0; k < f.size(); ++k)
+            PROMISE(std::isfinite(f[k]) && std::isfinite(a[k]) && std::isfinite(u[k]), "a spot");
     }
 
     FuzzedDataProvider in_;

@@ -1,7 +1,7 @@
-// Any bytes as a case: they are read or refused with a message. What is read, printed as the effective namelist and read again, is the
-// same. A first line "%..." is the argument of a --set.
+// Any bytes as a case: they are read or refused with a message. What is read, printed as the
+// effective namelist and read again, is the same. A first line "%..." is the argument of a --set.
+#include "base/error.hpp"
 #include "case/read_case.hpp"
-#include "error.hpp"
 #include "promise.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

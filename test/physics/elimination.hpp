@@ -1,7 +1,7 @@
 // A small dense system of equations.
 #pragma once
 
-#include "std.hpp"
+#include "base/std.hpp"
 
 // Solves A x = b by elimination; A is n x n.
 template <class Real>

@@ -1,14 +1,16 @@
-// A second solution of the contact problem that shares nothing with the first: another unknown, another algorithm, another
-// precision, every formula written out again. Slow, and meant to be.
+// A second solution of the contact problem that shares nothing with the first: another unknown,
+// another algorithm, another precision, every formula written out again. Slow, and meant to be.
 //
-// The unknown is the contact radius a_i of the summit with the profile (2 kappa/q^2) [1 - J0(q r)]: with
+// The unknown is the contact radius a_i of the summit with the profile (2 kappa/q^2) [1 - J0(q r)]:
+// with
 //     delta(a) = 2 kappa sum_m (-1)^m q^(2m) a^(2m+2)/(2m+2)!,    P(a) = 2 E* int a ddelta,
-// power series that Sneddon's integrals give term by term, the equation of asperity i, all others held, is delta(a_i) F2_i = g0_i - sum_j P(a_j)/(pi E* d_ij), from which E* drops out. It
-// is solved by bisection in a_i, sweep after sweep (Gauss-Seidel). Each such step minimises the energy over one force, so the
-// sweeps go down to a minimum.
+// power series that Sneddon's integrals give term by term, the equation of asperity i, all others
+// held, is delta(a_i) F2_i = g0_i - sum_j P(a_j)/(pi E* d_ij), from which E* drops out. It is
+// solved by bisection in a_i, sweep after sweep (Gauss-Seidel). Each such step minimises the energy
+// over one force, so the sweeps go down to a minimum.
 #pragma once
 
-#include "std.hpp"
+#include "base/std.hpp"
 
 namespace independent {
 
@@ -22,7 +24,8 @@ struct Summit {
     Real F1_squared = 1, per_F2 = 1;  // elliptic summits
 };
 
-// Complete elliptic integrals K and E of the complementary modulus k' by the arithmetic-geometric mean.
+// Complete elliptic integrals K and E of the complementary modulus k' by the arithmetic-geometric
+// mean.
 inline std::pair<Real, Real> elliptic(Real complementary) {
     Real a = 1, g = complementary, c = std::sqrt(1 - g * g), sum = c * c / 2, power = 1;
     for (int i = 0; i < 40 && c > 1e-19L; ++i) {
@@ -60,7 +63,8 @@ inline Ellipse ellipse_of_ratio(Real ratio) {
     return ellipse(low);
 }
 
-// sum over m of weight(m) (-q^2 a^2)^m/(2m+2)!, 1/2 weight(0) first; |q| a is at most pi or so here.
+// sum over m of weight(m) (-q^2 a^2)^m/(2m+2)!, 1/2 weight(0) first; |q| a is at most pi or so
+// here.
 template <class Weight>
 Real series(const Summit& s, Real a, Weight weight) {
     Real sum = 0, term = 1 / Real(2);
@@ -74,7 +78,8 @@ inline Real delta(const Summit& s, Real a) {
     return 2 * s.kappa * a * a * series(s, a, [](int) { return Real(1); });
 }
 inline Real load(const Summit& s, Real a) {  // P/E*
-    return 4 * s.kappa * a * a * a * series(s, a, [](int m) { return Real(2 * m + 2) / (2 * m + 3); });
+    return 4 * s.kappa * a * a * a *
+           series(s, a, [](int m) { return Real(2 * m + 2) / (2 * m + 3); });
 }
 // The largest radius at which delta(a) still grows.
 inline Real last_radius(const Summit& s) { return s.q2 > 0 ? kPi / std::sqrt(s.q2) : Real(1e30L); }
@@ -99,7 +104,8 @@ struct Answer {
 };
 
 // R = infinity(): flat.
-inline Answer press(const std::vector<Summit>& summits, Real R, Real x0, Real y0, Real Z0, Real tolerance, int most = 20000) {
+inline Answer press(const std::vector<Summit>& summits, Real R, Real x0, Real y0, Real Z0,
+                    Real tolerance, int most = 20000) {
     const std::size_t n = summits.size();
     Vector g0(n), nearness(n * n);
     for (std::size_t i = 0; i < n; ++i) {

@@ -1,9 +1,10 @@
-// Adhesive elements on layered bodies (contact/adhesive_elements.hpp, interaction/layers.hpp), free and between flats.
+// Adhesive elements on layered bodies (physics/adhesion/adhesive_elements.hpp,
+// interaction/layers.hpp), free and between flats.
 #include "adhesive_paths.hpp"
 #include "check.hpp"
-#include "contact/element_contact.hpp"
-#include "contact/interaction/kernel.hpp"
+#include "elements/element_contact.hpp"
 #include "height_maps.hpp"
+#include "interaction/kernel.hpp"
 
 using namespace rsc;
 
@@ -14,8 +15,9 @@ constexpr int kSide = 40;
 constexpr double kStep = 0.025, kWork = 0.01, kRange = 0.06;
 
 HeightMap bumps() {
-    return height_map(kSide, kSide, kStep, kStep,
-                      [](int i, int j) { return 0.01 * (std::cos(0.9 * i + 0.3 * j) + std::cos(0.5 * i - 0.8 * j + 1)); });
+    return height_map(kSide, kSide, kStep, kStep, [](int i, int j) {
+        return 0.01 * (std::cos(0.9 * i + 0.3 * j) + std::cos(0.5 * i - 0.8 * j + 1));
+    });
 }
 
 Indenter over(const LayeredBody& body, bool flats) {
@@ -35,14 +37,16 @@ double separation(bool flats, int k, int levels = kLevels) {
     return high + (low - high) * (1 - std::abs(2.0 * k / (levels - 1) - 1));
 }
 
-// Conditions of every point, with deflections by direct sums of the free kernel; the work of the levels is the energy lost.
+// Conditions of every point, with deflections by direct sums of the free kernel; the work of the
+// levels is the energy lost.
 void test_conditions(bool flats, const LayeredBody& body, bool fine) {
     const HeightMap map = bumps();
     const Indenter tip = over(body, flats);
     const auto contact = make_element_contact(map, tip, sticky(kWork, kRange));
     const Substrate substrate = substrate_of(tip);
     std::vector<double> kernel;
-    for (int i = 0; i < kSide * kSide; ++i) kernel.push_back(substrate.under_pixel(i % kSide * kStep, i / kSide * kStep, kStep, kStep));
+    for (int i = 0; i < kSide * kSide; ++i)
+        kernel.push_back(substrate.under_pixel(i % kSide * kStep, i / kSide * kStep, kStep, kStep));
     const double s0 = kWork / kRange;
     double most_lost = 0;
     Level before = contact->at_separation(separation(flats, 0));
@@ -60,12 +64,15 @@ void test_conditions(bool flats, const LayeredBody& body, bool fine) {
             p[i] = level.pixels.pressure[m], contacts[i] = 1;
             CHECK(p[i] >= -s0);
         }
-        for (const std::int32_t i : level.pixels.cohesive) p[static_cast<std::size_t>(i)] = -s0, cohesive[static_cast<std::size_t>(i)] = 1;
+        for (const std::int32_t i : level.pixels.cohesive)
+            p[static_cast<std::size_t>(i)] = -s0, cohesive[static_cast<std::size_t>(i)] = 1;
         for (int i = 0; i < kSide * kSide; i += 3) {
-            double gap = level.separation - tip.clearance(i % kSide * kStep, i / kSide * kStep, map(i % kSide, i / kSide));
+            double gap = level.separation - tip.clearance(i % kSide * kStep, i / kSide * kStep,
+                                                          map(i % kSide, i / kSide));
             for (int j = 0; j < kSide * kSide; ++j)
                 gap += p[static_cast<std::size_t>(j)] *
-                       kernel[static_cast<std::size_t>(std::abs(i / kSide - j / kSide) * kSide + std::abs(i % kSide - j % kSide))];
+                       kernel[static_cast<std::size_t>(std::abs(i / kSide - j / kSide) * kSide +
+                                                       std::abs(i % kSide - j % kSide))];
             if (contacts[static_cast<std::size_t>(i)])
                 CHECK_CLOSE(gap, 0, 1e-5 * kRange);
             else if (cohesive[static_cast<std::size_t>(i)])
@@ -76,7 +83,8 @@ void test_conditions(bool flats, const LayeredBody& body, bool fine) {
     }
     CHECK(before.force == 0 && contact->energy() == 0 && most_lost > 0);
     if (!fine) return;
-    // Many levels: the area of the loop, which seven levels give within some per cent (9 % measured; their own trapezoidal sums miss all of it).
+    // Many levels: the area of the loop, which seven levels give within some per cent (9 %
+    // measured; their own trapezoidal sums miss all of it).
     const auto again = make_element_contact(map, tip, sticky(kWork, kRange));
     constexpr int many = 121;
     double work = 0;
@@ -96,6 +104,7 @@ TEST(adhesive_layers) {
     for (const bool flats : {false, true}) {
         test_conditions(flats, body_of({0.1, 1, 0.3}, 10, 0.3), false);
         test_conditions(flats, body_of({0.1, 10, 0.3}, 1, 0.3), false);
-        test_conditions(flats, body_of({0.1, 1, 0.5}, kInfinity, 0.3), flats);  // bulges around pressure
+        test_conditions(flats, body_of({0.1, 1, 0.5}, kInfinity, 0.3),
+                        flats);  // bulges around pressure
     }
 }

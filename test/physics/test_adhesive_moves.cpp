@@ -1,15 +1,17 @@
-// A tip that moves sideways over attached asperities that interact: its work over a closed cycle is the energy lost.
+// A tip that moves sideways over attached asperities that interact: its work over a closed cycle is
+// the energy lost.
 #include "adhesive_paths.hpp"
+#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
 #include "contact/answers.hpp"
-#include "contact/asperity_contact.hpp"
 
 using namespace rsc;
 
 namespace {
 
-// Moves the tip along x at the separation Z, and returns the work of the lateral force. Where no asperity attaches or detaches, the work of a
-// step is also the change of the energy. Jumps are found by going back to the memory and halving the way.
+// Moves the tip along x at the separation Z, and returns the work of the lateral force. Where no
+// asperity attaches or detaches, the work of a step is also the change of the energy. Jumps are
+// found by going back to the memory and halving the way.
 double work_of_move(Contact& contact, double Z, double end, int& jumps) {
     double work = 0;
     constexpr double longest = 4e-3, least = 1e-9, precise = 1e-10;
@@ -22,7 +24,8 @@ double work_of_move(Contact& contact, double Z, double end, int& jumps) {
         const double from = contact.indenter().x0, middle = 0.5 * (from + to), width = to - from;
         const std::vector<double> memory = contact.memory();
         Level begin, half, last;
-        const double f = force_at(from, begin), energy = contact.energy(), g = force_at(to, last), change = contact.energy() - energy;
+        const double f = force_at(from, begin), energy = contact.energy(), g = force_at(to, last),
+                     change = contact.energy() - energy;
         const bool jump = last.energy_lost != begin.energy_lost;
         contact.recall(memory, &begin);
         if (jump && std::abs(width) < least) {
@@ -44,7 +47,8 @@ double work_of_move(Contact& contact, double Z, double end, int& jumps) {
     };
     while (contact.indenter().x0 != end) {
         const double rest = end - contact.indenter().x0;
-        go(std::abs(rest) < longest ? end : contact.indenter().x0 + std::copysign(longest, rest), 0);
+        go(std::abs(rest) < longest ? end : contact.indenter().x0 + std::copysign(longest, rest),
+           0);
     }
     return work;
 }
@@ -53,14 +57,16 @@ TEST(test_cycle) {
     for (const double range : {0.0, 0.002}) {
         const RandomAsperities system = random_asperities(6, 31, 0.2);
         SolverOptions options{.adhesion = {system.w, range}, .tolerance = 1e-12};
-        const auto contact = make_asperity_contact(system.asperities, {5.0, 5.0, 0.1, 0.5}, options);
+        const auto contact =
+            make_asperity_contact(system.asperities, {5.0, 5.0, 0.1, 0.5}, options);
         const double Z = 0.006;
         (void)contact->at_separation(Z);
         int jumps = 0;
         (void)work_of_move(*contact, Z, 0.9, jumps), (void)work_of_move(*contact, Z, 0.1, jumps);
         const double energy = contact->energy(), lost = contact->at_separation(Z).energy_lost;
         jumps = 0;
-        const double work = work_of_move(*contact, Z, 0.9, jumps) + work_of_move(*contact, Z, 0.1, jumps);
+        const double work =
+            work_of_move(*contact, Z, 0.9, jumps) + work_of_move(*contact, Z, 0.1, jumps);
         CHECK(jumps >= 2);
         CHECK_RELATIVE(contact->energy(), energy, 1e-7);
         CHECK_RELATIVE(work, contact->at_separation(Z).energy_lost - lost, 1e-5);

@@ -1,11 +1,11 @@
-// A tip that moves sideways over points that attract (contact/adhesive_elements.hpp).
+// A tip that moves sideways over points that attract (physics/adhesion/adhesive_elements.hpp).
 #include "adhesive_paths.hpp"
+#include "base/error.hpp"
 #include "check.hpp"
 #include "contact/answers.hpp"
-#include "contact/element_contact.hpp"
-#include "contact/indenter/shapes.hpp"
-#include "error.hpp"
+#include "elements/element_contact.hpp"
 #include "height_maps.hpp"
+#include "physics/indenter/shapes.hpp"
 
 using namespace rsc;
 
@@ -13,11 +13,14 @@ namespace {
 
 constexpr double kWork = 0.01, kPlace = 0.7;
 
-// A surface with the period `side`, of waves, or of none if they have no height. It begins `turned` points later.
+// A surface with the period `side`, of waves, or of none if they have no height. It begins `turned`
+// points later.
 HeightMap waves(int n, double side, double height, int turned = 0) {
     HeightMap map = height_map(n, n, side / n, side / n, [=](int i, int j) {
-        const double x = 10 * std::numbers::pi / n * (i + turned + 0.5), y = 10 * std::numbers::pi / n * (j + 0.5);
-        return height * (std::cos(x) + std::cos(y) + 0.6 * std::cos(x + 2 * y + 1) + 0.5 * std::sin(2 * x - y));
+        const double x = 10 * std::numbers::pi / n * (i + turned + 0.5),
+                     y = 10 * std::numbers::pi / n * (j + 0.5);
+        return height * (std::cos(x) + std::cos(y) + 0.6 * std::cos(x + 2 * y + 1) +
+                         0.5 * std::sin(2 * x - y));
     });
     map.periodic = true, map.x0 = (turned + 0.5) * map.dx, map.y0 = 0.5 * map.dy;
     return map;
@@ -50,7 +53,8 @@ Moved move(Contact& contact, double Z, double x, int steps) {
     return moved;
 }
 
-// The state does not depend on how a way is cut; over a closed cycle of many steps the work of the lateral force is the energy lost.
+// The state does not depend on how a way is cut; over a closed cycle of many steps the work of the
+// lateral force is the energy lost.
 TEST(test_cycle) {
     const HeightMap map = waves(40, 2, 0.02);
     const SolverOptions options = sticky(kWork, 0.12);
@@ -59,18 +63,24 @@ TEST(test_cycle) {
         const auto contact = make_element_contact(map, sphere(kPlace, 2), options);
         (void)contact->at_separation(0);
         (void)move(*contact, 0, kPlace + 0.25, steps);
-        const Moved begin = move(*contact, 0, kPlace, steps), there = move(*contact, 0, kPlace + 0.25, steps),
+        const Moved begin = move(*contact, 0, kPlace, steps),
+                    there = move(*contact, 0, kPlace + 0.25, steps),
                     back = move(*contact, 0, kPlace, steps);
-        CHECK(there.level.contacts > 0 && std::abs(there.level.force / back.level.force - 1) > 0.01);
+        CHECK(there.level.contacts > 0 &&
+              std::abs(there.level.force / back.level.force - 1) > 0.01);
         CHECK_RELATIVE(back.energy, begin.energy, 1e-9);
-        forces.push_back(there.level.force), losses.push_back(back.level.energy_lost - begin.level.energy_lost);
+        forces.push_back(there.level.force),
+            losses.push_back(back.level.energy_lost - begin.level.energy_lost);
         CHECK_RELATIVE(forces.back(), forces.front(), 1e-9);
         if (steps == 32) CHECK_RELATIVE(there.work + back.work, losses.back(), 1e-3);
     }
-    for (const double loss : losses) CHECK_RELATIVE(loss, losses.back(), 0.03);  // pieces that do not see where within them a point jumps
+    for (const double loss : losses)
+        CHECK_RELATIVE(loss, losses.back(),
+                       0.03);  // pieces that do not see where within them a point jumps
 }
 
-// Over the border of a surface that repeats the tip takes the short way, as over the middle of a map that begins elsewhere.
+// Over the border of a surface that repeats the tip takes the short way, as over the middle of a
+// map that begins elsewhere.
 TEST(test_border) {
     const HeightMap map = waves(36, 2, 0.02), other = waves(36, 2, 0.02, 18);
     const auto one = make_element_contact(map, sphere(1.9, 2), sticky(kWork, 0.1)),
@@ -80,7 +90,8 @@ TEST(test_border) {
         (void)contact->at_separation(0);
     }
     double lost = one->at_separation(0).energy_lost, first = 0;
-    for (const double x : {0.1, 1.9}) {  // and back over the border; the long way would lose several times as much
+    for (const double x :
+         {0.1, 1.9}) {  // and back over the border; the long way would lose several times as much
         one->move_tip(x, 1.0), two->move_tip(x, 1.0);
         const Level a = one->at_separation(0), b = two->at_separation(0);
         CHECK(a.force != 0 && a.contacts == b.contacts);
@@ -89,7 +100,8 @@ TEST(test_border) {
         first = first > 0 ? first : a.energy_lost - lost;
         CHECK(first > 0 && a.energy_lost - lost < 2 * first);
         lost = a.energy_lost;
-        CHECK_RELATIVE(lateral_force(one->indenter(), a).x, lateral_force(two->indenter(), b).x, 1e-6);
+        CHECK_RELATIVE(lateral_force(one->indenter(), a).x, lateral_force(two->indenter(), b).x,
+                       1e-6);
     }
 }
 
@@ -122,7 +134,8 @@ TEST(test_edge) {
     const HeightMap map = waves(32, 2, 0.02);
     ShapeKeys keys;
     keys.radius = 0.6;
-    const auto contact = make_element_contact(map, {1.0, make_shape(shape_number("punch"), keys), 1.0, 1.0}, sticky(kWork, 0.12));
+    const auto contact = make_element_contact(
+        map, {1.0, make_shape(shape_number("punch"), keys), 1.0, 1.0}, sticky(kWork, 0.12));
     const Level before = contact->at_separation(0.03);
     const std::vector<double> memory = contact->memory();
     CHECK_THROWS(contact->move_tip(1.2, 1.0), Error);
@@ -144,7 +157,8 @@ TEST(test_edge) {
     CHECK_RELATIVE(sphere->stiffness(), stiffness, 1e-6);
 }
 
-// A tip above a low half of a surface, where nothing attracts, moves over a high half: what it loses and what it does are counted.
+// A tip above a low half of a surface, where nothing attracts, moves over a high half: what it
+// loses and what it does are counted.
 TEST(test_climb) {
     HeightMap map = waves(28, 2, 0);
     for (int j = 0; j < 28; ++j)
@@ -159,12 +173,16 @@ TEST(test_climb) {
     CHECK(back.force == 0 && back.energy_lost > there.energy_lost);
 }
 
-// Between flats, a bump beside the tip: its force acts at the bump, including that of points that attract without contact.
+// Between flats, a bump beside the tip: its force acts at the bump, including that of points that
+// attract without contact.
 TEST(test_moment) {
     HeightMap map = waves(32, 2, 0);
     const double x = map.x0 + 10 * map.dx, y = map.y0 + 13 * map.dy;
     for (int j = 0; j < 32; ++j)
-        for (int i = 0; i < 32; ++i) map.row(j)[i] = 0.3 * std::exp(-8 * (std::pow((i - 10) * map.dx, 2) + std::pow((j - 13) * map.dy, 2)));
+        for (int i = 0; i < 32; ++i)
+            map.row(j)[i] =
+                0.3 *
+                std::exp(-8 * (std::pow((i - 10) * map.dx, 2) + std::pow((j - 13) * map.dy, 2)));
     const Indenter flats{1.0, std::numeric_limits<double>::infinity(), 1.0, 1.0, {2, 2}};
     const auto contact = make_element_contact(map, flats, sticky(kWork, 0.12));
     (void)contact->at_separation(0.25);

@@ -1,14 +1,16 @@
-// Load and contact area of rough surfaces under a sphere against boundary elements by other hands (bem/bem.py in Python, whose
-// results are data/boundary_elements.txt): rsc's elements, which are to give the same, and asperities by fourth_order, within 2 to 3 per cent.
+// Load and contact area of rough surfaces under a sphere against boundary elements by other hands
+// (bem/bem.py in Python, whose results are data/boundary_elements.txt): rsc's elements, which are
+// to give the same, and asperities by fourth_order, within 2 to 3 per cent.
 //
-// The reference: the very same surface, paper's gold (E* = 94706 N/mm2, sigma = 0.01 mm, L/lambda_l = 24, H = 0.8, R = 2.5 mm),
-// grid 4096, areas corrected by their perimeter. Its own error, from the grid twice as coarse: 0.1 % in N, 1 % in A.
+// The reference: the very same surface, paper's gold (E* = 94706 N/mm2, sigma = 0.01 mm, L/lambda_l
+// = 24, H = 0.8, R = 2.5 mm), grid 4096, areas corrected by their perimeter. Its own error, from
+// the grid twice as coarse: 0.1 % in N, 1 % in A.
+#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
-#include "contact/asperity_contact.hpp"
-#include "contact/element_contact.hpp"
 #include "contact/equivalent.hpp"
-#include "rough/detection.hpp"
-#include "rough/synthesis.hpp"
+#include "elements/element_contact.hpp"
+#include "surface/detection.hpp"
+#include "surface/synthesis.hpp"
 
 using namespace rsc;
 
@@ -38,7 +40,8 @@ std::map<std::pair<int, int>, std::vector<Row>> reference(int grid) {
 // What is asked of fourth_order at each level from 2.75 sigma down, on each surface, per cent.
 constexpr double wanted_N(int ratio) { return ratio == 64 ? 2 : 3; }
 constexpr double kWantedA = 3;
-// The same pixels, another code: both stop at 1e-6 of the mean overlap, and pixels at the noise may be counted by one and not by the other.
+// The same pixels, another code: both stop at 1e-6 of the mean overlap, and pixels at the noise may
+// be counted by one and not by the other.
 void elements(double E_star) {
     for (const auto& [key, levels] : reference(kCoarse)) {
         const auto [ratio, seed] = key;
@@ -46,7 +49,8 @@ void elements(double E_star) {
         Spectrum spectrum;
         spectrum.L_lambda_s = ratio;
         const HeightMap map = synthesize(spectrum, kCoarse, Normalise::sample, seed, 1);
-        const auto contact = make_element_contact(map, {E_star, 2.5, 0.5, 0.5}, {.tolerance = 1e-6, .max_iterations = 200});
+        const auto contact = make_element_contact(map, {E_star, 2.5, 0.5, 0.5},
+                                                  {.tolerance = 1e-6, .max_iterations = 200});
         CHECK(levels.size() == 5);
         double worst_N = 0, worst_A = 0;
         for (const Row& row : levels) {
@@ -73,8 +77,10 @@ TEST(all_boundary_elements) {
         Spectrum spectrum;
         spectrum.L_lambda_s = ratio;
         const Asperities a =
-            make_asperities(spectrum, 2048, Normalise::sample, seed, 1, Curvature::geometric, nullptr, nullptr, 1, Detail::subgrid);
-        AsperityContact contact(a, {E_star, 2.5, 0.5, 0.5}, {.law = LawKind::fourth_order, .sigma = spectrum.sigma});
+            make_asperities(spectrum, 2048, Normalise::sample, seed, 1, Curvature::geometric,
+                            nullptr, nullptr, 1, Detail::subgrid);
+        AsperityContact contact(a, {E_star, 2.5, 0.5, 0.5},
+                                {.law = LawKind::fourth_order, .sigma = spectrum.sigma});
         CHECK(levels.size() == 5);
         for (const Row& row : levels) {
             const Level level = contact.at_separation(row.separation * spectrum.sigma);

@@ -1,9 +1,10 @@
-// The paper's method on its own, without the solver that takes over where it fails: it converges by itself where the paper used it,
-// its matrix is the derivative of its residual, and a level says what it was solved with.
-#include "contact/solver/dgesv.hpp"
+// The paper's method on its own, without the solver that takes over where it fails: it converges by
+// itself where the paper used it, its matrix is the derivative of its residual, and a level says
+// what it was solved with.
+#include "asperities/dgesv.hpp"
 
+#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
-#include "contact/asperity_contact.hpp"
 #include "physics/random_asperities.hpp"
 
 using namespace rsc;
@@ -26,7 +27,8 @@ WorkingSet candidates(const Asperities& a, const Indenter& indenter, double Z0) 
     return set;
 }
 
-// K against central differences of R, at forces where some points are within delta of touching, some far inside, some far outside.
+// K against central differences of R, at forces where some points are within delta of touching,
+// some far inside, some far outside.
 TEST(matrix) {
     const Asperities a = random_asperities(150, 0.02, 0.01, 5e-4, 0.5, 7);
     const Indenter indenter{1.0, 2.5, 0.5, 0.5};
@@ -38,12 +40,15 @@ TEST(matrix) {
     CHECK(n > 20);
     const double delta = 0.005;
     std::vector<double> force(n), K(n * n), unused(n * n), above, below, R;
-    for (std::size_t i = 0; i < n; ++i) force[i] = 2e-5 * (1 + std::sin(3.0 * static_cast<double>(i)));
+    for (std::size_t i = 0; i < n; ++i)
+        force[i] = 2e-5 * (1 + std::sin(3.0 * static_cast<double>(i)));
     const auto penetrations = [&](const std::vector<double>& F) {
         std::vector<double> v = set.g0;
         for (std::size_t i = 0; i < n; ++i)
             for (std::size_t j = 0; j < n; ++j)
-                if (j != i) v[i] -= F[j] / (std::numbers::pi * std::hypot(set.x[i] - set.x[j], set.y[i] - set.y[j]));
+                if (j != i)
+                    v[i] -= F[j] / (std::numbers::pi *
+                                    std::hypot(set.x[i] - set.x[j], set.y[i] - set.y[j]));
         return v;
     };
     const std::vector<double> v = penetrations(force);
@@ -53,7 +58,10 @@ TEST(matrix) {
     paper_equations(*law, *kernel, set, delta, force, v, R, K.data());
     double largest = 0, worst = 0;
     for (std::size_t j = 0; j < n; ++j) {
-        const double h = 1e-9;  // of forces near 1e-5: truncation and rounding of the difference are both below 1e-5 of K
+        const double h =
+            // of forces near 1e-5: truncation and rounding of the difference are both below 1e-5 of
+            // K
+            1e-9;
         std::vector<double> F = force;
         F[j] = force[j] + h;
         paper_equations(*law, *kernel, set, delta, F, penetrations(F), above, unused.data());
@@ -67,18 +75,25 @@ TEST(matrix) {
     CHECK(worst <= 1e-5 * largest);
 }
 
-// The slopes of the solution are df/dv of every asperity, from which the proof takes what other solutions there may be.
+// The slopes of the solution are df/dv of every asperity, from which the proof takes what other
+// solutions there may be.
 TEST(slopes) {
-    constexpr double kShare = 1e-6, kDifference = 1e-7;  // of the penetration; of the slope, by central differences and rounding
+    constexpr double
+        kShare = 1e-6,
+        kDifference =
+            1e-7;  // of the penetration; of the slope, by central differences and rounding
     const Asperities a = random_asperities(150, 0.02, 0.01, 5e-4, 0.5, 7);
     const WorkingSet set = candidates(a, {1.0, 2.5, 0.5, 0.5}, -0.01);
     const auto law = make_law(LawKind::hertz, a, 1.0);
     law->prepare(set.asperity);
     std::vector<double> v, force, slope;
-    CHECK(solve_by_dgesv(*law, *make_kernel(Interaction::point, 1.0), set, {1e-4, 5, kResidual, 30}, v, force, slope).converged);
+    CHECK(solve_by_dgesv(*law, *make_kernel(Interaction::point, 1.0), set, {1e-4, 5, kResidual, 30},
+                         v, force, slope)
+              .converged);
     int touching = 0;
     for (std::size_t i = 0; i < v.size(); ++i) {
-        const double h = kShare * std::abs(v[i]), rise = law->force(set.asperity[i], v[i] + h) - law->force(set.asperity[i], v[i] - h);
+        const double h = kShare * std::abs(v[i]), rise = law->force(set.asperity[i], v[i] + h) -
+                                                         law->force(set.asperity[i], v[i] - h);
         CHECK_RELATIVE(slope[i], rise / (2 * h), kDifference);
         touching += slope[i] > 0;
     }
@@ -93,18 +108,21 @@ TEST(says_what_it_did) {
     const Level paper = AsperityContact(a, indenter, options).at_separation(0.0);
     CHECK(paper.method == Method::dgesv && paper.fallback == Fallback::none);
     CHECK(paper.iterations <= kMostSolves && paper.products == paper.iterations);
-    // Delta never cut: the iteration cannot converge on the unregularised equation, and the level says so.
+    // Delta never cut: the iteration cannot converge on the unregularised equation, and the level
+    // says so.
     options.delta_cut = 1;
     options.delta0 = 1;
     options.max_iterations = 30;
     const Level uncut = AsperityContact(a, indenter, options).at_separation(0.0);
     CHECK(uncut.method == Method::direct && uncut.fallback == Fallback::dgesv_not_converged);
     CHECK_CLOSE(uncut.force, paper.force, 1e-6 * paper.force);
-    // Its counts are those of both: the solves in vain, and what the direct method took, with a product more: of what dgesv left.
+    // Its counts are those of both: the solves in vain, and what the direct method took, with a
+    // product more: of what dgesv left.
     SolverOptions direct = options;
     direct.method = Method::direct;
     const Level plain = AsperityContact(a, indenter, direct).at_separation(0.0);
-    CHECK(plain.iterations > 0 && uncut.iterations == 30 + plain.iterations && uncut.products == plain.products + 1);
+    CHECK(plain.iterations > 0 && uncut.iterations == 30 + plain.iterations &&
+          uncut.products == plain.products + 1);
     // Two asperities so close that the solution the iteration finds is a saddle of the energy.
     Asperities pair;
     pair.x = {0.499, 0.501}, pair.y = {0.5, 0.5}, pair.z = {0.01, 0.01}, pair.radius = {1e-2, 1e-2};
@@ -128,7 +146,8 @@ TEST(regularisation_leaves_no_trace) {
     };
     const double reference = force(0.01, 5, 1e-11);
     for (const double delta0 : {0.1, 0.01, 0.001})
-        for (const double cut : {2.0, 5.0, 10.0}) CHECK_RELATIVE(force(delta0, cut, 1e-10), reference, 1e-9);
+        for (const double cut : {2.0, 5.0, 10.0})
+            CHECK_RELATIVE(force(delta0, cut, 1e-10), reference, 1e-9);
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
-// Force control of elements: the first level, levels far apart, and a map all of whose points carry load. A level under a force equals the
-// level at its separation, costs about as many products, and does not depend on the number of threads.
+// Force control of elements: the first level, levels far apart, and a map all of whose points carry
+// load. A level under a force equals the level at its separation, costs about as many products, and
+// does not depend on the number of threads.
 #include <cmath>
 
+#include "base/parallel.hpp"
 #include "check.hpp"
-#include "contact/element_contact.hpp"
-#include "rough/parallel.hpp"
-#include "rough/synthesis.hpp"
+#include "elements/element_contact.hpp"
+#include "surface/synthesis.hpp"
 
 using namespace rsc;
 
@@ -35,23 +36,27 @@ void compare(double R, const std::vector<double>& forces) {
     const Run by_force = run(map, tip, forces, under_force);
     std::vector<double> separations;
     for (const Level& level : by_force.levels) separations.push_back(level.separation);
-    const Run by_separation = run(map, tip, separations, [](Contact& contact, double Z0) { return contact.at_separation(Z0); });
+    const Run by_separation = run(map, tip, separations, [](Contact& contact, double Z0) {
+        return contact.at_separation(Z0);
+    });
     for (std::size_t k = 0; k < forces.size(); ++k) {
         CHECK(by_force.levels[k].status != LevelStatus::not_converged);
         CHECK_RELATIVE(by_force.levels[k].force, forces[k], 1e-6);
         CHECK_RELATIVE(by_separation.levels[k].force, forces[k], 1e-6);
         CHECK_RELATIVE(by_force.levels[k].area, by_separation.levels[k].area, 1e-3);
     }
-    CHECK(static_cast<double>(by_force.products) <= 1.3 * static_cast<double>(by_separation.products));
+    CHECK(static_cast<double>(by_force.products) <=
+          1.3 * static_cast<double>(by_separation.products));
     {
         const LoopThreads loops(3);
         const Run again = run(map, tip, forces, under_force);
-        for (std::size_t k = 0; k < forces.size(); ++k) CHECK(again.levels[k].separation == by_force.levels[k].separation);
+        for (std::size_t k = 0; k < forces.size(); ++k)
+            CHECK(again.levels[k].separation == by_force.levels[k].separation);
     }
 }
 
-// The first level of a contact deep in a roughness, where the force rises by high powers of the depth: the search for its depth comes to an
-// end, at less than the cost of a second level.
+// The first level of a contact deep in a roughness, where the force rises by high powers of the
+// depth: the search for its depth comes to an end, at less than the cost of a second level.
 void first_levels() {
     constexpr double sigma = 0.01;
     Spectrum s{.L = 1, .L_lambda_l = 24, .L_lambda_s = 64, .sigma = sigma};
@@ -60,7 +65,8 @@ void first_levels() {
     for (const double Z0 : {2 * sigma, 1.73 * sigma, 1.5 * sigma, sigma, 0.0}) {
         const Level level = make_element_contact(map, tip, {})->at_separation(Z0),
                     under = make_element_contact(map, tip, {})->at_force(level.force);
-        CHECK(std::abs(under.separation - Z0) < 1e-5 * sigma);  // ten tolerances of the force, which rises with a power of the depth
+        CHECK(std::abs(under.separation - Z0) <
+              1e-5 * sigma);  // ten tolerances of the force, which rises with a power of the depth
         CHECK(under.products <= 2 * level.products);
     }
 }

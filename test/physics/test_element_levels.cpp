@@ -1,13 +1,15 @@
-// The pixels of a level of elements, and what the contact answers beside it, against the full matrix of a small map: pressures by an
-// active set of its own with Gaussian elimination, the rest from these pressures. Maps of oblong pixels that begin somewhere, more columns than
-// rows; a sphere beside the middle, a flat, a flat that repeats; elastic and yielding, along a path down, up, down and aside.
+// The pixels of a level of elements, and what the contact answers beside it, against the full
+// matrix of a small map: pressures by an active set of its own with Gaussian elimination, the rest
+// from these pressures. Maps of oblong pixels that begin somewhere, more columns than rows; a
+// sphere beside the middle, a flat, a flat that repeats; elastic and yielding, along a path down,
+// up, down and aside.
 #include "check.hpp"
 #include "contact/answers.hpp"
 #include "contact/deflection.hpp"
-#include "contact/element_contact.hpp"
-#include "contact/interaction/lattice.hpp"
-#include "contact/interaction/pixel_kernels.hpp"
+#include "elements/element_contact.hpp"
+#include "elements/pixel_kernels.hpp"
 #include "height_maps.hpp"
+#include "interaction/lattice.hpp"
 #include "physics/elimination.hpp"
 
 using namespace rsc;
@@ -17,7 +19,8 @@ namespace {
 
 using Vector = std::vector<double>;
 constexpr double kE = 3.0, kFlat = __builtin_huge_val();
-// Levels are asked for a residual of 1e-11; the matrices' condition is some hundreds. Sums over pixels that touch come down to rounding.
+// Levels are asked for a residual of 1e-11; the matrices' condition is some hundreds. Sums over
+// pixels that touch come down to rounding.
 constexpr double kSame = 1e-8, kTolerance = 1e-11;
 constexpr double kResistivity[2] = {2, 3};
 
@@ -40,7 +43,8 @@ struct Truth {
     double pixel() const { return map.dx * map.dy; }
     bool repeats() const { return tip.period.finite(); }
 
-    Truth(const HeightMap& map_, const Indenter& tip_, const SolverOptions& options_) : map(map_), tip(tip_), options(options_) {
+    Truth(const HeightMap& map_, const Indenter& tip_, const SolverOptions& options_)
+        : map(map_), tip(tip_), options(options_) {
         for (int j = 0; j < ny(); ++j)
             for (int i = 0; i < nx(); ++i) z.push_back(map(i, j));
         if (repeats()) lattice.emplace(tip.period);
@@ -48,13 +52,15 @@ struct Truth {
         K.assign(n(), Vector(n()));
         for (std::size_t k = 0; k < n(); ++k)
             for (std::size_t l = 0; l < n(); ++l)
-                K[k][l] = !repeats() ? love(x(k) - x(l), y(k) - y(l), map.dx / 2, map.dy / 2) / (pi * kE)
-                          : k > 0    ? K[0][shifted(l, k)]
-                                     : answer(static_cast<int>(l) % nx(), static_cast<int>(l) / nx());
+                K[k][l] = !repeats()
+                              ? love(x(k) - x(l), y(k) - y(l), map.dx / 2, map.dy / 2) / (pi * kE)
+                          : k > 0 ? K[0][shifted(l, k)]
+                                  : answer(static_cast<int>(l) % nx(), static_cast<int>(l) / nx());
     }
     // Where pixel l lies seen from k.
     std::size_t shifted(std::size_t l, std::size_t k) const {
-        const int i = static_cast<int>(l) % nx() - static_cast<int>(k) % nx(), j = static_cast<int>(l) / nx() - static_cast<int>(k) / nx();
+        const int i = static_cast<int>(l) % nx() - static_cast<int>(k) % nx(),
+                  j = static_cast<int>(l) / nx() - static_cast<int>(k) / nx();
         return at((j + ny()) % ny() * nx() + (i + nx()) % nx());
     }
     // The modes that the pixels carry, each with 2/(E* |k|).
@@ -65,7 +71,8 @@ struct Truth {
                 if (a == 0 && b == 0) continue;
                 const double kx = 2 * pi * (2 * a <= nx() ? a : a - nx()) / (nx() * map.dx),
                              ky = 2 * pi * (2 * b <= ny() ? b : b - ny()) / (ny() * map.dy);
-                sum += 2 / (kE * std::hypot(kx, ky)) * std::cos(2 * pi * (double(a * i) / nx() + double(b * j) / ny()));
+                sum += 2 / (kE * std::hypot(kx, ky)) *
+                       std::cos(2 * pi * (double(a * i) / nx() + double(b * j) / ny()));
             }
         return sum / static_cast<double>(n());
     }
@@ -74,7 +81,9 @@ struct Truth {
         if (std::isinf(tip.shape->hertz_radius())) return z[k];
         const double rho2 = std::pow(x(k) - tip.x0, 2) + std::pow(y(k) - tip.y0, 2);
         return rho2 <= tip.shape->hertz_radius() * tip.shape->hertz_radius()
-                   ? z[k] + std::sqrt(tip.shape->hertz_radius() * tip.shape->hertz_radius() - rho2) - tip.shape->hertz_radius()
+                   ? z[k] +
+                         std::sqrt(tip.shape->hertz_radius() * tip.shape->hertz_radius() - rho2) -
+                         tip.shape->hertz_radius()
                    : -kFlat;
     }
 
@@ -105,7 +114,12 @@ struct Truth {
                 for (std::size_t l = 0; l < n(); ++l) w[k] += K[k][l] * p[l];
                 w[k] -= height(k) - Z0;
                 if (state[k] == 1) w[k] = 0;
-                const int next = state[k] == 1 ? (p[k] <= 0 ? 0 : p[k] >= H ? 2 : 1) : state[k] == 0 ? (w[k] < 0) : w[k] > 0 ? 1 : 2;
+                const int next = state[k] == 1   ? (p[k] <= 0   ? 0
+                                                    : p[k] >= H ? 2
+                                                                : 1)
+                                 : state[k] == 0 ? (w[k] < 0)
+                                 : w[k] > 0      ? 1
+                                                 : 2;
                 settled = settled && next == state[k];
                 state[k] = next;
             }
@@ -141,7 +155,8 @@ struct Truth {
         double sum = 0;
         for (std::size_t k = 0; k < n(); ++k) {
             double dx = px - x(k), dy = py - y(k);
-            if (repeats()) dx = std::remainder(dx, tip.period.x), dy = std::remainder(dy, tip.period.y);
+            if (repeats())
+                dx = std::remainder(dx, tip.period.x), dy = std::remainder(dy, tip.period.y);
             sum += p[k] * love(dx, dy, map.dx / 2, map.dy / 2);
             if (repeats()) sum += p[k] * pixel() * (lattice->at(dx, dy) - 1 / std::hypot(dx, dy));
         }
@@ -154,7 +169,8 @@ void same(double value, double truth, double scale, const char* what) {
 }
 #define SAME(member, truth, scale) same(level.member, truth, scale, #member)
 
-// Contacts, their areas and what follows of them are computed once more from the pixels in test_every_value.
+// Contacts, their areas and what follows of them are computed once more from the pixels in
+// test_every_value.
 void whole_level(const Level& level, const Truth& t, double Z0) {
     const double H = t.options.hardness.H0, pixel = t.pixel(), sigma = 0.01;
     std::vector<std::size_t> touching;
@@ -168,15 +184,18 @@ void whole_level(const Level& level, const Truth& t, double Z0) {
         force += t.p[k] * pixel, most = std::max(most, t.p[k]);
     }
     CHECK(touching.size() > 10);
-    CHECK(level.pixels.columns == t.nx() && level.pixels.dx == t.map.dx && level.pixels.dy == t.map.dy);
+    CHECK(level.pixels.columns == t.nx() && level.pixels.dx == t.map.dx &&
+          level.pixels.dy == t.map.dy);
     CHECK(level.pixels.x0 == t.map.x0 && level.pixels.y0 == t.map.y0);
     CHECK(level.pixels.index == std::vector<std::int32_t>(touching.begin(), touching.end()));
     if (level.pixels.index.size() != touching.size()) return;
-    // The highest pressure of each contact, and the penetration that its pressures need where this is.
+    // The highest pressure of each contact, and the penetration that its pressures need where this
+    // is.
     std::vector<std::size_t> peak(at(level.contacts), t.n());
     for (std::size_t k = 0; k < touching.size(); ++k) {
         same(level.pixels.pressure[k], t.p[touching[k]], most, "pressure of a pixel");
-        same(level.pixels.x(k), t.x(touching[k]), 1, "x of a pixel"), same(level.pixels.y(k), t.y(touching[k]), 1, "y of a pixel");
+        same(level.pixels.x(k), t.x(touching[k]), 1, "x of a pixel"),
+            same(level.pixels.y(k), t.y(touching[k]), 1, "y of a pixel");
         std::size_t& top = peak[at(level.pixels.contact[k])];
         if (top == t.n() || t.p[touching[k]] > t.p[top]) top = touching[k];
     }
@@ -185,18 +204,22 @@ void whole_level(const Level& level, const Truth& t, double Z0) {
         for (std::size_t k = 0; k < touching.size(); ++k) {
             if (at(level.pixels.contact[k]) != c) continue;
             double dx = t.x(touching[k]) - t.x(peak[c]), dy = t.y(touching[k]) - t.y(peak[c]);
-            if (t.repeats()) dx = std::remainder(dx, t.tip.period.x), dy = std::remainder(dy, t.tip.period.y);
+            if (t.repeats())
+                dx = std::remainder(dx, t.tip.period.x), dy = std::remainder(dy, t.tip.period.y);
             alone += t.p[touching[k]] * love(dx, dy, t.map.dx / 2, t.map.dy / 2) / (pi * kE);
         }
         CHECK(level.asperity[c] == static_cast<int>(peak[c]));
         SAME(u[c], alone, sigma);
     }
     SAME(separation, Z0, sigma), SAME(force, force, force);
-    // A contact that repeats answers with its stiffness to the square of 1e-5 times the condition of its matrix.
+    // A contact that repeats answers with its stiffness to the square of 1e-5 times the condition
+    // of its matrix.
     const double S = t.stiffness(), W = t.energy(), loose = t.repeats() ? 1e-6 / kSame : 1;
     SAME(stiffness, S, loose * S), SAME(energy, W, W);
-    CHECK(level.candidates == candidates && level.residual <= kTolerance && level.iterations > 0 && level.products > 0);
-    CHECK(level.method == Method::automatic && level.fallback == Fallback::none && level.overlapping_pairs == 0 && level.beyond_law == 0);
+    CHECK(level.candidates == candidates && level.residual <= kTolerance && level.iterations > 0 &&
+          level.products > 0);
+    CHECK(level.method == Method::automatic && level.fallback == Fallback::none &&
+          level.overlapping_pairs == 0 && level.beyond_law == 0);
     if (std::isfinite(H))
         SAME(plastic_work, H * pixel * pressed, H * pixel * sigma);
     else
@@ -226,7 +249,8 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
         double top = -kFlat;
         for (std::size_t k = 0; k < t.n(); ++k) top = std::max(top, t.height(k));
         same(contact->first_touch(), top, 0.01, "first touch");
-        deepest = level.force, large = std::max(large, level.contacts), hard = std::max(hard, level.plastic_contacts);
+        deepest = level.force, large = std::max(large, level.contacts),
+        hard = std::max(hard, level.plastic_contacts);
     }
     CHECK(large > 1 && (hard > 0) == std::isfinite(hardness));
     const ResidualProfile profile = contact->residual_profile();
@@ -236,7 +260,8 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
         if (!(t.pressed[k] > 0)) continue;
         CHECK(next < profile.depth.size());
         if (next == profile.depth.size()) break;
-        same(profile.x[next], t.x(k), 1, "x of the profile"), same(profile.y[next], t.y(k), 1, "y of the profile");
+        same(profile.x[next], t.x(k), 1, "x of the profile"),
+            same(profile.y[next], t.y(k), 1, "y of the profile");
         same(profile.depth[next++], t.pressed[k], 0.01, "depth of the profile");
     }
     CHECK(next == profile.depth.size());
@@ -264,8 +289,10 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
 TEST(element_levels) {
     HeightMap map = height_map(20, 13, 0.03, 0.042, [](int i, int j) {
         double z = 0;
-        for (const auto& [a, b, phase] : {std::tuple{3, 1, 0.3}, {2, -2, 1.1}, {4, 2, 2.0}, {1, 3, 0.7}, {3, -3, 1.9}})
-            z += 0.03 / (a + std::abs(b)) * std::cos(2 * pi * (a * i / 20.0 + b * j / 13.0) + phase);
+        for (const auto& [a, b, phase] :
+             {std::tuple{3, 1, 0.3}, {2, -2, 1.1}, {4, 2, 2.0}, {1, 3, 0.7}, {3, -3, 1.9}})
+            z +=
+                0.03 / (a + std::abs(b)) * std::cos(2 * pi * (a * i / 20.0 + b * j / 13.0) + phase);
         return z;
     });
     map.x0 = 0.2, map.y0 = -0.15;

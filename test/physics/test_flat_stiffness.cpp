@@ -1,8 +1,9 @@
-// The stiffness of two flats by elements, against K q = 1 on the pixels under pressure solved by plain conjugate gradients in double precision.
+// The stiffness of two flats by elements, against K q = 1 on the pixels under pressure solved by
+// plain conjugate gradients in double precision.
 #include "check.hpp"
-#include "contact/element_contact.hpp"
-#include "contact/interaction/periodic_pixels.hpp"
-#include "rough/synthesis.hpp"
+#include "elements/element_contact.hpp"
+#include "elements/periodic_pixels.hpp"
+#include "surface/synthesis.hpp"
 
 using namespace rsc;
 
@@ -46,9 +47,11 @@ TEST(flat_stiffness) {
     const Indenter flat{kE, std::numeric_limits<double>::infinity(), 0, 0, {map.Lx(), map.Ly()}};
     const double slope = std::sqrt(2 * theoretical_moments(spectrum).m2);
     for (const double pressure : {0.005, 0.02, 0.3}) {
-        const auto contact = make_element_contact(map, flat, {.tolerance = 1e-6, .max_iterations = 200});
+        const auto contact =
+            make_element_contact(map, flat, {.tolerance = 1e-6, .max_iterations = 200});
         const Level level = contact->at_force(pressure * kE * slope * map.Lx() * map.Ly());
-        const double stiffness = contact->stiffness(), exact = by_conjugate_gradients(map, level.pixels.index);
+        const double stiffness = contact->stiffness(),
+                     exact = by_conjugate_gradients(map, level.pixels.index);
         CHECK_RELATIVE(stiffness, exact, 1e-6);
     }
 }

@@ -1,10 +1,11 @@
-// Friction, conductance and lateral force of asperities in contact against problems solved on their own.
+// Friction, conductance and lateral force of asperities in contact against problems solved on their
+// own.
+#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
-#include "contact/adhesive_contact.hpp"
 #include "contact/answers.hpp"
-#include "contact/asperity_contact.hpp"
-#include "contact/contact_curve.hpp"
+#include "physics/adhesion/adhesive_contact.hpp"
 #include "physics/elimination.hpp"
+#include "physics/friction/contact_curve.hpp"
 #include "physics/random_asperities.hpp"
 
 using namespace rsc;
@@ -24,10 +25,11 @@ struct Slid {
         : one(a, indenter, options), other(a, indenter, options) {}
 };
 
-// The slip problem of spots solved directly. Pressed by the forces f_i with penetrations u_i, spot i slipped in to the penetration u*_i
-// carries q_i = mu (f_i - f_i(u*_i)) and moves by (mu/m)(u_i - u*_i) against its surroundings (Mindlin), which all q_j move by
-// q_j/(m pi E* d_ij): the sum is the slide xi of the sphere; a spot that would need u*_i < 0 slips as a whole. One scalar equation a
-// spot, by bisection, spot after spot until nothing changes.
+// The slip problem of spots solved directly. Pressed by the forces f_i with penetrations u_i, spot
+// i slipped in to the penetration u*_i carries q_i = mu (f_i - f_i(u*_i)) and moves by (mu/m)(u_i -
+// u*_i) against its surroundings (Mindlin), which all q_j move by q_j/(m pi E* d_ij): the sum is
+// the slide xi of the sphere; a spot that would need u*_i < 0 slips as a whole. One scalar equation
+// a spot, by bisection, spot after spot until nothing changes.
 std::vector<Real> slip_problem(const Asperities& a, const Level& level, Real xi) {
     const std::size_t n = level.asperity.size();
     const Real mu = kFriction.coefficient, m = kFriction.ratio, pi = std::numbers::pi_v<Real>;
@@ -38,7 +40,9 @@ std::vector<Real> slip_problem(const Asperities& a, const Level& level, Real xi)
             Real moved = 0;
             for (std::size_t j = 0; j < n; ++j) {
                 const auto to = static_cast<std::size_t>(level.asperity[j]);
-                if (j != i) moved += q[j] / (m * pi * kE * std::hypot(Real(a.x[at]) - a.x[to], Real(a.y[at]) - a.y[to]));
+                if (j != i)
+                    moved += q[j] / (m * pi * kE *
+                                     std::hypot(Real(a.x[at]) - a.x[to], Real(a.y[at]) - a.y[to]));
             }
             const Real rest = std::clamp<Real>(level.u[i] - m / mu * (xi - moved), 0, level.u[i]);
             const Real c = 4 / Real(3) * kE * std::sqrt(Real(a.radius[at]));
@@ -69,31 +73,39 @@ TEST(spots_against_slip_problem) {
             CHECK(spots.size() == q.size());
             for (std::size_t i = 0; i < q.size(); ++i) {
                 Q += q[i];
-                CHECK_CLOSE(spots[i].force.y, static_cast<double>(q[i]), 1e-8 * kFriction.coefficient * level.force);
+                CHECK_CLOSE(spots[i].force.y, static_cast<double>(q[i]),
+                            1e-8 * kFriction.coefficient * level.force);
                 CHECK(spots[i].force.x == 0 && spots[i].stick_radius < spots[i].radius);
                 CHECK(spots[i].asperity == level.asperity[i]);
                 CHECK_RELATIVE(spots[i].radius, level.a[i], 1e-10);
                 // c = a (1 - q/(mu f))^(1/3), Mindlin's stick radius of a spot of its own.
-                const double left = 1 - static_cast<double>(q[i]) / (kFriction.coefficient * level.f[i]);
-                CHECK_CLOSE(spots[i].stick_radius, level.a[i] * std::cbrt(std::max(0.0, left)), 1e-5 * level.a[i]);
+                const double left =
+                    1 - static_cast<double>(q[i]) / (kFriction.coefficient * level.f[i]);
+                CHECK_CLOSE(spots[i].stick_radius, level.a[i] * std::cbrt(std::max(0.0, left)),
+                            1e-5 * level.a[i]);
             }
-            CHECK_CLOSE(path.tangential_force().y, static_cast<double>(Q), 1e-8 * kFriction.coefficient * level.force);
+            CHECK_CLOSE(path.tangential_force().y, static_cast<double>(Q),
+                        1e-8 * kFriction.coefficient * level.force);
             const auto points = slide_to(slid.curve, kFriction, delta, {part * full});
-            CHECK_CLOSE(points[0].force, static_cast<double>(Q), 1e-8 * kFriction.coefficient * level.force);
+            CHECK_CLOSE(points[0].force, static_cast<double>(Q),
+                        1e-8 * kFriction.coefficient * level.force);
         }
     }
 }
 
-// Constriction (Holm; Greenwood 1966): a spot of radius a at unit potential passes the current 4 a/(rho_1 + rho_2) and raises the
-// potential at the distance d by I (rho_1 + rho_2)/(2 pi d). Solved for all spots by elimination; rho_1 + rho_2 = 1.
+// Constriction (Holm; Greenwood 1966): a spot of radius a at unit potential passes the current 4
+// a/(rho_1 + rho_2) and raises the potential at the distance d by I (rho_1 + rho_2)/(2 pi d).
+// Solved for all spots by elimination; rho_1 + rho_2 = 1.
 double conductance_of_spots(const Asperities& a, const Level& level) {
     const std::size_t n = level.asperity.size();
     std::vector<Real> A(n * n);
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j) {
-            const auto p = static_cast<std::size_t>(level.asperity[i]), q = static_cast<std::size_t>(level.asperity[j]);
+            const auto p = static_cast<std::size_t>(level.asperity[i]),
+                       q = static_cast<std::size_t>(level.asperity[j]);
             const Real d = std::hypot(Real(a.x[p]) - a.x[q], Real(a.y[p]) - a.y[q]);
-            A[i * n + j] = i == j ? 1 / (4 * Real(level.a[i])) : 1 / (2 * std::numbers::pi_v<Real> * d);
+            A[i * n + j] =
+                i == j ? 1 / (4 * Real(level.a[i])) : 1 / (2 * std::numbers::pi_v<Real> * d);
         }
     Real sum = 0;
     for (const Real current : solved(A, std::vector<Real>(n, 1))) sum += current;
@@ -113,8 +125,9 @@ TEST(conductance) {
         CHECK(level.asperity.size() > 5);
         CHECK_RELATIVE(-2 * contact.stiffness() / kE, conductance_of_spots(a, level), 1e-10);
     }
-    // With adhesion the separation changes the areas, too, and dN/dZ0 is not the conductance: down, and up again to where contacts are
-    // stretched. The spots are those of the levels, to the error of products in single precision.
+    // With adhesion the separation changes the areas, too, and dN/dZ0 is not the conductance: down,
+    // and up again to where contacts are stretched. The spots are those of the levels, to the error
+    // of products in single precision.
     for (const double range : {0.0, 2e-3}) {
         SolverOptions options = tight();
         options.tolerance = 1e-9;
@@ -123,7 +136,8 @@ TEST(conductance) {
         for (double Z0 : {0.012, 0.006, 0.003, 0.008, 0.011}) {
             const Level level = sticking->at_separation(Z0);
             CHECK(level.asperity.size() > 1);
-            CHECK_RELATIVE(conductance_length(*sticking, sticking->stiffness()), conductance_of_spots(a, level), 1e-6);
+            CHECK_RELATIVE(conductance_length(*sticking, sticking->stiffness()),
+                           conductance_of_spots(a, level), 1e-6);
         }
     }
 }

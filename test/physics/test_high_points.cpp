@@ -1,6 +1,7 @@
-// Heights that elements do not read are not kept (run/prepare.hpp, make_element_surface): levels are the same, bit for bit.
+// Heights that elements do not read are not kept (run/prepare.hpp, make_element_surface): levels
+// are the same, bit for bit.
 #include "check.hpp"
-#include "contact/indenter/shapes.hpp"
+#include "physics/indenter/shapes.hpp"
 #include "run/job.hpp"
 
 using namespace rsc;
@@ -29,10 +30,13 @@ TEST(test_levels) {
             const Realization some = realize(prepare(c), 1, threads);
             for (std::size_t k = 0; k < kept.levels.size(); ++k) {
                 const Level &a = some.levels[k], &b = kept.levels[k];
-                CHECK(a.contacts > 0 && a.force == b.force && a.area == b.area && a.energy == b.energy && a.pixels.index == b.pixels.index);
-                CHECK(a.force_error_expected == b.force_error_expected && a.status == b.status && a.stiffness == b.stiffness);
+                CHECK(a.contacts > 0 && a.force == b.force && a.area == b.area &&
+                      a.energy == b.energy && a.pixels.index == b.pixels.index);
+                CHECK(a.force_error_expected == b.force_error_expected && a.status == b.status &&
+                      a.stiffness == b.stiffness);
             }
-            CHECK(some.statistics.m2_grid == kept.statistics.m2_grid && some.statistics.m4_grid == kept.statistics.m4_grid);
+            CHECK(some.statistics.m2_grid == kept.statistics.m2_grid &&
+                  some.statistics.m4_grid == kept.statistics.m4_grid);
         }
     }
 }
@@ -44,21 +48,25 @@ TEST(test_heights) {
     const Moments grid = grid_moments(all), sums = *make_element_surface(c, 1, 1).differences;
     CHECK_RELATIVE(sums.m2, grid.m2, 1e-12);
     CHECK_RELATIVE(sums.m4, grid.m4, 1e-12);
-    for (const double level : {0.5, 2.0, 100.0}) {  // the last above all points, of which the highest is kept
+    for (const double level :
+         {0.5, 2.0, 100.0}) {  // the last above all points, of which the highest is kept
         const std::vector<double> levels = {level * job.sigma};
         const HeightMap some = make_element_surface(c, 1, 2, &job.indenter, levels).map;
         double top = -1, top_all = -1;
         long missing = 0;
         for (int j = 0; j < all.ny; ++j)
             for (int i = 0; i < all.nx; ++i) {
-                const auto clearance = [&](const HeightMap& map) { return job.indenter.clearance(i * map.dx, j * map.dy, map(i, j)); };
+                const auto clearance = [&](const HeightMap& map) {
+                    return job.indenter.clearance(i * map.dx, j * map.dy, map(i, j));
+                };
                 CHECK(some(i, j) == all(i, j) || (some(i, j) == 0 && clearance(all) <= levels[0]));
                 missing += some(i, j) != all(i, j);
                 top = std::max(top, clearance(some)), top_all = std::max(top_all, clearance(all));
             }
         CHECK(top == top_all && missing > all.nx * all.ny / 2);
     }
-    // A cone over a valley touches below the mean plane, where heights of 0 would be too high: all are kept.
+    // A cone over a valley touches below the mean plane, where heights of 0 would be too high: all
+    // are kept.
     int i = 0, j = 0;
     for (int k = 0; k < all.nx * all.ny; ++k)
         if (all(k % all.nx, k / all.nx) < all(i, j)) i = k % all.nx, j = k / all.nx;
@@ -68,7 +76,8 @@ TEST(test_heights) {
     const Indenter cone{1.0, shape_of(sharp), i * all.dx, j * all.dy};
     const std::vector<double> levels = {job.sigma};
     const HeightMap some = make_element_surface(c, 1, 2, &cone, levels).map;
-    for (int k = 0; k < all.nx * all.ny; ++k) CHECK(some(k % all.nx, k / all.nx) == all(k % all.nx, k / all.nx));
+    for (int k = 0; k < all.nx * all.ny; ++k)
+        CHECK(some(k % all.nx, k / all.nx) == all(k % all.nx, k / all.nx));
 }
 
 }  // namespace

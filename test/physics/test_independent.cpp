@@ -1,6 +1,6 @@
 // Hundreds of random systems against the independent slow solver (independent.hpp).
+#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
-#include "contact/asperity_contact.hpp"
 #include "physics/independent.hpp"
 #include "physics/random_asperities.hpp"
 
@@ -10,8 +10,9 @@ namespace {
 
 constexpr double kE = 94.0e3;
 constexpr double kFlat = std::numeric_limits<double>::infinity();
-// Of the total load, a force or the load itself: the solver is asked for residuals of 1e-13, and errors are larger than residuals
-// by the condition of I + S B S, below 100 where the solution is unique by the solver's own proof.
+// Of the total load, a force or the load itself: the solver is asked for residuals of 1e-13, and
+// errors are larger than residuals by the condition of I + S B S, below 100 where the solution is
+// unique by the solver's own proof.
 constexpr double kTolerance = 1e-10;
 
 SolverOptions options(Method method, LawKind law = LawKind::hertz) {
@@ -20,8 +21,9 @@ SolverOptions options(Method method, LawKind law = LawKind::hertz) {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-// Principal curvatures and biharmonics for asperities that have only radii: ratios up to 10; flatter summits than paraboloids,
-// mostly, as those of rough surfaces are, within the range of the law down to `deepest`.
+// Principal curvatures and biharmonics for asperities that have only radii: ratios up to 10;
+// flatter summits than paraboloids, mostly, as those of rough surfaces are, within the range of the
+// law down to `deepest`.
 void shape(Asperities& a, LawKind law, double deepest, unsigned seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -30,9 +32,11 @@ void shape(Asperities& a, LawKind law, double deepest, unsigned seed) {
         a.kappa1.push_back(kappa * root);
         a.kappa2.push_back(kappa / root);
         a.angle.push_back(0);
-        const double last = 4 * kappa / deepest;  // q^2 of the profile whose range ends at `deepest`
+        const double last =
+            4 * kappa / deepest;  // q^2 of the profile whose range ends at `deepest`
         const double q2 = last * (uniform(random) * 1.2 - 0.3);
-        a.biharmonic.push_back(law == LawKind::fourth_order ? q2 * (a.kappa1[i] + a.kappa2[i]) : 0.0);
+        a.biharmonic.push_back(law == LawKind::fourth_order ? q2 * (a.kappa1[i] + a.kappa2[i])
+                                                            : 0.0);
     }
 }
 
@@ -77,31 +81,41 @@ TEST(against_slow_solver) {
         int unique = 0;
         for (int k = 0; k < family.systems; ++k) {
             const unsigned seed = 1000u + static_cast<unsigned>(k);
-            Asperities a = random_asperities(1 + (k * family.n) / family.systems, family.spacing, 0.01, family.radius, family.spread, seed);
+            Asperities a = random_asperities(1 + (k * family.n) / family.systems, family.spacing,
+                                             0.01, family.radius, family.spread, seed);
             if (family.law != LawKind::hertz) shape(a, family.law, 0.06, seed);
-            const double Z0 = 0.01 - 0.02 * (k % 5);  // down to where every summit under the sphere is pressed
-            const auto reference = independent::press(summits_of(a, family.law), family.R, 0.5, 0.5, Z0, 1e-15L);
+            const double Z0 =
+                0.01 - 0.02 * (k % 5);  // down to where every summit under the sphere is pressed
+            const auto reference =
+                independent::press(summits_of(a, family.law), family.R, 0.5, 0.5, Z0, 1e-15L);
             CHECK(reference.converged);
             const bool all_methods = k % 10 == 0;
             for (Method method : {Method::direct, Method::dgesv, Method::mesh, Method::automatic}) {
                 if (method != Method::direct && !all_methods) continue;
-                const Level level = AsperityContact(a, {kE, family.R, 0.5, 0.5}, options(method, family.law)).at_separation(Z0);
+                const Level level =
+                    AsperityContact(a, {kE, family.R, 0.5, 0.5}, options(method, family.law))
+                        .at_separation(Z0);
                 CHECK(level.status != LevelStatus::not_converged);
-                if (level.status >= LevelStatus::not_unique) continue;  // the two may find two minima
+                if (level.status >= LevelStatus::not_unique)
+                    continue;  // the two may find two minima
                 unique += method == Method::direct;
-                const double N = static_cast<double>(reference.force) * kE, A = static_cast<double>(reference.area);
+                const double N = static_cast<double>(reference.force) * kE,
+                             A = static_cast<double>(reference.area);
                 CHECK_CLOSE(level.force, N, kTolerance * N);
                 CHECK_CLOSE(level.area, A, kTolerance * A);
                 std::vector<double> F(a.size(), 0.0);
-                for (std::size_t c = 0; c < level.f.size(); ++c) F[at(level.asperity[c])] = level.f[c];
+                for (std::size_t c = 0; c < level.f.size(); ++c)
+                    F[at(level.asperity[c])] = level.f[c];
                 double difference = 0;
                 for (std::size_t i = 0; i < a.size(); ++i) {
-                    difference = check::worse(difference, std::abs(F[i] - static_cast<double>(reference.load[i]) * kE));
+                    difference = check::worse(
+                        difference, std::abs(F[i] - static_cast<double>(reference.load[i]) * kE));
                 }
                 CHECK(difference <= kTolerance * N);
             }
         }
-        // The comparison is worth something only where most systems have one solution, and many contacts.
+        // The comparison is worth something only where most systems have one solution, and many
+        // contacts.
         CHECK(unique >= 9 * family.systems / 10);
         systems += unique;
     }

@@ -1,13 +1,14 @@
-// Points of a measured map that asperities do not represent: those of its border, and spikes one point wide.
+// Points of a measured map that asperities do not represent: those of its border, and spikes one
+// point wide.
 #include "check.hpp"
 #include "height_maps.hpp"
 
-#include "contact/asperity_contact.hpp"
-#include "contact/element_contact.hpp"
-#include "contact/expected_error.hpp"
-#include "rough/defects.hpp"
-#include "rough/detection.hpp"
+#include "asperities/asperity_contact.hpp"
+#include "elements/element_contact.hpp"
 #include "run/prepare.hpp"
+#include "surface/defects.hpp"
+#include "surface/detection.hpp"
+#include "trust/expected_error.hpp"
 
 using namespace rsc;
 
@@ -18,8 +19,11 @@ const Indenter kTip{1e5, std::numeric_limits<double>::infinity(), 0.5, 0.5};
 
 HeightMap hills(double at_border, double spike, double x_of_it = 20, double y_of_it = -2) {
     HeightMap map = height_map(kPoints, kPoints, 1.0 / kPoints, 1.0 / kPoints, [=](int i, int j) {
-        const auto hill = [&](double x, double y) { return std::exp(-(std::pow(i - x, 2) + std::pow(j - y, 2)) / 50); };
-        return 1e-3 * (hill(30, 34) + at_border * hill(x_of_it, y_of_it) + 1e-2 * std::sin(0.5 * i) * std::sin(0.4 * j));
+        const auto hill = [&](double x, double y) {
+            return std::exp(-(std::pow(i - x, 2) + std::pow(j - y, 2)) / 50);
+        };
+        return 1e-3 * (hill(30, 34) + at_border * hill(x_of_it, y_of_it) +
+                       1e-2 * std::sin(0.5 * i) * std::sin(0.4 * j));
     });
     map.row(50)[50] += spike;
     return map;
@@ -28,7 +32,8 @@ HeightMap hills(double at_border, double spike, double x_of_it = 20, double y_of
 Level press(const HeightMap& map, double separation) {
     const Breaks breaks = find_breaks(map, 0);
     SummitCount count;
-    const Asperities a = find_asperities(map, Curvature::geometric, &count, 1, Detail::subgrid, 0, nullptr, &breaks);
+    const Asperities a =
+        find_asperities(map, Curvature::geometric, &count, 1, Detail::subgrid, 0, nullptr, &breaks);
     SolverOptions options{.law = LawKind::fourth_order,
                           .sigma = 2e-4,
                           .mean_spacing = 0.1,
@@ -41,13 +46,16 @@ Level press(const HeightMap& map, double separation) {
 
 TEST(border) {
     CHECK(press(hills(0, 0), 5e-4).edge_contacts == 0);
-    const Level cut = press(hills(1.5, 0), 5e-4);  // the hill behind the border stands higher than the one inside
+    const Level cut =
+        press(hills(1.5, 0), 5e-4);  // the hill behind the border stands higher than the one inside
     CHECK(cut.edge_contacts == 1 && cut.status == LevelStatus::out_of_validity);
-    for (const auto& [x, y] : {std::pair{20, 65}, {-2, 20}, {65, 20}}) CHECK(press(hills(1.5, 0, x, y), 5e-4).edge_contacts == 1);
+    for (const auto& [x, y] : {std::pair{20, 65}, {-2, 20}, {65, 20}})
+        CHECK(press(hills(1.5, 0, x, y), 5e-4).edge_contacts == 1);
     // The expected error contains what elements carry there.
     for (const double at_border : {1.1, 1.5, 4.0}) {
         const HeightMap map = hills(at_border, 0);
-        const Level told = press(map, 5e-4), truth = make_element_contact(map, kTip, {.sigma = 2e-4})->at_separation(5e-4);
+        const Level told = press(map, 5e-4),
+                    truth = make_element_contact(map, kTip, {.sigma = 2e-4})->at_separation(5e-4);
         CHECK(std::abs(truth.force / told.force - 1) > 0.1);
         CHECK(std::abs(truth.force - told.force) < told.force_error_expected * told.force);
         CHECK(told.error_cause == kBorderCause);

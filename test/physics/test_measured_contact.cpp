@@ -1,13 +1,13 @@
 // Measured maps: the namelist of their twins, and no contact near points that were filled.
+#include "base/error.hpp"
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
 #include "check.hpp"
-#include "error.hpp"
-#include "read/inputs.hpp"
-#include "rough/defects.hpp"
-#include "rough/synthesis.hpp"
+#include "io/inputs.hpp"
 #include "run/job.hpp"
 #include "run/run.hpp"
+#include "surface/defects.hpp"
+#include "surface/synthesis.hpp"
 #include "unit/map_files.hpp"
 #include "unit/temporary_folder.hpp"
 
@@ -17,63 +17,85 @@ namespace {
 
 const Folder folder;
 
-// The namelist of a map's twins: their square is as long as the map's longer side, the tip lies as it did from the middle.
+// The namelist of a map's twins: their square is as long as the map's longer side, the tip lies as
+// it did from the middle.
 TEST(twins_of_an_oblong_map) {
     const Spectrum s{.L = 1, .L_lambda_l = 8, .L_lambda_s = 32, .sigma = 0.005};
     const HeightMap surface = synthesize(s, 128, Normalise::sample, 4, 1);
     map_files::Map map{128, 64, 1e-3 / 128, 1e-3 / 128, {}};
     for (int j = 63; j >= 0; --j)
         for (int i = 0; i < 128; ++i) map.z.push_back(1e-3 * surface(i, j));
-    const std::string file = folder.write("oblong.gwy", map_files::gwy_file(map_files::gwy_channel(0, "T", map)));
+    const std::string file =
+        folder.write("oblong.gwy", map_files::gwy_file(map_files::gwy_channel(0, "T", map)));
     Case settings;
     set_key(settings, "surface%source", "'heights'");
     set_key(settings, "surface%file", "'" + file + "'");
     set_key(settings, "indentation%centre", "0.3, 0.1");
     const Job job = prepare(settings);
     const Case twins = read_case_text(twins_text(job, "oblong.nc"), "twins.nml").settings;
-    CHECK(twins.surface.source == Source::spectrum && twins.surface.file == "oblong.nc" && twins.output.file == "oblong_twins.nc");
+    CHECK(twins.surface.source == Source::spectrum && twins.surface.file == "oblong.nc" &&
+          twins.output.file == "oblong_twins.nc");
     CHECK_RELATIVE(*twins.surface.L, 1.0, 1e-12);
     CHECK_RELATIVE(*twins.surface.sigma, job.measured->parameters.sq, 1e-12);
     CHECK_RELATIVE(*twins.indentation.centre[0], 0.3, 1e-12);
     CHECK_RELATIVE(*twins.indentation.centre[1], 0.1 + 0.25, 1e-12);
     // Rings end at the Nyquist wavenumber, pi/dx: two points more than the longer side has.
     CHECK(twins.surface.n == 130 && twins.run.realizations == 100);
-    // A sigma that was given is a length that the levels are in; the twins' own is their rms height.
+    // A sigma that was given is a length that the levels are in; the twins' own is their rms
+    // height.
     set_key(settings, "surface%sigma", "0.02");
     set_key(settings, "indentation%levels", "3, 1.5");
-    const Case scaled = read_case_text(twins_text(prepare(settings), "oblong.nc"), "twins.nml").settings;
-    CHECK(scaled.indentation.unit == LevelUnit::length && (scaled.indentation.levels == std::vector<double>{3 * 0.02, 1.5 * 0.02}));
-    CHECK(scaled.indentation.start == 4 * 0.02 && scaled.indentation.stop == 0.02 && *scaled.surface.sigma == *twins.surface.sigma);
-    CHECK(twins.indentation.unit == LevelUnit::sigma && twins.indentation.start == 4 && twins.indentation.stop == 1);
+    const Case scaled =
+        read_case_text(twins_text(prepare(settings), "oblong.nc"), "twins.nml").settings;
+    CHECK(scaled.indentation.unit == LevelUnit::length &&
+          (scaled.indentation.levels == std::vector<double>{3 * 0.02, 1.5 * 0.02}));
+    CHECK(scaled.indentation.start == 4 * 0.02 && scaled.indentation.stop == 0.02 &&
+          *scaled.surface.sigma == *twins.surface.sigma);
+    CHECK(twins.indentation.unit == LevelUnit::sigma && twins.indentation.start == 4 &&
+          twins.indentation.stop == 1);
     // Between flats forces are pressures of the map, on the twins' larger area, too.
-    for (const char* key : {"solids%R=Infinity,Infinity", "indentation%boundary='periodic'", "indentation%control='force'"})
+    for (const char* key : {"solids%R=Infinity,Infinity", "indentation%boundary='periodic'",
+                            "indentation%control='force'"})
         set_key(settings, std::string(key, std::strchr(key, '=')), std::strchr(key, '=') + 1);
-    const Case flat = read_case_text(twins_text(prepare(settings), "oblong.nc"), "twins.nml").settings;
-    CHECK(flat.indentation.control == Control::pressure && flat.indentation.unit == LevelUnit::pressure);
+    const Case flat =
+        read_case_text(twins_text(prepare(settings), "oblong.nc"), "twins.nml").settings;
+    CHECK(flat.indentation.control == Control::pressure &&
+          flat.indentation.unit == LevelUnit::pressure);
     CHECK_RELATIVE(flat.indentation.levels.at(0), 3 / (1.0 * 0.5), 1e-12);
 }
 
 // A surface of 256 x 256 points as a map, whose point (i, j) `change` may alter.
 Case map_case(double L_lambda_s, const std::function<void(int, int, double&)>& change) {
-    const HeightMap surface = synthesize({.L = 1, .L_lambda_l = 4, .L_lambda_s = L_lambda_s, .sigma = 0.005}, 256, Normalise::sample, 4, 1);
+    const HeightMap surface =
+        synthesize({.L = 1, .L_lambda_l = 4, .L_lambda_s = L_lambda_s, .sigma = 0.005}, 256,
+                   Normalise::sample, 4, 1);
     map_files::Map map{256, 256, 1e-3 / 256, 1e-3 / 256, {}};
     for (int j = 255; j >= 0; --j)
         for (int i = 0; i < 256; ++i) change(i, j, map.z.emplace_back(1e-3 * surface(i, j)));
     Case settings;
     set_key(settings, "surface%source", "'heights'");
-    set_key(settings, "surface%file", "'" + folder.write("map.gwy", map_files::gwy_file(map_files::gwy_channel(0, "T", map))) + "'");
+    set_key(settings, "surface%file",
+            "'" +
+                folder.write("map.gwy", map_files::gwy_file(map_files::gwy_channel(0, "T", map))) +
+                "'");
     set_key(settings, "solver%model", "'asperities'");
     set_key(settings, "asperities%law", "'fourth_order'");
     set_key(settings, "indentation%levels", "1, 0, -1");
     return settings;
 }
 
-// Levels at which the heights would reach a ball over a hole of the map are out of validity, and the hole hides no summit outside it.
-// One per cent of single missing points changes the force by no more than the filling changes heights: 1 %.
+// Levels at which the heights would reach a ball over a hole of the map are out of validity, and
+// the hole hides no summit outside it.
+// One per cent of single missing points changes the force by no more than the filling changes
+// heights: 1 %.
 TEST(holes) {
     constexpr double middle = 128, radius = 20;
-    const auto hole = [](int i, int j, double& z) { z = std::hypot(i - middle, j - middle) < radius ? std::nan("") : z; };
-    const auto scattered = [](int i, int j, double& z) { z = (37 * i + 101 * j) % 100 == 0 ? std::nan("") : z; };
+    const auto hole = [](int i, int j, double& z) {
+        z = std::hypot(i - middle, j - middle) < radius ? std::nan("") : z;
+    };
+    const auto scattered = [](int i, int j, double& z) {
+        z = (37 * i + 101 * j) % 100 == 0 ? std::nan("") : z;
+    };
     Case whole = map_case(24, [](int, int, double&) {});
     const Job full = prepare(whole);
     const std::vector<Level> levels = realize(full, 1, 1).levels;
@@ -84,7 +106,8 @@ TEST(holes) {
     CHECK(job.measured->missing > 1200 && job.measured->missing < 1300);
     const auto outside = [&](const Asperities& a) {
         long count = 0;
-        for (std::size_t k = 0; k < a.size(); ++k) count += std::hypot(a.x[k] - 0.5, a.y[k] - 0.5) > (radius + 5) / 256;
+        for (std::size_t k = 0; k < a.size(); ++k)
+            count += std::hypot(a.x[k] - 0.5, a.y[k] - 0.5) > (radius + 5) / 256;
         return count;
     };
     CHECK(outside(job.given->asperities) == outside(full.given->asperities));
@@ -93,7 +116,8 @@ TEST(holes) {
             CHECK(level.filled_share > 0.01 && level.status == LevelStatus::out_of_validity);
     };
     judged(job, 1);
-    for (const char* name : {"hole_1.gwy", "hole_2.gwy"}) std::filesystem::copy_file(folder / "map.gwy", folder / name);
+    for (const char* name : {"hole_1.gwy", "hole_2.gwy"})
+        std::filesystem::copy_file(folder / "map.gwy", folder / name);
     for (const char* model : {"'asperities'", "'elements'"}) {  // one of several maps
         Case several = holed;
         set_key(several, "surface%file", "'" + folder / "hole_*.gwy" + "'");
@@ -110,15 +134,19 @@ TEST(holes) {
     }
 }
 
-// Of a smooth map, 32 points in its shortest wave, level or tilted, on a dome, or rounded to a fifth of the rms height, no point is an
-// outlier; of one with ten spikes these ten.
+// Of a smooth map, 32 points in its shortest wave, level or tilted, on a dome, or rounded to a
+// fifth of the rms height, no point is an outlier; of one with ten spikes these ten.
 TEST(outliers) {
     const std::function<double(int, int, double)> forms[] = {
-        [](int, int, double z) { return z; }, [](int i, int j, double z) { return z + 2e-6 * i - 1e-6 * j; },
-        [](int i, int j, double z) { return z - 2e-9 * (i * i + j * j); }, [](int, int, double z) { return 1e-6 * std::round(1e6 * z); }};
+        [](int, int, double z) { return z; },
+        [](int i, int j, double z) { return z + 2e-6 * i - 1e-6 * j; },
+        [](int i, int j, double z) { return z - 2e-9 * (i * i + j * j); },
+        [](int, int, double z) { return 1e-6 * std::round(1e6 * z); }};
     for (const auto& form : forms)
         for (const bool spikes : {false, true}) {
-            Case c = map_case(8, [&](int i, int j, double& z) { z = form(i, j, z) + (spikes && i % 50 == 7 && j % 100 == 60 ? 2e-5 : 0); });
+            Case c = map_case(8, [&](int i, int j, double& z) {
+                z = form(i, j, z) + (spikes && i % 50 == 7 && j % 100 == 60 ? 2e-5 : 0);
+            });
             set_key(c, "surface%outliers", "6");
             CHECK(prepare(c).measured->outliers.count == (spikes ? 10 : 0));
         }

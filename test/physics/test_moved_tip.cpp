@@ -1,19 +1,22 @@
-// A tip that moves: each level starts from those of the last places, and must be the one of a contact without a past.
+// A tip that moves: each level starts from those of the last places, and must be the one of a
+// contact without a past.
+#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
-#include "contact/asperity_contact.hpp"
 #include "physics/random_asperities.hpp"
 
 using namespace rsc;
 
 namespace {
 
-// Under a large ball, a flat, and a small ball that leaves most asperities outside, to which a high one comes up on the way; deep and shallow.
+// Under a large ball, a flat, and a small ball that leaves most asperities outside, to which a high
+// one comes up on the way; deep and shallow.
 TEST(test_way) {
     Asperities asperities = random_asperities(800, 0.01, 0.01, 0.05, 0.3, 7);
     const SolverOptions options;
     // Straight on with equal and other steps, aside, back, far away, and without a move.
-    const double way[][2] = {{0.5, 0.5},     {0.5001, 0.5001}, {0.5002, 0.5002}, {0.5003, 0.5003}, {0.5005, 0.5005}, {0.5005, 0.502},
-                             {0.503, 0.502}, {0.501, 0.502},   {0.7, 0.3},       {0.7, 0.3},       {0.71, 0.3},      {0.72, 0.3}};
+    const double way[][2] = {{0.5, 0.5},       {0.5001, 0.5001}, {0.5002, 0.5002}, {0.5003, 0.5003},
+                             {0.5005, 0.5005}, {0.5005, 0.502},  {0.503, 0.502},   {0.501, 0.502},
+                             {0.7, 0.3},       {0.7, 0.3},       {0.71, 0.3},      {0.72, 0.3}};
     for (const double R : {2.0, std::numeric_limits<double>::infinity(), 0.3}) {
         if (R < 1) asperities.x[17] = asperities.y[17] = 0.49, asperities.z[17] = 0.05;
         const Indenter tip{1, R, 0.5, 0.5};
@@ -28,7 +31,8 @@ TEST(test_way) {
                     const auto fresh = make_asperity_contact(asperities, there, options);
                     const Level a = forces ? moving->at_force(value) : moving->at_separation(value);
                     const Level b = forces ? fresh->at_force(value) : fresh->at_separation(value);
-                    CHECK(a.status == b.status && a.contacts > 0 && a.candidates == b.candidates && a.asperity == b.asperity);
+                    CHECK(a.status == b.status && a.contacts > 0 && a.candidates == b.candidates &&
+                          a.asperity == b.asperity);
                     CHECK(moving->first_touch() == fresh->first_touch());
                     CHECK_RELATIVE(a.force, b.force, 10 * options.tolerance);
                     CHECK_RELATIVE(a.area, b.area, 10 * options.tolerance);
@@ -47,13 +51,15 @@ TEST(test_products) {
         const double force = contact->at_separation(-0.02).force;
         std::int64_t products = 0;
         for (int k = 1; k < 40; ++k) {
-            contact->move_tip(0.5 + 1e-4 * (straight ? k : k % 4 / 2), 0.5 + 1e-4 * (straight ? 0 : (k + 1) % 4 / 2));
+            contact->move_tip(0.5 + 1e-4 * (straight ? k : k % 4 / 2),
+                              0.5 + 1e-4 * (straight ? 0 : (k + 1) % 4 / 2));
             products += contact->at_force(force).products;
         }
         return products;
     };
     CHECK(2 * count(true) < count(false));
-    // In small steps nearly every level is the extrapolated one, whose residual takes one product; its force is that of the last one, too.
+    // In small steps nearly every level is the extrapolated one, whose residual takes one product;
+    // its force is that of the last one, too.
     for (const bool force : {false, true}) {
         const auto contact = make_asperity_contact(asperities, {1, 2, 0.5, 0.5}, {});
         const double N = contact->at_separation(-0.02).force;
@@ -89,12 +95,14 @@ TEST(not_unique) {
     CHECK(moved(true).products < 2 * moved(false).products);
 }
 
-// Of two summits so close that either keeps the other out of contact, a new contact finds the one nearer to the tip. A tip that passes over them in
-// small steps follows that, cheaply, and is at the other one before penetrations have changed by some per cent.
+// Of two summits so close that either keeps the other out of contact, a new contact finds the one
+// nearer to the tip. A tip that passes over them in small steps follows that, cheaply, and is at
+// the other one before penetrations have changed by some per cent.
 TEST(one_of_two) {
     constexpr double between = 0.001, Z0 = -1e-4, step = 1e-4, late = 3e-3;
     Asperities pair;
-    pair.x = {0.5 - 0.5 * between, 0.5 + 0.5 * between}, pair.y = {0.5, 0.5}, pair.z = {0, 0}, pair.radius = {1, 1};
+    pair.x = {0.5 - 0.5 * between, 0.5 + 0.5 * between}, pair.y = {0.5, 0.5}, pair.z = {0, 0},
+    pair.radius = {1, 1};
     const auto at = [&](Contact& contact, double x, bool force, double value) {
         contact.move_tip(x, 0.5);
         return force ? contact.at_force(value) : contact.at_separation(value);
@@ -111,7 +119,8 @@ TEST(one_of_two) {
             cheap += level.products < 5;
             if (std::abs(x - 0.5) < late) continue;
             CHECK(level.asperity == alone.asperity && level.status == alone.status);
-            CHECK_RELATIVE(force ? level.separation : level.force, force ? alone.separation : alone.force, 1e-5);
+            CHECK_RELATIVE(force ? level.separation : level.force,
+                           force ? alone.separation : alone.force, 1e-5);
         }
         CHECK(2 * cheap > steps);
     }

@@ -1,7 +1,7 @@
-// Two flats that repeat: asperities and their images against scalar equations, a large period against none, methods against each other,
-// conservation and symmetry.
+// Two flats that repeat: asperities and their images against scalar equations, a large period
+// against none, methods against each other, conservation and symmetry.
+#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
-#include "contact/asperity_contact.hpp"
 #include "physics/random_asperities.hpp"
 
 using namespace rsc;
@@ -28,33 +28,39 @@ double pressed(double lowering, double depth, double radius) {
     double low = 0, high = depth * 10;
     for (int k = 0; k < 200; ++k) {
         const double u = 0.5 * (low + high);
-        (u + lowering * 4.0 / 3 * kE * std::sqrt(radius) * u * std::sqrt(u) > depth ? high : low) = u;
+        (u + lowering * 4.0 / 3 * kE * std::sqrt(radius) * u * std::sqrt(u) > depth ? high : low) =
+            u;
     }
     return low;
 }
 
-// One asperity and its images, and two half a period apart (a lattice turned by 45 degrees): Z0 is the true one, of the mean planes.
+// One asperity and its images, and two half a period apart (a lattice turned by 45 degrees): Z0 is
+// the true one, of the mean planes.
 TEST(asperities_and_images) {
     constexpr double kScalar = 1e-12;
     const double radius = 2e-3, L = 0.8;
     for (double Z0 : {0.0099, 0.005, -0.02}) {
         const double depth = 0.01 - Z0;
         const Asperities one{{0.1}, {0.2}, {0.01}, {radius}, {}, {}, {}, {}};
-        const Asperities two{{0.1, 0.5}, {0.2, 0.6}, {0.01, 0.01}, {radius, radius}, {}, {}, {}, {}};
+        const Asperities two{{0.1, 0.5}, {0.2, 0.6}, {0.01, 0.01}, {radius, radius},
+                             {},         {},         {},           {}};
         for (Method method : {Method::direct, Method::dgesv}) {
             AsperityContact single(one, flats(L), options(method, 1e-14));
             const double u = pressed(kSelf / (pi * kE * L), depth, radius);
             const Level level = single.at_separation(Z0);
-            CHECK_RELATIVE(level.force, 4.0 / 3 * kE * std::sqrt(radius) * u * std::sqrt(u), kScalar);
+            CHECK_RELATIVE(level.force, 4.0 / 3 * kE * std::sqrt(radius) * u * std::sqrt(u),
+                           kScalar);
             CHECK_RELATIVE(level.u[0], u, kScalar);
             AsperityContact both(two, flats(L), options(method, 1e-14));
             const double v = pressed(kSelf * std::sqrt(2.0) / (pi * kE * L), depth, radius);
-            CHECK_RELATIVE(both.at_separation(Z0).force, 2 * 4.0 / 3 * kE * std::sqrt(radius) * v * std::sqrt(v), kScalar);
+            CHECK_RELATIVE(both.at_separation(Z0).force,
+                           2 * 4.0 / 3 * kE * std::sqrt(radius) * v * std::sqrt(v), kScalar);
         }
     }
 }
 
-// Force control is the inverse of separation control; stiffness and force are the derivatives of force and energy.
+// Force control is the inverse of separation control; stiffness and force are the derivatives of
+// force and energy.
 TEST(controls_and_derivatives) {
     constexpr double kInverse = 1e-9, kDifference = 1e-6;
     const Asperities a = on_square(400, 31);
@@ -77,7 +83,8 @@ TEST(controls_and_derivatives) {
         CHECK_RELATIVE((W_down - W_up) / (2 * h), level.force, kDifference);
     }
     const Level touch = contact.at_separation(1.0);
-    CHECK(touch.force == 0 && touch.contacts == 0 && contact.stiffness() == 0 && contact.energy() == 0);
+    CHECK(touch.force == 0 && touch.contacts == 0 && contact.stiffness() == 0 &&
+          contact.energy() == 0);
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
-// Elements between two flats that repeat: against closed forms, conservation, and on grids of any shape.
+// Elements between two flats that repeat: against closed forms, conservation, and on grids of any
+// shape.
+#include "base/error.hpp"
 #include "check.hpp"
-#include "contact/element_contact.hpp"
-#include "error.hpp"
+#include "elements/element_contact.hpp"
 #include "height_maps.hpp"
-#include "rough/synthesis.hpp"
+#include "surface/synthesis.hpp"
 
-#include "rough/parallel.hpp"
+#include "base/parallel.hpp"
 #include "unit/refused.hpp"
 
 using namespace rsc;
@@ -37,15 +38,18 @@ HeightMap rough(int n, double L_lambda_s, double* slope = nullptr) {
 double closing(Contact& contact, double force) {
     const std::string said = refusal([&] { contact.at_force(force); });
     CHECK(said == refusal([&] { contact.require_gap(force); }));
-    CHECK(said.find("full contact") != std::string::npos && said.find("surface, ") != std::string::npos);
+    CHECK(said.find("full contact") != std::string::npos &&
+          said.find("surface, ") != std::string::npos);
     return std::strtod(said.c_str() + said.find("surface, ") + 9, nullptr);
 }
 
-// A wave of one direction: Westergaard (Johnson 1985, section 13.2): p/p* = sin^2(pi A/(2 A0)), p* = E* k Delta/2.
+// A wave of one direction: Westergaard (Johnson 1985, section 13.2): p/p* = sin^2(pi A/(2 A0)), p*
+// = E* k Delta/2.
 TEST(westergaard) {
     constexpr double Delta = 0.01;
     const double k = 2 * kPi, closed = kE * k * Delta / 2;
-    // Widths are known to a pixel and its neighbour, separations converge with the square of the pixel.
+    // Widths are known to a pixel and its neighbour, separations converge with the square of the
+    // pixel.
     double before = 0;
     for (const int n : {32, 64, 128, 256}) {
         HeightMap map = empty(n, 4, 1.0 / n, 8.0 / n);
@@ -59,13 +63,15 @@ TEST(westergaard) {
             CHECK_CLOSE(level.area_pixels / map.Ly(), width, 1.5 / n);
             if (share != 0.5) continue;
             // With s = p/p* the stiffness is p*/(Delta ln(1/s)): Z0 = Delta (1 - s + s ln s).
-            const double Z0 = Delta * (1 - share + share * std::log(share)), error = level.separation / Z0 - 1;
+            const double Z0 = Delta * (1 - share + share * std::log(share)),
+                         error = level.separation / Z0 - 1;
             const double stiffness = closed * map.Ly() / (Delta * std::log(1 / share));
             CHECK(std::abs(error) < 2.0 / (n * n));
             if (before != 0) CHECK_CLOSE(std::log2(before / error), 2.0, 0.25);
             CHECK_RELATIVE(contact->stiffness(), -stiffness, 3.5 / n);
             // What the pressure did: the integral of p dZ0.
-            const double s = share, work = closed * Delta * map.Ly() * (s * s / 4 - s * s / 2 * std::log(s));
+            const double s = share,
+                         work = closed * Delta * map.Ly() * (s * s / 4 - s * s / 2 * std::log(s));
             CHECK_RELATIVE(contact->energy(), work, 20.0 / (n * n));
             before = error;
         }
@@ -77,8 +83,8 @@ TEST(westergaard) {
     }
 }
 
-// Random heights on small grids of any shape, from a first touch to where hardly anything is left of the gap: under a pressure, and at
-// the separation it has.
+// Random heights on small grids of any shape, from a first touch to where hardly anything is left
+// of the gap: under a pressure, and at the separation it has.
 TEST(any_grid) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> uniform(-1, 1);
@@ -90,7 +96,8 @@ TEST(any_grid) {
         for (int j = 0; j < ny; ++j)
             for (int i = 0; i < nx; ++i)
                 map.row(j)[i] =
-                    (waves ? 0.3 : 1.0) * uniform(random) + (waves ? std::cos(4 * kPi * i / nx) + std::cos(2 * kPi * j / ny) : 0.0);
+                    (waves ? 0.3 : 1.0) * uniform(random) +
+                    (waves ? std::cos(4 * kPi * i / nx) + std::cos(2 * kPi * j / ny) : 0.0);
         SolverOptions thorough = options(1e-9);
         thorough.max_iterations = 300;
         const auto contact = make_element_contact(map, flat(map), thorough);
@@ -98,10 +105,12 @@ TEST(any_grid) {
         CHECK(closed > 0);
         for (const double share : {1e-4, 0.03, 0.4, 0.9, 0.999}) {
             const double N = share * closed * map.Lx() * map.Ly();
-            const Level level = contact->at_force(N), again = contact->at_separation(level.separation);
+            const Level level = contact->at_force(N),
+                        again = contact->at_separation(level.separation);
             CHECK(level.status == LevelStatus::converged && again.status == LevelStatus::converged);
             CHECK_RELATIVE(again.force, N, 1e-4);
-            CHECK(level.area_fraction > 0 && level.pixels.index.size() < static_cast<std::size_t>(nx * ny));
+            CHECK(level.area_fraction > 0 &&
+                  level.pixels.index.size() < static_cast<std::size_t>(nx * ny));
         }
     }
 }
@@ -117,7 +126,8 @@ TEST(threads_change_no_bit) {
         stiffness.push_back(contact->stiffness());
     }
     CHECK(levels[0].status == LevelStatus::converged);
-    CHECK(levels[0].pixels.pressure == levels[1].pixels.pressure && levels[0].separation == levels[1].separation);
+    CHECK(levels[0].pixels.pressure == levels[1].pixels.pressure &&
+          levels[0].separation == levels[1].separation);
     CHECK(stiffness[0] == stiffness[1]);
 }
 

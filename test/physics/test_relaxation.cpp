@@ -1,7 +1,8 @@
-// A body that relaxes (contact/law/relaxation.hpp, relaxing.hpp): its creep function against an inversion of the Laplace transform, and one
-// asperity against the solutions of Lee and Radok (1960) and of Ting (1966), by integrals worked out here.
+// A body that relaxes (physics/relaxation/relaxation.hpp, relaxing.hpp): its creep function against
+// an inversion of the Laplace transform, and one asperity against the solutions of Lee and Radok
+// (1960) and of Ting (1966), by integrals worked out here.
 #include "check.hpp"
-#include "contact/law/relaxing.hpp"
+#include "physics/relaxation/relaxing.hpp"
 
 using namespace rsc;
 
@@ -9,16 +10,19 @@ namespace {
 
 constexpr double kRadius = 0.3, kE = 2.5, kFactor = 4.0 / 3 * kE;
 
-// --- creep ----------------------------------------------------------------------------------------------------------------------------
+// --- creep
+// ----------------------------------------------------------------------------------------------------------------------------
 
-// J(t)/J(0) from its transform soft/(s e(s)) + (1 - soft)/s, e(s) = s times that of the relaxation function, by Talbot's contour (Abate and
+// J(t)/J(0) from its transform soft/(s e(s)) + (1 - soft)/s, e(s) = s times that of the relaxation
+// function, by Talbot's contour (Abate and
 // Valko, Int. J. Numer. Meth. Eng. 60, 2004).
 double talbot(const Relaxation& body, double t) {
     using C = std::complex<long double>;
     constexpr int terms = 28;
     const auto transform = [&](C s) {
         C e = 1;
-        for (std::size_t k = 0; k < body.share.size(); ++k) e -= C(body.share[k]) / (C(1) + s * C(body.time[k]));
+        for (std::size_t k = 0; k < body.share.size(); ++k)
+            e -= C(body.share[k]) / (C(1) + s * C(body.time[k]));
         return (C(body.soft) / e + C(1 - body.soft)) / s;
     };
     const long double r = 2.0L * terms / (5 * t);
@@ -32,11 +36,15 @@ double talbot(const Relaxation& body, double t) {
 }
 
 TEST(test_creep) {
-    const std::vector<double> shares{0.05, 0.2, 0.1, 0.3, 0.02, 0.08}, times{1e-3, 0.02, 0.3, 0.31, 7, 2e3};
+    const std::vector<double> shares{0.05, 0.2, 0.1, 0.3, 0.02, 0.08},
+        times{1e-3, 0.02, 0.3, 0.31, 7, 2e3};
     Relaxation sixteen;
-    for (int k = 0; k < kMostRelaxations; ++k) sixteen.share.push_back(0.06), sixteen.time.push_back(std::pow(3.0, k - 8));
-    for (const Relaxation& body : {Relaxation{shares, times}, Relaxation{shares, times, 0.4}, Relaxation{{0.5, 0.5}, {1, 30}, 1},
-                                   Relaxation{{0.5, 0.5}, {1, 30}, 0.7}, Relaxation{{1}, {2}}, sixteen}) {
+    for (int k = 0; k < kMostRelaxations; ++k)
+        sixteen.share.push_back(0.06), sixteen.time.push_back(std::pow(3.0, k - 8));
+    for (const Relaxation& body :
+         {Relaxation{shares, times}, Relaxation{shares, times, 0.4},
+          Relaxation{{0.5, 0.5}, {1, 30}, 1}, Relaxation{{0.5, 0.5}, {1, 30}, 0.7},
+          Relaxation{{1}, {2}}, sixteen}) {
         const Creep creep(body);
         for (double t = 1e-4; t < 1e5; t *= 7) {
             CHECK_RELATIVE(creep.compliance(t), talbot(body, t), 1e-10);
@@ -46,14 +54,16 @@ TEST(test_creep) {
                 const auto rises = [&](double r) { return r > 0 ? -std::expm1(-r * t) / r : t; };
                 one += creep.last() * flow * rises(rate);
                 for (const auto& [share, relaxing] : creep.branches())
-                    one += share * flow * std::exp(-std::min(rate, relaxing) * t) * rises(std::abs(rate - relaxing));
+                    one += share * flow * std::exp(-std::min(rate, relaxing) * t) *
+                           rises(std::abs(rate - relaxing));
             }
             CHECK_RELATIVE(one, 1.0, 1e-10);
         }
     }
 }
 
-// --- one asperity ---------------------------------------------------------------------------------------------------------------------
+// --- one asperity
+// ---------------------------------------------------------------------------------------------------------------------
 
 struct One {
     Asperities asperities;
@@ -78,7 +88,8 @@ struct One {
     }
     double under(double f) const {
         double low = 0, high = 9;
-        for (int i = 0; i < 200; ++i) (force(0.5 * (low + high)) < f ? low : high) = 0.5 * (low + high);
+        for (int i = 0; i < 200; ++i)
+            (force(0.5 * (low + high)) < f ? low : high) = 0.5 * (low + high);
         return high;
     }
 };
@@ -92,9 +103,12 @@ double integral(double from, double to, const std::function<double(double)>& f) 
     return sum * (to - from) / (3 * n);
 }
 
-// u = t up to the time 1, 2 - t from there: the force at t, and the time at which the contact was last as large on its way up.
+// u = t up to the time 1, 2 - t from there: the force at t, and the time at which the contact was
+// last as large on its way up.
 std::pair<double, double> ting(const Creep& creep, double t) {
-    const auto flow = [&](double from, double to) { return integral(from, to, [&](double s) { return creep.modulus(t - s); }); };
+    const auto flow = [&](double from, double to) {
+        return integral(from, to, [&](double s) { return creep.modulus(t - s); });
+    };
     double t1 = t;
     if (t > 1) {
         double low = 0, high = 1;
@@ -105,7 +119,9 @@ std::pair<double, double> ting(const Creep& creep, double t) {
         if (t1 < 1e-9) return {0, 0};
     }
     // With s = x^2, (3/2) s^(1/2) ds = 3 x^2 dx.
-    return {elastic(1) * integral(0, std::sqrt(t1), [&](double x) { return 3 * x * x * creep.modulus(t - x * x); }), t1};
+    return {elastic(1) * integral(0, std::sqrt(t1),
+                                  [&](double x) { return 3 * x * x * creep.modulus(t - x * x); }),
+            t1};
 }
 
 double ramp_error(const Relaxation& body, int steps) {
@@ -123,14 +139,16 @@ double ramp_error(const Relaxation& body, int steps) {
 }
 
 TEST(test_ramps) {
-    for (const Relaxation& body : {Relaxation{{1}, {0.7}}, Relaxation{{0.6}, {0.5}}, Relaxation{{0.3, 0.4}, {0.05, 1.5}}}) {
+    for (const Relaxation& body :
+         {Relaxation{{1}, {0.7}}, Relaxation{{0.6}, {0.5}}, Relaxation{{0.3, 0.4}, {0.05, 1.5}}}) {
         const double coarse = ramp_error(body, 200), fine = ramp_error(body, 400);
         CHECK(coarse / fine > 3);  // second order
         CHECK(ramp_error(body, 1600) < 1e-6);
     }
 }
 
-// A force put on at once and held: a^3 grows as J(t), to 1e-8 where two runs of different steps are extrapolated.
+// A force put on at once and held: a^3 grows as J(t), to 1e-8 where two runs of different steps are
+// extrapolated.
 TEST(test_held_force) {
     const Relaxation body{{0.3, 0.5}, {0.2, 2}};
     const auto growth = [&](int steps) {
@@ -151,7 +169,8 @@ TEST(test_held_force) {
     CHECK_RELATIVE((4 * fine - coarse) / 3, J, 1e-8);
 }
 
-// Work done = stored + lost, on a path with turns, holds and a time without contact; lost never falls. Nothing is stored in the end.
+// Work done = stored + lost, on a path with turns, holds and a time without contact; lost never
+// falls. Nothing is stored in the end.
 TEST(test_energy) {
     One one(Relaxation{{0.3, 0.4}, {0.1, 2}});
     const auto path = [](double t) { return 0.2 * std::sin(2.2 * t) + 0.05 * std::sin(13 * t); };

@@ -1,4 +1,5 @@
-// The screen of runs: the numbers of its tables are those of the result file, and remarks stand there when the levels ask for them
+// The screen of runs: the numbers of its tables are those of the result file, and remarks stand
+// there when the levels ask for them
 // (test_remarks has each threshold).
 #include "case/read_case.hpp"
 #include "check.hpp"
@@ -48,7 +49,8 @@ Screen run(const std::string& text, const std::string& file) {
 void column(const std::vector<Vector>& rows, std::size_t c, const Vector& values, double digits) {
     CHECK(rows.size() == values.size());
     for (std::size_t k = 0; k < std::min(rows.size(), values.size()); ++k)
-        CHECK(rows[k].size() > c && std::abs(rows[k][c] - values[k]) <= digits * std::abs(values[k]));
+        CHECK(rows[k].size() > c &&
+              std::abs(rows[k][c] - values[k]) <= digits * std::abs(values[k]));
 }
 
 const std::string kSurface = "&surface n=128 L_lambda_l=4 L_lambda_s=32 ";
@@ -58,12 +60,14 @@ TEST(levels) {
     const std::string path = folder / "levels.nc";
     const std::string cases[] = {
         kSurface +
-            "L=2.5 sigma=0.02 / &indentation levels=6, 3, 1.5, 0, -2.9, -3.1, centre=1.1, 1.4 / &run title='A title' length_unit='um' / "
+            "L=2.5 sigma=0.02 / &indentation levels=6, 3, 1.5, 0, -2.9, -3.1, centre=1.1, 1.4 / "
+            "&run title='A title' length_unit='um' / "
             "&solids E=1e4,3e4 nu=0.1,0.4 R=3,7 /",
         kSurface + "/ &indentation control='force' levels=0.01,0.5,8 /",
         kSurface + "/ &solver model='elements' / &indentation levels=6,2,1 /",
         kSurface +
-            "/ &solids R=Infinity,Infinity / &indentation boundary='periodic' control='pressure' unit='relative' levels=0.01,0.05 /"};
+            "/ &solids R=Infinity,Infinity / &indentation boundary='periodic' control='pressure' "
+            "unit='relative' levels=0.01,0.05 /"};
     std::string seen;
     for (const std::string& text : cases) {
         const Screen screen = run(text, path);
@@ -73,20 +77,29 @@ TEST(levels) {
         Vector Z = file.values("separation"), over_sigma = Z;
         for (double& z : over_sigma) z /= file.values("sigma_reference")[0];
         column(rows, 1, Z, 1e-5), column(rows, 2, over_sigma, 1e-4);
-        column(rows, 3, file.values("force"), 1e-7), column(rows, 4, file.values("contact_area"), 1e-7);
-        if (flats) column(rows, 5, file.values("pressure"), 1e-5), column(rows, 6, file.values("area_fraction"), 1e-5);
+        column(rows, 3, file.values("force"), 1e-7),
+            column(rows, 4, file.values("contact_area"), 1e-7);
+        if (flats)
+            column(rows, 5, file.values("pressure"), 1e-5),
+                column(rows, 6, file.values("area_fraction"), 1e-5);
         std::size_t next = flats ? 7 : 5;
-        for (const char* name : {"contacts", "candidates", "iterations"}) column(rows, next++, file.values(name), 0);
+        for (const char* name : {"contacts", "candidates", "iterations"})
+            column(rows, next++, file.values(name), 0);
         column(rows, next, file.values("residual"), 0.05);
-        CHECK(screen.failed == 0 && screen.messages.empty() && screen.says(("result: " + path).c_str()));
+        CHECK(screen.failed == 0 && screen.messages.empty() &&
+              screen.says(("result: " + path).c_str()));
         seen += screen.text;
     }
-    for (const char* words :
-         {"A title", "[um]", "sphere R = ", "two flats", "separation below -3 sigma", "out of validity", "asperities ("})
+    for (const char* words : {"A title", "[um]", "sphere R = ", "two flats",
+                              "separation below -3 sigma", "out of validity", "asperities ("})
         CHECK(seen.find(words) != std::string::npos);
     // Levels that do not converge are told, on the screen and on standard error.
-    const Screen few = run("&surface n=64 L_lambda_l=2 L_lambda_s=16 / &indentation levels=0.5,0 / &solver max_iterations=1 /", path);
-    CHECK(few.failed == 2 && few.says("NOT CONVERGED") && few.messages.find("2 of 2 levels did not converge") != std::string::npos);
+    const Screen few =
+        run("&surface n=64 L_lambda_l=2 L_lambda_s=16 / &indentation levels=0.5,0 / &solver "
+            "max_iterations=1 /",
+            path);
+    CHECK(few.failed == 2 && few.says("NOT CONVERGED") &&
+          few.messages.find("2 of 2 levels did not converge") != std::string::npos);
 }
 
 }  // namespace

@@ -1,14 +1,15 @@
 // A kernel with a smooth part, 1/(pi E* d) + s(d): its table, its pixels and the Fourier
-// transforms, against formulas and plain sums. s is what a charge below the surface would do, c/(pi E* sqrt(d^2 + depth^2)), whose modes
-// are c exp(-k depth) of the half-space's. The products of asperities are in test_products.cpp.
-#include "contact/interaction/kernel.hpp"
+// transforms, against formulas and plain sums. s is what a charge below the surface would do, c/(pi
+// E* sqrt(d^2 + depth^2)), whose modes are c exp(-k depth) of the half-space's. The products of
+// asperities are in test_products.cpp.
+#include "interaction/kernel.hpp"
 
 #include <boost/math/quadrature/gauss.hpp>
 
 #include "check.hpp"
 #include "contact/deflection.hpp"
-#include "contact/interaction/periodic_pixels.hpp"
-#include "contact/interaction/pixel_kernels.hpp"
+#include "elements/periodic_pixels.hpp"
+#include "elements/pixel_kernels.hpp"
 
 using namespace rsc;
 
@@ -22,19 +23,25 @@ struct Artificial {
     double share(double k) const { return c * std::exp(-k * depth); }
     Substrate substrate() const {
         const Artificial a = *this;
-        return {kE, std::make_shared<const SmoothPart>([a](double d) { return a.at(d); }, [a](double k) { return a.share(k); }, depth)};
+        return {kE,
+                std::make_shared<const SmoothPart>([a](double d) { return a.at(d); },
+                                                   [a](double k) { return a.share(k); }, depth)};
     }
 };
 
 // Over |x' - x| < a, |y' - y| < b, cut into parts not wider than half the depth.
 double over(const Artificial& s, double x, double y, double a, double b) {
-    const int nx = 1 + static_cast<int>(4 * a / s.depth), ny = 1 + static_cast<int>(4 * b / s.depth);
-    const auto integral = [](double from, double to, auto f) { return boost::math::quadrature::gauss<double, 7>::integrate(f, from, to); };
+    const int nx = 1 + static_cast<int>(4 * a / s.depth),
+              ny = 1 + static_cast<int>(4 * b / s.depth);
+    const auto integral = [](double from, double to, auto f) {
+        return boost::math::quadrature::gauss<double, 7>::integrate(f, from, to);
+    };
     double sum = 0;
     for (int i = 0; i < nx; ++i)
         for (int j = 0; j < ny; ++j)
             sum += integral(x - a + 2 * a * i / nx, x - a + 2 * a * (i + 1) / nx, [&](double u) {
-                return integral(y - b + 2 * b * j / ny, y - b + 2 * b * (j + 1) / ny, [&](double v) { return s.at(std::hypot(u, v)); });
+                return integral(y - b + 2 * b * j / ny, y - b + 2 * b * (j + 1) / ny,
+                                [&](double v) { return s.at(std::hypot(u, v)); });
             });
     return sum;
 }
@@ -53,17 +60,20 @@ TEST(table) {
         for (const double aspect : {1.0, 2.5})
             for (const double x : {0.0, 1.0, 7.3, 15.0, 40.0}) {
                 const double a = 0.5 * wide, b = a * aspect, y = 0.7 * x;
-                CHECK_RELATIVE(body.smooth()->over_rectangle(x * wide, y * wide, a, b), over(s, x * wide, y * wide, a, b), 2e-10);
+                CHECK_RELATIVE(body.smooth()->over_rectangle(x * wide, y * wide, a, b),
+                               over(s, x * wide, y * wide, a, b), 2e-10);
             }
-    CHECK_RELATIVE(body.under_pixel(0.02, 0.01, 0.03, 0.04), kNear * love(0.02, 0.01, 0.015, 0.02) + over(s, 0.02, 0.01, 0.015, 0.02),
-                   1e-11);
+    CHECK_RELATIVE(body.under_pixel(0.02, 0.01, 0.03, 0.04),
+                   kNear * love(0.02, 0.01, 0.015, 0.02) + over(s, 0.02, 0.01, 0.015, 0.02), 1e-11);
     // Deflection maps: spots feel it as points do.
     Level level;
     level.add_contact(0, 0.1, 0.2, 2.0, 0.01, 0.0);
-    CHECK_RELATIVE(deflection(level, *kernel, 0.4, 0.6), spot_deflection(2.0, 0.01, 0.5, kE) + 2 * s.at(0.5), 1e-12);
+    CHECK_RELATIVE(deflection(level, *kernel, 0.4, 0.6),
+                   spot_deflection(2.0, 0.01, 0.5, kE) + 2 * s.at(0.5), 1e-12);
 }
 
-// A wave of pressure answers with its own share, there and back, in float and double, on even and odd grids.
+// A wave of pressure answers with its own share, there and back, in float and double, on even and
+// odd grids.
 template <class Real>
 void wave(int nx, int ny, int m, int n) {
     const Artificial s{2.0, 0.7};
@@ -72,16 +82,19 @@ void wave(int nx, int ny, int m, int n) {
     const double kx = 2 * pi * m / (nx * dx), ky = 2 * pi * n / (ny * dy), k = std::hypot(kx, ky);
     const auto value = [&](int i, int j) { return std::cos(kx * i * dx + ky * j * dy + 0.4); };
     for (const bool back : {false, true}) {
-        const double answer = 2 / k * (1 + s.share(k)) / pixels.unit(), factor = back ? 1 / answer : answer;
+        const double answer = 2 / k * (1 + s.share(k)) / pixels.unit(),
+                     factor = back ? 1 / answer : answer;
         pixels.apply(
             [&](int j, Real* row) {
                 for (int i = 0; i < nx; ++i) row[i] = static_cast<Real>(value(i, j));
             },
             [&](int j, const Real* row) {
                 for (int i = 0; i < nx; ++i)
-                    CHECK_CLOSE(static_cast<double>(row[i]), factor * value(i, j), (sizeof(Real) == 4 ? 1e-5 : 1e-12) * factor);
+                    CHECK_CLOSE(static_cast<double>(row[i]), factor * value(i, j),
+                                (sizeof(Real) == 4 ? 1e-5 : 1e-12) * factor);
             },
-            back ? PeriodicPixels<Real>::Answer::pressure : PeriodicPixels<Real>::Answer::deflection);
+            back ? PeriodicPixels<Real>::Answer::pressure
+                 : PeriodicPixels<Real>::Answer::deflection);
     }
 }
 

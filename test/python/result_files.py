@@ -30,7 +30,9 @@ def write_result(folder, name, case, variables, attributes=None, title="", sourc
             for dimension, size in zip(dimensions.split(), values.shape):
                 if dimension not in file.dimensions:
                     file.createDimension(dimension, size)
-            variable = file.createVariable(key, "f8", tuple(dimensions.split()), fill_value=9.96920996838687e36)
+            variable = file.createVariable(
+                key, "f8", tuple(dimensions.split()), fill_value=9.96920996838687e36
+            )
             variable[...] = np.where(np.isnan(values.astype(float)), 9.96920996838687e36, values)
             variable.units = unit[0] if unit else "1"
         for (key, attribute), value in (attributes or {}).items():
@@ -39,6 +41,8 @@ def write_result(folder, name, case, variables, attributes=None, title="", sourc
         for key, value in case.items():
             group, word = key.split("%")
             groups.setdefault(group, []).append(f"  {word} = {value}")
-        file.case = "\n".join(f"&{group}\n" + "\n".join(lines) + "\n/" for group, lines in groups.items())
+        file.case = "\n".join(
+            f"&{group}\n" + "\n".join(lines) + "\n/" for group, lines in groups.items()
+        )
         file.title, file.source = title, source
     return path

@@ -26,7 +26,9 @@ def read(*names):
 @functools.cache
 def effective(text):
     """{group%key: value} that rsc --check tells of a case."""
-    done = subprocess.run([RSC, "--check", "-q"], input=text, text=True, capture_output=True, cwd=PROJECT)
+    done = subprocess.run(
+        [RSC, "--check", "-q"], input=text, text=True, capture_output=True, cwd=PROJECT
+    )
     assert done.returncode == 0, done.stderr
     keys, group = {}, ""
     for line in done.stdout.splitlines():
@@ -43,11 +45,20 @@ class Cases(unittest.TestCase):
 
     def test_paper(self):
         """The numbers of the paper, in every case of input/paper that is of its gold surface, and the levels it has."""
-        gold = {"solids%E": "78000.0, Infinity", "solids%nu": "0.42, 0.0", "solids%R": "Infinity, 2.5", "surface%hurst": "0.8", "surface%L_lambda_l": "24.0", "surface%L_lambda_s": "512.0"}
+        gold = {
+            "solids%E": "78000.0, Infinity",
+            "solids%nu": "0.42, 0.0",
+            "solids%R": "Infinity, 2.5",
+            "surface%hurst": "0.8",
+            "surface%L_lambda_l": "24.0",
+            "surface%L_lambda_s": "512.0",
+        }
         for name in ("maps", "maps_plateau"):
             said = effective(read("input", "paper", name + ".nml"))
             self.assertEqual({key: said[key] for key in gold}, gold, name)
-            self.assertEqual(said["surface%plateau"], ".true." if name == "maps_plateau" else ".false.")
+            self.assertEqual(
+                said["surface%plateau"], ".true." if name == "maps_plateau" else ".false."
+            )
 
     def test_taken(self):
         """Every case is one that rsc takes, and a study script shortens each of its own to fewer realizations."""
@@ -61,28 +72,48 @@ class Cases(unittest.TestCase):
             shorten = script[script.index("shorten() {") : script.index("\n}\n") + 3]
             for case in re.search(r"^cases='(.*)'$", script, re.M)[1].split():
                 text = read("input", study, case + ".nml")
-                short = subprocess.run(["sh", "-c", f"{shorten}shorten {case}"], input=text, text=True, capture_output=True, check=True).stdout
+                short = subprocess.run(
+                    ["sh", "-c", f"{shorten}shorten {case}"],
+                    input=text,
+                    text=True,
+                    capture_output=True,
+                    check=True,
+                ).stdout
                 whole, cut = effective(text), effective(short)
-                self.assertLessEqual(int(cut["run%realizations"]), int(whole["run%realizations"]), case)
+                self.assertLessEqual(
+                    int(cut["run%realizations"]), int(whole["run%realizations"]), case
+                )
                 self.assertEqual(cut["solids%E"], whole["solids%E"])
+
 
 class Readme(unittest.TestCase):
     def test_pictures(self):
         """output/README explains every picture of plot.py once, and no other."""
         text = read("output", "README")
         block = text[text.index("    load  ") : text.index("A picture is drawn")]
-        named = [word for line in block.splitlines() for name in re.findall(r"^    ([a-z]+(?:, [a-z]+)*)  ", line) for word in name.split(", ")]
+        named = [
+            word
+            for line in block.splitlines()
+            for name in re.findall(r"^    ([a-z]+(?:, [a-z]+)*)  ", line)
+            for word in name.split(", ")
+        ]
         self.assertEqual(sorted(named), sorted(plot.PICTURES))
 
     def test_commands(self):
         """The commands of output/README are ones that plot.py and law.py take."""
-        commands = re.findall(r"^    python3 output/(plot/plot|export/law)\.py ((?:\S+ )*\S+)", read("output", "README"), re.M)
+        commands = re.findall(
+            r"^    python3 output/(plot/plot|export/law)\.py ((?:\S+ )*\S+)",
+            read("output", "README"),
+            re.M,
+        )
         self.assertGreater(len(commands), 5)
         for script, words in commands:
             if script == "plot/plot":
                 plot.parse(words.split())
             else:
-                with unittest.mock.patch.object(law, "Law", side_effect=law.Refused("reached")), self.assertRaises(SystemExit) as stop:
+                with unittest.mock.patch.object(
+                    law, "Law", side_effect=law.Refused("reached")
+                ), self.assertRaises(SystemExit) as stop:
                     law.main(words.split())
                 self.assertEqual(str(stop.exception.code), "law.py: reached")
 

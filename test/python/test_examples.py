@@ -42,7 +42,12 @@ class Spheres:
 
     def solve(self, Z0):
         """Force, stiffness dN/dZ0, area, number of contacts."""
-        return self.contact.indent(Z0), self.contact.stiffness(), self.contact.area, self.contact.contacts
+        return (
+            self.contact.indent(Z0),
+            self.contact.stiffness(),
+            self.contact.area,
+            self.contact.contacts,
+        )
 
 
 SMALL = "&surface n=256, L_lambda_l=8, L_lambda_s=64, sigma={} /"
@@ -51,13 +56,17 @@ SMALL = "&surface n=256, L_lambda_l=8, L_lambda_s=64, sigma={} /"
 class Presses(unittest.TestCase):
     def close(self, found, expected, digits):
         """A printed number with so many digits behind its leading one."""
-        self.assertAlmostEqual(found / expected, 1, delta=0.6 * 10.0**-digits, msg=f"{found}, {expected}")
+        self.assertAlmostEqual(
+            found / expected, 1, delta=0.6 * 10.0**-digits, msg=f"{found}, {expected}"
+        )
 
     def test_press(self):
         lines = printed("press")
         case = "&surface n=512, L_lambda_l=8, L_lambda_s=128, sigma=0.005 / &solids E=70d3, 210d3, nu=0.33, 0.3 /"
         spheres = Spheres(case)
-        version = subprocess.run([os.environ["RSC_PROGRAM"], "--version"], capture_output=True, text=True).stdout.strip()
+        version = subprocess.run(
+            [os.environ["RSC_PROGRAM"], "--version"], capture_output=True, text=True
+        ).stdout.strip()
         self.assertEqual(lines[:2], [version, f"{spheres.count} asperities"])
         self.assertEqual(len(lines), 9)
         for k, line in enumerate(lines[3:8]):
@@ -83,7 +92,9 @@ class Presses(unittest.TestCase):
             low, high = (Z0, high) if sum(p.solve(Z0)[0] for p in patches) > 40 else (low, Z0)
         for k, patch in enumerate(patches):
             N, _, area, count = patch.solve(Z0)
-            words = re.fullmatch(r"rank (\d): force +(\S+) N, area +(\S+) mm2, contacts (\d+)", lines[k])
+            words = re.fullmatch(
+                r"rank (\d): force +(\S+) N, area +(\S+) mm2, contacts (\d+)", lines[k]
+            )
             self.assertEqual((words[1], words[4]), (str(k), str(count)))
             self.assertAlmostEqual(float(words[2]), N, delta=1e-4)
             self.assertAlmostEqual(float(words[3]), area, delta=6e-6)
@@ -97,7 +108,9 @@ MASS = 7.8e-9 * 4 / 3 * np.pi * 2.5**3
 
 @functools.lru_cache(None)
 def ball():
-    return Spheres(SMALL.format("1.0e-3") + " &solids E=210d3, 210d3, nu=0.3, 0.3, R=Infinity, 2.5 /")
+    return Spheres(
+        SMALL.format("1.0e-3") + " &solids E=210d3, 210d3, nu=0.3, 0.3, R=Infinity, 2.5 /"
+    )
 
 
 class Motions(unittest.TestCase):
@@ -105,7 +118,10 @@ class Motions(unittest.TestCase):
         """Depth below the first touch where the work of the contact force, less that of gravity, is this; and the force there."""
         depth = np.linspace(0, 1, 400) ** 1.5 * 4e-4
         force = np.array([ball().solve(ball().touch - d)[0] for d in depth])
-        work = np.append(0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(depth))) - gravity * depth
+        work = (
+            np.append(0, np.cumsum(0.5 * (force[1:] + force[:-1]) * np.diff(depth)))
+            - gravity * depth
+        )
         at = np.interp(energy, work, depth)
         return at, np.interp(at, depth, force)
 
@@ -125,7 +141,9 @@ class Motions(unittest.TestCase):
         coming = 0.5 * MASS * rows[:, 0] ** 2
         # What is left is what the ball came with, less the plastic work.
         self.assertTrue(np.allclose(rows[:, 1] ** 2, 1 - rows[:, 4], atol=2e-4))
-        self.assertTrue(np.all(rows[:2, 1] == 1) and np.all(rows[2:, 1] < 0.95) and np.all(rows[:, 5] < 1e-5))
+        self.assertTrue(
+            np.all(rows[:2, 1] == 1) and np.all(rows[2:, 1] < 0.95) and np.all(rows[:, 5] < 1e-5)
+        )
         depth, force = self.depth_of(coming[0])  # elastic
         self.assertAlmostEqual(rows[0, 2] / (1e3 * depth), 1, delta=2e-3)
         self.assertAlmostEqual(rows[0, 3] / force, 1, delta=5e-3)  # printed with three figures
@@ -135,8 +153,16 @@ class Motions(unittest.TestCase):
         lines = printed("rolling")
         rows = np.array([numbers(line) for line in lines[1:-1]])
         self.assertEqual(rows.shape, (10, 6))
-        self.assertTrue(np.allclose(rows[:, 0], (1000 * 5e-9 + (3000 * np.arange(1, 11) - 1000) * 2.5e-7) * 1e3, atol=6e-4))
-        self.assertTrue(np.allclose(rows[:, 2], -2.5 * rows[:, 1], atol=3e-6))  # momentum about the place of contact is kept: it began as nothing
+        self.assertTrue(
+            np.allclose(
+                rows[:, 0],
+                (1000 * 5e-9 + (3000 * np.arange(1, 11) - 1000) * 2.5e-7) * 1e3,
+                atol=6e-4,
+            )
+        )
+        self.assertTrue(
+            np.allclose(rows[:, 2], -2.5 * rows[:, 1], atol=3e-6)
+        )  # momentum about the place of contact is kept: it began as nothing
         self.assertTrue(np.allclose(rows[:4, 4], 0.3 * rows[:4, 3], atol=1e-5))
         self.assertTrue(np.all(abs(rows[4:, 4]) <= 0.3 * rows[4:, 3] + 1e-5))
         self.assertTrue(np.all(np.diff(rows[:, 5]) > 0) and np.all(abs(rows[5:, 1]) < 0.2))

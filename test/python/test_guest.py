@@ -10,13 +10,18 @@ import numpy as np
 import rsc
 from result_files import InFolder
 
-SMALL = {"surface": {"n": 64, "L_lambda_l": 2, "L_lambda_s": 8}, "solids": {"R": [float("inf"), 2.5]}}
+SMALL = {
+    "surface": {"n": 64, "L_lambda_l": 2, "L_lambda_s": 8},
+    "solids": {"R": [float("inf"), 2.5]},
+}
 
 
 class Guest(InFolder):
     def test_interrupt(self):
         # Levels of elements that would take minutes.
-        case = rsc.Case("&surface L_lambda_l=2 L_lambda_s=16 / &solver model='elements' tolerance=1e-9 / &elements points_per_wave=8 / &indentation start=2 stop=-2 steps=20000 /")
+        case = rsc.Case(
+            "&surface L_lambda_l=2 L_lambda_s=16 / &solver model='elements' tolerance=1e-9 / &elements points_per_wave=8 / &indentation start=2 stop=-2 steps=20000 /"
+        )
         seen = []
 
         def progress(done, total):
@@ -60,12 +65,16 @@ class Guest(InFolder):
         asperities = rsc.Asperities.make(case)
         contacts = [rsc.Contact.from_case(asperities, case) for _ in range(3)]
         tips = np.array([[0.4, 0.5], [0.5, 0.6], [0.45, 0.55]])
-        answers = rsc.step_all(contacts, forces=[1.0, 2.0, 3.0], tips=tips, stiffness=True, threads=2)
+        answers = rsc.step_all(
+            contacts, forces=[1.0, 2.0, 3.0], tips=tips, stiffness=True, threads=2
+        )
         for k, (force, tip) in enumerate(zip([1.0, 2.0, 3.0], tips)):
             alone = rsc.Contact.from_case(asperities, case)
             alone.tip = tip
             self.assertAlmostEqual(answers["separation"][k], alone.press(force), delta=1e-7)
-            self.assertAlmostEqual(answers["lateral_x"][k], alone.value("lateral_force_x"), delta=1e-5 * force)
+            self.assertAlmostEqual(
+                answers["lateral_x"][k], alone.value("lateral_force_x"), delta=1e-5 * force
+            )
             self.assertAlmostEqual(answers["stiffness"][k] / alone.stiffness(), 1, delta=1e-4)
         with self.assertRaises(rsc.ArgumentError):
             rsc.step_all(contacts, forces=[1.0, 2.0, 3.0], separations=[0.0, 0.0, 0.0])

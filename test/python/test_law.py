@@ -43,13 +43,27 @@ def run(*words):
 
 
 def points(text):
-    return np.array([[float(v) for v in line.rstrip(",").split(",")] for line in text.splitlines() if line and line[0] in "-0123456789"])
+    return np.array(
+        [
+            [float(v) for v in line.rstrip(",").split(",")]
+            for line in text.splitlines()
+            if line and line[0] in "-0123456789"
+        ]
+    )
 
 
 def uinter(props, k, displacements):
     """What uinter_main prints: overclosure, pressure, slope, iterations, a row a displacement."""
     words = [len(props), *props, k, len(displacements), *displacements]
-    out = subprocess.run([UINTER], input="\n".join(repr(float(w)) if i not in (0, len(props) + 2) else str(w) for i, w in enumerate(words)), text=True, capture_output=True, cwd=FOLDER)
+    out = subprocess.run(
+        [UINTER],
+        input="\n".join(
+            repr(float(w)) if i not in (0, len(props) + 2) else str(w) for i, w in enumerate(words)
+        ),
+        text=True,
+        capture_output=True,
+        cwd=FOLDER,
+    )
     assert out.returncode == 0, out.stderr
     return np.array([[float(v) for v in line.split()] for line in out.stdout.splitlines()])
 
@@ -57,34 +71,80 @@ def uinter(props, k, displacements):
 MEANINGS = "converged out_of_validity overlapping not_unique not_converged"
 
 
-def made(name, z, load, area, status, flats=False, title="Made here", drop=(), indenter="sphere R = 2500 um", **more):
+def made(
+    name,
+    z,
+    load,
+    area,
+    status,
+    flats=False,
+    title="Made here",
+    drop=(),
+    indenter="sphere R = 2500 um",
+    **more
+):
     """A file in um and mN; z of the shape (step) or (realization, step), the others (realization, step)."""
-    variables = {"separation": ("step" if np.ndim(z) == 1 else "realization step", z, "um"), "force": ("realization step", load if not flats else 7 * load, "mN"), "contact_area": ("realization step", area, "um2"),
-                 "status": ("realization step", status)}
+    variables = {
+        "separation": ("step" if np.ndim(z) == 1 else "realization step", z, "um"),
+        "force": ("realization step", load if not flats else 7 * load, "mN"),
+        "contact_area": ("realization step", area, "um2"),
+        "status": ("realization step", status),
+    }
     if flats:
-        variables |= {"pressure": ("realization step", load, "mN um-2"), "area_fraction": ("realization step", area, "1")}
+        variables |= {
+            "pressure": ("realization step", load, "mN um-2"),
+            "area_fraction": ("realization step", area, "1"),
+        }
     variables |= more
-    attributes = {("", "indenter"): indenter} | ({("status", "flag_meanings"): MEANINGS} if "status" not in drop else {})
-    return write_result(FOLDER, name, {}, {key: v for key, v in variables.items() if key not in drop}, attributes, title, "rsc 1.2.3, a model")
+    attributes = {("", "indenter"): indenter} | (
+        {("status", "flag_meanings"): MEANINGS} if "status" not in drop else {}
+    )
+    return write_result(
+        FOLDER,
+        name,
+        {},
+        {key: v for key, v in variables.items() if key not in drop},
+        attributes,
+        title,
+        "rsc 1.2.3, a model",
+    )
 
 
 class WholeText(unittest.TestCase):
     """The points that law.py writes, in every format, from files whose points are known."""
 
     maxDiff = None
-    Z = np.array([9.0, 8.0, 6.5, 6.0, 5.0, 4.5, 4.0, 2.0])  # um; nothing touches at 9, 6 fails in one realization, 4.5 carries less than 5
-    N = np.array([[0, 1, 3, 4, 10, 9.5, 14, 40.0], [0, 2, 4, 5, 11, 9.0, 15, 44], [0, 0, 2, 6, 9, 8.5, 16, 39]])
+    Z = np.array(
+        [9.0, 8.0, 6.5, 6.0, 5.0, 4.5, 4.0, 2.0]
+    )  # um; nothing touches at 9, 6 fails in one realization, 4.5 carries less than 5
+    N = np.array(
+        [
+            [0, 1, 3, 4, 10, 9.5, 14, 40.0],
+            [0, 2, 4, 5, 11, 9.0, 15, 44],
+            [0, 0, 2, 6, 9, 8.5, 16, 39],
+        ]
+    )
     A = 100 * N + np.array([[0.0], [0.5], [0.2]]) * (N > 0)
-    STATUS = np.array([[0, 0, 0, 0, 2, 0, 0, 3], [0, 1, 0, 4, 0, 0, 1, 2], [0, 0, 0, 0, 0, 1, 1, 0]])
+    STATUS = np.array(
+        [[0, 0, 0, 0, 2, 0, 0, 3], [0, 1, 0, 4, 0, 0, 1, 2], [0, 0, 0, 0, 0, 1, 1, 0]]
+    )
     KEPT = [1, 2, 4, 6, 7]
 
     def points(self, z, n, a):
         """approach, load, its deviation, area, its deviation, deviation of the approach; a row a point, the first at zero."""
         std = lambda v: v.std(axis=0, ddof=1)
-        return np.column_stack([self.Z[0] - z, n.mean(axis=0), std(n), a.mean(axis=0), std(a), 0 * z])[self.KEPT]
+        return np.column_stack(
+            [self.Z[0] - z, n.mean(axis=0), std(n), a.mean(axis=0), std(a), 0 * z]
+        )[self.KEPT]
 
     def rows(self, file, flag="--table"):
-        return np.array([[float(v) for v in line.split()] for line in run(file, flag).splitlines() if line[0] != "#"])
+        return np.array(
+            [
+                [float(v) for v in line.split()]
+                for line in run(file, flag).splitlines()
+                if line[0] != "#"
+            ]
+        )
 
     def test_sphere(self):
         file = made("whole", self.Z, self.N, self.A, self.STATUS)
@@ -102,20 +162,42 @@ class WholeText(unittest.TestCase):
         file = made("whole_flats", self.Z, self.N, self.A / 1e5, self.STATUS, flats=True)
         rows = self.points(self.Z, self.N, self.A / 1e5)
         self.assertTrue(np.allclose(self.rows(file), np.vstack([np.zeros(6), rows]), rtol=1e-11))
-        self.assertTrue(np.allclose(points(run(file, "--calculix")), np.vstack([[0, 0], rows[:, [1, 0]]]), rtol=1e-9))
-        self.assertIn("\n*SURFACE INTERACTION, NAME=ROUGH\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR\n", run(file, "--calculix"))
+        self.assertTrue(
+            np.allclose(
+                points(run(file, "--calculix")), np.vstack([[0, 0], rows[:, [1, 0]]]), rtol=1e-9
+            )
+        )
+        self.assertIn(
+            "\n*SURFACE INTERACTION, NAME=ROUGH\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR\n",
+            run(file, "--calculix"),
+        )
 
     def test_loads_prescribed(self):
         """Separations are averaged, scatter, and are given in any order; no level is without contact, no area in the file."""
         n = np.array([1.0, 8.0, 27.0])
         z = np.array([[6.0, 3.1, -1.5], [6.4, 2.9, -2.0]])
         order = [2, 0, 1]
-        file = made("loads", z[:, order], np.tile(n, (2, 1))[:, order], None, np.zeros((2, 3)), title="", drop=("contact_area",))
+        file = made(
+            "loads",
+            z[:, order],
+            np.tile(n, (2, 1))[:, order],
+            None,
+            np.zeros((2, 3)),
+            title="",
+            drop=("contact_area",),
+        )
         depth = -z.mean(axis=0)
-        start = depth[0] - (depth[1] - depth[0]) / (8 ** (2 / 3) - 1)  # Hertz: approach ~ N^(2/3), here 1 and 4
+        start = depth[0] - (depth[1] - depth[0]) / (
+            8 ** (2 / 3) - 1
+        )  # Hertz: approach ~ N^(2/3), here 1 and 4
         rows = self.rows(file)
         self.assertIn("no level without contact", run(file, "--table"))
-        expected = [np.append(0, depth - start), np.append(0, n), np.zeros(4), np.append(0, z.std(axis=0, ddof=1))]
+        expected = [
+            np.append(0, depth - start),
+            np.append(0, n),
+            np.zeros(4),
+            np.append(0, z.std(axis=0, ddof=1)),
+        ]
         self.assertTrue(np.allclose(rows[:, [0, 1, 2, 5]], np.column_stack(expected), rtol=1e-11))
         self.assertTrue(np.all(np.isnan(rows[1:, 3])) and rows[0, 3] == 0)
 
@@ -123,25 +205,63 @@ class WholeText(unittest.TestCase):
         """Of bodies that yield, levels at which the approach is below one before are excluded; reloading beyond it goes on."""
         z, n = np.array([9.0, 7, 4, 6, 3.5, 5, 2]), np.array([[0, 1.0, 10, 0.5, 12, 2, 20]])
         file = made("yielding", z, n, n, 0 * n, plastic_contacts=("realization step", n))
-        self.assertTrue(np.allclose(self.rows(file)[:, :2], [[0, 0], [2, 1], [5, 10], [5.5, 12], [7, 20]]))
+        self.assertTrue(
+            np.allclose(self.rows(file)[:, :2], [[0, 0], [2, 1], [5, 10], [5.5, 12], [7, 20]])
+        )
         self.assertIn("2 after the first loading", run(file, "--calculix"))
 
     def test_refused(self):
         none = np.zeros((3, 8))
         single = np.where(self.Z == 2, 5.0, none)
         falls = np.where(self.Z == 4, 5.0, np.where(self.Z == 2, 4.0, none))
-        two = lambda *drop: made("lacks_" + "".join(drop), self.Z, self.N, self.A, self.STATUS, drop=drop)
-        for file, word in ((two("separation"), "'separation'"), (two("force"), "'force'"), (two("status"), "'status'"), (made("none", self.Z, none, none, 0 * self.STATUS), "0 levels"),
-                           (made("single", self.Z, single, single, 0 * self.STATUS), "1 level"), (made("falls", self.Z, falls, falls, 0 * self.STATUS), "increase"),
-                           (made("bad", self.Z, self.N, self.A, 0 * self.STATUS + 4), "0 levels"), (made("plane", self.Z, self.N, self.A, self.STATUS, indenter="flat"), "flats with a border"),
-                           (made("relaxing", self.Z, self.N, self.A, self.STATUS, time=("step", self.Z), energy_lost=("step", self.Z)), "relax"),
-                           (path("nothing"), "nothing"), (__file__, "read")):
+        two = lambda *drop: made(
+            "lacks_" + "".join(drop), self.Z, self.N, self.A, self.STATUS, drop=drop
+        )
+        for file, word in (
+            (two("separation"), "'separation'"),
+            (two("force"), "'force'"),
+            (two("status"), "'status'"),
+            (made("none", self.Z, none, none, 0 * self.STATUS), "0 levels"),
+            (made("single", self.Z, single, single, 0 * self.STATUS), "1 level"),
+            (made("falls", self.Z, falls, falls, 0 * self.STATUS), "increase"),
+            (made("bad", self.Z, self.N, self.A, 0 * self.STATUS + 4), "0 levels"),
+            (
+                made("plane", self.Z, self.N, self.A, self.STATUS, indenter="flat"),
+                "flats with a border",
+            ),
+            (
+                made(
+                    "relaxing",
+                    self.Z,
+                    self.N,
+                    self.A,
+                    self.STATUS,
+                    time=("step", self.Z),
+                    energy_lost=("step", self.Z),
+                ),
+                "relax",
+            ),
+            (path("nothing"), "nothing"),
+            (__file__, "read"),
+        ):
             said = run(file, "--table")
-            self.assertTrue(said.startswith("law.py: ") and word in said and repr(file) in said, (word, said))
-        self.assertIn("force against approach", run(made("cone", self.Z, self.N, self.A, self.STATUS, indenter="cone of slope 0.05"), "--table"))
+            self.assertTrue(
+                said.startswith("law.py: ") and word in said and repr(file) in said, (word, said)
+            )
+        self.assertIn(
+            "force against approach",
+            run(
+                made("cone", self.Z, self.N, self.A, self.STATUS, indenter="cone of slope 0.05"),
+                "--table",
+            ),
+        )
         # Two levels are enough.
         pair = np.where(self.Z == 4, 4.0, np.where(self.Z == 2, 5.0, none))
-        self.assertIn("3 points, force increasing", run(made("pair", self.Z, pair, pair, 0 * self.STATUS), "--table"))
+        self.assertIn(
+            "3 points, force increasing",
+            run(made("pair", self.Z, pair, pair, 0 * self.STATUS), "--table"),
+        )
+
 
 class Uinter(unittest.TestCase):
     def test_table(self):
@@ -152,14 +272,26 @@ class Uinter(unittest.TestCase):
         found = law.Law(file)
         text = run(file, "--abaqus")
         line = text[text.index("USER, PROPERTIES=") :].splitlines()
-        props = [float(v) for row in line[1:] if row.startswith("** ") for v in row[3:].split(",") if v.strip()]
+        props = [
+            float(v)
+            for row in line[1:]
+            if row.startswith("** ")
+            for v in row[3:].split(",")
+            if v.strip()
+        ]
         self.assertEqual(len(props), int(line[0].split("=")[1].split(",")[0]))
         k = 2.0e5
         c = np.concatenate([[-0.01, 0.0, 1e-9], np.linspace(0.0005, 0.039, 37), [0.045]])
         slope = np.diff(found.load) / np.diff(found.approach)
-        p = np.where(c > found.approach[-1], found.load[-1] + slope[-1] * (c - found.approach[-1]), np.interp(c, found.approach, found.load))
+        p = np.where(
+            c > found.approach[-1],
+            found.load[-1] + slope[-1] * (c - found.approach[-1]),
+            np.interp(c, found.approach, found.load),
+        )
         rows = uinter(props, k, c + p / k)
-        self.assertTrue(np.allclose(rows[:, 0], c, rtol=1e-7, atol=1e-10), abs(rows[:, 0] - c).max())
+        self.assertTrue(
+            np.allclose(rows[:, 0], c, rtol=1e-7, atol=1e-10), abs(rows[:, 0] - c).max()
+        )
         self.assertTrue(np.allclose(rows[:, 1], p, rtol=1e-6, atol=1e-3))
         self.assertLess(rows[:, 3].max(), 40)
 

@@ -30,27 +30,54 @@ SURFACE = "&surface n=256 L=1200.0 L_lambda_l=8 L_lambda_s=64 sigma=12.0 / &run 
 BALL = "&solids E=78.0,200.0 R=Infinity,3000.0 nu=0.42,0.3 resistivity=2.0e-5,3.0e-5 /"
 SMALL = "&surface n=128 L_lambda_l=4 L_lambda_s=16 sigma=0.01 / "
 CASES = {
-    "one": SURFACE + BALL + "&indentation centre=500.0,680.0 start=5.0 stop=0.0 steps=26 / &output map_cells=23 heights=.true. pdf_levels=0.0,0.6 /",
-    "many": SURFACE.replace("REALIZATIONS", "realizations=5") + BALL + "&indentation start=3.5 stop=0.5 steps=13 / &output map_cells=21 /",
-    "slid": SURFACE + BALL.replace("resistivity", "friction=0.3 resistivity") + "&indentation centre=500.0,680.0 start=3.0 stop=1.0 steps=41 /",
+    "one": SURFACE
+    + BALL
+    + "&indentation centre=500.0,680.0 start=5.0 stop=0.0 steps=26 / &output map_cells=23 heights=.true. pdf_levels=0.0,0.6 /",
+    "many": SURFACE.replace("REALIZATIONS", "realizations=5")
+    + BALL
+    + "&indentation start=3.5 stop=0.5 steps=13 / &output map_cells=21 /",
+    "slid": SURFACE
+    + BALL.replace("resistivity", "friction=0.3 resistivity")
+    + "&indentation centre=500.0,680.0 start=3.0 stop=1.0 steps=41 /",
     "back": SMALL + "&solids hardness=1.5e4 / &indentation levels=2.5,2,1.5,1,1.2,1.4,1.6,1.8 /",
-    "compared": SMALL + "&asperities law='fourth_order' / &indentation levels=2.0,1.5,1.0 / &compare levels=2.0,1.0 /",
+    "compared": SMALL
+    + "&asperities law='fourth_order' / &indentation levels=2.0,1.5,1.0 / &compare levels=2.0,1.0 /",
     "above": SMALL + "&indentation levels=9.0 / &compare levels=9.0 /",
-    "elements": SMALL + "&solver model='elements' / &indentation control='force' start=1.0 stop=20.0 steps=3 spacing='log' /",
+    "elements": SMALL
+    + "&solver model='elements' / &indentation control='force' start=1.0 stop=20.0 steps=3 spacing='log' /",
     "pressed": "&surface n=128 L_lambda_l=4 L_lambda_s=32 sigma=0.0009 / &solids R=Infinity,Infinity / &run realizations=3 /"
-               "&indentation boundary='periodic' control='pressure' unit='relative' levels=0.001,0.004,0.01 /",
-    "study": SURFACE + BALL + "&indentation start=2.0 stop=0.5 steps=4 / &study surface%sigma=5.0,10.0,20.0 surface%hurst=0.5,0.8 /",
-    "laws": SURFACE + BALL + "&indentation levels=1.0,0.5 / &study asperities%law='hertz','fourth_order' surface%sigma=5.0,10.0,20.0 /",
-    "forced": SMALL + "&indentation control='force' levels=1.0,10.0 / &study run%seed=1,2,3,4,5,6,7,8,9,10,11,12 /",
-    "cone": SMALL + "&solids hardness=1.5e4 / &indenter shape='cone' slope=0.05 / &indentation control='force' levels=0.1,1,10,1 /",
-    "creep": SMALL + "&solids relaxation_share=0.5 relaxation_time=1.0 / &indentation control='force' levels=1,1,1,1 times=0,1,10,100 /",
-    "keys": SMALL + "&indentation levels=1.0 / &study surface%sigma=0.01,0.02,0.03 surface%hurst=0.5,0.8 asperities%law='hertz','elliptic' /",
-    "stuck": SMALL.replace("0.01", "0.001") + "&solids E=2,Infinity R=Infinity,Infinity adhesion=2e-5 / &indentation boundary='periodic' levels=3.5,3,2.5,2,1.5,2,2.5,3,3.5 /",
-    "attracted": SMALL.replace("0.01", "0.001") + "&solids E=2,Infinity R=Infinity,5 adhesion=1e-5 adhesion_range=0.02 / &solver model='elements' / &indentation levels=3,2,1,0 / &run realizations=3 /",
-    "worn": SMALL.replace("0.01", "0.001") + "&solids E=210e3,Infinity nu=0.3,0.0 R=Infinity,Infinity hardness=3e3 / &asperities law='fourth_order' / &indentation boundary='periodic' levels=2,1.2,1.5,2 /",
+    "&indentation boundary='periodic' control='pressure' unit='relative' levels=0.001,0.004,0.01 /",
+    "study": SURFACE
+    + BALL
+    + "&indentation start=2.0 stop=0.5 steps=4 / &study surface%sigma=5.0,10.0,20.0 surface%hurst=0.5,0.8 /",
+    "laws": SURFACE
+    + BALL
+    + "&indentation levels=1.0,0.5 / &study asperities%law='hertz','fourth_order' surface%sigma=5.0,10.0,20.0 /",
+    "forced": SMALL
+    + "&indentation control='force' levels=1.0,10.0 / &study run%seed=1,2,3,4,5,6,7,8,9,10,11,12 /",
+    "cone": SMALL
+    + "&solids hardness=1.5e4 / &indenter shape='cone' slope=0.05 / &indentation control='force' levels=0.1,1,10,1 /",
+    "creep": SMALL
+    + "&solids relaxation_share=0.5 relaxation_time=1.0 / &indentation control='force' levels=1,1,1,1 times=0,1,10,100 /",
+    "keys": SMALL
+    + "&indentation levels=1.0 / &study surface%sigma=0.01,0.02,0.03 surface%hurst=0.5,0.8 asperities%law='hertz','elliptic' /",
+    "stuck": SMALL.replace("0.01", "0.001")
+    + "&solids E=2,Infinity R=Infinity,Infinity adhesion=2e-5 / &indentation boundary='periodic' levels=3.5,3,2.5,2,1.5,2,2.5,3,3.5 /",
+    "attracted": SMALL.replace("0.01", "0.001")
+    + "&solids E=2,Infinity R=Infinity,5 adhesion=1e-5 adhesion_range=0.02 / &solver model='elements' / &indentation levels=3,2,1,0 / &run realizations=3 /",
+    "worn": SMALL.replace("0.01", "0.001")
+    + "&solids E=210e3,Infinity nu=0.3,0.0 R=Infinity,Infinity hardness=3e3 / &asperities law='fourth_order' / &indentation boundary='periodic' levels=2,1.2,1.5,2 /",
     "map": "&surface source='heights' file='HEIGHTS' / &solids R=Infinity,9000.0 / &indentation levels=1.5,1.0,0.5 / &output heights=.true. /",
 }
-TO_SI = {"um": 1e-6, "mm": 1e-3, "mN": 1e-3, "N": 1.0, "ohm": 1.0, "radian": 1.0, "degree": np.pi / 180}
+TO_SI = {
+    "um": 1e-6,
+    "mm": 1e-3,
+    "mN": 1e-3,
+    "N": 1.0,
+    "ohm": 1.0,
+    "radian": 1.0,
+    "degree": np.pi / 180,
+}
 
 
 def path(name):
@@ -63,18 +90,31 @@ def setUpModule():
     unittest.addModuleCleanup(folder.cleanup)
     FOLDER = folder.name
     rng = np.random.default_rng(5)
-    x, y = (np.arange(130) + 0.5) * 1500 / 130, (np.arange(90) + 0.5) * 900 / 90  # other steps along x than along y
-    waves = [(k, turn, phase) for k, turn, phase in rng.uniform((0.022, 0, 0), (0.07, 2 * np.pi, 2 * np.pi), (150, 3))]
+    x, y = (np.arange(130) + 0.5) * 1500 / 130, (
+        np.arange(90) + 0.5
+    ) * 900 / 90  # other steps along x than along y
+    waves = [
+        (k, turn, phase)
+        for k, turn, phase in rng.uniform((0.022, 0, 0), (0.07, 2 * np.pi, 2 * np.pi), (150, 3))
+    ]
     with netCDF4.Dataset(path("heights"), "w") as file:
         for axis, values in (("y", y), ("x", x)):
             file.createDimension(axis, values.size)
             file.createVariable(axis, "f8", (axis,))[:] = values
             file[axis].units = "um"
-        file.createVariable("height", "f8", ("y", "x"))[:] = sum(0.002 * k**-1.8 * np.cos(k * (np.cos(t) * x[None, :] + np.sin(t) * y[:, None]) + p) for k, t, p in waves)
+        file.createVariable("height", "f8", ("y", "x"))[:] = sum(
+            0.002 * k**-1.8 * np.cos(k * (np.cos(t) * x[None, :] + np.sin(t) * y[:, None]) + p)
+            for k, t, p in waves
+        )
         file["height"].units = "um"
     for name, case in CASES.items():
         case = case.replace("REALIZATIONS", "").replace("HEIGHTS", path("heights"))
-        done = subprocess.run([os.environ["RSC_PROGRAM"], "-q", "-o", path(name)], input=case, text=True, capture_output=True)
+        done = subprocess.run(
+            [os.environ["RSC_PROGRAM"], "-q", "-o", path(name)],
+            input=case,
+            text=True,
+            capture_output=True,
+        )
         assert done.returncode == 0, (name, done.stderr)
 
 
@@ -85,9 +125,20 @@ def raw(name):
         values = {}
         for key, v in file.variables.items():
             units = getattr(v, "units", "1")
-            factor = np.prod([TO_SI[unit] ** int(power or 1) for unit, power in re.findall(r"([a-zA-Z]+)(-?\d*)", units)]) if units != "1" else 1.0
+            factor = (
+                np.prod(
+                    [
+                        TO_SI[unit] ** int(power or 1)
+                        for unit, power in re.findall(r"([a-zA-Z]+)(-?\d*)", units)
+                    ]
+                )
+                if units != "1"
+                else 1.0
+            )
             values[key] = np.ma.filled(np.ma.asarray(v[...]).astype(float), np.nan) * factor
-        return values, {(key, a): v.getncattr(a) for key, v in file.variables.items() for a in v.ncattrs()}
+        return values, {
+            (key, a): v.getncattr(a) for key, v in file.variables.items() for a in v.ncattrs()
+        }
 
 
 def results(*files):
@@ -111,7 +162,9 @@ def run(*words):
 
 class Drawn(unittest.TestCase):
     def figure(self, picture, *files, step=None, width=180.0):
-        figure = plot.PICTURES[picture](results(*files), plot.Options(width, step, say=lambda text: None))
+        figure = plot.PICTURES[picture](
+            results(*files), plot.Options(width, step, say=lambda text: None)
+        )
         self.addCleanup(plt.close, figure)
         self.assertIsNotNone(figure)
         self.check_texts(figure)
@@ -127,9 +180,22 @@ class Drawn(unittest.TestCase):
 
         with unittest.mock.patch.object(plt.matplotlib.text.Text, "draw", draw):
             figure.draw_without_rendering()
-        legends = [("legend", axis.get_legend().get_window_extent().padded(-1)) for axis in figure.axes if axis.get_legend()]
-        beyond = [name for name, box in texts + legends if box.x0 < 0 or box.y0 < 0 or box.x1 > figure.bbox.x1 or box.y1 > figure.bbox.y1]
-        over = [(name, other) for k, (name, box) in enumerate(texts) for other, place in texts[:k] if box.overlaps(place)]
+        legends = [
+            ("legend", axis.get_legend().get_window_extent().padded(-1))
+            for axis in figure.axes
+            if axis.get_legend()
+        ]
+        beyond = [
+            name
+            for name, box in texts + legends
+            if box.x0 < 0 or box.y0 < 0 or box.x1 > figure.bbox.x1 or box.y1 > figure.bbox.y1
+        ]
+        over = [
+            (name, other)
+            for k, (name, box) in enumerate(texts)
+            for other, place in texts[:k]
+            if box.overlaps(place)
+        ]
         self.assertEqual((beyond, over), ([], []))
 
 
@@ -141,14 +207,20 @@ class Numbers(Drawn):
         for line in (line for axis in figure.axes for line in axis.get_lines()):
             u, v = (np.asarray(a, float) for a in line.get_data())
             there = np.isfinite(u) & np.isfinite(v)
-            if there.sum() == x.size and np.allclose(u[there], x, rtol=tolerance) and np.allclose(v[there], y, rtol=tolerance, atol=tolerance * np.abs(y).max()):
+            if (
+                there.sum() == x.size
+                and np.allclose(u[there], x, rtol=tolerance)
+                and np.allclose(v[there], y, rtol=tolerance, atol=tolerance * np.abs(y).max())
+            ):
                 return
         self.fail("this curve is not drawn")
 
     def has_image(self, figure, values, extent=None):
         for image in (image for axis in figure.axes for image in axis.get_images()):
             shown = np.ma.filled(np.ma.asarray(image.get_array()).astype(float), np.nan)
-            if shown.shape == values.shape and np.allclose(shown, values, rtol=1e-9, atol=0, equal_nan=True):
+            if shown.shape == values.shape and np.allclose(
+                shown, values, rtol=1e-9, atol=0, equal_nan=True
+            ):
                 self.assertEqual(image.origin, "lower")
                 if extent is not None:
                     self.assertTrue(np.allclose(image.get_extent(), extent), image.get_extent())
@@ -159,21 +231,45 @@ class Numbers(Drawn):
         for name in ("one", "many"):
             v, _ = raw(name)
             at = np.flatnonzero(v["force"].mean(axis=0) > 0)
-            z, force, area = v["separation_sigma"], v["force"].mean(axis=0), v["contact_area"].mean(axis=0)
+            z, force, area = (
+                v["separation_sigma"],
+                v["force"].mean(axis=0),
+                v["contact_area"].mean(axis=0),
+            )
             load = self.figure("load", name)
             for quantity in ("force", "contacts"):
                 self.has_curve(load, z[at], v[quantity].mean(axis=0)[at])
             self.has_curve(self.figure("area", name), force[at], area[at])
             if name == "many":  # the band
-                ends = next(c for c in load.axes[0].collections if c.get_gid() == "scatter").get_paths()[0].vertices
+                ends = (
+                    next(c for c in load.axes[0].collections if c.get_gid() == "scatter")
+                    .get_paths()[0]
+                    .vertices
+                )
                 drawn = ends[np.isclose(ends[:, 0], z[at[-1]])][:, 1]
-                self.assertTrue(np.allclose([drawn.min(), drawn.max()], np.percentile(v["force"][:, at[-1]], [16, 84])))
-                self.assertTrue(np.allclose(results("many")[0].error("force")[at], np.nan_to_num(v["force_error_expected"] * v["force"]).max(axis=0)[at] / v["force"].mean(axis=0)[at]))
-            self.has_curve(self.figure("stiffness", name), force[at], -v["stiffness"].mean(axis=0)[at])
+                self.assertTrue(
+                    np.allclose(
+                        [drawn.min(), drawn.max()], np.percentile(v["force"][:, at[-1]], [16, 84])
+                    )
+                )
+                self.assertTrue(
+                    np.allclose(
+                        results("many")[0].error("force")[at],
+                        np.nan_to_num(v["force_error_expected"] * v["force"]).max(axis=0)[at]
+                        / v["force"].mean(axis=0)[at],
+                    )
+                )
+            self.has_curve(
+                self.figure("stiffness", name), force[at], -v["stiffness"].mean(axis=0)[at]
+            )
         # R = (rho_1 + rho_2)/L by the electrical analogy.
         v, _ = raw("one")
         at = np.flatnonzero(v["force"][0] > 0)
-        self.has_curve(self.figure("resistance", "one"), v["force"][0, at], 5.0e-5 * 1e-6 / v["conductance_length"][0, at])
+        self.has_curve(
+            self.figure("resistance", "one"),
+            v["force"][0, at],
+            5.0e-5 * 1e-6 / v["conductance_length"][0, at],
+        )
 
     def test_there_and_back(self):
         v, _ = raw("back")
@@ -191,31 +287,74 @@ class Numbers(Drawn):
     def test_laws_of_the_area(self):
         v, _ = raw("one")
         force = v["force_mean"][v["force_mean"] > 0]
-        drawn = {line.get_label(): line.get_data() for line in self.figure("area", "one").axes[0].get_lines()}
+        drawn = {
+            line.get_label(): line.get_data()
+            for line in self.figure("area", "one").axes[0].get_lines()
+        }
         x, y = next(data for label, data in drawn.items() if "Hertz" in label)
-        self.assertTrue(np.allclose(y, np.pi * (3 * float(v["r_star"]) * x / (4 * float(v["e_star"]))) ** (2 / 3)))
+        self.assertTrue(
+            np.allclose(
+                y, np.pi * (3 * float(v["r_star"]) * x / (4 * float(v["e_star"]))) ** (2 / 3)
+            )
+        )
         self.assertLessEqual(x[0], force.min())
         x, y = next(data for label, data in drawn.items() if "A_{II}" in label)
-        self.assertTrue(np.allclose(y, 0.2 * np.sqrt(np.pi / float(v["m2_theory"])) * x / float(v["e_star"]), rtol=1e-5))
+        self.assertTrue(
+            np.allclose(
+                y, 0.2 * np.sqrt(np.pi / float(v["m2_theory"])) * x / float(v["e_star"]), rtol=1e-5
+            )
+        )
 
     def test_cone(self):
         """A smooth cone carries the mean pressure E* slope/2; Hertz' pressures are of spheres. Levels before yielding have smaller forces."""
         v, _ = raw("cone")
         area = self.figure("area", "cone")
-        x, y = next(line.get_data() for line in area.axes[0].get_lines() if line.get_label() == "smooth cone")
+        x, y = next(
+            line.get_data()
+            for line in area.axes[0].get_lines()
+            if line.get_label() == "smooth cone"
+        )
         self.assertTrue(np.allclose(y, 2 * x / (0.05 * float(v["e_star"]))))
-        said = next(text.get_text() for text in area.axes[-1].get_legend().get_texts() if "yield from" in text.get_text())
+        said = next(
+            text.get_text()
+            for text in area.axes[-1].get_legend().get_texts()
+            if "yield from" in text.get_text()
+        )
         first = np.argmax(v["plastic_contacts"][0] > 0)
         self.assertGreater(first, 0)
-        self.assertEqual(said, "contacts yield from {} on (none at {})".format(*(plot_style.amount(v["force"][0, k], "N") for k in (first, first - 1))))
-        self.assertFalse(any(line.get_gid() == "hertz" for axis in self.figure("radial", "cone").axes for line in axis.get_lines()))
+        self.assertEqual(
+            said,
+            "contacts yield from {} on (none at {})".format(
+                *(plot_style.amount(v["force"][0, k], "N") for k in (first, first - 1))
+            ),
+        )
+        self.assertFalse(
+            any(
+                line.get_gid() == "hertz"
+                for axis in self.figure("radial", "cone").axes
+                for line in axis.get_lines()
+            )
+        )
 
     def test_names_of_levels(self):
         """Levels under one force are told apart by their times; members of a study by all keys that vary."""
-        texts = [text.get_text() for text in self.figure("radial", "creep").axes[-1].get_legend().get_texts()]
-        self.assertEqual([text.split(" (")[0] for text in texts], ["$t$ = 1 s", "$t$ = 10 s", "$t$ = 100 s"])
+        texts = [
+            text.get_text()
+            for text in self.figure("radial", "creep").axes[-1].get_legend().get_texts()
+        ]
+        self.assertEqual(
+            [text.split(" (")[0] for text in texts], ["$t$ = 1 s", "$t$ = 10 s", "$t$ = 100 s"]
+        )
         _, texts, _ = Looks(results(*members("keys", 12))).scale
-        self.assertEqual(texts, [f"{sigma}, {hurst}, {law}" for sigma in (0.01, 0.02, 0.03) for hurst in (0.5, 0.8) for law in ("hertz", "elliptic")])
+        self.assertEqual(
+            texts,
+            [
+                f"{sigma}, {hurst}, {law}"
+                for sigma in (0.01, 0.02, 0.03)
+                for hurst in (0.5, 0.8)
+                for law in ("hertz", "elliptic")
+            ],
+        )
 
     def test_flats(self):
         v, _ = raw("pressed")
@@ -225,74 +364,164 @@ class Numbers(Drawn):
             self.has_curve(figure, x, v[name] / x)
             self.has_curve(area, v["force"].mean(axis=0), v[name] * 1e-6)  # shares of 1 mm2
         self.has_curve(figure, x, v["area_fraction"].mean(axis=0) / x)
-        self.assertFalse(any("N^*" in line.get_label() or "A_I" in line.get_label() for line in area.axes[0].get_lines()))
+        self.assertFalse(
+            any(
+                "N^*" in line.get_label() or "A_I" in line.get_label()
+                for line in area.axes[0].get_lines()
+            )
+        )
 
     def test_adhesion(self):
         """Where the force turns back, errors are bars. Attraction without contact has a force. Theories of flats know no tension."""
         v, _ = raw("stuck")
         N, A, off = (v[name][0] for name in ("force", "contact_area", "area_error_expected"))
-        bars, _ = (c.get_segments() for c in self.figure("area", "stuck").axes[0].collections if c.get_gid() == "error")
+        bars, _ = (
+            c.get_segments()
+            for c in self.figure("area", "stuck").axes[0].collections
+            if c.get_gid() == "error"
+        )
         down = np.flatnonzero(A[:5] > 0)
-        self.assertTrue(np.allclose(bars, [[[N[k], A[k] * max(1 - off[k], 0.02)], [N[k], A[k] * (1 + off[k])]] for k in down]))
+        self.assertTrue(
+            np.allclose(
+                bars,
+                [[[N[k], A[k] * max(1 - off[k], 0.02)], [N[k], A[k] * (1 + off[k])]] for k in down],
+            )
+        )
         self.assertIsNone(plot.PICTURES["flats"](results("stuck"), plot.Options()))
         v, _ = raw("attracted")
         self.assertTrue((v["force"] < 0).all() and not v["contact_area"][:, 0].any())
         figure = self.figure("load", "attracted")
         self.has_curve(figure, v["separation_sigma"], v["force"].mean(axis=0))
-        ends = next(c for c in figure.axes[0].collections if c.get_gid() == "scatter").get_paths()[0].vertices[:, 1]
-        self.assertTrue(np.allclose([ends.min(), ends.max()], [f(np.percentile(v["force"], q, axis=0)) for f, q in ((np.min, 16), (np.max, 84))]))
+        ends = (
+            next(c for c in figure.axes[0].collections if c.get_gid() == "scatter")
+            .get_paths()[0]
+            .vertices[:, 1]
+        )
+        self.assertTrue(
+            np.allclose(
+                [ends.min(), ends.max()],
+                [f(np.percentile(v["force"], q, axis=0)) for f, q in ((np.min, 16), (np.max, 84))],
+            )
+        )
 
     def test_large_errors(self):
         """An error of many times the value goes out of the picture."""
         v, _ = raw("worn")
         axis = self.figure("flats", "worn").axes[0]
         top = max(np.nanmax(line.get_ydata()) for line in axis.get_lines())
-        ends = [c.get_paths()[0].vertices[:, 1].max() for c in axis.collections if c.get_gid() == "error"]
+        ends = [
+            c.get_paths()[0].vertices[:, 1].max()
+            for c in axis.collections
+            if c.get_gid() == "error"
+        ]
         self.assertGreater(np.nanmax(v["area_error_expected"]), 3)
         self.assertTrue(axis.get_ylim()[1] < 2.2 * top < max(ends))
 
     def test_maps(self):
         v, _ = raw("one")
         side = float(v["map_cell_side"])
-        extent = [v["x"][0] - side / 2, v["x"][-1] + side / 2, v["y"][0] - side / 2, v["y"][-1] + side / 2]
+        extent = [
+            v["x"][0] - side / 2,
+            v["x"][-1] + side / 2,
+            v["y"][0] - side / 2,
+            v["y"][-1] + side / 2,
+        ]
         figure = self.figure("map", "one", step=22)
         for name in ("map_pressure", "map_area_fraction"):
             self.has_image(figure, np.where(v[name][21] > 0, v[name][21], np.nan), extent)
         self.assertGreater(*figure.get_size_inches())  # one level fills no page
-        self.assertGreater(raw("back")[0]["map_area_fraction"].max(), 1)  # spots larger than the cell of their centre
-        self.assertTrue(all(image.get_clim()[1] <= 1 for axis in self.figure("map", "back").axes[:3] for image in axis.get_images()))
+        self.assertGreater(
+            raw("back")[0]["map_area_fraction"].max(), 1
+        )  # spots larger than the cell of their centre
+        self.assertTrue(
+            all(
+                image.get_clim()[1] <= 1
+                for axis in self.figure("map", "back").axes[:3]
+                for image in axis.get_images()
+            )
+        )
         p, r = v["radial_pressure"][21], v["radius"]
         figure = self.figure("radial", "one", step=22)
         self.has_curve(figure, r[np.isfinite(p)], p[np.isfinite(p)])
-        r, p = next(line for line in figure.axes[0].get_lines() if line.get_gid() == "hertz").get_data()
-        np.testing.assert_allclose(np.trapz(2 * np.pi * r * p, r), v["force"][0, 21], rtol=1e-3)  # the smooth sphere carries the same force
-        many = self.figure("map", *members("forced", 12)[-5:], width=100.0)  # the titles have wider lines than the maps
+        r, p = next(
+            line for line in figure.axes[0].get_lines() if line.get_gid() == "hertz"
+        ).get_data()
+        np.testing.assert_allclose(
+            np.trapz(2 * np.pi * r * p, r), v["force"][0, 21], rtol=1e-3
+        )  # the smooth sphere carries the same force
+        many = self.figure(
+            "map", *members("forced", 12)[-5:], width=100.0
+        )  # the titles have wider lines than the maps
         self.assertEqual(sum(bool(axis.get_images()) for axis in many.axes), 5)
-        images = [image for axis in self.figure("map", *members("forced", 4), "attracted", width=120.0).axes for image in axis.get_images()]
-        self.assertEqual({(image.get_cmap().name, image.get_clim()) for image in images}, {("coolwarm", (-images[0].get_clim()[1], images[0].get_clim()[1]))})
-        shutil.copy(path("one"), path("oblong"))  # as if a quarter of the last row were on the surface
+        images = [
+            image
+            for axis in self.figure("map", *members("forced", 4), "attracted", width=120.0).axes
+            for image in axis.get_images()
+        ]
+        self.assertEqual(
+            {(image.get_cmap().name, image.get_clim()) for image in images},
+            {("coolwarm", (-images[0].get_clim()[1], images[0].get_clim()[1]))},
+        )
+        shutil.copy(
+            path("one"), path("oblong")
+        )  # as if a quarter of the last row were on the surface
         with netCDF4.Dataset(path("oblong"), "a") as file:
-            file["y"].share_of_last_row, file["map_pressure"][21, -1] = 0.25, file["map_pressure"][21].max()
+            file["y"].share_of_last_row, file["map_pressure"][21, -1] = (
+                0.25,
+                file["map_pressure"][21].max(),
+            )
         figure = self.figure("map", "oblong", step=22)
-        p = np.vstack([v["map_pressure"][21, :-1], np.full(v["x"].size, 4 * v["map_pressure"][21].max())])
+        p = np.vstack(
+            [v["map_pressure"][21, :-1], np.full(v["x"].size, 4 * v["map_pressure"][21].max())]
+        )
         self.has_image(figure, np.where(p > 0, p, np.nan), extent)
         self.assertAlmostEqual(figure.axes[0].get_ylim()[1], extent[3] - 0.75 * side)
 
     def test_spots(self):
         v, _ = raw("one")
-        part = slice(int(v["contact_start"][21]) - 1, int(v["contact_start"][21] + v["contact_count"][21]) - 1)
+        part = slice(
+            int(v["contact_start"][21]) - 1,
+            int(v["contact_start"][21] + v["contact_count"][21]) - 1,
+        )
         which, a = v["contact_asperity"][part].astype(int) - 1, v["contact_radius"][part]
-        drawn = [c for c in self.figure("spots", "one", step=22).axes[1].collections if hasattr(c, "_widths")]
-        self.assertTrue(any(np.allclose(c.get_offsets(), np.column_stack([v["asperity_x"][which], v["asperity_y"][which]])) and np.allclose(c._widths, a) for c in drawn))
+        drawn = [
+            c
+            for c in self.figure("spots", "one", step=22).axes[1].collections
+            if hasattr(c, "_widths")
+        ]
+        self.assertTrue(
+            any(
+                np.allclose(
+                    c.get_offsets(),
+                    np.column_stack([v["asperity_x"][which], v["asperity_y"][which]]),
+                )
+                and np.allclose(c._widths, a)
+                for c in drawn
+            )
+        )
 
         # Yielding and elastic spots have the colours of the legend.
         v, _ = raw("back")
-        yields = (v["contact_yields"][int(v["contact_start"][3]) - 1:][: int(v["contact_count"][3])] > 0).sum()
+        yields = (
+            v["contact_yields"][int(v["contact_start"][3]) - 1 :][: int(v["contact_count"][3])] > 0
+        ).sum()
         figure = self.figure("spots", "back", step=4)
-        colours = {text.get_text(): plt.matplotlib.colors.to_rgba(handle.get_color()) for text, handle in zip(figure.axes[-1].get_legend().get_texts(), figure.axes[-1].get_legend().get_lines())}
-        drawn = {tuple(c.get_facecolor()[0]): len(c.get_offsets()) for c in figure.axes[1].collections if hasattr(c, "_widths")}
+        colours = {
+            text.get_text(): plt.matplotlib.colors.to_rgba(handle.get_color())
+            for text, handle in zip(
+                figure.axes[-1].get_legend().get_texts(), figure.axes[-1].get_legend().get_lines()
+            )
+        }
+        drawn = {
+            tuple(c.get_facecolor()[0]): len(c.get_offsets())
+            for c in figure.axes[1].collections
+            if hasattr(c, "_widths")
+        }
         self.assertTrue(0 < yields < v["contact_count"][3])
-        self.assertEqual((drawn[colours["yielding"]], drawn[colours["elastic"]]), (yields, v["contact_count"][3] - yields))
+        self.assertEqual(
+            (drawn[colours["yielding"]], drawn[colours["elastic"]]),
+            (yields, v["contact_count"][3] - yields),
+        )
 
     def test_friction(self):
         v, _ = raw("slid")
@@ -300,10 +529,18 @@ class Numbers(Drawn):
         self.has_curve(figure, v["tangential_displacement"][39], v["tangential_force"][39])
         # The smooth sphere by Mindlin: full slip at (mu N/k)(3/2), k the tangential stiffness of its contact.
         N, R, E = v["force_mean"][39], float(v["r_star"]), float(v["e_star"])
-        m = ((1 - 0.42**2) / 78 + (1 - 0.3**2) / 200) * 4 / (2 * (2 - 0.42) * 1.42 / 78 + 2 * (2 - 0.3) * 1.3 / 200)
+        m = (
+            ((1 - 0.42**2) / 78 + (1 - 0.3**2) / 200)
+            * 4
+            / (2 * (2 - 0.42) * 1.42 / 78 + 2 * (2 - 0.3) * 1.3 / 200)
+        )
         full = 1.5 * 0.3 * N / (2 * E * (3 * N * R / (4 * E)) ** (1 / 3) * m)
-        x, Q = next(line.get_data() for line in figure.axes[0].get_lines() if "Mindlin" in line.get_label())
-        self.assertAlmostEqual(np.interp(0.5 * full, x[:60], Q[:60]) / (0.3 * N * (1 - 0.5**1.5)), 1, delta=1e-3)
+        x, Q = next(
+            line.get_data() for line in figure.axes[0].get_lines() if "Mindlin" in line.get_label()
+        )
+        self.assertAlmostEqual(
+            np.interp(0.5 * full, x[:60], Q[:60]) / (0.3 * N * (1 - 0.5**1.5)), 1, delta=1e-3
+        )
 
     def test_not_converged(self):
         """Maps and radial means have nothing of a level that did not converge: the last one that did is drawn."""
@@ -317,30 +554,68 @@ class Numbers(Drawn):
         steps = v["compare_step"].astype(int) - 1
         figure = self.figure("compare", "compared")
         for name in ("force", "contact_area", "contacts"):
-            self.has_curve(figure, v["force"][0, steps], 100 * (v[name][0, steps] / v["compare_" + name] - 1))
+            self.has_curve(
+                figure, v["force"][0, steps], 100 * (v[name][0, steps] / v["compare_" + name] - 1)
+            )
         turned = [c for axis in figure.axes for c in axis.collections if c.get_gid() == "spots"]
         angles, ratios = v["contact_angle"], v["contact_major"] / v["contact_minor"]
-        self.assertTrue(turned and all((np.isclose(np.cos(angles[:, None] - c._angles), 1, atol=1e-9) & np.isclose(ratios[:, None], c._widths / c._heights, rtol=1e-9)).any(axis=0).all() for c in turned))
-        self.assertIsNone(plot_compare.compare(results("above"), plot.Options(180.0)))  # nothing touches
+        self.assertTrue(
+            turned
+            and all(
+                (
+                    np.isclose(np.cos(angles[:, None] - c._angles), 1, atol=1e-9)
+                    & np.isclose(ratios[:, None], c._widths / c._heights, rtol=1e-9)
+                )
+                .any(axis=0)
+                .all()
+                for c in turned
+            )
+        )
+        self.assertIsNone(
+            plot_compare.compare(results("above"), plot.Options(180.0))
+        )  # nothing touches
         # The pressure of one elliptic spot along all lines adds up to its force.
         lines = np.linspace(-0.8, 0.8, 401)
-        drawn = [plot_compare.along_line([[0.0], [0.0], [0.5 * 1.5**0.5], [0.5 / 1.5**0.5], [0.4], [3.0], [0]], line, -0.8, 0.8) for line in lines]
-        self.assertAlmostEqual(sum(p.sum() * (x[1] - x[0]) for x, p in drawn) * (lines[1] - lines[0]) / 3.0, 1, delta=2e-3)
+        drawn = [
+            plot_compare.along_line(
+                [[0.0], [0.0], [0.5 * 1.5**0.5], [0.5 / 1.5**0.5], [0.4], [3.0], [0]],
+                line,
+                -0.8,
+                0.8,
+            )
+            for line in lines
+        ]
+        self.assertAlmostEqual(
+            sum(p.sum() * (x[1] - x[0]) for x, p in drawn) * (lines[1] - lines[0]) / 3.0,
+            1,
+            delta=2e-3,
+        )
 
     def test_distributions(self):
         v, _ = raw("one")
-        figure = self.figure("distributions", "one", width=85.0)  # the legend has wider lines than the figure
+        figure = self.figure(
+            "distributions", "one", width=85.0
+        )  # the legend has wider lines than the figure
         for name in ("pressure_mean_pdf", "pressure_pdf", "spot_area_pdf"):
             p, density = v[name.replace("_pdf", "_bin")], v[name][0]
             self.has_curve(figure, p[density > 0], density[density > 0])
-            units = [plot_style.si(raw("one")[1][(key, "units")])[0] for key in (name, name.replace("_pdf", "_bin"))]
+            units = [
+                plot_style.si(raw("one")[1][(key, "units")])[0]
+                for key in (name, name.replace("_pdf", "_bin"))
+            ]
             self.assertAlmostEqual(units[0] * units[1], 1)  # a density is per unit of its bins
         with netCDF4.Dataset(path("one")) as file:
             mean = float(np.ravel(file["spot_area_pdf"].mean)[0]) * 1e-12
-        x = np.linspace(v["spot_area_bin"][0] / 10, v["spot_area_bin"][v["spot_area_pdf"][0] > 0].max(), 300)
+        x = np.linspace(
+            v["spot_area_bin"][0] / 10, v["spot_area_bin"][v["spot_area_pdf"][0] > 0].max(), 300
+        )
         self.has_curve(figure, x, np.exp(-x / mean) / mean, 1e-6)
-        x, density = next(line.get_data() for line in figure.axes[1].get_lines() if line.get_gid() == "fit")
-        scale = x[np.argmax(density)]  # the mode of Rayleigh's density is its scale s, and the density there exp(-1/2)/s
+        x, density = next(
+            line.get_data() for line in figure.axes[1].get_lines() if line.get_gid() == "fit"
+        )
+        scale = x[
+            np.argmax(density)
+        ]  # the mode of Rayleigh's density is its scale s, and the density there exp(-1/2)/s
         self.assertAlmostEqual(density.max() * scale, np.exp(-0.5), delta=1e-3)
 
     def test_surface(self):
@@ -357,25 +632,58 @@ class Numbers(Drawn):
     def test_study(self):
         figure = self.figure("study", *members("study", 6), step=2)
         for name in ("force", "contact_area", "contacts"):
-            self.has_image(figure, np.array([raw(file)[0][name][0, 1] for file in members("study", 6)]).reshape(3, 2).T)  # sigma varies slowest
+            self.has_image(
+                figure,
+                np.array([raw(file)[0][name][0, 1] for file in members("study", 6)])
+                .reshape(3, 2)
+                .T,
+            )  # sigma varies slowest
         self.assertIn("1.5", figure._suptitle.get_text())
-        laws = self.figure("study", *members("laws", 6))  # sigma is a number, law is not: a curve for each law, with its expected error
+        laws = self.figure(
+            "study", *members("laws", 6)
+        )  # sigma is a number, law is not: a curve for each law, with its expected error
         for name in ("force", "contact_area"):
-            values = np.array([raw(file)[0][name][0, -1] for file in members("laws", 6)]).reshape(2, 3)  # law varies slowest
+            values = np.array([raw(file)[0][name][0, -1] for file in members("laws", 6)]).reshape(
+                2, 3
+            )  # law varies slowest
             for of_law in values:
                 self.has_curve(laws, np.array([5.0, 10.0, 20.0]), of_law)
-        self.assertEqual(sum(c.get_gid() == "error" for axis in laws.axes[:2] for c in axis.collections), 4)
-        keys = self.figure("study", *members("keys", 12))  # of two keys of numbers the one with more values
-        self.has_curve(keys, np.array([0.01, 0.02, 0.03]), np.array([raw(file)[0]["force"][0, -1] for file in members("keys", 12)[1::4]]))
-        forced = self.figure("study", *members("forced", 12))  # the force is the same everywhere: the separation is drawn instead
+        self.assertEqual(
+            sum(c.get_gid() == "error" for axis in laws.axes[:2] for c in axis.collections), 4
+        )
+        keys = self.figure(
+            "study", *members("keys", 12)
+        )  # of two keys of numbers the one with more values
+        self.has_curve(
+            keys,
+            np.array([0.01, 0.02, 0.03]),
+            np.array([raw(file)[0]["force"][0, -1] for file in members("keys", 12)[1::4]]),
+        )
+        forced = self.figure(
+            "study", *members("forced", 12)
+        )  # the force is the same everywhere: the separation is drawn instead
         self.assertIn("10 N", forced._suptitle.get_text())
         self.assertIn("Z_0", forced.axes[0].get_ylabel())
         opened, stem = plot.open_results([path("study_manifest")])
         self.assertEqual((len(set(names(opened))), stem), (6, "study"))
-        twice, _ = plot.open_results([path("study_manifest"), path("study_002"), os.path.join(FOLDER, ".", "study_002.nc"), path("one"), path("one")])
-        self.assertEqual([os.path.basename(result.path) for result in twice], [os.path.basename(path(name)) for name in [*members("study", 6), "one"]])
+        twice, _ = plot.open_results(
+            [
+                path("study_manifest"),
+                path("study_002"),
+                os.path.join(FOLDER, ".", "study_002.nc"),
+                path("one"),
+                path("one"),
+            ]
+        )
+        self.assertEqual(
+            [os.path.basename(result.path) for result in twice],
+            [os.path.basename(path(name)) for name in [*members("study", 6), "one"]],
+        )
         looks = Looks(results(*members("forced", 12)))
-        self.assertEqual((len({tuple(colour) for _, colour, _ in looks.of}), looks.scale[1]), (12, [str(k) for k in range(1, 13)]))
+        self.assertEqual(
+            (len({tuple(colour) for _, colour, _ in looks.of}), looks.scale[1]),
+            (12, [str(k) for k in range(1, 13)]),
+        )
 
     def test_units(self):
         _, axis = plt.subplots()
@@ -384,35 +692,108 @@ class Numbers(Drawn):
             plot_style.label(axis, which, which, "m")
         self.assertEqual((axis.get_xlabel(), axis.get_ylabel()), ("x [mm]", "y [mm]"))
         plt.close(axis.figure)
-        for text, factor, dimension in (("N mm-2", 1e6, "N m-2"), ("um2", 1e-12, "m2"), ("mN um-1", 1e3, "N m-1"), ("mN-1 um2", 1e-9, "N-1 m2"), ("1", 1.0, ""), ("lbf inch-2", 6894.757293168, "N m-2"), ("furlong", 1.0, "furlong")):
-            self.assertEqual((round(plot_style.si(text)[0] / factor, 12), plot_style.si(text)[1]), (1.0, dimension))
-        for value, dimension, shown in ((2.5e-7, "m", "250 nm"), (3e-5, "m", "30 µm"), (4e9, "N m-2", "4 GPa"), (0.02, "N", "20 mN"), (0.5, "", "0.5"), (3e-10, "m2", "300 µm²")):
+        for text, factor, dimension in (
+            ("N mm-2", 1e6, "N m-2"),
+            ("um2", 1e-12, "m2"),
+            ("mN um-1", 1e3, "N m-1"),
+            ("mN-1 um2", 1e-9, "N-1 m2"),
+            ("1", 1.0, ""),
+            ("lbf inch-2", 6894.757293168, "N m-2"),
+            ("furlong", 1.0, "furlong"),
+        ):
+            self.assertEqual(
+                (round(plot_style.si(text)[0] / factor, 12), plot_style.si(text)[1]),
+                (1.0, dimension),
+            )
+        for value, dimension, shown in (
+            (2.5e-7, "m", "250 nm"),
+            (3e-5, "m", "30 µm"),
+            (4e9, "N m-2", "4 GPa"),
+            (0.02, "N", "20 mN"),
+            (0.5, "", "0.5"),
+            (3e-10, "m2", "300 µm²"),
+        ):
             self.assertEqual(plot_style.amount(value, dimension), shown)
 
 
 class Command(unittest.TestCase):
     def test_run(self):
-        status, text = run(path("one"), "-o", os.path.join(FOLDER, "pictures"), "--only", "load", "--only", "resistance")
-        self.assertEqual((status, [os.path.basename(word) for word in text.split()]), (0, ["one_load.png", "one_resistance.png"]))
-        status, text = run(path("one"), "-o", FOLDER, "--only", "load", "--format", "pdf", "--width", "single", "--name", "mine")
+        status, text = run(
+            path("one"),
+            "-o",
+            os.path.join(FOLDER, "pictures"),
+            "--only",
+            "load",
+            "--only",
+            "resistance",
+        )
+        self.assertEqual(
+            (status, [os.path.basename(word) for word in text.split()]),
+            (0, ["one_load.png", "one_resistance.png"]),
+        )
+        status, text = run(
+            path("one"),
+            "-o",
+            FOLDER,
+            "--only",
+            "load",
+            "--format",
+            "pdf",
+            "--width",
+            "single",
+            "--name",
+            "mine",
+        )
         self.assertEqual((status, text.strip()), (0, os.path.join(FOLDER, "mine_load.pdf")))
 
     def test_every_picture(self):
         status, text = run(path("one"), "-o", os.path.join(FOLDER, "all"), "--dpi", "75")
-        self.assertTrue(status == 0 and len(text.split()) >= 5 and all(os.path.getsize(picture) > 2500 for picture in text.split()), text)
+        self.assertTrue(
+            status == 0
+            and len(text.split()) >= 5
+            and all(os.path.getsize(picture) > 2500 for picture in text.split()),
+            text,
+        )
 
     def test_refused(self):
-        for words, word in (([path("one"), "--step", "99"], "1 to 26"), ([path("one"), "--step", "0"], "1 to 26"), ([path("nothing")], "nothing"), ([path("one"), "--width", "7"], "millimetres"),
-                            ([path("one"), "--only", "nonsense"], "nonsense"), ([__file__], "read"), ([path("heights")], "no result"), ([path("one"), "--only", "loop", "-o", FOLDER], "loop")):
+        for words, word in (
+            ([path("one"), "--step", "99"], "1 to 26"),
+            ([path("one"), "--step", "0"], "1 to 26"),
+            ([path("nothing")], "nothing"),
+            ([path("one"), "--width", "7"], "millimetres"),
+            ([path("one"), "--only", "nonsense"], "nonsense"),
+            ([__file__], "read"),
+            ([path("heights")], "no result"),
+            ([path("one"), "--only", "loop", "-o", FOLDER], "loop"),
+        ):
             status, text = run(*words)
-            self.assertTrue(status not in (0, None) and word in text + str(status), (words, status, text))
+            self.assertTrue(
+                status not in (0, None) and word in text + str(status), (words, status, text)
+            )
 
     def test_python_without_modules(self):
         """-S leaves out where the modules are: the script goes on with a Python that has them; where there is none it names the packages."""
-        words = [sys.executable, "-S", os.path.join(PLOT, "plot.py"), path("compared"), "--only", "load", "-o", FOLDER]
-        done = subprocess.run(words, text=True, capture_output=True, env={**os.environ, "PYTHON": sys.executable})
-        self.assertEqual((done.returncode, done.stdout.strip()), (0, os.path.join(FOLDER, "compared_load.png")), done.stderr)
-        with unittest.mock.patch("shutil.which", return_value=None), self.assertRaises(SystemExit) as stop:
+        words = [
+            sys.executable,
+            "-S",
+            os.path.join(PLOT, "plot.py"),
+            path("compared"),
+            "--only",
+            "load",
+            "-o",
+            FOLDER,
+        ]
+        done = subprocess.run(
+            words, text=True, capture_output=True, env={**os.environ, "PYTHON": sys.executable}
+        )
+        self.assertEqual(
+            (done.returncode, done.stdout.strip()),
+            (0, os.path.join(FOLDER, "compared_load.png")),
+            done.stderr,
+        )
+        with unittest.mock.patch("shutil.which", return_value=None), self.assertRaises(
+            SystemExit
+        ) as stop:
             plot_python.needs("numpy", "a_module_that_is_not_there")
         self.assertIn("python3-numpy", str(stop.exception.code))
 

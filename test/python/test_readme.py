@@ -9,7 +9,12 @@ import subprocess
 import sys
 import tempfile
 
-LANGUAGES = [("python", r"import |from "), ("fortran", r"program \w+$"), ("fixed", r" {6}program \w+$"), ("c", r"#include ")]
+LANGUAGES = [
+    ("python", r"import |from "),
+    ("fortran", r"program \w+$"),
+    ("fixed", r" {6}program \w+$"),
+    ("c", r"#include "),
+]
 
 
 def examples(text):
@@ -17,7 +22,10 @@ def examples(text):
     lines = text.split("\n")
     k = 0
     while k < len(lines):
-        language = next((name for name, start in LANGUAGES if re.match(f"    (?:{start})", lines[k], re.I)), None)
+        language = next(
+            (name for name, start in LANGUAGES if re.match(f"    (?:{start})", lines[k], re.I)),
+            None,
+        )
         if language is None:
             k += 1
             continue
@@ -54,8 +62,15 @@ def main():
                 # An example shows something: it prints, nothing that is no number, and no messages of HDF5.
                 shown = done.stdout.strip() or command[0] != command[-1] and language != "python"
                 made = len(os.listdir(folder)) > 1
-                if done.returncode != 0 or not (shown or made) or re.search(r"\bnan\b", done.stdout, re.I) or "HDF5" in done.stderr:
-                    print(f"line {number}, {language}: status {done.returncode}\n{done.stdout}{done.stderr}")
+                if (
+                    done.returncode != 0
+                    or not (shown or made)
+                    or re.search(r"\bnan\b", done.stdout, re.I)
+                    or "HDF5" in done.stderr
+                ):
+                    print(
+                        f"line {number}, {language}: status {done.returncode}\n{done.stdout}{done.stderr}"
+                    )
                     failed += 1
                     break
     print(f"examples run: {count}; {failed} failed")

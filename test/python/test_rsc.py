@@ -12,7 +12,10 @@ import rsc
 from result_files import InFolder
 
 E, U = 2.0e5, 1.0e-3
-SMALL = {"surface": {"n": 128, "L_lambda_l": 4.0, "L_lambda_s": 32.0, "sigma": 0.01}, "solver": {"method": "direct"}}
+SMALL = {
+    "surface": {"n": 128, "L_lambda_l": 4.0, "L_lambda_s": 32.0, "sigma": 0.01},
+    "solver": {"method": "direct"},
+}
 
 
 def one_asperity(case=None):
@@ -26,13 +29,17 @@ class Values(unittest.TestCase):
         surface = rsc.Surface.synthesize(case, 2)
         z = surface.heights()
         grid = surface.grid()
-        self.assertEqual((z.shape, z.dtype, grid.nx, grid.periodic), ((128, 128), np.float64, 128, True))
+        self.assertEqual(
+            (z.shape, z.dtype, grid.nx, grid.periodic), ((128, 128), np.float64, 128, True)
+        )
         self.assertAlmostEqual(math.sqrt(surface.moments().m0) / 0.01, 1, delta=1e-10)
         asperities = rsc.Asperities.find(surface, case)
         x, y, height, radius = asperities.get()
         j, i = np.rint(y / grid.dy).astype(int), np.rint(x / grid.dx).astype(int)
         self.assertTrue(np.array_equal(height, z[j, i]))  # not z[i, j]
-        self.assertTrue(np.array_equal(np.stack(asperities.get()), np.stack(rsc.Asperities.make(case, 2).get())))
+        self.assertTrue(
+            np.array_equal(np.stack(asperities.get()), np.stack(rsc.Asperities.make(case, 2).get()))
+        )
         again = rsc.Surface.take(z, grid.dx, periodic=True)
         out = np.empty_like(z)
         self.assertIs(again.heights(out), out)
@@ -44,9 +51,27 @@ class Values(unittest.TestCase):
         self.assertTrue(np.array_equal(np.stack(rsc.Asperities.take(*xyzr.T).get()), xyzr.T))
 
     def test_cases(self):
-        case = rsc.Case({"surface": {"sigma": 0.02, "n": 4096, "plateau": True}, "solver%method": "direct", "solids": {"E": [1 / 3, math.inf]}})
-        self.assertEqual([case[k] for k in ("surface%sigma", "surface%n", "surface%plateau", "solver%method", "solids%E", "solids%E(2)")],
-                         [0.02, 4096, True, "direct", (1 / 3, math.inf), math.inf])
+        case = rsc.Case(
+            {
+                "surface": {"sigma": 0.02, "n": 4096, "plateau": True},
+                "solver%method": "direct",
+                "solids": {"E": [1 / 3, math.inf]},
+            }
+        )
+        self.assertEqual(
+            [
+                case[k]
+                for k in (
+                    "surface%sigma",
+                    "surface%n",
+                    "surface%plateau",
+                    "solver%method",
+                    "solids%E",
+                    "solids%E(2)",
+                )
+            ],
+            [0.02, 4096, True, "direct", (1 / 3, math.inf), math.inf],
+        )
         self.assertIsNone(case["indentation%levels"])
         self.assertEqual(rsc.Case(str(case)), case)
         case["run%title"] = "it's"
@@ -70,11 +95,17 @@ class Values(unittest.TestCase):
         z = np.linspace(0.001, -0.001, 5)
         curve = contact.curve(z, progress=lambda done, n: calls.append((done, n)))
         self.assertTrue(np.array_equal(curve["separation"], z))
-        self.assertTrue(np.allclose(curve["force"], 4 / 3 * E * math.sqrt(0.3) * np.maximum(-z, 0) ** 1.5, rtol=1e-12))
+        self.assertTrue(
+            np.allclose(
+                curve["force"], 4 / 3 * E * math.sqrt(0.3) * np.maximum(-z, 0) ** 1.5, rtol=1e-12
+            )
+        )
         self.assertEqual(curve["contacts"].tolist(), [0, 0, 0, 1, 1])
         self.assertEqual(calls, [(k, 5) for k in range(1, 6)])
         pressed = contact.curve(forces=curve["force"][3:])
-        self.assertTrue(np.allclose(pressed["separation"], z[3:], rtol=1e-5))  # solver%tolerance is 1e-6 of the force
+        self.assertTrue(
+            np.allclose(pressed["separation"], z[3:], rtol=1e-5)
+        )  # solver%tolerance is 1e-6 of the force
 
         def enough(done, n):
             raise KeyboardInterrupt
@@ -94,8 +125,15 @@ class Lifetimes(unittest.TestCase):
         contact.indent(0.0)  # outlives its asperities
         contact.close()
         contact.close()
-        for use in (lambda: contact.indent(0.0), lambda: contact.force, contact.copy, contact.spots, lambda: len(asperities),
-                    lambda: rsc.Contact.from_case(asperities), lambda: contact.curve([0.0])):
+        for use in (
+            lambda: contact.indent(0.0),
+            lambda: contact.force,
+            contact.copy,
+            contact.spots,
+            lambda: len(asperities),
+            lambda: rsc.Contact.from_case(asperities),
+            lambda: contact.curve([0.0]),
+        ):
             with self.assertRaisesRegex(ValueError, "closed"):
                 use()
 
@@ -142,8 +180,16 @@ class Threads(unittest.TestCase):
 
         rsc._library = Watched()
         try:
-            threads = [threading.Thread(target=guarded, args=(work, 5)) for work in (contact.level, lambda: contact.force, lambda: contact.force, lambda: contact.indent(-U),
-                                                                                     lambda: contact.indent(-U))]
+            threads = [
+                threading.Thread(target=guarded, args=(work, 5))
+                for work in (
+                    contact.level,
+                    lambda: contact.force,
+                    lambda: contact.force,
+                    lambda: contact.indent(-U),
+                    lambda: contact.indent(-U),
+                )
+            ]
             for t in threads[1:3]:
                 t.start()
             for t in threads[1:3]:
@@ -157,11 +203,17 @@ class Threads(unittest.TestCase):
         self.assertEqual(wrong, [])
         self.assertEqual(alone, [True] * 10)
 
+
 class Files(InFolder):
     def setUp(self):
         super().setUp()
         self.case = rsc.Case(SMALL)
-        self.case.update({"indentation": {"start": 3.0, "stop": 1.0, "steps": 5}, "output%file": self.path("a.nc")})
+        self.case.update(
+            {
+                "indentation": {"start": 3.0, "stop": 1.0, "steps": 5},
+                "output%file": self.path("a.nc"),
+            }
+        )
 
     def test_run_and_read(self):
         path = self.case.run()
@@ -208,12 +260,22 @@ class Files(InFolder):
             return rsc.Contact.from_case(rsc.Asperities.make(case), case).indent(0.01)
 
         over = {"surface%sigma": [0.005, 0.01], "solids%R(2)": [1.0, 2.0, 4.0]}
-        members = rsc.study(self.case, over, force, progress=lambda done, n, values: calls.append((done, n, values)))
-        self.assertEqual([tuple(v.values()) for v, _ in members], [(s, r) for s in over["surface%sigma"] for r in over["solids%R(2)"]])
+        members = rsc.study(
+            self.case, over, force, progress=lambda done, n, values: calls.append((done, n, values))
+        )
+        self.assertEqual(
+            [tuple(v.values()) for v, _ in members],
+            [(s, r) for s in over["surface%sigma"] for r in over["solids%R(2)"]],
+        )
         self.assertEqual(calls, [(k + 1, 6, members[k][0]) for k in range(6)])
         self.assertEqual(rsc.study(self.case, over, force, threads=2), members)
         self.assertEqual(members[3][1], force(rsc.Case({**SMALL, "solids%R(2)": 1.0})))
-        pairs = rsc.study(self.case, {"surface%sigma": [0.005, 0.01], "surface%hurst": [0.5, 0.8]}, force, mode="zip")
+        pairs = rsc.study(
+            self.case,
+            {"surface%sigma": [0.005, 0.01], "surface%hurst": [0.5, 0.8]},
+            force,
+            mode="zip",
+        )
         self.assertEqual(len(pairs), 2)
         self.assertEqual(self.case["surface%sigma"], 0.01)
         with self.assertRaisesRegex(ValueError, "hurst"):

@@ -2,12 +2,13 @@
 #pragma once
 
 #include "check.hpp"
-#include "rough/asperities.hpp"
 #include "rsc.h"
+#include "surface/asperities.hpp"
 
 #define OK(call) CHECK((call) == RSC_SUCCESS)
 
-// Passes as a handle of rsc.h; its address, for a call that makes a new one, first releases what it holds.
+// Passes as a handle of rsc.h; its address, for a call that makes a new one, first releases what it
+// holds.
 template <class T, std::int32_t (*release)(T**)>
 class Handle {
 public:
@@ -51,8 +52,8 @@ inline CaseHandle case_of(const std::string& text) {
 
 inline AsperitiesHandle take(const rsc::Asperities& a) {
     AsperitiesHandle handle;
-    OK(rsc_asperities_take(&handle, static_cast<std::int64_t>(a.size()), a.x.data(), a.y.data(), a.z.data(), a.radius.data(), nullptr,
-                           nullptr, nullptr, nullptr));
+    OK(rsc_asperities_take(&handle, static_cast<std::int64_t>(a.size()), a.x.data(), a.y.data(),
+                           a.z.data(), a.radius.data(), nullptr, nullptr, nullptr, nullptr));
     return handle;
 }
 
@@ -79,13 +80,16 @@ inline double value(rsc_contact* contact, const char* name) {
     return found;
 }
 
-// Of a path with friction: separation, slide, forces, energies, work lost in all, and the separation at which spots stick.
+// Of a path with friction: separation, slide, forces, energies, work lost in all, and the
+// separation at which spots stick.
 struct FrictionState {
-    double Z = 0, x = 0, y = 0, N = 0, Qx = 0, Qy = 0, normal = 0, tangential = 0, lost = 0, stick = 0;
+    double Z = 0, x = 0, y = 0, N = 0, Qx = 0, Qy = 0, normal = 0, tangential = 0, lost = 0,
+           stick = 0;
 };
 inline FrictionState state(const rsc_friction* friction) {
     FrictionState s;
-    OK(rsc_friction_state(friction, &s.Z, &s.x, &s.y, &s.N, &s.Qx, &s.Qy, &s.normal, &s.tangential, &s.lost, &s.stick));
+    OK(rsc_friction_state(friction, &s.Z, &s.x, &s.y, &s.N, &s.Qx, &s.Qy, &s.normal, &s.tangential,
+                          &s.lost, &s.stick));
     return s;
 }
 

@@ -12,7 +12,8 @@ inline void ok(int status) {
     CHECK(status == NC_NOERR);
 }
 
-// A variable over named dimensions, with text and number attributes (doubles, but a fill value of the variable's type); without values: not written.
+// A variable over named dimensions, with text and number attributes (doubles, but a fill value of
+// the variable's type); without values: not written.
 struct Variable {
     std::string name;
     nc_type type;
@@ -24,8 +25,8 @@ struct Variable {
 using Dimensions = std::vector<std::pair<std::string, std::size_t>>;
 
 // Writes the file; returns its path. Of no length: without limit.
-inline std::string write(const std::string& path, const Dimensions& dimensions, const std::vector<Variable>& variables,
-                         int format = NC_NETCDF4) {
+inline std::string write(const std::string& path, const Dimensions& dimensions,
+                         const std::vector<Variable>& variables, int format = NC_NETCDF4) {
     int id = -1;
     ok(nc_create(path.c_str(), NC_CLOBBER | format, &id));
     std::map<std::string, std::pair<int, std::size_t>> of;
@@ -37,14 +38,18 @@ inline std::string write(const std::string& path, const Dimensions& dimensions, 
         std::vector<int> ids;
         for (const std::string& d : v.dimensions) ids.push_back(of.at(d).first);
         int variable = -1;
-        ok(nc_def_var(id, v.name.c_str(), v.type, static_cast<int>(ids.size()), ids.data(), &variable));
-        for (const auto& [key, text] : v.texts) ok(nc_put_att_text(id, variable, key.c_str(), text.size(), text.c_str()));
+        ok(nc_def_var(id, v.name.c_str(), v.type, static_cast<int>(ids.size()), ids.data(),
+                      &variable));
+        for (const auto& [key, text] : v.texts)
+            ok(nc_put_att_text(id, variable, key.c_str(), text.size(), text.c_str()));
         for (const auto& [key, n] : v.numbers)
-            ok(nc_put_att_double(id, variable, key.c_str(), key == "_FillValue" ? v.type : NC_DOUBLE, n.size(), n.data()));
+            ok(nc_put_att_double(id, variable, key.c_str(),
+                                 key == "_FillValue" ? v.type : NC_DOUBLE, n.size(), n.data()));
     }
     ok(nc_enddef(id));
     for (std::size_t k = 0; k < variables.size(); ++k)
-        if (!variables[k].values.empty()) ok(nc_put_var_double(id, static_cast<int>(k), variables[k].values.data()));
+        if (!variables[k].values.empty())
+            ok(nc_put_var_double(id, static_cast<int>(k), variables[k].values.data()));
     ok(nc_close(id));
     return path;
 }

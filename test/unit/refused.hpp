@@ -1,11 +1,12 @@
 // What is refused as bad input, and with which words.
 #pragma once
 
+#include "base/error.hpp"
 #include "check.hpp"
-#include "error.hpp"
 
 // The message of the refusal; empty if there is none.
-inline std::string refusal(const std::function<void()>& what, rsc::Failure kind = rsc::Failure::bad_input) {
+inline std::string refusal(const std::function<void()>& what,
+                           rsc::Failure kind = rsc::Failure::bad_input) {
     try {
         what();
         return {};

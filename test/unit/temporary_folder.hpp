@@ -1,7 +1,7 @@
 // A fresh folder, removed with everything in it.
 #pragma once
 
-#include "std.hpp"
+#include "base/std.hpp"
 
 struct Folder {
     std::string name = (std::filesystem::temp_directory_path() / "rsc-test-XXXXXX").string();
@@ -17,7 +17,8 @@ struct Folder {
     }
     std::size_t files() const {
         return static_cast<std::size_t>(
-            std::distance(std::filesystem::recursive_directory_iterator(path), std::filesystem::recursive_directory_iterator()));
+            std::distance(std::filesystem::recursive_directory_iterator(path),
+                          std::filesystem::recursive_directory_iterator()));
     }
 };
 

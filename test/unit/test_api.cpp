@@ -1,4 +1,5 @@
-// The C interface against closed forms. Every value of a level against the result file: test_api_run.
+// The C interface against closed forms. Every value of a level against the result file:
+// test_api_run.
 #include "check.hpp"
 #include "unit/library.hpp"
 
@@ -8,7 +9,8 @@ constexpr double kPi = std::numbers::pi;
 
 CaseHandle tight() { return case_of("&solver tolerance=1e-11 /"); }
 
-// One asperity is Hertz: force, area, stiffness, energy and the deflection around it in closed form.
+// One asperity is Hertz: force, area, stiffness, energy and the deflection around it in closed
+// form.
 void test_single() {
     const double E = 2e5, r = 0.3, R = 5, u = 1e-3, x = 0.7, y = -0.2, z = 0.01;
     AsperitiesHandle a;
@@ -35,9 +37,11 @@ void test_single() {
     double residual = -1;
     OK(rsc_contact_level(c, &status, &candidates, nullptr, nullptr, &residual));
     CHECK(status == RSC_LEVEL_CONVERGED && candidates == 1 && residual <= 1e-11);
-    // At the centre the penetration itself, at the edge half of it from both sides, far away the point force and its correction.
+    // At the centre the penetration itself, at the edge half of it from both sides, far away the
+    // point force and its correction.
     const double spot = std::sqrt(r * penetration);
-    const double xs[4] = {x, x + 1, x + spot * (1 - 1e-9), x + spot * (1 + 1e-9)}, ys[4] = {y, y, y, y};
+    const double xs[4] = {x, x + 1, x + spot * (1 - 1e-9), x + spot * (1 + 1e-9)},
+                 ys[4] = {y, y, y, y};
     double w[4];
     OK(rsc_contact_deflection(c, 4, xs, ys, w));
     CHECK_RELATIVE(w[0], penetration, 1e-12);
@@ -64,13 +68,15 @@ void test_single() {
     OK(rsc_contact_tip(c, &x0, nullptr));
     CHECK(x0 == x + s);
     OK(rsc_contact_move_tip(c, x + 1.1 * R, y));
-    CHECK_RELATIVE(value(c, "lateral_force_x"), f * s / std::sqrt(R * R - s * s), 1e-9);  // of the last level, where it was
+    CHECK_RELATIVE(value(c, "lateral_force_x"), f * s / std::sqrt(R * R - s * s),
+                   1e-9);  // of the last level, where it was
     CHECK(rsc_contact_press(c, f, &Z) == -1);
     CHECK(message().find("no asperity under") != std::string::npos);
     CHECK(force_at(c, z - u) == 0);
 }
 
-// A copy has the resistance of one circular spot (Holm), and a text that does not fit is cut while its whole length is known.
+// A copy has the resistance of one circular spot (Holm), and a text that does not fit is cut while
+// its whole length is known.
 void test_copy_and_cut() {
     const double r = 0.3, zero = 0, u = 1e-3;
     AsperitiesHandle a;
@@ -84,11 +90,13 @@ void test_copy_and_cut() {
     std::int64_t length = 0, known = 0;
     OK(rsc_status_text(RSC_NOT_CONVERGED, whole, 300, &length));
     OK(rsc_status_text(RSC_NOT_CONVERGED, cut, 8, &known));
-    CHECK(length > 8 && known == length && whole[length] == 0 && std::string(cut) == std::string(whole).substr(0, 7));
+    CHECK(length > 8 && known == length && whole[length] == 0 &&
+          std::string(cut) == std::string(whole).substr(0, 7));
 }
 
 constexpr const char* kRough =
-    "&surface n=256, L_lambda_l=4, L_lambda_s=64 / &solver tolerance=1e-11 / &indentation centre=0.43, 0.56 / &solids R=1.0,Infinity /";
+    "&surface n=256, L_lambda_l=4, L_lambda_s=64 / &solver tolerance=1e-11 / &indentation "
+    "centre=0.43, 0.56 / &solids R=1.0,Infinity /";
 
 // Force control begins at the last level only where that is a start.
 void test_press_after() {

@@ -1,4 +1,5 @@
-// Contacts saved in files continue bit for bit (what else is kept: test_guest_state); many contacts in one call give the results of single calls, for any number of threads.
+// Contacts saved in files continue bit for bit (what else is kept: test_guest_state); many contacts
+// in one call give the results of single calls, for any number of threads.
 #include <sys/resource.h>
 #include <sys/stat.h>
 
@@ -9,7 +10,9 @@
 
 namespace {
 
-AsperitiesHandle make(unsigned seed) { return take(random_asperities(400, 0.01, 0.01, 5e-4, 0.4, seed)); }
+AsperitiesHandle make(unsigned seed) {
+    return take(random_asperities(400, 0.01, 0.01, 5e-4, 0.4, seed));
+}
 
 // Force, place and stiffness along a path that moves the tip and presses as well.
 std::vector<double> go_on(rsc_contact* contact) {
@@ -60,7 +63,8 @@ TEST(contacts_in_files) {
     CHECK(go_on(contact) == go_on(again));
     // Other asperities, and a file that does not exist.
     CHECK(rsc_contact_restore(&again, others, file.c_str()) == -2 && says("asperities") && !again);
-    CHECK(rsc_contact_restore(&again, asperities, (folder / "nothing").c_str()) == -3 && says("cannot read"));
+    CHECK(rsc_contact_restore(&again, asperities, (folder / "nothing").c_str()) == -3 &&
+          says("cannot read"));
     // A full disk, here the limit of file sizes: reported, and the earlier file is unchanged.
     const std::string before = bytes(file);
     rlimit usual{};
@@ -69,16 +73,20 @@ TEST(contacts_in_files) {
     CHECK(setrlimit(RLIMIT_FSIZE, &little) == 0);
     const std::int32_t full = rsc_contact_save(contact, file.c_str());
     CHECK(setrlimit(RLIMIT_FSIZE, &usual) == 0);
-    CHECK(full == RSC_FILE && says("cannot write") && bytes(file) == before && !std::ifstream(file + ".new"));
-    // Another's file is not overwritten, and neither a device nor a pipe that nobody writes is read.
+    CHECK(full == RSC_FILE && says("cannot write") && bytes(file) == before &&
+          !std::ifstream(file + ".new"));
+    // Another's file is not overwritten, and neither a device nor a pipe that nobody writes is
+    // read.
     const std::string source = folder.write("source.f90", "end"), fifo = folder / "fifo";
     CHECK(rsc_contact_save(contact, source.c_str()) == RSC_FILE && bytes(source) == "end");
-    CHECK(mkfifo(fifo.c_str(), 0600) == 0 && rsc_contact_restore(&again, asperities, fifo.c_str()) == -3);
+    CHECK(mkfifo(fifo.c_str(), 0600) == 0 &&
+          rsc_contact_restore(&again, asperities, fifo.c_str()) == -3);
     CHECK(rsc_contact_restore(&again, asperities, "/dev/zero") == -3 && !again);
     std::string spoilt = bytes(file);
     spoilt[spoilt.size() / 2] ^= 4;
     std::ofstream(folder / "spoilt", std::ios::binary) << spoilt;
-    CHECK(rsc_contact_restore(&again, asperities, (folder / "spoilt").c_str()) == -3 && says("damaged"));
+    CHECK(rsc_contact_restore(&again, asperities, (folder / "spoilt").c_str()) == -3 &&
+          says("damaged"));
     std::ofstream(folder / "short", std::ios::binary) << bytes(file).substr(0, 60);
     CHECK(rsc_contact_restore(&again, asperities, (folder / "short").c_str()) == -3 && !again);
 }
@@ -92,12 +100,14 @@ TEST(many_contacts) {
     const auto contacts = [&] {
         std::vector<rsc_contact*> made(n, nullptr);
         for (int k = 0; k < n; ++k)
-            OK(rsc_contact_create(&made[static_cast<std::size_t>(k)], asperities, 94e3, 2.5, 0.4 + 0.01 * k, 0.5, nullptr));
+            OK(rsc_contact_create(&made[static_cast<std::size_t>(k)], asperities, 94e3, 2.5,
+                                  0.4 + 0.01 * k, 0.5, nullptr));
         return made;
     };
     for (std::int32_t threads : {1, 2, 0}) {
         auto made = contacts();
-        OK(rsc_contacts_press(n, made.data(), force.data(), separation.data(), status.data(), threads));
+        OK(rsc_contacts_press(n, made.data(), force.data(), separation.data(), status.data(),
+                              threads));
         if (one.empty()) {
             auto alone = contacts();
             one.resize(n);
@@ -106,18 +116,21 @@ TEST(many_contacts) {
         }
         CHECK(separation == one);
         OK(rsc_contacts_indent(n, made.data(), separation.data(), forces.data(), nullptr, threads));
-        for (std::size_t k = 0; k < n; ++k) CHECK_RELATIVE(forces[k], force[k], 2e-6);  // solver%tolerance, twice
+        for (std::size_t k = 0; k < n; ++k)
+            CHECK_RELATIVE(forces[k], force[k], 2e-6);  // solver%tolerance, twice
         for (auto& c : made) OK(rsc_contact_destroy(&c));
     }
     auto made = contacts();
     force[5] = -1;
     separation[5] = 7;
-    CHECK(rsc_contacts_press(n, made.data(), force.data(), separation.data(), status.data(), 2) == -2 && says("contact 5:") &&
-          says("argument force"));
+    CHECK(rsc_contacts_press(n, made.data(), force.data(), separation.data(), status.data(), 2) ==
+              -2 &&
+          says("contact 5:") && says("argument force"));
     CHECK(status[5] == -2 && status[4] == 0 && separation[5] == 7 && separation[4] == one[4]);
     rsc_contact* const kept = made[3];
     made[3] = made[2];
-    CHECK(rsc_contacts_press(n, made.data(), force.data(), nullptr, nullptr, 1) == -2 && says("different"));
+    CHECK(rsc_contacts_press(n, made.data(), force.data(), nullptr, nullptr, 1) == -2 &&
+          says("different"));
     made[3] = kept;
     for (auto& c : made) OK(rsc_contact_destroy(&c));
 }

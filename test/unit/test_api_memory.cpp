@@ -1,5 +1,5 @@
-// Memory refused at every single allocation, one after the other: the status says so, nothing is lost or broken, and the next
-// call works.
+// Memory refused at every single allocation, one after the other: the status says so, nothing is
+// lost or broken, and the next call works.
 #include "check.hpp"
 #include "physics/random_asperities.hpp"
 #include "rsc.h"
@@ -19,7 +19,9 @@ void* allocate(std::size_t size) {
 }  // namespace
 
 void* operator new(std::size_t size) { return allocate(size); }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept try { return allocate(size); } catch (const std::bad_alloc&) {
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept try {
+    return allocate(size);
+} catch (const std::bad_alloc&) {
     return nullptr;
 }
 void operator delete(void* p) noexcept { std::free(p); }
@@ -54,37 +56,44 @@ TEST(api_memory) {
     rsc_case* c = nullptr;
     CHECK(rsc_case_create(&c) == 0);
     int refused = 0;
-    refused += refuse_each([&] { return rsc_case_set(c, "output%file", "'a name longer than what fits into a string itself'"); },
+    refused += refuse_each(
+        [&] {
+            return rsc_case_set(c, "output%file",
+                                "'a name longer than what fits into a string itself'");
+        },
+        [](std::int32_t) {});
+    refused += refuse_each([&] { return rsc_case_read(c, "&solver tolerance = 1e-9 /"); },
                            [](std::int32_t) {});
-    refused += refuse_each([&] { return rsc_case_read(c, "&solver tolerance = 1e-9 /"); }, [](std::int32_t) {});
 
     rsc_asperities* a = nullptr;
     const auto n = static_cast<std::int64_t>(made.size());
     refused += refuse_each(
         [&] {
-            return rsc_asperities_take(&a, n, made.x.data(), made.y.data(), made.z.data(), made.radius.data(), nullptr, nullptr, nullptr,
-                                       nullptr);
+            return rsc_asperities_take(&a, n, made.x.data(), made.y.data(), made.z.data(),
+                                       made.radius.data(), nullptr, nullptr, nullptr, nullptr);
         },
         [&](std::int32_t status) {
             CHECK((status == 0) == (a != nullptr));
             rsc_asperities_destroy(&a);
         });
     rsc_contact *k = nullptr, *fresh = nullptr;
-    refused += refuse_each([&] { return rsc_contact_create(&k, a, 1e5, 20, 0.5, 0.5, c); }, [&](std::int32_t) { rsc_contact_destroy(&k); });
+    refused += refuse_each([&] { return rsc_contact_create(&k, a, 1e5, 20, 0.5, 0.5, c); },
+                           [&](std::int32_t) { rsc_contact_destroy(&k); });
     CHECK(rsc_contact_copy(&fresh, k) == 0);
 
     double N = 0, M = 0, Z = 0;
     CHECK(rsc_contact_indent(fresh, 0.0, &M) == 0 && M > 0);
-    refused += refuse_each([&] { return rsc_contact_indent(k, 0.0, nullptr); },
-                           [&](std::int32_t status) {
-                               if (status != 0) {
-                                   CHECK(rsc_contact_result(k, nullptr, nullptr, nullptr, nullptr) == RSC_NO_RESULT);
-                                   CHECK(rsc_contact_stiffness(k, &Z) == RSC_NO_RESULT);
-                               }
-                               CHECK(rsc_contact_indent(k, 0.002, nullptr) == 0);
-                               CHECK(rsc_contact_indent(k, 0.0, &N) == 0);
-                               CHECK_RELATIVE(N, M, 1e-8);
-                           });
+    refused += refuse_each(
+        [&] { return rsc_contact_indent(k, 0.0, nullptr); },
+        [&](std::int32_t status) {
+            if (status != 0) {
+                CHECK(rsc_contact_result(k, nullptr, nullptr, nullptr, nullptr) == RSC_NO_RESULT);
+                CHECK(rsc_contact_stiffness(k, &Z) == RSC_NO_RESULT);
+            }
+            CHECK(rsc_contact_indent(k, 0.002, nullptr) == 0);
+            CHECK(rsc_contact_indent(k, 0.0, &N) == 0);
+            CHECK_RELATIVE(N, M, 1e-8);
+        });
     CHECK(rsc_contact_indent(k, 0.0, &N) == 0);
     refused += refuse_each([&] { return rsc_contact_press(k, 2 * M, &Z); },
                            [&](std::int32_t) {

@@ -1,4 +1,5 @@
-// A whole case run through the library: every value of its result file that the library has a call for is what that call gives, to the last bit.
+// A whole case run through the library: every value of its result file that the library has a call
+// for is what that call gives, to the last bit.
 #include "check.hpp"
 #include "result_reader.hpp"
 #include "unit/library.hpp"
@@ -30,8 +31,10 @@ std::int32_t run_to(const std::string& path, rsc_case* c, std::int64_t* failed) 
     return rsc_case_run(c, failed);
 }
 
-// What a level's calls give against row s of the file. Quantities by name: whatever the file has of them.
-void level_by_calls(const Reader& file, rsc_contact* contact, std::size_t s, const std::vector<std::string>& names) {
+// What a level's calls give against row s of the file. Quantities by name: whatever the file has of
+// them.
+void level_by_calls(const Reader& file, rsc_contact* contact, std::size_t s,
+                    const std::vector<std::string>& names) {
     double Z = 0, N = 0, A = 0, S = 0, W = 0, x = 0, y = 0, residual = 0, value = 0;
     std::int32_t status = -1;
     std::int64_t n = 0, candidates = 0, iterations = 0, pairs = 0, large = 0, beyond = 0, edge = 0;
@@ -50,31 +53,43 @@ void level_by_calls(const Reader& file, rsc_contact* contact, std::size_t s, con
         }
         if (elements && name == "status" && wanted == 1) continue;
         OK(rsc_contact_value(contact, name.c_str(), &value));
-        if (value != wanted) std::printf("%s: %.17g in the file, %.17g by name\n", name.c_str(), wanted, value);
+        if (value != wanted)
+            std::printf("%s: %.17g in the file, %.17g by name\n", name.c_str(), wanted, value);
         CHECK(value == wanted);
-        if (value != 0 || name == "fallback" || name == "edge_contacts" || name == "extreme_area_fraction") compared.insert(name);
+        if (value != 0 || name == "fallback" || name == "edge_contacts" ||
+            name == "extreme_area_fraction")
+            compared.insert(name);
     }
-    OK(rsc_contact_answer(contact, &Z, &N, &S, &A, &W, &x, &y, &status, &n, &pairs, &large, &beyond, &edge));
+    OK(rsc_contact_answer(contact, &Z, &N, &S, &A, &W, &x, &y, &status, &n, &pairs, &large, &beyond,
+                          &edge));
     const auto of = [&](const char* name) { return file.has(name) ? file.values(name)[s] : 0; };
-    const auto has_status = [&] { return status == of("status") || (elements && status == 0 && of("status") == 1); };
+    const auto has_status = [&] {
+        return status == of("status") || (elements && status == 0 && of("status") == 1);
+    };
     CHECK(Z == of("separation") && N == of("force") && A == of("contact_area") && has_status());
     CHECK(!file.has("stiffness") || (S == of("stiffness") && W == of("energy")));
-    CHECK(static_cast<double>(n) == of("contacts") && static_cast<double>(pairs) == of("overlapping_pairs"));
-    CHECK(!file.has("large_contacts") ||
-          (static_cast<double>(large) == of("large_contacts") && static_cast<double>(edge) == of("edge_contacts") &&
-           static_cast<double>(beyond) == of("beyond_law")));
+    CHECK(static_cast<double>(n) == of("contacts") &&
+          static_cast<double>(pairs) == of("overlapping_pairs"));
+    CHECK(!file.has("large_contacts") || (static_cast<double>(large) == of("large_contacts") &&
+                                          static_cast<double>(edge) == of("edge_contacts") &&
+                                          static_cast<double>(beyond) == of("beyond_law")));
     OK(rsc_contact_level(contact, &status, &candidates, &iterations, &pairs, &residual));
-    CHECK(has_status() && static_cast<double>(pairs) == of("overlapping_pairs") && residual == of("residual"));
-    CHECK(static_cast<double>(candidates) == of("candidates") && static_cast<double>(iterations) == of("iterations"));
+    CHECK(has_status() && static_cast<double>(pairs) == of("overlapping_pairs") &&
+          residual == of("residual"));
+    CHECK(static_cast<double>(candidates) == of("candidates") &&
+          static_cast<double>(iterations) == of("iterations"));
     // Spots: the file's contacts of this level, counted from 1 there.
-    const auto first = static_cast<std::size_t>(of("contact_start")) - 1, size = static_cast<std::size_t>(n);
+    const auto first = static_cast<std::size_t>(of("contact_start")) - 1,
+               size = static_cast<std::size_t>(n);
     CHECK(static_cast<double>(n) == of("contact_count"));
     std::vector<std::int32_t> which(size);
     Values force(size), radius(size), penetration(size);
-    OK(rsc_contact_spots(contact, n, which.data(), force.data(), radius.data(), penetration.data()));
+    OK(rsc_contact_spots(contact, n, which.data(), force.data(), radius.data(),
+                         penetration.data()));
     const auto part = [&](const char* name) {
         const Values all = file.values(name);
-        return Values(all.begin() + static_cast<std::ptrdiff_t>(first), all.begin() + static_cast<std::ptrdiff_t>(first + size));
+        return Values(all.begin() + static_cast<std::ptrdiff_t>(first),
+                      all.begin() + static_cast<std::ptrdiff_t>(first + size));
     };
     same("contact_force", part("contact_force"), force);
     same("contact_radius", part("contact_radius"), radius);
@@ -98,16 +113,20 @@ void every_value(const Folder& folder, const Run& run) {
     OK(rsc_contact_create_from_case(&k, a, c));
     double x = 0, y = 0, value = 0;
     OK(rsc_contact_tip(k, &x, &y));
-    if (file.has("tip_x")) CHECK(x == file.values("tip_x")[0] && y == file.values("tip_y")[0] && (x != y || file.has("pressure")));
+    if (file.has("tip_x"))
+        CHECK(x == file.values("tip_x")[0] && y == file.values("tip_y")[0] &&
+              (x != y || file.has("pressure")));
 
     const Values separation = file.values("separation"), force = file.values("force");
     if (file.has("pull_off_force")) {
         const Values least = file.values("least_force");
-        CHECK(least.back() < 0 && file.values("pull_off_force") == Values{*std::min_element(least.begin(), least.end())});
+        CHECK(least.back() < 0 && file.values("pull_off_force") ==
+                                      Values{*std::min_element(least.begin(), least.end())});
     }
     std::vector<std::string> names;
     for (std::size_t s = 0; s < separation.size(); ++s) {
-        OK(run.force ? rsc_contact_press(k, std::round(force[s] * 1e4) / 1e4, nullptr) : rsc_contact_indent(k, separation[s], nullptr));
+        OK(run.force ? rsc_contact_press(k, std::round(force[s] * 1e4) / 1e4, nullptr)
+                     : rsc_contact_indent(k, separation[s], nullptr));
         if (names.empty()) {  // all that can be asked for
             CHECK(rsc_contact_value(k, "?", &value) == -2);
             std::string list = message();
@@ -132,54 +151,80 @@ TEST(api_run) {
     // An oblong measured map, its steps different along x and y.
     map_files::Map map{24, 16, 2e-5, 3e-5, {}};  // in m: mm of the case are 1e3 of it
     for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) map.z.push_back(((7 * i * i + 11 * j * j + 5 * i * j) % 61) * 1e-7);
-    std::ofstream(folder / "map.gwy", std::ios::binary) << map_files::gwy_file(map_files::gwy_channel(0, "Topography", map));
+        for (int i = 0; i < map.nx; ++i)
+            map.z.push_back(((7 * i * i + 11 * j * j + 5 * i * j) % 61) * 1e-7);
+    std::ofstream(folder / "map.gwy", std::ios::binary)
+        << map_files::gwy_file(map_files::gwy_channel(0, "Topography", map));
 
-    const std::string surface = "&surface n=128, L=1.5, L_lambda_l=4, L_lambda_s=16, sigma=0.02 / &run seed=7 / ",
-                      output = "&output contacts='all', map_cells=9, radial_bins=7, pdf_bins=5 / ",
-                      solids = "&solids E=1e3, 3e3  nu=0.125, 0.375  R=3.0, 5.0";
+    const std::string
+        surface = "&surface n=128, L=1.5, L_lambda_l=4, L_lambda_s=16, sigma=0.02 / &run seed=7 / ",
+        output = "&output contacts='all', map_cells=9, radial_bins=7, pdf_bins=5 / ",
+        solids = "&solids E=1e3, 3e3  nu=0.125, 0.375  R=3.0, 5.0";
     const Run runs[] = {
         {"off centre, with resistivity",
          surface + solids +
-             "  resistivity=1e-5, 3e-5 / &asperities law='fourth_order' / &indentation levels=2.5, 1, -2.9  centre=0.625, 0.875 / "
+             "  resistivity=1e-5, 3e-5 / &asperities law='fourth_order' / &indentation levels=2.5, "
+             "1, -2.9  centre=0.625, 0.875 / "
              "&output contacts='all', heights=.true. /"},
         {"by force",
-         surface + solids + " / &asperities law='elliptic' / &indentation control='force', levels=0.5, 2, 8  centre=0.7, 0.8 / " + output,
+         surface + solids +
+             " / &asperities law='elliptic' / &indentation control='force', levels=0.5, 2, 8  "
+             "centre=0.7, 0.8 / " +
+             output,
          true},
-        {"a measured map", "&surface source='heights', file='" + (folder / "map.gwy") + "', detrend='mean' / " + solids +
-                               " / &solver model='asperities' / &indentation unit='length', levels=2e-3, 1e-3, 0  centre=0.2, 0.3 / "
+        {"a measured map", "&surface source='heights', file='" + (folder / "map.gwy") +
+                               "', detrend='mean' / " + solids +
+                               " / &solver model='asperities' / &indentation unit='length', "
+                               "levels=2e-3, 1e-3, 0  centre=0.2, 0.3 / "
                                "&output contacts='all', heights=.true. /"},
         {"no interaction, at the border",
-         surface + solids + " / &solver interaction='none' / &indentation levels=1, 0  centre=0.125, 1.25 / " + output},
-        {"adhesion", surface + solids + "  adhesion=1e-3 / &indentation levels=1, 3, 0  centre=0.7, 0.8 / " + output},
-        {"yielding", surface + solids + "  hardness=100.0 / &indentation levels=2, 0.5, 1  centre=0.7, 0.8 / " + output},
+         surface + solids +
+             " / &solver interaction='none' / &indentation levels=1, 0  centre=0.125, 1.25 / " +
+             output},
+        {"adhesion", surface + solids +
+                         "  adhesion=1e-3 / &indentation levels=1, 3, 0  centre=0.7, 0.8 / " +
+                         output},
+        {"yielding", surface + solids +
+                         "  hardness=100.0 / &indentation levels=2, 0.5, 1  centre=0.7, 0.8 / " +
+                         output},
         {"two flats", surface +
                           "&solids E=1e3, 3e3  nu=0.125, 0.375  R=Infinity, Infinity / "
                           "&indentation boundary='periodic', levels=2, 1 / " +
                           output},
-        {"elements",
-         surface + solids + "  hardness=300.0 / &solver model='elements' / &indentation levels=2, 1  centre=0.7, 0.8 / " + output},
+        {"elements", surface + solids +
+                         "  hardness=300.0 / &solver model='elements' / &indentation levels=2, 1  "
+                         "centre=0.7, 0.8 / " +
+                         output},
     };
     for (const Run& run : runs) every_value(folder, run);
     CHECK(compared.size() >= 30);
 
     // A count is in the file where it can be counted, also if it is 0: scripts ask for it by name.
-    for (const auto& [key, count] : {std::pair{"adhesion=1e-6", "jumps"}, std::pair{"hardness=1e9", "plastic_contacts"}}) {
-        CaseHandle away = case_of((surface + solids + " " + key + " / &indentation levels=5, 4 / &output contacts='none' /").c_str());
+    for (const auto& [key, count] :
+         {std::pair{"adhesion=1e-6", "jumps"}, std::pair{"hardness=1e9", "plastic_contacts"}}) {
+        CaseHandle away = case_of((surface + solids + " " + key +
+                                   " / &indentation levels=5, 4 / &output contacts='none' /")
+                                      .c_str());
         OK(run_to(folder / "away.nc", away, nullptr));
         CHECK((Reader(folder / "away.nc").values(count) == Values{0, 0}));
     }
 
-    // Levels that do not converge are told, and the file is there all the same; a folder that cannot be made leaves nothing.
-    CaseHandle c = case_of("&surface n=256, L_lambda_l=4, L_lambda_s=64 / &indentation steps=3 / &solver max_iterations=1 /");
+    // Levels that do not converge are told, and the file is there all the same; a folder that
+    // cannot be made leaves nothing.
+    CaseHandle c = case_of(
+        "&surface n=256, L_lambda_l=4, L_lambda_s=64 / &indentation steps=3 / &solver "
+        "max_iterations=1 /");
     std::int64_t failed = -1;
-    CHECK(run_to(folder / "unfinished.nc", c, &failed) == RSC_NOT_CONVERGED && message().find("status = 4") != std::string::npos);
+    CHECK(run_to(folder / "unfinished.nc", c, &failed) == RSC_NOT_CONVERGED &&
+          message().find("status = 4") != std::string::npos);
     std::int64_t with_4 = 0;
-    for (const double status : Reader(folder / "unfinished.nc").values("status")) with_4 += status == 4;
+    for (const double status : Reader(folder / "unfinished.nc").values("status"))
+        with_4 += status == 4;
     CHECK(failed > 0 && failed == with_4);
     // Flats pressed deeper than asperities bear: no state, and no numbers of one.
     const std::string flat =
-        "&surface n=64 L_lambda_l=2 L_lambda_s=8 sigma=0.02 / &solids R=Infinity,Infinity / &compare levels='none' / "
+        "&surface n=64 L_lambda_l=2 L_lambda_s=8 sigma=0.02 / &solids R=Infinity,Infinity / "
+        "&compare levels='none' / "
         "&indentation boundary='periodic' levels=1,-3 /";
     const Made deep(flat.c_str());
     for (const char* hardness : {"3e4", "6e4"}) {  // there the iteration goes on without bounds
@@ -187,35 +232,45 @@ TEST(api_run) {
         OK(rsc_case_set(hard, "solids%hardness", hardness));
         OK(rsc_case_set(hard, "output%fields", "'pressure'"));
         CHECK(run_to(folder / "deep.nc", hard, &failed) == RSC_NOT_CONVERGED);
-        CHECK(Reader(folder / "deep.nc").values("force")[1] == NC_FILL_DOUBLE && !Reader(folder / "deep.nc").has("field_pressure"));
+        CHECK(Reader(folder / "deep.nc").values("force")[1] == NC_FILL_DOUBLE &&
+              !Reader(folder / "deep.nc").has("field_pressure"));
     }
     CHECK(run_to(folder / "deep.nc", deep.c, &failed) == RSC_NOT_CONVERGED && failed == 1);
     const Reader deep_file(folder / "deep.nc");
     const Values forces = deep_file.values("force");
-    CHECK(deep_file.values("status")[1] == 4 && forces[0] > 0 && forces[0] < 1e6 && forces[1] == NC_FILL_DOUBLE);
+    CHECK(deep_file.values("status")[1] == 4 && forces[0] > 0 && forces[0] < 1e6 &&
+          forces[1] == NC_FILL_DOUBLE);
     const ContactHandle& flats = deep.contact;
     double force = 0, area = 0;
     std::int32_t level = 0;
     CHECK(rsc_contact_indent(flats, -0.06, nullptr) == RSC_NOT_CONVERGED);
-    CHECK(rsc_contact_result(flats, nullptr, &force, &area, nullptr) == RSC_NO_RESULT && force == 0 && area == 0);
+    CHECK(rsc_contact_result(flats, nullptr, &force, &area, nullptr) == RSC_NO_RESULT &&
+          force == 0 && area == 0);
     for (const char* name : {"force", "energy", "stiffness", "lateral_force_x", "moment_y"})
         CHECK(rsc_contact_value(flats, name, &force) == RSC_NO_RESULT && force == 0);
-    CHECK(says("no state") && rsc_contact_spots(flats, 0, nullptr, nullptr, nullptr, nullptr) == RSC_NO_RESULT);
-    CHECK(rsc_contact_value(flats, "contact_area", &force) == RSC_NO_RESULT && says("no such value"));
-    CHECK(rsc_contact_level(flats, &level, nullptr, nullptr, nullptr, nullptr) == RSC_SUCCESS && level == RSC_LEVEL_NOT_CONVERGED);
-    // Contacts that the border cuts off: campaigns, which solve no second grid, give at least the change to a grid of half the step.
+    CHECK(says("no state") &&
+          rsc_contact_spots(flats, 0, nullptr, nullptr, nullptr, nullptr) == RSC_NO_RESULT);
+    CHECK(rsc_contact_value(flats, "contact_area", &force) == RSC_NO_RESULT &&
+          says("no such value"));
+    CHECK(rsc_contact_level(flats, &level, nullptr, nullptr, nullptr, nullptr) == RSC_SUCCESS &&
+          level == RSC_LEVEL_NOT_CONVERGED);
+    // Contacts that the border cuts off: campaigns, which solve no second grid, give at least the
+    // change to a grid of half the step.
     Values cut[2], bounds;
     for (const char* grid : {"8", "16"}) {
-        const CaseHandle border = case_of(
-            std::string("&run realizations=2 / &surface n=128 L_lambda_l=1 L_lambda_s=4 sigma=1e-4 / &solids R=Infinity,20 / &indentation "
-                        "centre=0.5,0.01 levels=-20,-60 / &solver model='elements' / &compare levels='none' / &elements points_per_wave=") +
-            grid + " /");
+        const CaseHandle border =
+            case_of(std::string("&run realizations=2 / &surface n=128 L_lambda_l=1 L_lambda_s=4 "
+                                "sigma=1e-4 / &solids R=Infinity,20 / &indentation "
+                                "centre=0.5,0.01 levels=-20,-60 / &solver model='elements' / "
+                                "&compare levels='none' / &elements points_per_wave=") +
+                    grid + " /");
         OK(run_to(folder / "border.nc", border, nullptr));
         const Reader file(folder / "border.nc");
         cut[*grid == '1'] = file.values("force");
         if (*grid == '8') bounds = file.values("force_error_expected");
     }
-    for (std::size_t k = 0; k < bounds.size(); ++k) CHECK(std::abs(cut[0][k] / cut[1][k] - 1) <= bounds[k]);
+    for (std::size_t k = 0; k < bounds.size(); ++k)
+        CHECK(std::abs(cut[0][k] / cut[1][k] - 1) <= bounds[k]);
     CHECK(bounds.size() == 4);
     failed = -1;
     CHECK(run_to("/proc/no/such/folder.nc", c, &failed) == -1);

@@ -51,15 +51,19 @@ std::int32_t level_at(const rsc_surface* surface, const rsc_case* a_case, double
     return status;
 }
 
-// The rms height that a contact goes by (below -3 of it a level is out of validity) is that of the heights as they are now: given, with a
-// form subtracted, or filtered; or surface%sigma. One thin spike on a wave, periodic, is all that touches.
+// The rms height that a contact goes by (below -3 of it a level is out of validity) is that of the
+// heights as they are now: given, with a form subtracted, or filtered; or surface%sigma. One thin
+// spike on a wave, periodic, is all that touches.
 TEST(rms_height) {
     const Map map{32, 20, 0.03125, 0.0625, 0, 0};
     const Values z = map.heights([&](int i, int j) {
-        const double wave = 0.01 * (std::cos(2 * kPi * (i - 16) / map.nx) + std::cos(2 * kPi * (j - 10) / map.ny));
+        const double wave =
+            0.01 * (std::cos(2 * kPi * (i - 16) / map.nx) + std::cos(2 * kPi * (j - 10) / map.ny));
         return 0.004 + 0.01 * map.x(i) + wave + (i == 16 && j == 10 ? 0.03 : 0);
     });
-    CaseHandle a_case = case_of("&indentation boundary='periodic' / &solids R=Infinity, Infinity / &solver interaction='none' /");
+    CaseHandle a_case = case_of(
+        "&indentation boundary='periodic' / &solids R=Infinity, Infinity / &solver "
+        "interaction='none' /");
     const SurfaceHandle surface = map.take(z, true);
     SurfaceHandle copy;
     const auto goes_by = [&](const rsc_surface* s, double sigma) {
@@ -93,7 +97,8 @@ TEST(copy_of_a_surface) {
     OK(rsc_surface_copy(&copy, surface));
     double dx = 0, dy = 0, x0 = 0, y0 = 0;
     OK(rsc_surface_grid(copy, nullptr, nullptr, &dx, &dy, &x0, &y0, nullptr));
-    CHECK(dx == map.dx && dy == map.dy && x0 == map.x0 && y0 == map.y0 && map.heights_of(copy) == z);
+    CHECK(dx == map.dx && dy == map.dy && x0 == map.x0 && y0 == map.y0 &&
+          map.heights_of(copy) == z);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
-// The preconditioner beyond the reach of its stencil: near the closed form for the longest wave over all pixels, symmetric and positive over some.
+// The preconditioner beyond the reach of its stencil: near the closed form for the longest wave
+// over all pixels, symmetric and positive over some.
 #include "check.hpp"
-#include "contact/solver/block_correction.hpp"
+#include "elements/block_correction.hpp"
 
 using namespace rsc;
 
@@ -39,10 +40,12 @@ struct Fixture {
     }
 };
 
-double product(const std::vector<float>& a, const std::vector<float>& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
+double product(const std::vector<float>& a, const std::vector<float>& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
 
-// Over all pixels K has the mode 2/k. The stencil alone is wrong by a factor of 10 for the longest wave; with blocks, on which waves are not
-// smooth, some tens of per cent remain.
+// Over all pixels K has the mode 2/k. The stencil alone is wrong by a factor of 10 for the longest
+// wave; with blocks, on which waves are not smooth, some tens of per cent remain.
 TEST(long_wave) {
     Fixture all([](int, int) { return true; });
     const double k = 2 * kPi / kSide;
@@ -54,15 +57,19 @@ TEST(long_wave) {
 }
 
 TEST(symmetric) {
-    Fixture discs([](int i, int j) { return std::hypot(i % 32 - 16 + 3 * (j / 32), j % 32 - 15) < 4 + (i / 32); });
+    Fixture discs([](int i, int j) {
+        return std::hypot(i % 32 - 16 + 3 * (j / 32), j % 32 - 15) < 4 + (i / 32);
+    });
     std::mt19937 random(7);
     std::vector<float> a, b;
     for (std::size_t k = 0; k < discs.column.size(); ++k) {
         a.push_back(static_cast<float>(random() % 1000) / 1000);
-        b.push_back(static_cast<float>(discs.column[k] > 100) + static_cast<float>(random() % 1000) / 1000);
+        b.push_back(static_cast<float>(discs.column[k] > 100) +
+                    static_cast<float>(random() % 1000) / 1000);
     }
     const std::vector<float> Ma = discs.apply(a), Mb = discs.apply(b);
-    CHECK_CLOSE(product(b, Ma) / product(a, Mb), 1.0, 0.002);  // the system on blocks is solved to 1 %
+    CHECK_CLOSE(product(b, Ma) / product(a, Mb), 1.0,
+                0.002);  // the system on blocks is solved to 1 %
     CHECK(product(a, Ma) > 0 && product(b, Mb) > 0);
     CHECK(product(b, Mb) < product(b, discs.stencil(b)));
 }

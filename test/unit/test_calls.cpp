@@ -1,6 +1,7 @@
-// What is asked of the system, and in which order: a file gets its name only when its bytes are on the disk, a name never goes
-// missing in between, a refusal of the disk is told as what it is, and NetCDF is called by one thread at a time. The calls in
-// question are those of this file, which write down what they are asked for and pass it on.
+// What is asked of the system, and in which order: a file gets its name only when its bytes are on
+// the disk, a name never goes missing in between, a refusal of the disk is told as what it is, and
+// NetCDF is called by one thread at a time. The calls in question are those of this file, which
+// write down what they are asked for and pass it on.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <netcdf.h>
@@ -10,7 +11,7 @@
 #include "case/read_case.hpp"
 #include "case/study.hpp"
 #include "check.hpp"
-#include "file/netcdf_writer.hpp"
+#include "io/netcdf_writer.hpp"
 #include "result_reader.hpp"
 #include "rsc.h"
 #include "run/checkpoint.hpp"
@@ -32,7 +33,8 @@ void note(const std::string& what) {
 
 std::string path_of(int fd) {
     char path[4096];
-    const ssize_t n = ::readlink(("/proc/self/fd/" + std::to_string(fd)).c_str(), path, sizeof path);
+    const ssize_t n =
+        ::readlink(("/proc/self/fd/" + std::to_string(fd)).c_str(), path, sizeof path);
     return n > 0 ? std::string(path, static_cast<std::size_t>(n)) : "?";
 }
 
@@ -68,12 +70,14 @@ int unlink(const char* path) noexcept {
     return static_cast<int>(::syscall(SYS_unlinkat, AT_FDCWD, path, 0));
 }
 
-int nc_def_var(int id, const char* name, nc_type type, int n, const int* dimensions, int* variable) {
+int nc_def_var(int id, const char* name, nc_type type, int n, const int* dimensions,
+               int* variable) {
     const int now = ++inside;
     for (int seen = most_inside; now > seen && !most_inside.compare_exchange_weak(seen, now);) {
     }
     std::this_thread::sleep_for(std::chrono::microseconds(50));
-    const int status = next<decltype(&nc_def_var)>("nc_def_var")(id, name, type, n, dimensions, variable);
+    const int status =
+        next<decltype(&nc_def_var)>("nc_def_var")(id, name, type, n, dimensions, variable);
     --inside;
     return status;
 }
@@ -91,7 +95,8 @@ long last_call(const std::string& words, long end) {
     return -1;
 }
 
-// A file came to its name whole: the last write to it, then the disk has it, then the name; the name was never taken away.
+// A file came to its name whole: the last write to it, then the disk has it, then the name; the
+// name was never taken away.
 void named_after_the_disk_has_it(const std::string& path, bool folder_too) {
     long renamed = -1;
     std::string from;
@@ -103,8 +108,10 @@ void named_after_the_disk_has_it(const std::string& path, bool folder_too) {
         from = calls[k].substr(7, calls[k].size() - 7 - 3 - path.size());
     }
     CHECK(renamed > 0);
-    const long synced = last_call("sync " + from, renamed), written = last_call("write " + from, renamed);
-    CHECK(synced >= 0 && synced > written);  // written: -1 where the C library writes by calls of its own
+    const long synced = last_call("sync " + from, renamed),
+               written = last_call("write " + from, renamed);
+    CHECK(synced >= 0 &&
+          synced > written);  // written: -1 where the C library writes by calls of its own
     if (!folder_too) return;
     const std::string folder = std::filesystem::path(path).parent_path().string();
     CHECK(last_call("sync " + folder, static_cast<long>(calls.size())) > renamed);
@@ -114,20 +121,23 @@ void results(const Folder& folder) {
     const std::string path = folder / "result.nc";
     for (const Format format : {Format::netcdf4, Format::classic}) {
         calls.clear();
-        write_result(sample::result(1), path, {format, 4, ""});  // the second time over a file of that name
+        write_result(sample::result(1), path,
+                     {format, 4, ""});  // the second time over a file of that name
         named_after_the_disk_has_it(path, true);
     }
 }
 
 void manifests(const Folder& folder) {
-    ReadCase read = read_case_text("&study surface%sigma = 0.01, 0.02  run%realizations = 3, 5 /", "case.nml");
+    ReadCase read =
+        read_case_text("&study surface%sigma = 0.01, 0.02  run%realizations = 3, 5 /", "case.nml");
     read.settings.output.file = folder / "study.nc";
     calls.clear();
     write_manifest(read, expand_study(read.settings, *read.study), "");
     named_after_the_disk_has_it(folder / "study_manifest.nc", true);
     nc_type type = NC_NAT;  // whole numbers as such
     const Reader file(folder / "study_manifest.nc");
-    CHECK(nc_inq_vartype(file.id(), file.var("run_realizations"), &type) == NC_NOERR && type == NC_INT);
+    CHECK(nc_inq_vartype(file.id(), file.var("run_realizations"), &type) == NC_NOERR &&
+          type == NC_INT);
 }
 
 void checkpoints(const Folder& folder) {
@@ -146,7 +156,9 @@ void one_thread_in_netcdf(const Folder& folder) {
     most_inside = 0;
     const Result result = sample::result(3);
     std::vector<std::thread> threads;
-    for (int k = 0; k < 4; ++k) threads.emplace_back([&, k] { write_result(result, folder / ("thread" + std::to_string(k) + ".nc"), {}); });
+    for (int k = 0; k < 4; ++k)
+        threads.emplace_back(
+            [&, k] { write_result(result, folder / ("thread" + std::to_string(k) + ".nc"), {}); });
     for (std::thread& thread : threads) thread.join();
     CHECK(most_inside == 1);
 }

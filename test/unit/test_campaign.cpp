@@ -1,13 +1,14 @@
-// Campaigns: what is written comes back, what is torn is left out, sums over realizations are those of the realizations.
+// Campaigns: what is written comes back, what is torn is left out, sums over realizations are those
+// of the realizations.
 #include <sys/resource.h>
 
 #include <netcdf.h>
 #include <zlib.h>
 
+#include "base/error.hpp"
 #include "case/namelist.hpp"
 #include "case/registry.hpp"
 #include "check.hpp"
-#include "error.hpp"
 #include "run/checkpoint.hpp"
 #include "run/job.hpp"
 #include "run/run.hpp"
@@ -36,8 +37,9 @@ RealizationRecord observed(const Job& job, int k) {
 }
 
 bool same(const std::vector<ExactSum>& a, const std::vector<ExactSum>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const ExactSum& x, const ExactSum& y) { return x.high == y.high && x.low == y.low; });
+    return std::equal(
+        a.begin(), a.end(), b.begin(), b.end(),
+        [](const ExactSum& x, const ExactSum& y) { return x.high == y.high && x.low == y.low; });
 }
 
 TEST(test_archive) {
@@ -65,19 +67,25 @@ TEST(test_archive) {
     left.append(right);
     CHECK(to_bytes(left) == to_bytes(sums));
     const Observations o = sums.finish();
-    CHECK(same(map_sums(job.observe.map, sums.converged(), o.map_area_fraction, o.map_area_rest), sums.map_area));
-    CHECK(same(map_sums(job.observe.map, sums.converged(), o.map_pressure, o.map_force_rest), sums.map_force));
+    CHECK(same(map_sums(job.observe.map, sums.converged(), o.map_area_fraction, o.map_area_rest),
+               sums.map_area));
+    CHECK(same(map_sums(job.observe.map, sums.converged(), o.map_pressure, o.map_force_rest),
+               sums.map_force));
     Accumulators other(job.observe, job.levels.size() + 1);
     CHECK_THROWS(sums_from_bytes(to_bytes(sums), other), Error);
 }
 
 std::vector<std::string> some_records() {
     std::vector<std::string> records;
-    for (int k = 0; k < 4; ++k) records.push_back(std::string(static_cast<std::size_t>(40 + 13 * k), static_cast<char>('a' + k)));
+    for (int k = 0; k < 4; ++k)
+        records.push_back(
+            std::string(static_cast<std::size_t>(40 + 13 * k), static_cast<char>('a' + k)));
     return records;
 }
 
-void write_bytes(const std::string& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
+void write_bytes(const std::string& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+}
 
 std::string refusal(const std::string& file, const Case& c, bool resume) {
     return ::refusal([&] { Checkpoint(file, c, resume); });
@@ -98,14 +106,16 @@ TEST(test_torn) {
         }
         CHECK(refusal(file, c, true).find("another process") != std::string::npos);
     }
-    const auto says = [&](const std::string& words, const Case& now = small_case(), bool resume = true) {
+    const auto says = [&](const std::string& words, const Case& now = small_case(),
+                          bool resume = true) {
         return refusal(file, now, resume).find(words) != std::string::npos;
     };
     CHECK(says("--resume", c, false));
     Case other = c;
     other.solids.R[1] = 3;
     other.surface.L = 2;
-    CHECK(says("solids%R: Infinity, 2.5 there, Infinity, 3.0 now", other) && says("surface%L: unset there, 2.0 now", other));
+    CHECK(says("solids%R: Infinity, 2.5 there, Infinity, 3.0 now", other) &&
+          says("surface%L: unset there, 2.0 now", other));
     const std::string whole = bytes(state);
     // Killed at any moment: the records that are whole are there, and the next one is taken.
     for (std::size_t length = 0; length <= whole.size(); length += 3) {
@@ -116,7 +126,8 @@ TEST(test_torn) {
             Checkpoint checkpoint(file, c, true);
             const auto contents = checkpoint.take_contents();
             CHECK(!contents.sums && contents.records.size() == kept);
-            for (std::size_t k = 0; k < contents.records.size(); ++k) CHECK(contents.records[k] == records[k]);
+            for (std::size_t k = 0; k < contents.records.size(); ++k)
+                CHECK(contents.records[k] == records[k]);
             checkpoint.append("one more");
         }
         Checkpoint checkpoint(file, c, true);
@@ -137,21 +148,25 @@ TEST(test_torn) {
         Checkpoint checkpoint(file, c, true);
         const auto contents = checkpoint.take_contents();
         CHECK(contents.records.size() == kept);
-        for (std::size_t k = 0; k < contents.records.size(); ++k) CHECK(contents.records[k] == records[k]);
+        for (std::size_t k = 0; k < contents.records.size(); ++k)
+            CHECK(contents.records[k] == records[k]);
     }
-    write_bytes(state, "something else that has nothing to do with rsc but has this name\n" + whole);
+    write_bytes(state,
+                "something else that has nothing to do with rsc but has this name\n" + whole);
     CHECK(says("damaged"));
     // Whole frames that are no header of this version.
     write_bytes(state, whole.substr(ends[0]));
     CHECK(says("not a checkpoint"));
     const std::string header = whole.substr(16, ends[0] - 16);
     const auto framed = [&](const std::string& bytes) {
-        std::string frame = whole.substr(0, 16);  // kind, checksum of kind, length and bytes, length
+        std::string frame =
+            whole.substr(0, 16);  // kind, checksum of kind, length and bytes, length
         const std::uint64_t length = bytes.size();
         std::memcpy(frame.data() + 8, &length, sizeof length);
         uLong crc = crc32_z(0, reinterpret_cast<const Bytef*>(frame.data()), 4);
         crc = crc32_z(crc, reinterpret_cast<const Bytef*>(frame.data() + 8), 8);
-        const auto sum = static_cast<std::uint32_t>(crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+        const auto sum = static_cast<std::uint32_t>(
+            crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
         std::memcpy(frame.data() + 4, &sum, sizeof sum);
         return frame + bytes;
     };
@@ -203,7 +218,8 @@ TEST(test_rewrite) {
     }
     Checkpoint checkpoint(file, small_case(), true);
     const auto contents = checkpoint.take_contents();
-    CHECK(contents.sums && *contents.sums == "the sums" && contents.records.size() == 3 && contents.records.back() == "and on");
+    CHECK(contents.sums && *contents.sums == "the sums" && contents.records.size() == 3 &&
+          contents.records.back() == "and on");
     // It outgrows the sums after some 16 MB.
     const std::string large(std::size_t{1} << 20, 'x');
     int appended = 0;
@@ -227,25 +243,31 @@ std::string other_value(const Key& key, const std::string& value) {
     if (std::string(key.name) == "times") return "1.25, 2.75";
     if (std::string(key.name) == "relaxation_share") return "0.25, 0.375";
     if (key.type == Type::string || key.type == Type::choice) return "'another'";
-    if (key.type != Type::real) return std::to_string(std::stoll(value) + (std::stod(value) < key.bounds.high ? 2 : -2));
+    if (key.type != Type::real)
+        return std::to_string(std::stoll(value) + (std::stod(value) < key.bounds.high ? 2 : -2));
     if (key.list) return std::string(key.name) == "layer_nu" ? "0.25, 0.375" : "1.25, 0.75";
     const double number = value.empty() ? 0 : std::stod(value);
     return std::isfinite(number) && number != 0 ? namelist::from_real(0.75 * number) : "0.25";
 }
 
-// A campaign goes on with the case it was begun with: no key that acts on a number of the file may be another one.
+// A campaign goes on with the case it was begun with: no key that acts on a number of the file may
+// be another one.
 TEST(test_every_difference) {
     const std::set<std::string> free = {"run%title",   "run%realizations", "run%threads",
                                         "output%file", "output%format",    "output%compression"};
     for (const Key& key : registry()) {
-        const std::string name = std::string(key.group) + "%" + key.name, element = name + (key.size == 2 && !key.list ? "(2)" : "");
+        const std::string name = std::string(key.group) + "%" + key.name,
+                          element = name + (key.size == 2 && !key.list ? "(2)" : "");
         if (free.contains(name)) continue;
         Case there = small_case();
-        if (name == "indenter%radii") there.indenter.radii[0] = there.indenter.radii[1] = 1.0;  // they are given both
+        if (name == "indenter%radii")
+            there.indenter.radii[0] = there.indenter.radii[1] = 1.0;  // they are given both
         Case now = there;
         set_key(now, element, other_value(key, get_key(there, element)));
         const auto lines = Checkpoint::differences(there, now);
-        const bool named = std::any_of(lines.begin(), lines.end(), [&](const std::string& line) { return line.starts_with(name + ": "); });
+        const bool named = std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
+            return line.starts_with(name + ": ");
+        });
         if (!named) std::printf("  %s may change unnoticed\n", name.c_str());
         CHECK(named);
     }

@@ -1,9 +1,9 @@
-// Close pairs: all of them, each once, whatever the sizes, also across the borders of a surface that repeats, against the double loop; the same
-// order at every call.
-#include "contact/close_pairs.hpp"
+// Close pairs: all of them, each once, whatever the sizes, also across the borders of a surface
+// that repeats, against the double loop; the same order at every call.
+#include "interaction/close_pairs.hpp"
 
+#include "asperities/spots.hpp"
 #include "check.hpp"
-#include "contact/spots.hpp"
 
 using namespace rsc;
 
@@ -14,7 +14,8 @@ using Pairs = std::vector<std::tuple<std::size_t, std::size_t, double>>;
 
 Pairs found(const Vector& x, const Vector& y, const Vector& reach, const Period& period) {
     Pairs pairs;
-    for_close_pairs(x, y, reach, period, [&](std::size_t i, std::size_t j, double d) { pairs.emplace_back(i, j, d); });
+    for_close_pairs(x, y, reach, period,
+                    [&](std::size_t i, std::size_t j, double d) { pairs.emplace_back(i, j, d); });
     return pairs;
 }
 
@@ -22,7 +23,8 @@ Pairs by_double_loop(const Vector& x, const Vector& y, const Vector& reach, cons
     Pairs pairs;
     for (std::size_t i = 0; i < x.size(); ++i) {
         for (std::size_t j = i + 1; j < x.size(); ++j) {
-            const double dx = period.nearest_x(x[i] - x[j]), dy = period.nearest_y(y[i] - y[j]), limit = reach[i] + reach[j];
+            const double dx = period.nearest_x(x[i] - x[j]), dy = period.nearest_y(y[i] - y[j]),
+                         limit = reach[i] + reach[j];
             if (!(reach[i] > 0) || !(reach[j] > 0) || dx * dx + dy * dy >= limit * limit) continue;
             pairs.emplace_back(i, j, std::sqrt(dx * dx + dy * dy));
         }
@@ -45,14 +47,18 @@ void the_same(const Vector& x, const Vector& y, const Vector& reach, const Perio
     CHECK(count_overlapping(x, y, reach, period) == static_cast<long>(pairs.size()));
 }
 
-// Sizes from equal to spread over ten decades, squares and thin strips of points; some points have no reach.
+// Sizes from equal to spread over ten decades, squares and thin strips of points; some points have
+// no reach.
 TEST(random_points) {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> uniform(0, 1);
     std::normal_distribution<double> normal;
     long met = 0;
     for (int set = 0; set < 240; ++set) {
-        const double flat = set % 3 == 0 ? 1 : set % 3 == 1 ? 0.01 : 0, spread = set % 5, side = set % 2 == 0 ? 1 : 1e-3;
+        const double flat = set % 3 == 0   ? 1
+                            : set % 3 == 1 ? 0.01
+                                           : 0,
+                     spread = set % 5, side = set % 2 == 0 ? 1 : 1e-3;
         Vector x, y, reach;
         for (int i = 0; i < 2 + set; ++i) {
             x.push_back(5 + side * uniform(random));
@@ -89,7 +95,8 @@ TEST(repeating) {
         Vector x, y, reach;
         for (int i = 0; i < 80; ++i) {
             x.push_back(uniform(random) + (i % 5 - 2)), y.push_back(0.7 * uniform(random));
-            reach.push_back(i % 9 == 0 ? 0 : (set % 3 == 0 && i == 4 ? 0.3 : 0.05) * uniform(random));
+            reach.push_back(i % 9 == 0 ? 0
+                                       : (set % 3 == 0 && i == 4 ? 0.3 : 0.05) * uniform(random));
         }
         the_same(x, y, reach, {1, 0.7});
     }

@@ -1,9 +1,10 @@
-// What every contact does around its model's solutions: force control and separations between planes count all their work, accept one level
-// and no trial, and none that failed; the curve of two contacts counts its levels; forgetting is starting anew, bit by bit.
+// What every contact does around its model's solutions: force control and separations between
+// planes count all their work, accept one level and no trial, and none that failed; the curve of
+// two contacts counts its levels; forgetting is starting anew, bit by bit.
+#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
-#include "contact/asperity_contact.hpp"
-#include "contact/contact_curve.hpp"
-#include "contact/element_contact.hpp"
+#include "elements/element_contact.hpp"
+#include "physics/friction/contact_curve.hpp"
 #include "physics/random_asperities.hpp"
 
 using namespace rsc;
@@ -12,7 +13,8 @@ namespace {
 
 constexpr double kTop = 1.5;
 
-// N = (1.5 - z)^(3/2) of the separation z as the model counts it, and `jump` more below 0.3; solutions that are passed are wrong by `passed` of the load until settled.
+// N = (1.5 - z)^(3/2) of the separation z as the model counts it, and `jump` more below 0.3;
+// solutions that are passed are wrong by `passed` of the load until settled.
 class Known final : public Contact {
 public:
     explicit Known(double shift = 0, double passed = 0) : shift_(shift), passed_(passed) {}
@@ -85,10 +87,13 @@ TEST(control) {
             const auto check = [&](const Level& level, double z, double N) {
                 CHECK_CLOSE(level.separation, z + shift * N, 1e-8 * std::max(1.0, N));
                 CHECK_RELATIVE(level.force, N, 1e-8);
-                CHECK(level.status == LevelStatus::converged && contact.accepted == ++levels && level.plastic_work == 42);
-                CHECK(level.iterations == contact.iterations() - iterations && level.products == contact.products() - products);
+                CHECK(level.status == LevelStatus::converged && contact.accepted == ++levels &&
+                      level.plastic_work == 42);
+                CHECK(level.iterations == contact.iterations() - iterations &&
+                      level.products == contact.products() - products);
                 iterations = contact.iterations(), products = contact.products();
-                CHECK((shift > 0) == std::isfinite(level.pressure) && (shift > 0) == std::isfinite(level.area_fraction));
+                CHECK((shift > 0) == std::isfinite(level.pressure) &&
+                      (shift > 0) == std::isfinite(level.area_fraction));
                 if (shift > 0) CHECK_RELATIVE(level.pressure, level.force / 8, 1e-15);
                 if (shift > 0) CHECK_RELATIVE(level.area_fraction, level.area / 8, 1e-15);
             };
@@ -103,8 +108,10 @@ TEST(control) {
             CHECK(none.iterations == 3 && none.products == 30);
             // What failed is told and not accepted.
             contact.fails = true;
-            CHECK(contact.at_force(2.0).status == LevelStatus::not_converged && contact.accepted == levels);
-            CHECK(contact.at_separation(0.5).status == LevelStatus::not_converged && contact.accepted == levels);
+            CHECK(contact.at_force(2.0).status == LevelStatus::not_converged &&
+                  contact.accepted == levels);
+            CHECK(contact.at_separation(0.5).status == LevelStatus::not_converged &&
+                  contact.accepted == levels);
         }
 }
 
@@ -131,7 +138,8 @@ TEST(curves) {
     ContactCurve curve(one, other);
     const auto N = [](double delta) { return std::pow(kTop + delta, 1.5); };
     CHECK(curve.first_touch() == -kTop && curve.levels() == 0 && curve.failed() == 0);
-    CHECK(curve.load(-kTop).force == 0 && curve.load(-2).energy == 0 && curve.stiffness(-kTop) == 0 && curve.levels() == 0);
+    CHECK(curve.load(-kTop).force == 0 && curve.load(-2).energy == 0 &&
+          curve.stiffness(-kTop) == 0 && curve.levels() == 0);
     CHECK_RELATIVE(curve.load(0.5).force, N(0.5), 1e-14);
     CHECK_RELATIVE(curve.load(0.5).energy, 0.4 * std::pow(2.0, 2.5), 1e-14);
     CHECK(curve.levels() == 1 && one.solves == 1 && other.solves == 0);

@@ -2,10 +2,10 @@
 #include <sys/stat.h>
 
 #include "check.hpp"
-#include "file/netcdf_writer.hpp"
-#include "file/result.hpp"
-#include "file/whole_file.hpp"
-#include "read/inputs.hpp"
+#include "io/inputs.hpp"
+#include "io/netcdf_writer.hpp"
+#include "io/result.hpp"
+#include "io/whole_file.hpp"
 #include "unit/library.hpp"
 #include "unit/map_files.hpp"
 #include "unit/refused.hpp"
@@ -26,7 +26,8 @@ std::vector<double> heights_in(const std::string& path) {
 std::vector<double> asperities_in(const std::string& path) {
     const Asperities a = read_asperities(path, "mm");
     std::vector<double> all;
-    for (const auto& column : kAsperityColumns) all.insert(all.end(), (a.*column.values).begin(), (a.*column.values).end());
+    for (const auto& column : kAsperityColumns)
+        all.insert(all.end(), (a.*column.values).begin(), (a.*column.values).end());
     return all;
 }
 
@@ -42,29 +43,39 @@ void test_damage(const Folder& folder, Format format) {
         std::string damaged = whole;
         damaged[(k * whole.size()) / 151 + k % 7] ^= static_cast<char>(1 << k % 8);
         folder.write("spoilt.nc", damaged);
-        const auto look = [&](auto&& in, const auto& truth) { ++(accepted([&] { CHECK(in(spoilt) == truth); }) ? read : refused); };
+        const auto look = [&](auto&& in, const auto& truth) {
+            ++(accepted([&] { CHECK(in(spoilt) == truth); }) ? read : refused);
+        };
         look(heights_in, heights);
         look(asperities_in, asperities);
-        look([](const std::string& file) { return head_of_result(file).value_or(ResultHead{}).case_text; }, text);
+        look(
+            [](const std::string& file) {
+                return head_of_result(file).value_or(ResultHead{}).case_text;
+            },
+            text);
     }
     CHECK(read == 0 && refused == 450);
 }
 
 // A surface data file with 3 x 3 heights.
 std::string sdf(double scale) {
-    return map_files::sdf_binary({3, 3, 1e-6, 1e-6, {}}, 7, scale, std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8});
+    return map_files::sdf_binary({3, 3, 1e-6, 1e-6, {}}, 7, scale,
+                                 std::vector<double>{0, 1, 2, 3, 4, 5, 6, 7, 8});
 }
 
 TEST(test_inputs) {
     const Folder folder;
-    CHECK(read_heights(folder.write("good.sdf", sdf(1e-6) + "trailer"), {}, "mm", "", Missing::refuse).nx == 3);
+    CHECK(
+        read_heights(folder.write("good.sdf", sdf(1e-6) + "trailer"), {}, "mm", "", Missing::refuse)
+            .nx == 3);
     REFUSED(heights_in(folder.write("down.sdf", sdf(-1e-6))), "Zscale");
     REFUSED(heights_in(folder.write("long.sdf", sdf(1e-6) + std::string(1 << 20, 'x'))), "follow");
     const std::string fifo = folder / "fifo";
     CHECK(mkfifo(fifo.c_str(), 0600) == 0);
     REFUSED(heights_in(fifo), "FIFO");
     REFUSED(heights_in("/dev/zero"), "device");
-    for (const char* name : {"http://host/a.nc", "file://a#mode=zarr,file", "a.nc#mode=zarr,file"}) {
+    for (const char* name :
+         {"http://host/a.nc", "file://a#mode=zarr,file", "a.nc#mode=zarr,file"}) {
         CHECK(refusal([&] { check_output(name); }).find("URL") != std::string::npos);
     }
 }

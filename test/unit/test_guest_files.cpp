@@ -5,9 +5,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/error.hpp"
 #include "check.hpp"
-#include "error.hpp"
-#include "file/whole_file.hpp"
+#include "io/whole_file.hpp"
 #include "unit/refused.hpp"
 #include "unit/temporary_folder.hpp"
 
@@ -18,19 +18,22 @@ namespace {
 const FileKind kNotes{"note", [](const std::string& path) { return begins_with(path, "note "); }};
 
 bool refused(const std::string& path, const char* word) {
-    const std::string message = refusal([&] { write_whole(path, kNotes, std::string("note new")); }, Failure::file_system);
+    const std::string message =
+        refusal([&] { write_whole(path, kNotes, std::string("note new")); }, Failure::file_system);
     return !message.empty() && message.find(word) != std::string::npos;
 }
 
 TEST(test_what_may_be_replaced) {
     const Folder folder;
-    const std::string mine = folder / "mine", thesis = folder / "thesis", link = folder / "link", fifo = folder / "fifo";
+    const std::string mine = folder / "mine", thesis = folder / "thesis", link = folder / "link",
+                      fifo = folder / "fifo";
     write_whole(mine, kNotes, std::string("note 1"));
     write_whole(mine, kNotes, std::string("note 2"));
     CHECK(bytes(mine) == "note 2");
     std::ofstream(thesis) << "thesis";
     CHECK(refused(thesis, "no note") && bytes(thesis) == "thesis");
-    CHECK(symlink(mine.c_str(), link.c_str()) == 0 && refused(link, "link") && bytes(mine) == "note 2");
+    CHECK(symlink(mine.c_str(), link.c_str()) == 0 && refused(link, "link") &&
+          bytes(mine) == "note 2");
     CHECK(mkfifo(fifo.c_str(), 0600) == 0 && refused(fifo, "plain file"));
     CHECK(refused(folder / ".", "folder"));
     if (geteuid() != 0) CHECK(refused("/dev/null", "plain file"));  // root could lose the device
@@ -38,11 +41,13 @@ TEST(test_what_may_be_replaced) {
     CHECK(chmod(mine.c_str(), 0640) == 0);
     write_whole(mine, kNotes, std::string("note 3"));
     struct stat status {};
-    CHECK(stat(mine.c_str(), &status) == 0 && (status.st_mode & 0777) == 0640);  // who may read it stays
+    CHECK(stat(mine.c_str(), &status) == 0 &&
+          (status.st_mode & 0777) == 0640);  // who may read it stays
     CHECK(folder.files() == 4);
 }
 
-// A link of the temporary's name is not followed, a temporary that is being written is not touched, one that was left is removed.
+// A link of the temporary's name is not followed, a temporary that is being written is not touched,
+// one that was left is removed.
 TEST(test_temporaries) {
     const Folder folder;
     const std::string mine = folder / "mine", other = folder / "other";
@@ -52,15 +57,18 @@ TEST(test_temporaries) {
     const int held = open((mine + ".rsc-part-2").c_str(), O_RDWR | O_CREAT, 0600);
     CHECK(lock_file(held) == 0);
     const int reader = open((mine + ".rsc-part-2").c_str(), O_RDONLY);
-    CHECK(flock(reader, LOCK_SH | LOCK_NB) == 0);  // as HDF5 does, which reads nothing where that fails
+    CHECK(flock(reader, LOCK_SH | LOCK_NB) ==
+          0);  // as HDF5 does, which reads nothing where that fails
     close(reader);
     write_whole(mine, kNotes, std::string("note"));
     CHECK(bytes(mine) == "note" && bytes(other) == "other");
-    CHECK(access((mine + ".rsc-part-1").c_str(), F_OK) != 0 && access((mine + ".rsc-part-2").c_str(), F_OK) == 0);
+    CHECK(access((mine + ".rsc-part-1").c_str(), F_OK) != 0 &&
+          access((mine + ".rsc-part-2").c_str(), F_OK) == 0);
     close(held);
 }
 
-// Writers of one file at once, some killed on the way: a reader finds one whole writing or none, and nothing is left in the end.
+// Writers of one file at once, some killed on the way: a reader finds one whole writing or none,
+// and nothing is left in the end.
 TEST(test_many_writers) {
     const Folder folder;
     const std::string path = folder / "one";

@@ -1,20 +1,24 @@
-// The library in processes that are short of threads, and in children of processes that had threads.
+// The library in processes that are short of threads, and in children of processes that had
+// threads.
 #include <sched.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/parallel.hpp"
 #include "check.hpp"
-#include "contact/interaction/pixel_products.hpp"
-#include "rough/parallel.hpp"
+#include "elements/pixel_products.hpp"
 #include "run/prepare.hpp"
 #include "unit/library.hpp"
 
 namespace {
 
-CaseHandle small_case(const char* more) { return case_of(std::string("&surface n=256 L_lambda_l=4 L_lambda_s=32 / ") + more); }
+CaseHandle small_case(const char* more) {
+    return case_of(std::string("&surface n=256 L_lambda_l=4 L_lambda_s=32 / ") + more);
+}
 
-// The exit status of a child process that runs `body`; 128 + signal if a signal ended it (an alarm after 60 s).
+// The exit status of a child process that runs `body`; 128 + signal if a signal ended it (an alarm
+// after 60 s).
 int in_child(const std::function<int()>& body) {
     const pid_t child = fork();
     if (child == 0) {
@@ -26,11 +30,13 @@ int in_child(const std::function<int()>& body) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-// With memory for only a few of the 200 threads requested. Returns 0 if all calls succeed, 1 if some report lack of memory.
+// With memory for only a few of the 200 threads requested. Returns 0 if all calls succeed, 1 if
+// some report lack of memory.
 int with_little_memory() {
     long pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
-    const rlim_t most = static_cast<rlim_t>(pages) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{100} << 20);
+    const rlim_t most = static_cast<rlim_t>(pages) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) +
+                        (rlim_t{100} << 20);
     const rlimit limit{most, most};
     if (setrlimit(RLIMIT_AS, &limit) != 0) return 9;
     const CaseHandle c = small_case("&run threads=200 /");
@@ -67,19 +73,22 @@ void test_stopping() {
     products->set_pixels(pixels);
     CHECK(stops([&] { products->apply(p.data(), w.data(), rsc::PixelProducts::Accuracy::inner); }));
     CHECK(stops([] { rsc::make_surface(rsc::Case{}, 1, 2); }));
-    for (const int kind : {0, 1, 2, 3}) {  // the solvers: Newton's method, dgesv, elements, adhesion
+    for (const int kind :
+         {0, 1, 2, 3}) {  // the solvers: Newton's method, dgesv, elements, adhesion
         rsc::Case c;
         c.surface.n = 256, c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 32;
         if (kind == 1) c.solver.method = rsc::Method::dgesv;
         if (kind == 2) c.solver.model = rsc::Model::elements;
         if (kind == 3) c.solids.adhesion = 0.01;
         const auto model = rsc::make_surface_model(c, 1, 1);
-        const auto contact = rsc::make_contact(model, rsc::indenter_of(c, model.domain), rsc::solver_of(c, model.domain));
+        const auto contact = rsc::make_contact(model, rsc::indenter_of(c, model.domain),
+                                               rsc::solver_of(c, model.domain));
         CHECK(stops([&] { contact->at_separation(0.01); }));
     }
 }
 
-// As many threads as the processors that the process may use: a rank or a job that is bound to one does not start one for each of the machine.
+// As many threads as the processors that the process may use: a rank or a job that is bound to one
+// does not start one for each of the machine.
 int with_one_processor() {
     unsetenv("OMP_NUM_THREADS");
     cpu_set_t allowed, one;
@@ -106,7 +115,8 @@ void test_pieces() {
         std::atomic<bool> strange{false};
         rsc::parallel_for(100, 7, threads, [&](int i, std::size_t worker) {
             if (worker >= static_cast<std::size_t>(threads)) strange = true;
-            rsc::parallel_for(10, 3, threads, [&](int j) { ++runs[static_cast<std::size_t>(10 * i + j)]; });
+            rsc::parallel_for(10, 3, threads,
+                              [&](int j) { ++runs[static_cast<std::size_t>(10 * i + j)]; });
         });
         CHECK(!strange && runs == std::vector<int>(1000, 1));
         const auto refuses = [](int k) {
@@ -125,7 +135,8 @@ void test_more_threads_than_work() {
     const double force[] = {1e-3, 2e-3};
     double few[2], many[2];
     OK(rsc_contacts_press(2, contacts, force, few, nullptr, 1));
-    CHECK(in_child([&] { return rsc_contacts_press(2, contacts, force, many, nullptr, 100000); }) == 0);
+    CHECK(in_child([&] { return rsc_contacts_press(2, contacts, force, many, nullptr, 100000); }) ==
+          0);
     for (auto& contact : contacts) rsc_contact_destroy(&contact);
 }
 

@@ -1,20 +1,22 @@
-// The potential of a point and its images: closed forms, sums over finer lattices, Ewald's sum with other parameters; and
-// spots across the borders.
+// The potential of a point and its images: closed forms, sums over finer lattices, Ewald's sum with
+// other parameters; and spots across the borders.
+#include "asperities/spots.hpp"
+#include "base/error.hpp"
 #include "check.hpp"
-#include "contact/interaction/kernel.hpp"
-#include "contact/interaction/lattice.hpp"
-#include "contact/spots.hpp"
-#include "error.hpp"
+#include "interaction/kernel.hpp"
+#include "interaction/lattice.hpp"
 
 using namespace rsc;
 using std::numbers::pi;
 
 namespace {
 
-constexpr double kSum = 1e-12;                      // of 1/L: what the lattice promises
-constexpr double kSelf = -3.900264920001955886982;  // 4 zeta(1/2) beta(1/2), the square lattice's own sum
+constexpr double kSum = 1e-12;  // of 1/L: what the lattice promises
+constexpr double kSelf =
+    -3.900264920001955886982;  // 4 zeta(1/2) beta(1/2), the square lattice's own sum
 
-// Of the square lattice: four sublattices make one of half the side, two one that is turned by 45 degrees.
+// Of the square lattice: four sublattices make one of half the side, two one that is turned by 45
+// degrees.
 TEST(closed_forms) {
     for (double L : {1.0, 2.5e-3, 1e4}) {
         const Lattice square({L, L});
@@ -39,7 +41,8 @@ double ewald(double x, double y, double Lx, double Ly, double b) {
             const double d = std::hypot(x - m * Lx, y - n * Ly);
             sum += d > 0 ? std::erfc(b * d) / d : -2 * b / std::sqrt(pi);
         }
-    const int kx = static_cast<int>(14 * b * Lx / (2 * pi)) + 1, ky = static_cast<int>(14 * b * Ly / (2 * pi)) + 1;
+    const int kx = static_cast<int>(14 * b * Lx / (2 * pi)) + 1,
+              ky = static_cast<int>(14 * b * Ly / (2 * pi)) + 1;
     for (int m = -kx; m <= kx; ++m)
         for (int n = -ky; n <= ky; ++n) {
             if (m == 0 && n == 0) continue;
@@ -58,12 +61,15 @@ TEST(lattice_sums) {
         double worst = std::abs(lattice.self() - ewald(0, 0, Lx, Ly, 1.4)) * size;
         std::vector<double> x, y, f, phi(1);
         for (int k = 0; k < 150; ++k) {
-            x.push_back(Lx * uniform(random)), y.push_back(Ly * uniform(random)), f.push_back(uniform(random));
+            x.push_back(Lx * uniform(random)), y.push_back(Ly * uniform(random)),
+                f.push_back(uniform(random));
             const double exact = ewald(x.back(), y.back(), Lx, Ly, k % 2 ? 1.4 : 2.6);
             const double scale = std::max(1.0, std::abs(exact) * size);
-            worst = check::worse(worst, {std::abs(lattice.at(x.back(), y.back()) - exact) * size / scale,
-                                         std::abs(lattice.at(x.back() + 3 * Lx, y.back() - 2 * Ly) - exact) * size / scale,
-                                         std::abs(lattice.at(-x.back(), y.back()) - exact) * size / scale});
+            worst = check::worse(
+                worst,
+                {std::abs(lattice.at(x.back(), y.back()) - exact) * size / scale,
+                 std::abs(lattice.at(x.back() + 3 * Lx, y.back() - 2 * Ly) - exact) * size / scale,
+                 std::abs(lattice.at(-x.back(), y.back()) - exact) * size / scale});
         }
         CHECK_CLOSE(worst, 0, kSum);
         // The sum over many sources, one of them at the target.
@@ -80,7 +86,8 @@ TEST(lattice_sums) {
     CHECK_THROWS(Lattice({0, 1}), Error);
 }
 
-// Heaps of ellipses in the middle of the cell, and moved across its borders; a chain of circles around the torus.
+// Heaps of ellipses in the middle of the cell, and moved across its borders; a chain of circles
+// around the torus.
 TEST(spots_wrap) {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -89,8 +96,8 @@ TEST(spots_wrap) {
         std::vector<Spot> spots;
         for (int i = 0; i < 30; ++i) {
             const double major = 0.05 * uniform(random);
-            spots.push_back(
-                {0.35 + 0.3 * uniform(random), 0.35 + 0.3 * uniform(random), major, major * uniform(random), 3 * uniform(random)});
+            spots.push_back({0.35 + 0.3 * uniform(random), 0.35 + 0.3 * uniform(random), major,
+                             major * uniform(random), 3 * uniform(random)});
         }
         const double area = union_area(spots);
         const double mx = uniform(random), my = uniform(random);

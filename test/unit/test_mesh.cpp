@@ -1,8 +1,8 @@
 // The mesh product against sums in long double, on every kind of point set.
 #include "check.hpp"
-#include "contact/interaction/mesh.hpp"
+#include "interaction/mesh.hpp"
 
-#include "rough/parallel.hpp"
+#include "base/parallel.hpp"
 
 using namespace rsc;
 
@@ -19,7 +19,8 @@ Points uniform_points(std::size_t n, unsigned seed, double length_x = 1, double 
     std::mt19937_64 engine(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
     Points p{Vector(n), Vector(n)};
-    for (std::size_t i = 0; i < n; ++i) p.x[i] = length_x * uniform(engine), p.y[i] = length_y * uniform(engine);
+    for (std::size_t i = 0; i < n; ++i)
+        p.x[i] = length_x * uniform(engine), p.y[i] = length_y * uniform(engine);
     return p;
 }
 
@@ -30,7 +31,8 @@ Points clustered_points(std::size_t n, unsigned seed) {
     Points p = uniform_points(n, seed);
     for (std::size_t i = 0; i < n - n / 10; ++i) {
         const double cluster = static_cast<double>(i % 9);
-        p.x[i] = std::cos(cluster) + 0.01 * normal(engine), p.y[i] = std::sin(2 * cluster) + 0.01 * normal(engine);
+        p.x[i] = std::cos(cluster) + 0.01 * normal(engine),
+        p.y[i] = std::sin(2 * cluster) + 0.01 * normal(engine);
     }
     return p;
 }
@@ -58,14 +60,16 @@ double error_of(const Points& p, const Vector& f, const Vector& phi) {
     for (std::size_t i = 0; i < p.size(); i += step) {
         long double sum = 0;
         for (std::size_t j = 0; j < p.size(); ++j) {
-            const long double dx = static_cast<long double>(p.x[i]) - p.x[j], dy = static_cast<long double>(p.y[i]) - p.y[j];
+            const long double dx = static_cast<long double>(p.x[i]) - p.x[j],
+                              dy = static_cast<long double>(p.y[i]) - p.y[j];
             const long double d = std::sqrt(dx * dx + dy * dy);
             if (d > 0) sum += f[j] / d;
         }
         difference += (phi[i] - sum) * (phi[i] - sum);
         norm += sum * sum;
     }
-    return norm > 0 ? static_cast<double>(std::sqrt(difference / norm)) : static_cast<double>(std::sqrt(difference));
+    return norm > 0 ? static_cast<double>(std::sqrt(difference / norm))
+                    : static_cast<double>(std::sqrt(difference));
 }
 
 void check_errors(const Points& p, const char* name, bool on_mesh = true) {
@@ -96,7 +100,8 @@ TEST(shapes) {
 
     // A hundred places with ten points each, and a point far from the others.
     Points twice = uniform_points(4000, 9);
-    for (std::size_t i = 100; i < 1000; ++i) twice.x[i] = twice.x[i % 100], twice.y[i] = twice.y[i % 100];
+    for (std::size_t i = 100; i < 1000; ++i)
+        twice.x[i] = twice.x[i % 100], twice.y[i] = twice.y[i % 100];
     check_errors(twice, "coincident");
     Points far = uniform_points(2000, 10);
     far.x[77] = 30, far.y[77] = -20;

@@ -1,8 +1,9 @@
-// The namelist reader and the key registry: values, positions, messages, round trips, studies, the command line.
+// The namelist reader and the key registry: values, positions, messages, round trips, studies, the
+// command line.
+#include "base/error.hpp"
 #include "case/namelist.hpp"
 #include "case/read_case.hpp"
 #include "check.hpp"
-#include "error.hpp"
 #include "unit/refused.hpp"
 
 using namespace rsc;
@@ -16,38 +17,52 @@ std::string complaint(const std::string& text, const Options& options = {}) {
 
 void expect_text(const std::string& got, const std::string& expected, int line) {
     check::that(got == expected, "the text is the expected one", __FILE__, line);
-    if (got != expected) std::printf("  got:      %s\n  expected: %s\n", got.c_str(), expected.c_str());
+    if (got != expected)
+        std::printf("  got:      %s\n  expected: %s\n", got.c_str(), expected.c_str());
 }
 #define CHECK_TEXT(got, expected) expect_text((got), (expected), __LINE__)
 TEST(test_values) {
-    const std::pair<const char*, double> reals[] = {
-        {"1.5+3", 1500}, {"1.5-3", 1.5e-3}, {"1Q0", 1.0}, {"-Infinity", -Case::kInfinity}, {"1e999", Case::kInfinity},
-        {"1d-999", 0.0}, {"0.1", 0.1}};
+    const std::pair<const char*, double> reals[] = {{"1.5+3", 1500},
+                                                    {"1.5-3", 1.5e-3},
+                                                    {"1Q0", 1.0},
+                                                    {"-Infinity", -Case::kInfinity},
+                                                    {"1e999", Case::kInfinity},
+                                                    {"1d-999", 0.0},
+                                                    {"0.1", 0.1}};
     for (const auto& [word, wanted] : reals) {
         const auto value = namelist::to_real(word);
-        CHECK(value && std::bit_cast<std::uint64_t>(*value) == std::bit_cast<std::uint64_t>(wanted));
+        CHECK(value &&
+              std::bit_cast<std::uint64_t>(*value) == std::bit_cast<std::uint64_t>(wanted));
     }
     CHECK(namelist::to_real("NaN(x)") && std::isnan(*namelist::to_real("nan")));
-    for (const char* word : {"", ".", "e5", ".e5", "1e", "1.2.3", "1x", "--1", "0x10", "infinit", "1e5.", "nan(a", "+"})
+    for (const char* word : {"", ".", "e5", ".e5", "1e", "1.2.3", "1x", "--1", "0x10", "infinit",
+                             "1e5.", "nan(a", "+"})
         CHECK(!namelist::to_real(word));
-    for (const char* word : {"", "+", "-", "1.0", "1e3", "+-1", "9223372036854775808", "a"}) CHECK(!namelist::to_integer(word));
+    for (const char* word : {"", "+", "-", "1.0", "1e3", "+-1", "9223372036854775808", "a"})
+        CHECK(!namelist::to_integer(word));
     CHECK(namelist::to_integer("-9223372036854775808") == std::numeric_limits<std::int64_t>::min());
-    for (const char* word : {"t", "T", ".true.", ".t", "tfoo"}) CHECK(namelist::to_logical(word) == true);
-    for (const char* word : {"f", "F", ".FALSE.", ".f", "fool"}) CHECK(namelist::to_logical(word) == false);
+    for (const char* word : {"t", "T", ".true.", ".t", "tfoo"})
+        CHECK(namelist::to_logical(word) == true);
+    for (const char* word : {"f", "F", ".FALSE.", ".f", "fool"})
+        CHECK(namelist::to_logical(word) == false);
     for (const char* word : {"", ".", "1", "yes", "..t"}) CHECK(!namelist::to_logical(word));
 }
 
 // Against the Fortran runtime's own reader: fortran/test_namelist.f90.
 TEST(test_syntax) {
-    const auto read = [](const std::string& text) { return read_case_text(text, "case.nml").settings; };
+    const auto read = [](const std::string& text) {
+        return read_case_text(text, "case.nml").settings;
+    };
     CHECK((read("&output pdf_levels = 1.0 /").output.pdf_levels == std::vector<double>{1.0}));
-    CHECK((read("&output pdf_levels(2) = 2.25 /").output.pdf_levels == std::vector<double>{2.0, 2.25, 3.0}));
+    CHECK((read("&output pdf_levels(2) = 2.25 /").output.pdf_levels ==
+           std::vector<double>{2.0, 2.25, 3.0}));
     CHECK(read("&run title(3:4) = 'cd' title(1:2) = 'ab' /").run.title == "abcd");
     CHECK(read("&surface sigma = , /").surface.sigma == std::nullopt);
-    CHECK((read("&output pdf_levels = , , , 9.5 /").output.pdf_levels == std::vector<double>{2.0, 2.5, 3.0, 9.5}));
-    CHECK_TEXT(
-        complaint("&indentation levels(2) = x /"),
-        "case.nml:1:26: &indentation: levels: expected a real number, found 'x'; numbers are written with a decimal point and without their unit, comments begin with '!'");
+    CHECK((read("&output pdf_levels = , , , 9.5 /").output.pdf_levels ==
+           std::vector<double>{2.0, 2.5, 3.0, 9.5}));
+    CHECK_TEXT(complaint("&indentation levels(2) = x /"),
+               "case.nml:1:26: &indentation: levels: expected a real number, found 'x'; numbers "
+               "are written with a decimal point and without their unit, comments begin with '!'");
     CHECK(read("&solver method = 'DIRECT ' /").solver.method == Method::direct);
 }
 
@@ -57,10 +72,13 @@ std::string another_value(const Key& key, int salt) {
         case Type::logical: return ".true.";
         case Type::integer:
         case Type::long_integer:
-            return std::to_string(key.bounds.high < 1e9 && key.bounds.high > 0 ? static_cast<int>(key.bounds.high) - salt % 2
-                                                                               : 12345 + salt);
+            return std::to_string(key.bounds.high < 1e9 && key.bounds.high > 0
+                                      ? static_cast<int>(key.bounds.high) - salt % 2
+                                      : 12345 + salt);
         case Type::string: return "'it''s a \"text\", number " + std::to_string(salt) + "!'";
-        case Type::choice: return std::string("'") + key.choices[static_cast<std::size_t>(salt) % key.choices.size()] + "'";
+        case Type::choice:
+            return std::string("'") +
+                   key.choices[static_cast<std::size_t>(salt) % key.choices.size()] + "'";
         case Type::real: break;
     }
     // No short decimal: all 17 digits are needed.
@@ -68,27 +86,34 @@ std::string another_value(const Key& key, int salt) {
     const double high = std::isfinite(key.bounds.high) ? key.bounds.high : low + 10.0;
     std::string text;
     for (int i = 0; i < (key.list ? 3 : key.size); ++i)
-        text += (i > 0 ? ", " : "") + namelist::from_real(low + (high - low) * (salt + i + 1) / (salt + i + 1 + std::sqrt(2.0)));
+        text +=
+            (i > 0 ? ", " : "") + namelist::from_real(low + (high - low) * (salt + i + 1) /
+                                                                (salt + i + 1 + std::sqrt(2.0)));
     return text;
 }
 
 TEST(test_round_trip) {
-    CHECK_TEXT(effective_namelist(read_namelist(effective_namelist(Case{})).settings), effective_namelist(Case{}));
+    CHECK_TEXT(effective_namelist(read_namelist(effective_namelist(Case{})).settings),
+               effective_namelist(Case{}));
     for (int salt = 0; salt < 40; ++salt) {
         std::string text;
         for (const std::string_view group : group_names()) {
             text += "&" + std::string(group) + "\n";
             for (const Key& key : registry())
-                if (group == key.group) text += std::string(key.name) + " = " + another_value(key, salt) + "\n";
+                if (group == key.group)
+                    text += std::string(key.name) + " = " + another_value(key, salt) + "\n";
             text += group == "study" ? "run%seed = 1 /\n" : "/\n";
         }
         const Reading first = read_namelist(text);
         CHECK(first.faults.empty());
         const Case& c = first.settings;
-        for (const Key& key : registry()) CHECK_TEXT(get_key(c, std::string(key.group) + "%" + key.name), another_value(key, salt));
+        for (const Key& key : registry())
+            CHECK_TEXT(get_key(c, std::string(key.group) + "%" + key.name),
+                       another_value(key, salt));
         const Reading reading = read_namelist(effective_namelist(c));
         CHECK(reading.faults.empty() && reading.duplicates.empty());
-        for (const namelist::Fault& fault : reading.faults) std::printf("  %s\n", fault.text.c_str());
+        for (const namelist::Fault& fault : reading.faults)
+            std::printf("  %s\n", fault.text.c_str());
         for (const Key& key : registry()) {
             const std::string name = std::string(key.group) + "%" + key.name;
             CHECK_TEXT(get_key(reading.settings, name), get_key(c, name));
@@ -108,18 +133,23 @@ TEST(test_round_trip) {
 
 TEST(test_study) {
     const Reading reading = read_namelist(
-        "&study surface%sigma = 0.001, 0.01, 0.1  solids%R(2) = 2*2.5, 5\n solver%method = 'direct', 'mesh'  mode = 'product' "
+        "&study surface%sigma = 0.001, 0.01, 0.1  solids%R(2) = 2*2.5, 5\n solver%method = "
+        "'direct', 'mesh'  mode = 'product' "
         "/\n");
     CHECK(reading.faults.empty() && reading.study && reading.study->axes.size() == 3);
     const Study& study = *reading.study;
     const std::vector<Member> members = expand_study(Case{}, study);
     CHECK(members.size() == 18);
-    CHECK(members[0].settings.surface.sigma == 0.001 && members[17].settings.surface.sigma == 0.1);  // the first key is the slowest
+    CHECK(members[0].settings.surface.sigma == 0.001 &&
+          members[17].settings.surface.sigma == 0.1);  // the first key is the slowest
     CHECK(members[5].settings.surface.sigma == 0.001 && members[6].settings.surface.sigma == 0.01);
-    CHECK(members[0].settings.solver.method == Method::direct && members[1].settings.solver.method == Method::mesh);
-    CHECK(members[4].settings.solids.R[1] == 5.0 && members[4].settings.solids.R[0] == Case::kInfinity);
+    CHECK(members[0].settings.solver.method == Method::direct &&
+          members[1].settings.solver.method == Method::mesh);
+    CHECK(members[4].settings.solids.R[1] == 5.0 &&
+          members[4].settings.solids.R[0] == Case::kInfinity);
     CHECK_TEXT(members[6].settings.output.file, "output/rsc_007.nc");
-    CHECK_TEXT(effective_namelist(*read_namelist(effective_namelist(study)).study), effective_namelist(study));
+    CHECK_TEXT(effective_namelist(*read_namelist(effective_namelist(study)).study),
+               effective_namelist(study));
 
     Study zip = study;
     zip.mode = StudyMode::zip;
@@ -134,11 +164,13 @@ TEST(test_options) {
         words.insert(words.begin(), "rsc");
         return parse_options(static_cast<int>(words.size()), words.data());
     };
-    const Options o =
-        parse({"-q", "--set", "surface%n=64", "-srun%seed=2", "--output=x.nc", "case.nml", "--progress", "never", "--member", "3"});
-    CHECK(o.quiet && o.case_path == "case.nml" && o.output == "x.nc" && o.progress == Progress::never && o.member == 3);
+    const Options o = parse({"-q", "--set", "surface%n=64", "-srun%seed=2", "--output=x.nc",
+                             "case.nml", "--progress", "never", "--member", "3"});
+    CHECK(o.quiet && o.case_path == "case.nml" && o.output == "x.nc" &&
+          o.progress == Progress::never && o.member == 3);
     CHECK((o.set == std::vector<std::string>{"surface%n=64", "run%seed=2"}));
-    CHECK(parse({}).case_path.empty() && parse({"-"}).case_path.empty() && parse({"--", "-x"}).case_path == "-x");
+    CHECK(parse({}).case_path.empty() && parse({"-"}).case_path.empty() &&
+          parse({"--", "-x"}).case_path == "-x");
     CHECK(parse({"--describe", "surface%sigma"}).describe_what == "surface%sigma");
     CHECK(parse({"-h", "--nonsense"}).help);
 }

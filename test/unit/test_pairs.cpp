@@ -1,8 +1,9 @@
-// Direct pair sums against sums in long double, for every instruction set this machine has. The loops of the mesh, compiled with them: test_mesh.
+// Direct pair sums against sums in long double, for every instruction set this machine has. The
+// loops of the mesh, compiled with them: test_mesh.
+#include "base/error.hpp"
 #include "check.hpp"
-#include "contact/interaction/pairs.hpp"
-#include "contact/interaction/pairs_kernel.hpp"
-#include "error.hpp"
+#include "interaction/pairs.hpp"
+#include "interaction/pairs_kernel.hpp"
 
 using namespace rsc;
 
@@ -26,7 +27,8 @@ Points random_points(std::size_t n, unsigned seed, double size = 1, double x0 = 
 }
 
 // The truth, and the sum of |f_j| / d_ij that errors are measured against.
-void truth(const Points& targets, const Points& sources, std::vector<double>& phi, std::vector<double>& size) {
+void truth(const Points& targets, const Points& sources, std::vector<double>& phi,
+           std::vector<double>& size) {
     phi.assign(targets.size(), 0);
     size.assign(targets.size(), 0);
     for (std::size_t i = 0; i < targets.size(); ++i) {
@@ -46,18 +48,20 @@ void truth(const Points& targets, const Points& sources, std::vector<double>& ph
 
 // Largest |a - b| / size; NaN counts as infinite.
 template <class T>
-double distance(const std::vector<T>& a, const std::vector<double>& b, const std::vector<double>& size) {
+double distance(const std::vector<T>& a, const std::vector<double>& b,
+                const std::vector<double>& size) {
     double largest = 0;
     for (std::size_t i = 0; i < b.size(); ++i) {
         const double error = std::abs(static_cast<double>(a[i]) - b[i]);
         const double relative = size[i] > 0 ? error / size[i] : error;
-        if (!(relative <= largest)) largest = std::isnan(relative) ? std::numeric_limits<double>::infinity() : relative;
+        if (!(relative <= largest))
+            largest = std::isnan(relative) ? std::numeric_limits<double>::infinity() : relative;
     }
     return largest;
 }
 
-// Rounding of a term: difference, square, root and sum, some 4 units of 2^-53, and sums of at most 512 terms before they are
-// gathered.
+// Rounding of a term: difference, square, root and sum, some 4 units of 2^-53, and sums of at most
+// 512 terms before they are gathered.
 constexpr double kDouble = 2e-15;
 // One Newton step on 12 bits: 2e-7; sums of some hundred terms in 24 bits: 5e-7.
 constexpr double kSingle = 2e-6;
@@ -100,7 +104,8 @@ void check_all_products(const Points& p, const char* name, bool in_single = true
 }
 
 TEST(sizes_and_shapes) {
-    for (std::size_t n : {0, 1, 2, 3, 15, 16, 17, 31, 100, 511, 512, 513, 1300}) check_all_products(random_points(n, 1), "uniform");
+    for (std::size_t n : {0, 1, 2, 3, 15, 16, 17, 31, 100, 511, 512, 513, 1300})
+        check_all_products(random_points(n, 1), "uniform");
     check_all_products(random_points(300, 2, 1e-7, 0), "tiny lengths");
     check_all_products(random_points(300, 3, 1e150, 0), "huge lengths", false);
     check_all_products(random_points(300, 4, 1e-160, 0), "lengths whose squares underflow", false);
@@ -113,7 +118,8 @@ TEST(sizes_and_shapes) {
     check_all_products(forces, "tiny forces");
 }
 
-// Points at the same place do not act on each other, and all points together at one place not at all.
+// Points at the same place do not act on each other, and all points together at one place not at
+// all.
 TEST(coincident) {
     Points p = random_points(100, 9);
     for (std::size_t i = 0; i < 40; ++i) p.x[i + 50] = p.x[i], p.y[i + 50] = p.y[i];
@@ -127,7 +133,8 @@ TEST(coincident) {
     CHECK(std::all_of(phi.begin(), phi.end(), [](double v) { return v == 0; }));
 }
 
-// Every table against plain sums, the loops by themselves: 48 points i, 80 points j, already padded.
+// Every table against plain sums, the loops by themselves: 48 points i, 80 points j, already
+// padded.
 TEST(instruction_sets) {
     constexpr std::size_t ni = 48, nj = 80, n = ni + nj;
     const Points p = random_points(n, 12);
@@ -136,7 +143,9 @@ TEST(instruction_sets) {
     std::vector<std::int32_t> x(n), y(n);
     std::vector<float> f(p.f.begin(), p.f.end());
     const double unit = 0x1p30;
-    for (std::size_t i = 0; i < n; ++i) x[i] = static_cast<std::int32_t>(p.x[i] * unit), y[i] = static_cast<std::int32_t>(p.y[i] * unit);
+    for (std::size_t i = 0; i < n; ++i)
+        x[i] = static_cast<std::int32_t>(p.x[i] * unit),
+        y[i] = static_cast<std::int32_t>(p.y[i] * unit);
     int found = 0;
     for (const char* name : {"generic", "sse2", "avx2", "avx512"}) {
         const PairKernels* k = pair_kernels(name);
@@ -176,7 +185,9 @@ TEST(instruction_sets) {
 #if defined(__x86_64__)
     widest = "sse2";
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) widest = "avx2";
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) widest = "avx512";
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512vl"))
+        widest = "avx512";
 #endif
     CHECK(std::string(pair_instruction_set()) == widest);
     CHECK(found == (widest == std::string("avx512") ? 3 : widest == std::string("avx2") ? 2 : 1));

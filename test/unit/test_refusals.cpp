@@ -1,5 +1,5 @@
-// Cases and command lines that are refused: the table test/data/refusals.txt, and what is too large for a table. What needs files is in
-// test_inputs.cpp, test_maps.cpp and cli/files.sh.
+// Cases and command lines that are refused: the table test/data/refusals.txt, and what is too large
+// for a table. What needs files is in test_inputs.cpp, test_maps.cpp and cli/files.sh.
 #include "case/options.hpp"
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
@@ -54,7 +54,9 @@ bool says(const std::string& messages, const std::string& expected) {
         const std::string message = messages.substr(at, messages.find('\n', at) - at);
         const std::string row = expected.substr(place, expected.find(" ;; ", place) - place);
         const std::size_t word = row.find(" ~ ");
-        if (!message.starts_with(row.substr(0, word)) || message.find(row.substr(word + 3)) == std::string::npos) return false;
+        if (!message.starts_with(row.substr(0, word)) ||
+            message.find(row.substr(word + 3)) == std::string::npos)
+            return false;
         at = messages.find('\n', at), place = expected.find(" ;; ", place);
         if (at == std::string::npos || place == std::string::npos) return at == place;
         at += 1, place += 4;
@@ -69,7 +71,8 @@ TEST(table) {
         if (line.starts_with("-s ")) set.push_back(line.substr(3));
         const std::size_t arrow = line.find(" => ");
         if ((!line.starts_with("+ ") && arrow == std::string::npos) || line[0] == '#') continue;
-        const std::string what = line.substr(2, arrow - 2), got = line[0] == '$' ? of_words(what) : of_case(what, set);
+        const std::string what = line.substr(2, arrow - 2),
+                          got = line[0] == '$' ? of_words(what) : of_case(what, set);
         const bool right = line[0] == '+' ? got.empty() : says(got, line.substr(arrow + 4));
         if (!right) std::printf("  %s\n  said: %s\n", line.c_str(), got.c_str());
         CHECK(right);
@@ -87,9 +90,12 @@ TEST(large) {
     std::string words;
     for (int i = 0; i < 100001; ++i) words += "1 ";
     for (const char* start : {"&study surface%sigma = ", "&output pdf_levels = "})
-        CHECK(of_case(start + words + "/", {}).find("more than 100000 values") != std::string::npos);
-    for (const char* start : {"\xff\xfe&", "\xfe\xff&"}) CHECK(of_case(start, {}).find("UTF-16") != std::string::npos);
-    for (const char* start : {"CDF\1", "\x89HDF\r"}) CHECK(of_case(start, {}).find("NetCDF") != std::string::npos);
+        CHECK(of_case(start + words + "/", {}).find("more than 100000 values") !=
+              std::string::npos);
+    for (const char* start : {"\xff\xfe&", "\xfe\xff&"})
+        CHECK(of_case(start, {}).find("UTF-16") != std::string::npos);
+    for (const char* start : {"CDF\1", "\x89HDF\r"})
+        CHECK(of_case(start, {}).find("NetCDF") != std::string::npos);
     // The hundred first faults are told.
     std::string wrong = "&run ";
     for (int i = 0; i < 101; ++i) wrong += "a" + std::to_string(i) + "= 1\n";
@@ -106,11 +112,14 @@ TEST(by_name) {
         CHECK(got.find(word) != std::string::npos);
     };
     refused([&] { set_key(c, "solids%R", "5", true); }, "has 2 values");
-    CHECK(refusal([&] { set_key(c, "solids%R", "5", false); }).empty() && c.solids.R[0] == 5 && c.solids.R[1] == 2.5);
+    CHECK(refusal([&] { set_key(c, "solids%R", "5", false); }).empty() && c.solids.R[0] == 5 &&
+          c.solids.R[1] == 2.5);
     CHECK(refusal([&] { set_key(c, "solids%R", "5, 6", true); }).empty() && c.solids.R[1] == 6);
     CHECK(refusal([&] { set_key(c, "solids%R(1)", "7", true); }).empty() && c.solids.R[0] == 7);
-    CHECK(refusal([&] { set_key(c, "output%pdf_levels", "7", true); }).empty() && c.output.pdf_levels.size() == 1);
-    CHECK(get_key(c, "solids%R(1:2)") == "7.0, 6.0" && get_key(c, "solids%R(2:1:-1)") == "6.0, 7.0" && get_key(c, "solids%R(2)") == "6.0");
+    CHECK(refusal([&] { set_key(c, "output%pdf_levels", "7", true); }).empty() &&
+          c.output.pdf_levels.size() == 1);
+    CHECK(get_key(c, "solids%R(1:2)") == "7.0, 6.0" &&
+          get_key(c, "solids%R(2:1:-1)") == "6.0, 7.0" && get_key(c, "solids%R(2)") == "6.0");
     refused([&] { get_key(c, "run%seed(1)"); }, "no array");
     refused([&] { get_key(c, "solids%R(3)"); }, "1 to 2");
     refused([&] { get_key(c, "solids%X"); }, "unknown key 'X'");
@@ -122,11 +131,13 @@ TEST(by_name) {
     c.surface.channel = std::string(1025, 'x');
     c.compare.levels.assign(1001, 1.0);
     CHECK(says(refusal([&] { require_valid(c); }),
-               "&run: title ~ blank ;; &surface: channel ~ 1024 ;; &compare: levels ~ 1000 ;; &output: pdf_levels ~ one value"));
+               "&run: title ~ blank ;; &surface: channel ~ 1024 ;; &compare: levels ~ 1000 ;; "
+               "&output: pdf_levels ~ one value"));
     // Two members of a study that are wrong as a whole.
     const Reading reading = read_namelist("&study surface%n = 2048, 512, 256 /");
     CHECK(says(refusal([&] { expand_study(Case{}, *reading.study); }),
-               "&study: member 2 (surface%n=512) ~ L_lambda_s ;; &study: member 3 (surface%n=256) ~ L_lambda_s"));
+               "&study: member 2 (surface%n=512) ~ L_lambda_s ;; &study: member 3 (surface%n=256) "
+               "~ L_lambda_s"));
 }
 
 // Warnings, of what is taken nevertheless.
@@ -136,9 +147,11 @@ TEST(warnings) {
         for (const std::string& w : read_case_text(text, "case.nml").warnings) all += w + "\n";
         return all;
     };
-    CHECK(warned("&indentation start = 1 stop = 1.5 /").find("separations increase") != std::string::npos);
+    CHECK(warned("&indentation start = 1 stop = 1.5 /").find("separations increase") !=
+          std::string::npos);
     for (const char* quiet : {"&indentation start = 1 stop = 1 /", "&indentation levels = 1, 1.5 /",
-                              "&indentation start = 1 stop = 1.5 control = 'force' /", "&output pdf_levels(1:3) = 1.0 ! first\n 2.0 /"})
+                              "&indentation start = 1 stop = 1.5 control = 'force' /",
+                              "&output pdf_levels(1:3) = 1.0 ! first\n 2.0 /"})
         CHECK(warned(quiet).empty());
     CHECK(warned("&output pdf_levels(1:3) = 1.0, ! first\n 2.0 /")
               .starts_with("case.nml:1:32: &output: the value of 'pdf_levels' here is empty"));

@@ -1,11 +1,12 @@
-// The keys: their defaults and bounds as the documentation promises them, each number taken up to its bounds and refused beyond them, and
-// the texts made of the registry (--describe, the manual page, the effective namelist), which name every key.
+// The keys: their defaults and bounds as the documentation promises them, each number taken up to
+// its bounds and refused beyond them, and the texts made of the registry (--describe, the manual
+// page, the effective namelist), which name every key.
+#include "base/version.h"
 #include "case/namelist.hpp"
 #include "case/options.hpp"
 #include "case/registry.hpp"
 #include "check.hpp"
 #include "unit/refused.hpp"
-#include "version.h"
 
 using namespace rsc;
 
@@ -13,22 +14,28 @@ namespace {
 
 // Each key is in each text, and a key's own description is the one it has in the whole.
 TEST(texts) {
-    const std::string all = describe(""), page = manual_page(), standard = effective_namelist(Case{});
+    const std::string all = describe(""), page = manual_page(),
+                      standard = effective_namelist(Case{});
     for (const Key& key : registry()) {
-        const std::string one = describe(std::string("&") + key.group + "%" + key.name), head = std::string("&") + key.group + "\n";
+        const std::string one = describe(std::string("&") + key.group + "%" + key.name),
+                          head = std::string("&") + key.group + "\n";
         CHECK(one.starts_with(head) && one.find(key.meaning) != std::string::npos);
         CHECK(all.find(one.substr(head.size())) != std::string::npos);
-        CHECK(page.find(key.name) != std::string::npos && standard.find(std::string("\n  ") + key.name + " ") != std::string::npos);
+        CHECK(page.find(key.name) != std::string::npos &&
+              standard.find(std::string("\n  ") + key.name + " ") != std::string::npos);
     }
-    CHECK(version_text() == "rsc " RSC_VERSION "\n" && page.find("\"rsc " RSC_VERSION "\"") != std::string::npos);
+    CHECK(version_text() == "rsc " RSC_VERSION "\n" &&
+          page.find("\"rsc " RSC_VERSION "\"") != std::string::npos);
     for (const char* option : {"--check", "--describe", "--merge", "--resume", "--set", "--output"})
-        CHECK(usage_text().find(option) != std::string::npos && page.find(std::string(option).substr(2)) != std::string::npos);
+        CHECK(usage_text().find(option) != std::string::npos &&
+              page.find(std::string(option).substr(2)) != std::string::npos);
 }
 
 // Why a value is refused; empty if it is taken and given back.
 std::string refusal(const std::string& name, const std::string& value) {
     Case c;
-    if (name.starts_with("indenter%radii(")) c.indenter.radii[0] = c.indenter.radii[1] = 1.0;  // they are given both
+    if (name.starts_with("indenter%radii("))
+        c.indenter.radii[0] = c.indenter.radii[1] = 1.0;  // they are given both
     const std::string message = ::refusal([&] { set_key(c, name, value); });
     return message.empty() && get_key(c, name) != value ? "taken as " + get_key(c, name) : message;
 }
@@ -36,7 +43,9 @@ std::string refusal(const std::string& name, const std::string& value) {
 void expect(const std::string& name, const std::string& value, const std::string& word) {
     const std::string got = refusal(name, value);
     const bool right = word.empty() ? got.empty() : got.find(word) != std::string::npos;
-    if (!right) std::printf("  %s = %s: '%s', expected '%s'\n", name.c_str(), value.c_str(), got.c_str(), word.c_str());
+    if (!right)
+        std::printf("  %s = %s: '%s', expected '%s'\n", name.c_str(), value.c_str(), got.c_str(),
+                    word.c_str());
     CHECK(right);
 }
 
@@ -44,10 +53,14 @@ void bounds_of(const Key& key, const std::string& name) {
     constexpr double infinity = Case::kInfinity;
     const bool whole = key.type == Type::integer;
     const Bounds& b = key.bounds;
-    const auto text = [&](double v) { return whole ? std::to_string(static_cast<long long>(v)) : namelist::from_real(v); };
+    const auto text = [&](double v) {
+        return whole ? std::to_string(static_cast<long long>(v)) : namelist::from_real(v);
+    };
     const auto taken = [&](double v) { expect(name, text(v), ""); };
     const auto refused = [&](double v) { expect(name, text(v), "must be"); };
-    const auto next = [&](double v, double to) { return whole ? v + (to > v ? 1 : -1) : std::nextafter(v, to); };
+    const auto next = [&](double v, double to) {
+        return whole ? v + (to > v ? 1 : -1) : std::nextafter(v, to);
+    };
     if (!std::isfinite(b.low))
         taken(-1e50), refused(std::nextafter(-1e50, -infinity)), refused(-infinity);
     else if (!b.open)
@@ -74,15 +87,18 @@ void bounds_of(const Key& key, const std::string& name) {
 
 TEST(bounds) {
     for (const Key& key : registry()) {
-        const std::string name = std::string(key.group) + "%" + key.name, size = std::to_string(key.size);
+        const std::string name = std::string(key.group) + "%" + key.name,
+                          size = std::to_string(key.size);
         if (key.type == Type::integer || key.type == Type::real)
             for (int element = 1; element <= (key.list ? 1 : key.size); ++element)
                 bounds_of(key, name + (key.size > 1 ? "(" + std::to_string(element) + ")" : ""));
         // A list has as many values as it says; a text as many characters.
-        const std::string value = key.type == Type::choice            ? namelist::from_string(key.choices.front())
-                                  : name == "solids%relaxation_share" ? "0.03125"  // their sum is 1 at most
-                                                                      : "0.25";
-        if (key.list && name != "indentation%times") CHECK(refusal(name, size + "*" + value).starts_with("taken"));  // times rise
+        const std::string value =
+            key.type == Type::choice            ? namelist::from_string(key.choices.front())
+            : name == "solids%relaxation_share" ? "0.03125"  // their sum is 1 at most
+                                                : "0.25";
+        if (key.list && name != "indentation%times")
+            CHECK(refusal(name, size + "*" + value).starts_with("taken"));  // times rise
         if (key.list) expect(name, size + "*" + value + ", " + value, "too many values");
         if (!key.list && key.size == 2) expect(name, "0.25, 0.125, 1", "too many values");
         if (key.type == Type::string && name.find("unit") == std::string::npos) {

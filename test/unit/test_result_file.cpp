@@ -2,11 +2,11 @@
 #include <netcdf.h>
 #include <unistd.h>
 
+#include "base/error.hpp"
 #include "case/units.hpp"
 #include "check.hpp"
-#include "error.hpp"
-#include "file/netcdf_writer.hpp"
-#include "file/result.hpp"
+#include "io/netcdf_writer.hpp"
+#include "io/result.hpp"
 #include "result_reader.hpp"
 #include "unit/refused.hpp"
 #include "unit/sample_result.hpp"
@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Every variable described, every dimension with its coordinate variable but those of lists, the classic data model only, nothing that
-// is not finite.
+// Every variable described, every dimension with its coordinate variable but those of lists, the
+// classic data model only, nothing that is not finite.
 void test_conventions(const Reader& file) {
     int ndims = 0, nvars = 0, natts = 0, unlimited = 0;
     CHECK(nc_inq(file.id(), &ndims, &nvars, &natts, &unlimited) == NC_NOERR);
@@ -38,19 +38,22 @@ void test_conventions(const Reader& file) {
         }
         for (double x : file.values(name)) CHECK(std::isfinite(x));
     }
-    const std::set<std::string> lists = {"asperity", "contact", "outline_point"};  // dimensions without a variable
+    const std::set<std::string> lists = {"asperity", "contact",
+                                         "outline_point"};  // dimensions without a variable
     for (int d = 0; d < ndims; ++d) {
         char name[NC_MAX_NAME + 1] = "";
         nc_inq_dimname(file.id(), d, name);
         if (!lists.contains(name)) CHECK(file.has(name));
     }
-    for (const char* attribute : {"Conventions", "title", "source", "history", "references", "case"})
+    for (const char* attribute :
+         {"Conventions", "title", "source", "history", "references", "case"})
         CHECK(!file.text("", attribute).empty());
     CHECK(file.text("", "Conventions") == "CF-1.10");
     CHECK(file.text("", "source").find("rsc 0.") == 0);
     CHECK(file.numbers("", "seed") == std::vector<double>{1});
     CHECK(file.numbers("status", "flag_values") == (std::vector<double>{0, 1, 2, 3, 4}));
-    CHECK(file.text("status", "flag_meanings") == "converged out_of_validity overlapping not_unique not_converged");
+    CHECK(file.text("status", "flag_meanings") ==
+          "converged out_of_validity overlapping not_unique not_converged");
     CHECK(file.text("method", "flag_meanings") == "dgesv direct mesh");
 }
 
@@ -63,7 +66,9 @@ void test_one_realization(const Folder& folder, Format format, int compression) 
     test_conventions(file);
     int kind = 0;
     nc_inq_format(file.id(), &kind);
-    CHECK(kind == (format == Format::netcdf4 ? NC_FORMAT_NETCDF4_CLASSIC : format == Format::cdf5 ? NC_FORMAT_CDF5 : NC_FORMAT_CLASSIC));
+    CHECK(kind == (format == Format::netcdf4 ? NC_FORMAT_NETCDF4_CLASSIC
+                   : format == Format::cdf5  ? NC_FORMAT_CDF5
+                                             : NC_FORMAT_CLASSIC));
 
     const auto force = file.values("force"), area = file.values("contact_area");
     CHECK(file.values("map_pressure") == r.observations.map_pressure);
@@ -72,7 +77,8 @@ void test_one_realization(const Folder& folder, Format format, int compression) 
     CHECK_RELATIVE(file.values("separation_sigma")[0], 4.0, 1e-15);
     CHECK(file.values("status")[sample::kSteps - 1] == 2);
     // Absent values are fill values, and say so.
-    CHECK(file.values("force_std")[0] == NC_FILL_DOUBLE && file.numbers("force_std", "_FillValue") == std::vector<double>{NC_FILL_DOUBLE});
+    CHECK(file.values("force_std")[0] == NC_FILL_DOUBLE &&
+          file.numbers("force_std", "_FillValue") == std::vector<double>{NC_FILL_DOUBLE});
     CHECK(file.values("mean_kappa_g")[0] == NC_FILL_DOUBLE);
     CHECK(!file.has("stiffness") && !file.has("asperity_biharmonic"));
     // The padding of the rows is not in the file.
@@ -87,7 +93,8 @@ std::string refusal(const std::string& path, const ObserveOptions& options, std:
     return ::refusal([&] { read_sums(path, options, steps); });
 }
 
-// Sums read back are those that were written; a file whose axes are others is not taken for one of the case.
+// Sums read back are those that were written; a file whose axes are others is not taken for one of
+// the case.
 TEST(test_sums) {
     const Folder folder;
     const Result r = sample::result(3);
@@ -96,9 +103,11 @@ TEST(test_sums) {
     write_result(sample::result(1), one, {});
     const ObserveOptions options = r.observations.options;
     const Observations again = read_sums(path, options, sample::kSteps).finish();
-    CHECK(again.map_pressure == r.observations.map_pressure && again.map_force_rest == r.observations.map_force_rest);
+    CHECK(again.map_pressure == r.observations.map_pressure &&
+          again.map_force_rest == r.observations.map_force_rest);
     CHECK(again.distributions[1].pressure_pdf == r.observations.distributions[1].pressure_pdf);
-    CHECK(again.realization == (std::vector<std::int64_t>{1, 2, 3}) && again.surface[2].m2 == r.observations.surface[2].m2);
+    CHECK(again.realization == (std::vector<std::int64_t>{1, 2, 3}) &&
+          again.surface[2].m2 == r.observations.surface[2].m2);
     const auto with = [&](auto change) {
         ObserveOptions other = options;
         change(other);
@@ -107,11 +116,14 @@ TEST(test_sums) {
     const std::string begins = " begins at another value than the case gives";
     CHECK(with([](auto& o) { o.map.x0 += 1e-9; }).find("x" + begins) != std::string::npos);
     CHECK(with([](auto& o) { o.map.y0 += 1e-9; }).find("y" + begins) != std::string::npos);
-    CHECK(with([](auto& o) { o.pdf.pressure_max *= 1.01; }).find("pressure_mean_bin" + begins) != std::string::npos);
-    CHECK(with([](auto& o) { o.pdf.area_max *= 1.01; }).find("spot_area_bin" + begins) != std::string::npos);
+    CHECK(with([](auto& o) { o.pdf.pressure_max *= 1.01; }).find("pressure_mean_bin" + begins) !=
+          std::string::npos);
+    CHECK(with([](auto& o) { o.pdf.area_max *= 1.01; }).find("spot_area_bin" + begins) !=
+          std::string::npos);
     CHECK(with([](auto& o) { o.map.nx += 1; }).find("the shape") != std::string::npos);
     CHECK(refusal(path, options, sample::kSteps + 1).find("the shape") != std::string::npos);
-    CHECK(refusal(one, options, sample::kSteps).find("it has no variable map_area_fraction_rest") != std::string::npos);
+    CHECK(refusal(one, options, sample::kSteps).find("it has no variable map_area_fraction_rest") !=
+          std::string::npos);
 
     Result bad = sample::result(1);
     bad.observations.rows[2].status = LevelStatus::not_converged;
@@ -139,32 +151,38 @@ TEST(test_edges) {
     keep_contacts(r, {Level{}, Level{}}, Contacts::all);
     write_result(r, folder / "empty.nc", {});
     const Reader file(folder / "empty.nc");
-    CHECK(file.values("contact_count") == (std::vector<double>{0, 0}) && !file.has("contact_force") && !file.has("radius") &&
-          !file.has("pdf_level"));
-    CHECK(file.values("area_hertz")[0] == NC_FILL_DOUBLE && file.values("m2_theory")[0] == NC_FILL_DOUBLE &&
+    CHECK(file.values("contact_count") == (std::vector<double>{0, 0}) &&
+          !file.has("contact_force") && !file.has("radius") && !file.has("pdf_level"));
+    CHECK(file.values("area_hertz")[0] == NC_FILL_DOUBLE &&
+          file.values("m2_theory")[0] == NC_FILL_DOUBLE &&
           file.values("area_I")[0] == NC_FILL_DOUBLE);
-    CHECK(file.dimensions("separation") == (std::vector<std::string>{"realization", "step"}));  // force control
+    CHECK(file.dimensions("separation") ==
+          (std::vector<std::string>{"realization", "step"}));  // force control
     CHECK(file.values("y").size() == 10 && file.values("x").size() == 20);
     CHECK(file.text("contact_area", "units") == "(1e-6 m)2");
     CHECK(file.text("", "seed") == "1234567890123");
 }
 
-// A comparison whose elements did not converge, with the last iterate or without any, leaves the file: what there is, and nothing else.
+// A comparison whose elements did not converge, with the last iterate or without any, leaves the
+// file: what there is, and nothing else.
 TEST(test_failed_comparison) {
     const Folder folder;
     Result r = sample::result(1);
     const double none = std::nan("");
-    r.compared.levels = {{.step = 0, .force = 2}, {.step = 1, .force = none, .area = none, .area_pixels = none}};
+    r.compared.levels = {{.step = 0, .force = 2},
+                         {.step = 1, .force = none, .area = none, .area_pixels = none}};
     write_result(r, folder / "compared.nc", {});
     const Reader file(folder / "compared.nc");
     CHECK(file.values("compare_step") == (std::vector<double>{1, 2}));
     CHECK(file.values("compare_force") == (std::vector<double>{2, NC_FILL_DOUBLE}));
-    for (const char* name : {"compare_contact_area", "compare_contact_area_pixels", "area_error", "contacts_error"})
+    for (const char* name :
+         {"compare_contact_area", "compare_contact_area_pixels", "area_error", "contacts_error"})
         CHECK(file.values(name)[1] == NC_FILL_DOUBLE);
     CHECK(file.values("force").size() == sample::kSteps);
 }
 
-// Numbers that are not finite never reach a file. Obstacles of the file system: test/cli/faults.sh, files.sh.
+// Numbers that are not finite never reach a file. Obstacles of the file system: test/cli/faults.sh,
+// files.sh.
 TEST(test_not_finite) {
     const Folder folder;
     const std::string path = folder / "never.nc";
@@ -173,7 +191,8 @@ TEST(test_not_finite) {
         (variable[0] == 'c'   ? r.contacts.force[5]
          : variable[0] == 'm' ? r.observations.map_pressure[0]
                               : r.heights->row(2)[3]) = std::nan("");
-        const std::string message = ::refusal([&] { write_result(r, path, {}); }, Failure::internal);
+        const std::string message =
+            ::refusal([&] { write_result(r, path, {}); }, Failure::internal);
         CHECK(message.find(variable) != std::string::npos && !fs::exists(path));
     }
 }
@@ -181,6 +200,9 @@ TEST(test_not_finite) {
 }  // namespace
 
 TEST(result_file) {
-    for (const auto& [format, compression] : {std::pair{Format::netcdf4, 4}, {Format::netcdf4, 0}, {Format::cdf5, 4}, {Format::classic, 4}})
+    for (const auto& [format, compression] : {std::pair{Format::netcdf4, 4},
+                                              {Format::netcdf4, 0},
+                                              {Format::cdf5, 4},
+                                              {Format::classic, 4}})
         test_one_realization(Folder(), format, compression);
 }

@@ -1,10 +1,11 @@
-// Synthetic surfaces against a slow sum of cosines, and their normalisation. Moments: physics/test_every_value; grids and threads: test_made.
-#include "rough/surface.hpp"
-#include "rough/synthesis.hpp"
+// Synthetic surfaces against a slow sum of cosines, and their normalisation. Moments:
+// physics/test_every_value; grids and threads: test_made.
+#include "surface/surface.hpp"
+#include "surface/synthesis.hpp"
 
 #include "check.hpp"
 #include "height_maps.hpp"
-#include "rough/modes.hpp"
+#include "surface/modes.hpp"
 
 using namespace rsc;
 
@@ -39,7 +40,8 @@ std::vector<double> by_cosines(const Spectrum& s, int n, NoiseKey key) {
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) {
             double h = 0;
-            for (const Mode& m : modes) h += 2 * (m.c * std::polar(1.0, 2 * kPi * (m.kx * i + m.ky * j) / n)).real();
+            for (const Mode& m : modes)
+                h += 2 * (m.c * std::polar(1.0, 2 * kPi * (m.kx * i + m.ky * j) / n)).real();
             z.push_back(h * s.sigma / std::sqrt(expected));
         }
     return z;
@@ -47,36 +49,52 @@ std::vector<double> by_cosines(const Spectrum& s, int n, NoiseKey key) {
 
 // Between its points a map is bilinear, also across the border of a periodic one.
 TEST(between_points) {
-    HeightMap map = height_map(3, 4, 0.5, 2, [](int i, int j) { return 2.0 + 3 * i + 5 * j + 7 * i * j; });
+    HeightMap map =
+        height_map(3, 4, 0.5, 2, [](int i, int j) { return 2.0 + 3 * i + 5 * j + 7 * i * j; });
     map.x0 = 10, map.y0 = -1;
-    CHECK_RELATIVE(height_at(map, 10 + 0.5 * 1.25, -1 + 2 * 2.5), 2 + 3 * 1.25 + 5 * 2.5 + 7 * 1.25 * 2.5, 1e-14);
+    CHECK_RELATIVE(height_at(map, 10 + 0.5 * 1.25, -1 + 2 * 2.5),
+                   2 + 3 * 1.25 + 5 * 2.5 + 7 * 1.25 * 2.5, 1e-14);
     map.periodic = true;
-    CHECK_RELATIVE(height_at(map, 10 + 0.5 * 2.5, -1 + 2 * 3.5), 0.25 * (map(2, 3) + map(0, 3) + map(2, 0) + map(0, 0)), 1e-14);
+    CHECK_RELATIVE(height_at(map, 10 + 0.5 * 2.5, -1 + 2 * 3.5),
+                   0.25 * (map(2, 3) + map(0, 3) + map(2, 0) + map(0, 0)), 1e-14);
 }
 
 TEST(against_cosines) {
-    // n = 30 has n = 2 L_lambda_s modes at the limit of the grid; 32 and 36 do not. All must follow the definition.
+    // n = 30 has n = 2 L_lambda_s modes at the limit of the grid; 32 and 36 do not. All must follow
+    // the definition.
     for (const bool plateau : {false, true})
         for (const int n : {30, 32, 36}) {
-            const Spectrum s{.L = 2.0, .hurst = 0.6, .L_lambda_l = 3.0, .L_lambda_s = 15.0, .plateau = plateau, .sigma = 0.1};
+            const Spectrum s{.L = 2.0,
+                             .hurst = 0.6,
+                             .L_lambda_l = 3.0,
+                             .L_lambda_s = 15.0,
+                             .plateau = plateau,
+                             .sigma = 0.1};
             const HeightMap map = synthesize(s, n, Normalise::ensemble, 11, 5);
             const std::vector<double> z = by_cosines(s, n, {11, 5});
             double worst = 0;
             for (int j = 0; j < n; ++j)
-                for (int i = 0; i < n; ++i) worst = check::worse(worst, std::abs(map(i, j) - z[static_cast<std::size_t>(j * n + i)]));
-            CHECK_CLOSE(worst, 0.0, 1e-13 * 0.1 * 10);  // rounding of the slow sum over some 700 modes
+                for (int i = 0; i < n; ++i)
+                    worst = check::worse(
+                        worst, std::abs(map(i, j) - z[static_cast<std::size_t>(j * n + i)]));
+            CHECK_CLOSE(worst, 0.0,
+                        1e-13 * 0.1 * 10);  // rounding of the slow sum over some 700 modes
             CHECK(map.periodic && map.nx == n && map.ny == n && map.x0 == 0 && map.y0 == 0);
             CHECK_RELATIVE(map.dx * n, 2.0, 1e-15);
             CHECK(map.dy == map.dx);
         }
-    // A table with a gap in it, on another square, at the grid's limit and not; and the smallest surface of all: one wave on two points.
-    const auto table = std::make_shared<const SpectrumTable>(std::vector{2.0, 3.1, 5.0, 6.0, 9.9}, std::vector{0.4, 0.9, 0.0, 0.3, 0.05});
-    const Spectrum tabulated = tabulated_spectrum(table, 7.0, 0.3), smallest{.L = 3, .L_lambda_l = 1, .L_lambda_s = 1, .plateau = true};
+    // A table with a gap in it, on another square, at the grid's limit and not; and the smallest
+    // surface of all: one wave on two points.
+    const auto table = std::make_shared<const SpectrumTable>(std::vector{2.0, 3.1, 5.0, 6.0, 9.9},
+                                                             std::vector{0.4, 0.9, 0.0, 0.3, 0.05});
+    const Spectrum tabulated = tabulated_spectrum(table, 7.0, 0.3),
+                   smallest{.L = 3, .L_lambda_l = 1, .L_lambda_s = 1, .plateau = true};
     for (const auto& [s, n] : {std::pair{tabulated, 22}, {tabulated, 26}, {smallest, 2}}) {
         const HeightMap map = synthesize(s, n, Normalise::ensemble, 4, 2, nullptr, 3);
         const std::vector<double> z = by_cosines(s, n, {4, 2});
         for (int j = 0; j < n; ++j)
-            for (int i = 0; i < n; ++i) CHECK_CLOSE(map(i, j), z[static_cast<std::size_t>(j * n + i)], 1e-13);
+            for (int i = 0; i < n; ++i)
+                CHECK_CLOSE(map(i, j), z[static_cast<std::size_t>(j * n + i)], 1e-13);
     }
 }
 
@@ -92,7 +110,8 @@ TEST(normalisation) {
         CHECK_CLOSE(mean / (n * n), 0.0, 1e-15);
     }
     CHECK_RELATIVE(sampled.m0, s.sigma * s.sigma, 1e-13);
-    // In expectation: the mean square over surfaces, whose own scatter gives the bound (five standard errors).
+    // In expectation: the mean square over surfaces, whose own scatter gives the bound (five
+    // standard errors).
     double sum = 0, square = 0;
     const int surfaces = 400;
     for (int k = 1; k <= surfaces; ++k) {
@@ -101,7 +120,8 @@ TEST(normalisation) {
         sum += m0;
         square += m0 * m0;
     }
-    const double mean = sum / surfaces, error = std::sqrt((square / surfaces - mean * mean) / surfaces);
+    const double mean = sum / surfaces,
+                 error = std::sqrt((square / surfaces - mean * mean) / surfaces);
     CHECK_CLOSE(mean, 1.0, 5 * error);
     CHECK(error > 1e-3);  // the surfaces do differ
 }

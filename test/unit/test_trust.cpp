@@ -1,18 +1,18 @@
 // What a level is worth: status, expected errors, grids of elements, borders, filled points.
+#include "asperities/asperity_contact.hpp"
+#include "asperities/spots.hpp"
 #include "case/registry.hpp"
 #include "check.hpp"
-#include "contact/asperity_contact.hpp"
-#include "contact/element_contact.hpp"
-#include "contact/expected_error.hpp"
-#include "contact/pixel_spots.hpp"
-#include "contact/spots.hpp"
+#include "elements/element_contact.hpp"
+#include "elements/pixel_spots.hpp"
 #include "height_maps.hpp"
 #include "observe/map.hpp"
 #include "observe/record.hpp"
 #include "run/compare.hpp"
 #include "run/job.hpp"
 #include "run/prepare.hpp"
-#include "run/resolution.hpp"
+#include "trust/expected_error.hpp"
+#include "trust/resolution.hpp"
 #include "unit/temporary_folder.hpp"
 
 using namespace rsc;
@@ -25,12 +25,14 @@ constexpr double kRounding = 1e-12;
 // 4 hides all, 1 hides 2 and 3, and the order of two does not matter.
 TEST(statuses) {
     using enum LevelStatus;
-    const LevelStatus order[] = {converged, overlapping, not_unique, out_of_validity, not_converged};
+    const LevelStatus order[] = {converged, overlapping, not_unique, out_of_validity,
+                                 not_converged};
     for (int a = 0; a < 5; ++a)
         for (int b = 0; b < 5; ++b) CHECK(graver(order[a], order[b]) == order[std::max(a, b)]);
 }
 
-// Levels that failed leave maps, radial means and distributions: of two realizations of which one failed, they are those of the other.
+// Levels that failed leave maps, radial means and distributions: of two realizations of which one
+// failed, they are those of the other.
 TEST(observed) {
     ObserveOptions options;
     options.map = make_map_grid(0, 0, 1, 1, 4);
@@ -50,8 +52,10 @@ TEST(observed) {
     both.add(record(1, 2.0, LevelStatus::overlapping));
     both.add(record(2, 50.0, LevelStatus::not_converged));
     const Observations a = alone.finish(), b = both.finish();
-    CHECK(a.map_pressure == b.map_pressure && a.map_area_fraction == b.map_area_fraction && a.radial_pressure == b.radial_pressure);
-    CHECK(a.distributions[0].pressure_pdf == b.distributions[0].pressure_pdf && both.converged()[0] == 1);
+    CHECK(a.map_pressure == b.map_pressure && a.map_area_fraction == b.map_area_fraction &&
+          a.radial_pressure == b.radial_pressure);
+    CHECK(a.distributions[0].pressure_pdf == b.distributions[0].pressure_pdf &&
+          both.converged()[0] == 1);
     CHECK(*std::max_element(b.map_pressure.begin(), b.map_pressure.end()) > 0);
 }
 
@@ -59,7 +63,8 @@ TEST(observed) {
 TEST(own_areas) {
     std::vector<Spot> spots;
     for (int k = 0; k < 40; ++k)
-        spots.push_back({std::fmod(0.37 * k, 1.0), std::fmod(0.71 * k, 1.0), 0.12 + 0.002 * k, 0.05 + 0.001 * k, 0.3 * k});
+        spots.push_back({std::fmod(0.37 * k, 1.0), std::fmod(0.71 * k, 1.0), 0.12 + 0.002 * k,
+                         0.05 + 0.001 * k, 0.3 * k});
     std::vector<double> own;
     const double area = union_area(spots, nullptr, {}, &own);
     double sum = 0, least = 1;
@@ -68,11 +73,13 @@ TEST(own_areas) {
     CHECK_RELATIVE(sum, area, 1e-10);
     CHECK(least > -1e-12);
     union_area({{0, 0, 1, 1, 0}, {0, 0, 0.5, 0.5, 0}}, nullptr, {}, &own);
-    CHECK_CLOSE(own[0] + own[1], pi, 1e-9);  // the smaller one, inside, has none or what the larger one does not
+    CHECK_CLOSE(own[0] + own[1], pi,
+                1e-9);  // the smaller one, inside, has none or what the larger one does not
     CHECK(own[0] > -1e-12 && own[1] > -1e-12);
 }
 
-// A sphere far larger than the map presses every point: the contact ends where the map does, which is no border of its own, and says so.
+// A sphere far larger than the map presses every point: the contact ends where the map does, which
+// is no border of its own, and says so.
 TEST(borders) {
     const HeightMap map = height_map(20, 16, 0.1, 0.1, [](int, int) { return 0.0; });
     SolverOptions options{.surface = {0, 0, 2.0, 1.6}};
@@ -86,7 +93,8 @@ TEST(borders) {
 
 // Points of the coarser map lie on those of the finer one.
 TEST(coarser) {
-    const HeightMap map = height_map(17, 12, 1.0, 1.0, [](int i, int j) { return i * i - 3.0 * j; });
+    const HeightMap map =
+        height_map(17, 12, 1.0, 1.0, [](int i, int j) { return i * i - 3.0 * j; });
     const HeightMap half = every_second_point_of(map).copy();
     CHECK(half.nx == 9 && half.ny == 6 && half.dx == 2);
     CHECK(half.x0 == map.x0 && half(8, 5) == map(16, 10));
@@ -115,24 +123,32 @@ TEST(filled) {
     const auto write = [&](const std::string& name, auto&& height) {
         std::ofstream file(folder / name);
         for (int j = 0; j < 32; ++j)
-            for (int i = 0; i < 32; ++i) file << height(std::hypot(i - 15.5, j - 15.5)) << (i < 31 ? ' ' : '\n');
+            for (int i = 0; i < 32; ++i)
+                file << height(std::hypot(i - 15.5, j - 15.5)) << (i < 31 ? ' ' : '\n');
         return folder / name;
     };
     Case c;
-    c.surface.source = Source::heights, c.surface.file = write("flat.txt", [](double) { return "0.0"; });
-    c.surface.pixel = 1.0, c.surface.sigma = 1e-3, c.surface.missing = Missing::fill, c.surface.detrend = Detrend::none;
-    c.indenter.file = write("cap.txt", [](double r) { return r < 2 ? std::string("nan") : std::to_string(-0.5e-3 * r * r); });
+    c.surface.source = Source::heights,
+    c.surface.file = write("flat.txt", [](double) { return "0.0"; });
+    c.surface.pixel = 1.0, c.surface.sigma = 1e-3, c.surface.missing = Missing::fill,
+    c.surface.detrend = Detrend::none;
+    c.indenter.file = write("cap.txt", [](double r) {
+        return r < 2 ? std::string("nan") : std::to_string(-0.5e-3 * r * r);
+    });
     set_key(c, "indenter%shape", "'map'");
     c.indentation.unit = LevelUnit::length, c.indentation.levels = {-0.01};
     for (const Level& pressed : realize(prepare(c), 1, 1).levels)
         CHECK(pressed.filled_share > 0.1 && pressed.status == LevelStatus::out_of_validity);
 }
 
-// Half of the contact area is that of contacts of at most pixels_per_contact: here of the block of nine beside three single ones.
+// Half of the contact area is that of contacts of at most pixels_per_contact: here of the block of
+// nine beside three single ones.
 TEST(pixels_of_contacts) {
-    const std::vector<Pixel> touching{{6, 0}, {1, 1}, {2, 1}, {3, 1}, {1, 2}, {2, 2}, {3, 2}, {1, 3}, {2, 3}, {3, 3}, {5, 5}, {0, 7}};
+    const std::vector<Pixel> touching{{6, 0}, {1, 1}, {2, 1}, {3, 1}, {1, 2}, {2, 2},
+                                      {3, 2}, {1, 3}, {2, 3}, {3, 3}, {5, 5}, {0, 7}};
     Level level;
-    add_pixels(level, flat_map(8, 8, 1, 1), {1.0, 2.0, 0, 0}, HUGE_VAL, touching, std::vector<double>(touching.size(), 1.0));
+    add_pixels(level, flat_map(8, 8, 1, 1), {1.0, 2.0, 0, 0}, HUGE_VAL, touching,
+               std::vector<double>(touching.size(), 1.0));
     CHECK(level.contacts == 4 && level.pixels_per_contact == 9);
 }
 
@@ -141,7 +157,8 @@ TEST(resolution) {
     const std::string path = folder / "flat.txt";
     std::ofstream file(path);
     for (int j = 0; j < 24; ++j)
-        for (int i = 0; i < 24; ++i) file << ((i + j) % 2 ? "1e-9" : "-1e-9") << (i < 23 ? ' ' : '\n');
+        for (int i = 0; i < 24; ++i)
+            file << ((i + j) % 2 ? "1e-9" : "-1e-9") << (i < 23 ? ' ' : '\n');
     file.close();
     Case c;
     c.surface.source = Source::heights;
@@ -155,19 +172,23 @@ TEST(resolution) {
     const Realization r = realize(job, 1, 1);
     CHECK(r.levels.size() == 3);
     for (const Level& level : r.levels) {
-        const double N = 4.0 / 3 * job.indenter.E_star * std::sqrt(200.0) * std::pow(-level.separation, 1.5);
+        const double N =
+            4.0 / 3 * job.indenter.E_star * std::sqrt(200.0) * std::pow(-level.separation, 1.5);
         const double error = std::abs(level.force / N - 1);
         CHECK(level.force_error_expected >= 0.9 * error);
-        CHECK((level.status == LevelStatus::out_of_validity) == (level.force_error_expected > 0.01));
+        CHECK((level.status == LevelStatus::out_of_validity) ==
+              (level.force_error_expected > 0.01));
     }
     CHECK(r.levels[0].status == LevelStatus::out_of_validity);
     CHECK(r.levels[2].force_error_expected < r.levels[0].force_error_expected);
 }
 
-// Bounds are where a level touches and is of what they were fitted to, and what makes them worse never makes them smaller.
+// Bounds are where a level touches and is of what they were fitted to, and what makes them worse
+// never makes them smaller.
 TEST(bounds) {
     Asperities a;
-    a.x = {0.5}, a.y = {0.5}, a.z = {0}, a.radius = {0.1}, a.kappa1 = {10}, a.kappa2 = {10}, a.angle = {0};
+    a.x = {0.5}, a.y = {0.5}, a.z = {0}, a.radius = {0.1}, a.kappa1 = {10}, a.kappa2 = {10},
+    a.angle = {0};
     SolverOptions options{.mean_spacing = 0.1, .points_per_wave = 8};
     const Indenter indenter{1e3, 10, 0.5, 0.5};
     Level level;
@@ -200,7 +221,8 @@ TEST(bounds) {
     options.measured = true;  // heights from a file
     expect_error(level, a, indenter, options);
     CHECK(level.force_error_expected > 1.5 * least);
-    // The highest grid point of a round summit anywhere between the points: the mean loss of Hertz's force, to first order in h^2.
+    // The highest grid point of a round summit anywhere between the points: the mean loss of
+    // Hertz's force, to first order in h^2.
     SolverOptions coarse{.mean_spacing = 100, .grid_step = 0.02};
     double lost = 0;
     constexpr int places = 20;
@@ -218,7 +240,8 @@ TEST(bounds) {
     coated.layers.count = 1, coated.layers.layer[0] = {0.01, 1e3, 0.3};
     const double bare = level.force_error_expected;
     expect_error(level, a, coated, options);
-    CHECK(level.force_error_expected > bare + 0.5);  // the spot is twice as wide as the layer is thick
+    CHECK(level.force_error_expected >
+          bare + 0.5);  // the spot is twice as wide as the layer is thick
     Level untouched;
     expect_error(untouched, a, indenter, options);
     CHECK(std::isnan(untouched.force_error_expected));
@@ -228,10 +251,12 @@ TEST(bounds) {
     CHECK(std::isnan(level.force_error_expected));
 }
 
-// The errors expected of elements hold: three surfaces with 8 points in the shortest wave against the same with 32.
+// The errors expected of elements hold: three surfaces with 8 points in the shortest wave against
+// the same with 32.
 TEST(finer) {
     Case c;
-    c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16, c.surface.hurst = 1, c.surface.sigma = 2.4e-3;
+    c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16, c.surface.hurst = 1,
+    c.surface.sigma = 2.4e-3;
     c.solids.R[1] = 313;
     c.solver.model = Model::elements;
     c.indentation.levels = {2, 1.5, 1, 0.5, 0};
@@ -246,7 +271,8 @@ TEST(finer) {
         for (std::size_t k = 0; k < coarse.size(); ++k) {
             if (!(fine[k].force > 0)) continue;
             ++levels;
-            const double dN = std::abs(coarse[k].force / fine[k].force - 1), dA = std::abs(coarse[k].area / fine[k].area - 1);
+            const double dN = std::abs(coarse[k].force / fine[k].force - 1),
+                         dA = std::abs(coarse[k].area / fine[k].area - 1);
             force += dN <= coarse[k].force_error_expected;
             area += dA <= coarse[k].area_error_expected;
         }
@@ -259,55 +285,68 @@ std::vector<Level> pressed(Case c, Model model) {
     return realize(prepare(c), 1, 1).levels;
 }
 
-// Law 'elliptic' on summits far more elongated than those of the fit: N differs by up to 31 % from elements, and the bounds say so.
+// Law 'elliptic' on summits far more elongated than those of the fit: N differs by up to 31 % from
+// elements, and the bounds say so.
 TEST(far_more_elongated) {
     Case c;
-    c.surface.L_lambda_l = 8, c.surface.L_lambda_s = 24, c.surface.sigma = 5e-4, c.surface.aspect = 20, c.surface.direction = 30;
+    c.surface.L_lambda_l = 8, c.surface.L_lambda_s = 24, c.surface.sigma = 5e-4,
+    c.surface.aspect = 20, c.surface.direction = 30;
     c.surface.n = 512;
     c.solids.R[1] = 5;
     c.asperities.law = LawKind::elliptic;
     c.indentation.levels = {2, 1.2, 0.4};
     for (const int seed : {1, 2, 3}) {
         c.run.seed = seed;
-        const std::vector<Level> asperities = pressed(c, Model::asperities), truth = pressed(c, Model::elements);
+        const std::vector<Level> asperities = pressed(c, Model::asperities),
+                                 truth = pressed(c, Model::elements);
         for (std::size_t k = 0; k < truth.size(); ++k)
-            if (asperities[k].force > 0) CHECK(std::abs(asperities[k].force / truth[k].force - 1) <= asperities[k].force_error_expected);
+            if (asperities[k].force > 0)
+                CHECK(std::abs(asperities[k].force / truth[k].force - 1) <=
+                      asperities[k].force_error_expected);
     }
 }
 
-// The share of a summit in an ellipse over two is softer than its own part was: at small loads, which the ellipse must not replace, it carried
-// a fifteenth (N -10 and -13 %, A +85 and +112 %).
+// The share of a summit in an ellipse over two is softer than its own part was: at small loads,
+// which the ellipse must not replace, it carried a fifteenth (N -10 and -13 %, A +85 and +112 %).
 TEST(own_part) {
     constexpr double kForce = 0.02, kArea = 0.15;  // elements of 8 points in a wave
     Case c;
     c.run.seed = 7790;
     c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16, c.surface.sigma = 3e-3, c.surface.n = 192;
-    c.solids.E[0] = c.solids.E[1] = 1e5, c.solids.nu[0] = 0.3, c.solids.nu[1] = 0.2, c.solids.R[1] = 3;
+    c.solids.E[0] = c.solids.E[1] = 1e5, c.solids.nu[0] = 0.3, c.solids.nu[1] = 0.2,
+    c.solids.R[1] = 3;
     c.asperities.law = LawKind::fourth_order;
-    c.indentation.centre[0] = 0.35, c.indentation.centre[1] = 0.6, c.indentation.levels = {0.98, 0.82};
-    const std::vector<Level> asperities = pressed(c, Model::asperities), truth = pressed(c, Model::elements);
+    c.indentation.centre[0] = 0.35, c.indentation.centre[1] = 0.6,
+    c.indentation.levels = {0.98, 0.82};
+    const std::vector<Level> asperities = pressed(c, Model::asperities),
+                             truth = pressed(c, Model::elements);
     for (std::size_t k = 0; k < truth.size(); ++k)
-        CHECK_RELATIVE(asperities[k].force, truth[k].force, kForce), CHECK_RELATIVE(asperities[k].area, truth[k].area, kArea);
+        CHECK_RELATIVE(asperities[k].force, truth[k].force, kForce),
+            CHECK_RELATIVE(asperities[k].area, truth[k].area, kArea);
 }
 
-// A contact that the border of a synthetic surface cuts has no summit; it is counted, as on a measured map.
+// A contact that the border of a synthetic surface cuts has no summit; it is counted, as on a
+// measured map.
 TEST(cut_by_the_border) {
     Case c;
     c.run.seed = 6898;
-    c.surface.L_lambda_l = 2, c.surface.L_lambda_s = 16, c.surface.sigma = 3e-3, c.surface.n = 192, c.surface.aspect = 3;
+    c.surface.L_lambda_l = 2, c.surface.L_lambda_s = 16, c.surface.sigma = 3e-3, c.surface.n = 192,
+    c.surface.aspect = 3;
     c.surface.direction = 20;
     c.solids.E[0] = c.solids.E[1] = 1e5, c.solids.R[1] = std::numeric_limits<double>::infinity();
     set_key(c, "indenter%shape", "'punch'");
     c.indenter.radius = 0.25, c.indenter.rim_radius = 3;
     c.asperities.law = LawKind::fourth_order;
-    c.indentation.levels = {2.15, 2.01}, c.indentation.centre[0] = 0.35, c.indentation.centre[1] = 0.6;
-    for (const Level& level : pressed(c, Model::asperities)) CHECK(level.edge_contacts > 0 && level.status == LevelStatus::out_of_validity);
+    c.indentation.levels = {2.15, 2.01}, c.indentation.centre[0] = 0.35,
+    c.indentation.centre[1] = 0.6;
+    for (const Level& level : pressed(c, Model::asperities))
+        CHECK(level.edge_contacts > 0 && level.status == LevelStatus::out_of_validity);
     c.indentation.centre[0] = c.indentation.centre[1] = 0.5;
     CHECK(pressed(c, Model::asperities).front().edge_contacts == 0);
 }
 
-// In unloading the errors of the level at which asperities yielded remain, while N decreases. Of these levels one has a bound that is
-// exceeded (nine of ten are promised).
+// In unloading the errors of the level at which asperities yielded remain, while N decreases. Of
+// these levels one has a bound that is exceeded (nine of ten are promised).
 TEST(unloading) {
     Case c;
     c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 20, c.surface.sigma = 2e-3, c.surface.n = 256;
@@ -318,22 +357,28 @@ TEST(unloading) {
     int levels = 0, within = 0;
     for (const int seed : {1, 2, 3}) {
         c.run.seed = seed;
-        const std::vector<Level> asperities = pressed(c, Model::asperities), truth = pressed(c, Model::elements);
+        const std::vector<Level> asperities = pressed(c, Model::asperities),
+                                 truth = pressed(c, Model::elements);
         for (std::size_t k = deepest + 1; k < truth.size(); ++k) {
             if (!(asperities[k].force > 0)) continue;
             ++levels;
-            within += std::abs(asperities[k].force - truth[k].force) <= asperities[k].force_error_expected * asperities[k].force;
+            within += std::abs(asperities[k].force - truth[k].force) <=
+                      asperities[k].force_error_expected * asperities[k].force;
         }
     }
     CHECK(levels > 10 && 10 * within >= 9 * levels);
-    // Elements that are compared follow the path, also if it rests at its deepest level: twice the same.
+    // Elements that are compared follow the path, also if it rests at its deepest level: twice the
+    // same.
     const auto compared = [&](std::vector<double> path) {
         c.indentation.levels = std::move(path), c.compare.levels = {1.1, 1.1};
         const Job job = prepare(c);
         const std::vector<Level> run = realize(job, 1, 1).levels;
-        return compare_levels(job, 1, 1, {run.begin(), run.end()}, nullptr, [] { return false; }).levels.back().force;
+        return compare_levels(job, 1, 1, {run.begin(), run.end()}, nullptr, [] { return false; })
+            .levels.back()
+            .force;
     };
-    CHECK_RELATIVE(compared({1.1, 1, 1, 1.1}), compared({1.1, 1, 1.1}), 10 * SolverOptions{}.tolerance);
+    CHECK_RELATIVE(compared({1.1, 1, 1, 1.1}), compared({1.1, 1, 1.1}),
+                   10 * SolverOptions{}.tolerance);
 }
 
 // What has yielded under another position of the tip has no part in the error.
@@ -353,8 +398,9 @@ TEST(yielded_elsewhere) {
     CHECK(there.force_error_expected == alone.force_error_expected);
 }
 
-// A ball smaller than the spacing of the summits, between them: summits of the difference are contacts, within 2 % of elements and what those
-// may differ themselves; law 'hertz' finds none, and does not promise that there is none.
+// A ball smaller than the spacing of the summits, between them: summits of the difference are
+// contacts, within 2 % of elements and what those may differ themselves; law 'hertz' finds none,
+// and does not promise that there is none.
 TEST(small_balls) {
     Case c;
     c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16, c.surface.sigma = 1e-3, c.surface.n = 128;
@@ -371,16 +417,19 @@ TEST(small_balls) {
                 if (!(truth[k].force > 0)) continue;
                 ++touching;
                 if (law == LawKind::hertz)
-                    CHECK(asperities[k].force == 0 && asperities[k].status == LevelStatus::out_of_validity);
+                    CHECK(asperities[k].force == 0 &&
+                          asperities[k].status == LevelStatus::out_of_validity);
                 else
-                    CHECK_RELATIVE(asperities[k].force, truth[k].force, 0.02 + truth[k].force_error_expected);
+                    CHECK_RELATIVE(asperities[k].force, truth[k].force,
+                                   0.02 + truth[k].force_error_expected);
             }
         }
     }
     CHECK(touching >= 15);
 }
 
-// Asperities that attract: N is a difference of forces that press and pull, and its error at least that of what presses.
+// Asperities that attract: N is a difference of forces that press and pull, and its error at least
+// that of what presses.
 TEST(attracting) {
     Case c;
     c.run.seed = 3;
@@ -391,12 +440,15 @@ TEST(attracting) {
     c.solids.adhesion = 0.2, c.solids.adhesion_range = 1.5e-3;
     const Level level = pressed(c, Model::asperities).front();
     // What presses is larger than without attraction, which draws the bodies together.
-    CHECK(level.force < dry.force && level.force_error_expected * level.force > dry.force_error_expected * dry.force);
-    c.indentation.levels = {2};  // here they attract each other without contact, elements by half as much again
+    CHECK(level.force < dry.force &&
+          level.force_error_expected * level.force > dry.force_error_expected * dry.force);
+    c.indentation.levels = {
+        2};  // here they attract each other without contact, elements by half as much again
     const Level apart = pressed(c, Model::asperities).front();
     CHECK(apart.force < 0 && apart.contacts == 0 && apart.status == LevelStatus::out_of_validity);
     // What the edge of a punch may carry makes bounds larger under tension, too.
-    c.surface.sigma = 2e-3, c.solids.R[1] = std::numeric_limits<double>::infinity(), c.solids.adhesion_range = 0;
+    c.surface.sigma = 2e-3, c.solids.R[1] = std::numeric_limits<double>::infinity(),
+    c.solids.adhesion_range = 0;
     set_key(c, "indenter%shape", "'punch'");
     c.indenter.radius = 0.2, c.surface.n = 128;
     c.solids.E[0] = 500, c.solids.adhesion = 0.1;
@@ -405,18 +457,21 @@ TEST(attracting) {
         CHECK(edge.force < 0 && edge.force_error_expected > 0 && edge.area_error_expected > 0);
 }
 
-// Far below the range of the model an asperity among others may be in equilibrium neither attached nor free: the level ends, and says so.
+// Far below the range of the model an asperity among others may be in equilibrium neither attached
+// nor free: the level ends, and says so.
 TEST(no_state) {
     Case c;
     c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16, c.surface.sigma = 1e-3, c.surface.n = 128;
-    c.solids.E[0] = 2, c.solids.nu[0] = 0.3, c.solids.R[1] = 5, c.solids.adhesion = 2e-5, c.solids.adhesion_range = 5e-4;
+    c.solids.E[0] = 2, c.solids.nu[0] = 0.3, c.solids.R[1] = 5, c.solids.adhesion = 2e-5,
+    c.solids.adhesion_range = 5e-4;
     c.asperities.law = LawKind::elliptic;
     c.indentation.levels = {-4, -8};
     const std::vector<Level> levels = pressed(c, Model::asperities);
     CHECK(levels[0].force > 0 && levels[1].status == LevelStatus::not_converged);
 }
 
-// Elements in a campaign have no second grid: contacts of few pixels are out of validity, with an error that holds.
+// Elements in a campaign have no second grid: contacts of few pixels are out of validity, with an
+// error that holds.
 TEST(campaigns) {
     Case c;
     c.run.seed = 3, c.run.realizations = 8;

@@ -1,10 +1,11 @@
-// The proof of positive definiteness by shells never proves what is false, and is sharp enough to be useful; Lanczos.
-#include "contact/solver/uniqueness.hpp"
+// The proof of positive definiteness by shells never proves what is false, and is sharp enough to
+// be useful; Lanczos.
+#include "asperities/uniqueness.hpp"
 
+#include "asperities/lapack.hpp"
+#include "asperities/law.hpp"
+#include "asperities/spots.hpp"
 #include "check.hpp"
-#include "contact/law/law.hpp"
-#include "contact/solver/lapack.hpp"
-#include "contact/spots.hpp"
 
 using namespace rsc;
 
@@ -36,7 +37,9 @@ Points random_points(std::size_t n, double radius, double spread, unsigned seed)
     for (std::size_t i = 0; i < n; ++i) {
         p.x.push_back(uniform(random));
         p.y.push_back(uniform(random));
-        p.a.push_back(i % 7 == 6 ? 0.0 : radius * std::exp(spread * normal(random)));  // some are not in contact
+        p.a.push_back(i % 7 == 6
+                          ? 0.0
+                          : radius * std::exp(spread * normal(random)));  // some are not in contact
     }
     return p;
 }
@@ -44,7 +47,8 @@ Points random_points(std::size_t n, double radius, double spread, unsigned seed)
 TEST(proofs_are_true) {
     int proved = 0, proved_with_overlaps = 0, indefinite = 0;
     for (unsigned seed = 0; seed < 400; ++seed) {
-        const Points p = random_points(5 + seed % 60, 0.002 * (1 + seed % 40), 0.5 * (seed % 4), seed);
+        const Points p =
+            random_points(5 + seed % 60, 0.002 * (1 + seed % 40), 0.5 * (seed % 4), seed);
         Vector M = dense(p.x, p.y, p.a);
         const bool definite = lapack::is_positive_definite(static_cast<int>(p.a.size()), M.data());
         const bool proof = positive_definite_by_shells(p.x, p.y, p.a);
@@ -57,21 +61,25 @@ TEST(proofs_are_true) {
     CHECK(proved_with_overlaps > 20);  // overlapping spots alone do not defeat the proof
 }
 
-// All solutions that are minima along every force, from all 2^n subsets at work at first: coordinate descent on the energy, which is
-// convex in each force alone.
-std::vector<Vector> all_minima(const Law& law, double E_star, const Asperities& p, const Vector& g0) {
+// All solutions that are minima along every force, from all 2^n subsets at work at first:
+// coordinate descent on the energy, which is convex in each force alone.
+std::vector<Vector> all_minima(const Law& law, double E_star, const Asperities& p,
+                               const Vector& g0) {
     const std::size_t n = g0.size();
     std::vector<Vector> minima;
     for (unsigned subset = 0; subset < 1u << n; ++subset) {
         Vector F(n), v(n);
-        for (std::size_t i = 0; i < n; ++i) F[i] = subset >> i & 1 ? law.force(static_cast<int>(i), g0[i]) : 0;
+        for (std::size_t i = 0; i < n; ++i)
+            F[i] = subset >> i & 1 ? law.force(static_cast<int>(i), g0[i]) : 0;
         double change = 1;
         for (int sweep = 0; sweep < 100000 && change > 1e-12; ++sweep) {
             change = 0;
             for (std::size_t i = 0; i < n; ++i) {
                 v[i] = g0[i];
                 for (std::size_t j = 0; j < n; ++j) {
-                    if (j != i) v[i] -= F[j] / (std::numbers::pi * E_star * std::hypot(p.x[i] - p.x[j], p.y[i] - p.y[j]));
+                    if (j != i)
+                        v[i] -= F[j] / (std::numbers::pi * E_star *
+                                        std::hypot(p.x[i] - p.x[j], p.y[i] - p.y[j]));
                 }
                 const double f = law.force(static_cast<int>(i), v[i]);
                 change = std::max(change, std::abs(f - F[i]));
@@ -97,9 +105,13 @@ TEST(told_only_where_it_is_so) {
     int unique = 0, several = 0, told = 0, several_wide = 0, told_again = 0;
     for (int set = 0; set < 8000; ++set) {
         const std::size_t n = 2 + static_cast<std::size_t>(set) % 5;
-        const bool wide = set >= 4000;  // radii over decades: a flat asperity far outside the spot of a sharp one may be its rival
-        const double side =
-            std::sqrt(static_cast<double>(n)) * (0.3 + 1.2 * uniform(random)) * (wide ? 3 : 1);  // contact radii are up to 1
+        const bool wide =
+            set >=
+            // radii over decades: a flat asperity far outside the spot of a sharp one may be its
+            // rival
+            4000;
+        const double side = std::sqrt(static_cast<double>(n)) * (0.3 + 1.2 * uniform(random)) *
+                            (wide ? 3 : 1);  // contact radii are up to 1
         Asperities p;
         Vector g0;
         std::vector<int> all;
@@ -107,7 +119,8 @@ TEST(told_only_where_it_is_so) {
             p.x.push_back(side * uniform(random));
             p.y.push_back(side * uniform(random));
             p.z.push_back(0);
-            p.radius.push_back(wide ? std::pow(10.0, -1 + 8 * uniform(random)) : 0.3 + uniform(random));
+            p.radius.push_back(wide ? std::pow(10.0, -1 + 8 * uniform(random))
+                                    : 0.3 + uniform(random));
             g0.push_back(wide ? std::pow(10.0, -2 * uniform(random)) : uniform(random));
             all.push_back(static_cast<int>(i));
         }
@@ -120,18 +133,23 @@ TEST(told_only_where_it_is_so) {
             (minima.size() == 1 ? unique : several) += 1;
         for (const Vector& v : minima) {
             Vector force(n), slope(n), work(n);
-            law->respond(static_cast<int>(n), all.data(), v.data(), force.data(), slope.data(), work.data());
-            const bool one = has_one_solution(*law, *make_kernel(Interaction::point, E_star), all, p.x, p.y, v, force, slope);
+            law->respond(static_cast<int>(n), all.data(), v.data(), force.data(), slope.data(),
+                         work.data());
+            const bool one = has_one_solution(*law, *make_kernel(Interaction::point, E_star), all,
+                                              p.x, p.y, v, force, slope);
             CHECK(!one || minima.size() == 1);
             told += one && !wide;
         }
-        // A proof between bounds: of solutions of similar and of quite different problems it says no more than is true.
+        // A proof between bounds: of solutions of similar and of quite different problems it says
+        // no more than is true.
         if (set % 4 != 0 || wide) continue;
         LastingProof proof;
         const auto holds = [&](const Vector& v) {
             Vector force(n), slope(n), work(n);
-            law->respond(static_cast<int>(n), all.data(), v.data(), force.data(), slope.data(), work.data());
-            return proof.holds(*law, *make_kernel(Interaction::point, E_star), all, p.x, p.y, v, force, slope, {});
+            law->respond(static_cast<int>(n), all.data(), v.data(), force.data(), slope.data(),
+                         work.data());
+            return proof.holds(*law, *make_kernel(Interaction::point, E_star), all, p.x, p.y, v,
+                               force, slope, {});
         };
         for (int k = 0; k < 2; ++k) holds(minima[0]);  // the second one looks for bounds
         for (const double change : {0.002, 1.0}) {
@@ -160,7 +178,8 @@ TEST(lanczos_finds_the_lowest) {
             const double shift = 0.5 * (low + high);
             Vector shifted = M;
             for (std::size_t k = 0; k < n; ++k) shifted[k * n + k] -= shift;
-            (lapack::is_positive_definite(static_cast<int>(n), shifted.data()) ? low : high) = shift;
+            (lapack::is_positive_definite(static_cast<int>(n), shifted.data()) ? low : high) =
+                shift;
         }
         Vector vector;
         const double found = lapack::lanczos_lowest(
@@ -173,7 +192,8 @@ TEST(lanczos_finds_the_lowest) {
             },
             vector);
         CHECK((found > 0) == (low > 0));
-        // Lanczos stops once the sign is sure: within 20 % of the value, or below it by its error bound.
+        // Lanczos stops once the sign is sure: within 20 % of the value, or below it by its error
+        // bound.
         CHECK_CLOSE(found, low, 0.25 * std::abs(low) + 1e-9);
     }
 }

@@ -1,9 +1,9 @@
 // What is known of a spectrum from a window cut out of a larger surface.
 #include "check.hpp"
 #include "height_maps.hpp"
-#include "rough/form.hpp"
-#include "rough/measured_spectrum.hpp"
-#include "rough/synthesis.hpp"
+#include "surface/form.hpp"
+#include "surface/measured_spectrum.hpp"
+#include "surface/synthesis.hpp"
 
 using namespace rsc;
 
@@ -15,16 +15,19 @@ HeightMap window(const Spectrum& of_window, int number, bool tilted) {
     Spectrum s = of_window;
     s.L *= kTimes, s.L_lambda_l *= kTimes, s.L_lambda_s *= kTimes;
     const HeightMap whole = synthesize(s, kPoints * kTimes, Normalise::ensemble, 11, number);
-    HeightMap map = height_map(kPoints, kPoints, whole.dx, whole.dy,
-                               [&](int i, int j) { return whole((i + 37 * number) % whole.nx, (j + 91 * number) % whole.ny); });
+    HeightMap map = height_map(kPoints, kPoints, whole.dx, whole.dy, [&](int i, int j) {
+        return whole((i + 37 * number) % whole.nx, (j + 91 * number) % whole.ny);
+    });
     if (tilted) detrend(map, Detrend::plane);
     return map;
 }
 
-// value +- error, or a bound where the window cannot know more, holds the truth in nine windows of ten.
+// value +- error, or a bound where the window cannot know more, holds the truth in nine windows of
+// ten.
 TEST(coverage) {
     constexpr int kWindows = 8;
-    constexpr double kLeast = 0.83;  // of 144 windows a share of 0.9 is found as less with a chance of 1 in 100
+    constexpr double kLeast =
+        0.83;  // of 144 windows a share of 0.9 is found as less with a chance of 1 in 100
     int all = 0, hurst = 0, kl = 0, ks = 0, plateaus = 0;
     double bias = 0;
     for (const double h : {0.3, 0.8})
@@ -32,14 +35,21 @@ TEST(coverage) {
             for (const double high : {16.0, 32.0})
                 for (const bool plateau : {false, true}) {
                     if (high < 3 * low) continue;
-                    const Spectrum s{.L = 1, .hurst = h, .L_lambda_l = low, .L_lambda_s = high, .plateau = plateau, .sigma = 1e-3};
+                    const Spectrum s{.L = 1,
+                                     .hurst = h,
+                                     .L_lambda_l = low,
+                                     .L_lambda_s = high,
+                                     .plateau = plateau,
+                                     .sigma = 1e-3};
                     for (int k = 1; k <= kWindows; ++k) {
-                        const SelfAffineFit fit = fit_self_affine(measure_spectrum(window(s, k + 100 * all, k % 2 == 0)));
+                        const SelfAffineFit fit =
+                            fit_self_affine(measure_spectrum(window(s, k + 100 * all, k % 2 == 0)));
                         const double step = 2 * std::numbers::pi, found = fit.kl.value / step;
                         ++all;
                         hurst += std::abs(fit.hurst.value - h) <= fit.hurst.error;
                         bias += fit.hurst.value - h;
-                        kl += fit.kl_seen ? std::abs(found - low) <= fit.kl.error / step : found >= low;
+                        kl += fit.kl_seen ? std::abs(found - low) <= fit.kl.error / step
+                                          : found >= low;
                         ks += std::abs(fit.ks.value / step - high) <= fit.ks.error / step;
                         plateaus += fit.kl_seen && fit.plateau_seen && fit.plateau != plateau;
                         if (low == 8.0) CHECK(fit.kl_seen);

@@ -42,12 +42,16 @@ class HalfSpace:
         i, j = np.arange(self.Ny), np.arange(self.Nx)
         i, j = np.minimum(i, self.Ny - i), np.minimum(j, self.Nx - j)
         # The kernel is even: one quadrant is computed, the others are mirrors.
-        quadrant = love(h * np.arange(j.max() + 1)[None, :], h * np.arange(i.max() + 1)[:, None], h) / (np.pi * E_star)
+        quadrant = love(
+            h * np.arange(j.max() + 1)[None, :], h * np.arange(i.max() + 1)[:, None], h
+        ) / (np.pi * E_star)
         self.kernel = fft.rfft2(quadrant[i][:, j]).real.copy()
 
     def __call__(self, p):
         ny, nx = self.shape
-        t = fft.fft(fft.rfft(p, self.Nx, axis=1), self.Ny, axis=0, overwrite_x=True)  # rows of zeros are not transformed
+        t = fft.fft(
+            fft.rfft(p, self.Nx, axis=1), self.Ny, axis=0, overwrite_x=True
+        )  # rows of zeros are not transformed
         t *= self.kernel
         return fft.irfft(fft.ifft(t, axis=0, overwrite_x=True)[:ny], self.Nx, axis=1)[:, :nx]
 
@@ -55,7 +59,8 @@ class HalfSpace:
 def solve(operator, overlap, start, tolerance=1e-6, most=1000):
     """Pressures of the minimum of p'Kp/2 - overlap'p over p >= 0 (overlap: penetration without deformation).
 
-    Stops where |p gap| and the penetrations left are below `tolerance` of the scale sum(p overlap). Returns p, iterations, error."""
+    Stops where |p gap| and the penetrations left are below `tolerance` of the scale sum(p overlap). Returns p, iterations, error.
+    """
     p = np.where(overlap > 0, np.maximum(start, 0.0), 0.0)
     if not p.any():
         p = np.where(overlap > 0, overlap, 0.0)
@@ -92,7 +97,8 @@ def solve(operator, overlap, start, tolerance=1e-6, most=1000):
 
 def areas(p, h):
     """Area of the cells under pressure, and the same corrected by their perimeter S_d (edges between cells with and without):
-    A - (pi - 1 + ln 2)/24 S_d h (Yastrebov, Anciaux and Molinari, J. Mech. Phys. Solids 107, 2017)."""
+    A - (pi - 1 + ln 2)/24 S_d h (Yastrebov, Anciaux and Molinari, J. Mech. Phys. Solids 107, 2017).
+    """
     c = np.pad(p > 0, 1)
     edges = np.count_nonzero(c[1:] != c[:-1]) + np.count_nonzero(c[:, 1:] != c[:, :-1])
     A = np.count_nonzero(c) * h * h
@@ -106,10 +112,24 @@ SIGMA, R, L = 0.01, 2.5, 1.0
 def heights(rsc, folder, ratio, seed, n):
     """The height map and E* of the paper's gold surface with L/lambda_s = ratio."""
     file = os.path.join(folder, f"heights_{ratio}_{seed}_{n}.nc")
-    settings = [f"run%seed={seed}", f"surface%n={n}", f"surface%L_lambda_s={ratio}", "indentation%steps=1", f"output%file='{file}'",
-                "output%heights=.true.", "output%contacts='none'", "output%compression=0", "run%threads=1"]
-    subprocess.run([rsc, "-q", *(word for s in settings for word in ("-s", s))], input="&run /\n", text=True, check=True,
-                   stdout=subprocess.DEVNULL)
+    settings = [
+        f"run%seed={seed}",
+        f"surface%n={n}",
+        f"surface%L_lambda_s={ratio}",
+        "indentation%steps=1",
+        f"output%file='{file}'",
+        "output%heights=.true.",
+        "output%contacts='none'",
+        "output%compression=0",
+        "run%threads=1",
+    ]
+    subprocess.run(
+        [rsc, "-q", *(word for s in settings for word in ("-s", s))],
+        input="&run /\n",
+        text=True,
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
     with netCDF4.Dataset(file) as d:
         z, E_star = np.array(d["height"][:]), float(d["e_star"][:])
         assert float(d["r_star"][:]) == R and abs(d["height_x"][1] - L / n) < 1e-15
@@ -122,29 +142,47 @@ def indent(z, E_star, coarse, report):
     n = z.shape[0]
     h = L / n
     x = np.arange(n) * h - L / 2
-    under = z - (x[None, :]**2 + x[:, None]**2) / (R + np.sqrt(R * R - x[None, :]**2 - x[:, None]**2))
+    under = z - (x[None, :] ** 2 + x[:, None] ** 2) / (
+        R + np.sqrt(R * R - x[None, :] ** 2 - x[:, None] ** 2)
+    )
     answers, last = [], np.zeros((n, n), np.float32)
     for k, level in enumerate(LEVELS):
         began = time.process_time()
         rows, columns = (np.flatnonzero((under > level * SIGMA).any(axis=a)) for a in (1, 0))
-        window = np.s_[rows[0]:rows[-1] + 1, columns[0]:columns[-1] + 1]
+        window = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
         overlap = under[window] - level * SIGMA
         start = last if coarse is None else np.repeat(np.repeat(coarse[k], 2, axis=0), 2, axis=1)
-        p, iterations, error = solve(HalfSpace(*overlap.shape, h, E_star), overlap, start[window].astype(float), 1e-6)
+        p, iterations, error = solve(
+            HalfSpace(*overlap.shape, h, E_star), overlap, start[window].astype(float), 1e-6
+        )
         whole = np.zeros((n, n), np.float32)
         whole[window] = p
         last = whole
         answers.append(whole)
-        report(n, level, p.sum() * h * h, *areas(p, h), iterations, error, time.process_time() - began, p.shape)
+        report(
+            n,
+            level,
+            p.sum() * h * h,
+            *areas(p, h),
+            iterations,
+            error,
+            time.process_time() - began,
+            p.shape,
+        )
     return answers
 
 
 def main():
     with open(sys.argv[2], "a") as out, tempfile.TemporaryDirectory() as folder:
         for ratio, seed in ((64, 1), (64, 2), (128, 1), (128, 2)):
+
             def report(n, level, N, A, corrected, iterations, error, seconds, shape):
                 line = f"{ratio:4d} {seed:4d} {level:4.1f} {n:6d} {N:14.8e} {A:14.8e} {corrected:14.8e} {seconds:7.1f}"
-                print(line, f"  {iterations} iterations, error {error:.0e}, window {shape}", flush=True)
+                print(
+                    line,
+                    f"  {iterations} iterations, error {error:.0e}, window {shape}",
+                    flush=True,
+                )
                 print(line, file=out, flush=True)
 
             coarse = None

@@ -1,4 +1,5 @@
-// A result file whose values are compared with what a test computes: variables, attributes that are numbers or text.
+// A result file whose values are compared with what a test computes: variables, attributes that are
+// numbers or text.
 #pragma once
 
 #include <netcdf.h>
@@ -24,12 +25,15 @@ public:
         return v;
     }
 
-    // The variable is `expected`, to `relative` of each value or `absolute`, the coarser; NaN: absent.
-    void same(const std::string& variable, const Vector& expected, double relative = 0, double absolute = 0) {
+    // The variable is `expected`, to `relative` of each value or `absolute`, the coarser; NaN:
+    // absent.
+    void same(const std::string& variable, const Vector& expected, double relative = 0,
+              double absolute = 0) {
         if (!has(variable)) return failed(variable, "is missing");
         compare(variable, values(variable), expected, relative, absolute);
     }
-    void attribute(const std::string& variable, const std::string& attribute, Vector expected, double relative = 0, double absolute = 0) {
+    void attribute(const std::string& variable, const std::string& attribute, Vector expected,
+                   double relative = 0, double absolute = 0) {
         const std::string both = variable + ":" + attribute;
         Vector there = file_.numbers(variable, attribute);
         for (double& x : there)
@@ -45,13 +49,15 @@ public:
     }
 
 private:
-    // Large arrays of netCDF-4 are compressed, at the default level, but not those whose digits have no order: of asperities and contacts.
+    // Large arrays of netCDF-4 are compressed, at the default level, but not those whose digits
+    // have no order: of asperities and contacts.
     void stored(int v) const {
         char name[NC_MAX_NAME + 1] = "";
         int format = 0, shuffled = 0, deflated = 0, level = 0;
         nc_inq_varname(file_.id(), v, name);
         nc_inq_format(file_.id(), &format);
-        if (format == NC_FORMAT_NETCDF4_CLASSIC) nc_inq_var_deflate(file_.id(), v, &shuffled, &deflated, &level);
+        if (format == NC_FORMAT_NETCDF4_CLASSIC)
+            nc_inq_var_deflate(file_.id(), v, &shuffled, &deflated, &level);
         const std::string first = file_.dimensions(name).empty() ? "" : file_.dimensions(name)[0];
         const bool large = format == NC_FORMAT_NETCDF4_CLASSIC && file_.values(name).size() >= 2048;
         if (level != (large && first != "asperity" && first != "contact" ? 4 : 0))
@@ -61,16 +67,21 @@ private:
         std::printf("%s, %s: ", name_.c_str(), what.c_str());
         check::that(false, how, __FILE__, __LINE__);
     }
-    void compare(const std::string& what, const Vector& there, const Vector& expected, double relative, double absolute) const {
-        if (there.size() != expected.size()) return failed(what, ("has " + std::to_string(there.size()) + " values").c_str());
+    void compare(const std::string& what, const Vector& there, const Vector& expected,
+                 double relative, double absolute) const {
+        if (there.size() != expected.size())
+            return failed(what, ("has " + std::to_string(there.size()) + " values").c_str());
         for (std::size_t k = 0; k < there.size(); ++k) {
             const double allowed = std::max(relative * std::abs(expected[k]), absolute);
-            const bool equal = std::isnan(expected[k]) ? std::isnan(there[k]) : std::abs(there[k] - expected[k]) <= allowed;
+            const bool equal = std::isnan(expected[k])
+                                   ? std::isnan(there[k])
+                                   : std::abs(there[k] - expected[k]) <= allowed;
             ++check::checks;
             if (equal) continue;
             char text[200];
-            std::snprintf(text, sizeof text, "value %zu of %zu is %.17g, expected %.17g, allowed error %.3g", k + 1, there.size(), there[k],
-                          expected[k], allowed);
+            std::snprintf(text, sizeof text,
+                          "value %zu of %zu is %.17g, expected %.17g, allowed error %.3g", k + 1,
+                          there.size(), there[k], expected[k], allowed);
             return failed(what, text);
         }
     }

@@ -14,7 +14,8 @@ struct Moments1 {
     double mean, deviation, skewness, kurtosis;
     Moments1 or_absent() const {
         const bool spread = deviation * deviation > 1e-12 * (mean * mean + deviation * deviation);
-        return {mean, std::isnan(deviation) ? 0 : deviation, spread ? skewness : kNone, spread ? kurtosis : kNone};
+        return {mean, std::isnan(deviation) ? 0 : deviation, spread ? skewness : kNone,
+                spread ? kurtosis : kNone};
     }
 };
 // Of values with weights.
@@ -22,14 +23,16 @@ inline Moments1 moments_of(const Vector& values, const Vector& weights) {
     const double all = sum(weights);
     const auto power = [&](double about, int n) {
         double s = 0;
-        for (std::size_t i = 0; i < values.size(); ++i) s += weights[i] * std::pow(values[i] - about, n);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            s += weights[i] * std::pow(values[i] - about, n);
         return s / all;
     };
     const double m = power(0, 1), d = std::sqrt(power(m, 2));
     return {m, d, power(m, 3) / (d * d * d), power(m, 4) / (d * d * d * d)};
 }
 
-// Of the pressures of Hertz spots (density 2 p/p0^2) and of places with one pressure, by exact raw moments.
+// Of the pressures of Hertz spots (density 2 p/p0^2) and of places with one pressure, by exact raw
+// moments.
 struct Part {
     double area, p;
     bool hertz;
@@ -39,15 +42,19 @@ inline Moments1 moments_of(const std::vector<Part>& parts) {
     for (const Part& q : parts) {
         all += q.area;
         for (int n = 1; n <= 4; ++n)
-            m[n] += q.hertz ? q.area * 2 * std::pow(1.5L * q.p, n) / (n + 2) : q.area * std::pow(static_cast<long double>(q.p), n);
+            m[n] += q.hertz ? q.area * 2 * std::pow(1.5L * q.p, n) / (n + 2)
+                            : q.area * std::pow(static_cast<long double>(q.p), n);
     }
     for (long double& v : m) v /= all;
     const long double a = m[1], v = m[2] - a * a, d = std::sqrt(v);
-    return {static_cast<double>(a), static_cast<double>(d), static_cast<double>((m[3] - 3 * a * m[2] + 2 * a * a * a) / (v * d)),
-            static_cast<double>((m[4] - 4 * a * m[3] + 6 * a * a * m[2] - 3 * a * a * a * a) / (v * v))};
+    return {static_cast<double>(a), static_cast<double>(d),
+            static_cast<double>((m[3] - 3 * a * m[2] + 2 * a * a * a) / (v * d)),
+            static_cast<double>((m[4] - 4 * a * m[3] + 6 * a * a * m[2] - 3 * a * a * a * a) /
+                                (v * v))};
 }
 
-inline double ks(const Vector& weight, double width, double total, const std::function<double(double)>& cdf) {
+inline double ks(const Vector& weight, double width, double total,
+                 const std::function<double(double)>& cdf) {
     double below = 0, worst = 0;
     for (std::size_t b = 0; b < weight.size(); ++b) {
         below += weight[b];
@@ -64,23 +71,28 @@ inline void distributions(CheckedFile& f, const Truth& t) {
     double sqrt_m4 = std::sqrt(t.regime.m4);
     if (t.list) sqrt_m4 = 0.9 / mean(t.r[0].asperities.radius);
     if (t.c.surface.source == Source::heights) sqrt_m4 = std::sqrt(t.heights[0].differences().m4);
-    const double hardest = 1.1 * t.c.solids.hardness * std::sqrt(1 + 4 * t.c.solids.size_effect * sqrt_m4);
-    const double reach = std::min(1.2 * t.E * std::sqrt(t.sigma * sqrt_m4), hardest), width_p = reach / number(n), width_q = 1.5 * width_p,
+    const double hardest =
+        1.1 * t.c.solids.hardness * std::sqrt(1 + 4 * t.c.solids.size_effect * sqrt_m4);
+    const double reach = std::min(1.2 * t.E * std::sqrt(t.sigma * sqrt_m4), hardest),
+                 width_p = reach / number(n), width_q = 1.5 * width_p,
                  width_A = 10 * t.sigma / sqrt_m4 / number(n);
     const auto axis = [&](const std::string& name, double width) {
         Vector v;
         for (std::size_t b = 0; b < n; ++b) v.push_back((number(b) + 0.5) * width);
         f.same(name, v, 1e-9), f.attribute(name, "bin_width", {width}, 1e-9);
     };
-    axis("pressure_mean_bin", width_p), axis("pressure_bin", width_q), axis("spot_area_bin", width_A);
+    axis("pressure_mean_bin", width_p), axis("pressure_bin", width_q),
+        axis("spot_area_bin", width_A);
     Vector number_of;
     for (std::size_t b = 1; b <= n; ++b) number_of.push_back(number(b));
     f.same("bin", number_of);
     f.same("pdf_level", wanted, 1e-14);
 
     Vector used, step, sums;
-    Vector counts, count_over, count_pdf, spot_counts, spot_over, spot_pdf, areas, area_over, area_pdf, independent;
-    Vector rayleigh, rayleigh_error, rayleigh_ks, exponential, exponential_error, exponential_ks, gamma_ks;
+    Vector counts, count_over, count_pdf, spot_counts, spot_over, spot_pdf, areas, area_over,
+        area_pdf, independent;
+    Vector rayleigh, rayleigh_error, rayleigh_ks, exponential, exponential_error, exponential_ks,
+        gamma_ks;
     std::array<std::vector<Moments1>, 3> moments;
     const std::array<const char*, 4> names{"alpha", "beta", "delta", "gamma"};
     for (std::size_t d = 0; d < D; ++d) {
@@ -99,14 +111,17 @@ inline void distributions(CheckedFile& f, const Truth& t) {
             Vector pixels(c.spots.size());
             for (const Spot2& q : c.spots) {
                 p.push_back(q.pressure()), A.push_back(q.area), one.push_back(1);
-                if (c.pixels.empty()) parts.push_back({q.area, q.pressure(), !q.yields}), squares += q.area * q.area;
+                if (c.pixels.empty())
+                    parts.push_back({q.area, q.pressure(), !q.yields}), squares += q.area * q.area;
             }
-            for (const Pixel2& q : c.pixels) parts.push_back({c.pixel, q.p, false}), pixels[q.contact] += c.pixel;
+            for (const Pixel2& q : c.pixels)
+                parts.push_back({c.pixel, q.p, false}), pixels[q.contact] += c.pixel;
             for (double a : pixels) squares += a * a;
         }
         const auto put = [&](Vector& into, double& beyond, double value, double width) {
             for (std::size_t b = 0; b < n; ++b)
-                if (value >= number(b) * width && value < (number(b) + 1) * width) return void(into[b] += 1);
+                if (value >= number(b) * width && value < (number(b) + 1) * width)
+                    return void(into[b] += 1);
             beyond += 1;
         };
         for (double v : p) put(count, over, v, width_p);
@@ -114,9 +129,12 @@ inline void distributions(CheckedFile& f, const Truth& t) {
         double total = 0;
         for (const Part& q : parts) {
             const auto below = [&](double edge) {
-                return q.hertz ? std::min(1.0, std::pow(edge / (1.5 * q.p), 2)) : edge > q.p ? 1.0 : 0.0;
+                return q.hertz      ? std::min(1.0, std::pow(edge / (1.5 * q.p), 2))
+                       : edge > q.p ? 1.0
+                                    : 0.0;
             };
-            for (std::size_t b = 0; b < n; ++b) area[b] += q.area * (below((number(b) + 1) * width_q) - below(number(b) * width_q));
+            for (std::size_t b = 0; b < n; ++b)
+                area[b] += q.area * (below((number(b) + 1) * width_q) - below(number(b) * width_q));
             over_q += q.area * (1 - below(number(n) * width_q)), total += q.area;
         }
         const double m = number(p.size());
@@ -124,16 +142,19 @@ inline void distributions(CheckedFile& f, const Truth& t) {
         count_over.push_back(over), spot_over.push_back(over_A), area_over.push_back(over_q);
         for (std::size_t b = 0; b < n; ++b) {
             counts.push_back(count[b]), spot_counts.push_back(spot[b]), areas.push_back(area[b]);
-            count_pdf.push_back(m > 0 ? count[b] / (m * width_p) : kNone), spot_pdf.push_back(m > 0 ? spot[b] / (m * width_A) : kNone);
+            count_pdf.push_back(m > 0 ? count[b] / (m * width_p) : kNone),
+                spot_pdf.push_back(m > 0 ? spot[b] / (m * width_A) : kNone);
             area_pdf.push_back(m > 0 ? area[b] / (total * width_q) : kNone);
         }
         double pp = 0;
         for (double v : p) pp += v * v;
         const double s = m > 0 ? std::sqrt(pp / m / 2) : kNone, mean_A = m > 0 ? sum(A) / m : kNone;
         rayleigh.push_back(s), rayleigh_error.push_back(s / (2 * std::sqrt(m)));
-        rayleigh_ks.push_back(ks(count, width_p, m, [&](double x) { return 1 - std::exp(-x * x / (2 * s * s)); }));
+        rayleigh_ks.push_back(
+            ks(count, width_p, m, [&](double x) { return 1 - std::exp(-x * x / (2 * s * s)); }));
         exponential.push_back(mean_A), exponential_error.push_back(mean_A / std::sqrt(m));
-        exponential_ks.push_back(ks(spot, width_A, m, [&](double x) { return 1 - std::exp(-x / mean_A); }));
+        exponential_ks.push_back(
+            ks(spot, width_A, m, [&](double x) { return 1 - std::exp(-x / mean_A); }));
         independent.push_back(squares > 0 ? total * total / squares : 0);
         const Moments1 none{kNone, kNone, kNone, kNone};
         moments[0].push_back(m > 0 ? moments_of(p, one).or_absent() : none);
@@ -142,32 +163,41 @@ inline void distributions(CheckedFile& f, const Truth& t) {
 
         // The gamma fit itself: unit/test_observe.
         Vector fit;
-        for (const char* name : names) fit.push_back(f.reader().numbers("pressure_pdf", name).at(d));
-        const auto filled = std::count_if(area.begin(), area.end(), [](double a) { return a > 0; }) + (over_q > 0);
+        for (const char* name : names)
+            fit.push_back(f.reader().numbers("pressure_pdf", name).at(d));
+        const auto filled =
+            std::count_if(area.begin(), area.end(), [](double a) { return a > 0; }) + (over_q > 0);
         const bool fitted = fit[0] != NC_FILL_DOUBLE;
         if (filled < 5 || independent.back() < 10) CHECK(!fitted);
         gammas_fitted += fitted;
-        gamma_ks.push_back(!fitted ? kNone
-                                   : ks(area, width_q, total, [&](double x) { return generalised_gamma_cdf(x, fit[0], fit[1], fit[2]); }));
+        gamma_ks.push_back(!fitted ? kNone : ks(area, width_q, total, [&](double x) {
+            return generalised_gamma_cdf(x, fit[0], fit[1], fit[2]);
+        }));
 
         // In the order in which they are stored.
         sums.push_back(Z);
         sums.insert(sums.end(), count.begin(), count.end()), sums.push_back(over);
-        sums.insert(sums.end(), area.begin(), area.end()), sums.push_back(over_q), sums.push_back(total), sums.push_back(squares);
+        sums.insert(sums.end(), area.begin(), area.end()), sums.push_back(over_q),
+            sums.push_back(total), sums.push_back(squares);
         sums.insert(sums.end(), spot.begin(), spot.end()), sums.push_back(over_A);
         for (int k = 1; k <= 4; ++k) {
             double of_p = 0, of_q = 0, of_A = 0;
             for (double v : p) of_p += std::pow(v, k);
             for (double v : A) of_A += std::pow(v, k);
-            for (const Part& q : parts) of_q += q.area * (q.hertz ? 2 * std::pow(1.5 * q.p, k) / (k + 2) : std::pow(q.p, k));
+            for (const Part& q : parts)
+                of_q +=
+                    q.area * (q.hertz ? 2 * std::pow(1.5 * q.p, k) / (k + 2) : std::pow(q.p, k));
             sums.push_back(of_p), sums.push_back(of_q), sums.push_back(of_A);
         }
     }
-    f.same("pdf_separation_sigma", used, 1e-12), f.same("pdf_step", step), f.attribute("pdf_step", "start_index", {1});
-    f.same("pressure_mean_count", counts), f.attribute("pressure_mean_count", "overflow", count_over);
+    f.same("pdf_separation_sigma", used, 1e-12), f.same("pdf_step", step),
+        f.attribute("pdf_step", "start_index", {1});
+    f.same("pressure_mean_count", counts),
+        f.attribute("pressure_mean_count", "overflow", count_over);
     f.same("spot_area_count", spot_counts), f.attribute("spot_area_count", "overflow", spot_over);
     const double most = *std::max_element(areas.begin(), areas.end());
-    f.same("pressure_area", areas, 1e-9, 1e-12 * most), f.attribute("pressure_area", "overflow", area_over, 1e-9, 1e-12 * most);
+    f.same("pressure_area", areas, 1e-9, 1e-12 * most),
+        f.attribute("pressure_area", "overflow", area_over, 1e-9, 1e-12 * most);
     f.same("pressure_mean_pdf", count_pdf, 1e-9), f.same("spot_area_pdf", spot_pdf, 1e-9);
     f.same("pressure_pdf", area_pdf, 1e-9, 1e-11 / width_q);
     f.attribute("pressure_mean_pdf", "rayleigh_scale", rayleigh, 1e-10),
@@ -183,8 +213,10 @@ inline void distributions(CheckedFile& f, const Truth& t) {
         const auto put = [&](const char* name, double Moments1::*member) {
             Vector v;
             for (const Moments1& m : moments[i]) v.push_back(m.*member);
-            // A difference of powers loses digits where the values hardly spread; skewness may be 0.
-            const bool ratio = member == &Moments1::skewness, deviation = member == &Moments1::deviation;
+            // A difference of powers loses digits where the values hardly spread; skewness may be
+            // 0.
+            const bool ratio = member == &Moments1::skewness,
+                       deviation = member == &Moments1::deviation;
             const bool fourth = member == &Moments1::kurtosis;
             double spread = 0;  // of the mean over the deviation
             for (const Moments1& m : moments[i])
@@ -203,12 +235,16 @@ inline void distributions(CheckedFile& f, const Truth& t) {
     const Vector there = f.values("pdf_sums");
     for (std::size_t k = 0; k < sums.size(); ++k) {
         if (k < sums.size() / D) numbers.push_back(number(k) + 1);
-        const double rest = 2 * k + 1 < there.size() ? there[2 * k + 1] : 0;  // beyond rounding: the campaigns put together below
+        const double rest = 2 * k + 1 < there.size()
+                                ? there[2 * k + 1]
+                                : 0;  // beyond rounding: the campaigns put together below
         CHECK(std::abs(rest) <= 2e-16 * std::abs(sums[k]));
         // Differences of shares of an area lose digits; nothing else does.
         const std::size_t place = k % (sums.size() / D), first_area = n + 2;
         const bool share = place >= first_area && place <= first_area + n;
-        if (2 * k < there.size()) CHECK_CLOSE(there[2 * k], sums[k], 1e-12 * std::abs(sums[k]) + (share ? 1e-12 * most : 0));
+        if (2 * k < there.size())
+            CHECK_CLOSE(there[2 * k], sums[k],
+                        1e-12 * std::abs(sums[k]) + (share ? 1e-12 * most : 0));
         both.push_back(sums[k]), both.push_back(rest);
     }
     f.same("pdf_sums", both, 1e-10, 1e-12 * most), f.same("pdf_sum", numbers);

@@ -1,5 +1,5 @@
-// What a case means, worked out from its text: the surface and its moments, the contacts of each level, E*, R*, the tip. The levels are the
-// library's (run/job.hpp).
+// What a case means, worked out from its text: the surface and its moments, the contacts of each
+// level, E*, R*, the tip. The levels are the library's (run/job.hpp).
 #pragma once
 
 #include "check.hpp"
@@ -12,7 +12,8 @@ namespace values {
 using namespace rsc;
 using std::numbers::pi;
 
-inline constexpr double kRounding = 1e-11;  // sums of some hundred terms, and differences of few digits
+inline constexpr double kRounding =
+    1e-11;  // sums of some hundred terms, and differences of few digits
 
 inline double sum(const Vector& v) {
     double s = 0;
@@ -23,7 +24,8 @@ inline double mean(const Vector& v) { return sum(v) / static_cast<double>(v.size
 inline std::size_t at(long k) { return static_cast<std::size_t>(k); }
 inline double number(std::size_t n) { return static_cast<double>(n); }
 
-// --- Surfaces --------------------------------------------------------------------------------------------------------------------
+// --- Surfaces
+// --------------------------------------------------------------------------------------------------------------------
 
 struct Moments4 {
     double m0 = kNone, m2 = kNone, m4 = kNone;
@@ -39,7 +41,14 @@ struct Grid {
     double x(long i) const { return x0 + dx * static_cast<double>(i); }
     double y(long j) const { return y0 + dy * static_cast<double>(j); }
 
-    explicit Grid(const HeightMap& map) : nx(map.nx), ny(map.ny), dx(map.dx), dy(map.dy), x0(map.x0), y0(map.y0), periodic(map.periodic) {
+    explicit Grid(const HeightMap& map)
+        : nx(map.nx),
+          ny(map.ny),
+          dx(map.dx),
+          dy(map.dy),
+          x0(map.x0),
+          y0(map.y0),
+          periodic(map.periodic) {
         for (int j = 0; j < map.ny; ++j)
             for (int i = 0; i < map.nx; ++i) z.push_back(map(i, j));
     }
@@ -54,17 +63,23 @@ struct Grid {
     };
     Second second(long i, long j) const {
         const double c = 2 * at_point(i, j);
-        return {(at_point(i + 1, j) + at_point(i - 1, j) - c) / (dx * dx), (at_point(i, j + 1) + at_point(i, j - 1) - c) / (dy * dy),
-                (at_point(i + 1, j + 1) - at_point(i - 1, j + 1) - at_point(i + 1, j - 1) + at_point(i - 1, j - 1)) / (4 * dx * dy)};
+        return {(at_point(i + 1, j) + at_point(i - 1, j) - c) / (dx * dx),
+                (at_point(i, j + 1) + at_point(i, j - 1) - c) / (dy * dy),
+                (at_point(i + 1, j + 1) - at_point(i - 1, j + 1) - at_point(i + 1, j - 1) +
+                 at_point(i - 1, j - 1)) /
+                    (4 * dx * dy)};
     }
     // <z_x^2 + z_y^2>/2 and (<z_xx^2> + <z_yy^2> + 3 <z_xy^2>)/3 of forward and second differences.
     Moments4 differences() const {
         double m2 = 0, m4 = 0, n = 0;
         for (long j = periodic ? 0 : 1; j < ny - (periodic ? 0 : 1); ++j)
             for (long i = periodic ? 0 : 1; i < nx - (periodic ? 0 : 1); ++i, ++n) {
-                const double zx = (at_point(i + 1, j) - at_point(i, j)) / dx, zy = (at_point(i, j + 1) - at_point(i, j)) / dy;
+                const double zx = (at_point(i + 1, j) - at_point(i, j)) / dx,
+                             zy = (at_point(i, j + 1) - at_point(i, j)) / dy;
                 const Second s = second(i, j);
-                const double xy = (at_point(i + 1, j + 1) - at_point(i, j + 1) - at_point(i + 1, j) + at_point(i, j)) / (dx * dy);
+                const double xy = (at_point(i + 1, j + 1) - at_point(i, j + 1) -
+                                   at_point(i + 1, j) + at_point(i, j)) /
+                                  (dx * dy);
                 m2 += (zx * zx + zy * zy) / 2, m4 += (s.xx * s.xx + s.yy * s.yy + 3 * xy * xy) / 3;
             }
         return {power(2), m2 / n, m4 / n};
@@ -72,21 +87,26 @@ struct Grid {
     // The same from the Fourier modes of a periodic surface: exact.
     Moments4 modes() const {
         using Complex = std::complex<double>;
-        const auto root = [](long k, long n) { return std::polar(1.0, -2 * pi * static_cast<double>(k % n) / static_cast<double>(n)); };
+        const auto root = [](long k, long n) {
+            return std::polar(1.0, -2 * pi * static_cast<double>(k % n) / static_cast<double>(n));
+        };
         std::vector<Complex> rows(z.size()), wx(at(nx)), wy(at(ny));
         for (long k = 0; k < nx; ++k) wx[at(k)] = root(k, nx);
         for (long k = 0; k < ny; ++k) wy[at(k)] = root(k, ny);
         for (long j = 0; j < ny; ++j)
             for (long k = 0; k <= nx / 2; ++k)
-                for (long i = 0; i < nx; ++i) rows[at(j * nx + k)] += z[at(j * nx + i)] * wx[at(i * k % nx)];
+                for (long i = 0; i < nx; ++i)
+                    rows[at(j * nx + k)] += z[at(j * nx + i)] * wx[at(i * k % nx)];
         Moments4 m{0, 0, 0};
         for (long k = 0; k <= nx / 2; ++k)
             for (long l = 0; l < ny; ++l) {
                 Complex h = 0;
                 for (long j = 0; j < ny; ++j) h += rows[at(j * nx + k)] * wy[at(j * l % ny)];
-                const double both = k == 0 || 2 * k == nx ? 1 : 2, power = both * std::norm(h / number(z.size()));
+                const double both = k == 0 || 2 * k == nx ? 1 : 2,
+                             power = both * std::norm(h / number(z.size()));
                 const double kx = 2 * pi * static_cast<double>(k) / (dx * static_cast<double>(nx));
-                const double ky = 2 * pi * static_cast<double>(2 * l > ny ? l - ny : l) / (dy * static_cast<double>(ny));
+                const double ky = 2 * pi * static_cast<double>(2 * l > ny ? l - ny : l) /
+                                  (dy * static_cast<double>(ny));
                 if (k == 0 && l == 0) continue;
                 m.m0 += power, m.m2 += power * (kx * kx + ky * ky) / 2;
                 m.m4 += power * (std::pow(kx, 4) + std::pow(ky, 4) + 3 * kx * kx * ky * ky) / 3;
@@ -100,7 +120,9 @@ struct Grid {
             for (long i = periodic ? 0 : 1; i < nx - (periodic ? 0 : 1); ++i) {
                 bool top = true;
                 for (long b = -1; b <= 1; ++b)
-                    for (long a = -1; a <= 1; ++a) top = top && ((a == 0 && b == 0) || at_point(i, j) > at_point(i + a, j + b));
+                    for (long a = -1; a <= 1; ++a)
+                        top =
+                            top && ((a == 0 && b == 0) || at_point(i, j) > at_point(i + a, j + b));
                 found += top;
             }
         return found;
@@ -110,16 +132,19 @@ struct Grid {
 // Closed forms of physics.md, section 2.
 inline Moments4 closed_forms(const Case& c) {
     const auto& s = c.surface;
-    const double L = s.L.value_or(1.0), kl = 2 * pi * s.L_lambda_l / L, zeta = s.L_lambda_s / s.L_lambda_l, xi = 1 / s.L_lambda_l;
+    const double L = s.L.value_or(1.0), kl = 2 * pi * s.L_lambda_l / L,
+                 zeta = s.L_lambda_s / s.L_lambda_l, xi = 1 / s.L_lambda_l;
     const auto form = [&](double p, double T) {
-        const double e = p - 2 * s.hurst, flat = s.plateau ? (1 - std::pow(xi, p + 2)) / (p + 2) : 0;
+        const double e = p - 2 * s.hurst,
+                     flat = s.plateau ? (1 - std::pow(xi, p + 2)) / (p + 2) : 0;
         return T * std::pow(kl, p + 2) * (flat + (std::pow(zeta, e) - 1) / e);
     };
     const double sigma = s.sigma.value_or(0.01), Phi0 = sigma * sigma / form(0, 2 * pi);
     return {sigma * sigma, Phi0 * form(2, pi), Phi0 * form(4, 0.75 * pi)};
 }
 
-// --- Contacts --------------------------------------------------------------------------------------------------------------------
+// --- Contacts
+// --------------------------------------------------------------------------------------------------------------------
 
 struct Spot2 {
     double x = 0, y = 0, f = 0, area = 0;
@@ -153,14 +178,16 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
         for (const auto& [a, b] : {std::pair{1L, 0L}, {-1L, 0L}, {0L, 1L}, {0L, -1L}}) {
             long u = i + a, v = j + b;
             if (periodic) u = (u + nx) % nx, v = (v + ny) % ny;
-            if (u >= 0 && u < nx && v >= 0 && v < ny && place[at(v * nx + u)] >= 0) found.push_back(place[at(v * nx + u)]);
+            if (u >= 0 && u < nx && v >= 0 && v < ny && place[at(v * nx + u)] >= 0)
+                found.push_back(place[at(v * nx + u)]);
         }
         return found;
     };
     // Sides where the map itself ends: no border of the contact.
     const auto beyond = [&](std::size_t k) {
         const long i = q.index[k] % nx, j = q.index[k] / nx;
-        return periodic ? 0.0 : static_cast<double>((i == 0) + (i == nx - 1) + (j == 0) + (j == ny - 1));
+        return periodic ? 0.0
+                        : static_cast<double>((i == 0) + (i == nx - 1) + (j == 0) + (j == ny - 1));
     };
     std::map<long, std::int32_t> library;  // my number to the level's
     long sets = 0;
@@ -189,11 +216,13 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
         s.n += 1, s.hard += hard;
         if (!hard) s.sides += 4 - number(neighbours(k).size()) - beyond(k);
         out.spots[at(q.contact[k])].cut = out.spots[at(q.contact[k])].cut || beyond(k) > 0;
-        if (q.pressure[k] > s.peak) s.peak = q.pressure[k], s.i = q.index[k] % nx, s.j = q.index[k] / nx;
+        if (q.pressure[k] > s.peak)
+            s.peak = q.pressure[k], s.i = q.index[k] % nx, s.j = q.index[k] / nx;
         out.spots[at(q.contact[k])].f += q.pressure[k] * out.pixel;
         out.spots[at(q.contact[k])].yields = out.spots[at(q.contact[k])].yields || hard;
-        out.pixels.push_back({q.x0 + q.dx * static_cast<double>(q.index[k] % nx), q.y0 + q.dy * static_cast<double>(q.index[k] / nx),
-                              q.pressure[k], at(q.contact[k])});
+        out.pixels.push_back({q.x0 + q.dx * static_cast<double>(q.index[k] % nx),
+                              q.y0 + q.dy * static_cast<double>(q.index[k] / nx), q.pressure[k],
+                              at(q.contact[k])});
     }
     CHECK(static_cast<long>(library.size()) == sets);
     for (std::size_t k = 0; k < own.size(); ++k) {  // middles, from the peak
@@ -201,12 +230,14 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
         long a = q.index[k] % nx - s.i, b = q.index[k] / nx - s.j;
         if (periodic) a -= nx * std::lround(static_cast<double>(a) / static_cast<double>(nx));
         if (periodic) b -= ny * std::lround(static_cast<double>(b) / static_cast<double>(ny));
-        s.px += q.pressure[k] * static_cast<double>(a), s.py += q.pressure[k] * static_cast<double>(b);
+        s.px += q.pressure[k] * static_cast<double>(a),
+            s.py += q.pressure[k] * static_cast<double>(b);
     }
     for (std::size_t c = 0; c < sums.size(); ++c) {
         const Sum& s = sums[c];
         Spot2& spot = out.spots[c];
-        const double border = (pi - 1 + std::log(2.0)) / 24 * (1 + s.hard / s.n * (s.hard / s.n)) * s.sides;
+        const double border =
+            (pi - 1 + std::log(2.0)) / 24 * (1 + s.hard / s.n * (s.hard / s.n)) * s.sides;
         const double p = spot.f / out.pixel;
         spot.area = out.pixel * (s.n - border);
         double i = static_cast<double>(s.i) + s.px / p, j = static_cast<double>(s.j) + s.py / p;
@@ -217,7 +248,8 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
     return out;
 }
 
-// --- A case, and what it means -----------------------------------------------------------------------------------------------------
+// --- A case, and what it means
+// -----------------------------------------------------------------------------------------------------
 
 struct Truth {
     Case c;
@@ -235,7 +267,8 @@ struct Truth {
 
     explicit Truth(const Case& settings) : c(settings) {
         job = prepare(c);
-        for (int k = 0; k < c.run.realizations; ++k) r.push_back(realize(job, c.run.first_realization + k, 1));
+        for (int k = 0; k < c.run.realizations; ++k)
+            r.push_back(realize(job, c.run.first_realization + k, 1));
         steps = r[0].levels.size(), M = r.size();
         list = c.surface.source == Source::asperities;
         synthetic = has_spectrum(c);
@@ -243,21 +276,25 @@ struct Truth {
         periodic = c.indentation.boundary == Boundary::periodic;
         hertz = !elements && c.asperities.law == LawKind::hertz;
         for (int k = 0; k < c.run.realizations && !list; ++k)
-            heights.emplace_back(
-                (elements ? make_element_surface(c, c.run.first_realization + k, 1) : make_surface(c, c.run.first_realization + k, 1)).map);
+            heights.emplace_back((elements ? make_element_surface(c, c.run.first_realization + k, 1)
+                                           : make_surface(c, c.run.first_realization + k, 1))
+                                     .map);
         Lx = Ly = c.surface.L.value_or(1.0);
         if (c.surface.source == Source::heights) {
             const Grid& g = heights[0];
-            x0 = g.x0, y0 = g.y0, Lx = static_cast<double>(g.nx) * g.dx, Ly = static_cast<double>(g.ny) * g.dy;
+            x0 = g.x0, y0 = g.y0, Lx = static_cast<double>(g.nx) * g.dx,
+            Ly = static_cast<double>(g.ny) * g.dy;
         }
-        E = 1 / ((1 - c.solids.nu[0] * c.solids.nu[0]) / c.solids.E[0] + (1 - c.solids.nu[1] * c.solids.nu[1]) / c.solids.E[1]);
+        E = 1 / ((1 - c.solids.nu[0] * c.solids.nu[0]) / c.solids.E[0] +
+                 (1 - c.solids.nu[1] * c.solids.nu[1]) / c.solids.E[1]);
         R = 1 / (1 / c.solids.R[0] + 1 / c.solids.R[1]);
         // In the middle: of a map's points, of what was made.
         const bool map = c.surface.source == Source::heights;
         tip_x = c.indentation.centre[0].value_or(x0 + (Lx - (map ? heights[0].dx : 0)) / 2);
         tip_y = c.indentation.centre[1].value_or(y0 + (Ly - (map ? heights[0].dy : 0)) / 2);
         if (synthetic && c.surface.source == Source::synthetic) theory = closed_forms(c);
-        if (c.surface.source == Source::spectrum) theory = {job.theory->m0, job.theory->m2, job.theory->m4};  // unit/test_spectrum
+        if (c.surface.source == Source::spectrum)
+            theory = {job.theory->m0, job.theory->m2, job.theory->m4};  // unit/test_spectrum
         if (c.surface.sigma)
             sigma = *c.surface.sigma;
         else if (synthetic)
@@ -274,7 +311,8 @@ struct Truth {
             regime = {0, 0, 0};
             for (const Grid& g : heights) {
                 const Moments4 m = g.differences();
-                regime.m0 += m.m0 / number(M), regime.m2 += m.m2 / number(M), regime.m4 += m.m4 / number(M);
+                regime.m0 += m.m0 / number(M), regime.m2 += m.m2 / number(M),
+                    regime.m4 += m.m4 / number(M);
             }
         }
         m2_made = regime.m2;
@@ -293,10 +331,12 @@ struct Truth {
         return s;
     }
     Contacts2 contacts_of(const Level& l, std::size_t k) const {
-        if (elements) return of_pixels(l, heights[k].nx, heights[k].ny, periodic, c.solids.hardness);
+        if (elements)
+            return of_pixels(l, heights[k].nx, heights[k].ny, periodic, c.solids.hardness);
         Contacts2 out;
         for (std::size_t i = 0; i < l.f.size(); ++i) {
-            out.spots.push_back({l.x[i], l.y[i], l.f[i], pi * l.a[i] * l.a[i], l.asperity[i], !l.yields.empty() && l.yields[i] != 0});
+            out.spots.push_back({l.x[i], l.y[i], l.f[i], pi * l.a[i] * l.a[i], l.asperity[i],
+                                 !l.yields.empty() && l.yields[i] != 0});
             out.spots.back().own = l.own_area.empty() ? out.spots.back().area : l.own_area[i];
         }
         return out;
@@ -328,7 +368,8 @@ struct Truth {
         return v;
     }
     double hardness(std::int32_t i) const {
-        return c.solids.hardness * std::sqrt(1 + c.solids.size_effect / r[0].asperities.radius[at(i)]);
+        return c.solids.hardness *
+               std::sqrt(1 + c.solids.size_effect / r[0].asperities.radius[at(i)]);
     }
 };
 

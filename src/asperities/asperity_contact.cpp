@@ -1,0 +1,432 @@
+#include "asperities/asperity_contact.hpp"
+
+#include "asperities/asperity_impl.hpp"
+#include "asperities/dgesv.hpp"
+#include "asperities/ellipse_law.hpp"
+#include "base/error.hpp"
+#include "contact/answers.hpp"
+#include "physics/adhesion/adhesive_contact.hpp"
+#include "physics/hardness/hardness.hpp"
+
+namespace rsc {
+namespace {
+
+using Vector = std::vector<double>;
+
+// Distance that the tip may move before the summits of the difference are detected again.
+double summits_keep(const Asperities& asperities, const Indenter& indenter,
+                    const SolverOptions& options) {
+    double curvature = 0;
+    for (std::size_t i = 0; i < asperities.kappa1.size(); ++i)
+        curvature += std::sqrt(asperities.kappa1[i] * asperities.kappa2[i]);
+    const double size =
+        options.rms_slope * static_cast<double>(asperities.kappa1.size()) / curvature;
+    return std::fmax(
+        0.1 * size,
+        0.02 * options.rms_slope *
+            indenter.shape->hertz_radius());  // hertz_radius() is NaN unless it is a sphere
+}
+
+// Number of summits not deeper than `depth` below the highest one under the indenter.
+std::size_t count_reachable(const Asperities& asperities, const Indenter& indenter, double depth) {
+    std::vector<double> height(asperities.size());
+    for (std::size_t i = 0; i < height.size(); ++i)
+        height[i] = indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]);
+    const double highest = height.empty() ? 0.0 : *std::max_element(height.begin(), height.end());
+    return static_cast<std::size_t>(
+        std::count_if(height.begin(), height.end(), [&](double h) { return h > highest - depth; }));
+}
+
+// True if the law is that of most loaded ellipses.
+bool of_ellipses(const ContactBodies& bodies) {
+    const SolverOptions& options = bodies.options;
+    const auto& found = bodies.of_difference;
+    return traits(options.law).needs_heights && found && found->map &&
+           !std::isfinite(options.hardness.H0) && options.relaxation.none() &&
+           options.mean_spacing > 0 &&
+           count_reachable(bodies.asperities, bodies.indenter, kDeepest * options.sigma) <=
+               kMostEllipses;
+}
+
+// The law of these summits under a tip, without what relaxing bodies remember. With `found`
+// (optional) that of ellipses, which are like those of `like` (optional).
+std::unique_ptr<Law> law_under(const Asperities& asperities, const Indenter& indenter,
+                               const ContactBodies& bodies, const FoundSummits* found,
+                               const Law* like = nullptr) {
+    const SolverOptions& options = bodies.options;
+    auto law = make_law(options.law, asperities, indenter.E_star);
+    if (found) law = make_ellipse_law(std::move(law), *found, indenter, options.mean_spacing, like);
+    return make_yielding(std::move(law), asperities, options.hardness, traits(options.law).sinks);
+}
+
+std::unique_ptr<Law> law_of(const ContactBodies& bodies, bool ellipses,
+                            std::optional<RelaxingAsperities>& relaxing) {
+    const SolverOptions& options = bodies.options;
+    auto law = law_under(bodies.asperities, bodies.indenter, bodies,
+                         ellipses ? &*bodies.of_difference : nullptr);
+    if (options.relaxation.none()) return law;
+    const Creep creep(options.relaxation);
+    auto relaxes = make_relaxing(std::move(law), bodies.asperities.size(), creep);
+    relaxing.emplace(bodies.asperities, bodies.indenter, *relaxes, creep, options.tolerance);
+    return relaxes;
+}
+
+}  // namespace
+
+AsperityContact::Impl::Impl(const Asperities& asperities_, const Indenter& indenter_,
+                            const SolverOptions& options_, SummitSearch search_)
+    : ContactBodies(asperities_, indenter_, options_, std::move(search_)),
+      found_x(indenter_.x0),
+      found_y(indenter_.y0),
+      keeps(of_difference && !of_difference->map ? summits_keep(of_surface, indenter, options) : 0),
+      ellipses(of_ellipses(*this)),
+      law(law_of(*this, ellipses, relaxing)),
+      direct(make_direct_products(kernel)),
+      newton(*law),
+      beside(*this, ellipses) {
+    use(Method::direct);
+    if (options.selection == Selection::paper && std::isnan(indenter.shape->hertz_radius()))
+        throw Error(Failure::bad_input,
+                    "indentation%selection = 'paper' is defined for a sphere only");
+    ranking.assign(asperities, indenter);
+}
+
+// With ellipses all summits down to a depth are followed, which is counted in half octaves, so that
+// results do not depend on earlier levels; otherwise those in contact.
+void AsperityContact::Impl::look_beside(const Level& level) {
+    std::vector<int> which = level.asperity;
+    if (ellipses) {
+        constexpr double more =
+            1.1;  // nodes of the law's tables are up to a twentieth beyond the penetration
+        const double depth =
+            more * (ranking.highest() - level.separation + kernel->shift() * level.force);
+        const double lowest = ranking.highest() - std::exp2(0.5 * std::ceil(2 * std::log2(depth)));
+        if (lowest != std::exchange(beside_lowest, lowest)) beside.forget();
+        which.clear();
+        for (std::size_t i = 0; i < asperities.size(); ++i)
+            if (indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) > lowest)
+                which.push_back(static_cast<int>(i));
+    }
+    beside.follow(which, [&](const FoundSummits& found, const Indenter& there) {
+        return law_under(found.summits, there, *this, ellipses ? &found : nullptr, law.get());
+    });
+}
+
+void AsperityContact::Impl::use(Method how) {
+    method = how;
+    if (how == Method::mesh && !mesh) {
+        // Full products determine the residual and must be more accurate than the tolerance; inner
+        // products only determine steps.
+        mesh = make_mesh_products(kernel, std::min(1e-4, 0.1 * options.tolerance), 1e-3);
+    }
+    products = how == Method::mesh ? mesh.get() : direct.get();
+    newton.use(*products);
+}
+
+void AsperityContact::Impl::select(double Z0) {
+    select_candidates(ranking, indenter, options, *law, Z0 - raised(), candidates);
+    use(choose_method(options, *kernel, candidates.set));
+    if (relaxing) relaxing->lower(candidates, *products);
+}
+
+NewtonOutcome AsperityContact::Impl::solve_from(const Vector& start, bool rough_start) {
+    return solve_candidates(candidates.set, newton, *products,
+                            {options.tolerance, options.max_iterations, rough_start}, start,
+                            solution);
+}
+
+NewtonOutcome AsperityContact::Impl::solve_by_paper(Fallback& why_not) {
+    auto& [v, force, slope] = solution;
+    const PaperMethod paper{options.delta0 * options.sigma, options.delta_cut, options.tolerance,
+                            options.max_iterations};
+    const PaperOutcome result =
+        solve_by_dgesv(*law, *kernel, candidates.set, paper, v, force, slope);
+    if (!result.converged)
+        why_not = result.singular ? Fallback::dgesv_singular : Fallback::dgesv_not_converged;
+    return result;
+}
+
+Level AsperityContact::Impl::report(double Z0) const {
+    const WorkingSet& set = candidates.set;
+    const auto& [v, force, slope] = solution;
+    Level level;
+    level.separation = Z0;
+    level.candidates = candidates.size();
+    std::vector<std::size_t> order;
+    for (std::size_t k = 0; k < force.size(); ++k) {
+        if (force[k] > 0) order.push_back(k);
+    }
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return set.asperity[a] < set.asperity[b]; });
+    for (auto* list : {&level.x, &level.y, &level.f, &level.a, &level.u})
+        list->reserve(order.size());
+    level.asperity.reserve(order.size()), level.yields.reserve(order.size());
+    double extreme = 0;
+    for (std::size_t k : order) {
+        const double area = law->area(set.asperity[k], v[k]);
+        const double f = force[k] / scale();
+        level.add_contact(set.asperity[k], set.x[k], set.y[k], f,
+                          std::sqrt(area / std::numbers::pi), v[k]);
+        level.force += f;
+        level.area += area;
+        level.beyond_law += law->beyond(set.asperity[k], v[k]);
+        level.yields.push_back(law->yields(set.asperity[k], v[k]));
+        level.plastic_contacts += level.yields.back();
+        if (f > kExtreme * indenter.E_star * area) extreme += area;
+    }
+    if (level.area > 0) level.extreme_area_fraction = extreme / level.area;
+    judge_asperities(level, *law, *this);
+    return level;
+}
+
+// Where there is no contact the surface sinks as the contacts do on the average.
+double AsperityContact::Impl::force_slope(double tolerance) {
+    const double slope = newton.stiffness(tolerance);
+    const Vector sinking = newton.sinking();
+    if (follows() || sinking.empty()) return slope / scale();
+    const double mean =
+        std::accumulate(sinking.begin(), sinking.end(), 0.0) / static_cast<double>(sinking.size());
+    Vector change(solution.force.size(), -1 - mean);
+    for (std::size_t k = 0, active = 0; k < change.size(); ++k)
+        if (solution.force[k] > 0) change[k] = -1 - sinking[active++];
+    earlier.bend(candidates, change);
+    return slope / scale();
+}
+
+Level AsperityContact::Impl::level(double Z0, const NewtonOutcome& outcome, bool unique) const {
+    Level level = report(Z0);
+    level.residual = outcome.residual;
+    level.method = method;
+    if (options.method == Method::mesh && method != Method::mesh)
+        level.fallback = Fallback::no_interaction;
+    if (!unique) level.status = graver(level.status, LevelStatus::not_unique);
+    if (!outcome.converged) level.status = LevelStatus::not_converged;
+    return level;
+}
+
+AsperityContact::AsperityContact(const Asperities& asperities, const Indenter& indenter,
+                                 const SolverOptions& options, SummitSearch search)
+    : impl_(std::make_unique<Impl>(asperities, indenter, options, std::move(search))) {}
+AsperityContact::~AsperityContact() = default;
+AsperityContact::AsperityContact(AsperityContact&&) noexcept = default;
+
+Level AsperityContact::solve(double Z0) {
+    Impl& my = *impl_;
+    my.passed = false;
+    my.select(Z0);
+    if (my.candidates.size() == 0) {
+        my.solution.clear();
+        my.solved = {Z0, true};
+        if (!my.follows()) my.earlier.remember(Z0, my.candidates, my.solution.v, true);
+        return my.report(Z0);
+    }
+    const long products_before = my.products_taken();
+    NewtonOutcome outcome;
+    int iterations = 0;
+    bool unique = false, followed = false;
+    const bool dense = my.method == Method::dgesv;
+    Fallback fallback = Fallback::none;
+    if (dense) {
+        my.use(Method::direct);
+        outcome = my.solve_by_paper(fallback);
+        iterations = outcome.iterations;
+        unique = outcome.converged && my.one_solution();
+        my.products->set_points(my.candidates.size(), my.candidates.set.x.data(),
+                                my.candidates.set.y.data());
+        my.newton.take(my.candidates.set, my.solution.v);
+    }
+    const bool by_dgesv = dense && unique;
+    if (Vector start; !unique && (my.follows() || !dense) &&
+                      my.earlier.predict(Z0, my.candidates, start) &&
+                      (my.follows() || my.earlier.unique() || my.selected(start))) {
+        outcome = my.solve_from(start, false);
+        iterations += outcome.iterations;
+        followed = outcome.converged && (my.follows() || my.selected(my.solution.v));
+        unique = outcome.converged && (my.follows() || !followed) && my.one_solution();
+    }
+    if (!unique && !followed) {
+        outcome = my.solve_cold();
+        iterations += outcome.iterations;
+        unique = outcome.converged && my.one_solution();
+        if (outcome.converged && !unique) my.select_cold();
+    }
+    if (dense && !by_dgesv && fallback == Fallback::none) fallback = Fallback::not_unique;
+    my.solved = {Z0, unique};
+    if (!my.follows()) my.earlier.remember(Z0, my.candidates, my.solution.v, unique);
+    Level level = my.level(Z0, outcome, unique);
+    level.iterations = iterations;
+    level.products = by_dgesv
+                         ? iterations
+                         : my.products_taken() - products_before + std::exchange(my.guessing, 0);
+    if (by_dgesv) level.method = Method::dgesv;
+    if (dense) level.fallback = fallback;
+    return level;
+}
+
+Level AsperityContact::pass(double Z0) {
+    Impl& my = *impl_;
+    my.select(Z0);
+    Vector start;
+    if (my.follows() || my.candidates.size() == 0 || my.method == Method::dgesv ||
+        !my.earlier.predict(Z0, my.candidates, start))
+        return solve(Z0);
+    const long products_before = my.products_taken();
+    my.outcome = my.solve_from(start, false);
+    if (!my.outcome.converged) return solve(Z0);
+    my.passed = true;
+    my.earlier.remember(Z0, my.candidates, my.solution.v, false, true);
+    Level level;
+    level.separation = Z0;
+    for (double f : my.solution.force) level.force += f / my.scale();
+    level.iterations = my.outcome.iterations;
+    level.products = my.products_taken() - products_before + std::exchange(my.guessing, 0);
+    return level;
+}
+
+Level AsperityContact::settle(const Level& passed) {
+    Impl& my = *impl_;
+    if (!my.passed) return Contact::settle(passed);
+    my.passed = false;
+    const long products_before = my.products_taken();
+    const bool selected = my.selected(my.solution.v), unique = !selected && my.one_solution();
+    int iterations = 0;
+    if (!unique && !selected) {  // the solution of pass() is not proved to be unique
+        my.outcome = my.solve_cold();
+        iterations = my.outcome.iterations;
+        if (my.outcome.converged) my.select_cold();
+    }
+    my.earlier.remember(passed.separation, my.candidates, my.solution.v, unique);
+    Level level = my.level(passed.separation, my.outcome, unique);
+    level.iterations = iterations;
+    level.products = my.products_taken() - products_before;
+    return level;
+}
+
+void AsperityContact::accept(Level& level) {
+    Impl& my = *impl_;
+    if (!my.law->path_dependent()) return;
+    const WorkingSet& set = my.candidates.set;
+    my.earlier.remember(my.solved.separation, my.candidates, my.solution.v, my.solved.unique);
+    if (my.relaxing) {
+        my.relaxing->accept(set, my.solution, *my.products);
+        level.energy_lost = my.relaxing->lost();
+    } else {
+        my.law->commit(set.size(), set.asperity.data(), my.solution.v.data());
+        level.plastic_work = my.law->work_lost();
+    }
+    if (my.solution.v.empty()) return;
+    // Forces are unchanged; energy and stiffness now refer to unloading.
+    my.products->set_points(set.size(), set.x.data(), set.y.data());
+    my.newton.take(set, my.solution.v);
+}
+
+bool AsperityContact::relaxes() const { return impl_->relaxing.has_value(); }
+
+double AsperityContact::shortest_time() const { return impl_->options.relaxation.shortest(); }
+
+void AsperityContact::step(double dt) { impl_->relaxing->step(dt); }
+
+void AsperityContact::forget_levels() {
+    const Impl& my = *impl_;
+    if (my.of_difference && (my.law->path_dependent() || my.indenter.x0 != my.found_x ||
+                             my.indenter.y0 != my.found_y)) {
+        impl_ = std::make_unique<Impl>(my.of_surface, Indenter(my.indenter),
+                                       SolverOptions(my.options), my.search);
+        return;
+    }
+    impl_->earlier = {};
+    impl_->expect_repeats(false);
+    impl_->proof = {};
+    impl_->candidates = {};
+    impl_->solution.clear();
+    impl_->ranking.assign(impl_->asperities, impl_->indenter);
+}
+
+bool AsperityContact::path_dependent() const { return impl_->law->path_dependent(); }
+
+double AsperityContact::tolerance() const {
+    return impl_->options.tolerance * impl_->newton.share();
+}
+
+std::optional<double> AsperityContact::likely_separation() const {
+    if (impl_->solution.force.empty()) return std::nullopt;
+    return impl_->earlier.likely_separation(first_touch());
+}
+
+std::size_t AsperityContact::levels_since_move() const { return impl_->earlier.size(); }
+
+double AsperityContact::shift() const { return impl_->kernel->shift() * impl_->scale(); }
+
+void AsperityContact::begins() { impl_->newton.begin_level(); }
+
+// With Z0 = Z0' + c N, c the kernel's shift: dZ0/dN = 1/(dN/dZ0') + c.
+double AsperityContact::slope() {
+    if (shift() == 0) impl_->newton.expect_exact();
+    return impl_->solution.v.empty() ? 0 : impl_->force_slope(1e-3);
+}
+
+double AsperityContact::stiffness() {
+    if (impl_->solution.v.empty()) return 0;
+    const double slope = impl_->newton.stiffness(1e-12) / impl_->scale();
+    return slope / (1 + shift() * slope);
+}
+
+// The shift c adds c N^2/2 to F'BF/2, which is not part of the energy of the bodies.
+double AsperityContact::energy() const {
+    if (relaxes()) return impl_->relaxing->stored();
+    if (impl_->solution.v.empty()) return 0;
+    double N = 0;
+    for (double f : impl_->solution.force) N += f;
+    return 0.0 - impl_->newton.energy() - 0.5 * shift() * N * N;
+}
+
+// Spots that were unloaded, or relax, have the pressures of a first loading at a smaller scale.
+Vec2 AsperityContact::lateral(const Level& level) {
+    Impl& my = *impl_;
+    if (!my.beside.known() || !(level.force > 0)) return lateral_force(my.indenter, level);
+    my.look_beside(level);
+    return my.beside.lateral(
+        level.asperity, level.f, relaxes(), [&](SummitsBeside::Tip& tip, std::size_t k) {
+            return tip.law->response(level.asperity[k],
+                                     my.law->first_loading(level.asperity[k], level.u[k]));
+        });
+}
+
+void AsperityContact::move_tip(double x0, double y0) {
+    if (!std::isfinite(x0) || !std::isfinite(y0))
+        throw Error(Failure::bad_input, "the tip's position must be finite");
+    Impl& my = *impl_;
+    if (my.of_difference && my.law->path_dependent()) return move_with_memory(x0, y0);
+    my.earlier.carry(my.candidates, my.solution.v, my.asperities.size(),
+                     {my.indenter.x0, my.indenter.y0}, {x0, y0});
+    const bool opens = my.indenter.repeats.finite() && !my.indenter.around.finite();
+    my.indenter.move(x0, y0);
+    if (my.of_difference) {
+        const double moved = std::hypot(my.indenter.around.nearest_x(x0 - my.found_x),
+                                        my.indenter.around.nearest_y(y0 - my.found_y));
+        // With the heights at hand the summits are those of the place of the tip, as in a new
+        // contact.
+        if (opens || moved > my.keeps) {
+            forget();
+            return;
+        }
+    }
+    my.ranking.move(x0, y0);
+    my.expect_repeats(true);
+}
+
+double AsperityContact::first_touch() const { return impl_->ranking.highest() + impl_->raised(); }
+
+const Indenter& AsperityContact::indenter() const { return impl_->indenter; }
+
+const Asperities* AsperityContact::asperities() const { return &impl_->asperities; }
+
+std::unique_ptr<Contact> make_asperity_contact(const Asperities& asperities,
+                                               const Indenter& indenter,
+                                               const SolverOptions& options, SummitSearch search) {
+    if (options.adhesion.work > 0)
+        return make_adhesive_contact(asperities, indenter, options, std::move(search));
+    return std::make_unique<AsperityContact>(asperities, indenter, options, std::move(search));
+}
+
+}  // namespace rsc

@@ -1,0 +1,99 @@
+// State of an AsperityContact, for the files that implement it.
+#pragma once
+
+#include "asperities/asperity_contact.hpp"
+#include "asperities/beside.hpp"
+#include "asperities/candidates.hpp"
+#include "asperities/ranking.hpp"
+#include "asperities/start.hpp"
+#include "asperities/uniqueness.hpp"
+#include "interaction/products.hpp"
+#include "physics/relaxation/relaxing_asperities.hpp"
+
+namespace rsc {
+
+struct AsperityContact::Impl : ContactBodies {
+    double found_x, found_y;  // position of the tip at which the summits were found
+    double keeps;             // distance from there up to which they are kept
+    std::optional<RelaxingAsperities> relaxing;
+    bool ellipses;  // the law is that of most loaded ellipses
+    std::unique_ptr<Law> law;
+    Ranking ranking;
+
+    // The current level and its solution.
+    Candidates candidates;
+    Solution solution;
+    Method method = Method::direct;
+    NewtonOutcome outcome;  // outcome of pass() and settle()
+    bool passed = false;    // the solution is that of pass() and has not been settled
+    long guessing = 0;      // products taken by guessed_separation() and not yet told
+    struct {
+        double separation = 0;
+        bool unique = true;  // the solution is proved to be unique
+    } solved;                // last result of solve()
+
+    EarlierLevels earlier;
+    LastingProof proof;
+    std::unique_ptr<Products> direct, mesh;  // mesh: created on first use
+    Products* products = nullptr;            // the products in use
+    Newton newton;
+    SummitsBeside beside;
+    double beside_lowest = 0;  // with ellipses, clearance down to which summits were followed
+
+    Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_,
+         SummitSearch search_);
+
+    double scale() const {
+        return relaxing ? relaxing->scale() : 1.0;
+    }  // ratio of the forces of the law to the true ones
+    // Shift of the separation used by solve() due to earlier loads of a relaxing body (periodic
+    // flats).
+    double raised() const { return relaxing ? kernel->shift() * relaxing->rest() : 0.0; }
+    long products_taken() const { return direct->count() + (mesh ? mesh->count() : 0); }
+    void use(Method how);
+    void expect_repeats(bool expect) {
+        newton.expect_repeats(expect), direct->expect_repeats(expect);
+    }
+    void select(double Z0);  // determines candidates and method
+    NewtonOutcome solve_from(const std::vector<double>& start, bool rough_start);
+    // True if the solution continues the branch of the accepted levels (path-dependent laws). For
+    // other laws solve_cold() selects among several solutions.
+    bool follows() const { return law->path_dependent(); }
+    // Descends from the no-interaction start to a minimum of the energy. This defines the solution
+    // if there are several.
+    NewtonOutcome solve_cold() {
+        return solve_from(cold_start(*law, *products, candidates.set), true);
+    }
+    // To be called with its solution, if that is not proved to be unique.
+    void select_cold() {
+        if (!follows())
+            proof.select(candidates.set.asperity, candidates.set.x, candidates.set.y, solution.v);
+    }
+    // True for the solution v to which solve_cold() leads although there may be others: one nearly
+    // at this place is known.
+    bool selected(const std::vector<double>& v) const {
+        return !follows() &&
+               proof.selected(candidates.set.asperity, candidates.set.x, candidates.set.y, v);
+    }
+    double force_slope(
+        double tolerance);  // dN/dZ0; the next level is predicted with what this takes
+    Level level(double Z0, const NewtonOutcome& outcome, bool unique) const;
+    NewtonOutcome solve_by_paper(Fallback& why_not);
+    bool one_solution() {
+        const auto& [v, force, slope] = solution;
+        // On a soft layer self() < 0: a spot wider than the layer can be unstable by itself (no
+        // minimum of the energy).
+        if (std::any_of(slope.begin(), slope.end(),
+                        [&](double rate) { return 1 + rate * kernel->self() <= 0; }))
+            return false;
+        const WorkingSet& set = candidates.set;
+        if (follows())
+            return has_one_solution(*law, *kernel, set.asperity, set.x, set.y, v, force, slope);
+        return proof.holds(*law, *kernel, set.asperity, set.x, set.y, v, force, slope,
+                           {set.g0.front(), indenter.x0, indenter.y0});
+    }
+    Level report(double Z0) const;
+    void look_beside(const Level& level);
+};
+
+}  // namespace rsc

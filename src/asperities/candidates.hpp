@@ -1,0 +1,48 @@
+// Candidates, the asperities for which a level is solved, and its solution by Newton's method on
+// those near contact.
+#pragma once
+
+#include "asperities/law.hpp"
+#include "asperities/newton.hpp"
+#include "asperities/ranking.hpp"
+#include "contact/indentation.hpp"
+#include "interaction/kernel.hpp"
+
+namespace rsc {
+
+struct Candidates {
+    WorkingSet set;
+    std::vector<std::size_t> rank;  // position of each candidate in the ranking
+    int size() const { return set.size(); }
+};
+
+// Selects the asperities with g0 > 0. No others can touch, because forces only lower the surface (B
+// F >= 0). Selection::paper also drops those outside r0 = 1.5 sqrt(2 (4 sigma - Z0) R) (paper,
+// section 4). The law is prepared for all candidates.
+void select_candidates(Ranking& ranking, const Indenter& indenter, const SolverOptions& options,
+                       Law& law, double Z0, Candidates& candidates);
+
+// Solution over the candidates: penetrations v with interaction (negative: no contact), forces and
+// slopes of the law.
+struct Solution {
+    std::vector<double> v, force, slope;
+    void clear() { v.clear(), force.clear(), slope.clear(); }
+};
+
+struct WorkingSetOptions {
+    double tolerance;
+    int max_iterations;
+    bool
+        // the start is a guess: the set is selected again once the solution is known to 10 %, and
+        // the result is tested to be
+        rough_start;
+    // a minimum. Otherwise the caller must prove uniqueness.
+};
+
+// Solves from penetrations `start` over the candidates. Candidates far from contact are excluded
+// from the working set, checked at the end, and included if they touch. `newton` uses `products`.
+NewtonOutcome solve_candidates(const WorkingSet& candidates, Newton& newton, Products& products,
+                               const WorkingSetOptions& options, const std::vector<double>& start,
+                               Solution& solution);
+
+}  // namespace rsc

@@ -1,0 +1,63 @@
+#include "asperities/ellipse.hpp"
+
+#include <boost/math/special_functions/ellint_rd.hpp>
+#include <boost/math/special_functions/ellint_rf.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+
+#include "base/error.hpp"
+
+namespace rsc {
+namespace {
+
+// B = [E - (1 - k^2) K]/k^2 and D = (K - E)/k^2 of modulus k, which are finite and accurate at k =
+// 0 (Carlson's forms).
+struct Elliptic {
+    double K, B, D;
+};
+
+Elliptic elliptic(double complementary) {
+    const double K = complete_K(complementary),
+                 D = boost::math::ellint_rd(0.0, complementary * complementary, 1.0) / 3;
+    return {K, K - D, D};
+}
+
+}  // namespace
+
+double complete_K(double complementary) {
+    return boost::math::ellint_rf(0.0, complementary * complementary, 1.0);
+}
+
+EllipseFactors ellipse_factors(double ratio) {
+    if (!(ratio >= 1) || !std::isfinite(ratio)) {
+        throw Error(
+            Failure::bad_input,
+            "the ratio of the principal curvatures of a summit must be finite and at least 1");
+    }
+    // ln ratio as a function of ln axes is nearly a straight line of slope -3/2 (Johnson, eq.
+    // 4.28): kappa1/kappa2 = [(a/b)^2 E - K]/[K - E].
+    constexpr double nearly_round = 1e-9;
+    const double wanted = std::log(ratio);
+    double x = -2.0 / 3 * wanted;
+    if (wanted > nearly_round) {
+        std::uintmax_t steps = 100;
+        const auto miss = [wanted](double at) {
+            const double axes = std::exp(at);
+            const Elliptic e = elliptic(axes);
+            return std::log(e.B / (axes * axes * e.D)) - wanted;
+        };
+        const auto [low, high] = boost::math::tools::toms748_solve(
+            miss, -wanted, -0.5 * wanted, boost::math::tools::eps_tolerance<double>(), steps);
+        x = 0.5 * (low + high);
+    }
+    EllipseFactors f;
+    f.axes = std::exp(x);
+    const Elliptic e = elliptic(f.axes);
+    // F1 of eq. 4.30 with the powers of e^2 cancelled, since [(a/b)^2 E - K][K - E] = e^4 B D
+    // (a/b)^2.
+    f.F1 = std::cbrt(4 / std::numbers::pi) * std::sqrt(f.axes) *
+           std::pow(e.B * e.D / (f.axes * f.axes), 1.0 / 6);
+    f.F2 = 2 / std::numbers::pi * std::sqrt(f.axes) * e.K / f.F1;
+    return f;
+}
+
+}  // namespace rsc

@@ -1,0 +1,273 @@
+#include "asperities/spots.hpp"
+
+#include "interaction/close_pairs.hpp"
+
+namespace rsc {
+namespace {
+
+using std::numbers::pi;
+
+struct Vector {
+    double x, y;
+};
+double dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y; }
+
+struct Ellipse {
+    Vector centre, axis;  // axis: unit vector along the major semi-axis
+    double major, minor;
+    Vector in_axes(const Vector& v) const {
+        return {v.x * axis.x + v.y * axis.y, v.y * axis.x - v.x * axis.y};
+    }
+    // Half the extent along a unit vector.
+    double extent(const Vector& direction) const {
+        const Vector d = in_axes(direction);
+        return std::sqrt(major * major * d.x * d.x + minor * minor * d.y * d.y);
+    }
+};
+
+struct Interval {
+    double from, to;
+};
+
+constexpr double
+    kStart = 0.3,
+    kEnd = kStart +
+           2 * pi;  // range of the parameter t along a border; not from 0, where spots often touch
+
+// Sample points along a border, denser than the (at most four) extrema of f usually are.
+struct Samples {
+    static constexpr std::size_t count = 33;  // both ends
+    std::array<double, count> t;
+    std::array<double, count> c, s;  // cos t, sin t
+    Samples() {
+        for (std::size_t k = 0; k < count; ++k) {
+            t[k] = kStart + 2 * pi * static_cast<double>(k) / (count - 1);
+            c[k] = std::cos(t[k]), s[k] = std::sin(t[k]);
+        }
+    }
+};
+const Samples& samples() {
+    static const Samples all;
+    return all;
+}
+
+// Part of the border of p inside q. For the points centre + (major cos t, minor sin t) on the
+// border of p, the border of q is at the roots of f(t) = |c + u cos t + v sin t|^2 - 1, a
+// trigonometric polynomial of second degree with at most four roots.
+class Border {
+public:
+    Border(const Ellipse& p, const Ellipse& q) {
+        const Vector c = q.in_axes({p.centre.x - q.centre.x, p.centre.y - q.centre.y}),
+                     turn = q.in_axes(p.axis);
+        c_ = {c.x / q.major, c.y / q.minor};
+        u_ = {p.major * turn.x / q.major, p.major * turn.y / q.minor};
+        v_ = {-p.minor * turn.y / q.major, p.minor * turn.x / q.minor};
+        scale_ = 1 + dot(c_, c_) + dot(u_, u_) + dot(v_, v_);
+    }
+
+    void append_inside(std::vector<Interval>& covered) const {
+        const Samples& at = samples();
+        std::array<double, Samples::count> values, slopes;
+        for (std::size_t k = 0; k < Samples::count; ++k) {
+            const Answer a = ask({at.c[k], at.s[k]});
+            values[k] = a.f, slopes[k] = a.half_slope;
+        }
+        const auto value = [](const Answer& a) { return Vector{a.f, 2 * a.half_slope}; };
+        const auto slope = [](const Answer& a) { return Vector{a.half_slope, a.half_second}; };
+        double from = kStart;
+        for (std::size_t k = 1; k < Samples::count; ++k) {
+            const double low = at.t[k - 1], high = at.t[k];
+            const bool in = values[k - 1] < 0, stays = in == (values[k] < 0),
+                       sinks = slopes[k - 1] < 0;
+            if (!stays) {
+                const double t = root(
+                    low, high, low - values[k - 1] * (high - low) / (values[k] - values[k - 1]), in,
+                    value);
+                if (in)
+                    covered.push_back({from, t});
+                else
+                    from = t;
+            } else if (sinks != in && sinks != (slopes[k] < 0) &&
+                       std::abs(values[k]) < 0.08 * scale_) {
+                // An extremum between two samples may cross 0 (f'' is at most 4 scale_), which
+                // gives two more roots unless it only touches.
+                const double top = root(low, high, 0.5 * (low + high), sinks, slope),
+                             f_top = ask({std::cos(top), std::sin(top)}).f;
+                if ((f_top < 0) == in || std::abs(f_top) < 1e-13 * scale_) continue;
+                const double first = root(low, top, 0.5 * (low + top), in, value),
+                             last = root(top, high, 0.5 * (top + high), !in, value);
+                if (in)
+                    covered.push_back({from, first}), from = last;
+                else
+                    covered.push_back({first, last});
+            }
+        }
+        if (values.back() < 0) covered.push_back({from, kEnd});
+    }
+
+private:
+    struct Answer {
+        double f, half_slope, half_second;
+    };
+    Answer ask(const Vector& t) const {  // cos t, sin t
+        const Vector turned{u_.x * t.x + v_.x * t.y, u_.y * t.x + v_.y * t.y},
+            w{c_.x + turned.x, c_.y + turned.y};
+        const Vector slope{v_.x * t.x - u_.x * t.y, v_.y * t.x - u_.y * t.y};
+        return {dot(w, w) - 1, dot(w, slope), dot(slope, slope) - dot(w, turned)};
+    }
+
+    // Newton's method from t between two points of different sign, with bisection if it leaves this
+    // interval. The function is negative at
+    // `low` if it `rises`; `of` returns value and slope.
+    template <class F>
+    double root(double low, double high, double t, bool rises, F of) const {
+        for (int k = 0; k < 100; ++k) {
+            const Vector f = of(ask({std::cos(t), std::sin(t)}));
+            if (f.x == 0) break;
+            ((f.x < 0) == rises ? low : high) = t;
+            const double newton = t - f.x / f.y;
+            const bool inside = newton > low && newton < high;
+            const bool last =
+                inside && std::abs(newton - t) < 1e-8;  // its square is below rounding
+            t = inside ? newton : 0.5 * (low + high);
+            if (last || !(low < t && t < high)) break;
+        }
+        return t;
+    }
+    Vector c_, u_, v_;
+    double scale_;  // magnitude of the terms of f
+};
+
+// Half the integral of x dy - y dx along the border between two parameters, about an origin near
+// it.
+double swept(const Ellipse& e, const Vector& origin, double from, double to) {
+    const double along = e.major * (std::cos(to) - std::cos(from)),
+                 across = e.minor * (std::sin(to) - std::sin(from));
+    const double x = e.centre.x - origin.x, y = e.centre.y - origin.y;
+    const double dx = along * e.axis.x - across * e.axis.y,
+                 dy = along * e.axis.y + across * e.axis.x;
+    return 0.5 * (e.major * e.minor * (to - from) + x * dy - y * dx);
+}
+
+}  // namespace
+
+long count_overlapping(const std::vector<double>& x, const std::vector<double>& y,
+                       const std::vector<double>& a, const Period& period) {
+    long pairs = 0;
+    for_close_pairs(x, y, a, period, [&](std::size_t, std::size_t, double) { ++pairs; });
+    return pairs;
+}
+
+double union_area(const std::vector<Spot>& spots, long* close, const Period& period,
+                  std::vector<double>* own) {
+    const std::size_t n = spots.size();
+    std::vector<double> x(n), y(n), reach(n);
+    double area = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        x[i] = spots[i].x, y[i] = spots[i].y, reach[i] = spots[i].minor > 0 ? spots[i].major : 0;
+        area += pi * spots[i].major * spots[i].minor;
+    }
+    struct Near {
+        std::size_t i, j;
+        double d;
+    };
+    std::vector<Near> pairs;
+    for_close_pairs(x, y, reach, period, [&](std::size_t i, std::size_t j, double d) {
+        pairs.push_back({i, j, d});
+    });
+    const auto radius = [&](std::size_t i) { return std::sqrt(spots[i].major * spots[i].minor); };
+    if (close)
+        *close = std::count_if(pairs.begin(), pairs.end(),
+                               [&](const Near& p) { return p.d < radius(p.i) + radius(p.j); });
+
+    // Computes for each spot the area not covered by earlier ones, in its own frame, so that
+    // periodic images need no special treatment.
+    struct Cover : Interval {
+        std::size_t by;
+    };
+    struct Before {
+        std::size_t spot;
+        Vector centre;  // relative to the later spot
+    };
+    struct Place {
+        Ellipse ellipse;
+        std::vector<Cover> covered;  // covered parts of the border
+        std::vector<Before> before;
+    };
+    constexpr std::size_t none = static_cast<std::size_t>(-1);
+    std::vector<std::size_t> place_of(
+        n, none);  // index in `places` of a spot that has close neighbours
+    std::vector<Place> places;
+    const auto place = [&](std::size_t i) {
+        if (place_of[i] == none) {
+            const Spot& s = spots[i];
+            place_of[i] = places.size();
+            places.push_back(
+                {{{0, 0}, {std::cos(s.angle), std::sin(s.angle)}, s.major, s.minor}, {}, {}});
+        }
+        return place_of[i];
+    };
+    std::vector<Interval> inside;
+    for (const auto& [i, j, d] : pairs) {
+        const std::size_t first = std::min(place(i), place(j)),
+                          later = std::max(place(i), place(j));
+        const bool forward = first == place_of[i];
+        const double dx = period.nearest_x(x[j] - x[i]), dy = period.nearest_y(y[j] - y[i]);
+        const Vector centre = forward ? Vector{-dx, -dy} : Vector{dx, dy};
+        Ellipse p = places[first].ellipse;
+        const Ellipse q = places[later].ellipse;
+        p.centre = centre;
+        if (d > 0 && d >= p.extent({dx / d, dy / d}) + q.extent({dx / d, dy / d})) continue;
+        const auto cover = [&](const Ellipse& a, const Ellipse& b, std::size_t whose,
+                               std::size_t by) {
+            inside.clear();
+            Border(a, b).append_inside(inside);
+            for (const Interval& part : inside) places[whose].covered.push_back({part, by});
+        };
+        cover(p, q, first, later);
+        cover(q, p, later, first);
+        places[later].before.push_back({first, centre});
+    }
+    for (Place& p : places)
+        std::sort(p.covered.begin(), p.covered.end(), [](const Cover& a, const Cover& b) {
+            return a.from != b.from ? a.from < b.from : a.by < b.by;
+        });
+    // Area swept by a part of the border of p about the origin, where it is not covered by spots
+    // before number `later`.
+    const auto open_part = [&](const Place& p, const Vector& centre, Interval part,
+                               std::size_t later) {
+        Ellipse e = p.ellipse;
+        e.centre = centre;
+        double sum = 0;
+        for (const Cover& c : p.covered) {
+            if (c.by >= later || c.to <= part.from) continue;
+            if (c.from >= part.to) break;
+            if (c.from > part.from) sum += swept(e, {0, 0}, part.from, c.from);
+            part.from = std::max(part.from, c.to);
+        }
+        return part.from < part.to ? sum + swept(e, {0, 0}, part.from, part.to) : sum;
+    };
+    std::vector<double> covered(places.size(), 0.0);  // area of a spot covered by earlier ones
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        const Place& p = places[k];
+        if (p.before.empty()) continue;
+        covered[k] =
+            pi * p.ellipse.major * p.ellipse.minor - open_part(p, {0, 0}, {kStart, kEnd}, k);
+        for (const auto& [spot, centre] : p.before) {
+            const Place& q = places[spot];
+            for (const Cover& c : q.covered)
+                if (c.by == k) covered[k] += open_part(q, centre, c, k);
+        }
+        area -= covered[k];
+    }
+    if (own) {
+        // Places are numbered in the order in which they occur in pairs, not as the spots.
+        own->clear();
+        for (std::size_t i = 0; i < n; ++i)
+            own->push_back(pi * spots[i].major * spots[i].minor -
+                           (place_of[i] == none ? 0.0 : covered[place_of[i]]));
+    }
+    return area;
+}
+
+}  // namespace rsc

@@ -1,0 +1,62 @@
+// Starting points for the solution of a level: predicted from earlier levels if that is safe,
+// otherwise the default start, which defines the solution.
+#pragma once
+
+#include "asperities/candidates.hpp"
+#include "interaction/products.hpp"
+
+namespace rsc {
+
+// Earlier levels, from which B F of the next level is extrapolated.
+class EarlierLevels {
+public:
+    // Stores the level at Z0 with penetrations v over the candidates. `unique`: its solution is
+    // proved to be unique. `passed`: an intermediate solution, which is replaced by the next one
+    // and need not be unique.
+    void remember(double Z0, const Candidates& candidates, const std::vector<double>& v,
+                  bool unique, bool passed = false);
+
+    // Sets dphi/dZ0 of the last level stored, over its candidates, which serves until there is
+    // another level.
+    void bend(const Candidates& candidates, const std::vector<double>& slope);
+
+    // To be called when the tip moves from one place to another and ranks become invalid: stores
+    // the last level by asperity as the start of the next level. On a way straight on, the next
+    // level is extrapolated from the last levels of two places.
+    void carry(const Candidates& candidates, const std::vector<double>& v, std::size_t asperities,
+               Vec2 from, Vec2 to);
+
+    bool unique() const { return unique_; }  // the last solution is proved to be unique
+    // Predicts penetrations at Z0. Candidates that are not in earlier levels are assumed not to
+    // touch (which is checked later). Returns false without a prediction.
+    bool predict(double Z0, const Candidates& candidates, std::vector<double>& start) const;
+
+    // Start for force control, if there is one below `first_touch`.
+    std::optional<double> likely_separation(double first_touch) const;
+    std::size_t size() const { return solved_; }  // number of levels stored since the tip moved
+
+private:
+    struct Past {
+        double separation;
+        std::vector<double> phi;  // B F by rank; NaN: unknown
+        bool passed;
+        std::vector<double> slope = {};  // d phi/dZ0; empty: unknown
+    };
+    std::deque<Past> past_;
+    std::size_t solved_ = 0;
+    bool unique_ = true;
+
+    struct Carried {
+        double separation = 0;
+        Vec2 place{};
+        std::vector<double> phi;  // B F by asperity; NaN: unknown
+        std::vector<int> known;   // asperities with known B F
+    } carried_, before_;          // of the last place of the tip, and of the one before
+    double ahead_ = 0;  // the last move of the tip relative to the one before; 0: not straight on
+};
+
+// Mean-field start: penetrations g0 - s of the no-interaction forces F = f(<g0 - s>), where s is
+// the mean of B F weighted with F. s is found by bisection with a fixed number of products.
+std::vector<double> cold_start(const Law& law, Products& products, const WorkingSet& candidates);
+
+}  // namespace rsc

@@ -1,0 +1,79 @@
+// Values as they lie in memory, one after another in a string of bytes, and back: for files of this
+// machine and this version.
+#pragma once
+
+#include "base/error.hpp"
+
+namespace rsc {
+
+// The bytes of one value, and back. Throws Error(internal) for bytes of another length.
+template <class T>
+std::string bytes_of(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+template <class T>
+T from_bytes(std::string_view bytes) {
+    T value{};
+    if (bytes.size() != sizeof value)
+        throw Error(Failure::internal, "a message between processes has the wrong length");
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return value;
+}
+
+class ArchiveWriter {
+public:
+    static constexpr bool writing = true;
+    template <class T>
+    void operator()(const T& value) {
+        bytes += bytes_of(value);
+    }
+    template <class T>
+    void operator()(const std::vector<T>& values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        (*this)(static_cast<std::uint64_t>(values.size()));
+        bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+    }
+    std::string bytes;
+};
+
+// Reads what a writer wrote, in the same order. `bytes` must outlive it. Throws Error(failure,
+// broken) where they end too early, or late.
+class ArchiveReader {
+public:
+    static constexpr bool writing = false;
+    ArchiveReader(std::string_view bytes, Failure failure, const char* broken)
+        : bytes_(bytes), failure_(failure), broken_(broken) {}
+    template <class T>
+    void operator()(T& value) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        std::memcpy(&value, take(sizeof value), sizeof value);
+    }
+    template <class T>
+    void operator()(std::vector<T>& values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        std::uint64_t size = 0;
+        (*this)(size);
+        if (size > bytes_.size() / sizeof(T)) throw Error(failure_, broken_);
+        values.resize(static_cast<std::size_t>(size));
+        const std::size_t length = values.size() * sizeof(T);
+        const char* from = take(length);
+        if (length > 0) std::memcpy(values.data(), from, length);
+    }
+    void end() const {
+        if (!bytes_.empty()) throw Error(failure_, broken_);
+    }
+
+private:
+    const char* take(std::size_t n) {
+        if (n > bytes_.size()) throw Error(failure_, broken_);
+        const char* p = bytes_.data();
+        bytes_.remove_prefix(n);
+        return p;
+    }
+    std::string_view bytes_;
+    Failure failure_;
+    const char* broken_;
+};
+
+}  // namespace rsc

@@ -1,0 +1,35 @@
+// Text by the rules of printf.
+#pragma once
+
+#include "base/std.hpp"
+
+namespace rsc {
+
+// At most 599 characters; longer texts are cut.
+[[gnu::format(printf, 1, 2)]] inline std::string format(const char* text, ...) {
+    char buffer[600];
+    std::va_list values;
+    va_start(values, text);
+    std::vsnprintf(buffer, sizeof buffer, text, values);
+    va_end(values);
+    return buffer;
+}
+
+// A number in a message.
+inline std::string text_of(double value) { return format("%.9g", value); }
+
+// For messages: text of others, cut, with control characters replaced, those of terminals in UTF-8
+// included.
+inline std::string printable(std::string_view text, std::size_t most = 60) {
+    std::string shown(text.substr(0, most));
+    for (std::size_t k = 0; k < shown.size(); ++k) {
+        const auto c = static_cast<unsigned char>(shown[k]);
+        const bool second =
+            k > 0 && static_cast<unsigned char>(text[k - 1]) == 0xc2 && c >= 0x80 && c < 0xa0;
+        if (c < 32 || c == 127 || second) shown[k] = '?';
+        if (second) shown[k - 1] = '?';
+    }
+    return shown;
+}
+
+}  // namespace rsc

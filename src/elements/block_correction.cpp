@@ -1,0 +1,100 @@
+#include "elements/block_correction.hpp"
+
+#include "base/parallel.hpp"
+
+namespace rsc {
+namespace {
+
+// The side of a block is the smallest divisor of nx and ny between these. Blocks wider than the
+// reach of M do not repeat its work; on narrower blocks the steps cost more than they save.
+constexpr int kNarrowest = 12, kWidest = 32;
+constexpr int kFewest = 16;  // blocks along a side
+constexpr double kFilter =
+    0.25;  // F is multiplied by exp(-kFilter (k side)^2), because P is not smooth
+// Reduction of the residual on blocks, and a bound for its steps; more accurate solutions do not
+// save steps on pixels.
+constexpr double kReduction = 0.01;
+constexpr int kSteps = 60;
+
+}  // namespace
+
+BlockCorrection::BlockCorrection(int nx, int ny, double aspect, const PixelStencil& inverse,
+                                 const Share& share) {
+    const int common = std::gcd(nx, ny);
+    int side = kNarrowest;
+    while (side <= kWidest && common % side != 0) ++side;
+    if (side > kWidest || std::min(nx, ny) < kFewest * side) return;
+    side_ = side, mx_ = nx / side, my_ = ny / side;
+    far_ = std::make_unique<PeriodicPixels<float>>(mx_, my_, 1, aspect, [&](double k_side) {
+        const double k = k_side / side,
+                     beyond = (share ? 1 + share(k) : 1) - 0.5 * k / inverse.transform(k);
+        return std::max(beyond, 0.0) * std::exp(-kFilter * k_side * k_side) - 1;
+    });
+}
+
+std::vector<float> BlockCorrection::sums(const PixelSet& set, const float* r, int threads) const {
+    std::vector<float> sums(at(mx_) * at(my_), 0.0f);
+    parallel_for(my_, 1, threads, [&](int J) {
+        for (int j = J * side_; j < (J + 1) * side_; ++j)
+            for (std::size_t k = set.rows[at(j)]; k < set.rows[at(j) + 1]; ++k)
+                sums[at(J) * at(mx_) + at(set.column[k] / side_)] += m_[k] * (r ? r[k] : 1.0f);
+    });
+    return sums;
+}
+
+void BlockCorrection::set(const PixelSet& set, std::vector<float> m, int threads) {
+    m_ = std::move(m);
+    root_ = sums(set, nullptr, threads);
+    for (float& d : root_) d = std::sqrt(std::max(d, 0.0f));
+}
+
+void BlockCorrection::multiply(const std::vector<float>& x, std::vector<float>& Fx) {
+    Fx.resize(x.size());
+    far_->apply(
+        [&](int J, float* row) {
+            const std::size_t first = at(J) * at(mx_);
+            for (std::size_t i = 0; i < at(mx_); ++i) row[i] = x[first + i] * root_[first + i];
+        },
+        [&](int J, const float* row) {
+            const std::size_t first = at(J) * at(mx_);
+            for (std::size_t i = 0; i < at(mx_); ++i)
+                Fx[first + i] = row[i] * root_[first + i] / static_cast<float>(side_);
+        });
+}
+
+void BlockCorrection::subtract(const PixelSet& set, const float* r, float* y, int threads) {
+    // Solves (1 + D^1/2 F D^1/2) z = D^-1/2 P' M r. The wanted field is then F D^1/2 z.
+    std::vector<float> residual = sums(set, r, threads), z(residual.size(), 0.0f), direction, image;
+    const auto product = [](const std::vector<float>& a, const std::vector<float>& b) {
+        double sum = 0;
+        for (std::size_t i = 0; i < a.size(); ++i)
+            sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+        return sum;
+    };
+    const auto divide = [&](std::vector<float>& x) {
+        for (std::size_t i = 0; i < x.size(); ++i) x[i] = root_[i] > 0 ? x[i] / root_[i] : 0.0f;
+    };
+    divide(residual);
+    direction = residual;
+    double square = product(residual, residual);
+    const double wanted = kReduction * kReduction * square;
+    for (int step = 0; step < kSteps && square > wanted; ++step) {
+        multiply(direction, image);
+        for (std::size_t i = 0; i < image.size(); ++i) image[i] += direction[i];
+        const auto alpha = static_cast<float>(square / product(direction, image));
+        for (std::size_t i = 0; i < z.size(); ++i)
+            z[i] += alpha * direction[i], residual[i] -= alpha * image[i];
+        const double last = std::exchange(square, product(residual, residual));
+        const auto beta = static_cast<float>(square / last);
+        for (std::size_t i = 0; i < z.size(); ++i) direction[i] = residual[i] + beta * direction[i];
+    }
+    multiply(z, image);
+    divide(image);
+    parallel_for(my_, 1, threads, [&](int J) {
+        const float* const field = image.data() + at(J) * at(mx_);
+        for (std::size_t k = set.rows[at(J * side_)]; k < set.rows[at((J + 1) * side_)]; ++k)
+            y[k] -= m_[k] * field[set.column[k] / side_];
+    });
+}
+
+}  // namespace rsc

@@ -1,0 +1,343 @@
+#include "elements/bounded.hpp"
+
+#include "base/parallel.hpp"
+
+namespace rsc {
+namespace {
+
+constexpr int kRows = 8;  // that a thread takes at a time
+// Error above which the sets change so much that a round is made of two.
+constexpr double kUnsettled = 1e-3;
+// Later rounds of a stiffness reduce the residual to this part of its tolerance.
+constexpr double kEnough = 0.8;
+// Part of a stiffness that products inside a round, exact to some per cent, determine well enough.
+constexpr double kSmall = 5e-5;
+
+}  // namespace
+
+template <class Sum, class F>
+Sum BoundedSolver::sum_with(F&& add) {
+    const int rows = static_cast<int>(rows_.size()) - 1;
+    std::vector<Sum> partial(at(rows));
+    parallel_for(rows, kRows, threads_for(p_.size()), [&](int j) {
+        Sum part{};
+        for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) add(part, k);
+        partial[at(j)] = part;
+    });
+    return std::accumulate(partial.begin(), partial.end(), Sum{});
+}
+
+template <class F>
+double BoundedSolver::sum(F&& of) {
+    return sum_with<double>([&](double& part, std::size_t k) { part += of(k); });
+}
+
+template <class F>
+double BoundedSolver::sum_free(F&& of) {
+    if (manner_.repeats) return sum(of);
+    double sum = 0;
+    for (const int k : free_list_) sum += of(at(k));
+    return sum;
+}
+
+template <class F>
+void BoundedSolver::set_free(F&& of) {
+    free_.resize(p_.size());
+    const auto set = [&](std::size_t k) { return free_[k] = of(k); };
+    if (manner_.repeats)
+        each(set);
+    else
+        find_all(p_.size(), kPixels, threads_for(p_.size()), set, free_list_);
+    freed();
+}
+
+void BoundedSolver::evaluate(bool exact) {
+    stopping_point();
+    multiply(p_, w_, exact);
+    if (wanted_) Z0_ = 0;
+    each([&](std::size_t k) { w_[k] += Z0_ - z_[k]; });
+    find_Z0();
+}
+
+// If the sum of p is given, sets Z0 such that the mean of w over the pixels under pressure is 0.
+void BoundedSolver::find_Z0() {
+    if (!wanted_) return;
+    const auto touching = std::count_if(p_.begin(), p_.end(), [](double p) { return p > 0; });
+    if (touching == 0) return;
+    const double shift = -sum([&](std::size_t k) { return p_[k] > 0 ? w_[k] : 0.0; }) /
+                         static_cast<double>(touching);
+    Z0_ += shift;
+    each([&](std::size_t k) { w_[k] += shift; });
+}
+
+double BoundedSolver::error() {
+    struct Sums {
+        std::size_t touching = 0;
+        double weight = 0, inside = 0, overlap = 0;
+        Sums operator+(const Sums& o) const {
+            return {touching + o.touching, weight + o.weight, inside + o.inside,
+                    overlap + o.overlap};
+        }
+    };
+    const Sums sums = sum_with<Sums>([&](Sums& part, std::size_t k) {
+        if (p_[k] == 0 && w_[k] >= 0) return;
+        const double e = p_[k] >= highest_ ? std::max(w_[k], 0.0)
+                         : p_[k] > 0       ? w_[k]
+                                           : std::min(w_[k], 0.0);
+        part.inside += e * e;
+        part.touching += p_[k] > 0, part.weight += p_[k], part.overlap += p_[k] * (z_[k] - Z0_);
+    });
+    const double bad = sums.inside + outside();
+    if (sums.touching == 0) return bad > 0 ? kInfinity : 0.0;
+    return std::sqrt(bad / static_cast<double>(sums.touching)) /
+           std::abs(sums.overlap / sums.weight);
+}
+
+void BoundedSolver::find_free() {
+    set_free([&](std::size_t k) {
+        return !((p_[k] <= 0 && w_[k] >= 0) || (p_[k] >= highest_ && w_[k] <= 0));
+    });
+}
+
+void BoundedSolver::precondition_ones(std::vector<double>& y) {
+    y.assign(free_.size(), 0.0);
+    precondition(std::vector<double>(free_.begin(), free_.end()), y);
+}
+
+// Leaves K one_ in image_ where it computes punch_.
+void BoundedSolver::prepare_constant(bool plain) {
+    if (!manner_.repeats && !wanted_) return;
+    if (plain)
+        one_.assign(free_.begin(), free_.end());
+    else
+        precondition_ones(one_);
+    whole_ = sum_free([&](std::size_t k) { return one_[k]; });
+    punch_ = 0;
+    if (wanted_ || plain) return;
+    multiply_roughly(one_, image_);
+    const double energy =
+        sum_free([&](std::size_t k) { return free_[k] ? one_[k] * image_[k] : 0.0; });
+    if (energy > 0) punch_ = 1 / energy;
+}
+
+// Conjugate gradients on the free pixels. If the sum of p is given, it is kept constant, and w is
+// minimised up to a constant.
+double BoundedSolver::descend(int most_steps, double reduction) {
+    const std::size_t n = p_.size();
+    const auto product = [&](const std::vector<double>& a, const std::vector<double>& b) {
+        return sum_free([&](std::size_t k) { return a[k] * b[k]; });
+    };
+    // A single step follows the gradient itself, which remains a descent direction after projection
+    // on the bounds.
+    const bool plain = most_steps == 1, constant = manner_.repeats || wanted_;
+    for (auto* v : {&residual_, &y_, &direction_}) v->resize(n);
+    const auto set_residual = [&](std::size_t k) {
+        residual_[k] = free_[k] * (0 - w_[k]), y_[k] = 0;
+    };
+    each(set_residual);
+    double last = 0, first = 0, decrease = 0;
+    for (int step = 0; step < most_steps; ++step) {
+        if (plain)
+            y_ = residual_;
+        else
+            precondition(residual_, y_);
+        if (constant) {
+            const double c = wanted_ ? -sum_free([&](std::size_t k) { return y_[k]; }) / whole_
+                                     : punch_ * product(one_, residual_);
+            each([&](std::size_t k) { y_[k] += c * one_[k]; });
+        }
+        const double ry = product(residual_, y_);
+        if (step == 0) first = ry;
+        if (!(ry > reduction * reduction * first)) break;
+        const double beta = step > 0 ? ry / last : 0.0;
+        last = ry;
+        each([&](std::size_t k) {
+            direction_[k] = y_[k] + (step > 0 ? beta * direction_[k] : 0.0);
+        });
+        stopping_point();
+        multiply_roughly(direction_, image_);
+        const double curvature = product(direction_, image_);
+        if (!(curvature > 0)) break;
+        const double alpha = ry / curvature;
+        each([&](std::size_t k) {
+            p_[k] += alpha * direction_[k], w_[k] += alpha * image_[k];
+            set_residual(k);
+        });
+        decrease += alpha * ry;
+    }
+    return decrease;
+}
+
+// Clips pressures at their bounds, and restores their sum by adding pressure as a lower flat would.
+// Returns true if any was clipped.
+bool BoundedSolver::bound() {
+    std::atomic<bool> cut = false;
+    each([&](std::size_t k) {
+        const double inside = std::clamp(p_[k], 0.0, highest_);
+        if (inside != p_[k]) cut.store(true, std::memory_order_relaxed);
+        p_[k] = inside;
+    });
+    if (!wanted_) return cut;
+    constexpr int most = 50;
+    for (int i = 0; i < most; ++i) {
+        double all = 0, room = 0;
+        for (std::size_t k = 0; k < p_.size(); ++k) {
+            all += p_[k];
+            room += p_[k] > 0 ? one_[k] : 0.0;
+        }
+        const double missing = *wanted_ - all;
+        if (std::abs(missing) <= 1e-14 * *wanted_ || !(room > 0)) break;
+        each([&](std::size_t k) {
+            if (p_[k] > 0) p_[k] = std::max(p_[k] + missing / room * one_[k], 0.0);
+        });
+    }
+    return true;
+}
+
+// Clips the pressures, updates the gaps by an approximate product, and descends on the free pixels
+// that result.
+void BoundedSolver::descend_again(int most_steps) {
+    direction_ = p_;
+    bound();
+    each([&](std::size_t k) { direction_[k] = p_[k] - direction_[k]; });
+    multiply_roughly(direction_, image_);
+    each([&](std::size_t k) { w_[k] += image_[k]; });
+    find_Z0();
+    find_free();
+    prepare_constant(most_steps == 1);
+    descend(most_steps, manner_.reduction);
+}
+
+// Returns true if the last round lowered the energy; otherwise restores the best pressures along
+// the step.
+bool BoundedSolver::fell() {
+    double slope = 0, curvature = 0;
+    for (std::size_t k = 0; k < p_.size(); ++k) {
+        const double d = p_[k] - before_p_[k];
+        slope += d * before_w_[k];
+        curvature += d * (w_[k] - before_w_[k]);
+    }
+    if (slope + 0.5 * curvature <= 0) return true;
+    const double t = slope < 0 && curvature > 0 ? std::min(1.0, -slope / curvature) : 0.5;
+    for (std::size_t k = 0; k < p_.size(); ++k) p_[k] = before_p_[k] + t * (p_[k] - before_p_[k]);
+    return false;
+}
+
+ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool exactly) {
+    ElementsOutcome outcome;
+    if (wanted_) {  // the start may have another sum
+        one_ = p_;
+        bound();
+    }
+    before_p_.clear();
+    bool exact = false;
+    int steps = manner_.steps;
+    double last = kInfinity;
+    evaluate(false);
+    for (;;) {
+        outcome.residual = error();
+        // A round that raised the energy is reduced to its best point, and the following rounds are
+        // shorter.
+        const bool watched =
+            outcome.iterations > manner_.quick || (manner_.repeats && outcome.residual > last);
+        if (watched && !before_p_.empty() && !fell()) {
+            evaluate(exact);
+            outcome.residual = error();
+            steps = std::max(steps / 2, 1);
+        } else {
+            steps = std::min(steps + 1, manner_.steps);
+        }
+        last = outcome.residual;
+        const bool judged =
+            manner_.repeats ||
+            outcome.iterations > 0;  // starts from other levels get at least one round
+        const bool small = judged && outcome.residual <= tolerance;
+        if (small && exactly && !exact) {
+            exact = true;
+            before_p_.clear();
+            evaluate(true);
+            continue;
+        }
+        if (judged) outcome.converged = complete(small, outcome.residual);
+        if (w_.size() != p_.size()) evaluate(exact);  // the set has changed
+        if (outcome.converged || outcome.iterations >= most_rounds) break;
+        ++outcome.iterations;
+        renew();
+        find_free();
+        if (manner_.repeats || outcome.iterations > manner_.quick) before_p_ = p_, before_w_ = w_;
+        prepare_constant(steps == 1);
+        descend(steps, manner_.reduction);
+        if (manner_.repeats && outcome.residual > kUnsettled) descend_again(steps);
+        bound();
+        exact = exactly && judge_exactly(exact, outcome.residual, outcome.iterations);
+        evaluate(exact);
+    }
+    return outcome;
+}
+
+double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, int most_steps,
+                                double reduction) {
+    // Solves K q = 1 by the same iteration; the solution of the level is restored afterwards.
+    const std::vector<double> p = p_, w = w_;
+    const std::optional<double> wanted = std::exchange(wanted_, std::nullopt);
+    const std::size_t n = p_.size();
+    set_free([&](std::size_t k) { return p_[k] > 0 && (back || p_[k] < highest_); });
+    const double count = sum_free([&](std::size_t k) { return free_[k] ? 1.0 : 0.0; });
+    std::fill(p_.begin(), p_.end(), 0.0);
+    std::fill(w_.begin(), w_.end(), -1.0);
+    const auto rms = [&] {
+        return std::sqrt(sum_free([&](std::size_t k) { return free_[k] ? w_[k] * w_[k] : 0.0; }) /
+                         count);
+    };
+    const auto value = [&] {
+        return sum_free([&](std::size_t k) { return free_[k] ? p_[k] * (1 - w_[k]) : 0.0; });
+    };
+    prepare_constant(false);
+    if (const double c = whole_ * punch_; manner_.repeats && c > 0)  // the first step is known
+        for (std::size_t k = 0; k < n; ++k) p_[k] = c * one_[k], w_[k] = c * image_[k] - 1;
+    double residual = 0, answer = 0;
+    for (int round = 0; round < most_rounds && count > 0; ++round) {
+        const double decrease =
+            descend(most_steps,
+                    round == 0 ? reduction : std::max(reduction, kEnough * tolerance / residual));
+        if (manner_.repeats && round > 0 && decrease <= kSmall * answer && rms() <= tolerance) {
+            residual = tolerance, answer += decrease;
+            break;
+        }
+        if (most_rounds > 1) {
+            multiply(p_, w_, !manner_.repeats);
+            each([&](std::size_t k) { w_[k] -= 1; });
+            residual = rms();
+        }
+        answer = value();
+        if (residual <= tolerance) break;
+    }
+    // The error of 2 1'q - q'Kq is of second order in the residual. Without convergence there is no
+    // stiffness.
+    constexpr double useless = 0.1;
+    if (!(residual <= useless)) answer = std::nan("");
+    p_ = p;
+    w_ = w;
+    wanted_ = wanted;
+    return answer;
+}
+
+double BoundedSolver::energy() const {
+    double twice = 0;
+    for (std::size_t k = 0; k < p_.size(); ++k)
+        twice += p_[k] * (z_[k] - Z0_ + (p_[k] < highest_ ? -w_[k] : w_[k]));
+    return 0.5 * twice;
+}
+
+std::vector<std::pair<int, double>> BoundedSolver::press_out() {
+    std::vector<std::pair<int, double>> depths;
+    for (std::size_t k = 0; k < p_.size(); ++k) {
+        if (!(p_[k] >= highest_ && w_[k] < 0)) continue;
+        depths.emplace_back(static_cast<int>(k), -w_[k]);
+        z_[k] += w_[k];
+        w_[k] = 0;
+    }
+    return depths;
+}
+
+}  // namespace rsc

@@ -1,0 +1,433 @@
+#include "elements/element_contact.hpp"
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "elements/elements.hpp"
+#include "elements/pixel_contact.hpp"
+#include "elements/pixel_spots.hpp"
+#include "physics/adhesion/adhesive_elements.hpp"
+
+namespace rsc {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInnerError = 1e-3;  // error of products in iterations
+constexpr double kMostTimes = 30;  // largest ratio to the last force for a start from its pressures
+constexpr double kMargin =
+    0.3;  // pixels are selected lower by this share of the step to the expected separation
+constexpr double kColdMargin = 0.05;  // and of the expected depth, if no level is known
+constexpr int kBlock = 16;            // side of the blocks whose highest points are stored [pixels]
+constexpr int kPiece = 4096;          // pixels that a thread takes at a time
+constexpr std::size_t kThreads = 16384;  // pixels from which on threads are used
+
+bool before(const Pixel& a, const Pixel& b) { return a.y < b.y || (a.y == b.y && a.x < b.x); }
+
+class ElementContact final : public PixelContact {
+public:
+    ElementContact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options)
+        : PixelContact(heights, indenter, options),
+          body_(substrate_of(indenter)),
+          products_(make_tree_products(body_, heights.dx, heights.dy, kInnerError,
+                                       0.1 * options.tolerance)),
+          solver_(*products_, options.hardness.H0),
+          blocks_x_((heights.nx + kBlock - 1) / kBlock),
+          blocks_y_((heights.ny + kBlock - 1) / kBlock) {
+        cut_open(indenter_, kBlock);
+        block_top_.assign(at(blocks_x_) * at(blocks_y_), -kInfinity);
+        parallel_for(blocks_y_, 1, 0, [&](int b) {
+            double* tops = block_top_.data() + at(b) * at(blocks_x_);
+            for (int j = b * kBlock; j < std::min((b + 1) * kBlock, heights.ny); ++j)
+                for (int i = 0; i < heights.nx; ++i)
+                    tops[i / kBlock] = std::max(tops[i / kBlock], heights(i, j));
+        });
+        find_top();
+    }
+
+    double stiffness() override {
+        const double slope = 0.0 - pixel_area() * solver_.stiffness(1e-9, accepted_);
+        return slope / (1 + shift() * slope);
+    }
+
+    // p'Kp/2 is evaluated as g0'p - p'Kp/2, which is equal at the solution. The part due to the
+    // shift is not part of the energy of the bodies.
+    double energy() const override {
+        if (loads_) return pixel_area() * loads_->stored();
+        double N = 0;
+        for (double p : p_) N += pixel_area() * p;
+        return pixel_area() * solver_.energy() - 0.5 * shift() * N * N;
+    }
+
+    void move_tip(double x0, double y0) override {
+        if (!std::isfinite(x0) || !std::isfinite(y0))
+            throw Error(Failure::bad_input, "the tip's position must be finite");
+        indenter_.move(x0, y0);
+        if (past_.size() > 1) past_.resize(1);
+        since_move_ = 0;
+        const int before_x = turn_x, before_y = turn_y;
+        cut_open(indenter_, kBlock);
+        if (turn_x != before_x || turn_y != before_y) past_.clear(), lowered_at_ = kUnknown;
+        find_top();
+    }
+
+protected:
+    void forget_levels() override { past_.clear(), since_move_ = 0; }
+    Level solve(double Z0) override;
+    std::optional<Level> solve_under(double N) override;
+    void step(double dt) override { loads_->step(dt), lowered_at_ = kUnknown; }
+    double slope() override { return Contact::slope() / scale(); }
+    // Bound by the smooth indenter, if known, and by a flat punch as wide as the surface; rough
+    // surfaces need at least this depth.
+    double force_at_most(double depth) override {
+        const double E = indenter_.E_star,
+                     punch = E * std::max(heights_.Lx(), heights_.Ly()) * depth;
+        const auto smooth = indenter_.shape->smooth(E);
+        return smooth ? std::min(punch, smooth->force(depth)) : punch;
+    }
+    std::optional<double> likely_separation() const override {
+        if (past_.empty() || past_[0].pixels.empty() || !(past_[0].separation < top_))
+            return std::nullopt;
+        return past_[0].separation;
+    }
+    double shift() const override { return body_.bulge(); }
+    std::size_t levels_since_move() const override { return since_move_; }
+
+    std::vector<std::pair<Pixel, double>> press_out() override { return solver_.press_out(); }
+    void residual_changed() override { find_top(); }
+    void start_from(const Level& level) override {
+        Past past{level.separation, {}, level.pixels.pressure};
+        for (const std::int32_t index : level.pixels.index)
+            past.pixels.push_back({index % heights_.nx, index / heights_.nx});
+        past_.push_front(std::move(past));
+    }
+    std::vector<double> deflections(const std::vector<Pixel>& where,
+                                    const std::vector<double>& q) override;
+
+private:
+    // Pixels under pressure at earlier levels, the last level first.
+    struct Past {
+        double separation;
+        std::vector<Pixel> pixels;
+        std::vector<double> p;
+    };
+
+    double clearance(int i, int j) const {
+        return indenter_.clearance(x(i), y(j), height(column(i), row(j)));
+    }
+    void find_top();
+    void select(double Z0);
+    void predict(double Z0);
+    void remember(double Z0);
+    void take_off_rest(double Z0);
+    // Lowers candidate k by fall(k), and drops those that can then not touch.
+    template <class F>
+    void lower(F&& fall) {
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < pixels_.size(); ++k) {
+            const double g = g0_[k] - fall(k);
+            if (!(g > 0)) continue;
+            pixels_[kept] = pixels_[k], p_[kept] = p_[k], g0_[kept++] = g;
+        }
+        pixels_.resize(kept), p_.resize(kept), g0_.resize(kept);
+    }
+    Level report(double Z0, const ElementsOutcome& outcome);
+
+    Substrate body_;
+    std::unique_ptr<PixelProducts> products_;
+    ElementsSolver solver_;
+    int blocks_x_, blocks_y_;
+    // Highest z of each block, and upper bounds of its clearances.
+    std::vector<double> block_top_, bound_;
+
+    // Pixels with g0 > 0 at the current level, row by row, and the solution: pressures times
+    // scale().
+    std::vector<Pixel> pixels_;
+    std::vector<double> g0_, p_;
+    std::deque<Past> past_;
+    std::size_t since_move_ = 0;
+
+    // Relaxing bodies:
+    std::unique_ptr<PixelProducts>
+        loads_products_;  // separate, since those of the solver keep its set of pixels
+    // Deflection by earlier loads of the pixels that could touch at `lowered_at_` or above, in this
+    // step; NaN: unknown.
+    double lowered_at_ = kUnknown;
+    std::vector<Pixel> lowered_pixels_;
+    std::vector<double> lowered_;
+};
+
+void ElementContact::find_top() {
+    bound_.resize(block_top_.size());
+    parallel_for(blocks_y_, 4, 0, [&](int bj) {
+        for (int bi = 0; bi < blocks_x_; ++bi) {
+            // The highest point (without plastic residual) under the lowest part of the face above
+            // the block.
+            const Box block{
+                x(pixel_x(bi * kBlock)) - indenter_.x0,
+                x(pixel_x(std::min((bi + 1) * kBlock, heights_.nx) - 1)) - indenter_.x0,
+                y(pixel_y(bj * kBlock)) - indenter_.y0,
+                y(pixel_y(std::min((bj + 1) * kBlock, heights_.ny) - 1)) - indenter_.y0};
+            const std::size_t b = at(bj) * at(blocks_x_) + at(bi);
+            bound_[b] = block_top_[b] - indenter_.shape->lowest(block);
+        }
+    });
+    double top = -kInfinity;
+    for (int bj = 0; bj < blocks_y_; ++bj)
+        for (int bi = 0; bi < blocks_x_; ++bi) {
+            if (!(bound_[at(bj) * at(blocks_x_) + at(bi)] > top)) continue;
+            for (int j = bj * kBlock; j < std::min((bj + 1) * kBlock, heights_.ny); ++j)
+                for (int i = bi * kBlock; i < std::min((bi + 1) * kBlock, heights_.nx); ++i)
+                    top = std::max(top, clearance(pixel_x(i), pixel_y(j)));
+        }
+    set_top(top);
+}
+
+// Selects the pixels with g0 > 0; no others can touch, because K > 0 only lowers the surface.
+void ElementContact::select(double Z0) {
+    struct Found {
+        std::vector<Pixel> pixels;
+        std::vector<double> g0;
+    };
+    std::vector<Found> found(at(blocks_y_));  // by row of blocks
+    parallel_for(blocks_y_, 4, 0, [&](int b) {
+        const int bj = (b + turn_y / kBlock) % blocks_y_;
+        std::vector<int> high;
+        for (int a = 0; a < blocks_x_; ++a) {
+            const int bi = (a + turn_x / kBlock) % blocks_x_;
+            if (bound_[at(bj) * at(blocks_x_) + at(bi)] > Z0) high.push_back(bi);
+        }
+        if (high.empty()) return;
+        for (int r = bj * kBlock; r < std::min((bj + 1) * kBlock, heights_.ny); ++r)
+            for (int bi : high) {
+                const int first = bi * kBlock, n = std::min(kBlock, heights_.nx - first),
+                          j = pixel_y(r);
+                double dx[kBlock], face[kBlock], dy = 0;
+                for (int c = 0; c < n; ++c) {
+                    const Vec2 d = indenter_.from_tip(x(pixel_x(first + c)), y(j));
+                    dx[c] = d.x, dy = d.y;
+                }
+                indenter_.shape->heights(n, dx, dy, face);
+                for (int c = 0; c < n; ++c) {
+                    const double g = height(first + c, r) - face[c] - Z0;
+                    if (g > 0)
+                        found[at(b)].pixels.push_back({pixel_x(first + c), j}),
+                            found[at(b)].g0.push_back(g);
+                }
+            }
+    });
+    std::vector<std::size_t> begin(found.size() + 1, 0);
+    for (std::size_t b = 0; b < found.size(); ++b) begin[b + 1] = begin[b] + found[b].g0.size();
+    pixels_.resize(begin.back()), g0_.resize(begin.back());
+    parallel_for(found.size(), 16, begin.back() > kThreads ? 0 : 1, [&](std::size_t b) {
+        std::copy(found[b].pixels.begin(), found[b].pixels.end(), pixels_.data() + begin[b]);
+        std::copy(found[b].g0.begin(), found[b].g0.end(), g0_.data() + begin[b]);
+    });
+}
+
+std::vector<double> ElementContact::deflections(const std::vector<Pixel>& where,
+                                                const std::vector<double>& q) {
+    if (!loads_products_)
+        loads_products_ = make_tree_products(body_, heights_.dx, heights_.dy, kInnerError,
+                                             0.1 * options_.tolerance);
+    const std::vector<Pixel> loaded = loaded_pixels();
+    std::vector<Pixel> all = where;
+    all.insert(all.end(), loaded.begin(), loaded.end());
+    std::sort(all.begin(), all.end(), before);
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    const auto of = [&](const Pixel& pixel) {
+        return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), pixel, before) -
+                                        all.begin());
+    };
+    std::vector<double> source(all.size(), 0.0), w(all.size()), wanted;
+    if (all.empty()) return wanted;
+    for (std::size_t k = 0; k < loaded.size(); ++k) source[of(loaded[k])] = q[k];
+    loads_products_->set_pixels(all);
+    loads_products_->apply(source.data(), w.data(), PixelProducts::Accuracy::full);
+    for (const Pixel& pixel : where) wanted.push_back(w[of(pixel)]);
+    return wanted;
+}
+
+// Subtracts the deflection by earlier loads.
+void ElementContact::take_off_rest(double Z0) {
+    if (loads_->places().empty()) return;
+    if (!(Z0 >= lowered_at_)) {
+        lowered_at_ = Z0;
+        lowered_pixels_ = pixels_;
+        lowered_ = deflections(pixels_, loads_->rest());
+    }
+    p_.resize(pixels_.size());
+    std::size_t j = 0;
+    lower([&](std::size_t k) {
+        while (!(lowered_pixels_[j] == pixels_[k])) ++j;
+        return lowered_[j];
+    });
+}
+
+// Predicts the pressures from the last level, or by extrapolation through the last two if they are
+// close; zero without earlier levels.
+void ElementContact::predict(double Z0) {
+    p_.assign(pixels_.size(), 0.0);
+    double weight[2] = {1, 0};
+    if (past_.size() > 1) {
+        const double gap = past_[0].separation - past_[1].separation,
+                     t = (Z0 - past_[0].separation) / gap;
+        if (gap != 0 && std::abs(t) <= 2) weight[0] = 1 + t, weight[1] = -t;
+    }
+    parallel_for(
+        (pixels_.size() + kPiece - 1) / kPiece, 1, pixels_.size() > kThreads ? 0 : 1,
+        [&](std::size_t piece) {
+            const std::size_t begin = piece * kPiece,
+                              end = std::min(begin + kPiece, pixels_.size());
+            for (std::size_t a = 0; a < past_.size() && a < 2; ++a) {
+                if (weight[a] == 0) continue;
+                const std::vector<Pixel>& past = past_[a].pixels;
+                auto l = std::lower_bound(past.begin(), past.end(), pixels_[begin], before);
+                for (std::size_t k = begin; k < end; ++k) {
+                    while (l != past.end() && before(*l, pixels_[k])) ++l;
+                    if (l != past.end() && *l == pixels_[k])
+                        p_[k] += weight[a] * past_[a].p[static_cast<std::size_t>(l - past.begin())];
+                }
+            }
+            for (std::size_t k = begin; k < end; ++k) p_[k] = std::max(p_[k], 0.0);
+        });
+}
+
+// Level of the last solution, which has been remembered.
+Level ElementContact::report(double Z0, const ElementsOutcome& outcome) {
+    return PixelContact::report(Z0, outcome, pixels_.size(), past_[0].pixels, past_[0].p);
+}
+
+Level ElementContact::solve(double Z0) {
+    select(Z0);
+    if (loads_) take_off_rest(Z0);
+    predict(Z0);
+    const ElementsOutcome outcome =
+        solver_.solve(pixels_, g0_, options_.tolerance, options_.max_iterations, p_);
+    remember(Z0);
+    return report(Z0, outcome);
+}
+
+// Solves with the sum of the pressures given and Z0 as an additional unknown (Polonsky and Keer).
+// Pixels are selected at a Z0 below the expected one, which follows from a power law of N with the
+// exponent of the last two levels. Without earlier levels rough solutions at separations come
+// first.
+std::optional<Level> ElementContact::solve_under(double N) {
+    if (path_dependent() || shift() > 0) return std::nullopt;
+    const double pixel = pixel_area();
+    const auto force = [pixel](const Past& level) {
+        return pixel * std::accumulate(level.p.begin(), level.p.end(), 0.0);
+    };
+    const auto far = [&] {
+        if (past_.empty()) return true;
+        const double last = force(past_[0]);
+        return !(top_ > past_[0].separation) || !(last > N / kMostTimes) ||
+               !(last < N * kMostTimes);
+    };
+    struct Levels {  // trials are no levels: restored at the end, also after an exception
+        ElementContact& my;
+        decltype(my.past_) past = my.past_;
+        std::size_t since_move = my.since_move_;
+        bool restored = false;
+        void restore() {
+            if (!std::exchange(restored, true))
+                my.past_ = std::move(past), my.since_move_ = since_move;
+        }
+        ~Levels() { restore(); }
+    } levels{*this};
+    const bool cold = far();
+    if (cold) past_.clear();
+    ElementsOutcome outcome;
+    const auto solved = [&](double tolerance, int iterations, std::optional<double> sum) {
+        const ElementsOutcome now = solver_.solve(pixels_, g0_, tolerance, iterations, p_, sum);
+        outcome = {now.converged, outcome.iterations + now.iterations,
+                   outcome.products + now.products, now.residual};
+    };
+    double power = 1.5;  // of a sphere; larger for rough surfaces, 1 in full contact
+    if (cold) {          // a rough solution near N
+        constexpr double rough = 0.1, most_above = 2, most_below = 3, widest = 3, steep = 4;
+        constexpr int rounds = 5, searches = 20;
+        double depth = std::numeric_limits<double>::epsilon() *
+                       std::max(std::abs(top_), std::numeric_limits<double>::min());
+        while (force_at_most(depth) < N) depth *= 2;
+        double shallow = 0, deep = kInfinity;
+        for (int i = 0;; ++i) {
+            select(top_ - depth);
+            predict(top_ - depth);
+            solved(rough, rounds, std::nullopt);
+            remember(top_ - depth);
+            const double last = force(past_[0]), ratio = N / last;
+            if (ratio > 1)
+                power = steep;  // candidates deeper than needed cost more than another trial
+            if (past_.size() > 1) {
+                const double grown = std::log(last / force(past_[1])) /
+                                     std::log(depth / (top_ - past_[1].separation));
+                if (grown >= 1) power = grown;
+            }
+            if (ratio < most_below && ratio > 1 / most_above) break;
+            if (i == searches) return std::nullopt;
+            (ratio > 1 ? shallow : deep) = depth;
+            depth *= std::clamp(std::pow(ratio, 1 / (ratio > 1 ? std::max(power, steep) : power)),
+                                1 / widest, widest);
+            if (!(depth > shallow && depth < deep)) depth = std::sqrt(shallow * deep);
+        }
+        past_.resize(1);
+    }
+    if (far()) return std::nullopt;
+    const double N0 = force(past_[0]), depth = top_ - past_[0].separation;
+    if (past_.size() > 1) {
+        const double grown =
+            std::log(force(past_[1]) / N0) / std::log((top_ - past_[1].separation) / depth);
+        if (grown >= 1) power = grown;
+    }
+    double expected = top_ - depth * std::pow(N / N0, 1 / power),
+           lowest = expected - kMargin * std::abs(expected - past_[0].separation);
+    if (cold) lowest -= kColdMargin * (top_ - expected);
+    constexpr int trials = 4;
+    for (int i = 0; i < trials; ++i) {
+        select(lowest);
+        predict(expected);
+        if (std::none_of(p_.begin(), p_.end(), [](double p) { return p > 0; })) return std::nullopt;
+        solved(options_.tolerance, options_.max_iterations, N / pixel);
+        if (!outcome.converged) return std::nullopt;
+        const double rise = solver_.rise();
+        if (rise < 0) {  // points are missing; the next trial starts from this one
+            expected = lowest + rise;
+            lowest = expected - kMargin * std::abs(rise);
+            remember(expected);
+            past_.resize(1);
+            continue;
+        }
+        lower([rise](std::size_t) { return rise; });
+        levels.restore();
+        remember(lowest + rise);
+        return report(lowest + rise, outcome);
+    }
+    return std::nullopt;
+}
+
+// Stores the last solution as a starting point for later levels.
+void ElementContact::remember(double Z0) {
+    std::vector<int> pressed;
+    find_all(
+        p_.size(), kPiece, p_.size() > kThreads ? 0 : 1, [&](std::size_t k) { return p_[k] > 0; },
+        pressed);
+    Past now{Z0, std::vector<Pixel>(pressed.size()), std::vector<double>(pressed.size())};
+    for (std::size_t l = 0; l < pressed.size(); ++l)
+        now.pixels[l] = pixels_[at(pressed[l])], now.p[l] = p_[at(pressed[l])];
+    past_.push_front(std::move(now));
+    if (past_.size() > 2) past_.pop_back();
+    since_move_ = std::min<std::size_t>(since_move_ + 1, 2);
+    accepted_ = false;
+}
+
+}  // namespace
+
+std::unique_ptr<Contact> make_element_contact(const HeightMap& heights, const Indenter& indenter,
+                                              const SolverOptions& options) {
+    if (options.adhesion.work > 0)
+        return make_adhesive_elements(require_elements(heights, indenter, options), indenter,
+                                      options);
+    if (indenter.period.finite()) return make_periodic_elements(heights, indenter, options);
+    return std::make_unique<ElementContact>(heights, indenter, options);
+}
+
+}  // namespace rsc

@@ -1,0 +1,127 @@
+#include "base/error.hpp"
+#include "base/format.hpp"
+#include "elements/periodic_elements.hpp"
+#include "elements/pixel_contact.hpp"
+
+namespace rsc {
+namespace {
+
+class PeriodicElementContact final : public PixelContact {
+public:
+    PeriodicElementContact(const HeightMap& heights, const Indenter& indenter,
+                           const SolverOptions& options)
+        : PixelContact(heights, indenter, options),
+          changed_(path_dependent() || !indenter.shape->flat() ? heights.copy() : HeightMap{}),
+          solver_({heights.nx, heights.ny, heights.dx, heights.dy, present().data.get(),
+                   present().stride},
+                  substrate_of(indenter), options.hardness.H0) {
+        set_heights();
+    }
+
+    double stiffness() override { return touches_ ? 0 - area() * solver_.stiffness(accepted_) : 0; }
+    double energy() const override {
+        if (loads_) return pixel_area() * loads_->stored();
+        return touches_ ? area() * solver_.energy() : 0;
+    }
+    void require_gap(double N) override {
+        if (!std::isfinite(options_.hardness.H0)) solver_.require_gap(N / area());
+    }
+    void move_tip(double x0, double y0) override {
+        if (!std::isfinite(x0) || !std::isfinite(y0))
+            throw Error(Failure::bad_input, "the tip's position must be finite");
+        indenter_.x0 = x0, indenter_.y0 = y0;
+        if (!indenter_.shape->flat()) set_heights();
+    }
+
+protected:
+    void forget_levels() override { touches_ = false; }  // levels do not depend on each other
+    Level solve(double Z0) override {
+        ElementsOutcome outcome;
+        outcome.converged = true;
+        if (Z0 < top_) outcome = solver_.approach(Z0, options_.tolerance, options_.max_iterations);
+        return report(Z0, outcome);
+    }
+    std::optional<Level> solve_under(double N) override {
+        const double p = N / area(), H = options_.hardness.H0;
+        if (!(p < H))
+            throw Error(Failure::bad_input,
+                        format("a nominal pressure of %.9g exceeds the hardness %.9g", p, H));
+        if (std::isfinite(H)) return std::nullopt;
+        ElementsOutcome outcome;
+        try {
+            outcome = solver_.press(scale() * p, options_.tolerance, options_.max_iterations);
+        } catch (const Error& error) {
+            // Bodies that soften may close the gap in the course of time: a level without a state,
+            // so that the ones before are kept.
+            if (!loads_ || error.kind() != Failure::bad_input) throw;
+            outcome.residual = kInfinity;
+        }
+        return report(solver_.separation(), outcome);
+    }
+    void step(double dt) override {
+        loads_->step(dt);
+        lowered_ = loads_->places().empty() ? std::vector<double>()
+                                            : solver_.deflections(loaded_pixels(), loads_->rest());
+        set_heights();
+    }
+    double closed() const override { return solver_.closed(); }
+    // Force of a flat punch as wide as the period, an upper bound also for yielding surfaces.
+    double force_at_most(double depth) override {
+        return indenter_.E_star * std::max(heights_.Lx(), heights_.Ly()) * depth;
+    }
+
+    std::vector<std::pair<Pixel, double>> press_out() override { return solver_.press_out(); }
+    void residual_changed() override { set_heights(); }
+    std::vector<double> deflections(const std::vector<Pixel>& where,
+                                    const std::vector<double>& q) override {
+        const std::vector<double> all = solver_.deflections(loaded_pixels(), q);
+        std::vector<double> there;
+        for (const Pixel& pixel : where)
+            there.push_back(all[static_cast<std::size_t>(place(pixel))]);
+        return there;
+    }
+
+private:
+    double area() const { return heights_.Lx() * heights_.Ly(); }
+    const HeightMap& present() const { return changed_.data ? changed_ : heights_; }
+    // Subtracts the indenter's face, the residual and the deflection by earlier loads from the
+    // heights.
+    void set_heights() {
+        for (int j = 0; j < heights_.ny && changed_.data; ++j)
+            for (int i = 0; i < heights_.nx; ++i) {
+                double& z = changed_.row(j)[i];
+                z = indenter_.clearance(x(i), y(j), height(i, j));
+                if (!lowered_.empty()) z -= lowered_[static_cast<std::size_t>(place({i, j}))];
+            }
+        if (changed_.data) solver_.heights_changed();
+        double top = -kInfinity;
+        for (int j = 0; j < heights_.ny; ++j)
+            top =
+                std::max(top, *std::max_element(present().row(j), present().row(j) + heights_.nx));
+        set_top(top);
+    }
+    Level report(double Z0, const ElementsOutcome& outcome) {
+        touches_ = Z0 < top_, accepted_ = false;
+        const auto candidates =
+            static_cast<std::size_t>(heights_.nx) * static_cast<std::size_t>(heights_.ny);
+        if (!touches_) return PixelContact::report(Z0, outcome, candidates, {}, {});
+        return PixelContact::report(Z0, outcome, candidates, solver_.pixels(), solver_.pressures());
+    }
+
+    HeightMap
+        // the heights less what set_heights() subtracts; without data where this is nothing
+        changed_;
+    std::vector<double>
+        lowered_;  // deflection of each point by earlier loads at the end of the step; empty: none
+    PeriodicElements solver_;
+    bool touches_ = false;  // the last level is in contact
+};
+
+}  // namespace
+
+std::unique_ptr<Contact> make_periodic_elements(const HeightMap& heights, const Indenter& indenter,
+                                                const SolverOptions& options) {
+    return std::make_unique<PeriodicElementContact>(heights, indenter, options);
+}
+
+}  // namespace rsc

@@ -1,0 +1,142 @@
+// Boundary-element contact on a periodic surface: 0 <= p, w = K p - (z - Z0) >= 0, p w = 0 on all
+// pixels of the period, for a given mean pressure or separation. Products with K:
+// interaction/periodic_pixels.hpp.
+#pragma once
+
+#include "elements/block_correction.hpp"
+#include "elements/bounded.hpp"
+#include "elements/pixel_products.hpp"
+
+namespace rsc {
+
+// Heights on the pixels of a period, row by row; they must outlive their users.
+struct Relief {
+    int nx = 0, ny = 0;
+    double dx = 0, dy = 0;  // sides of a pixel [length]
+    const double* z = nullptr;
+    std::ptrdiff_t stride = 0;  // between rows
+};
+
+// Active-set method of bounded.hpp. The conjugate gradients are preconditioned by K^-1 (modes E*
+// |k|/2) truncated to a few pixels, with a correction for what is farther apart
+// (block_correction.hpp), and the start is the solution on a grid of half as many pixels per side
+// (recursively), so that both short and long waves converge in few steps. Products are in single
+// precision while the error is large; the final error is computed in double precision. Levels are
+// independent of each other.
+class PeriodicElements : private BoundedSolver {
+public:
+    // Pressures are limited to `highest` (the hardness; Infinity: no limit); where p = highest, w
+    // may be negative. Throws Error(bad_input) if all heights are equal, Error(no_memory).
+    PeriodicElements(const Relief& relief, const Substrate& substrate, double highest);
+
+    // Solves for a given mean pressure > 0, or a separation Z0 (from z = 0 to the flat; the mean of
+    // K p is 0). Throws Error(bad_input) at full contact, where Z0 does not determine the pressure.
+    ElementsOutcome press(double mean_pressure, double tolerance, int most_iterations);
+    ElementsOutcome approach(double Z0, double tolerance, int most_iterations);
+
+    // Throws as press() does, without a solution, if the mean pressure leaves no gap.
+    void require_gap(double mean_pressure);
+
+    // Separation of full contact: the mean height, to rounding. None with a highest pressure,
+    // because pixels at this pressure can penetrate.
+    double closed() const;
+
+    // Lowers the pixels at the highest pressure by their penetration, for which the last solution
+    // remains valid. Returns these pixels and depths; the owner of the heights must lower them and
+    // call heights_changed().
+    std::vector<std::pair<Pixel, double>> press_out();
+    void heights_changed() { mean_ = mean_height(); }
+
+    // K p at all points, row by row, for pressures p on some of them; its mean is 0.
+    std::vector<double> deflections(const std::vector<Pixel>& pixels, const std::vector<double>& p);
+
+    // Results of the last solution:
+    double separation() const { return zero_ + Z0_ * rms_; }
+    const std::vector<Pixel>& pixels() const { return pixels_; }  // under pressure, row by row
+    const std::vector<double>& pressures() const { return pressures_; }  // of these pixels
+    // -d(mean pressure)/dZ0. For further loading, pixels at the highest pressure keep it; for
+    // unloading (`back`) they are elastic.
+    double stiffness(bool back);
+    // p'Kp/2 per pixel, with an error of the order of the square of the residual.
+    double energy() const;
+
+private:
+    // Controlled quantity: the mean of p over the grid (only without a highest pressure), or Z0.
+    struct Given {
+        bool is_pressure;
+        double value;
+    };
+    using Share = std::function<double(double)>;  // as for PeriodicPixels with dx = 1
+
+    // The same surface on a grid of half as many pixels per side, whose heights, coarse_heights(),
+    // are already in units of rms_.
+    PeriodicElements(const PeriodicElements& finer, const std::vector<double>& heights);
+    std::vector<double> coarse_heights() const;
+    void prepare();
+
+    template <class F>
+    double mean_of(F&& f) const;
+    double mean_height() const;
+    double points() const { return static_cast<double>(relief_.nx) * relief_.ny; }
+    double height(int j, int i) const {
+        return (relief_.z[j * relief_.stride + i] - zero_) * scale_;
+    }
+    double closing_pressure();  // mean pressure of full contact: -min of K^-1 z
+    Share share() const;
+    int threads() const;  // for loops over rows
+    PeriodicPixels<double>& fine();
+
+    // Sets starting pressures: uniform, or Hertz-like where z > Z0; or those of a coarser grid.
+    void start(Given given);
+    void start(const PeriodicElements& coarse);
+    bool bare() const;  // true without any pressure
+    // Iterates until error() is below the tolerance, in single precision; on the finest grid the
+    // error is computed in double precision.
+    ElementsOutcome solve(Given given, double tolerance, int most_iterations, bool finest);
+    std::vector<Pixel> set() const;  // the pixels under pressure and some others, row by row
+
+    void multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) override;
+    void multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) override;
+    template <class Real>
+    void multiply_by(PeriodicPixels<Real>& pixels, const std::vector<double>& x,
+                     std::vector<double>& Kx);
+    double outside() override;
+    void renew() override;
+    void precondition(const std::vector<double>& r, std::vector<double>& y) override;
+    void precondition_ones(std::vector<double>& y) override;
+    void correct(std::vector<double>& y);
+    void freed() override;
+    bool judge_exactly(bool exact, double residual, int rounds) override;
+
+    Relief relief_;
+    Substrate substrate_;
+    double hardness_;
+    // Units in which values are of order 1: heights are relative to `zero_` in units of `rms_`
+    // (both of the initial heights), pressures in units of E* rms/dx with the dx of the finest
+    // grid. K is `unit_` times that of PeriodicPixels with dx = 1.
+    double zero_ = 0, rms_ = 1, scale_ = 1, pressure_unit_ = 1, unit_ = 1;
+    double mean_ = 0;  // mean of the current heights
+    double aspect_;    // dy/dx
+    PeriodicPixels<float> inner_;
+    std::unique_ptr<PeriodicPixels<double>> fine_;
+    SparsePlane plane_;
+    PixelStencil inverse_;  // preconditioner, within its reach and beyond
+    std::unique_ptr<BlockCorrection> far_;
+    bool far_is_set_ = false;
+    std::unique_ptr<SplitPixels> split_;   // null: not for this grid
+    std::vector<float> from_, to_, ones_;  // ones_: truncated K^-1 times 1 over the free pixels
+    long products_ = 0;
+    bool exact_ = false;                // the last product with p is in fine_ (true) or inner_
+    std::vector<std::int32_t> column_;  // of the set
+    std::vector<double> partial_;
+    struct Penetration {
+        std::int32_t column;
+        double w;
+    };
+    std::vector<std::vector<Penetration>>
+        outside_;  // by row: penetrating pixels outside the set, from the last outside()
+    std::vector<Pixel> pixels_;
+    std::vector<double> pressures_;
+};
+
+}  // namespace rsc

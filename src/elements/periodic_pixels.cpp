@@ -1,0 +1,259 @@
+#include "elements/periodic_pixels.hpp"
+
+#include "base/error.hpp"
+#include "base/library_lock.hpp"
+#include "base/parallel.hpp"
+#include "base/vector_math.hpp"
+#include "surface/surface.hpp"
+
+namespace rsc {
+namespace {
+
+constexpr std::size_t kThreads = 400000;  // number of pixels above which threads are used
+constexpr std::size_t kLine = 64;         // bytes
+constexpr int kColumns = 8;               // columns transformed together
+constexpr int kRows = 8;                  // that a thread takes at a time
+
+// Names of FFTW in single and double precision. Transforms of single rows and columns from one
+// array to another need half the time of those in place or of several interleaved columns with the
+// plans that FFTW_ESTIMATE finds.
+template <class Real>
+struct Fftw;
+template <>
+struct Fftw<double> {
+    using Complex = fftw_complex;
+    using Plan = FftwPlan;
+    static Plan row_forward(int n, double* from, Complex* to) {
+        return Plan(fftw_plan_dft_r2c_1d(n, from, to, FFTW_ESTIMATE));
+    }
+    static Plan row_backward(int n, Complex* from, double* to) {
+        return Plan(fftw_plan_dft_c2r_1d(n, from, to, FFTW_ESTIMATE));
+    }
+    static Plan column(int n, Complex* from, Complex* to, int sign) {
+        return Plan(fftw_plan_dft_1d(n, from, to, sign, FFTW_ESTIMATE));
+    }
+    static void execute(const Plan& plan, double* from, Complex* to) {
+        fftw_execute_dft_r2c(plan.get(), from, to);
+    }
+    static void execute(const Plan& plan, Complex* from, double* to) {
+        fftw_execute_dft_c2r(plan.get(), from, to);
+    }
+    static void execute(const Plan& plan, Complex* from, Complex* to) {
+        fftw_execute_dft(plan.get(), from, to);
+    }
+};
+template <>
+struct Fftw<float> {
+    using Complex = fftwf_complex;
+    using Plan = FftwfPlan;
+    static Plan row_forward(int n, float* from, Complex* to) {
+        return Plan(fftwf_plan_dft_r2c_1d(n, from, to, FFTW_ESTIMATE));
+    }
+    static Plan row_backward(int n, Complex* from, float* to) {
+        return Plan(fftwf_plan_dft_c2r_1d(n, from, to, FFTW_ESTIMATE));
+    }
+    static Plan column(int n, Complex* from, Complex* to, int sign) {
+        return Plan(fftwf_plan_dft_1d(n, from, to, sign, FFTW_ESTIMATE));
+    }
+    static void execute(const Plan& plan, float* from, Complex* to) {
+        fftwf_execute_dft_r2c(plan.get(), from, to);
+    }
+    static void execute(const Plan& plan, Complex* from, float* to) {
+        fftwf_execute_dft_c2r(plan.get(), from, to);
+    }
+    static void execute(const Plan& plan, Complex* from, Complex* to) {
+        fftwf_execute_dft(plan.get(), from, to);
+    }
+};
+
+template <class Real>
+typename Fftw<Real>::Complex* as_complex(Real* p) {
+    return reinterpret_cast<typename Fftw<Real>::Complex*>(p);
+}
+
+}  // namespace
+
+template <class Real>
+struct PeriodicPixels<Real>::Plans {
+    typename Fftw<Real>::Plan row_forward, row_backward, column_forward, column_backward;
+    std::size_t length = 0,
+                stride =
+                    0;  // of a row or column being transformed, and between the columns of a block
+    std::size_t size() const { return length + (kColumns + 1) * stride; }
+    // One for each thread: a row or column being transformed, a block of columns, and the factors
+    // of a column.
+    std::vector<Memory> buffers;
+};
+
+template <class Real>
+void PeriodicPixels<Real>::Free::operator()(Real* p) const noexcept {
+    HeightMap::Free()(reinterpret_cast<double*>(p));
+}
+
+template <class Real>
+typename PeriodicPixels<Real>::Memory PeriodicPixels<Real>::allocate(std::size_t n) {
+    constexpr std::size_t each = sizeof(double) / sizeof(Real);
+    return Memory(reinterpret_cast<Real*>(
+        allocate_doubles((n + each - 1) / each, "the pressures on all pixels")));
+}
+
+template <class Real>
+PeriodicPixels<Real>::PeriodicPixels(int nx, int ny, double dx, double dy,
+                                     const std::function<double(double)>& share)
+    : nx_(nx),
+      ny_(ny),
+      dx_(dx),
+      dy_(dy),
+      threads_(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) >= kThreads),
+      plans_(std::make_unique<Plans>()) {
+    // Rows hold whole blocks of columns and are an odd number of cache lines apart, so that the
+    // elements of a column do not share cache sets.
+    constexpr std::size_t line = kLine / sizeof(Real);
+    std::size_t lines =
+        (2 * static_cast<std::size_t>((nx / 2 + kColumns) / kColumns * kColumns) + line - 1) / line;
+    lines += lines % 2 == 0;
+    stride_ = lines * line;
+    plane_ = allocate(stride_ * static_cast<std::size_t>(ny));
+    const auto whole_lines = [](std::size_t n) { return (n + line - 1) / line * line; };
+    plans_->length = whole_lines(2 * static_cast<std::size_t>(std::max(nx / 2 + 1, ny)));
+    plans_->stride = whole_lines(2 * static_cast<std::size_t>(ny)) +
+                     line;  // columns that do not share cache sets
+    const int threads = threads_ ? static_cast<int>(most_threads(0)) : 1;
+    for (int t = 0; t < threads; ++t) plans_->buffers.push_back(allocate(plans_->size()));
+    const auto lock = fftw_planning();
+    Real *const row = plane_.get(), *const buffer = plans_->buffers[0].get(),
+                *const column = buffer + plans_->length;
+    plans_->row_forward = Fftw<Real>::row_forward(nx, buffer, as_complex(row));
+    plans_->row_backward = Fftw<Real>::row_backward(nx, as_complex(buffer), row);
+    plans_->column_forward =
+        Fftw<Real>::column(ny, as_complex(column), as_complex(buffer), FFTW_FORWARD);
+    plans_->column_backward =
+        Fftw<Real>::column(ny, as_complex(buffer), as_complex(column), FFTW_BACKWARD);
+    if (!plans_->row_forward || !plans_->row_backward || !plans_->column_forward ||
+        !plans_->column_backward)
+        throw Error(Failure::internal, "FFTW made no plan for " + std::to_string(nx) + " x " +
+                                           std::to_string(ny) + " pixels");
+    if (!share) return;
+    const int columns = (nx / 2 + kColumns) / kColumns * kColumns, half = ny / 2 + 1;
+    layered_ = allocate(static_cast<std::size_t>(columns) * static_cast<std::size_t>(half));
+    const double pi = std::numbers::pi;
+    parallel_for(half, kRows, threads, [&](int j) {
+        for (int i = 0; i < columns; ++i) {
+            const double k =
+                2 * pi *
+                std::hypot(static_cast<double>(i) / nx / dx, static_cast<double>(j) / ny / dy);
+            layered_[static_cast<std::size_t>(i) * static_cast<std::size_t>(half) +
+                     static_cast<std::size_t>(j)] = static_cast<Real>(k > 0 ? 1 + share(k) : 1.0);
+        }
+    });
+}
+
+template <class Real>
+PeriodicPixels<Real>::~PeriodicPixels() = default;
+
+template <class Real>
+std::size_t PeriodicPixels<Real>::bytes() const {
+    return sizeof(Real) *
+           (stride_ * static_cast<std::size_t>(ny_) + plans_->buffers.size() * plans_->size());
+}
+
+// Copies complex numbers from rows to columns, or back.
+template <class Real>
+void to_columns(std::size_t rows, const Real* __restrict row, std::size_t row_stride,
+                Real* __restrict column, std::size_t stride) {
+    for (std::size_t j = 0; j < rows; ++j)
+        for (std::size_t c = 0; c < kColumns; ++c)
+            std::copy_n(row + j * row_stride + 2 * c, 2, column + c * stride + 2 * j);
+}
+template <class Real>
+void to_rows(std::size_t rows, const Real* __restrict column, std::size_t stride,
+             Real* __restrict row, std::size_t row_stride) {
+    for (std::size_t j = 0; j < rows; ++j)
+        for (std::size_t c = 0; c < kColumns; ++c)
+            std::copy_n(column + c * stride + 2 * j, 2, row + j * row_stride + 2 * c);
+}
+
+// mode[j] *= 2/(k points), or k/(2 points), for the n modes of a column with k^2 = kx2 + ky2[j].
+// `k` is for at least n + 3 numbers.
+template <class Real>
+void scale(Real* __restrict mode, std::size_t n, Real kx2, const Real* __restrict ky2, Real points,
+           bool inverse, Real* __restrict k) {
+    for (std::size_t j = 0; j < n; ++j) k[j] = kx2 + ky2[j];
+    std::fill_n(k + n, 3, Real(0));
+    vector_math::square_roots(k, static_cast<int>((n + 3) / 4 * 4));
+    if (inverse) {
+        const Real part = Real(0.5) / points;
+        for (std::size_t j = 0; j < n; ++j) k[j] *= part;
+    } else {
+        const Real two = Real(2) / points;
+        for (std::size_t j = 0; j < n; ++j) k[j] = two / k[j];
+    }
+    for (std::size_t j = 0; j < n; ++j) mode[2 * j] *= k[j], mode[2 * j + 1] *= k[j];
+}
+
+// Transforms the columns of modes, multiplies them and transforms them back while they are in the
+// cache. A few columns are copied together, because their elements share cache lines.
+template <class Real>
+void PeriodicPixels<Real>::columns(Answer answer) {
+    const int blocks = (nx_ / 2 + kColumns) / kColumns;
+    const double pi = std::numbers::pi,
+                 points = static_cast<double>(nx_) * static_cast<double>(ny_);
+    const auto rows = static_cast<std::size_t>(ny_), stride = plans_->stride;
+    std::vector<Real> ky2(rows);  // (ky dx)^2
+    for (int j = 0; j < ny_; ++j) {
+        const double k = 2 * pi * (2 * j <= ny_ ? j : j - ny_) / ny_ * (dx_ / dy_);
+        ky2[static_cast<std::size_t>(j)] = static_cast<Real>(k * k);
+    }
+    parallel_for(
+        blocks, 1, static_cast<int>(plans_->buffers.size()), [&](int b, std::size_t worker) {
+            Real *const modes = plans_->buffers[worker].get(),
+                        *const block = modes + plans_->length, *const k = block + kColumns * stride;
+            Real* const plane = plane_.get() + static_cast<std::size_t>(b) * 2 * kColumns;
+            to_columns(rows, plane, stride_, block, stride);
+            for (int c = 0; c < kColumns; ++c) {
+                const int i = b * kColumns + c;
+                Real* const column = block + static_cast<std::size_t>(c) * stride;
+                Fftw<Real>::execute(plans_->column_forward, as_complex(column), as_complex(modes));
+                const double kx = 2 * pi * i / nx_;  // times dx
+                scale(modes, rows, static_cast<Real>(kx * kx), ky2.data(),
+                      static_cast<Real>(points), answer == Answer::pressure, k);
+                if (layered_) {
+                    const std::size_t half = rows / 2 + 1;
+                    const Real* const layered = layered_.get() + static_cast<std::size_t>(i) * half;
+                    for (std::size_t j = 0; j < rows; ++j) {
+                        const Real share = layered[std::min(j, rows - j)],
+                                   factor = answer == Answer::deflection ? share : 1 / share;
+                        modes[2 * j] *= factor, modes[2 * j + 1] *= factor;
+                    }
+                }
+                if (i == 0) modes[0] = modes[1] = 0;
+                Fftw<Real>::execute(plans_->column_backward, as_complex(modes), as_complex(column));
+            }
+            to_rows(rows, block, stride, plane, stride_);
+        });
+}
+
+template <class Real>
+void PeriodicPixels<Real>::apply(const Load& load, const Take& take, Answer answer) {
+    const int threads = static_cast<int>(plans_->buffers.size());
+    // The padding after the modes of a row is transformed with them, so it must be initialised.
+    const std::size_t used = 2 * static_cast<std::size_t>(nx_ / 2 + 1);
+    parallel_for(ny_, kRows, threads, [&](int j, std::size_t worker) {
+        Real* const values = plans_->buffers[worker].get();
+        load(j, values);
+        Fftw<Real>::execute(plans_->row_forward, values, as_complex(row(j)));
+        std::fill(row(j) + used, row(j) + stride_, Real(0));
+    });
+    columns(answer);
+    parallel_for(ny_, kRows, threads, [&](int j, std::size_t worker) {
+        Real* const modes = plans_->buffers[worker].get();
+        std::copy_n(row(j), used, modes);
+        Fftw<Real>::execute(plans_->row_backward, as_complex(modes), row(j));
+        take(j, row(j));
+    });
+}
+
+template class PeriodicPixels<float>;
+template class PeriodicPixels<double>;
+
+}  // namespace rsc

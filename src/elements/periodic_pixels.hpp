@@ -1,0 +1,69 @@
+// Deflections of a periodic surface under pressures on all its pixels: products with K by Fourier
+// transforms over the whole period.
+#pragma once
+
+#include "base/std.hpp"
+
+namespace rsc {
+
+// Half-space of modulus E* with nx x ny pixels of sides dx, dy, periodic in both directions.
+// Pressures are samples of a band-limited function at the pixel centres. Each mode exp(i k x), |kx|
+// <= pi/dx and |ky| <= pi/dy, causes a deflection of 2/(E* |k|) (1 + share(|k|)) times itself
+// (Johnson 1985, section 13.2; kernel.hpp), and k = 0 none: deflections are measured from the mean
+// plane. K is symmetric, and positive definite except for k = 0. Real is float or double; results
+// do not depend on the number of threads.
+template <class Real>
+class PeriodicPixels {
+public:
+    // `share` is a function of the wavenumber times dx; empty: homogeneous half-space. Throws
+    // Error(no_memory), or Error(bad_input) if the grid is too large.
+    PeriodicPixels(int nx, int ny, double dx, double dy,
+                   const std::function<double(double)>& share = {});
+    ~PeriodicPixels();
+    PeriodicPixels(const PeriodicPixels&) = delete;
+    PeriodicPixels& operator=(const PeriodicPixels&) = delete;
+
+    // Row j of the plane on which the transforms operate, nx numbers.
+    Real* row(int j) { return plane_.get() + static_cast<std::size_t>(j) * stride_; }
+    const Real* row(int j) const { return plane_.get() + static_cast<std::size_t>(j) * stride_; }
+
+    enum class Answer { deflection, pressure };
+    // Multiplies the plane by K/unit(), or by unit() K^-1 with mean 0. `load(j, row)` fills each
+    // row before, `take(j, row)` may read it afterwards; both are called concurrently for different
+    // rows.
+    using Load = std::function<void(int, Real*)>;
+    using Take = std::function<void(int, const Real*)>;
+    void apply(const Load& load, const Take& take, Answer answer = Answer::deflection);
+
+    // dx/E* for E* = 1 [length/pressure]. Values in the plane exclude this factor and are of order
+    // 1, also in float.
+    double unit() const { return dx_; }
+
+    std::size_t bytes() const;
+
+private:
+    void columns(Answer answer);
+
+    struct Free {
+        void operator()(Real* p) const noexcept;
+    };
+    struct Plans;
+    using Memory = std::unique_ptr<Real[], Free>;
+    static Memory allocate(std::size_t n);
+
+    int nx_, ny_;
+    double dx_, dy_;
+    std::size_t stride_;
+    bool threads_;
+    Memory plane_;
+    Memory
+        // 1 + share of the modes with ky >= 0, [column block][row][column]; none for a homogeneous
+        // half-space
+        layered_;
+    std::unique_ptr<Plans> plans_;
+};
+
+extern template class PeriodicPixels<float>;
+extern template class PeriodicPixels<double>;
+
+}  // namespace rsc

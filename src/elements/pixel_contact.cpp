@@ -1,0 +1,206 @@
+#include "elements/pixel_contact.hpp"
+
+#include "base/error.hpp"
+#include "elements/pixel_spots.hpp"
+#include "surface/stencil.hpp"
+#include "trust/validity.hpp"
+
+namespace rsc {
+
+PixelContact::PixelContact(const HeightMap& heights, const Indenter& indenter,
+                           const SolverOptions& options)
+    : CutMap(require_elements(heights, indenter, options)),
+      heights_(heights),
+      indenter_(indenter),
+      options_(options) {
+    if (!options.relaxation.none()) loads_.emplace(Creep(options.relaxation));
+}
+
+std::vector<std::pair<std::int32_t, double>> PixelContact::residual() const {
+    std::vector<std::pair<std::int32_t, double>> points(residual_.begin(), residual_.end());
+    std::sort(points.begin(), points.end());
+    return points;
+}
+
+void PixelContact::set_residual(Depths depths) {
+    residual_ = std::move(depths);
+    lowered_.assign(residual_.empty() ? 0
+                                      : static_cast<std::size_t>(heights_.nx) *
+                                            static_cast<std::size_t>(heights_.ny),
+                    false);
+    for (const auto& [k, depth] : residual_) lowered_[static_cast<std::size_t>(k)] = true;
+    residual_changed();
+}
+
+std::vector<double> PixelContact::memory() const {
+    std::vector<double> numbers;
+    if (relaxes()) {
+        numbers = last_accepted();
+        loads_->write(numbers);
+        return numbers;
+    }
+    for (const auto& [k, depth] : residual())
+        numbers.insert(numbers.end(), {double(k % heights_.nx), double(k / heights_.nx), depth});
+    return numbers;
+}
+
+void PixelContact::recall(const std::vector<double>& memory, const Level* level) {
+    if (relaxes()) {
+        const auto& places = loads_->places();
+        const std::span<const double> rest = recall_accepted(memory);
+        if (loads_->read(rest) != rest.size() ||
+            (!places.empty() && places.back() / heights_.nx >= heights_.ny))
+            throw Error(Failure::bad_input, "the state of the loads does not belong to this map");
+        step(0);
+    } else {
+        Depths depths;
+        for (std::size_t k = 0; k + 2 < memory.size(); k += 3) {
+            const double column = memory[k], row = memory[k + 1], depth = memory[k + 2];
+            if (!(column >= 0 && column < heights_.nx && row >= 0 && row < heights_.ny &&
+                  depth > 0 && depth < 1e50))
+                throw Error(Failure::bad_input,
+                            "the state does not belong to a contact of this surface");
+            depths[static_cast<std::int32_t>(row) * heights_.nx +
+                   static_cast<std::int32_t>(column)] += depth;
+        }
+        set_residual(std::move(depths));
+    }
+    forget_levels();
+    if (!level) return;
+    start_from(*level);
+    (void)solve(level->separation);
+    accepted_ = true;
+}
+
+ResidualProfile PixelContact::residual_profile() const {
+    ResidualProfile profile{{}, {}, {}, heights_.dx, heights_.dy};
+    for (const auto& [k, depth] : residual()) {
+        const Pixel pixel = pixel_at(k);
+        profile.x.push_back(x(pixel.x)), profile.y.push_back(y(pixel.y)),
+            profile.depth.push_back(depth);
+    }
+    return profile;
+}
+
+std::optional<Level> PixelContact::lasting_loads(const Level& level) const {
+    if (!loads_) return {};
+    Level lasting = level;
+    lasting.pixels.index.clear();
+    for (const Pixel& pixel : loaded_pixels())
+        lasting.pixels.index.push_back(pixel.y * frame.nx + pixel.x);
+    lasting.pixels.pressure = loads_->lasting();
+    return lasting;
+}
+
+std::vector<Pixel> PixelContact::loaded_pixels() const {
+    std::vector<Pixel> pixels;
+    for (const std::int32_t i : loads_->places()) pixels.push_back(pixel_at(i));
+    return pixels;
+}
+
+void PixelContact::accept(Level& level) {
+    accepted_ = true;
+    if (relaxes()) {
+        std::vector<std::pair<std::int32_t, double>> loaded;
+        const LevelPixels& pixels = level.pixels;
+        for (std::size_t k = 0; k < pixels.index.size(); ++k)
+            loaded.emplace_back(
+                place({pixels.index[k] % pixels.columns, pixels.index[k] / pixels.columns}),
+                pixels.pressure[k]);
+        std::sort(loaded.begin(), loaded.end());
+        std::vector<std::int32_t> where;
+        std::vector<double> p;
+        for (const auto& [point, pressure] : loaded) where.push_back(point), p.push_back(pressure);
+        loads_->accept(where, p, [&](const std::vector<double>& q) {
+            return deflections(loaded_pixels(), q);
+        });
+        level.energy_lost = pixel_area() * loads_->lost();
+    } else if (path_dependent()) {
+        if (!level.pixels.index.empty()) {
+            Depths depths = residual_;
+            for (const auto& [pixel, depth] : press_out()) depths[place(pixel)] += depth;
+            set_residual(std::move(depths));
+        }
+        double sum = 0;
+        for (const auto& [k, depth] : residual()) sum += depth;
+        level.plastic_work = options_.hardness.H0 * pixel_area() * sum;
+    }
+}
+
+// Highest point under the indenter of polynomials through the heights beside each highest one:
+// where the bodies touch first if that is between points.
+double PixelContact::top_between_points() {
+    if (between_) return *between_;
+    constexpr int kReach = 3, kSide = 2 * kReach + 1,
+                  kPlaces = 5;  // places a quarter of a step apart, up to half a step
+    // Waves of four points, and the places between, rise by up to 1.3 times as much (test/README).
+    constexpr double kMissed = 1.3;
+    static const Stencil stencil = Stencil::polynomial(kReach);
+    double weights[kPlaces][1][Stencil::kTaps];
+    const auto part = [](std::size_t k) { return 0.25 * (static_cast<double>(k) - kPlaces / 2); };
+    for (std::size_t k = 0; k < kPlaces; ++k) stencil.weights(part(k), 1, weights[k]);
+    const bool repeats = indenter_.period.finite();
+    const auto z = [&](int i, int j) {
+        return height(column(continued(i, frame.nx, repeats)),
+                      row(continued(j, frame.ny, repeats)));
+    };
+    const auto clear = [&](int i, int j) { return indenter_.clearance(x(i), y(j), z(i, j)); };
+    between_ = top_;
+    std::vector<double> line(static_cast<std::size_t>(frame.nx) + 2);
+    for (int j = 0; j < frame.ny; ++j) {
+        for (int i = -1; i <= frame.nx; ++i) line[static_cast<std::size_t>(i + 1)] = clear(i, j);
+        for (int i = 0; i < frame.nx; ++i) {
+            const double* const here = &line[static_cast<std::size_t>(i + 1)];
+            if (*here == -kInfinity) continue;  // beside the indenter
+            if (!(*here >= std::max(here[-1], here[1])) ||
+                !(*here >= std::max(clear(i, j - 1), clear(i, j + 1))))
+                continue;
+            double along[kPlaces][kSide] = {};  // heights at the places in x
+            for (int b = 0; b < kSide; ++b)
+                for (int a = 0; a < kSide; ++a) {
+                    const double height = z(i + a - kReach, j + b - kReach);
+                    for (std::size_t k = 0; k < kPlaces; ++k)
+                        along[k][b] += weights[k][0][a] * height;
+                }
+            for (std::size_t k = 0; k < kPlaces; ++k)
+                for (std::size_t l = 0; l < kPlaces; ++l) {
+                    const double top = indenter_.clearance(
+                        x(i) + part(k) * frame.dx, y(j) + part(l) * frame.dy,
+                        std::inner_product(along[k], along[k] + kSide, weights[l][0], 0.0));
+                    between_ = std::max(*between_, *here + kMissed * (top - *here));
+                }
+        }
+    }
+    return *between_;
+}
+
+Level PixelContact::report(double Z0, const ElementsOutcome& outcome, std::size_t candidates,
+                           const std::vector<Pixel>& touching, std::vector<double> pressure) {
+    Level level;
+    level.separation = Z0;
+    level.candidates = static_cast<std::int32_t>(candidates);
+    level.iterations = outcome.iterations;
+    level.products = outcome.products;
+    level.residual = outcome.residual;
+    level.method = Method::automatic;
+    if (!outcome.converged) level.status = LevelStatus::not_converged;
+    for (double& p : pressure) p /= scale();
+    add_pixels(level, frame, indenter_, options_.hardness.H0, touching, std::move(pressure));
+    number_by_map(level);
+    if (indenter_.period.finite())
+        level.nominal_area = heights_.Lx() * heights_.Ly();
+    else
+        judge_edges(level, indenter_, options_);
+    // Farther from the surface than its rms height and that of the indenter's face within a pixel
+    // nothing touches between points either.
+    const bool recovers = loads_ && !loads_->places().empty();  // the surface is lower than the map
+    if (touching.empty() && !recovers &&
+        Z0 - top_ < options_.sigma + indenter_.shape->height(0.5 * frame.dx, 0.5 * frame.dy) &&
+        Z0 < top_between_points()) {
+        level.status = graver(level.status, LevelStatus::out_of_validity);
+        level.force_error_expected = level.area_error_expected = 1;
+    }
+    return level;
+}
+
+}  // namespace rsc

@@ -1,0 +1,57 @@
+// Deflections of an elastic half-space by uniform pressures on the pixels of a grid, w = K p
+// (physics: Johnson 1985, section 3.4).
+#pragma once
+
+#include "interaction/kernel.hpp"
+
+namespace rsc {
+
+// A pixel of a grid, by column and row.
+struct Pixel {
+    int x, y;
+    friend auto operator<=>(const Pixel&, const Pixel&) = default;
+};
+
+// Interface of products with K. Pressures and deflections are vectors over a set of pixels, in its
+// order.
+class PixelProducts {
+public:
+    virtual ~PixelProducts() = default;
+
+    // Sets the pixels that may carry pressure and at whose centres deflections are computed; all
+    // must be different.
+    virtual void set_pixels(const std::vector<Pixel>& pixels) = 0;
+
+    enum class Accuracy { inner, between, full };  // for iterations, and for the final residual
+    // w = K p [length] at every pixel of the set. If `wanted` is given, at the pixels k with
+    // wanted[k] != 0, and at others that or 0.
+    virtual void apply(const double* p, double* w, Accuracy accuracy,
+                       const char* wanted = nullptr) = 0;
+    // w = K p on another set, in inner accuracy; cheaper if it is that of the last call.
+    virtual void elsewhere(const double* p, const std::vector<Pixel>& pixels, double* w,
+                           const char* wanted = nullptr) = 0;
+
+    // K between two pixels dx columns and dy rows apart [length/pressure].
+    virtual double coefficient(int dx, int dy) const = 0;
+
+    // Relative errors (2-norm) of the two kinds of products.
+    virtual double error(Accuracy accuracy) const = 0;
+    double inner_error() const { return error(Accuracy::inner); }
+    double full_error() const { return error(Accuracy::full); }
+    long count() const { return count_; }  // number of products so far
+
+protected:
+    long count_ = 0;
+};
+
+// Products for a free body with pixels of sides dx, dy [length]. If `shifted`, K includes the
+// offset substrate.bulge() per unit force (Kernel::shift()).
+// Near pixels interact by Love's kernel and the smooth part, far ones by a hierarchy of boxes,
+// whose pressures are interpolated to a few Chebyshev points (W. Fong, E. Darve, J. Comput. Phys.
+// 228, 2009). The work is proportional to the number of pixels. Results do not depend on the number
+// of threads.
+std::unique_ptr<PixelProducts> make_tree_products(const Substrate& substrate, double dx, double dy,
+                                                  double inner_error, double full_error,
+                                                  bool shifted = true);
+
+}  // namespace rsc

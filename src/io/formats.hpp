@@ -1,0 +1,137 @@
+// The readers of file formats, each in its own source file; io/inputs.cpp selects one by the first
+// bytes of a file. All throw
+// Error(bad_input) with the line or byte of the error.
+#pragma once
+
+#include "base/error.hpp"
+#include "base/format.hpp"
+#include "surface/surface.hpp"
+
+namespace rsc {
+
+// Gwyddion's own files (.gwy), a tree of named values
+// (http://gwyddion.net/documentation/user-guide-en/gwyfile-format.html). is_gwy() is true for the
+// first bytes of such a file. Reads the first channel named `channel`, or the one of this number if
+// none has this name; by default the first one whose values are lengths. Missing points (NaN, or
+// those under the channel's mask) are NaN. Lengths are converted to length_unit. The first row of
+// the file, the top of the picture, has the largest y; x0 = y0 = 0.
+bool is_gwy(const std::string& start);
+HeightMap read_gwy(const std::string& path, const std::string& channel,
+                   const std::string& length_unit);
+
+// Surface data files (.sdf) of ISO 25178-71, text and binary, and of its predecessor BCR. is_sdf()
+// is true for their first bytes: aISO-1.0, bISO-1.0, aBCR-1.0, ... The heights are converted from
+// metres to length_unit; missing points (BAD in a text, the least value of a signed integer type,
+// the largest of an unsigned one, NaN or the least double) are NaN. Rows and origin as in
+// read_gwy().
+bool is_sdf(const std::string& start);
+HeightMap read_sdf(const std::string& path, const std::string& length_unit);
+
+// A rectangular table: value (row, column) = values[row*columns + column]; line[row] is the row's
+// line in the file, from 1.
+struct TextTable {
+    std::size_t rows = 0, columns = 0;
+    std::vector<double> values;
+    std::vector<long> line;
+    std::string unit;  // in a comment `# Value units: m`, as Gwyddion writes it
+};
+
+// Numbers in columns from a text file, separated by blanks or tabs, by a comma, or by a semicolon
+// (adjacent blanks are ignored); the same separator is required throughout. With semicolons the
+// decimal mark may be a comma, but then throughout. `#` starts a comment; empty lines are skipped;
+// exponents may be Fortran's (1.5d-3). `columns`: the required number, or 0 for that of the first
+// row. With `missing` the words nan and bad are missing values: NaN. Throws Error(bad_input) for
+// words that are no finite number, rows of different length or separator, files without rows, and
+// UTF-16.
+TextTable read_table(const std::string& path, std::size_t columns, bool missing = false);
+
+// A number as Fortran reads it. Empty for other words, and for an exponent without a letter: in a
+// file "12-3" is rather two numbers that have lost their separator.
+std::optional<double> number_in_file(std::string_view word);
+
+// A word of a file for a message, in quotes.
+std::string shown(std::string_view word);
+
+// Checks of the size of a height map before its memory is allocated, and a reader of binary files.
+
+// Throws Error(bad_input) if `what`, of `count` doubles, needs more memory than the machine has:
+// the size in a damaged file may be arbitrary.
+void check_memory(const std::string& path, const std::string& what, double count);
+
+// Throws Error(bad_input) unless a map has at least 3 x 3 points, at most 2^31 - 1 a side, and fits
+// into memory.
+void check_grid(const std::string& path, std::size_t nx, std::size_t ny);
+
+// Rows without padding, as for the functions below.
+HeightMap allocate_map(std::size_t nx, std::size_t ny);
+void scale_heights(HeightMap& map, double factor);
+
+// Reverse the order of columns or rows.
+void reverse_columns(HeightMap& map);
+void reverse_rows(HeightMap& map);
+
+// The bytes of a binary file, read in order; reading beyond their end throws an error with the
+// position.
+
+// Reads all bytes of a file. Throws Error(bad_input) if they cannot be read.
+inline std::string read_bytes(const std::string& path) {
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : -1;
+    if (size < 0) bad_input(path + ": cannot be read");
+    check_memory(path, "the file", static_cast<double>(size) / sizeof(double));
+    std::string bytes(static_cast<std::size_t>(size), '\0');
+    file.seekg(0);
+    file.read(bytes.data(), size);
+    if (file.gcount() != size) bad_input(path + ": reading failed");
+    return bytes;
+}
+
+// Little-endian numbers.
+class ByteReader {
+public:
+    ByteReader(const std::string& path, std::string_view bytes, std::size_t at, std::size_t end)
+        : path_(path), bytes_(bytes), at_(at), end_(end) {}
+
+    std::size_t at() const { return at_; }
+    std::size_t left() const { return end_ - at_; }
+    const std::string& path() const { return path_; }
+    [[noreturn]] void refuse(const std::string& what) const {
+        bad_input(path_ + ": at byte " + std::to_string(at_) + ": " + what);
+    }
+
+    // The next `count` items of `size` bytes each; `what` names them in messages.
+    std::string_view take(std::size_t count, std::size_t size, const std::string& what) {
+        if (count > left() / size)
+            refuse(what + " of " + std::to_string(count) + " x " + std::to_string(size) +
+                   " bytes, but " + std::to_string(left()) + " are left; is the file complete?");
+        const std::string_view taken = bytes_.substr(at_, count * size);
+        at_ += count * size;
+        return taken;
+    }
+    template <class T>
+    T number(const std::string& what) {
+        return value<T>(take(1, sizeof(T), what).data());
+    }
+    // Up to a zero byte.
+    std::string_view text(const std::string& what) {
+        const std::size_t zero = bytes_.substr(at_, left()).find('\0');
+        if (zero == std::string_view::npos) refuse(what + " has no end; is the file complete?");
+        const std::string_view taken = bytes_.substr(at_, zero);
+        at_ += zero + 1;
+        return taken;
+    }
+    template <class T>
+    static T value(const char* bytes) {
+        static_assert(std::endian::native == std::endian::little);
+        T value;
+        std::memcpy(&value, bytes, sizeof value);
+        return value;
+    }
+
+private:
+    const std::string& path_;
+    std::string_view bytes_;
+    std::size_t at_, end_;
+};
+
+}  // namespace rsc

@@ -1,0 +1,203 @@
+#include "io/formats.hpp"
+
+#include "base/error.hpp"
+#include "base/format.hpp"
+#include "case/namelist.hpp"
+#include "case/units.hpp"
+
+namespace rsc {
+namespace {
+
+constexpr std::size_t kVersion = 8;
+
+struct Header {
+    std::size_t nx = 0, ny = 0;
+    double dx = 0, dy = 0, scale = 0;  // [m]
+    long compression = 0, type = 0, check = 0;
+};
+
+HeightMap prepare(const std::string& path, const Header& h, const std::string& length_unit,
+                  double& factor) {
+    check_grid(path, h.nx, h.ny);
+    const auto positive = [&](const char* name, double value) {
+        if (!(value > 0 && std::isfinite(value)))
+            bad_input(path + ": " + name + " = " + text_of(value) + ": must be positive");
+    };
+    positive("Xscale", h.dx), positive("Yscale", h.dy), positive("Zscale", h.scale);
+    if (h.compression != 0)
+        bad_input(path + ": Compression = " + std::to_string(h.compression) +
+                  ": only 0 (none) is known");
+    if (h.check != 0)
+        bad_input(path + ": CheckType = " + std::to_string(h.check) + ": only 0 (none) is known");
+    const double metre = length_factor("m", length_unit);
+    HeightMap map = allocate_map(h.nx, h.ny);
+    map.dx = h.dx * metre, map.dy = h.dy * metre;
+    factor = h.scale * metre;
+    return map;
+}
+
+// The value of a type for a missing point; NaN always means missing.
+template <class T>
+constexpr double missing_value() {
+    return static_cast<double>(std::is_unsigned_v<T> ? std::numeric_limits<T>::max()
+                                                     : std::numeric_limits<T>::lowest());
+}
+
+template <class T>
+void take_values(ByteReader& in, HeightMap& map, double factor) {
+    const std::size_t points = map.points();
+    const char* const bytes = in.take(points, sizeof(T), "heights").data();
+    for (std::size_t k = 0; k < points; ++k) {
+        const auto value = static_cast<double>(ByteReader::value<T>(bytes + k * sizeof(T)));
+        map.data[k] = value == missing_value<T>() ? std::nan("") : factor * value;
+    }
+}
+
+HeightMap read_binary(const std::string& path, const std::string& bytes,
+                      const std::string& length_unit) {
+    ByteReader in(path, bytes, kVersion, bytes.size());
+    in.take(10 + 12 + 12, 1, "the header");  // maker, dates
+    Header h;
+    const bool second = bytes[5] >= '2';  // counts of 32 bits from version 2.0 on
+    h.nx = second ? in.number<std::uint32_t>("NumPoints") : in.number<std::uint16_t>("NumPoints");
+    h.ny =
+        second ? in.number<std::uint32_t>("NumProfiles") : in.number<std::uint16_t>("NumProfiles");
+    h.dx = in.number<double>("Xscale");
+    h.dy = in.number<double>("Yscale");
+    h.scale = in.number<double>("Zscale");
+    in.number<double>("Zresolution");
+    h.compression = in.number<std::uint8_t>("Compression");
+    h.type = in.number<std::uint8_t>("DataType");
+    h.check = in.number<std::uint8_t>("CheckType");
+    constexpr std::size_t kSizes[] = {1, 2, 4, 4, 1, 2, 4, 8};
+    if (h.type > 7)
+        bad_input(path + ": DataType = " + std::to_string(h.type) + ": 0 to 7 was expected");
+    // Before memory is allocated.
+    if (h.nx > 0 && h.ny > 0 && in.left() / kSizes[h.type] / h.nx < h.ny)
+        in.refuse(std::to_string(h.nx) + " x " + std::to_string(h.ny) + " heights of " +
+                  std::to_string(kSizes[h.type]) + " bytes each, but " + std::to_string(in.left()) +
+                  " bytes are left; is the file complete?");
+    double factor = 0;
+    HeightMap map = prepare(path, h, length_unit, factor);
+    // Some instruments (Olympus) write two more integers, 5 and 1, after the header.
+    if (in.left() == h.nx * h.ny * kSizes[h.type] + 8 &&
+        ByteReader::value<std::uint32_t>(bytes.data() + in.at()) == 5 &&
+        ByteReader::value<std::uint32_t>(bytes.data() + in.at() + 4) == 1)
+        in.take(8, 1, "the header");
+    switch (h.type) {
+        case 0: take_values<std::uint8_t>(in, map, factor); break;
+        case 1: take_values<std::uint16_t>(in, map, factor); break;
+        case 2: take_values<std::uint32_t>(in, map, factor); break;
+        case 3: take_values<float>(in, map, factor); break;
+        case 4: take_values<std::int8_t>(in, map, factor); break;
+        case 5: take_values<std::int16_t>(in, map, factor); break;
+        case 6: take_values<std::int32_t>(in, map, factor); break;
+        default: take_values<double>(in, map, factor); break;
+    }
+    // A text trailer may follow; more bytes are heights that are not in the header.
+    constexpr std::size_t longest = std::size_t{1} << 16;
+    if (in.left() > longest)
+        in.refuse(std::to_string(in.left()) + " bytes follow the last of " + std::to_string(h.nx) +
+                  " x " + std::to_string(h.ny) + " heights; are NumPoints and NumProfiles right?");
+    return map;
+}
+
+HeightMap read_text(const std::string& path, std::string bytes, const std::string& length_unit) {
+    std::replace(bytes.begin(), bytes.end(), '\0', ' ');
+    std::istringstream in(bytes);
+    long lines = 0;
+    std::map<std::string, std::pair<std::string, long>>
+        header;  // the value of a name, and its line
+    std::string line, word;
+    std::getline(in, line);  // the version
+    do {
+        if (!std::getline(in, line))
+            bad_input(path +
+                      ": the line '*' that ends the header is missing; is the file complete?");
+        ++lines;
+        std::replace(line.begin(), line.end(), '=', ' ');
+        std::istringstream words(line);
+        std::string value, more;
+        word.clear();
+        words >> word >> value >> more;
+        if (!more.empty() && more[0] != ';') value += ' ' + more;  // no unit may follow a number
+        header[namelist::lower_case(word)] = {value, lines + 1};
+    } while (word[0] != '*');
+    const auto number = [&](const char* name, auto& value) {
+        const auto found = header.find(namelist::lower_case(name));
+        if (found == header.end()) bad_input(path + ": the header has no " + std::string(name));
+        const std::string& text = found->second.first;
+        const long at = found->second.second;
+        const auto read = [&] {
+            if constexpr (std::is_floating_point_v<std::remove_reference_t<decltype(value)>>)
+                return number_in_file(text);
+            else
+                return namelist::to_integer(text);
+        }();
+        using Value = std::remove_reference_t<decltype(value)>;
+        if (!read ||
+            (std::is_integral_v<Value> &&
+             (*read < 0 || !std::in_range<std::uint32_t>(static_cast<std::int64_t>(*read)))))
+            bad_input(path + ":" + std::to_string(at) + ": " + name +
+                      ": a number was expected, not " + shown(text));
+        value = static_cast<Value>(*read);
+    };
+    Header h;
+    number("NumPoints", h.nx), number("NumProfiles", h.ny);
+    number("Xscale", h.dx), number("Yscale", h.dy), number("Zscale", h.scale);
+    if (header.count("compression")) number("Compression", h.compression);
+    if (header.count("datatype")) number("DataType", h.type);
+    if (header.count("checktype")) number("CheckType", h.check);
+    // A height has at least two characters, so excessive sizes are refused before memory is
+    // allocated.
+    if (h.nx > 0 && h.ny > bytes.size() / h.nx)
+        bad_input(path + ": " + std::to_string(h.nx) + " x " + std::to_string(h.ny) +
+                  " heights in a file of " + std::to_string(bytes.size()) +
+                  " bytes; is the file complete?");
+    double factor = 0;
+    HeightMap map = prepare(path, h, length_unit, factor);
+    // Some writers of integers also mark missing points by a number.
+    const double missing = h.type == 5   ? missing_value<std::int16_t>()
+                           : h.type == 6 ? missing_value<std::int32_t>()
+                                         : std::nan("");
+    const std::size_t points = h.nx * h.ny;
+    const std::string size = std::to_string(h.nx) + " x " + std::to_string(h.ny);
+    const auto refuse = [&](const std::string& what) {
+        in.clear();
+        const auto lines_before = std::count(bytes.begin(), bytes.begin() + in.tellg(), '\n');
+        bad_input(path + ":" + std::to_string(lines_before + 1) + ": " + what);
+    };
+    for (std::size_t k = 0; k < points; ++k) {
+        if (!(in >> word) || word[0] == '*')
+            refuse(std::to_string(k) + " heights where " + size +
+                   " were expected; is the file complete?");
+        const auto value =
+            namelist::lower_case(word) == "bad" ? std::nan("") : number_in_file(word);
+        if (!value) refuse(shown(word) + " is not a number");
+        map.data[k] = *value == missing ? std::nan("") : factor * *value;
+    }
+    if (in >> word && word[0] != '*')
+        refuse(shown(word) + " after the last of " + size + " heights");
+    return map;
+}
+
+}  // namespace
+
+bool is_sdf(const std::string& start) {
+    if (start.size() < kVersion || (start[0] != 'a' && start[0] != 'b')) return false;
+    const std::string kind = start.substr(1, 4);
+    return (kind == "ISO-" || kind == "BCR-") &&
+           std::isdigit(static_cast<unsigned char>(start[5])) && start[6] == '.' &&
+           std::isdigit(static_cast<unsigned char>(start[7]));
+}
+
+HeightMap read_sdf(const std::string& path, const std::string& length_unit) {
+    const std::string bytes = read_bytes(path);
+    if (!is_sdf(bytes)) bad_input(path + ": is no surface data file (ISO 25178-71)");
+    HeightMap map = bytes[0] == 'b' ? read_binary(path, bytes, length_unit)
+                                    : read_text(path, bytes, length_unit);
+    reverse_rows(map);
+    return map;
+}
+
+}  // namespace rsc

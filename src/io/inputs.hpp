@@ -1,0 +1,90 @@
+// Surfaces from files: height maps, lists of asperities and spectra in NetCDF, .gwy, .sdf or text.
+// The format is recognised by the first bytes of a file, not by its name. Errors are
+// Error(bad_input) with the file, the line or index, and the expected content. Thread-safe; NetCDF
+// files are read one at a time.
+#pragma once
+
+#include "surface/asperities.hpp"
+#include "surface/measured.hpp"
+#include "surface/spectrum.hpp"
+#include "surface/surface.hpp"
+
+namespace rsc {
+
+// True if a name has wildcards of the shell (*, ?, [).
+bool is_pattern(const std::string& name);
+
+// The files that match a pattern, in byte order; a name without wildcards is returned. Throws
+// Error(bad_input) if nothing matches.
+std::vector<std::string> matching_files(const std::string& name);
+
+// Properties of a map that a text file does not contain.
+struct TextMap {
+    std::string height_unit;      // of its heights; empty: length_unit
+    std::optional<double> pixel;  // step between the points of a matrix, instead of L [length_unit]
+    bool any() const { return !height_unit.empty() || pixel; }
+};
+
+// True if the readable file `path` is neither NetCDF nor of an instrument, so that TextMap applies
+// to it.
+bool is_text_map(const std::string& path);
+
+// Heights from `path`.
+// NetCDF: the variable `height`, dimensions (y, x), or the only two-dimensional numeric variable.
+// scale_factor and
+//   add_offset are applied; missing values (_FillValue, missing_value, outside valid_min, valid_max
+//   or valid_range, NaN) are refused.
+//   These limits are stored values, before scale_factor and add_offset; real numbers for packed
+//   integers are heights. Heights and
+//   coordinates are converted from their `units` to `length_unit`. If none of them has `units`,
+//   length_unit is assumed; if only some have,
+//   and another unit than length_unit, the file is refused. The spacing comes from the coordinate
+//   variables of the two dimensions, which
+//   must be uniform to 1e-6 of a step (or to the rounding of their own type); x0, y0 are the first
+//   coordinates; decreasing coordinates are
+//   reversed. Without coordinate variables the steps are dx = dy = L/nx and x0 = y0 = 0. If both
+//   are given, nx dx must equal L to 1e-6.
+// Text (formats.hpp): a matrix in length_unit (a comment that names another unit is refused), one
+// line for each y in increasing order;
+//   needs L. Or three columns x y z, in any order of the lines: the points of a full grid whose
+//   coordinates are uniform to a hundredth of
+//   a step, as text is rounded. Four columns are refused, because they are a list of asperities.
+// L: extent in x [length_unit] of the points as cells (L = nx dx). At least 3 x 3 points. The map
+// is not periodic.
+// Gwyddion's .gwy and .sdf of ISO 25178-71 (formats.hpp): sizes and units come from the file; L, if
+// given, must agree.
+// `channel` names the image of a .gwy or the variable of a NetCDF file; empty: the first with
+// heights. With Missing::fill missing points are NaN in the map; otherwise they are refused. In a
+// text `nan` and `bad` are missing points, as are points that are not
+//   among the triples.
+// `text` is for text files only; other files are refused with it.
+HeightMap read_heights(const std::string& path, std::optional<double> L,
+                       const std::string& length_unit = "mm", const std::string& channel = "",
+                       Missing missing = Missing::refuse, const TextMap& text = {});
+
+// Asperities from `path`.
+// NetCDF: asperity_x, asperity_y, asperity_z, asperity_radius over one dimension; asperity_kappa1,
+// _kappa2 and _angle if all
+//   three exist, asperity_biharmonic if it exists; each converted from its `units`, if it has them,
+//   to length_unit.
+// Text: four columns x y z r in length_unit, separators and comments as above.
+// At least one asperity; all values finite, radii positive, kappa1 >= kappa2 > 0, no two asperities
+// at the same (x, y).
+Asperities read_asperities(const std::string& path, const std::string& length_unit = "mm");
+
+// Properties of a measured map that synthetic surfaces reproduce.
+struct InputSpectrum {
+    std::shared_ptr<const SpectrumTable> table;         // by direction, if requested
+    double sigma = 0;                                   // rms height of the radial spectrum
+    std::shared_ptr<const HeightDistribution> heights;  // if requested
+};
+
+// NetCDF: the variables wavenumber and psd over one dimension, as result files of measured maps
+// have them, converted from their units (1/length, length^4) to length_unit; plane_wavenumber,
+// angle, psd_plane if `by_direction`, normal_score and height_quantile if `heights`.
+// Text: two columns, wavenumber and psd in powers of length_unit. Throws Error(bad_input) with the
+// file and the wrong or missing variable.
+InputSpectrum read_spectrum(const std::string& path, const std::string& length_unit,
+                            bool by_direction = false, bool heights = false);
+
+}  // namespace rsc

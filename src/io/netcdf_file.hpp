@@ -1,0 +1,58 @@
+// A NetCDF file for writing: its contents are declared first, then written in one call; the file
+// gets its final name when it is complete.
+#pragma once
+
+#include "case/case.hpp"
+
+namespace rsc {
+
+using NetcdfAttribute = std::variant<std::string, std::vector<double>, std::vector<std::int32_t>>;
+using NetcdfAttributes = std::vector<std::pair<std::string, NetcdfAttribute>>;
+
+// Rows of doubles with gaps between them: row j begins at data + j*stride.
+struct StridedRows {
+    const double* data = nullptr;
+    std::ptrdiff_t stride = 0;
+};
+
+struct NetcdfVariable {
+    std::string name;
+    std::vector<std::string> dimensions;  // slowest first; none for a scalar
+    std::string units, long_name;
+    // StridedRows: two dimensions; texts: two, the last one their longest length in bytes (shorter
+    // ones end in zeros)
+    std::variant<std::vector<double>, std::vector<std::int32_t>, StridedRows,
+                 std::vector<std::string>>
+        values;
+    NetcdfAttributes attributes;
+    bool may_be_absent =
+        false;  // NaN is a missing value, written as _FillValue; elsewhere it is an internal error
+    bool disorder =
+        // incompressible numbers: deflate saves a quarter at most and takes ten times as long as
+        // writing
+        false;
+};
+
+class NetcdfFile {
+public:
+    void dimension(const std::string& name, std::size_t length);
+    void attribute(const std::string& name, NetcdfAttribute value);
+    void variable(NetcdfVariable variable);
+
+    // Writes everything to `path`, completely or not at all (whole_file.hpp); missing folders are
+    // created. An existing file is replaced only if it is a result or a manifest of rsc. Text
+    // becomes NC_CHAR, the data model is the classic one. Throws Error(file_system) with a remedy,
+    // and Error(internal) for an infinite value or an unexpected NaN; then there is no file.
+    void write(const std::string& path, Format format, int compression) const;
+
+private:
+    std::vector<std::size_t> shape(const NetcdfVariable& v) const;  // the lengths of its dimensions
+    void check_values(const NetcdfVariable& v) const;
+    void define_and_put(int ncid, Format format, int compression, const std::string& path) const;
+
+    std::vector<std::pair<std::string, std::size_t>> dimensions_;
+    NetcdfAttributes attributes_;
+    std::vector<NetcdfVariable> variables_;
+};
+
+}  // namespace rsc

@@ -1,0 +1,360 @@
+// The first half of the table: global attributes, axes, levels, surfaces, closed forms.
+
+#include "base/version.h"
+#include "io/netcdf_table.hpp"
+#include "observe/quantities.hpp"
+#include "observe/regimes.hpp"
+
+namespace rsc {
+namespace {
+
+const char* const kPaper =
+    "V. A. Yastrebov, The Elastic Contact of Rough Spheres Investigated Using a Deterministic "
+    "Multi-Asperity Model, "
+    "Journal of Multiscale Modelling (2018)";
+
+}  // namespace
+
+void ResultTable::global_attributes(const std::string& history) {
+    file_.attribute("Conventions", "CF-1.10");
+    file_.attribute(
+        "title", r_.settings.run.title.empty() ? "Contact of rough bodies" : r_.settings.run.title);
+    file_.attribute("source",
+                    "rsc " RSC_VERSION
+                    ", deterministic multi-asperity model of rough spheres in elastic contact");
+    file_.attribute("history", history);
+    file_.attribute("references", kPaper);
+    file_.attribute("indenter", r_.indenter.shape->text(r_.settings.run.length_unit));
+    file_.attribute("comment",
+                    "Indices in this file (start_index = 1) count from 1. The effective namelist "
+                    "in the attribute `case` "
+                    "reproduces this file, "
+                    "except for the attribute `history`.");
+    if (r_.path_dependent())
+        file_.attribute("path", relaxes(r_.settings)
+                                    ? "each level depends on the previous ones: the response of a "
+                                      "relaxing body depends on the history of loads"
+                                    : "each level depends on the previous ones: points that "
+                                      "yielded (solids hardness) remain lowered, attached spots "
+                                      "(solids adhesion) remain attached until pull-off");
+    file_.attribute("case", r_.case_text);
+    if (r_.settings.run.seed >= std::numeric_limits<std::int32_t>::min() &&
+        r_.settings.run.seed <= std::numeric_limits<std::int32_t>::max())
+        file_.attribute("seed",
+                        std::vector<std::int32_t>{static_cast<std::int32_t>(r_.settings.run.seed)});
+    else  // the classic data model has no integers longer than 32 bits
+        file_.attribute("seed", std::to_string(r_.settings.run.seed));
+}
+
+void ResultTable::axes() {
+    file_.dimension("realization", o_.realizations);
+    file_.dimension("step", o_.steps);
+    std::vector<std::int32_t> realization;
+    for (std::int64_t k : o_.realization) realization.push_back(clamped(k));
+    add("realization", {"realization"}, "1", "number of the realization", realization,
+        comment("realization k of a seed is the same surface in every case"));
+    add("step", {"step"}, "1", "number of the level", one_to(o_.steps));
+
+    const Names dims = r_.force_control() ? Names{"realization", "step"} : Names{"step"};
+    std::vector<double> separation =
+        of_rows<double>([](const LevelValues& row) { return row.separation; });
+    if (!r_.force_control()) separation.resize(o_.steps);  // the same in every realization
+    std::vector<double> scaled = separation;
+    for (double& z : scaled) z /= r_.sigma;
+    add("separation", dims, unit(1), "separation of the indenter's tip from the mean plane, Z0",
+        separation);
+    add_absent("separation_sigma", dims, "1", "separation over rms height, Z0/sigma", scaled,
+               "sigma is sigma_reference");
+}
+
+// The declared quantities of a level (observe/quantities.hpp).
+void ResultTable::levels() {
+    const Names dims{"realization", "step"};
+    for (const LevelQuantity& q : level_quantities()) {
+        NetcdfAttributes attributes;
+        if (std::holds_alternative<LevelStatus LevelValues::*>(q.member))
+            attributes = flags(kLevelStatusNames);
+        if (std::holds_alternative<Method LevelValues::*>(q.member))
+            attributes = flags(kMethodNames, 1);  // 0 is 'auto'
+        if (std::holds_alternative<Fallback LevelValues::*>(q.member))
+            attributes = flags(kFallbackNames);
+        append(attributes, comment(q.comment));
+        const auto absent = [&](const LevelValues& l) {
+            return std::isnan(q.beside ? l.*q.beside : q.of(l));
+        };
+        if (!q.always && std::all_of(o_.rows.begin(), o_.rows.end(), absent)) continue;
+        if (q.integer()) {
+            add(q.name, dims, "1", q.meaning,
+                of_rows<std::int32_t>([&](const LevelValues& l) { return clamped(q.of(l)); }),
+                attributes);
+            continue;
+        }
+        const std::vector<double> values =
+            of_rows<double>([&](const LevelValues& l) { return q.of(l); });
+        if (q.always && std::none_of(o_.rows.begin(), o_.rows.end(),
+                                     absent))  // levels that did not converge may have no force
+            add(q.name, dims, units(q), q.meaning, values, attributes);
+        else if (q.of_step)
+            add(q.name, {"step"}, units(q), q.meaning,
+                std::vector<double>(values.begin(),
+                                    values.begin() + static_cast<std::ptrdiff_t>(o_.steps)),
+                attributes);
+        else if (q.y)
+            add_absent(q.name, {"realization", "step", "component"}, units(q), q.meaning,
+                       pairs(values, of_rows<double>([&](const LevelValues& l) { return l.*q.y; })),
+                       q.comment);
+        else
+            add_absent(q.name, dims, units(q), q.meaning, values, q.comment);
+    }
+    std::vector<double> pull_off(o_.realizations, std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t k = 0; k < pull_off.size(); ++k)
+        for (std::size_t s = 0; s < o_.steps; ++s)
+            pull_off[k] = std::fmin(pull_off[k], o_.row(k, s).least_force);
+    if (computed(pull_off))
+        add_absent("pull_off_force", {"realization"}, unit(0, 1),
+                   "smallest force since the first level", pull_off,
+                   "adhesion: including forces between levels; negative if separating the bodies "
+                   "takes a tensile force");
+}
+
+bool ResultTable::computed(const std::vector<double>& values) {
+    return !std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v); });
+}
+
+// The components of a vector as the last dimension, which is declared on the first call.
+std::vector<double> ResultTable::pairs(const std::vector<double>& x, const std::vector<double>& y) {
+    if (!components_) {
+        components_ = true;
+        file_.dimension("component", 2);
+        add("component", {"component"}, "1", "component of a vector", one_to(2),
+            {{"flag_values", one_to(2)}, {"flag_meanings", "x y"}});
+    }
+    std::vector<double> both;
+    for (std::size_t k = 0; k < x.size(); ++k) both.push_back(x[k]), both.push_back(y[k]);
+    return both;
+}
+
+void ResultTable::means() {
+    add("converged", {"step"}, "1", "number of realizations in the means", o_.force.count,
+        comment(
+            "all means (of levels, maps and distributions) exclude levels that did not converge "
+            "(status 4); the mean of a quantity also excludes levels where it is missing"));
+    if (r_.force_control()) {
+        add_absent("separation_mean", {"step"}, unit(1), "mean separation over realizations",
+                   o_.separation.mean);
+        add_absent("separation_std", {"step"}, unit(1),
+                   "standard deviation of the separation over realizations",
+                   o_.separation.deviation, "divisor M - 1 for M realizations");
+        add_absent("separation_stderr", {"step"}, unit(1), "standard error of separation_mean",
+                   o_.separation.error);
+    }
+    for (const LevelQuantity& q : level_quantities()) {
+        if (!q.statistics) continue;
+        LevelStatistics s = o_.statistics([&](const LevelValues& l) { return q.of(l); });
+        if (!q.always && !computed(of_rows<double>([&](const LevelValues& l) { return q.of(l); })))
+            continue;
+        const std::string name = q.name, of = std::string(q.plain) + " over realizations";
+        Names dims{"step"};
+        if (q.y) {
+            const LevelStatistics y = o_.statistics([&](const LevelValues& l) { return l.*q.y; });
+            s = {pairs(s.mean, y.mean), pairs(s.deviation, y.deviation), pairs(s.error, y.error),
+                 s.count};
+            dims.push_back("component");
+        }
+        add_absent(name + "_mean", dims, units(q), "mean " + of, s.mean);
+        add_absent(name + "_std", dims, units(q), "standard deviation of the " + of, s.deviation,
+                   "divisor M - 1 for M realizations");
+        add_absent(name + "_stderr", dims, units(q), "standard error of " + name + "_mean", s.error,
+                   name + "_std/sqrt(M)");
+        if (s.count != o_.force.count)
+            add(name + "_count", {"step"}, "1",
+                "number of realizations with a value of the " + std::string(q.plain), s.count);
+    }
+}
+
+void ResultTable::surfaces() {
+    const Names dims{"realization"};
+    const bool directional =
+        r_.theory && (r_.theory->tensor.m20 != r_.theory->tensor.m02 || r_.theory->tensor.m11 != 0);
+    const std::string origin =
+        r_.theory ? "exact sum over the modes drawn" : "finite differences on the grid of heights";
+    add_absent("sigma", dims, unit(1), "rms height of the surface",
+               of_surfaces([](const auto& s) { return s.sigma; }));
+    add_absent("m2", dims, "1", "second profile moment: half the mean square gradient",
+               of_surfaces([](const auto& s) { return s.m2; }), origin);
+    add_absent("m4", dims, unit(-2), "fourth profile moment: mean square profile curvature",
+               of_surfaces([](const auto& s) { return s.m4; }),
+               origin + (directional ? ", 3/8 (m40 + m04 + 2 m22)" : ", (m40 + m04 + 3 m22)/3"));
+    for (const auto& [name, of] : kMomentComponents)
+        add_absent(
+            name, dims, name[1] - '0' + name[2] - '0' == 2 ? "1" : unit(-2),
+            std::string("integral of kx^") + name[1] + " ky^" + name[2] + " over the spectrum",
+            of_surfaces([of = of](const auto& s) { return s.tensor.*of; }), origin);
+    add_absent("m2_grid", dims, "1", "second profile moment from finite differences",
+               of_surfaces([](const auto& s) { return s.m2_grid; }),
+               "differs from m2 if the grid does not resolve the shortest waves");
+    add_absent("m4_grid", dims, unit(-2), "fourth profile moment from finite differences",
+               of_surfaces([](const auto& s) { return s.m4_grid; }),
+               "differs from m4 if the grid does not resolve the shortest waves");
+    if (computed(of_surfaces([](const auto& s) { return s.skewness; }))) {
+        add("skewness", dims, "1", "skewness of the heights",
+            of_surfaces([](const auto& s) { return s.skewness; }));
+        add("kurtosis", dims, "1", "kurtosis of the heights",
+            of_surfaces([](const auto& s) { return s.kurtosis; }));
+    }
+    add_absent("rms_slope", dims, "1", "rms gradient of the surface",
+               of_surfaces([](const auto& s) { return std::sqrt(2 * s.m2); }),
+               "sqrt(2 m2); the theory assumes small slopes");
+    std::vector<std::int32_t> summits, saddles;
+    for (const SurfaceStatistics& s : o_.surface)
+        summits.push_back(clamped(s.summits)), saddles.push_back(clamped(s.saddles));
+    if (std::any_of(summits.begin(), summits.end(),
+                    [](auto n) { return n > 0; })) {  // elements do not search for summits
+        add("summits", dims, "1", "number of asperities", summits);
+        add("saddles", dims, "1", "grid maxima that are not asperities", saddles,
+            comment("saddles by their curvatures; with law = 'elliptic' or 'fourth_order' maxima "
+                    "without a summit between the grid "
+                    "points, or with one already found"));
+    }
+    add_absent("mean_kappa_g", dims, unit(-1), "mean geometric curvature of the summits",
+               of_surfaces([](const auto& s) { return s.mean_kappa_g; }),
+               "1.356 sqrt(m4) in theory");
+    add_absent("mean_kappa_a", dims, unit(-1), "mean algebraic curvature of the summits",
+               of_surfaces([](const auto& s) { return s.mean_kappa_a; }),
+               "1.5045 sqrt(m4) in theory");
+}
+
+void ResultTable::theory() {
+    const bool known = r_.theory.has_value();
+    const Moments m = known ? *r_.theory : Moments{};
+    const auto scalar = [&](const std::string& name, const std::string& units,
+                            const std::string& long_name, double value, const std::string& note) {
+        add_absent(name, {}, units, long_name, {known ? value : kAbsent}, note);
+    };
+    scalar("m0_theory", unit(2), "mean square height of the continuous spectrum", m.m0, "");
+    scalar("m2_theory", "1", "second profile moment of the continuous spectrum", m.m2, "");
+    scalar("m4_theory", unit(-2), "fourth profile moment of the continuous spectrum", m.m4, "");
+    scalar("nayak_theory", "1", "Nayak's bandwidth parameter of the continuous spectrum",
+           known ? m.nayak() : kAbsent, "m0 m4/m2^2");
+    scalar("density_theory", unit(-2), "density of summits of the continuous spectrum",
+           known ? m.summit_density() : kAbsent,
+           "sqrt(3) m4/(18 pi m2), with a lay of the isotropic surface before it is stretched");
+    const double R = r_.indenter.shape->hertz_radius();
+    add("e_star", {}, unit(-2, 1), "equivalent modulus E*", std::vector<double>{r_.indenter.E_star},
+        comment("1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2; on a body with layers that of the top layer"));
+    add_absent("r_star", {}, unit(1), "equivalent radius R*", {std::isfinite(R) ? R : kAbsent},
+               "1/R* = 1/R1 + 1/R2; missing for two flats and for shapes other than spheres");
+    add("tip_x", {}, unit(1), "x of the indenter's tip", std::vector<double>{r_.indenter.x0});
+    add("tip_y", {}, unit(1), "y of the indenter's tip", std::vector<double>{r_.indenter.y0});
+    outline();
+    add_absent("sigma_reference", {}, unit(1), "rms height used as the unit of separations",
+               {r_.sigma});
+}
+
+// The part of body 2 that can touch points up to 4 rms heights above the mean plane at the deepest
+// level; hardly any point is higher.
+void ResultTable::outline() {
+    double lowest = kInfinity;
+    for (const LevelValues& row : o_.rows) lowest = std::fmin(lowest, row.separation);
+    const double height = 4 * r_.sigma - lowest;
+    if (!(height > 0) || std::isinf(height)) return;
+    const std::vector<Vec2> curve = r_.indenter.shape->outline(height);
+    if (curve.empty()) return;
+    std::vector<double> x, y;
+    for (const Vec2& p : curve)
+        x.push_back(r_.indenter.x0 + p.x), y.push_back(r_.indenter.y0 + p.y);
+    file_.dimension("outline_point", curve.size());
+    const auto how = comment(
+        "closed curve on which the indenter is 4 sigma_reference above the mean plane at the "
+        "deepest level");
+    add("outline_x", {"outline_point"}, unit(1), "x of the indenter's outline", x, how);
+    add("outline_y", {"outline_point"}, unit(1), "y of the indenter's outline", y, how);
+}
+
+void ResultTable::regimes() {
+    const Moments m = regime_moments(r_);
+    const double E = r_.indenter.E_star;
+    const auto smooth = r_.indenter.shape->smooth(E);
+    const std::string which =
+        r_.theory ? "m2_theory and m4_theory" : "the means of m2 and m4 over realizations";
+    const bool known = has_closed_forms(r_.settings) && m.m2 > 0 && m.m4 > 0;
+    std::vector<double> first, second, hertz;
+    for (double N : o_.force.mean) {
+        if (N < 0) N = kAbsent;  // adhesion
+        first.push_back(known ? area_one_asperity(N, m.mean_radius(), E) : kAbsent);
+        second.push_back(known ? area_proportional(N, m.m2, E) : kAbsent);
+        hertz.push_back(smooth && std::isfinite(N) ? smooth->area_under(N) : kAbsent);
+    }
+    add_absent("transition_force", {}, unit(0, 1), "force at which area_I = area_II, N*",
+               {known ? transition_force(m, E) : kAbsent}, "212.66 m2^(3/2) E*/m4, with " + which);
+    add_absent("area_I", {"step"}, unit(2), "contact area of one mean asperity at force_mean, A_I",
+               first, "pi (3 r_g N/(4 E*))^(2/3), r_g = 0.737/sqrt(m4), with " + which);
+    add_absent("area_II", {"step"}, unit(2), "contact area proportional to force_mean, A_II",
+               second, "beta sqrt(2 pi) N/(sqrt(2 m2) E*), beta = 0.2, with " + which);
+    if (!has_closed_forms(r_.settings)) return;
+    if (r_.indenter.period.finite()) return two_flats(m);
+    add_absent("area_hertz", {"step"}, unit(2),
+               "contact area of the smooth indenter at force_mean (sphere: Hertz)", hertz,
+               "sphere: pi a^2, a = (3 N R*/(4 E*))^(1/3); missing for two flats and for indenters "
+               "without a closed form");
+}
+
+void ResultTable::friction() {
+    const FrictionLoops& f = r_.friction;
+    if (f.points == 0) return;
+    file_.dimension("point", f.points);
+    add("point", {"point"}, "1", "point of a slide at constant separation", one_to(f.points),
+        {{"first_loading", std::vector<std::int32_t>{1, static_cast<std::int32_t>(f.first)}},
+         {"cycle", std::vector<std::int32_t>{static_cast<std::int32_t>(f.first) + 1,
+                                             static_cast<std::int32_t>(f.points)}},
+         {"comment",
+          "first and last point of the first loading, from 0 to full slip, and of the cycle at 90 "
+          "% of it, closed"}});
+    const Names loop{"step", "point"};
+    const std::string none = "missing without contact";
+    add_absent("tangential_displacement", loop, unit(1), "tangential displacement of the indenter",
+               f.displacement, none);
+    add_absent("tangential_force", loop, unit(0, 1), "tangential force", f.force,
+               "partial slip with the coefficient solids%friction at every point; at full slip the "
+               "coefficient times the normal force; " +
+                   none);
+    add_absent("tangential_stiffness", {"step"}, unit(-1, 1), "tangential stiffness in full stick",
+               f.stiffness, "4 G*/E* times -dN/dZ0; " + none);
+    add_absent("cycle_work", {"step"}, unit(1, 1), "friction work of a cycle", f.cycle_work,
+               "the area of the loop; " + none);
+}
+
+void ResultTable::two_flats(const Moments& m) {
+    const double E = r_.indenter.E_star, A0 = r_.indenter.period.area();
+    double summits = 0, kappa = 0, m2 = 0;
+    for (const SurfaceStatistics& s : o_.surface)
+        summits += static_cast<double>(s.summits), kappa += s.mean_kappa_g, m2 += s.m2;
+    const auto n = static_cast<double>(o_.surface.size());
+    m2 /=
+        // of the generated surfaces: for a band that begins at L their slope differs from that of
+        // m2_theory
+        n;
+    const FlatSummits own{summits / n / A0, n / kappa,
+                          std::sqrt(std::max(0.0, m.m0 - kSummitVariance * m.m2 * m.m2 / m.m4))};
+    std::vector<double> persson, bush, greenwood;
+    for (double N : o_.force.mean) {
+        if (N < 0) N = kAbsent;  // adhesion
+        const double p = N / (A0 * E * std::sqrt(2 * m2));
+        persson.push_back(m2 > 0 ? area_persson(p) : kAbsent);
+        bush.push_back(m2 > 0 ? area_bgt(p) : kAbsent);
+        greenwood.push_back(own.usable() && std::isfinite(N) ? area_gw(N / (A0 * E), own)
+                                                             : kAbsent);
+    }
+    const std::string which = "the mean of m2 over realizations";
+    add_absent("area_persson", {"step"}, "1", "area fraction at force_mean by Persson's theory",
+               persson, "erf(sqrt(2) p/(E* sqrt(2 m2))), with " + which);
+    add_absent("area_bgt", {"step"}, "1",
+               "area fraction at force_mean by the asymptote of Bush, Gibson and Thomas", bush,
+               "sqrt(2 pi) p/(E* sqrt(2 m2)), derived for isotropic surfaces, with " + which);
+    add_absent("area_gw", {"step"}, "1", "area fraction at force_mean by Greenwood and Williamson",
+               greenwood,
+               "summits of the surface's own density and radius 1/mean_kappa_g, Gaussian heights "
+               "of variance m0 - 0.8968 m2^2/m4 (Nayak)");
+}
+
+}  // namespace rsc

@@ -1,0 +1,399 @@
+// The second half of the table: maps, radial means, distributions, asperities, contacts, heights.
+#include <netcdf.h>
+
+#include "io/netcdf_table.hpp"
+#include "observe/regimes.hpp"
+
+namespace rsc {
+namespace {
+
+using Fits = FittedDistributions;
+
+// Numbers of a fit, or of moments, as attributes with one value for each pdf_level. NaN becomes the
+// fill value, as in a variable.
+template <class Fit>
+NetcdfAttributes numbers_of(const std::vector<Fits>& distributions, Fit Fits::*fit,
+                            std::initializer_list<std::pair<const char*, double Fit::*>> numbers) {
+    NetcdfAttributes attributes;
+    for (const auto& [name, number] : numbers) {
+        std::vector<double> values;
+        for (const Fits& f : distributions)
+            values.push_back(std::isnan(f.*fit.*number) ? NC_FILL_DOUBLE : f.*fit.*number);
+        attributes.push_back({name, values});
+    }
+    return attributes;
+}
+
+}  // namespace
+
+void ResultTable::maps() {
+    const MapGrid& g = o_.options.map;
+    file_.dimension("y", static_cast<std::size_t>(g.ny));
+    file_.dimension("x", static_cast<std::size_t>(g.nx));
+    add("y", {"y"}, unit(1), "y of the cell centres; the last row may extend beyond the surface",
+        each_of(g.ny, [&](int j) { return g.y(j); }),
+        {{"axis", "Y"}, {"share_of_last_row", std::vector<double>{g.last_row}}});
+    add("x", {"x"}, unit(1), "x of the cell centres", each_of(g.nx, [&](int i) { return g.x(i); }),
+        {{"axis", "X"}});
+    add("map_cell_side", {}, unit(1), "side of the square cells of the map, w",
+        std::vector<double>{g.side});
+    const Names dims{"step", "y", "x"};
+    add("map_area_fraction", dims, "1", "contact area over cell area, mean over realizations",
+        o_.map_area_fraction,
+        comment("A' = sum of pi a^2/w^2 over the asperities in the cell; above 1 where a spot is "
+                "larger than the cell of its centre"));
+    add("map_pressure", dims, unit(-2, 1), "force over cell area, mean over realizations",
+        o_.map_pressure,
+        comment("p = sum of f/w^2 over the asperities in the cell, also of those that attract "
+                "without contact"));
+    if (o_.realizations == 1) return;
+    const std::string
+        rest = ": sum over realizations minus the mean times number of realizations times w^2",
+        why = "for rsc --merge and --resume, which add realizations without rounding";
+    add("map_area_fraction_rest", dims, unit(2), "rest of map_area_fraction" + rest,
+        o_.map_area_rest, comment(why));
+    add("map_pressure_rest", dims, unit(0, 1), "rest of map_pressure" + rest, o_.map_force_rest,
+        comment(why));
+}
+
+void ResultTable::radial() {
+    if (o_.radii.empty()) return;  // the tip is not above the map
+    file_.dimension("radius", o_.radii.size());
+    add("radius", {"radius"}, unit(1), "distance from the tip", o_.radii,
+        comment(
+            "middles of rings of equal width, from the tip to the largest circle on the surface"));
+    const Names dims{"step", "radius"};
+    const std::string how =
+        "mean over the circle of the map, interpolated by bicubic Bezier patches between cell "
+        "centres; it may be negative beside empty cells";
+    add("radial_area_fraction", dims, "1", "area fraction about the tip", o_.radial_area_fraction,
+        comment(how));
+    add("radial_pressure", dims, unit(-2, 1), "pressure about the tip", o_.radial_pressure,
+        comment(how));
+    if (!has_closed_forms(r_.settings)) return;
+    std::vector<double> hertz;
+    const double R = r_.indenter.shape->hertz_radius();
+    for (double N : o_.force.mean)
+        for (double r : o_.radii)
+            hertz.push_back(std::isfinite(R) && N >= 0
+                                ? hertz_contact(N, R, r_.indenter.E_star).pressure(r)
+                                : kAbsent);
+    add_absent("hertz_pressure", dims, unit(-2, 1),
+               "pressure of the smooth sphere at force_mean (Hertz)", hertz,
+               "p0 sqrt(1 - r^2/a^2), p0 = 3 N/(2 pi a^2); missing for two flats and for shapes "
+               "other than spheres");
+}
+
+void ResultTable::bin_axis(const std::string& name, const std::string& units,
+                           const std::string& long_name, double width) {
+    add(name, {"bin"}, units, long_name,
+        each_of(o_.options.pdf.bins, [&](int b) { return (b + 0.5) * width; }),
+        {{"bin_width", std::vector<double>{width}}});
+}
+
+void ResultTable::distributions() {
+    if (o_.distributions.empty()) return;
+    file_.dimension("pdf_level", o_.distributions.size());
+    file_.dimension("bin", static_cast<std::size_t>(o_.options.pdf.bins));
+    std::vector<double> wanted, used;
+    std::vector<std::int32_t> step;
+    for (double level : o_.options.pdf_levels) wanted.push_back(level / r_.sigma);
+    for (const FittedDistributions& f : o_.distributions) {
+        used.push_back(f.sum.separation / static_cast<double>(f.sum.levels) / r_.sigma);
+        step.push_back(f.sum.step);
+    }
+    add("pdf_level", {"pdf_level"}, "1", "requested Z0/sigma", wanted);
+    add("pdf_separation_sigma", {"pdf_level"}, "1",
+        "Z0/sigma of the nearest level, to which the distributions belong", used,
+        comment("mean over realizations under force control"));
+    add("pdf_step", {"pdf_level"}, "1", "number of that level", from_one(step),
+        {kFromOne, {"comment", "0: it differs between realizations (force control)"}});
+    add("bin", {"bin"}, "1", "number of the bin",
+        one_to(static_cast<std::size_t>(o_.options.pdf.bins)));
+    const PdfBins& bins = o_.options.pdf;
+    bin_axis("pressure_mean_bin", unit(-2, 1), "middle of the bins of pressure_mean_pdf",
+             bins.mean_pressure_width());
+    bin_axis("pressure_bin", unit(-2, 1), "middle of the bins of pressure_pdf",
+             bins.pressure_width());
+    bin_axis("spot_area_bin", unit(2), "middle of the bins of spot_area_pdf", bins.area_width());
+    using S = ScaleFit;
+    histogram("pressure_mean_count", "pressure_mean_bin", "1",
+              "contacts by mean pressure, all realizations", &Distributions::mean_pressure,
+              "integers; overflow: contacts");
+    density("pressure_mean_pdf", "pressure_mean_bin", unit(2, -1),
+            "probability density of the mean pressure of a contact, f/(pi a^2)",
+            &Fits::mean_pressure_pdf, &Fits::mean_pressure_moments,
+            numbers_of(o_.distributions, &Fits::rayleigh,
+                       {{"rayleigh_scale", &S::scale},
+                        {"rayleigh_scale_error", &S::scale_error},
+                        {"ks_distance", &S::ks_distance}}),
+            "fit: Rayleigh, (p/s^2) exp(-p^2/(2 s^2)), s = rayleigh_scale by maximum likelihood, "
+            "with its standard error");
+    pressure();
+    histogram("spot_area_count", "spot_area_bin", "1", "contacts by area, all realizations",
+              &Distributions::spot_area, "integers; overflow: contacts");
+    density("spot_area_pdf", "spot_area_bin", unit(-2),
+            "probability density of the area of a contact, pi a^2", &Fits::spot_area_pdf,
+            &Fits::spot_area_moments,
+            numbers_of(o_.distributions, &Fits::exponential,
+                       {{"exponential_scale", &S::scale},
+                        {"exponential_scale_error", &S::scale_error},
+                        {"ks_distance", &S::ks_distance}}),
+            "fit: exponential, exp(-A/s)/s, s = exponential_scale by maximum likelihood, with its "
+            "standard error");
+    if (o_.realizations == 1) return;
+    std::vector<double> sums;
+    for (const DistributionSums& level : o_.distribution_sums)
+        for (const ExactSum& sum : level.numbers) sums.push_back(sum.high), sums.push_back(sum.low);
+    const std::size_t numbers = o_.distribution_sums.front().numbers.size();
+    file_.dimension("pdf_sum", numbers);
+    file_.dimension("part", 2);
+    add("pdf_sum", {"pdf_sum"}, "1", "number of the sum", one_to(numbers));
+    add("part", {"part"}, "1", "part of a sum", one_to(2),
+        {{"flag_values", one_to(2)}, {"flag_meanings", "rounded rest"}});
+    add("pdf_sums", {"pdf_level", "pdf_sum", "part"}, "1",
+        "sums over realizations from which the distributions are computed", sums,
+        comment("the exact value is the sum of the two parts, in powers of the units of length and "
+                "force; for rsc --merge and --resume, which add realizations without rounding"));
+}
+
+void ResultTable::histogram(const std::string& name, const std::string& axis,
+                            const std::string& units, const std::string& long_name,
+                            Histogram Distributions::*which, const std::string& note) {
+    std::vector<double> values, overflow;
+    for (const FittedDistributions& f : o_.distributions) {
+        const Histogram& h = f.sum.*which;
+        values.insert(values.end(), h.weight.begin(), h.weight.end());
+        overflow.push_back(h.overflow);
+    }
+    add(name, {"pdf_level", "bin"}, units, long_name, values,
+        {{"coordinates", axis},
+         {"overflow", overflow},
+         {"comment", note + " beyond the last bin, one value for each pdf_level"}});
+}
+
+void ResultTable::density(const std::string& name, const std::string& axis,
+                          const std::string& units, const std::string& long_name,
+                          std::vector<double> Fits::*which, DistributionMoments Fits::*moments,
+                          NetcdfAttributes fit, const std::string& note) {
+    std::vector<double> values;
+    for (const Fits& f : o_.distributions)
+        values.insert(values.end(), (f.*which).begin(), (f.*which).end());
+    using M = DistributionMoments;
+    NetcdfAttributes all{{"coordinates", axis}};
+    append(all, std::move(fit));
+    append(all, numbers_of(o_.distributions, moments,
+                           {{"mean", &M::mean},
+                            {"standard_deviation", &M::deviation},
+                            {"skewness", &M::skewness},
+                            {"kurtosis", &M::kurtosis}}));
+    append(all, comment(note +
+                        "; ks_distance is the Kolmogorov-Smirnov distance at the bin edges; one "
+                        "value for each pdf_level; " +
+                        kAbsentMeans));
+    file_.variable(
+        {name, {"pdf_level", "bin"}, units, long_name, std::move(values), std::move(all), true});
+}
+
+void ResultTable::pressure() {
+    std::vector<double> equal;
+    for (const Fits& f : o_.distributions)
+        equal.push_back(f.sum.pressure.squares > 0
+                            ? f.sum.pressure.total * f.sum.pressure.total / f.sum.pressure.squares
+                            : 0);
+    histogram("pressure_area", "pressure_bin", unit(2),
+              "contact area by pressure, summed over realizations", &Distributions::pressure,
+              "overflow: area");
+    using G = GammaFit;
+    NetcdfAttributes fit = numbers_of(o_.distributions, &Fits::gamma,
+                                      {{"alpha", &G::alpha},
+                                       {"alpha_error", &G::alpha_error},
+                                       {"beta", &G::beta},
+                                       {"beta_error", &G::beta_error},
+                                       {"delta", &G::delta},
+                                       {"delta_error", &G::delta_error},
+                                       {"gamma", &G::gamma},
+                                       {"gamma_error", &G::gamma_error},
+                                       {"ks_distance", &G::ks_distance}});
+    fit.push_back({"independent_contacts", equal});
+    density("pressure_pdf", "pressure_bin", unit(2, -1),
+            "probability density of the pressure at a random point of the contact area",
+            &Fits::pressure_pdf, &Fits::pressure_moments, std::move(fit),
+            "each contact contributes 2 p/p0^2 on [0, p0], p0 = 1.5 f/(pi a^2), weighted by its "
+            "area; fit: gamma p^alpha "
+            "exp(-(p/delta)^beta), "
+            "by maximum likelihood of the bins; standard errors for independent_contacts = (sum "
+            "A)^2/sum A^2 draws");
+}
+
+void ResultTable::asperities() {
+    const Asperities& a = r_.asperities;
+    if (a.size() == 0) return;
+    file_.dimension("asperity", a.size());
+    for (const AsperityColumn& column : kAsperityColumns) {
+        const std::vector<double>& values = a.*column.values;
+        const std::string units = column.length_power == 0 ? "radian" : unit(column.length_power);
+        if (!values.empty())
+            add_disorder("asperity_" + std::string(column.name), {"asperity"}, units,
+                         column.meaning, values);
+    }
+    if (!r_.residual_depth.empty())
+        add("asperity_residual_depth", {"asperity"}, unit(1),
+            "residual depth of the summit without force, after the last level", r_.residual_depth);
+}
+
+void ResultTable::contacts() {
+    const PackedContacts& c = r_.contacts;
+    if (c.start.empty()) return;
+    add("contact_start", {"step"}, "1",
+        "first contact of the level in the variables of dimension contact", from_one(c.start),
+        {kFromOne,
+         {"comment",
+          "level s has the contacts contact_start(s) to contact_start(s) + contact_count(s) - 1"}});
+    add("contact_count", {"step"}, "1", "number of stored contacts of the level", c.count);
+    if (c.force.empty()) return;
+    file_.dimension("contact", c.force.size());
+    if (!c.asperity.empty())
+        add("contact_asperity", {"contact"}, "1", "asperity of the contact", from_one(c.asperity),
+            {kFromOne});
+    if (!c.x.empty()) {
+        const std::string what = " of the centroid of the contact's pressure";
+        add_disorder("contact_x", {"contact"}, unit(1), "x" + what, c.x);
+        add_disorder("contact_y", {"contact"}, unit(1), "y" + what, c.y,
+                     comment("a contact is a set of pixels connected by their sides"));
+    }
+    add_disorder("contact_force", {"contact"}, unit(0, 1), "force of the contact, f", c.force);
+    add_disorder(
+        "contact_radius", {"contact"}, unit(1), "radius of the contact, a", c.radius,
+        comment("its area is pi a^2: of an ellipse, the root of the product of its semi-axes"));
+    if (!c.major.empty()) {
+        add_disorder("contact_spot_x", {"contact"}, unit(1),
+                     "x of the middle of the contact's elliptic spot", c.spot_x,
+                     comment("a contact within the spot of another has that spot; the contact area "
+                             "is the area of the union of all spots"));
+        add_disorder("contact_spot_y", {"contact"}, unit(1),
+                     "y of the middle of the contact's elliptic spot", c.spot_y);
+        add_disorder("contact_major", {"contact"}, unit(1),
+                     "major semi-axis of the contact's elliptic spot", c.major);
+        add_disorder("contact_minor", {"contact"}, unit(1),
+                     "minor semi-axis of the contact's elliptic spot", c.minor);
+        add_disorder("contact_angle", {"contact"}, "radian",
+                     "direction of the major semi-axis, from x", c.angle);
+    }
+    if (!c.yields.empty())
+        add("contact_yields", {"contact"}, "1",
+            "1 if the contact yields at this level, 0 if it is elastic", c.yields);
+}
+
+void ResultTable::residual_profile() {
+    const ResidualProfile& p = r_.residual_profile;
+    if (p.depth.empty()) return;
+    file_.dimension("residual_pixel", p.depth.size());
+    const Names dims{"residual_pixel"};
+    const std::string points = " of the points of the surface with residual depth";
+    add("residual_pixel_x", dims, unit(1), "x" + points, p.x,
+        {{"pixel_size", std::vector<double>{p.dx}}});
+    add("residual_pixel_y", dims, unit(1), "y" + points, p.y,
+        {{"pixel_size", std::vector<double>{p.dy}}});
+    add("residual_pixel_depth", dims, unit(1), "residual depth without force, after the last level",
+        p.depth);
+}
+
+void ResultTable::compared() {
+    const ComparedLevels& c = r_.compared;
+    if (c.levels.empty()) return;
+    using C = ComparedLevel;
+    file_.dimension("compare", c.levels.size());
+    const auto of = [&c]<class T>(T C::*member) {
+        std::vector<T> values;
+        for (const C& level : c.levels) values.push_back(level.*member);
+        return values;
+    };
+    const Names dims{"compare"};
+    const std::string by = " by elements", change = "from its change with the grid",
+                      over = "of asperities over that of elements, minus 1";
+    add("compare_step", dims, "1", "number of the level that was also solved by elements",
+        from_one(of(&C::step)), {kFromOne, {"comment", "of the first realization"}});
+    add("compare_separation", dims, unit(1), "separation of that level, Z0", of(&C::separation),
+        comment(r_.force_control() ? "of elements at the force of the level" : ""));
+    add_absent("compare_force", dims, unit(0, 1), "normal force" + by, of(&C::force));
+    add_absent("compare_contact_area", dims, unit(2), "true contact area" + by, of(&C::area));
+    add_absent("compare_contact_area_pixels", dims, unit(2),
+               "area of the pixels under pressure, without the correction at borders",
+               of(&C::area_pixels));
+    add("compare_contacts", dims, "1", "number of contacts" + by, of(&C::contacts),
+        comment("sets of pixels connected by their sides"));
+    add("compare_residual", dims, "1", "residual of the contact conditions", of(&C::residual));
+    if (r_.force_control())
+        add_absent("separation_error", dims, unit(1),
+                   "separation of asperities minus that of elements, at equal force",
+                   of(&C::separation_error));
+    else
+        add_absent("force_error", dims, "1", "force " + over, of(&C::force_error));
+    add_absent("compare_force_error_expected", dims, "1",
+               "expected relative error of the force of elements", of(&C::force_error_expected),
+               change);
+    add_absent("compare_area_error_expected", dims, "1",
+               "expected relative error of the contact area of elements",
+               of(&C::area_error_expected), change);
+    add("compare_columns", dims, "1", "points of the elements' grid along x", of(&C::columns));
+    add("compare_rows", dims, "1", "points of the elements' grid along y", of(&C::rows));
+    add_absent("area_error", dims, "1", "contact area " + over, of(&C::area_error));
+    add_absent("contacts_error", dims, "1", "number of contacts " + over, of(&C::contacts_error));
+    const LevelPixels& p = c.pixels;
+    if (p.index.empty()) return;
+    file_.dimension("compare_pixel", p.index.size());
+    std::vector<double> x, y;
+    for (std::size_t k = 0; k < p.index.size(); ++k) x.push_back(p.x(k)), y.push_back(p.y(k));
+    const std::string last = " of the last level compared";
+    add("compare_pixel_x", {"compare_pixel"}, unit(1), "x of the pixels under pressure" + last, x,
+        {{"pixel_size", std::vector<double>{p.dx}}});
+    add("compare_pixel_y", {"compare_pixel"}, unit(1), "y of the pixels under pressure" + last, y,
+        {{"pixel_size", std::vector<double>{p.dy}}});
+    add("compare_pixel_pressure", {"compare_pixel"}, unit(-2, 1), "pressure on those pixels",
+        p.pressure);
+}
+
+void ResultTable::heights() {
+    if (!r_.heights) return;
+    const HeightMap& h = *r_.heights;
+    // The dimensions x and y are those of the maps; the heights are on a finer grid.
+    file_.dimension("height_y", static_cast<std::size_t>(h.ny));
+    file_.dimension("height_x", static_cast<std::size_t>(h.nx));
+    add("height_y", {"height_y"}, unit(1), "y of the points of height",
+        each_of(h.ny, [&](int j) { return h.y(j); }));
+    add("height_x", {"height_x"}, unit(1), "x of the points of height",
+        each_of(h.nx, [&](int i) { return h.x(i); }));
+    file_.variable({"height",
+                    {"height_y", "height_x"},
+                    unit(1),
+                    "height of the surface",
+                    StridedRows{h.data.get(), h.stride},
+                    comment(h.periodic ? "periodic in x and y" : ""),
+                    false});
+}
+
+void ResultTable::fields() {
+    const Fields& f = r_.fields;
+    if (f.step.empty()) return;
+    file_.dimension("field_step", f.step.size());
+    file_.dimension("field_y", f.y.size());
+    file_.dimension("field_x", f.x.size());
+    add("field_step", {"field_step"}, "1", "number of the level of the fields", from_one(f.step),
+        {kFromOne});
+    add("field_y", {"field_y"}, unit(1), "y of the points of the fields", f.y);
+    add("field_x", {"field_x"}, unit(1), "x of the points of the fields", f.x);
+    const Names dims{"field_step", "field_y", "field_x"};
+    if (!f.pressure.empty())
+        add_disorder("field_pressure", dims, unit(-2, 1), "pressure", f.pressure);
+    if (!f.gap.empty())
+        add_absent("field_gap", dims, unit(1), "gap between the bodies", f.gap,
+                   "0 where they touch");
+    if (!f.contact.empty())
+        add("field_contact", dims, "1", "1 where the bodies touch, 0 elsewhere", f.contact);
+    if (!f.heights.empty())
+        add_disorder("field_height", {"field_y", "field_x"}, unit(1),
+                     "height of the surface without load", f.heights);
+}
+
+}  // namespace rsc

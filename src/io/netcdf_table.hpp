@@ -1,0 +1,187 @@
+// The table of variables of a result file, one function for each group of variables. Internal to
+// the writer.
+#pragma once
+
+#include "case/units.hpp"
+#include "io/netcdf_file.hpp"
+#include "io/result.hpp"
+#include "observe/quantities.hpp"
+
+namespace rsc {
+
+// In the comment of every variable that may have missing values.
+inline constexpr const char* kAbsentMeans = "_FillValue: missing";
+
+// The classic data model has no integers longer than 32 bits; larger counts are written as the
+// largest one.
+inline std::int32_t clamped(std::int64_t n) {
+    return static_cast<std::int32_t>(
+        std::min<std::int64_t>(n, std::numeric_limits<std::int32_t>::max()));
+}
+inline std::int32_t clamped(double n) { return clamped(static_cast<std::int64_t>(n)); }
+
+// Numbers of levels, asperities, ... counted from 1, as in the file, and the attribute that tells
+// it.
+inline std::vector<std::int32_t> from_one(std::vector<std::int32_t> numbers) {
+    for (std::int32_t& k : numbers) ++k;
+    return numbers;
+}
+inline const std::pair<std::string, NetcdfAttribute> kFromOne{"start_index",
+                                                              std::vector<std::int32_t>{1}};
+
+// value(0), value(1), ..., value(n - 1)
+template <class Value>
+std::vector<double> each_of(int n, Value value) {
+    std::vector<double> all;
+    for (int k = 0; k < n; ++k) all.push_back(value(k));
+    return all;
+}
+// 1, 2, ..., n
+inline std::vector<std::int32_t> one_to(std::size_t n) {
+    std::vector<std::int32_t> all(n);
+    std::iota(all.begin(), all.end(), 1);
+    return all;
+}
+
+// flag_values from `first` on, with the names of the enumeration.
+template <std::size_t n>
+NetcdfAttributes flags(const std::array<const char*, n>& names, std::size_t first = 0) {
+    std::vector<std::int32_t> values;
+    std::string meanings;
+    for (std::size_t k = first; k < n; ++k) {
+        values.push_back(static_cast<std::int32_t>(k));
+        if (k > first) meanings += ' ';
+        meanings += names[k];
+    }
+    return {{"flag_values", values}, {"flag_meanings", meanings}};
+}
+
+class ResultTable {
+public:
+    explicit ResultTable(const Result& result)
+        : r_(result),
+          o_(result.observations),
+          length_(result.settings.run.length_unit),
+          force_(result.settings.run.force_unit) {}
+
+    // In the order in which ncdump prints them.
+    NetcdfFile make(const std::string& history) {
+        global_attributes(history);
+        axes();
+        levels();
+        means();
+        surfaces();
+        measured();
+        theory();
+        regimes();
+        friction();
+        maps();
+        radial();
+        distributions();
+        asperities();
+        contacts();
+        residual_profile();
+        compared();
+        heights();
+        fields();
+        return std::move(file_);
+    }
+
+private:
+    using Names = std::vector<std::string>;
+
+    // netcdf_levels.cpp
+    void global_attributes(const std::string& history);
+    void axes();
+    void levels();
+    static bool computed(const std::vector<double>& values);
+    std::vector<double> pairs(const std::vector<double>& x, const std::vector<double>& y);
+    bool components_ = false;  // the dimension of vectors is declared
+    std::string units(const LevelQuantity& q) const {
+        if (!q.unit) return unit(q.length_power, q.force_power);
+        return std::string(q.unit) == "time" ? r_.settings.run.time_unit : q.unit;
+    }
+    void means();
+    void surfaces();
+    void theory();
+    void outline();
+    void regimes();
+    // netcdf_writer.cpp
+    void measured();
+    void friction();
+    void two_flats(const Moments& moments);
+    // netcdf_observed.cpp
+    void maps();
+    void radial();
+    void distributions();
+    void bin_axis(const std::string& name, const std::string& units, const std::string& long_name,
+                  double width);
+    void histogram(const std::string& name, const std::string& axis, const std::string& units,
+                   const std::string& long_name, Histogram Distributions::*which,
+                   const std::string& note);
+    void density(const std::string& name, const std::string& axis, const std::string& units,
+                 const std::string& long_name, std::vector<double> FittedDistributions::*which,
+                 DistributionMoments FittedDistributions::*moments, NetcdfAttributes fit,
+                 const std::string& note);
+    void pressure();
+    void asperities();
+    void contacts();
+    void residual_profile();
+    void compared();
+    void heights();
+    void fields();
+
+    std::string unit(int length_power, int force_power = 0) const {
+        return unit_of(length_, length_power, force_, force_power);
+    }
+
+    static NetcdfAttributes comment(const std::string& text) {
+        return text.empty() ? NetcdfAttributes{} : NetcdfAttributes{{"comment", text}};
+    }
+    template <class T>
+    void add(const std::string& name, Names dimensions, const std::string& units,
+             const std::string& long_name, std::vector<T> values,
+             NetcdfAttributes attributes = {}) {
+        file_.variable({name, std::move(dimensions), units, long_name, std::move(values),
+                        std::move(attributes), false});
+    }
+    // Incompressible data: unordered positions, heights, forces.
+    void add_disorder(const std::string& name, Names dimensions, const std::string& units,
+                      const std::string& long_name, std::vector<double> values,
+                      NetcdfAttributes attributes = {}) {
+        file_.variable({name, std::move(dimensions), units, long_name, std::move(values),
+                        std::move(attributes), false, true});
+    }
+    // A variable that may have missing values.
+    void add_absent(const std::string& name, Names dimensions, const std::string& units,
+                    const std::string& long_name, std::vector<double> values,
+                    std::string note = "") {
+        note = note.empty() ? kAbsentMeans : note + "; " + kAbsentMeans;
+        file_.variable({name, std::move(dimensions), units, long_name, std::move(values),
+                        comment(note), true});
+    }
+
+    template <typename T, typename Get>
+    std::vector<T> of_rows(Get get) const {
+        std::vector<T> values;
+        values.reserve(o_.rows.size());
+        for (const LevelValues& row : o_.rows) values.push_back(get(row));
+        return values;
+    }
+    template <typename Get>
+    std::vector<double> of_surfaces(Get get) const {
+        std::vector<double> values;
+        for (const SurfaceStatistics& s : o_.surface) values.push_back(get(s));
+        return values;
+    }
+    static void append(NetcdfAttributes& to, NetcdfAttributes more) {
+        for (auto& a : more) to.push_back(std::move(a));
+    }
+
+    const Result& r_;
+    const Observations& o_;
+    std::string length_, force_;
+    NetcdfFile file_;
+};
+
+}  // namespace rsc

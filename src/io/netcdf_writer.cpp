@@ -1,0 +1,200 @@
+#include "io/netcdf_writer.hpp"
+
+#include "base/error.hpp"
+#include "base/version.h"
+#include "io/netcdf_table.hpp"
+#include "surface/measured.hpp"
+
+namespace rsc {
+namespace {
+
+std::string date() {
+    std::time_t now = std::time(nullptr);
+    if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH")) {
+        char* end = nullptr;
+        const long long seconds = std::strtoll(epoch, &end, 10);
+        if (end != epoch && *end == '\0') now = static_cast<std::time_t>(seconds);
+    }
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    char text[32];
+    return {text, std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc)};
+}
+
+}  // namespace
+
+std::string history_text(const std::string& command) {
+    return date() + " " + (command.empty() ? "rsc " RSC_VERSION : command);
+}
+
+void write_result(const Result& result, const std::string& path, const WriteOptions& options) {
+    const Observations& o = result.observations;
+    if (o.realizations == 0 || o.steps == 0)
+        throw Error(Failure::internal, "result file: there is nothing to write, no level was run");
+    ResultTable(result)
+        .make(history_text(options.command))
+        .write(path, options.format, options.compression);
+}
+
+void ResultTable::measured() {
+    if (!r_.measured) return;
+    const Measured& m = *r_.measured;
+    const auto scalar = [&](const std::string& name, const std::string& units,
+                            const std::string& long_name, double value,
+                            const std::string& note = "") {
+        add(name, {}, units, long_name, std::vector<double>{value}, comment(note));
+    };
+    add("filled_points", {}, "1", "missing points of the map that were filled",
+        std::vector<std::int32_t>{clamped(m.missing)},
+        {{"share", std::vector<double>{m.missing_share}},
+         {"comment", "with the harmonic function of the heights around them"}});
+    if (m.outlier_times > 0)
+        add("outlier_points", {}, "1", "number of filled_points that were outliers",
+            std::vector<std::int32_t>{clamped(m.outliers.count)},
+            {{"threshold", std::vector<double>{m.outliers.threshold}},
+             {"standard_deviations", std::vector<double>{m.outlier_times}},
+             {"comment",
+              "differing from the median of the 5 x 5 points around them by more than the "
+              "threshold"}});
+    NetcdfAttributes form = flags(kDetrendNames);
+    append(form, {{"level", std::vector<double>{m.form.level}},
+                  {"slope", std::vector<double>{m.form.slope_x, m.form.slope_y}},
+                  {"second_derivatives", std::vector<double>{m.form.zxx, m.form.zxy, m.form.zyy}}});
+    if (m.form.how == Detrend::sphere && std::isfinite(m.form.radius))
+        form.push_back({"radius", std::vector<double>{m.form.radius}});
+    form.push_back({"comment",
+                    "least-squares fit to the valid points, subtracted; slopes and second "
+                    "derivatives in the middle of the map: x, y, xx, xy "
+                    "and yy; the radius of a sphere is positive for a dome"});
+    add("form_removed", {}, "1", "form subtracted from the heights",
+        std::vector<std::int32_t>{static_cast<std::int32_t>(m.form.how)}, form);
+    scalar("filter_cutoff", unit(1), "cutoff of the Gaussian filter of the heights; 0: none",
+           m.filter_cutoff,
+           "ISO 16610-61: exp(-pi (alpha cutoff/lambda)^2), alpha = sqrt(ln 2/pi)");
+
+    file_.dimension("map_stage", 3);
+    add("map_stage", {"map_stage"}, "1", "stage of the map", one_to(3),
+        {{"flag_values", one_to(3)}, {"flag_meanings", "as_read without_form filtered"}});
+    const Roughness* const stages[] = {&m.as_read, &m.without_form, &m.filtered};
+    const auto of_stages = [&](double Roughness::*member) {
+        std::vector<double> all;
+        for (const Roughness* s : stages) all.push_back(s->*member);
+        return all;
+    };
+    add("stage_rms_height", {"map_stage"}, unit(1), "rms height about the mean",
+        of_stages(&Roughness::height));
+    add("stage_rms_slope", {"map_stage"}, "1", "rms gradient by first differences",
+        of_stages(&Roughness::slope));
+    add("stage_rms_curvature", {"map_stage"}, unit(-1),
+        "rms second derivative of a profile, sqrt(m4), by second differences",
+        of_stages(&Roughness::curvature));
+
+    scalar("sq", unit(1), "rms height Sq (ISO 25178-2)", m.parameters.sq);
+    add_absent("ssk", {}, "1", "skewness of the heights Ssk (ISO 25178-2)", {m.parameters.ssk},
+               "0 for Gaussian heights");
+    add_absent("sku", {}, "1", "kurtosis of the heights Sku (ISO 25178-2)", {m.parameters.sku},
+               "3 for Gaussian heights");
+    scalar("sdq", "1", "rms gradient Sdq (ISO 25178-2)", m.parameters.sdq);
+    scalar("isotropy_ratio", "1", "ratio of smallest to largest rms slope over all directions",
+           m.isotropy, "1 for an isotropic surface, 0 for grooves");
+    scalar("points_per_wave", "1", "grid steps in the shortest wavelength, 2 pi/ks",
+           m.points_per_wave(),
+           "below 4 slopes, curvatures and summits are determined by the grid or by noise");
+
+    file_.dimension("height_bin", m.height_pdf.size());
+    const int bins = static_cast<int>(m.height_pdf.size());
+    add("height_bin", {"height_bin"}, unit(1), "middle of the bin of heights about their mean",
+        each_of(bins, [&](int i) { return (i + 0.5 - 0.5 * bins) * m.height_bin; }));
+    add("height_pdf", {"height_bin"}, unit(-1), "probability density of the heights", m.height_pdf);
+
+    const auto of_twins = [&](const std::string& what, double exponent) {
+        NetcdfAttributes attributes = comment(
+            what +
+            "; synthetic surfaces have it times k^twin_exponent, for the rms slope of the map");
+        attributes.push_back({"twin_exponent", std::vector<double>{exponent}});
+        return attributes;
+    };
+    file_.dimension("wavenumber", m.spectrum.wavenumber.size());
+    add("wavenumber", {"wavenumber"}, unit(-1),
+        "wavenumber k = 2 pi/lambda, middle of a ring of Fourier modes", m.spectrum.wavenumber);
+    add("psd", {"wavenumber"}, unit(4), "power spectral density Phi, mean over the ring",
+        m.spectrum.psd,
+        of_twins("after a Hann window; the integral of 2 pi k Phi dk is the mean square height",
+                 m.spectrum.exponent));
+    file_.dimension("plane_wavenumber", m.spectrum.plane_wavenumber.size());
+    file_.dimension("angle", MeasuredSpectrum::kAngles);
+    constexpr int angles = MeasuredSpectrum::kAngles;
+    add("plane_wavenumber", {"plane_wavenumber"}, unit(-1), "wavenumber of psd_plane",
+        m.spectrum.plane_wavenumber);
+    add("angle", {"angle"}, "degree",
+        "direction of the wave vector, from the x axis towards the y axis",
+        each_of(angles, [](int a) { return 180.0 * a / angles; }));
+    add("psd_plane", {"plane_wavenumber", "angle"}, unit(4), "power spectral density by direction",
+        m.spectrum.plane_psd,
+        of_twins("the other half plane is the mirror image; surface%twins = 'directional' "
+                 "generates surfaces with it",
+                 m.spectrum.plane_exponent));
+    const Texture& t = m.texture;
+    add_absent("sal", {}, unit(1), "autocorrelation length Sal (ISO 25178-2)", {t.sal},
+               "shortest lag at which the autocorrelation falls to 0.2");
+    add_absent("str", {}, "1", "texture aspect ratio Str (ISO 25178-2)", {t.str},
+               t.str_bounded ? "upper bound, because along the lay the autocorrelation does not "
+                               "fall to 0.2 within half the map"
+                             : "");
+    scalar("std", "degree",
+           "direction of the lay, from the x axis towards the y axis (texture direction Std, ISO "
+           "25178-2)",
+           m.spectrum.lay(),
+           "at right angles to the mean direction of the power around the direction with the most");
+    scalar("sk", unit(1), "core height Sk (ISO 25178-2)", t.sk);
+    scalar("spk", unit(1), "reduced peak height Spk (ISO 25178-2)", t.spk);
+    scalar("svk", unit(1), "reduced valley height Svk (ISO 25178-2)", t.svk);
+    file_.dimension("normal_score", t.score.size());
+    add("normal_score", {"normal_score"}, "1",
+        "normal score: the share erfc(-score/sqrt 2)/2 of the points is lower", t.score);
+    add("height_quantile", {"normal_score"}, unit(1), "height about the mean at a normal score",
+        t.height,
+        comment("a straight line for Gaussian heights; surface%twin_heights = 'measured' generates "
+                "surfaces with it"));
+    if (!t.autocorrelation.empty()) {
+        const auto lags = [](int reach, double step) {
+            return each_of(2 * reach + 1, [&](int i) { return (i - reach) * step; });
+        };
+        const std::vector<double> x = lags(t.reach_x, t.step_x), y = lags(t.reach_y, t.step_y);
+        file_.dimension("lag_y", y.size());
+        file_.dimension("lag_x", x.size());
+        add("lag_y", {"lag_y"}, unit(1), "lag along y", y);
+        add("lag_x", {"lag_x"}, unit(1), "lag along x", x);
+        add("autocorrelation", {"lag_y", "lag_x"}, "1", "autocorrelation of the heights",
+            t.autocorrelation);
+    }
+    if (!m.fit) return;
+    const SelfAffineFit& found = *m.fit;
+    std::vector<double> fit;
+    for (const double k : m.spectrum.wavenumber) fit.push_back(found.around(k));
+    const auto one = [](double v) { return std::vector<double>{v}; };
+    add("psd_fit", {"wavenumber"}, unit(4), "self-affine spectrum fitted to psd", fit,
+        {{"aspect", one(found.aspect)},
+         {"direction", one(found.direction * 180 / std::numbers::pi)},
+         {"Phi0", one(found.Phi0.value)},
+         {"Phi0_error", one(found.Phi0.error)},
+         {"kl", one(found.kl.value)},
+         {"kl_error", one(found.kl.error)},
+         {"ks", one(found.ks.value)},
+         {"ks_error", one(found.ks.error)},
+         {"hurst", one(found.hurst.value)},
+         {"hurst_error", one(found.hurst.error)},
+         {"plateau", std::vector<std::int32_t>{found.plateau ? 1 : 0}},
+         {"plateau_seen", std::vector<std::int32_t>{found.plateau_seen ? 1 : 0}},
+         {"kl_seen", std::vector<std::int32_t>{found.kl_seen ? 1 : 0}},
+         {"ks_seen", std::vector<std::int32_t>{found.ks_seen ? 1 : 0}},
+         {"comment",
+          "Phi0 (k/kl)^(-2(1+hurst)) from kl to ks, Phi0 below kl with the plateau, 0 elsewhere, k "
+          "= hypot(sqrt(aspect) k along, k across/sqrt(aspect)) the direction "
+          "[degree] of the lay, mean over all directions; errors are 90 % intervals; ks_seen 0: "
+          "the power law extends to the shortest wavelength of the grid; "
+          "kl_seen 0: kl is an upper bound because the map is too small; plateau_seen 0: the "
+          "existence of a plateau is not determined"}});
+}
+
+}  // namespace rsc

@@ -1,0 +1,264 @@
+#include "io/result.hpp"
+
+#include "base/error.hpp"
+#include "io/input_netcdf.hpp"
+#include "observe/quantities.hpp"
+
+namespace rsc {
+
+Contacts contacts_kept(const Case& c) {
+    const bool one = c.run.realizations == 1;
+    if (!one && (c.output.contacts == Contacts::last || c.output.contacts == Contacts::all))
+        bad_input(
+            "&output contacts: contacts are stored for one realization only, and this case has " +
+            std::to_string(c.run.realizations) +
+            "; use contacts='none' or 'auto', or realizations=1");
+    if (!one && c.output.heights)
+        bad_input(
+            "&output heights: heights are stored for one realization only, and this case has " +
+            std::to_string(c.run.realizations) + "; use heights=.false. or realizations=1");
+    if (!one && !c.output.fields.empty())
+        bad_input("&output fields: fields are stored for one realization only, and this case has " +
+                  std::to_string(c.run.realizations));
+    if (c.output.contacts != Contacts::automatic) return c.output.contacts;
+    return one ? Contacts::all : Contacts::none;
+}
+
+ObserveOptions observe_options(const Case& c, const Domain& domain, const Indenter& indenter,
+                               double sigma, double sqrt_m4) {
+    ObserveOptions options;
+    options.tip_x = indenter.x0;
+    options.tip_y = indenter.y0;
+    options.map = make_map_grid(domain.x0, domain.y0, domain.Lx, domain.Ly, c.output.map_cells);
+    options.radial_bins =
+        indenter.period.finite() ? 0 : c.output.radial_bins;  // two flats have no centre
+    if (c.output.pdf_levels.empty() || !(sigma > 0) || !(sqrt_m4 > 0))
+        return options;  // no length scale for the ranges: no distributions
+    for (double level : c.output.pdf_levels) options.pdf_levels.push_back(level * sigma);
+    constexpr double sharpest =
+        4;  // radii down to a quarter of 1/sqrt(m4): nearly all (Nayak's density of curvatures)
+    const double hardest =
+        c.solids.hardness * std::sqrt(1 + sharpest * c.solids.size_effect * sqrt_m4);
+    options.pdf = make_pdf_bins(c.output.pdf_bins, indenter.E_star, sigma, sqrt_m4, 1.1 * hardest);
+    return options;
+}
+
+double typical_sqrt_m4(const Asperities& asperities) {
+    double sum = 0;
+    for (double r : asperities.radius) sum += r;
+    return sum > 0 ? 0.9 * static_cast<double>(asperities.size()) / sum : 0;
+}
+
+Result make_result(const Case& c, std::string case_text, const Indenter& indenter, double sigma,
+                   std::optional<Moments> theory, Observations observations) {
+    Result result;
+    result.settings = c;
+    result.case_text = std::move(case_text);
+    result.indenter = indenter;
+    result.sigma = sigma > 0 ? sigma : kAbsent;
+    result.theory = theory;
+    result.observations = std::move(observations);
+    return result;
+}
+
+void keep_contacts(Result& result, const std::vector<Level>& levels, Contacts keep) {
+    PackedContacts packed;
+    if (keep == Contacts::none || keep == Contacts::automatic) return;
+    for (std::size_t s = 0; s < levels.size(); ++s) {
+        const Level& level = levels[s];
+        const bool kept = keep == Contacts::all || s + 1 == levels.size();
+        const std::size_t count = kept ? level.asperity.size() : 0;
+        if (packed.force.size() + count >
+            static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+            bad_input(
+                "&output contacts: too many contacts for the indices of the result file; use "
+                "contacts='last' or 'none'");
+        packed.start.push_back(static_cast<std::int32_t>(packed.force.size()));
+        packed.count.push_back(static_cast<std::int32_t>(count));
+        if (!kept) continue;
+        if (level.pixels.index.empty()) {
+            packed.asperity.insert(packed.asperity.end(), level.asperity.begin(),
+                                   level.asperity.end());
+        } else {
+            packed.x.insert(packed.x.end(), level.x.begin(), level.x.end());
+            packed.y.insert(packed.y.end(), level.y.begin(), level.y.end());
+        }
+        packed.force.insert(packed.force.end(), level.f.begin(), level.f.end());
+        packed.radius.insert(packed.radius.end(), level.a.begin(), level.a.end());
+        for (const Spot& spot : level.spots) {
+            packed.spot_x.push_back(spot.x), packed.spot_y.push_back(spot.y);
+            packed.major.push_back(spot.major), packed.minor.push_back(spot.minor),
+                packed.angle.push_back(spot.angle);
+        }
+        if (std::isfinite(result.settings.solids.hardness))
+            packed.yields.insert(packed.yields.end(), level.yields.begin(), level.yields.end());
+    }
+    result.contacts = std::move(packed);
+}
+
+Moments regime_moments(const Result& result) {
+    if (result.theory) return *result.theory;
+    const auto& surfaces = result.observations.surface;
+    Moments mean;
+    for (const SurfaceStatistics& s : surfaces) {
+        mean.m0 += s.sigma * s.sigma;
+        mean.m2 += s.m2;
+        mean.m4 += s.m4;
+    }
+    const auto n = static_cast<double>(surfaces.size());
+    return {mean.m0 / n,
+            mean.m2 / n,
+            mean.m4 / n,
+            {},
+            {}};  // NaN without surfaces, and if a surface lacks them
+}
+
+namespace {
+
+// Variables of known shapes.
+class Columns : public NetcdfInput {
+public:
+    using NetcdfInput::NetcdfInput;
+
+    // Missing values are NaN.
+    std::vector<double> values(const std::string& name,
+                               const std::vector<std::size_t>& lengths) const {
+        const std::optional<Variable> variable = find(name);
+        if (!variable)
+            refuse("it has no variable " + name + ", which is needed to merge campaigns");
+        if (variable->lengths != lengths)
+            refuse("variable " + variable->shape() + " does not have the shape given by its case");
+        std::vector<double> values(variable->count());
+        read(*variable, values.data(), true);
+        return values;
+    }
+    std::size_t length(const std::string& name) const {
+        const std::optional<Variable> variable = find(name);
+        if (!variable || variable->lengths.size() != 1) refuse("it has no list " + name);
+        return variable->lengths.front();
+    }
+    [[noreturn]] void refuse(const std::string& why) const {
+        bad_input("'" + path() + "': " + why);
+    }
+};
+
+// Both axes depend on the surface, which may differ if it was read from a file.
+void require_same_axes(const Columns& file, const ObserveOptions& options) {
+    const auto require = [&](const std::string& name, std::size_t count, double first) {
+        if (file.values(name, {count}).front() != first)
+            file.refuse(
+                name +
+                " begins at another value than the case gives: the surfaces were not the same");
+    };
+    require("x", static_cast<std::size_t>(options.map.nx), options.map.x(0));
+    require("y", static_cast<std::size_t>(options.map.ny), options.map.y(0));
+    if (options.pdf_levels.empty()) return;
+    require("pressure_mean_bin", static_cast<std::size_t>(options.pdf.bins),
+            0.5 * options.pdf.mean_pressure_width());
+    require("spot_area_bin", static_cast<std::size_t>(options.pdf.bins),
+            0.5 * options.pdf.area_width());
+}
+
+void read_levels(const Columns& file, Accumulators& sums) {
+    const std::size_t count = sums.realization.size(), steps = sums.steps;
+    sums.rows.resize(count * steps);
+    const auto known = file.find("separation");
+    const bool of_each = known && known->lengths.size() == 2;
+    const std::vector<double> separation =
+        file.values("separation", of_each ? std::vector<std::size_t>{count, steps}
+                                          : std::vector<std::size_t>{steps});
+    for (std::size_t k = 0; k < sums.rows.size(); ++k)
+        sums.rows[k].separation = separation[of_each ? k : k % steps];
+    for (const LevelQuantity& q : level_quantities()) {
+        if (!file.find(q.name) && !q.always) continue;  // no level has it
+        const std::size_t parts = q.y ? 2 : 1;
+        std::vector<std::size_t> lengths{count, steps};
+        if (q.of_step) lengths = {steps};
+        if (q.y) lengths.push_back(parts);
+        const std::vector<double> values = file.values(q.name, lengths);
+        for (std::size_t k = 0; k < sums.rows.size(); ++k) {
+            q.put(sums.rows[k], values[q.of_step ? k % steps : k * parts]);
+            if (q.y) sums.rows[k].*q.y = values[k * parts + 1];
+        }
+    }
+}
+
+void read_surfaces(const Columns& file, Accumulators& sums) {
+    sums.surface.resize(sums.realization.size());
+    using S = SurfaceStatistics;
+    const auto read = [&](const char* name, auto member_of) {
+        const std::vector<double> values = file.values(name, {sums.surface.size()});
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            auto& member = member_of(sums.surface[k]);
+            member = static_cast<std::decay_t<decltype(member)>>(values[k]);
+        }
+    };
+    for (const auto& [name, member] : {std::pair{"sigma", &S::sigma},
+                                       {"m2", &S::m2},
+                                       {"m4", &S::m4},
+                                       {"m2_grid", &S::m2_grid},
+                                       {"m4_grid", &S::m4_grid},
+                                       {"mean_kappa_g", &S::mean_kappa_g},
+                                       {"mean_kappa_a", &S::mean_kappa_a}})
+        read(name, [m = member](S& s) -> double& { return s.*m; });
+    for (const auto& [name, of] : kMomentComponents)
+        read(name, [m = of](S& s) -> double& { return s.tensor.*m; });
+    if (file.find("skewness"))
+        read("skewness", [](S& s) -> double& { return s.skewness; }),
+            read("kurtosis", [](S& s) -> double& { return s.kurtosis; });
+    if (!file.find("summits")) return;  // elements do not search for summits
+    read(
+        "summits", [](S & s) -> auto& { return s.summits; }),
+        read(
+            "saddles", [](S & s) -> auto& { return s.saddles; });
+}
+
+void read_distributions(const Columns& file, Accumulators& sums) {
+    const std::size_t levels = sums.distributions.size();
+    if (levels == 0) return;
+    const std::vector<double> step = file.values("pdf_step", {levels});
+    Distributions one = rounded({}, sums.options.pdf, 0);
+    std::size_t count = 0;
+    for_each_number(one, sums.options.pdf, [&count](auto&, double) { ++count; });
+    const std::vector<double> parts = file.values("pdf_sums", {levels, count, 2});
+    for (std::size_t d = 0; d < levels; ++d) {
+        sums.distributions[d].step = static_cast<std::int32_t>(step[d]) - 1;
+        for (std::size_t k = d * count; k < (d + 1) * count; ++k)
+            sums.distributions[d].numbers.push_back({parts[2 * k], parts[2 * k + 1]});
+    }
+}
+
+}  // namespace
+
+Accumulators read_sums(const std::string& path, const ObserveOptions& options, std::size_t steps) {
+    const Columns file(path);
+    Accumulators sums(options, steps);
+    for (const double number : file.values("realization", {file.length("realization")}))
+        sums.realization.push_back(static_cast<std::int64_t>(number));
+    require_same_axes(file, options);
+    read_levels(file, sums);
+    read_surfaces(file, sums);
+    const auto map = [&](const std::string& name) {
+        const MapGrid& g = options.map;
+        const std::vector<std::size_t> lengths{steps, static_cast<std::size_t>(g.ny),
+                                               static_cast<std::size_t>(g.nx)};
+        const std::vector<double> rests = file.values(name + "_rest", lengths);
+        return map_sums(g, sums.converged(), file.values(name, lengths), rests);
+    };
+    sums.map_area = map("map_area_fraction");
+    sums.map_force = map("map_pressure");
+    read_distributions(file, sums);
+    return sums;
+}
+
+std::optional<LevelCount> count_levels(const std::string& path) {
+    const Columns file(path);
+    const auto status = file.find("status");
+    if (!status) return {};
+    const std::vector<double> values = file.values("status", status->lengths);
+    const auto failed =
+        std::count(values.begin(), values.end(), static_cast<double>(LevelStatus::not_converged));
+    return LevelCount{static_cast<long>(values.size()), static_cast<long>(failed)};
+}
+
+}  // namespace rsc

@@ -1,0 +1,277 @@
+#include "physics/adhesion/adhesive_contact.hpp"
+
+#include "base/error.hpp"
+#include "contact/answers.hpp"
+#include "physics/adhesion/adhesive_path.hpp"
+
+namespace rsc {
+namespace {
+
+constexpr std::size_t kBefore = 7;  // numbers in memory() before the pairs
+
+class AdhesiveContact final : public Contact {
+public:
+    AdhesiveContact(const Asperities& asperities, const Indenter& indenter,
+                    const SolverOptions& options, SummitSearch search)
+        : path_(std::make_unique<AdhesivePath>(asperities, indenter, options, std::move(search))) {}
+
+    double stiffness() override {
+        if (std::exchange(fresh_, false)) slope_ = path_->solver.slope(path_->here.states);
+        return slope_;
+    }
+    double clamped_stiffness() override {
+        return std::isnan(stiffness()) || path_->active.empty()
+                   ? slope_
+                   : path_->solver.clamped_stiffness(path_->here.states);
+    }
+    double energy() const override { return energy_; }
+    Vec2 lateral(const Level& level) override;
+    void move_tip(double x0, double y0) override;
+    double first_touch() const override { return path_->ranking.highest(); }
+    const Indenter& indenter() const override { return path_->indenter; }
+    const Asperities* asperities() const override { return &path_->asperities; }
+    bool path_dependent() const override { return true; }
+    bool pulls() const override { return true; }
+    // Position of the tip, separation, dissipated energy, smallest force, jumps, margin, and pairs
+    // of an attached asperity and its state.
+    std::vector<double> memory() const override;
+    void recall(const std::vector<double>& memory, const Level* level) override;
+
+protected:
+    void forget_levels() override {
+        path_ = path_at(path_->indenter.x0, path_->indenter.y0);
+        slope_ = energy_ = 0, fresh_ = false;
+    }
+    Level solve(double Z0) override;
+    // Follows the path to the first state with the force, towards the surface if it is larger than
+    // the present force, otherwise away. If no state has the force, the level is that of the
+    // smallest force, with Fallback::held.
+    std::optional<Level> solve_under(double N) override;
+    void accept(Level&) override { path_->accepted = path_->now, path_->accepted.jumps = 0; }
+    double tolerance() const override { return path_->options.tolerance; }
+    double force_at_most(double) override { return 0; }
+
+private:
+    Level report();
+    // A path without loads at another place, with the summits there.
+    std::unique_ptr<AdhesivePath> path_at(double x0, double y0) const {
+        const AdhesivePath& my = *path_;
+        Indenter tip = my.indenter;
+        if (x0 != tip.x0 || y0 != tip.y0) tip.move(x0, y0);
+        return std::make_unique<AdhesivePath>(my.of_surface, tip, SolverOptions(my.options),
+                                              my.search);
+    }
+
+    std::unique_ptr<AdhesivePath> path_;
+    double slope_ = 0, energy_ = 0;  // of the last level
+    bool fresh_ = false;             // slope_ is still to be computed, from the state of the path
+};
+
+Level AdhesiveContact::report() {
+    AdhesivePath& my = *path_;
+    Level l;
+    l.separation = my.here.Z;
+    // there is no state to report: the values become not-a-number (Contact::finish)
+    if (my.lost_way) {
+        my.now = my.accepted;
+        l.status = LevelStatus::not_converged;
+        l.residual = 1;
+        l.candidates = my.set.size(), l.iterations = my.steps;
+        slope_ = energy_ = kNotComputed;
+        return l;
+    }
+    my.now = my.past();
+    l.candidates = my.set.size() + static_cast<int>(my.left_out.size());
+    l.residual = my.here.residual;
+    l.iterations = my.steps;
+    l.products = my.direct->count() + (my.mesh ? my.mesh->count() : 0) - my.products_before;
+    l.method = my.products == my.mesh.get() && my.mesh ? Method::mesh : Method::direct;
+    double cohesive = 0;
+    for (std::size_t k = 0; k < my.now.asperity.size(); ++k) {
+        const int i = my.now.asperity[k];
+        const Sticking::State state = my.sticking.at(i, my.now.s[k]);
+        const Vec2 place = my.indenter.image(my.asperities.x[at(i)], my.asperities.y[at(i)]);
+        if (state.area > 0)
+            l.add_contact(i, place.x, place.y, state.f, std::sqrt(state.area / std::numbers::pi),
+                          state.u);
+        l.tractions.x.push_back(place.x), l.tractions.y.push_back(place.y);
+        l.tractions.a.push_back(std::sqrt(state.area / std::numbers::pi)),
+            l.tractions.c.push_back(std::sqrt(state.outer / std::numbers::pi));
+        l.tractions.pressed.push_back(state.pressed),
+            l.tractions.pulled.push_back(state.f - state.pressed);
+        cohesive += state.outer - state.area;
+        l.force += state.f;
+        l.area += state.area;
+        l.beyond_law += state.beyond || my.law->beyond(i, my.now.s[k]);
+    }
+    judge_asperities(l, *my.law, my);
+    if (my.options.adhesion.range > 0) l.cohesive_area = cohesive;
+    // Where the zones that attract around the summits overlap, they would count twice.
+    if (cohesive + l.area > static_cast<double>(my.now.asperity.size()) * 0.25 * std::numbers::pi *
+                                my.options.mean_spacing * my.options.mean_spacing &&
+        my.options.adhesion.range > 0 && my.options.mean_spacing > 0) {
+        l.status = graver(l.status, LevelStatus::out_of_validity);
+        const double pulled =
+            std::accumulate(l.tractions.pulled.begin(), l.tractions.pulled.end(), 0.0);
+        if (l.force != 0)
+            l.force_error_expected = std::fmax(l.force_error_expected, std::abs(pulled / l.force));
+    }
+    l.jumps = my.jumps + my.accepted.jumps;
+    l.energy_lost = my.now.lost;
+    l.least_force = my.now.least_force;
+    slope_ = 0, fresh_ = !my.active.empty();
+    energy_ = my.active.empty() ? 0.0 : my.here.energy;
+    return l;
+}
+
+// At the areas of the present tip, from the state with this area and the force that belongs to it.
+Vec2 AdhesiveContact::lateral(const Level& level) {
+    AdhesivePath& my = *path_;
+    const std::vector<int>& which = my.now.asperity;
+    if (!my.beside.known() || which.empty() || std::isnan(level.force))
+        return lateral_force(my.indenter, level);
+    my.beside.follow(which, [&](const FoundSummits& found, const Indenter&) {
+        return make_law(my.options.law, found.summits, my.indenter.E_star);
+    });
+    std::vector<Sticking::State> here;
+    std::vector<double> f;
+    for (std::size_t k = 0; k < which.size(); ++k)
+        here.push_back(my.sticking.at(which[k], my.now.s[k])), f.push_back(here[k].f);
+    std::optional<Sticking> sticking;
+    return my.beside.lateral(which, f, false, [&](SummitsBeside::Tip& tip, std::size_t k) {
+        if (k == 0)
+            sticking.emplace(*tip.law, my.options.adhesion.work, my.options.adhesion.range),
+                sticking->prepare(which);
+        const Sticking::State there = sticking->at(which[k], my.now.s[k]);
+        return Response{f[k], 0, there.energy + there.f * (here[k].u - there.u)};
+    });
+}
+
+Level AdhesiveContact::solve(double Z0) {
+    AdhesivePath& my = *path_;
+    fresh_ = false;
+    for (my.thin = true;; my.thin = false) {
+        if (my.begin(Z0) && !my.lost_way) my.go(Z0, std::nullopt);
+        my.here.Z = Z0;
+        if (!my.thin || !(my.lost_way || my.missed())) break;
+    }
+    return report();
+}
+
+std::optional<Level> AdhesiveContact::solve_under(double N) {
+    AdhesivePath& my = *path_;
+    fresh_ = false;
+    my.thin = false;
+    const bool anything = my.begin(-kInfinity);
+    if (my.lost_way) return report();
+    if (anything && std::abs(my.here.force - N) > 0.1 * tolerance() * std::abs(N)) {
+        const bool down = my.here.force < N && !(my.active.empty() && N < 0);
+        if (!my.go(down ? -1e300 : 1e300, N) || my.lost_way) {
+            if (my.lost_way) return report();
+            // No state has this force: returns to the state with the smallest force.
+            const double least = my.now.least_force;
+            for (const double above : {1e-7, 1e-5, 1e-3}) {
+                my.begin(-kInfinity);
+                if (my.active.empty() || (my.go(1e300, least * (1 - above)) && !my.lost_way)) break;
+            }
+            if (my.lost_way) return report();
+            Level level = report();
+            level.fallback = Fallback::held;
+            level.status = LevelStatus::not_converged;
+            return level;
+        }
+    }
+    return report();
+}
+
+void AdhesiveContact::move_tip(double x0, double y0) {
+    if (!std::isfinite(x0) || !std::isfinite(y0))
+        throw Error(Failure::bad_input, "the tip's position must be finite");
+    AdhesivePath& my = *path_;
+    if (x0 == my.indenter.x0 && y0 == my.indenter.y0) return;
+    (void)stiffness();
+    if (!my.accepted.asperity.empty()) {
+        std::unique_ptr<AdhesivePath>
+            // with the summits of the difference at the new place, if the attached ones are among
+            // them
+            there;
+        if (my.of_difference && !my.of_difference->renumbered) there = path_at(x0, y0);
+        if (my.of_difference &&
+            !(there && there->of_difference && !there->of_difference->renumbered))
+            throw Error(Failure::bad_input,
+                        "the tip cannot move while asperities are attached, where the slope of the "
+                        "indenter is above 0.2 of that of the "
+                        "surface: pull it off first, or use solver%model = 'elements' or "
+                        "asperities%law = 'hertz'");
+        AdhesivePath::Past before = my.accepted;
+        const Indenter old = my.indenter;
+        bool done = my.move(x0, y0);
+        if (done && there) {
+            there->accepted = std::exchange(my.accepted, std::move(before));
+            my.indenter = old;
+            my.ranking.assign(my.asperities, my.indenter);
+            done = there->stand();
+            if (done) path_ = std::move(there);
+        }
+        if (!done)
+            throw Error(Failure::not_converged,
+                        "the path of the attached asperities to the new position of the tip is "
+                        "lost; the tip stays where it was");
+        slope_ = 0, fresh_ = !path_->active.empty();
+        return;
+    }
+    auto there = path_at(x0, y0);
+    there->accepted = my.accepted;
+    path_ = std::move(there);
+    slope_ = energy_ = 0, fresh_ = false;
+}
+
+std::vector<double> AdhesiveContact::memory() const {
+    const AdhesivePath::Past& past = path_->accepted;
+    if (past.separation == kInfinity) return {};
+    const Indenter& tip = path_->indenter;
+    std::vector<double> numbers = {tip.x0,     tip.y0,           past.separation,
+                                   past.lost,  past.least_force, static_cast<double>(past.jumps),
+                                   past.margin};
+    for (std::size_t k = 0; k < past.asperity.size(); ++k)
+        numbers.insert(numbers.end(), {static_cast<double>(past.asperity[k]), past.s[k]});
+    return numbers;
+}
+
+void AdhesiveContact::recall(const std::vector<double>& memory, const Level* last) {
+    bool sound = memory.size() >= kBefore && (memory.size() - kBefore) % 2 == 0;
+    for (double value : memory) sound = sound && std::isfinite(value);
+    // The state belongs to the stored position of the tip, which may differ from that of the last
+    // level.
+    if (sound && (memory[0] != path_->indenter.x0 || memory[1] != path_->indenter.y0))
+        path_ = path_at(memory[0], memory[1]);
+    AdhesivePath& my = *path_;
+    my.accepted = {};
+    if (!memory.empty()) {
+        AdhesivePath::Past& past = my.accepted;
+        if (sound)
+            past.separation = memory[2], past.lost = memory[3], past.least_force = memory[4],
+            past.jumps = static_cast<int>(memory[5]), past.margin = memory[6];
+        for (std::size_t k = kBefore; sound && k + 1 < memory.size(); k += 2) {
+            sound = memory[k] >= 0 && memory[k] < static_cast<double>(my.asperities.size()) &&
+                    memory[k + 1] > 0;
+            if (!sound) break;
+            past.asperity.push_back(static_cast<int>(memory[k])), past.s.push_back(memory[k + 1]);
+        }
+        if (!sound)
+            throw Error(Failure::bad_input, "the state does not belong to these asperities");
+        my.sticking.prepare(past.asperity);
+    }
+    if (last)
+        (void)solve(my.accepted.separation < kInfinity ? my.accepted.separation : last->separation);
+}
+
+}  // namespace
+
+std::unique_ptr<Contact> make_adhesive_contact(const Asperities& asperities,
+                                               const Indenter& indenter,
+                                               const SolverOptions& options, SummitSearch search) {
+    return std::make_unique<AdhesiveContact>(asperities, indenter, options, std::move(search));
+}
+
+}  // namespace rsc

@@ -1,0 +1,178 @@
+#include "physics/adhesion/adhesive_elements.hpp"
+
+#include <boost/math/tools/toms748_solve.hpp>
+
+#include "base/error.hpp"
+#include "base/format.hpp"
+#include "physics/adhesion/adhesive_pixels.hpp"
+
+namespace rsc {
+namespace {
+
+constexpr std::size_t kKept = 8;  // numbers before the points in memory()
+
+class AdhesiveElements final : public Contact {
+public:
+    AdhesiveElements(const HeightMap& heights, const Indenter& indenter,
+                     const SolverOptions& options)
+        : state_(heights, indenter, options) {}
+
+    double stiffness() override {
+        if (std::none_of(state_.q.begin(), state_.q.end(), [](double q) { return q > 0; }))
+            return 0;
+        return state_.flats
+                   ? -state_.heights.Lx() * state_.heights.Ly() * state_.flats->stiffness(false)
+                   : -state_.pixel * state_.spots->stiffness(1e-9, false);
+    }
+    double energy() const override { return state_.energy; }
+    double first_touch() const override { return state_.top; }
+    const Indenter& indenter() const override { return state_.indenter; }
+    bool path_dependent() const override { return true; }
+    bool pulls() const override { return true; }
+
+    void move_tip(double x0, double y0) override {
+        if (!std::isfinite(x0) || !std::isfinite(y0))
+            throw Error(Failure::bad_input, "the tip's position must be finite");
+        state_.move(x0, y0);
+    }
+
+    std::vector<double> memory() const override {
+        const AdhesivePixels::Past& past = state_.accepted;
+        if (past.separation == kInfinity) return {};
+        const Indenter& tip = state_.indenter;
+        std::vector<double> numbers = {past.separation,  past.force, past.work,
+                                       past.least_force, past.lost,  double(past.jumps),
+                                       tip.x0,           tip.y0};
+        numbers.insert(numbers.end(), past.attracting.begin(), past.attracting.end());
+        return numbers;
+    }
+
+    void recall(const std::vector<double>& memory, const Level* level) override {
+        AdhesivePixels::Past past;
+        bool sound = memory.empty() || memory.size() >= kKept;
+        for (std::size_t k = 0; k < memory.size() && sound; ++k)
+            sound = std::isfinite(memory[k]) &&
+                    (k < kKept ||
+                     (memory[k] >= 0 && memory[k] < static_cast<double>(state_.clearance.size())));
+        sound =
+            sound && (memory.empty() ||
+                      (memory[5] >= 0 && memory[5] <= std::numeric_limits<std::int32_t>::max()));
+        if (!sound)
+            throw Error(Failure::bad_input, "this is not the state of a contact of this surface");
+        if (!memory.empty())
+            past = {memory[0], memory[1], memory[2],
+                    memory[3], memory[4], static_cast<std::int32_t>(memory[5]),
+                    {}};
+        for (std::size_t k = kKept; k < memory.size(); ++k)
+            past.attracting.push_back(static_cast<std::int32_t>(memory[k]));
+        forget_levels();
+        if (!memory.empty() &&
+            (memory[6] != state_.indenter.x0 || memory[7] != state_.indenter.y0)) {
+            state_.indenter.move(memory[6], memory[7]);
+            state_.set_clearances();
+        }
+        state_.accepted = std::move(past);
+        if ((level || state_.accepted.separation < kInfinity) &&
+            solve(state_.accepted.separation < kInfinity ? state_.accepted.separation
+                                                         : level->separation)
+                    .status == LevelStatus::not_converged)
+            throw Error(
+                Failure::bad_input,
+                "the state of the contact cannot be reached again: the solver does not converge");
+        state_.keep();
+    }
+
+protected:
+    void forget_levels() override { state_.forget(); }
+    Level solve(double Z0) override { return state_.solve(Z0); }
+    std::optional<Level> solve_under(double N) override {
+        std::int32_t iterations = 0;
+        std::int64_t products = 0;
+        Level level;
+        const auto look = [&](double Z) {
+            level = state_.step(Z);
+            iterations += level.iterations, products += level.products;
+            return level.status == LevelStatus::not_converged
+                       ? std::numeric_limits<double>::quiet_NaN()
+                       : level.force - N;
+        };
+        // Near N = 0 the force is the difference of pressure and attraction, and no more exact than
+        // these.
+        const auto precise = [&](double miss) {
+            return std::abs(miss) <=
+                   tolerance() *
+                       std::max(std::abs(N), state_.s0 * (level.area + level.cohesive_area));
+        };
+        double Z = state_.accepted.separation < kInfinity ? state_.accepted.separation
+                                                          : state_.top + state_.z0,
+               miss = look(Z);
+        const double way = miss < 0 ? -1 : 1;
+        double before = Z, before_miss = miss, least = level.force, least_at = Z,
+               step = 0.25 * state_.z0;
+        constexpr int most = 400;
+        const double lowest = closed() + 1e-6 * state_.z0;  // nearly full contact
+        bool found = precise(miss);
+        for (int i = 0; i < most && !found && miss * before_miss > 0; ++i) {
+            if (way > 0 && state_.now.attracting.empty()) break;  // no attraction is left
+            before = Z, before_miss = miss;
+            Z = std::max(Z + way * step, lowest);
+            step *= 1.4;
+            miss = look(Z);
+            if (Z == lowest && miss < 0) {
+                const double area = state_.heights.Lx() * state_.heights.Ly();
+                throw Error(Failure::bad_input, format("a nominal pressure of %.9g is above that "
+                                                       "of full contact on this surface, %.4g",
+                                                       N / area, level.force / area));
+            }
+            if (level.status != LevelStatus::not_converged && level.force < least)
+                least = level.force, least_at = Z;
+            found = precise(miss);
+        }
+        if (!found && miss * before_miss < 0) {
+            std::uintmax_t steps = 100;
+            const auto exact =
+                [&](double
+                        // ends at the first level that is precise: a second one from another start
+                        // may not be
+                        z) {
+                    if (!found) miss = look(z), found = precise(miss);
+                    return found ? 0.0 : miss;
+                };
+            const bool rising = Z > before;
+            const auto [low, high] = boost::math::tools::toms748_solve(
+                exact, rising ? before : Z, rising ? Z : before, rising ? before_miss : miss,
+                rising ? miss : before_miss, boost::math::tools::eps_tolerance<double>(50), steps);
+            if (!found) found = precise(look(0.5 * (low + high)));
+        }
+        if (!found) {
+            (void)look(least_at);
+            if (level.status != LevelStatus::not_converged) level.fallback = Fallback::held;
+            level.status = LevelStatus::not_converged;
+        }
+        level.iterations = iterations, level.products = products;
+        return level;
+    }
+    void accept(Level&) override {
+        state_.accepted = state_.now, state_.accepted.jumps = 0;
+        state_.keep();
+    }
+    double tolerance() const override { return state_.options.tolerance; }
+
+    double closed() const override { return state_.flats ? state_.flats->closed() : -kInfinity; }
+
+    double force_at_most(double) override { return 0; }
+    std::optional<double> likely_separation() const override { return std::nullopt; }
+    std::size_t levels_since_move() const override { return 0; }
+
+private:
+    AdhesivePixels state_;
+};
+
+}  // namespace
+
+std::unique_ptr<Contact> make_adhesive_elements(const HeightMap& heights, const Indenter& indenter,
+                                                const SolverOptions& options) {
+    return std::make_unique<AdhesiveElements>(heights, indenter, options);
+}
+
+}  // namespace rsc

@@ -1,0 +1,54 @@
+// Adhesive boundary elements, free or periodic: the Maugis-Dugdale traction s0 = w/z0 acts across
+// all gaps below z0, where w is the work of adhesion (Maugis, J. Colloid Interface Sci. 150, 1992).
+//
+// A pixel is in contact (gap w = 0, p >= -s0), cohesive (0 < w < z0, p = -s0) or free (p = 0). For
+// a given set C of attracting pixels, q = p + s0 >= 0 solves the problem without adhesion for
+// heights raised by s0 K 1_C: one convex solve. C is renewed, starting from that of the last
+// accepted level, until it contains exactly the pixels with gaps below z0. The state thus follows
+// the previous one at a given separation; if there is none nearby, the contact jumps: pixels enter
+// or leave C in an avalanche.
+//
+// The error is of first order in h, the side of a pixel: relative to z0 for long ranges, and for
+// short ones relative to E* z0^2/w, the length in which the traction acts at an edge of contact. A
+// range below two pixels causes a warning, below half a pixel an error.
+#pragma once
+
+#include "contact/contact.hpp"
+#include "surface/surface.hpp"
+
+namespace rsc {
+
+// Throws Error(bad_input) if the range of the attraction is less than half of the grid step.
+void require_resolved(double range, double step);
+
+// The heights, as require_elements() returns them, must outlive the contact. The options used are
+// the tolerance, the number of iterations and the adhesion with a positive range. Throws
+// Error(bad_input) for options that are not available with adhesion, and for a range below half a
+// pixel. Of the functions of Contact:
+//   energy()      elastic energy minus s0 (z0 - w) integrated over the attracting points;
+//   energy_lost of a level is the work done since the
+//                 first level minus the change of the energy. The work is trapezoidal; steps
+//                 between separations are divided where it is
+//                 uncertain, mostly by a jump (stiffness() does not help: sets of attracting points
+//                 change within the step)
+//   stiffness()   dN/dZ0 for fixed attracting points
+//   at_force(N)   searches a separation with the force, towards the surface if it is larger than
+//   the present force, otherwise away. If there
+//                 is none, the level is that of the smallest force found, with Fallback::held.
+//                 These steps are not divided
+//   move_tip()    follows the state along the straight (on a surface that repeats, the shortest)
+//   way of the tip at the last separation, in
+//                 pieces of at most a quarter of a pixel; the work of a piece is that of the mean
+//                 pressures of its ends. stiffness() and
+//                 energy() are then those of the new position. Edges of contact that move from
+//                 pixel to pixel dissipate about 0.3 (h/z0) w
+//                 of the area that comes off (test/README). Throws Error(bad_input) if points near
+//                 the edge of a body (a punch) attract,
+//                 Error(not_converged) if the path is lost; the tip and the state are then as
+//                 before
+//   memory()      separation, force, work done, smallest force, dissipated energy, jumps since the
+//   last level, tip, then the attracting points
+std::unique_ptr<Contact> make_adhesive_elements(const HeightMap& heights, const Indenter& indenter,
+                                                const SolverOptions& options);
+
+}  // namespace rsc

@@ -1,0 +1,226 @@
+#include "physics/hardness/hardness.hpp"
+
+#include <boost/math/tools/roots.hpp>
+
+#include "base/error.hpp"
+
+namespace rsc {
+namespace {
+
+using std::numbers::pi;
+
+class Yielding final : public Law {
+public:
+    Yielding(std::unique_ptr<Law> elastic, const Asperities& asperities, const Hardness& hardness,
+             bool sinks)
+        : elastic_(std::move(elastic)),
+          radius_(asperities.radius),
+          hardness_(hardness),
+          sinks_(sinks),
+          place_(asperities.size(), -1) {}
+
+    bool convex() const override {
+        return false;
+    }  // the slope decreases where a reloaded asperity continues to yield
+    bool path_dependent() const override { return true; }
+
+    void prepare(std::span<const int> asperities) override {
+        elastic_->prepare(asperities);
+        for (int i : asperities) {
+            if (place_[at(i)] >= 0) continue;
+            place_[at(i)] = static_cast<int>(summits_.size());
+            Summit s;
+            s.H = hardness_.H0 * std::sqrt(1 + hardness_.length / radius_[at(i)]);
+            s.yield = elastic_->yield_penetration(i, s.H);
+            const double area = elastic_->area(i, s.yield);
+            const Response first = elastic_->response(i, s.yield);
+            s.start = {s.yield, area, std::sqrt(area / pi), elastic_->spread(i, s.yield)};
+            s.modulus = 3 * first.force / (4 * s.start.radius * s.yield);
+            s.sink = sinks_ ? 4 * s.H / (pi * s.modulus) : 0.0;
+            s.work = first.work;
+            summits_.push_back(s);
+        }
+    }
+
+    void respond(int n, const int* asperity, const double* u, double* force, double* slope,
+                 double* work) const override {
+        for (int k = 0; k < n; ++k) {
+            const Summit& s = summit(asperity[k]);
+            if (!(u[k] > s.rest)) {  // rest is 0 if it has never yielded
+                force[k] = slope[k] = work[k] = 0;
+                continue;
+            }
+            if (s.deepest == 0 && u[k] <= s.yield) {
+                elastic_->respond(1, &asperity[k], &u[k], &force[k], &slope[k], &work[k]);
+                continue;
+            }
+            if (u[k] <= s.deepest) {
+                const double x = u[k] - s.rest;
+                force[k] = back(s, x);
+                slope[k] = s.power * force[k] / x;
+                work[k] = force[k] * x / (1 + s.power);
+                continue;
+            }
+            const Flat now = flat(asperity[k], u[k]);
+            force[k] = s.H * now.area;
+            slope[k] = s.H * growth(s, now.spread.slope, now.radius);
+            work[k] = s.deepest > 0 ? recoverable(s) + flow(s, s.end, now)
+                                    : s.work + flow(s, s.start, now);
+        }
+    }
+
+    double area(int asperity, double u) const override {
+        const Summit& s = summit(asperity);
+        if (s.deepest > 0 && u <= s.deepest)
+            return u > s.rest ? s.end.area * ((u - s.rest) / (s.deepest - s.rest)) : 0.0;
+        return u > s.yield ? flat(asperity, u).area : elastic_->area(asperity, u);
+    }
+
+    double axes(int asperity) const override { return elastic_->axes(asperity); }
+    bool beyond(int asperity, double u) const override { return elastic_->beyond(asperity, u); }
+    double yield_penetration(int asperity, double pressure) const override {
+        return elastic_->yield_penetration(asperity, pressure);
+    }
+
+    double steepest(int asperity, double high) const override {
+        const Summit& s = summit(asperity);
+        const auto slope = [&](double u) { return response(asperity, u).slope; };
+        if (high <= (s.deepest > 0 ? s.deepest : s.yield)) return slope(high);
+        // The largest of the slope at the end of the elastic branch and a bound on the plastic
+        // growth, which increases with the radius and is monotonic in the slope of the spread.
+        const Flat &from = s.deepest > 0 ? s.end : s.start, to = flat(asperity, high);
+        return std::max(slope(s.deepest > 0 ? s.deepest : s.yield),
+                        s.H * growth(s, std::max(from.spread.slope, to.spread.slope), to.radius));
+    }
+
+    double first_loading(int asperity, double u) const override {
+        return std::max(u, summit(asperity).deepest);
+    }
+    bool yields(int asperity, double u) const override {
+        const Summit& s = summit(asperity);
+        return u > s.yield && u >= s.deepest;
+    }
+    double residual_depth(int asperity) const override {
+        return place_[at(asperity)] < 0 ? 0 : summit(asperity).rest;
+    }
+    double deepest(int asperity) const override {
+        return place_[at(asperity)] < 0 ? 0 : summit(asperity).deepest;
+    }
+    std::span<const int> yielded() const override { return yielded_; }
+    void forget() override {
+        for (Summit& s : summits_) s.deepest = 0, s.end = {}, s.rest = 0, s.power = 1.5, s.lost = 0;
+        yielded_.clear();
+    }
+    double work_lost() const override {
+        double sum = 0;
+        for (const Summit& s : summits_) sum += s.lost;
+        return sum;
+    }
+
+    void commit(int n, const int* asperity, const double* u) override {
+        for (int k = 0; k < n; ++k) {
+            Summit& s = summits_[at(place_[at(asperity[k])])];
+            if (!(u[k] > s.yield && u[k] > s.deepest)) continue;
+            const Flat now = flat(asperity[k], u[k]);
+            const double f = s.H * now.area, spent = s.work + flow(s, s.start, now);
+            const double x = 0.75 * f / (s.modulus * now.radius);  // a^2/r'
+            if (s.deepest == 0)
+                yielded_.insert(std::lower_bound(yielded_.begin(), yielded_.end(), asperity[k]),
+                                asperity[k]);
+            s.deepest = u[k];
+            s.end = now;
+            s.power = std::max(1.5, f * x / spent - 1);
+            s.rest = u[k] - x;
+            s.lost = std::max(spent - recoverable(s), 0.0);  // rounding
+        }
+    }
+
+private:
+    // State of a flattened summit: depth without sinking, area, radius, and the spread of the
+    // elastic law there.
+    struct Flat {
+        double depth = 0, area = 0, radius = 0;
+        Spread spread;
+    };
+    struct Summit {
+        double H = 0;
+        double yield = 0;    // u_c
+        Flat start;          // at u_c
+        double work = 0;     // up to u_c
+        double modulus = 0;  // E'
+        double sink = 0;     // 4 H/(pi E'), or 0
+        // History; deepest = 0: never yielded.
+        double deepest = 0;  // u_m
+        Flat end;            // at u_m
+        double rest = 0;     // u_r
+        double power = 1.5;  // exponent m of unloading
+        double lost = 0;     // plastic work
+    };
+
+    const Summit& summit(int asperity) const { return summits_[at(place_[at(asperity)])]; }
+
+    Flat flat_at(int asperity, double depth) const {
+        const Summit& s = summit(asperity);
+        const Spread spread = elastic_->spread(asperity, depth);
+        const double area = s.start.area + 2 * (spread.area - s.start.spread.area);
+        return {depth, area, std::sqrt(area / pi), spread};
+    }
+    // State beyond u_c. If summits sink, solves depth + sink [a(depth) - a(u_c)] = u.
+    Flat flat(int asperity, double u) const {
+        const Summit& s = summit(asperity);
+        if (s.sink == 0) return flat_at(asperity, u);
+        const auto miss = [&](double depth) {
+            const Flat now = flat_at(asperity, depth);
+            return std::pair(depth + s.sink * (now.radius - s.start.radius) - u,
+                             1 + s.sink * now.spread.slope / (pi * now.radius));
+        };
+        // The last step from half of all digits is exact.
+        std::uintmax_t steps = 50;
+        return flat_at(asperity, boost::math::tools::newton_raphson_iterate(
+                                     miss, std::max(s.start.depth, s.end.depth), s.start.depth, u,
+                                     std::numeric_limits<double>::digits / 2, steps));
+    }
+    // Growth dA/du of the area.
+    static double growth(const Summit& s, double spread_slope, double radius) {
+        return 2 * spread_slope / (1 + s.sink * spread_slope / (pi * radius));
+    }
+    // Integral of f du at constant pressure between two states.
+    static double flow(const Summit& s, const Flat& from, const Flat& to) {
+        const double sunk =
+            s.sink * pi / 3 *
+            (to.radius * to.radius * to.radius - from.radius * from.radius * from.radius);
+        return s.H * ((s.start.area - 2 * s.start.spread.area) * (to.depth - from.depth) +
+                      2 * (to.spread.integral - from.spread.integral) + sunk);
+    }
+    // Unloading force H A_m (x/x_m)^m, where x = u - u_r.
+    static double back(const Summit& s, double x) {
+        const double share = x / (s.deepest - s.rest);
+        return s.H * s.end.area *
+               (s.power == 1.5 ? share * std::sqrt(share) : std::pow(share, s.power));
+    }
+    static double recoverable(const Summit& s) {
+        return s.H * s.end.area * (s.deepest - s.rest) / (1 + s.power);
+    }
+
+    std::unique_ptr<Law> elastic_;
+    const std::vector<double>& radius_;
+    Hardness hardness_;
+    bool sinks_;
+    std::vector<int> place_;  // index of an asperity in summits_; -1: not prepared
+    std::vector<Summit> summits_;
+    std::vector<int> yielded_;  // increasing
+};
+
+}  // namespace
+
+std::unique_ptr<Law> make_yielding(std::unique_ptr<Law> elastic, const Asperities& asperities,
+                                   const Hardness& hardness, bool sinks) {
+    if (!(hardness.H0 > 0))
+        throw Error(Failure::bad_input, "solids%hardness must be positive (Infinity: elastic)");
+    if (!(hardness.length >= 0) || std::isinf(hardness.length))
+        throw Error(Failure::bad_input, "solids%size_effect must not be negative");
+    if (std::isinf(hardness.H0)) return elastic;
+    return std::make_unique<Yielding>(std::move(elastic), asperities, hardness, sinks);
+}
+
+}  // namespace rsc

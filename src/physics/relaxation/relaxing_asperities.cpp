@@ -1,0 +1,159 @@
+#include "physics/relaxation/relaxing_asperities.hpp"
+
+#include "base/error.hpp"
+
+namespace rsc {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+// B f at all points, for forces f at the first f.size() points.
+std::vector<double> deflections(Products& products, const std::vector<double>& x,
+                                const std::vector<double>& y, const std::vector<double>& f,
+                                double tolerance) {
+    std::vector<double> phi(x.size(), 0.0);
+    if (f.empty()) return phi;
+    std::vector<int> first(f.size());
+    std::iota(first.begin(), first.end(), 0);
+    products.set_points(static_cast<int>(x.size()), x.data(), y.data());
+    products.set_active(first);
+    if (products.inner_error() <= tolerance)
+        products.inner_everywhere(f.data(), phi.data());
+    else
+        products.full(f.data(), phi.data());
+    return phi;
+}
+
+}  // namespace
+
+RelaxingAsperities::RelaxingAsperities(const Asperities& asperities, const Indenter& indenter,
+                                       RelaxingLaw& law, const Creep& creep, double tolerance)
+    : asperities_(asperities),
+      indenter_(indenter),
+      law_(law),
+      creep_(creep),
+      tolerance_(tolerance),
+      lowered_(asperities.size(), kUnknown) {}
+
+void RelaxingAsperities::step(double dt) {
+    law_.step(dt);
+    rests_ = law_.rests();
+    rest_ = std::accumulate(rests_.begin(), rests_.end(), 0.0);
+    for (int i : known_) lowered_[at(i)] = kUnknown;
+    known_.clear();
+}
+
+void RelaxingAsperities::add_places(std::vector<double>& x, std::vector<double>& y,
+                                    const std::vector<int>& places) const {
+    for (int i : places) {
+        const Vec2 image = indenter_.image(asperities_.x[at(i)], asperities_.y[at(i)]);
+        x.push_back(image.x), y.push_back(image.y);
+    }
+}
+
+void RelaxingAsperities::lower(Candidates& candidates, Products& products) {
+    if (rests_.empty()) return;
+    WorkingSet& set = candidates.set;
+    const std::vector<int>& places = law_.touched();
+    std::vector<int> missing;
+    for (int i : set.asperity)
+        if (std::isnan(lowered_[at(i)])) missing.push_back(i);
+    if (!missing.empty()) {
+        // At loaded points, deflections are computed together with the sources, so that no point
+        // occurs twice.
+        std::vector<double> x, y;
+        add_places(x, y, places);
+        std::vector<int> sorted = places, elsewhere;
+        std::sort(sorted.begin(), sorted.end());
+        for (int i : missing)
+            if (!std::binary_search(sorted.begin(), sorted.end(), i)) elsewhere.push_back(i);
+        add_places(x, y, elsewhere);
+        const std::vector<double> phi = deflections(products, x, y, rests_, tolerance_);
+        const auto keep = [&](int i, double value) {
+            if (std::isnan(lowered_[at(i)])) known_.push_back(i);
+            lowered_[at(i)] = value;
+        };
+        for (std::size_t k = 0; k < places.size(); ++k) keep(places[k], phi[k]);
+        for (std::size_t k = 0; k < elsewhere.size(); ++k)
+            keep(elsewhere[k], phi[places.size() + k]);
+    }
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < set.g0.size(); ++k) {
+        const double g0 = set.g0[k] - lowered_[at(set.asperity[k])];
+        if (!(g0 > 0)) continue;
+        set.asperity[kept] = set.asperity[k], set.x[kept] = set.x[k], set.y[kept] = set.y[k];
+        candidates.rank[kept] = candidates.rank[k];
+        set.g0[kept++] = g0;
+    }
+    set.asperity.resize(kept), set.x.resize(kept), set.y.resize(kept), set.g0.resize(kept),
+        candidates.rank.resize(kept);
+}
+
+void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& solution,
+                                Products& products) {
+    law_.commit(static_cast<int>(solution.v.size()), candidates.asperity.data(), solution.v.data());
+    std::vector<double> x, y;
+    add_places(x, y, law_.touched());
+    const auto deflected_by = [&](const std::vector<double>& f) {
+        std::vector<double> phi = deflections(products, x, y, f, tolerance_);
+        // The constant Kernel::shift() is not a deflection of the body.
+        const double shift = products.kernel().shift() * std::accumulate(f.begin(), f.end(), 0.0);
+        for (double& d : phi) d -= shift;
+        return phi;
+    };
+    const std::vector<double> f = law_.forces(), df = deflected_by(f);
+    std::vector<double> load = f, d = df;
+    double stored = 0.5 * dot(f, df);
+    const std::vector<std::vector<double>> retarded = law_.retarded();
+    for (std::size_t k = 0; k < retarded.size(); ++k) {
+        const std::vector<double> dy = deflected_by(retarded[k]);
+        stored += 0.5 * creep_.retardations()[k].rate / creep_.retardations()[k].flow *
+                  dot(retarded[k], dy);
+        for (std::size_t i = 0; i < load.size(); ++i) load[i] += retarded[k][i], d[i] += dy[i];
+    }
+    // Work f' dd of the step by the trapezoidal rule; asperities touched for the first time had no
+    // load before.
+    force_.resize(f.size(), 0.0), load_.resize(f.size(), 0.0);
+    const double held = dot(f, d);
+    lost_ += 0.5 * (held + dot(force_, d) - dot(df, load_) - held_) - (stored - stored_);
+    stored_ = stored, held_ = held;
+    force_ = f, load_ = std::move(load);
+    step(0);
+}
+
+Level RelaxingAsperities::lasting(const Level& level) const {
+    Level all = level;
+    const std::vector<double> widest = law_.widest();
+    for (std::size_t i = 0; i < load_.size(); ++i) {
+        const int asperity = law_.touched()[i];
+        const auto now = std::lower_bound(level.asperity.begin(), level.asperity.end(), asperity);
+        if (now != level.asperity.end() && *now == asperity) {
+            all.f[static_cast<std::size_t>(now - level.asperity.begin())] = load_[i];
+            continue;
+        }
+        const Vec2 image =
+            indenter_.image(asperities_.x[at(asperity)], asperities_.y[at(asperity)]);
+        const double a = std::sqrt(widest[i] / std::numbers::pi);
+        all.add_contact(asperity, image.x, image.y, load_[i], a, 0);
+        if (!level.spots.empty()) all.spots.push_back({image.x, image.y, a, a, 0});
+    }
+    return all;
+}
+
+void RelaxingAsperities::write(std::vector<double>& numbers) const {
+    numbers.insert(numbers.end(), {stored_, lost_, held_});
+    law_.write(numbers);
+}
+
+void RelaxingAsperities::read(std::span<const double> numbers) {
+    if (numbers.size() < 3)
+        throw Error(Failure::bad_input, "the state does not belong to these asperities");
+    law_.read(numbers.subspan(3));
+    stored_ = numbers[0], lost_ = numbers[1], held_ = numbers[2];
+    load_ = force_ = law_.forces();
+    for (const std::vector<double>& y : law_.retarded())
+        for (std::size_t i = 0; i < y.size(); ++i) load_[i] += y[i];
+    step(0);
+}
+
+}  // namespace rsc

@@ -1,0 +1,64 @@
+// Interaction of asperities of a relaxing body: effect of the rests of their law
+// (law/relaxing.hpp), and energies. Used by asperity_contact.
+#pragma once
+
+#include "asperities/candidates.hpp"
+#include "contact/level.hpp"
+#include "interaction/products.hpp"
+#include "physics/relaxation/relaxing.hpp"
+
+namespace rsc {
+
+class RelaxingAsperities {
+public:
+    // The asperities, the indenter, whose tip may move, and the law must outlive this object.
+    // Deflections are accurate to `tolerance`, that of the levels.
+    RelaxingAsperities(const Asperities& asperities, const Indenter& indenter, RelaxingLaw& law,
+                       const Creep& creep, double tolerance);
+
+    void step(double dt);
+    // Ratio of the forces of the law to the true ones.
+    double scale() const { return 1 / law_.modulus(); }
+    // Sum of all rests: for periodic flats the surface rises by the kernel's shift times this sum.
+    double rest() const { return rest_; }
+
+    // Subtracts the deflection by earlier loads from g0 of the candidates, and drops those that can
+    // no longer touch.
+    void lower(Candidates& candidates, Products& products);
+    // Accepts the solution over the candidates; the next step has zero duration until step() is
+    // called.
+    void accept(const WorkingSet& candidates, const Solution& solution, Products& products);
+
+    // Stored energy of the springs and of the interaction (f'Bf/2 and that of each retardation),
+    // and dissipated energy [force length].
+    double stored() const { return law_.stored() + stored_; }
+    double lost() const { return law_.lost() + lost_; }
+
+    // Contact::lasting_loads(): on the spots of the level, and where it has no contact on circles
+    // of the largest area so far.
+    Level lasting(const Level& level) const;
+
+    void write(std::vector<double>& numbers) const;
+    void read(std::span<const double> numbers);
+
+private:
+    void add_places(std::vector<double>& x, std::vector<double>& y,
+                    const std::vector<int>& places) const;
+
+    const Asperities& asperities_;
+    const Indenter& indenter_;
+    RelaxingLaw& law_;
+    Creep creep_;
+    double tolerance_;
+    // Last accepted level: forces f and interaction loads f + sum y_k, in the order of touched();
+    // energies.
+    std::vector<double> force_, load_;
+    double stored_ = 0, lost_ = 0, held_ = 0;  // held_: f'B load
+    std::vector<double> rests_;
+    double rest_ = 0;
+    // Current step: deflection of each asperity by earlier loads; NaN: unknown.
+    std::vector<double> lowered_;
+    std::vector<int> known_;
+};
+
+}  // namespace rsc

@@ -1,0 +1,108 @@
+// Detection of asperities: the summits of a height map, or of the gap between it and a body above
+// (paper, section 3).
+#pragma once
+
+#include "surface/asperities.hpp"
+#include "surface/defects.hpp"
+#include "surface/surface.hpp"
+
+namespace rsc {
+
+class RowSource;
+
+// Face of the body above a surface. It is subtracted before summits are detected, because contact
+// depends only on the difference.
+class BodyAbove {
+public:
+    // Height, derivatives and nabla^4 at one point.
+    struct Form {
+        double height = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, biharmonic = 0;
+    };
+    virtual ~BodyAbove() = default;
+    // Heights at the points (x0 + k dx, y), k = 0 ... n-1; Infinity where the body has no face.
+    virtual void row(int n, double x0, double dx, double y, double* height) const = 0;
+    virtual Form at(double x, double y) const = 0;
+    virtual bool periodic() const = 0;
+    // The body with x and y exchanged; null if it has to be taken point by point.
+    virtual std::unique_ptr<BodyAbove> transposed() const { return nullptr; }
+};
+
+// Method by which a summit is located.
+enum class Detail {
+    grid,     // grid point and second differences, as in the paper; enough for Hertz asperities
+    subgrid,  // summit between the grid points; derivatives and biharmonic by long stencils
+};
+
+// Counts and means of a search for summits.
+struct SummitCount {
+    long summits = 0;  // asperities kept
+    long saddles = 0;  // grid maxima not kept: saddles by their curvatures, or no summit in reach
+    long repeated =
+        0;  // Detail::subgrid: grid maxima not kept because another one leads to the same summit
+    double mean_kappa_g = 0;  // mean of the geometric mean curvature [1/length]
+    double mean_kappa_a = 0;  // mean of the algebraic mean curvature [1/length]
+    double lay =
+        // Detail::subgrid: share of the biharmonic that is that along a lay
+        // (Asperities::biharmonic)
+        0;
+};
+
+// Detail::grid: summits are grid points strictly above their 8 neighbours, with curvatures from
+// second differences. Maps that are not periodic have no summits at their edges. Summits are
+// ordered by row (y, then x); radius = 1/kappa_g or 1/kappa_a. The result is independent of
+// `threads`, bit for bit.
+//
+// Detail::subgrid: Newton's method climbs to the summits from those grid points, and from points
+// whose second differences indicate a summit within one step. Summits are ordered by these points;
+// x, y of periodic maps lie in the map. points_per_wave >= 4 states that the map holds no wave
+// shorter than this many grid steps (Error(bad_input) for less). Errors are then about 1e-8 of the
+// rms values of the derivatives, and a summit has the same values on every grid on which it is
+// found; a summit beside a higher one may be missed (one in 170 with 4 points in lambda_s, one in
+// some thousands with 8). 0 means unknown, for measured maps: Lagrange polynomials through
+// kMeasuredReach points on either side. On self-affine surfaces with 4, 6, 8, 16 points in the
+// shortest wave their rms errors at summits are 1e-3, 2e-5, 8e-7, 5e-10 of the rms curvature and
+// 6e-3, 2e-4, 2e-5, 5e-8 of the rms biharmonic, plus the effect of noise in the heights. Fewer
+// points are used near the border of a map that is not periodic and near breaks (pits have been
+// raised before).
+//
+// With a body above (Detail::subgrid only), the summits are those of the map minus its face. x, y
+// and z are the place and the surface height there; curvatures and biharmonic are those of the
+// difference. If the map is periodic and the body is not, only summits within the map are returned.
+// With a lay, the biharmonic is the one described at Asperities::biharmonic; `lay` is its share if
+// known, otherwise it is estimated from the summits found. It is a property of the surface: of the
+// few summits that a steep body leaves it would be chance, and change as the body moves.
+Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count = nullptr,
+                           int threads = 1, Detail detail = Detail::grid,
+                           double points_per_wave = 0, const BodyAbove* above = nullptr,
+                           const Breaks* breaks = nullptr, std::optional<double> lay = {});
+inline constexpr int kMeasuredReach = 6;
+
+// Summits found by find_asperities() with Detail::subgrid after the body above has moved by a small
+// part of a grid step to `above`: those of the indices `which` are found again, with the same share
+// `lay`; the others, and those that are not within a tenth of a step, remain.
+// `map`, `points_per_wave` and `breaks` as there.
+Asperities follow_summits(const HeightMap& map, Asperities summits,
+                          const std::vector<std::size_t>& which, double lay, int threads,
+                          double points_per_wave, const BodyAbove& above, const Breaks* breaks);
+
+// Points along a side of the grid on which summits between the points are found: n, or its smallest
+// multiple with 4 points in lambda_s.
+int summit_points(const Spectrum& spectrum, int n);
+
+// Asperities of a synthetic surface, detected during synthesis without storing the surface: faster
+// than find_asperities(synthesize(...)), in half the memory, with bitwise the same result (with a
+// lay nearer to the y axis: that of the transposed surface; with a lay near 45 degrees, where
+// synthesize() adds up diagonals: to rounding). Throws as synthesize(). With fewer than 4 points in
+// lambda_s, Detail::subgrid uses the smallest multiple of n that has 4; the surface is the same.
+// `differences` (optional) receives the moments by finite differences on the n x n grid, as
+// grid_moments(synthesize(...)), computed as exact sums over the modes; `rows` (optional) what the
+// heights were made of, or nothing for the transposed surface.
+Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed,
+                           std::int64_t realization, Curvature curvature,
+                           SummitCount* count = nullptr, Moments* sampled = nullptr,
+                           int threads = 1, Detail detail = Detail::grid,
+                           Moments* differences = nullptr, const BodyAbove* above = nullptr,
+                           std::shared_ptr<const RowSource>* rows = nullptr,
+                           std::optional<double> lay = {});
+
+}  // namespace rsc

@@ -1,0 +1,257 @@
+#include "surface/measured.hpp"
+
+#include "base/error.hpp"
+#include "base/format.hpp"
+
+namespace rsc {
+namespace {
+
+// Filled points that change the rms height by more than this share are reported.
+constexpr double kMuchByFilled = 0.1;
+
+void refuse_missing(const HeightMap& map, long missing) {
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i)
+            if (std::isnan(map(i, j)))
+                bad_input(
+                    format("%ld of %.0f points are missing, the first in column %d of row %d, "
+                           "counted from 0 with y upwards; "
+                           "surface%%missing = 'fill' fills them",
+                           missing, static_cast<double>(map.points()), i, j));
+}
+
+// Histogram of the heights in 60 bins from -5 to 5 Sq; the few heights beyond are ignored.
+void count_heights(const HeightMap& map, Measured& m) {
+    constexpr int kBins = 60;
+    constexpr double kReach = 5;
+    m.height_bin = 2 * kReach * m.parameters.sq / kBins;
+    m.height_pdf.assign(kBins, 0.0);
+    if (!(m.height_bin > 0)) return;
+    const auto points = static_cast<double>(map.points());
+    double mean = 0;
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) mean += map(i, j) / points;
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) {
+            const double bin = std::floor((map(i, j) - mean) / m.height_bin + 0.5 * kBins);
+            if (bin >= 0 && bin < kBins)
+                m.height_pdf[static_cast<std::size_t>(bin)] += 1 / (points * m.height_bin);
+        }
+}
+
+std::string told_change(const Roughness& before, const Roughness& after, const char* l) {
+    return format(
+        "rms height %.4g -> %.4g %s, rms slope %.4g -> %.4g, rms curvature %.4g -> %.4g 1/%s",
+        before.height, after.height, l, before.slope, after.slope, before.curvature,
+        after.curvature, l);
+}
+
+// Reports pits, spikes and steps with their places.
+void tell_breaks(const Measured& m, const char* l, std::vector<std::string>& lines) {
+    const auto at = [&](const Breaks::Found& found) {
+        return format("%.4g %s at x = %.6g, y = %.6g", found.size, l, m.x(found.largest.i),
+                      m.y(found.largest.j));
+    };
+    const auto& [pits, spikes, steps] = m.breaks.found;
+    if (pits.points > 0)
+        lines.push_back(
+            format("pits or grooves one point wide: %ld points, the deepest ", pits.points) +
+            at(pits) +
+            "; boundary elements include them, the summits beside them are those of the "
+            "surrounding surface");
+    if (spikes.points > 0)
+        lines.push_back(format("warning: spikes one point wide: %ld, the highest ", spikes.points) +
+                        at(spikes) + ": they touch first, but their shape is not resolved");
+    if (steps.points > 0) {
+        std::string line =
+            format("warning: steps: heights jump at %ld points, most by ", steps.points) +
+            at(steps);
+        if (m.breaks.seam_column >= 0)
+            line += format("; a jump along x = %.6g runs through most of the map, like a seam",
+                           m.x(m.breaks.seam_column));
+        if (m.breaks.seam_row >= 0)
+            line += format("; a jump along y = %.6g runs through most of the map, like a seam",
+                           m.y(m.breaks.seam_row));
+        lines.push_back(line);
+    }
+}
+
+}  // namespace
+
+Roughness roughness(const HeightMap& map) {
+    const Moments m = grid_moments(map);
+    return {std::sqrt(m.m0), m.rms_slope(), std::sqrt(m.m4)};
+}
+
+bool Measured::gaussian() const {
+    return std::abs(parameters.ssk) <= 0.3 && std::abs(parameters.sku - 3) <= 0.6;
+}
+
+double Measured::points_per_wave() const { return shortest_wave / std::max(dx, dy); }
+
+Measured measure(HeightMap& map, const MeasureOptions& options) {
+    Measured m;
+    static_cast<PointGrid&>(m) = map;
+    // Beyond this ratio, rounding removes the smaller of the terms in 1/dx^2 and 1/dy^2 from their
+    // sum.
+    constexpr double most_unlike = 1e4;
+    if (std::max(map.dx, map.dy) > most_unlike * std::min(map.dx, map.dy))
+        bad_input(format("steps of %.6g x %.6g: one is more than %.0f times the other", map.dx,
+                         map.dy, most_unlike));
+    m.missing = count_missing(map);
+    const auto points = static_cast<double>(map.points());
+    if (m.missing > 0 && static_cast<double>(m.missing) == points)
+        bad_input("all points of the map are missing");
+    if (m.missing > 0 && options.missing == Missing::refuse) refuse_missing(map, m.missing);
+    m.outlier_times = options.outliers;
+    if (options.outliers > 0) m.outliers = remove_outliers(map, options.outliers);
+    m.missing += m.outliers.count;
+    m.missing_share = static_cast<double>(m.missing) / points;
+    if (!(options.filter_cutoff > 0)) m.height_step = height_step(map);
+    m.as_read = roughness(map);
+    m.form = detrend(map, options.detrend);
+    m.filled = fill_missing(map);
+    for (int j = 0; j < map.ny; ++j)
+        if (!std::all_of(map.row(j), map.row(j) + map.nx,
+                         [](double z) { return std::isfinite(z); }))
+            bad_input(
+                "the heights are too small or too large: their squares overflow or underflow "
+                "double precision");
+    m.without_form = m.filtered = roughness(map);
+    m.filter_cutoff = options.filter_cutoff;
+    if (options.filter_cutoff > 0) {
+        gaussian_filter(map, options.filter_cutoff);
+        m.filtered = roughness(map);
+        constexpr double rounding = 1e-12;  // of the heights before
+        if (m.without_form.height > 0 && !(m.filtered.height > rounding * m.without_form.height))
+            bad_input(format("surface%%filter_cutoff = %g removes all heights of a map of %g x %g",
+                             options.filter_cutoff, map.Lx(), map.Ly()));
+    }
+    m.breaks = find_breaks(map, m.height_step);
+    m.parameters = height_parameters(map);
+    const Isotropy slopes = isotropy(map);
+    m.isotropy = slopes.ratio;
+    m.texture = measure_texture(map);
+    count_heights(map, m);
+    const auto spectrum = [&](double aspect, double direction) {
+        MeasuredSpectrum s = measure_spectrum(map, aspect, direction);
+        if (m.form.how == Detrend::quadratic || m.form.how == Detrend::sphere) s.lost = 2.5;
+        return s;
+    };
+    m.spectrum = spectrum(1, 0);
+    // The aspect ratio is limited for endless grooves, as it is in synthesis.
+    const double aspect = m.isotropy < kIsotropic ? 1 / std::max(m.isotropy, 0.05) : 1;
+    const MeasuredSpectrum stretched =
+        aspect > 1 ? spectrum(aspect, slopes.direction) : MeasuredSpectrum();
+    m.shortest_wave = 2 * std::max(m.dx, m.dy);
+    if (can_fit(m.spectrum)) {
+        m.fit = fit_self_affine(m.spectrum);
+        m.shortest_wave = 2 * std::numbers::pi / m.fit->ks.value;
+    }
+    keep_depths(
+        m.filled, m.nx, m.ny,
+        std::max(1, static_cast<int>(std::lround(m.shortest_wave / (8 * std::max(m.dx, m.dy))))));
+    if (can_fit(stretched)) {
+        m.fit = fit_self_affine(stretched);
+        m.fit->aspect = aspect, m.fit->direction = slopes.direction;
+    }
+    if (m.fit) {
+        MeasuredSpectrum& s = m.spectrum;
+        const SpectrumTable table(s.wavenumber, s.psd),
+            plane(s.plane_wavenumber, s.plane_psd, MeasuredSpectrum::kAngles);
+        const auto breaks = [](const Breaks::Found& found) { return found.points > 0; };
+        const double most =
+            std::any_of(m.breaks.found.begin(), m.breaks.found.end(), breaks) ? 0 : kMostExponent;
+        s.exponent = twin_exponent([&](double kx, double ky) { return table(std::hypot(kx, ky)); },
+                                   s.wavenumber, map, m.parameters, most);
+        s.plane_exponent = twin_exponent(plane, s.plane_wavenumber, map, m.parameters, most);
+    }
+    return m;
+}
+
+std::vector<std::string> report(const Measured& m, const std::string& length_unit) {
+    const char* const l = length_unit.c_str();
+    std::vector<std::string> lines;
+    lines.push_back(format("map: %d x %d points of %.6g x %.6g %s, %.6g x %.6g %s", m.nx, m.ny,
+                           m.dx, m.dy, l, m.Lx(), m.Ly(), l));
+    if (m.outlier_times > 0)
+        lines.push_back(
+            format("outliers: %ld points differ by more than %.4g %s (%.3g standard deviations) "
+                   "from the 5 x 5 points around them",
+                   m.outliers.count, m.outliers.threshold, l, m.outlier_times));
+    if (m.missing > 0)
+        lines.push_back(format("missing points%s: %ld (%.3g %%) filled",
+                               m.outliers.count > 0 ? " and outliers" : "", m.missing,
+                               100 * m.missing_share));
+    if (m.missing > 0 && std::abs(m.without_form.height / m.form.rms - 1) > kMuchByFilled)
+        lines.push_back(format(
+            "warning: filled points change the rms height from %.4g to %.4g %s: they continue "
+            "outliers at their border, a wide margin of "
+            "the map is missing, or narrow grooves were taken for outliers; a %s surface%%outliers "
+            "helps, or surface%%window, which "
+            "crops the map",
+            m.form.rms, m.without_form.height, l, m.outliers.count > 0 ? "larger" : "positive"));
+    std::string form =
+        std::string("form '") + kDetrendNames[static_cast<std::size_t>(m.form.how)] + "': ";
+    if (m.form.how == Detrend::plane || m.form.how == Detrend::quadratic)
+        form += format("slopes %.4g, %.4g; ", m.form.slope_x, m.form.slope_y);
+    if (m.form.how == Detrend::sphere)
+        form += format("radius %.6g %s (%s); ", std::abs(m.form.radius), l,
+                       m.form.radius > 0 ? "dome" : "bowl");
+    lines.push_back(form + told_change(m.as_read, m.without_form, l));
+    if (m.filter_cutoff > 0)
+        lines.push_back(format("filter (Gaussian, %.4g %s): ", m.filter_cutoff, l) +
+                        told_change(m.without_form, m.filtered, l));
+    lines.push_back(format(
+        "heights: Sq %.5g %s, Ssk %.3f, Sku %.3f, Sdq %.4g; isotropy ratio of slopes %.2f",
+        m.parameters.sq, l, m.parameters.ssk, m.parameters.sku, m.parameters.sdq, m.isotropy));
+    if (m.height_step > 0)
+        lines.push_back(
+            format("heights are rounded to multiples of %.4g %s: asperities are detected after a "
+                   "Wiener filter has removed the rounding",
+                   m.height_step, l));
+    tell_breaks(m, l, lines);
+    if (m.fit) {
+        const SelfAffineFit& fit = *m.fit;
+        const double two_pi = 2 * std::numbers::pi;
+        const char* const plateau =
+            !fit.kl_seen        ? ""
+            : !fit.plateau_seen ? " (the map is too small to tell whether there is a plateau above)"
+            : fit.plateau       ? " (plateau above)"
+                                : "";
+        lines.push_back(format(
+            "spectrum%s: hurst %.3f +- %.3f, lambda_l %s%.4g %s%s, lambda_s %.4g %s%s, %.1f points "
+            "in the shortest wave",
+            fit.aspect > 1
+                ? format(" (waves between along and across the lay, aspect %.2f)", fit.aspect)
+                      .c_str()
+                : "",
+            fit.hurst.value, fit.hurst.error, fit.kl_seen ? "" : "at least ", two_pi / fit.kl.value,
+            l, plateau, two_pi / fit.ks.value, l, fit.ks_seen ? "" : " (limit of the grid)",
+            m.points_per_wave()));
+    } else {
+        lines.push_back("spectrum: not fitted, the map is too small or too flat");
+    }
+    if (m.points_per_wave() < kFewPointsPerWave)
+        lines.push_back(
+            format("warning: fewer than %.0f points in the shortest wave: slopes, curvatures and "
+                   "summits are determined by the grid or by pixel "
+                   "noise; surface%%filter_cutoff removes such waves",
+                   kFewPointsPerWave));
+    const bool directional = m.isotropy < kIsotropic, gaussian = m.gaussian();
+    if (directional)
+        lines.push_back(format("texture: lay at %.0f degrees from x, Sal %.4g %s, Str %s%.2f",
+                               m.spectrum.lay(), m.texture.sal, l,
+                               m.texture.str_bounded ? "at most " : "", m.texture.str));
+    if (directional || !gaussian)
+        lines.push_back(std::string("the map ") + (directional ? "has a lay" : "") +
+                        (directional && !gaussian ? " and " : "") +
+                        (gaussian ? "" : "has heights that are not Gaussian") +
+                        "; to reproduce this in synthetic surfaces, set " +
+                        (directional ? "surface%twins = 'directional'" : "") +
+                        (directional && !gaussian ? ", " : "") +
+                        (gaussian ? "" : "surface%twin_heights = 'measured'"));
+    return lines;
+}
+
+}  // namespace rsc

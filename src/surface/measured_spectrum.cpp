@@ -1,0 +1,315 @@
+#include "surface/measured_spectrum.hpp"
+
+#include "base/error.hpp"
+#include "base/library_lock.hpp"
+
+namespace rsc {
+namespace {
+
+std::vector<double> hann(int n, bool none) {
+    std::vector<double> w(static_cast<std::size_t>(n), 1.0);
+    if (none) return w;
+    for (int i = 0; i < n; ++i)
+        w[static_cast<std::size_t>(i)] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * (i + 0.5) / n);
+    return w;
+}
+
+// The nearest whole number. On maps with commensurate sides many modes lie midway between two
+// rings: rounding must not divide them.
+std::size_t nearest(double q) { return static_cast<std::size_t>(q * (1 + 1e-12) + 0.5); }
+
+// Accumulates the power of modes by ring and angle.
+class Plane {
+public:
+    explicit Plane(std::size_t rings) : group_(rings + 1), power_{}, count_{} {
+        // Rings are grouped: single rings first, then groups as wide as a tenth of their
+        // wavenumber. first_ holds the first ring of every group.
+        for (std::size_t r = 1; r <= rings;) {
+            const std::size_t next = std::min(rings + 1, r + std::max<std::size_t>(1, r / 10));
+            // The last ring is a group of its own, so that the table ends with the spectrum.
+            const std::size_t end = r < rings && next == rings + 1 ? rings : next;
+            for (std::size_t i = r; i < end; ++i) group_[i] = first_.size();
+            first_.push_back(r), last_.push_back(end - 1);
+            r = end;
+        }
+        power_.resize(first_.size() * kAngles), count_.resize(first_.size() * kAngles);
+    }
+    void add(std::size_t ring, double kx, double ky, double power, double copies) {
+        if (ring == 0) return;
+        const double turn = std::atan2(ky, kx) / std::numbers::pi * kAngles;
+        const auto angle = static_cast<std::size_t>(std::floor(turn + 0.5) + kAngles) % kAngles;
+        power_[group_[ring] * kAngles + angle] += power;
+        count_[group_[ring] * kAngles + angle] += copies;
+    }
+    void finish(MeasuredSpectrum& s, double ring, double scale) const {
+        for (std::size_t g = 0; g < first_.size(); ++g) {
+            const double middle =
+                std::sqrt(static_cast<double>(first_[g]) * static_cast<double>(last_[g]));
+            s.plane_wavenumber.push_back(middle * ring);
+            for (std::size_t a = 0; a < kAngles; ++a) {
+                // Angles spanned by two modes; the half circle has middle*pi modes.
+                auto wide = static_cast<std::size_t>(kAngles / (std::numbers::pi * middle));
+                double power = 0, count = 0;
+                for (; count == 0 && wide < kAngles; ++wide) {
+                    const std::size_t reach = std::min(wide, kAngles / 2 - 1);
+                    for (std::size_t t = 0; t <= 2 * reach; ++t) {
+                        const std::size_t place = g * kAngles + (a + kAngles + t - reach) % kAngles;
+                        power += power_[place], count += count_[place];
+                    }
+                }
+                s.plane_psd.push_back(count > 0 ? scale * power / count : 0);
+            }
+        }
+    }
+
+private:
+    static constexpr std::size_t kAngles = MeasuredSpectrum::kAngles;
+    std::vector<std::size_t> group_, first_, last_;
+    std::vector<double> power_, count_;
+};
+
+}  // namespace
+
+double MeasuredSpectrum::lay() const {
+    double power[kAngles] = {};
+    for (std::size_t g = 1; g < plane_wavenumber.size(); ++g)
+        for (std::size_t a = 0; a < kAngles; ++a)
+            power[a] += plane_psd[g * kAngles + a] * plane_wavenumber[g] *
+                        (plane_wavenumber[g] - plane_wavenumber[g - 1]);
+    // The power of single angles scatters: the angle with the most power within 15 degrees of it,
+    // then the mean angle of the power within 45.
+    constexpr std::size_t near = kAngles / 12, far = kAngles / 4;
+    const auto around = [&](std::size_t a, std::size_t reach, auto visit) {
+        for (std::size_t t = 0; t <= 2 * reach; ++t) {
+            const double c = std::cos(std::numbers::pi / 2 *
+                                      (static_cast<double>(t) / static_cast<double>(reach) - 1));
+            visit(static_cast<double>(t) - static_cast<double>(reach),
+                  c * c * power[(a + kAngles + t - reach) % kAngles]);
+        }
+    };
+    std::size_t best = 0;
+    double most = -1;
+    for (std::size_t a = 0; a < kAngles; ++a) {
+        double sum = 0;
+        around(a, near, [&](double, double weight) { sum += weight; });
+        if (sum > most) most = sum, best = a;
+    }
+    double all = 0, offset = 0;
+    around(best, far, [&](double t, double weight) { all += weight, offset += t * weight; });
+    const double angle =
+        180 * (static_cast<double>(best) + (all > 0 ? offset / all : 0)) / kAngles + 90;
+    return angle - 180 * std::floor(angle / 180);
+}
+
+MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double direction) {
+    const int nx = map.nx, ny = map.ny, columns = nx / 2 + 1;
+    const std::vector<double> wx = hann(nx, map.periodic), wy = hann(ny, map.periodic);
+    // The windowed mean is subtracted, because the window turns a constant into a wave as long as
+    // the map.
+    double sum = 0, weights = 0, squares = 0;
+    for (int j = 0; j < ny; ++j) {
+        double row = 0, row_w = 0, row_s = 0;
+        for (int i = 0; i < nx; ++i) {
+            const double w = wx[static_cast<std::size_t>(i)] * wy[static_cast<std::size_t>(j)];
+            row += w * map(i, j), row_w += w, row_s += w * w;
+        }
+        sum += row, weights += row_w, squares += row_s;
+    }
+    const double mean = sum / weights;
+    const std::unique_ptr<double[], HeightMap::Free> buffer(
+        allocate_doubles(2 * static_cast<std::size_t>(columns) * static_cast<std::size_t>(ny),
+                         "the spectrum of a height map"));
+    double* const z = buffer.get();
+    auto* const modes = reinterpret_cast<std::complex<double>*>(z);
+    FftwPlan plan;
+    {
+        const auto lock = fftw_planning();
+        plan.reset(
+            fftw_plan_dft_r2c_2d(ny, nx, z, reinterpret_cast<fftw_complex*>(z), FFTW_ESTIMATE));
+    }
+    if (!plan) throw Error(Failure::internal, "spectrum: FFTW made no plan");
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i)
+            z[static_cast<std::ptrdiff_t>(j) * 2 * columns + i] = wx[static_cast<std::size_t>(i)] *
+                                                                  wy[static_cast<std::size_t>(j)] *
+                                                                  (map(i, j) - mean);
+    fftw_execute(plan.get());
+
+    const double step_x = 2 * std::numbers::pi / map.Lx(), step_y = 2 * std::numbers::pi / map.Ly(),
+                 ring = std::min(step_x, step_y);
+    // Up to this stretched wavenumber the grid holds waves of all directions.
+    const double stretch = std::sqrt(aspect),
+                 nyquist = std::numbers::pi / (std::max(map.dx, map.dy) * stretch);
+    const double along = std::cos(direction), across = std::sin(direction);
+    const auto rings =
+        static_cast<std::size_t>(std::max(1.0, std::floor(nyquist / ring * (1 + 1e-12) + 0.5)));
+    std::vector<double> power(rings + 1, 0.0), count(rings + 1, 0.0);
+    Plane plane(rings);
+    for (int j = 0; j < ny; ++j) {
+        const double ky = step_y * (j <= ny / 2 ? j : j - ny);
+        for (int i = 0; i < columns; ++i) {
+            const double kx = step_x * i, q = std::hypot(stretch * (kx * along + ky * across),
+                                                         (ky * along - kx * across) / stretch) /
+                                              ring;
+            const std::size_t r = nearest(q);
+            if (r > rings) continue;
+            const double copies =
+                i == 0 || 2 * i == nx ? 1 : 2;  // counts the mirror image in the other half plane
+            const double of_mode =
+                copies * std::norm(modes[static_cast<std::ptrdiff_t>(j) * columns + i]);
+            power[r] += of_mode;
+            count[r] += copies;
+            if (aspect == 1) plane.add(r, kx, ky, of_mode, copies);
+        }
+    }
+    // The sensitivity of the rings of long waves to each wavenumber, from the squared transform of
+    // the window at half steps: the covariance within a window of length L is a series of waves of
+    // length 2 L.
+    constexpr int reach = 5;  // half steps; the transform of a Hann window is below 1e-4 beyond
+    std::array<double, reach + 1> window{};
+    for (int u = 0; u <= reach; ++u) {
+        const auto sinc = [](double x) {
+            return x == 0 ? 1.0 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x);
+        };
+        const double amplitude =
+            0.5 * sinc(0.5 * u) + 0.25 * (sinc(0.5 * u - 1) + sinc(0.5 * u + 1));
+        window[static_cast<std::size_t>(u)] =
+            map.periodic ? (u == 0 ? 1.0 : 0.0) : amplitude * amplitude;
+    }
+    constexpr std::size_t long_rings = 32;
+    std::vector<std::map<std::size_t, double>> seen(std::min(rings, long_rings) + 1);
+    const int half = map.periodic ? 0 : reach,
+              far = static_cast<int>(
+                  std::ceil((long_rings + 0.5) * stretch * ring / std::min(step_x, step_y)));
+    for (int j = -std::min(far, ny / 2); j <= std::min(far, ny / 2); ++j)
+        for (int i = 0; i <= std::min(far, nx / 2); ++i) {
+            const auto stretched = [&](double kx, double ky) {
+                return std::hypot(stretch * (kx * along + ky * across),
+                                  (ky * along - kx * across) / stretch) /
+                       ring;
+            };
+            const std::size_t r = nearest(stretched(step_x * i, step_y * j));
+            if (r == 0 || r >= seen.size()) continue;
+            for (int v = -half; v <= half; ++v)
+                for (int u = -half; u <= half; ++u) {
+                    const double share = window[static_cast<std::size_t>(std::abs(u))] *
+                                         window[static_cast<std::size_t>(std::abs(v))];
+                    const double q = stretched(step_x * (i + 0.5 * u), step_y * (j + 0.5 * v));
+                    seen[r][nearest(q * MeasuredSpectrum::kPlaces)] += (i == 0 ? 1 : 2) * share;
+                }
+        }
+    // By Parseval's theorem the squared modes add up to nx ny times the sum of the squared windowed
+    // heights.
+    const double scale = 1 / (static_cast<double>(nx) * ny * squares * step_x * step_y);
+    MeasuredSpectrum s;
+    s.ring = ring;
+    // For a Hann window (sum w^2)^2/(n sum w^4) = 0.514 in each direction, so a share 0.27 of the
+    // modes in a ring is independent. Half of that is used: it also compensates for the blur by the
+    // window and gave more accurate Hurst exponents for 100 known spectra.
+    constexpr double kHann = 0.514;
+    s.independent = map.periodic ? 0.5 : 0.5 * kHann * kHann;
+    s.coupled = map.periodic ? 1 : 1 / kHann;
+    for (std::size_t r = 1; r <= rings; ++r) {
+        if (count[r] == 0) continue;  // rings of a narrow map may have no modes
+        s.wavenumber.push_back(static_cast<double>(r) * ring);
+        s.psd.push_back(scale * power[r] / count[r]);
+        s.modes.push_back(count[r]);
+        if (r >= seen.size()) continue;
+        double sum = 0;
+        for (const auto& [place, share] : seen[r]) sum += share;
+        s.seen.emplace_back();
+        for (const auto& [place, share] : seen[r])
+            s.seen.back().emplace_back(place, share / sum),
+                s.places = std::max(s.places, place + 1);
+    }
+    s.lost = map.periodic ? 0 : 1.5;
+    if (aspect == 1) plane.finish(s, ring, scale);
+    return s;
+}
+
+HeightParameters height_parameters(const HeightMap& map) {
+    const double level = mean_height(map);
+    const auto mean_power = [&](int power) {
+        return mean_present(map, [&](double z, int, int) { return std::pow(z - level, power); });
+    };
+    HeightParameters p;
+    p.sq = std::sqrt(mean_power(2));
+    p.ssk = mean_power(3) / std::pow(p.sq, 3);
+    p.sku = mean_power(4) / std::pow(p.sq, 4);
+    p.sdq = grid_moments(map).rms_slope();
+    double all = 0, high = 0, high_points = 0;
+    for (int j = 0; j + 1 < map.ny; ++j)
+        for (int i = 0; i + 1 < map.nx; ++i) {
+            const double sx = (map(i + 1, j) - map(i, j)) / map.dx,
+                         sy = (map(i, j + 1) - map(i, j)) / map.dy, square = sx * sx + sy * sy;
+            all += square;
+            if (map(i, j) > level + p.sq) high += square, high_points += 1;
+        }
+    if (all > 0 && high_points > 0)
+        p.high_slope = std::sqrt(high / high_points * (map.nx - 1.0) * (map.ny - 1.0) / all);
+    return p;
+}
+
+double twin_exponent(const std::function<double(double, double)>& psd,
+                     const std::vector<double>& wavenumber, const HeightMap& map,
+                     const HeightParameters& parameters, double most) {
+    constexpr int parts = 4, angles = 4 * static_cast<int>(MeasuredSpectrum::kAngles);
+    std::vector<std::array<double, 3>> rings;  // ln k, shares of the mean square height and slope
+    const auto difference = [](double k, double step) { return 2 * std::sin(k * step / 2) / step; };
+    for (std::size_t g = 1; g < wavenumber.size(); ++g) {
+        const double width = std::log(wavenumber[g] / wavenumber[g - 1]) / parts;
+        for (int p = 0; p < parts; ++p) {
+            const double log_k = std::log(wavenumber[g - 1] / wavenumber[0]) + (p + 0.5) * width,
+                         k = wavenumber[0] * std::exp(log_k);
+            double height = 0, slope = 0;
+            for (int a = 0; a < angles; ++a) {
+                const double kx = k * std::cos(std::numbers::pi * a / angles),
+                             ky = k * std::sin(std::numbers::pi * a / angles);
+                const double sx = difference(kx, map.dx), sy = difference(ky, map.dy),
+                             power = k * k * width * psd(kx, ky);
+                height += power, slope += power * (sx * sx + sy * sy);
+            }
+            rings.push_back({log_k, height, slope});
+        }
+    }
+    const double wanted = parameters.sdq * parameters.sdq / (parameters.sq * parameters.sq);
+    double low = -kMostExponent, high = most;
+    for (int step = 0; step < 50; ++step) {
+        const double e = 0.5 * (low + high);
+        double height = 0, slope = 0;
+        for (const auto& [log_k, h, s] : rings)
+            height += h * std::exp(e * log_k), slope += s * std::exp(e * log_k);
+        (slope > wanted * height ? high : low) = e;
+    }
+    return high;
+}
+
+std::vector<double> tilted(std::vector<double> psd, const std::vector<double>& wavenumber,
+                           double exponent) {
+    if (exponent == 0 || psd.empty() || wavenumber.empty() || psd.size() % wavenumber.size() != 0)
+        return psd;
+    const std::size_t across = psd.size() / wavenumber.size();
+    for (std::size_t i = 0; i < psd.size(); ++i)
+        psd[i] *= std::pow(wavenumber[i / across] / wavenumber[0], exponent);
+    return psd;
+}
+
+Isotropy isotropy(const HeightMap& map) {
+    double xx = 0, xy = 0, yy = 0;
+    for (int j = 0; j + 1 < map.ny; ++j) {
+        double row_xx = 0, row_xy = 0, row_yy = 0;
+        for (int i = 0; i + 1 < map.nx; ++i) {
+            // Gradient at the centre of four points.
+            const double a = map(i, j), b = map(i + 1, j), c = map(i, j + 1), d = map(i + 1, j + 1);
+            const double zx = 0.5 * (b - a + d - c) / map.dx, zy = 0.5 * (c - a + d - b) / map.dy;
+            row_xx += zx * zx, row_xy += zx * zy, row_yy += zy * zy;
+        }
+        xx += row_xx, xy += row_xy, yy += row_yy;
+    }
+    const double mean = 0.5 * (xx + yy), apart = std::hypot(0.5 * (xx - yy), xy);
+    if (!(mean + apart > 0)) return {};
+    return {std::sqrt(std::max(0.0, mean - apart) / (mean + apart)),
+            0.5 * (std::atan2(xy, 0.5 * (xx - yy)) + std::numbers::pi)};
+}
+
+}  // namespace rsc

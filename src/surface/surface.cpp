@@ -1,0 +1,179 @@
+#include "surface/surface.hpp"
+
+#include "base/error.hpp"
+#include "base/library_lock.hpp"
+#include "base/parallel.hpp"
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace rsc {
+namespace {
+
+constexpr std::size_t kHugePage = std::size_t{2} << 20;
+
+// Mean over points of a map, without NaN. It adds up the sums of rows, because short partial sums
+// keep rounding errors small.
+class Mean {
+public:
+    void add(double value) {
+        if (std::isnan(value)) return;
+        row_ += value;
+        ++row_points_;
+    }
+    void add_row(const Mean& row) {
+        total_ += row.row_;
+        points_ += row.row_points_;
+    }
+    double value() const { return points_ > 0 ? total_ / static_cast<double>(points_) : 0.0; }
+
+private:
+    double row_ = 0, total_ = 0;
+    long row_points_ = 0, points_ = 0;
+};
+
+// `count` means over rows first ... end - 1, whose sums rows(j, sums) adds on several threads. They
+// are added in the order of the rows.
+template <std::size_t count, class Rows>
+std::array<Mean, count> mean_of_rows(int first, int end, const Rows& rows) {
+    constexpr int grain = 64;
+    std::vector<std::array<Mean, count>> sums(static_cast<std::size_t>(end - first));
+    parallel_for(end - first, grain, 0, [&](int k) {
+        std::array<Mean, count> own;
+        rows(first + k, own);
+        sums[static_cast<std::size_t>(k)] = own;
+    });
+    std::array<Mean, count> means;
+    for (const auto& row : sums)
+        for (std::size_t m = 0; m < count; ++m) means[m].add_row(row[m]);
+    return means;
+}
+
+}  // namespace
+
+double* allocate_doubles(std::size_t n, const char* purpose, bool zeros) {
+    // Systems that overcommit memory may accept any size; sizes beyond the address space are
+    // rejected here.
+    constexpr std::size_t kMost = std::size_t{1} << 44;
+    void* p = nullptr;
+    if (n < kMost) {
+        const std::size_t bytes = std::max<std::size_t>(n, 1) * sizeof(double);
+        const bool large = bytes >= 2 * kHugePage;
+        const std::size_t alignment = large ? kHugePage : 64;
+        p = zeros ? std::calloc(bytes, 1)
+                  : std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+#if defined(__linux__)
+        constexpr std::size_t page = 4096;
+        void* const first =
+            reinterpret_cast<void*>((reinterpret_cast<std::uintptr_t>(p) + page - 1) / page * page);
+        if (p && large)
+            madvise(
+                first, bytes - page,
+                zeros ? MADV_NOHUGEPAGE : MADV_HUGEPAGE);  // a hint: failure costs time or memory
+#endif
+    }
+    if (!p) {
+        const double megabytes = static_cast<double>(n) * sizeof(double) / 1048576.0;
+        throw Error(Failure::no_memory, "no memory for " + std::string(purpose) + ": " +
+                                            std::to_string(std::llround(megabytes)) +
+                                            " MB requested");
+    }
+    return static_cast<double*>(p);
+}
+
+void HeightMap::Free::operator()(double* p) const noexcept {
+    if (owned) std::free(p);
+}
+
+void HeightMap::allocate(int nx_, int ny_, std::ptrdiff_t stride_, bool zeros) {
+    if (nx_ < 1 || ny_ < 1 || stride_ < nx_)
+        bad_input("height map: " + std::to_string(nx_) + " x " + std::to_string(ny_) +
+                  " points with " + std::to_string(stride_) + " a row");
+    if (stride_ > (std::ptrdiff_t{1} << 44) / ny_)
+        throw Error(Failure::no_memory, "no memory for a height map of " + std::to_string(nx_) +
+                                            " x " + std::to_string(ny_) + " points");
+    data.reset(allocate_doubles(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(ny_),
+                                "a height map", zeros));
+    nx = nx_;
+    ny = ny_;
+    stride = stride_;
+}
+
+HeightMap HeightMap::copy() const {
+    HeightMap made;
+    made.allocate(nx, ny, nx);
+    static_cast<PointGrid&>(made) = *this, made.periodic = periodic;
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) made.row(j)[i] = (*this)(i, j);
+    return made;
+}
+
+Moments grid_moments(const HeightMap& map) {
+    Moments m;
+    if (map.nx < 1 || map.ny < 1) return m;
+    const auto level = mean_of_rows<1>(0, map.ny, [&](int j, auto& sums) {
+        for (int i = 0; i < map.nx; ++i) sums[0].add(map(i, j));
+    });
+    const auto m0 = mean_of_rows<1>(0, map.ny, [&, mean = level[0].value()](int j, auto& sums) {
+        for (int i = 0; i < map.nx; ++i) sums[0].add((map(i, j) - mean) * (map(i, j) - mean));
+    });
+    m.m0 = m0[0].value();
+    if (map.nx < 3 || map.ny < 3) return m;
+
+    const int edge = map.periodic ? 0 : 1;
+    const auto means = mean_of_rows<8>(edge, map.ny - edge, [&](int j, auto& sums) {
+        auto& [g2, m20, m11, m40, m31, m22, m13, m04] = sums;
+        const double* const below = map.row(j > 0 ? j - 1 : map.ny - 1);
+        const double* const z = map.row(j);
+        const double* const above = map.row(j + 1 < map.ny ? j + 1 : 0);
+        for (int i = edge; i < map.nx - edge; ++i) {
+            const int l = i > 0 ? i - 1 : map.nx - 1, r = i + 1 < map.nx ? i + 1 : 0;
+            const double zx = (z[r] - z[i]) / map.dx, zy = (above[i] - z[i]) / map.dy;
+            const double zxx = (z[l] - 2.0 * z[i] + z[r]) / (map.dx * map.dx);
+            const double zyy = (below[i] - 2.0 * z[i] + above[i]) / (map.dy * map.dy);
+            const double zxy = (above[r] - above[i] - z[r] + z[i]) / (map.dx * map.dy);
+            g2.add(zx * zx + zy * zy);
+            m20.add(zx * zx);
+            m11.add(zx * zy);
+            m31.add(zxx * zxy);
+            m13.add(zyy * zxy);
+            m40.add(zxx * zxx);
+            m04.add(zyy * zyy);
+            m22.add(zxy * zxy);
+        }
+    });
+    const auto& [g2, m20, m11, m40, m31, m22, m13, m04] = means;
+    m.tensor = {m20.value(), m11.value(), g2.value() - m20.value(),
+                m40.value(), m31.value(), m22.value(),
+                m13.value(), m04.value()};
+    m.m2 = g2.value() / 2.0;
+    m.m4 = (m40.value() + m04.value() + 3.0 * m22.value()) / 3.0;
+    return m;
+}
+
+HeightMap every_second_point_of(const HeightMap& map) {
+    HeightMap view;
+    static_cast<PointGrid&>(view) = {(map.nx + 1) / 2, (map.ny + 1) / 2, 2 * map.dx,
+                                     2 * map.dy,       map.x0,           map.y0};
+    view.stride = 2 * map.stride, view.every = 2 * map.every, view.periodic = map.periodic;
+    view.data = std::unique_ptr<double[], HeightMap::Free>(map.data.get(), HeightMap::Free(false));
+    return view;
+}
+
+double height_at(const HeightMap& map, double x, double y) {
+    const double u = (x - map.x0) / map.dx, v = (y - map.y0) / map.dy;
+    if (!map.periodic && !(u >= 0 && v >= 0 && u <= map.nx - 1 && v <= map.ny - 1))
+        return -kInfinity;
+    const auto place = [&](double t, int n) {
+        const int before = static_cast<int>(std::floor(t) - n * std::floor(std::floor(t) / n));
+        return std::pair{before, map.periodic ? (before + 1) % n : std::min(before + 1, n - 1)};
+    };
+    const auto [i, right] = place(u, map.nx);
+    const auto [j, above] = place(v, map.ny);
+    const double s = u - std::floor(u), t = v - std::floor(v);
+    return (1 - t) * ((1 - s) * map(i, j) + s * map(right, j)) +
+           t * ((1 - s) * map(i, above) + s * map(right, above));
+}
+
+}  // namespace rsc
