@@ -78,8 +78,8 @@ int run(Job& job, const rsc::Options& options, const rsc::ReadCase& read,
         const std::string& command) {
     rsc::RunOptions how = how_to_run(options, command);
     if (read.study)
-        how.compare_automatically =
-            false;  // so that a member alone has the same result as in the study
+        // so that a member alone has the same result as in the study
+        how.compare_automatically = false;
     const std::size_t threads = threads_of(read.settings);
     rsc::CampaignWork work = rsc::make_work(rsc::members_of(read), how, threads);
     const std::unique_ptr<rsc::Team> team = make_team(job, work, read, threads);

@@ -19,8 +19,8 @@ struct Tag {
     Tag& operator=(const Tag&) { return *this; }
     ~Tag() { kind = 0; }
     bool sound() const { return kind == kKind; }
-    volatile std::uint64_t kind =
-        kKind;  // volatile: compilers omit stores before memory is released
+    // volatile: compilers omit stores before memory is released
+    volatile std::uint64_t kind = kKind;
 };
 
 }  // namespace rsc::api

@@ -96,8 +96,8 @@ AsperityContact::Impl::Impl(const Asperities& asperities_, const Indenter& inden
 void AsperityContact::Impl::look_beside(const Level& level) {
     std::vector<int> which = level.asperity;
     if (ellipses) {
-        constexpr double more =
-            1.1;  // nodes of the law's tables are up to a twentieth beyond the penetration
+        // nodes of the law's tables are up to a twentieth beyond the penetration
+        constexpr double more = 1.1;
         const double depth =
             more * (ranking.highest() - level.separation + kernel->shift() * level.force);
         const double lowest = ranking.highest() - std::exp2(0.5 * std::ceil(2 * std::log2(depth)));

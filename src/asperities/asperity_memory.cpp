@@ -56,8 +56,8 @@ void AsperityContact::recall(const std::vector<double>& memory, const Level* lev
     my.candidates = {};
     my.solution.clear();
     if (!level) return;
-    const double Z0 =
-        level->separation - shift() * level->force;  // separation as defined for solve()
+    // separation as defined for solve()
+    const double Z0 = level->separation - shift() * level->force;
     if (!my.follows()) return (void)solve(Z0);
     my.select(Z0);
     std::vector<double> start(static_cast<std::size_t>(my.candidates.size()),

@@ -33,9 +33,8 @@ public:
         const std::size_t k = above(u);
         if (k < node_.size())
             return within(k, (u - node_[k - 1].u) / (node_[k].u - node_[k - 1].u));
-        constexpr double q =
-            // beyond the table stiffness ~ u^q: between a flat punch, 0, and a paraboloid, 1/2
-            0.25;
+        // beyond the table stiffness ~ u^q: between a flat punch, 0, and a paraboloid, 1/2
+        constexpr double q = 0.25;
         const LoadedEllipse& e = node_.back();
         const double x = u / e.u, power = std::pow(x, q), grown = e.stiffness * e.u / (q + 1),
                      rest = e.force - grown;
@@ -55,8 +54,8 @@ public:
             e.major *= root, e.minor *= root;
             return e;
         }
-        const double rise =
-            high.stiffness - low.stiffness;  // the size of the spot follows the stiffness
+        // the size of the spot follows the stiffness
+        const double rise = high.stiffness - low.stiffness;
         const double w =
             rise > 0 ? std::clamp((at(u).slope - low.stiffness) / rise, 0.0, 1.0) : 1.0;
         // The ellipses are mixed by their matrices, which do not depend on how the angle is
@@ -243,10 +242,8 @@ private:
     std::vector<LoadedEllipse> alone(int i) const {
         constexpr double
             window = 2,
-            fine =
-                // half width over the widest ellipse, whose centre may be off the summit; points in
-            // it
-            45;
+            // half width over the widest ellipse, whose centre may be off the summit; points in it
+            fine = 45;
         const std::size_t k = at(i);
         // Odd, because midway between two points the stencil of one of them would be used: not the
         // same on a mirror image of the map.
@@ -378,10 +375,8 @@ private:
             nodes.back().stiffness = (high[0] - low[0]) / (u1 - u0);
             const LoadedEllipse left = nodes.back();
             nodes.pop_back();
-            constexpr double least =
-                // share of the highest summit; with less, the others carry the ellipse by
-                // themselves
-                0.1;
+            // share of the highest summit; with less, the others carry the ellipse by themselves
+            constexpr double least = 0.1;
             if (!like_ && !(u0 > 0 && u1 > u0 && low[0] > least * e.force && high[0] > low[0]))
                 continue;
             // Smaller ellipses that carried more lay on the spots of these summits, beside their

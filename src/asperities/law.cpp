@@ -148,17 +148,16 @@ public:
     }
 
 private:
-    static constexpr double kFlattest =
-        0.7444;  // sin^2(x/2) at the maximum of the mean pressure (sin x - x cos x)/x^2, x = q a
+    // sin^2(x/2) at the maximum of the mean pressure (sin x - x cos x)/x^2, x = q a
+    static constexpr double kFlattest = 0.7444;
 
     // Integral of asin^2(sqrt(t')) dt' from 0 to t, divided by t^2.
     static double integral_over_t2(double t, double R, double root) {
         if (std::abs(t) > 0.02) return (R * root - 0.5 - 0.5 * R * R * (1 - 2 * t)) / t;
         double sum = 0, power = 1,
-               coefficient =
-                   // asin^2(sqrt(t)) = sum of coefficient_n t^n, coefficient_n+1/coefficient_n =
-               // n^2/((n+1)(n+1/2))
-               1;
+               // asin^2(sqrt(t)) = sum of coefficient_n t^n, coefficient_n+1/coefficient_n =
+            // n^2/((n+1)(n+1/2))
+            coefficient = 1;
         for (int n = 1; n <= 10; ++n) {
             sum += coefficient * power / (n + 1);
             power *= t;
@@ -167,9 +166,8 @@ private:
         return sum;
     }
 
-    static constexpr double kDeepest =
-        // limit of |q| a for q^2 < 0: far beyond any contact, but cosh(2 |q| a) does not overflow
-        100;
+    // limit of |q| a for q^2 < 0: far beyond any contact, but cosh(2 |q| a) does not overflow
+    static constexpr double kDeepest = 100;
 
     // Coefficients in terms of u = F2 delta: a^2 = r u, argument t u of BesselProfile, modulus e of
     // the forces.

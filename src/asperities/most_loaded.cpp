@@ -7,10 +7,8 @@
 namespace rsc {
 namespace {
 
-constexpr int kUnknowns =
-    // centre x and y, and the symmetric matrix M (xx, xy, yy) that maps the unit disc to the
-    // ellipse
-    5;
+// centre x and y, and the symmetric matrix M (xx, xy, yy) that maps the unit disc to the ellipse
+constexpr int kUnknowns = 5;
 using Unknowns = std::array<double, kUnknowns>;
 
 double dot(const Unknowns& a, const Unknowns& b) {
@@ -283,8 +281,8 @@ std::vector<LoadedEllipse> most_loaded_ellipses(const HeightsAround& heights, do
                                                 double curvature, double ratio, double angle,
                                                 double widest) {
     constexpr double first = 0.05, step = 1.05,
-                     tolerance =
-                         0.02;  // size of the first ellipse over the widest; ratio of penetrations
+                     // size of the first ellipse over the widest; ratio of penetrations
+        tolerance = 0.02;
     std::vector<LoadedEllipse> found;
     std::vector<double> missing;
     double top, zx, zy;

@@ -183,8 +183,8 @@ void Newton::step(const WorkingSet& set, const State& state, double forcing, dou
         const std::size_t i = at(passive[k]);
         const double change = -state.res[i] - passive_[k];
         const double reached = state.v[i] + change;
-        const double begin =
-            law_.residual_depth(set.asperity[i]);  // penetration at which the force begins
+        // penetration at which the force begins
+        const double begin = law_.residual_depth(set.asperity[i]);
         out.dv[i] = reached > begin ? begin + entering * (reached - begin) - state.v[i] : change;
     }
 }

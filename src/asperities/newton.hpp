@@ -128,8 +128,8 @@ private:
     const Law& law_;
     Products* products_ = nullptr;
     State now_, trial_;
-    double begun_ =
-        1;  // in time loops the residual from which the last solution began, about that of the next
+    // in time loops the residual from which the last solution began, about that of the next
+    double begun_ = 1;
     bool repeats_ = false, first_ = true;  // first: no solution of this level yet
     bool exact_ = false;  // this level took a step, or a second trial, from a near start
     int stepped_ = 0;     // levels in a row before this one that did

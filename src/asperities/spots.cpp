@@ -127,8 +127,8 @@ private:
             ((f.x < 0) == rises ? low : high) = t;
             const double newton = t - f.x / f.y;
             const bool inside = newton > low && newton < high;
-            const bool last =
-                inside && std::abs(newton - t) < 1e-8;  // its square is below rounding
+            // its square is below rounding
+            const bool last = inside && std::abs(newton - t) < 1e-8;
             t = inside ? newton : 0.5 * (low + high);
             if (last || !(low < t && t < high)) break;
         }

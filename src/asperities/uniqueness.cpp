@@ -284,8 +284,8 @@ bool proved(const Law& law, const Kernel& kernel, const std::vector<int>& asperi
     constexpr double near = 2.0, far = 0.25;
     const double farthest = std::pow(
         std::pow(2 / (std::numbers::pi * far), 2) * std::sqrt(4 / (3 * std::numbers::pi)), 0.4);
-    constexpr double touch =
-        1e-300;  // radius of passive points, which are found by the reach of others
+    // radius of passive points, which are found by the reach of others
+    constexpr double touch = 1e-300;
     const double deepest = *std::max_element(v.begin(), v.end());
     Vector radius(n), flatness(n), reach(n);  // a_i; r_i^(1/5)
     double sharpest = 0;
@@ -462,9 +462,8 @@ bool LastingProof::holds(const Law& law, const Kernel& kernel, const std::vector
     const bool one = has_one_solution(law, kernel, asperity, x, y, v, force, slope);
     constexpr int
         pause = 16,
-        longer =
-            // calls until bounds are tried again: narrower ones, or where there is nothing to prove
-        256;
+        // calls until bounds are tried again: narrower ones, or where there is nothing to prove
+        longer = 256;
     if (near) wide_ /= one ? 4 : 1, waits_ = one ? pause : longer;
     return one;
 }

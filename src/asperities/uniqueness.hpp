@@ -89,10 +89,9 @@ private:
     };
     Bounds proved_, chosen_;
     std::array<double, 3> place_{kInfinity};
-    double wide_ =
-        // distance of the bounds from a solution, in its largest penetration; less after a test
-        // that failed
-        0.01;
+    // distance of the bounds from a solution, in its largest penetration; less after a test that
+    // failed
+    double wide_ = 0.01;
     int waits_ = 0;  // calls until bounds are tested again
 };
 

@@ -23,8 +23,8 @@ inline double log_positive(double x) {
     // The exponent k as a double: its bits become the low bits of 2^52, which is then subtracted.
     const double k = std::bit_cast<double>((shifted >> 52) | 0x4330000000000000ULL) -
                      (4503599627370496.0 + 1023.0);
-    const double f =
-        std::bit_cast<double>((shifted & kMantissa) + kSqrtHalf) - 1.0;  // x = 2^k (1 + f)
+    // x = 2^k (1 + f)
+    const double f = std::bit_cast<double>((shifted & kMantissa) + kSqrtHalf) - 1.0;
     const double s = f / (2.0 + f);
     const double z = s * s;
     const double w = z * z;
@@ -40,12 +40,12 @@ inline double log_positive(double x) {
 
 // exp(x) for -700 < x < 700.
 inline double exp_moderate(double x) {
-    constexpr double kShift =
-        6755399441055744.0;  // 1.5 * 2^52: adding it rounds x to an integer, stored in the low bits
+    // 1.5 * 2^52: adding it rounds x to an integer, stored in the low bits
+    constexpr double kShift = 6755399441055744.0;
     const double shifted = x * 1.44269504088896338700e+00 + kShift;
     const double k = shifted - kShift;
-    const double r =
-        (x - k * 6.93147180369123816490e-01) - k * 1.90821492927058770002e-10;  // |r| <= ln(2)/2
+    // |r| <= ln(2)/2
+    const double r = (x - k * 6.93147180369123816490e-01) - k * 1.90821492927058770002e-10;
     double p = 1.0 / 6227020800.0;
     p = p * r + 1.0 / 479001600.0;
     p = p * r + 1.0 / 39916800.0;
@@ -89,8 +89,8 @@ inline void cos_sin_turns(double u, double& cosine, double& sine) {
     constexpr double kShift = 6755399441055744.0;
     const double t = 4.0 * u;
     const double shifted = t + kShift;
-    const std::uint64_t quarter =
-        std::bit_cast<std::uint64_t>(shifted);  // low bits: the nearest quarter turn
+    // low bits: the nearest quarter turn
+    const std::uint64_t quarter = std::bit_cast<std::uint64_t>(shifted);
     const double y = (t - (shifted - kShift)) * 1.57079632679489661923;  // |y| <= pi/4
     const double z = y * y;
     const double s =
@@ -110,8 +110,8 @@ inline void cos_sin_turns(double u, double& cosine, double& sine) {
                                              z * (2.08757232129817482790e-09 +
                                                   z * -1.13596475577881948265e-11))))));
     const std::uint64_t sb = std::bit_cast<std::uint64_t>(s), cb = std::bit_cast<std::uint64_t>(c);
-    const std::uint64_t swap =
-        0 - (quarter & 1);  // all ones in odd quarters, where sine and cosine are exchanged
+    // all ones in odd quarters, where sine and cosine are exchanged
+    const std::uint64_t swap = 0 - (quarter & 1);
     const std::uint64_t re = (cb & ~swap) | (sb & swap);
     const std::uint64_t im = (sb & ~swap) | (cb & swap);
     cosine = std::bit_cast<double>(re ^ (((quarter + 1) & 2) << 62));

@@ -50,9 +50,8 @@ struct Key {
     const char* meaning;
     Slot (*slot)(Case&);
     Changes changes = Changes::numbers;
-    Slot (*word)(Case&) =
-        // a list that may be one of `choices` instead, which applies while the list is empty
-        nullptr;
+    // a list that may be one of `choices` instead, which applies while the list is empty
+    Slot (*word)(Case&) = nullptr;
 };
 
 // All keys, group by group in the documented order.

@@ -11,9 +11,8 @@ namespace rsc {
 namespace {
 
 constexpr double kMostMapValues = 1e9;  // of one map variable: 8 GB
-constexpr double kMostCircles =
-    // radial_bins times map_cells, to which the work of the radial means is proportional: a second
-    2e6;
+// radial_bins times map_cells, to which the work of the radial means is proportional: a second
+constexpr double kMostCircles = 2e6;
 constexpr double kMostLevelValues = 1e9;  // realizations x levels
 
 std::string count(double n) { return std::to_string(static_cast<long long>(n)); }

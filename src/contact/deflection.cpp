@@ -22,8 +22,8 @@ double spot_deflection(double force, double radius, double distance, double E_st
         const double t2 = 1 / (s * s);
         return 0.75 * near * force / radius * ((2 - t2) * std::asin(s) + std::sqrt(t2 - 1));
     }
-    double sum =
-        1;  // the hypergeometric series F(1/2, 1/2; 5/2; s^2), because the two terms above cancel
+    // the hypergeometric series F(1/2, 1/2; 5/2; s^2), because the two terms above cancel
+    double sum = 1;
     for (int n = kTerms - 1; n-- > 0;)
         sum = 1 + (n + 0.5) * (n + 0.5) / ((n + 2.5) * (n + 1)) * s * s * sum;
     return near * force / distance * sum;

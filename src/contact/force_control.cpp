@@ -7,8 +7,8 @@
 namespace rsc {
 namespace {
 
-constexpr double kUnresolved =
-    1e-6;  // accepted relative error of the force due to rounding of the separation
+// accepted relative error of the force due to rounding of the separation
+constexpr double kUnresolved = 1e-6;
 constexpr double kFarAbove = 100;  // relative to the requested force
 constexpr int kPasses = 2;         // number of failures after which only full solves are used
 

@@ -43,8 +43,8 @@ struct Indenter {
     double E_star = 0;  // [force/length^2]
     Shape shape;        // a number is the radius of a sphere, Infinity a flat
     double x0 = 0, y0 = 0;
-    Period period =
-        {};  // finite: surface and contact are periodic (two flats, boundary='periodic')
+    // finite: surface and contact are periodic (two flats, boundary='periodic')
+    Period period = {};
     LayeredBody layers = {};
     // `repeats`: finite if the surface is periodic although the bodies are not, for example a ball
     // on a synthetic surface. The surface ends at its border until the tip is moved; then `around`
@@ -119,22 +119,18 @@ struct SolverOptions {
     double tolerance = 1e-6;  // relative residual of F - C<G0 - B F>^(3/2)
     int max_iterations = 100;
     double delta0 = 0.01;  // initial regularisation of the paper's method, in units of sigma
-    double delta_cut =
-        5.0;  // the paper's method divides delta by this each iteration (the paper: 2 to 10)
-    double mean_spacing =
-        // <d> = 1/sqrt(D), for counting contacts with a > <d>/4 or near the border; 0: not counted
-        0;
+    // the paper's method divides delta by this each iteration (the paper: 2 to 10) <d> = 1/sqrt(D),
+    // for counting contacts with a > <d>/4 or near the border; 0: not counted
+    double delta_cut = 5.0;
+    double mean_spacing = 0;
     double points_per_wave = 0;  // grid points in the shortest wave of the surface; 0: unknown
     double grid_step = 0;        // of the grid on which the summits were found [length]; 0: unknown
-    double rms_slope =
-        // rms slope sqrt(2 m2) of the surface, for comparison with slopes of the indenter; 0:
-        // unknown
-        0;
-    Rectangle surface =
-        {};  // the free surface, for counting contacts near its border; not counted if unknown
-    bool measured =
-        // heights of either body from a file or a caller, for which expected errors are larger
-        false;
+    // rms slope sqrt(2 m2) of the surface, for comparison with slopes of the indenter; 0: unknown
+    double rms_slope = 0;
+    // the free surface, for counting contacts near its border; not counted if unknown heights of
+    // either body from a file or a caller, for which expected errors are larger
+    Rectangle surface = {};
+    bool measured = false;
     std::shared_ptr<const MapMarks> marks = nullptr;  // marks of a measured map, or null
     SurfaceHeights heights = {};  // of the surface between its summits, for indenters with an edge
 };

@@ -34,14 +34,12 @@ enum class Fallback : std::int32_t {
     dgesv_singular = 3,       // its matrix was singular
     not_unique =
         4,  // it converged, but the solution is not proved unique, and the default method was used
-    held =
-        // adhesion: no state has the requested force; the level is the last stable state, of the
+    // adhesion: no state has the requested force; the level is the last stable state, of the
     // smallest force
-    5,
-    jump =
-        // the force jumps over the requested one at a separation; the level is the state at one
-    // side of the jump
-    6,
+    held = 5,
+    // the force jumps over the requested one at a separation; the level is the state at one side of
+    // the jump
+    jump = 6,
 };
 inline constexpr std::array kFallbackNames = {
     "none", "no_interaction", "dgesv_not_converged", "dgesv_singular", "not_unique", "held",
@@ -57,24 +55,22 @@ inline constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
 struct LevelValues {
     double separation = 0;  // Z0 [length]
     double force = 0;       // N = sum f [force]
-    double area =
-        0;  // A = sum pi a^2 (hertz), or the area of the union of elliptic spots [length^2]
-    double area_pixels =
-        // boundary elements: all pixels under pressure, without border correction [length^2]
-        kNotComputed;
+    // A = sum pi a^2 (hertz), or the area of the union of elliptic spots [length^2] boundary
+    // elements: all pixels under pressure, without border correction [length^2]
+    double area = 0;
+    double area_pixels = kNotComputed;
     double pressure = kNotComputed;       // two flats: nominal pressure N/A0 [force/length^2]
     double area_fraction = kNotComputed;  // two flats: A/A0
     double residual = 0;  // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
-    double pixels_per_contact =
-        kNotComputed;  // boundary elements: median pixels per contact, weighted by area
-    // Expected relative errors of N and A: of asperities relative to boundary elements
-    // (expected_error.hpp), of these relative to finer grids.
+    // boundary elements: median pixels per contact, weighted by area Expected relative errors of N
+    // and A: of asperities relative to boundary elements (expected_error.hpp), of these relative to
+    // finer grids.
+    double pixels_per_contact = kNotComputed;
     double force_error_expected = kNotComputed, area_error_expected = kNotComputed;
-    std::int32_t error_cause =
-        0;  // asperities: predictor that increases it most (expected_error.hpp); 0: none
-    double slope_ratio =
-        // asperities: largest slope of the indenter at a contact over the rms slope of the surface
-        kNotComputed;
+    // asperities: predictor that increases it most (expected_error.hpp); 0: none asperities:
+    // largest slope of the indenter at a contact over the rms slope of the surface
+    std::int32_t error_cause = 0;
+    double slope_ratio = kNotComputed;
     double filled_share = kNotComputed;  // share of the contact area in holes of a measured map
     // Set by add_answers (contact/answers.hpp):
     double stiffness = kNotComputed;  // dN/dZ0, negative [force/length]
@@ -89,13 +85,13 @@ struct LevelValues {
     std::int64_t products = 0;  // products with B (matrix-free methods) or linear solves (dgesv)
     std::int64_t overlapping_pairs = 0;  // pairs with d < a_i + a_j
     std::int64_t beyond_law = 0;         // contacts beyond the range of validity of the law
-    double extreme_area_fraction =
-        0;  // share of the contact area whose mean pressure exceeds kExtreme E*
+    // share of the contact area whose mean pressure exceeds kExtreme E*
+    double extreme_area_fraction = 0;
     double plastic_work = kNotComputed;  // plastic work since the first level [force length]
     // Adhesion:
     double least_force = kNotComputed;  // smallest force since the beginning [force]
-    double cohesive_area =
-        kNotComputed;  // area of the points that attract without contact [length^2]
+    // area of the points that attract without contact [length^2]
+    double cohesive_area = kNotComputed;
     double cohesive_resolution =
         kNotComputed;                   // boundary elements: ratio of z0 to the side of a pixel
     std::int32_t jumps = 0;             // number of jumps since the previous level
@@ -111,12 +107,10 @@ struct LevelValues {
     std::int32_t large_contacts = 0;     // contacts with a > <d>/4
     // Layers, asperities: share of the contacts with a > h/5, h the top layer's thickness.
     double wide_contacts = kNotComputed;
-    std::int32_t edge_contacts =
-        0;  // contacts within <d> of the border of a free surface, or crossing it
-    double nominal_area =
-        // smallest disc about the tip that contains all contacts, at most the area of the surface
-        // [length^2]
-        0;
+    // contacts within <d> of the border of a free surface, or crossing it smallest disc about the
+    // tip that contains all contacts, at most the area of the surface [length^2]
+    std::int32_t edge_contacts = 0;
+    double nominal_area = 0;
     // Of the coarse map (observe/map.hpp):
     std::int32_t crowded_cells = 0;  // cells with an area fraction above pi/16
     std::int32_t outside_map = 0;    // contacts outside the map

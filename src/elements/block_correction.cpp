@@ -9,8 +9,8 @@ namespace {
 // reach of M do not repeat its work; on narrower blocks the steps cost more than they save.
 constexpr int kNarrowest = 12, kWidest = 32;
 constexpr int kFewest = 16;  // blocks along a side
-constexpr double kFilter =
-    0.25;  // F is multiplied by exp(-kFilter (k side)^2), because P is not smooth
+// F is multiplied by exp(-kFilter (k side)^2), because P is not smooth
+constexpr double kFilter = 0.25;
 // Reduction of the residual on blocks, and a bound for its steps; more accurate solutions do not
 // save steps on pixels.
 constexpr double kReduction = 0.01;

@@ -13,8 +13,8 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInnerError = 1e-3;  // error of products in iterations
 constexpr double kMostTimes = 30;  // largest ratio to the last force for a start from its pressures
-constexpr double kMargin =
-    0.3;  // pixels are selected lower by this share of the step to the expected separation
+// pixels are selected lower by this share of the step to the expected separation
+constexpr double kMargin = 0.3;
 constexpr double kColdMargin = 0.05;  // and of the expected depth, if no level is known
 constexpr int kBlock = 16;            // side of the blocks whose highest points are stored [pixels]
 constexpr int kPiece = 4096;          // pixels that a thread takes at a time

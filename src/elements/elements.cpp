@@ -15,15 +15,15 @@ constexpr int kSteps = 5;
 constexpr double kReduction = 0.1;
 // Residual below which pixels outside the working set are first checked.
 constexpr double kClosing = 1e-2;
-constexpr int kQuick =
-    30;  // rounds before the energy is monitored; most sets converge in about ten
+// rounds before the energy is monitored; most sets converge in about ten
+constexpr int kQuick = 30;
 // Share of pixels in the first guess above which the contact is deep in the roughness; for a smooth
 // sphere it is one half.
 constexpr double kDeep = 0.55;
 // Residual, relative to the error of inner products, below which full products are used.
 constexpr double kInnerReach = 10;
-constexpr double kChange =
-    0.05;  // relative to the tolerance: error of an exact product computed from an earlier one
+// relative to the tolerance: error of an exact product computed from an earlier one
+constexpr double kChange = 0.05;
 
 }  // namespace
 
@@ -197,8 +197,8 @@ void ElementsSolver::precondition(const std::vector<double>& r, std::vector<doub
 }
 
 bool ElementsSolver::judge_exactly(bool, double residual, int rounds) {
-    const double guess =
-        wanted_ ? kReduction * residual : error();  // Z0 is not known before the next product
+    // Z0 is not known before the next product
+    const double guess = wanted_ ? kReduction * residual : error();
     return (looked_ && guess < kInnerReach * products_.inner_error()) || guess < tolerance_ ||
            rounds > kQuick;
 }

@@ -59,8 +59,8 @@ protected:
     Indenter indenter_;
     SolverOptions options_;
     double top_ = -kInfinity;  // highest point under the indenter
-    bool accepted_ =
-        false;  // the last level is accepted: the contact is elastic until loaded further
+    // the last level is accepted: the contact is elastic until loaded further
+    bool accepted_ = false;
     std::optional<LoadMemory> loads_;  // relaxing bodies
 
 private:

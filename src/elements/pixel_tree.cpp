@@ -22,8 +22,8 @@ struct Box {
 
 // All boxes of one size. Those of a parent follow each other, in the order of the parents.
 struct Generation {
-    static constexpr int kMargin =
-        3;  // around the bounding rectangle, so that boxes there can be looked up
+    // around the bounding rectangle, so that boxes there can be looked up
+    static constexpr int kMargin = 3;
     int x0 = 0, y0 = 0, nx = 0, ny = 0;  // bounding rectangle in units of boxes
     std::vector<int>
         index;  // index of the box at each position of the rectangle with its margin, -1: none

@@ -177,8 +177,8 @@ void SpotBlocks::assign(const std::vector<Pixel>& all, const std::vector<int>& w
             auto [place, is_new] = known_.try_emplace(part.number);
             while (!is_new && !(place->second.shape.size() == part.end - part.begin &&
                                 fits(place->second.shape)))
-                std::tie(place, is_new) =
-                    known_.try_emplace(++part.number);  // another shape has this number
+                // another shape has this number
+                std::tie(place, is_new) = known_.try_emplace(++part.number);
             Inverse& inverse = place->second;
             inverse.wanted = true;
             blocks_.push_back({part.begin, &inverse});
@@ -216,8 +216,8 @@ void SpotBlocks::apply(const std::vector<double>& r, std::vector<double>& z) con
         for (std::size_t k = begin; k < begin + n; ++k)
             most[b] = std::max(most[b], std::abs(r[at(members_[k])]));
     });
-    double unit =
-        *std::max_element(most.begin(), most.end());  // scales the values for single precision
+    // scales the values for single precision
+    double unit = *std::max_element(most.begin(), most.end());
     if (!(unit > 0)) unit = 1;
     for_blocks([&](std::size_t b, std::size_t begin, std::size_t n) {
         float x[kMostPixels], y[kMostPixels];

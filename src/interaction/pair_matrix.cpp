@@ -5,8 +5,8 @@
 namespace rsc {
 namespace {
 
-constexpr std::size_t kRows =
-    128;  // rows added in single precision before they are added in double precision
+// rows added in single precision before they are added in double precision
+constexpr std::size_t kRows = 128;
 
 // Elements begin ... end - 1 of kMany rows of the matrix: sum[k] += row[k] . force, and back += sum
 // of f[k] row[k]. Products and sums are not contracted, so that all instruction sets give the same

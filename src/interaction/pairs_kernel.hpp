@@ -6,8 +6,8 @@
 
 namespace rsc {
 
-constexpr std::size_t kPairPadding =
-    16;  // all counts and strides are multiples of it; arrays need no alignment
+// all counts and strides are multiples of it; arrays need no alignment
+constexpr std::size_t kPairPadding = 16;
 constexpr int kNearDegree = 31;      // largest degree of a near-field polynomial
 constexpr double kSingleWeight = 2;  // single-precision loops return phi multiplied by this
 
@@ -20,8 +20,8 @@ struct NearKernel {
     double c[kNearDegree + 1] = {};
 };
 
-constexpr int kWindowWidth =
-    16;  // largest number of mesh points per side over which a point is spread
+// largest number of mesh points per side over which a point is spread
+constexpr int kWindowWidth = 16;
 constexpr int kWindowDegree = 23;  // largest degree of its polynomials
 
 // Spreading window, a product of two one-dimensional windows of `width` mesh points. Mesh point m,

@@ -25,12 +25,11 @@ struct NetcdfVariable {
                  std::vector<std::string>>
         values;
     NetcdfAttributes attributes;
-    bool may_be_absent =
-        false;  // NaN is a missing value, written as _FillValue; elsewhere it is an internal error
-    bool disorder =
-        // incompressible numbers: deflate saves a quarter at most and takes ten times as long as
-        // writing
-        false;
+    // NaN is a missing value, written as _FillValue; elsewhere it is an internal error
+    // incompressible numbers: deflate saves a quarter at most and takes ten times as long as
+    // writing
+    bool may_be_absent = false;
+    bool disorder = false;
 };
 
 class NetcdfFile {

@@ -330,10 +330,9 @@ void ResultTable::two_flats(const Moments& m) {
     for (const SurfaceStatistics& s : o_.surface)
         summits += static_cast<double>(s.summits), kappa += s.mean_kappa_g, m2 += s.m2;
     const auto n = static_cast<double>(o_.surface.size());
-    m2 /=
-        // of the generated surfaces: for a band that begins at L their slope differs from that of
-        // m2_theory
-        n;
+    // of the generated surfaces: for a band that begins at L their slope differs from that of
+    // m2_theory
+    m2 /= n;
     const FlatSummits own{summits / n / A0, n / kappa,
                           std::sqrt(std::max(0.0, m.m0 - kSummitVariance * m.m2 * m.m2 / m.m4))};
     std::vector<double> persson, bush, greenwood;

@@ -30,13 +30,13 @@ ObserveOptions observe_options(const Case& c, const Domain& domain, const Indent
     options.tip_x = indenter.x0;
     options.tip_y = indenter.y0;
     options.map = make_map_grid(domain.x0, domain.y0, domain.Lx, domain.Ly, c.output.map_cells);
-    options.radial_bins =
-        indenter.period.finite() ? 0 : c.output.radial_bins;  // two flats have no centre
+    // two flats have no centre
+    options.radial_bins = indenter.period.finite() ? 0 : c.output.radial_bins;
     if (c.output.pdf_levels.empty() || !(sigma > 0) || !(sqrt_m4 > 0))
         return options;  // no length scale for the ranges: no distributions
     for (double level : c.output.pdf_levels) options.pdf_levels.push_back(level * sigma);
-    constexpr double sharpest =
-        4;  // radii down to a quarter of 1/sqrt(m4): nearly all (Nayak's density of curvatures)
+    // radii down to a quarter of 1/sqrt(m4): nearly all (Nayak's density of curvatures)
+    constexpr double sharpest = 4;
     const double hardest =
         c.solids.hardness * std::sqrt(1 + sharpest * c.solids.size_effect * sqrt_m4);
     options.pdf = make_pdf_bins(c.output.pdf_bins, indenter.E_star, sigma, sqrt_m4, 1.1 * hardest);

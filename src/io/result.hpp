@@ -44,8 +44,8 @@ struct ComparedLevel {
     std::int32_t contacts = 0, columns = 0, rows = 0;  // columns and rows of their grid
     // Asperities over elements - 1; that of the force is NaN under force control.
     double force_error = kNotComputed, area_error = kNotComputed, contacts_error = kNotComputed;
-    double separation_error =
-        kNotComputed;  // asperities minus elements, under force control [length]
+    // asperities minus elements, under force control [length]
+    double separation_error = kNotComputed;
 };
 struct ComparedLevels {
     std::vector<ComparedLevel> levels;

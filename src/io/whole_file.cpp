@@ -186,8 +186,8 @@ std::optional<ResultHead> head_of_result(const std::string& path) {
     require_sound(path);
     if (nc_open(path.c_str(), NC_NOWRITE, &file) != NC_NOERR) return std::nullopt;
     const auto text = [file](const char* name) {
-        constexpr std::size_t longest =
-            std::size_t{1} << 26;  // of a case: the length in a damaged file may be arbitrary
+        // of a case: the length in a damaged file may be arbitrary
+        constexpr std::size_t longest = std::size_t{1} << 26;
         std::size_t length = 0;
         nc_type type = NC_NAT;
         std::string value;

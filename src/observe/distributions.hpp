@@ -68,10 +68,9 @@ struct Histogram {
     std::vector<double> weight;  // of each bin
     double overflow = 0;         // weight beyond the last bin
     double total = 0,
-           squares =
-               // of the pressure: sums of pi a^2 and (pi a^2)^2; total^2/squares is the effective
-           // number of contacts
-           0;
+           // of the pressure: sums of pi a^2 and (pi a^2)^2; total^2/squares is the effective
+        // number of contacts
+        squares = 0;
     std::array<double, 4> power{};  // sums of weight times the powers 1 to 4 of the value
 };
 

@@ -69,8 +69,8 @@ struct Score {
 
 Score score(const Parameters& theta, const std::vector<double>& weight,
             const std::vector<double>& p, double width) {
-    constexpr double h =
-        1e-5;  // truncation and rounding errors of the central difference are both near 1e-10
+    // truncation and rounding errors of the central difference are both near 1e-10
+    constexpr double h = 1e-5;
     const std::size_t bins = weight.size() - 1;
     std::array<std::vector<double>, 3> slope;
     for (std::size_t i = 0; i < 3; ++i) {

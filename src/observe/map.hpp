@@ -36,8 +36,8 @@ struct MapLevel {
     std::vector<double>
         // sum of f in the cell, with adhesion also of places that attract without contact [force]
         force;
-    std::int32_t outside =
-        0;  // contacts outside the map: included in the sums of the level, but in no cell
+    // contacts outside the map: included in the sums of the level, but in no cell
+    std::int32_t outside = 0;
 };
 
 // Coarse map of a level. A contact is assigned to the cell of its centre, with its area (for

@@ -13,9 +13,8 @@ struct LevelQuantity {
                                 Method LevelValues::*, Fallback LevelValues::*>;
     const char* name;  // of the variable in files and in calls by name
     Member member;     // NaN (double): not computed
-    double LevelValues::*y =
-        // second component of a vector, whose first is `member`; adds a dimension in files
-        nullptr;
+    // second component of a vector, whose first is `member`; adds a dimension in files
+    double LevelValues::*y = nullptr;
     int length_power = 0, force_power = 0;  // powers in its unit
     const char* unit = nullptr;  // unit that replaces these powers; "time": the unit of times
     bool of_step = false;        // has the same value in every realization

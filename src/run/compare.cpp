@@ -176,8 +176,8 @@ private:
 
 double comparison_seconds(const Job& job) {
     const Case& c = job.settings;
-    const double once =
-        c.indentation.control == Control::separation ? 1 : 6;  // separations tried for a force
+    // separations tried for a force
+    const double once = c.indentation.control == Control::separation ? 1 : 6;
     double seconds = 0;
     for (std::size_t k = 0;
          k < (c.compare.listed() ? c.compare.levels.size() : 1) && !job.levels.empty(); ++k)

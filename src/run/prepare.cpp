@@ -98,8 +98,8 @@ HeightMap part_of(const HeightMap& map, const std::optional<double> (&window)[4]
     const auto number = [](double x, double origin, double step, int n) {
         return std::clamp((x - origin) / step, -1.0, n + 0.0);
     };
-    constexpr double slack =
-        1e-6;  // points on the border of the window belong to it, however they are rounded
+    // points on the border of the window belong to it, however they are rounded
+    constexpr double slack = 1e-6;
     const int i0 = std::max(0, static_cast<int>(
                                    std::ceil(number(*window[0], map.x0, map.dx, map.nx) - slack))),
               i1 = std::min(

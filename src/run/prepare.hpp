@@ -23,8 +23,8 @@ bool differs_by_realization(const Case& settings);
 struct Surface {
     HeightMap map;
     double sigma = 0;  // rms height: that of the case, or after detrending [length]
-    double points_per_wave =
-        0;  // grid steps in the shortest wavelength of a synthetic surface; 0: not known
+    // grid steps in the shortest wavelength of a synthetic surface; 0: not known
+    double points_per_wave = 0;
     std::optional<Moments> theory;             // of a synthetic surface: moments of its spectrum
     std::optional<Moments> sampled;            // of a synthetic surface: moments of its modes
     std::optional<Moments> differences;        // and by finite differences of its heights
@@ -66,8 +66,8 @@ Surface make_element_surface(const Case& settings, std::int64_t number, int thre
 // The rectangle of a surface, with the properties of the surface that a contact needs.
 struct SurfaceDomain : Domain {
     double sigma = 0;  // rms height of the surface, or of the asperities of a list [length]
-    bool guessed =
-        false;  // rectangle derived from the asperities of a list, because surface%L is not set
+    // rectangle derived from the asperities of a list, because surface%L is not set
+    bool guessed = false;
     double mean_spacing = 0;  // <d> of the asperities [length]; 0: not known (a single one)
     double points_per_wave =
         0;            // of the grid of the summits, in the shortest wavelength; 0: not known
@@ -76,8 +76,8 @@ struct SurfaceDomain : Domain {
     // is half a step below that of the cells.
     double half_step_x = 0, half_step_y = 0;
     double rms_slope = 0;  // 0: not known (a list)
-    bool repeats =
-        false;  // periodic beyond its rectangle: synthetic surfaces, and heights declared periodic
+    // periodic beyond its rectangle: synthetic surfaces, and heights declared periodic
+    bool repeats = false;
     std::shared_ptr<const MapMarks> marks =
         nullptr;                  // of a measured map that is free at its border
     bool measured = false;        // heights from a file or from the caller of the library
@@ -94,8 +94,8 @@ struct SurfaceModel {
     std::shared_ptr<const HeightMap> points;  // for elements, without asperities
     SurfaceDomain domain;
     SurfaceStatistics statistics;
-    bool list =
-        false;  // the asperities were given as arrays; surface%L may replace the derived domain
+    // the asperities were given as arrays; surface%L may replace the derived domain
+    bool list = false;
     std::shared_ptr<const Measured> measured;  // of a measured map
 };
 

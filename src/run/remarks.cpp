@@ -227,10 +227,9 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
     for (const LevelValues& level : levels)
         attracting = std::fmax(attracting, level.area + level.cohesive_area), jumps += level.jumps,
         lost = std::fmax(lost, level.energy_lost), least = std::fmin(least, level.least_force);
-    constexpr double resolved =
-        // of the work of adhesion: some steps, each divided at 0.003
-        // (physics/adhesion/adhesive_pixels.cpp)
-        0.01;
+    // of the work of adhesion: some steps, each divided at 0.003
+    // (physics/adhesion/adhesive_pixels.cpp)
+    constexpr double resolved = 0.01;
     std::string how;
     if (by_elements(c))
         how = c.indentation.control == Control::separation

@@ -25,9 +25,8 @@ struct RunOptions {
 // The outcome of a run.
 struct RunSummary {
     long levels = 0,
-         failed =
-             // of all realizations, including those compared with elements; failed: not converged
-         0;
+         // of all realizations, including those compared with elements; failed: not converged
+        failed = 0;
     double separation = 0;  // of the last level; its means over the realizations:
     double force = 0, area = 0;
 };

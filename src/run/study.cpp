@@ -336,8 +336,8 @@ Forecast check_members(const ReadCase& read, std::optional<int> only, const RunO
                        std::size_t threads) {
     const std::vector<Member> all = members_of(read);
     const std::vector<const Member*> wanted = wanted_of(read, all, only);
-    constexpr std::size_t samples =
-        20;  // members whose time is estimated; the others are assumed similar
+    // members whose time is estimated; the others are assumed similar
+    constexpr std::size_t samples = 20;
     Forecast all_members;
     std::size_t timed = 0;
     std::set<std::vector<std::string>> files_read;

@@ -142,8 +142,8 @@ Outliers remove_outliers(HeightMap& map, double times) {
                         if (const double mean = 0.5 * (map(i + a, j + b) + map(i - a, j - b));
                             !std::isnan(mean))
                             around.push_back(mean);
-                const bool island =
-                    around.empty();  // in a hole, where no pair is whole: the points that are there
+                // in a hole, where no pair is whole: the points that are there
+                const bool island = around.empty();
                 for (int b = -up; b <= up && island; ++b)
                     for (int a = -across; a <= across; ++a)
                         if (const double other = map(i + a, j + b);
@@ -214,10 +214,10 @@ double step_of_pairs(const HeightMap& map, int di, int dj) {
         for (int j = dj; j < map.ny; ++j)
             for (int i = di; i < map.nx; ++i) visit(map(i - di, j - dj), map(i, j));
     };
-    constexpr double few =
-        0.02;  // share of equal neighbours; with a smaller one rounding does not matter
-    constexpr double rounding =
-        1e-6;  // relative to the step: files store heights as decimal numbers
+    // share of equal neighbours; with a smaller one rounding does not matter
+    constexpr double few = 0.02;
+    // relative to the step: files store heights as decimal numbers
+    constexpr double rounding = 1e-6;
     double least = 0;
     visit_pairs([&](double a, double b) {
         const double d = std::abs(b - a), noise = 1e-12 * (std::abs(a) + std::abs(b));
@@ -344,10 +344,8 @@ double median_bend(const HeightMap& map, bool along_x) {
 
 // Kind of the break at point 0 of the profile, if there is one.
 std::optional<Breaks::Kind> kind_of(const Profile& p, double least) {
-    constexpr double foremost =
-        // a pit's second difference is twice its neighbours'; at a step a neighbour's has the same
-        // size
-        1.3;
+    // a pit's second difference is twice its neighbours'; at a step a neighbour's has the same size
+    constexpr double foremost = 1.3;
     const double bend = p.bend(0), before = p.bend(-1), after = p.bend(1);
     if (!(std::abs(bend) > least)) return {};
     // Smooth: the neighbours curve the same way, none the other way. A hill on a plain has large

@@ -37,14 +37,12 @@ enum class Detail {
 struct SummitCount {
     long summits = 0;  // asperities kept
     long saddles = 0;  // grid maxima not kept: saddles by their curvatures, or no summit in reach
-    long repeated =
-        0;  // Detail::subgrid: grid maxima not kept because another one leads to the same summit
+    // Detail::subgrid: grid maxima not kept because another one leads to the same summit
+    long repeated = 0;
     double mean_kappa_g = 0;  // mean of the geometric mean curvature [1/length]
     double mean_kappa_a = 0;  // mean of the algebraic mean curvature [1/length]
-    double lay =
-        // Detail::subgrid: share of the biharmonic that is that along a lay
-        // (Asperities::biharmonic)
-        0;
+    // Detail::subgrid: share of the biharmonic that is that along a lay (Asperities::biharmonic)
+    double lay = 0;
 };
 
 // Detail::grid: summits are grid points strictly above their 8 neighbours, with curvatures from

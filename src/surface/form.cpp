@@ -31,10 +31,9 @@ struct Normal {
     // Solves by Cholesky factorisation. A vanishing pivot means that the points do not determine
     // the coefficient.
     std::array<double, kUnknowns> solve(const char* form) const {
-        constexpr double kSingular =
-            // relative to the diagonal before elimination; maps without missing points have at
-            // least 0.1
-            1e-11;
+        // relative to the diagonal before elimination; maps without missing points have at least
+        // 0.1
+        constexpr double kSingular = 1e-11;
         std::array<std::array<double, kUnknowns>, kUnknowns> l{};
         std::array<double, kUnknowns> x{};
         for (int j = 0; j < kUnknowns; ++j)

@@ -16,8 +16,8 @@ struct Form {
     // Second derivatives zxx, zxy, zyy in the middle [1/length]; for a sphere that is level there
     // zxx = zyy = -1/radius.
     double zxx = 0, zxy = 0, zyy = 0;
-    double radius =
-        0;  // of a sphere [length], positive for a dome, negative for a bowl; 0 for other forms
+    // of a sphere [length], positive for a dome, negative for a bowl; 0 for other forms
+    double radius = 0;
     double rms = 0;  // rms height of the residual, about its mean [length]
 };
 

@@ -51,8 +51,8 @@ struct Measured : PointGrid {
     double height_bin = 0;  // their width [length]
     MeasuredSpectrum spectrum;
     std::optional<SelfAffineFit> fit;  // absent if the map is too small or too flat
-    double shortest_wave =
-        0;  // upper end of the direction-averaged spectrum, or twice the grid step [length]
+    // upper end of the direction-averaged spectrum, or twice the grid step [length]
+    double shortest_wave = 0;
     bool gaussian()
         // skewness within 0.3 of 0 and kurtosis within 0.6 of 3, the scatter of Gaussian samples
         const;

@@ -153,8 +153,8 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
                                               ring;
             const std::size_t r = nearest(q);
             if (r > rings) continue;
-            const double copies =
-                i == 0 || 2 * i == nx ? 1 : 2;  // counts the mirror image in the other half plane
+            // counts the mirror image in the other half plane
+            const double copies = i == 0 || 2 * i == nx ? 1 : 2;
             const double of_mode =
                 copies * std::norm(modes[static_cast<std::ptrdiff_t>(j) * columns + i]);
             power[r] += of_mode;

@@ -22,16 +22,13 @@ struct SelfAffineFit {
     bool plateau = false;
     bool ks_seen = false;  // true if the power law ends before the grid's shortest wave
     bool kl_seen = false;  // false if the map is too small to show kl; kl is then an upper bound
-    bool plateau_seen =
-        false;  // false if the map is too small to decide whether there is a plateau
-    // Lay of the surface. Phi depends only on the stretched wavenumber hypot(sqrt(aspect) k_along,
-    // k_across/sqrt(aspect)).
-    double
-        aspect = 1,
-        direction =
-            // ratio of the correlation lengths along and across the lay; angle of the lay from the
-        // x axis [rad]
-        0;
+    // false if the map is too small to decide whether there is a plateau Lay of the surface. Phi
+    // depends only on the stretched wavenumber hypot(sqrt(aspect) k_along, k_across/sqrt(aspect)).
+    bool plateau_seen = false;
+    double aspect = 1,
+           // ratio of the correlation lengths along and across the lay; angle of the lay from the x
+        // axis [rad]
+        direction = 0;
     double operator()(double k) const;
     double around(double k) const;  // mean over all directions at the unstretched wavenumber k
 };
@@ -45,9 +42,8 @@ struct MeasuredSpectrum {
     std::vector<double> wavenumber;  // middle of the rings that have modes [1/length]
     std::vector<double> psd;         // [length^4]
     std::vector<double> modes;       // number of Fourier modes in the ring, including mirror images
-    double independent =
-        // share of independent amplitudes among them, reduced by mirror images and by the window
-        0.5;
+    // share of independent amplitudes among them, reduced by mirror images and by the window
+    double independent = 0.5;
     double coupled = 1;  // number of neighbouring rings coupled by the window
     double lost = 0;     // below this wavenumber, in rings, power has been removed with the form
     // For the first 32 rings: pairs (place, share) of the wavenumber place/kPlaces, in units of

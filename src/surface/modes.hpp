@@ -31,13 +31,12 @@ struct ModeSums {
     MomentTensor tensor;  // by direction
     double m2 = 0;        // (m20 + m02)/2
     double m4 = 0;  // (m40 + m04 + 3 m22)/3; MomentTensor::m4() if the spectrum is anisotropic
-    double m2_differences =
-        0;  // m2 and m4 from finite differences, in units of the step of the differences
+    // m2 and m4 from finite differences, in units of the step of the differences
+    double m2_differences = 0;
     double m4_differences = 0;
-    double grid =
-        // mean square height over the n x n points (differs from m0 by the modes at the grid's
-        // Nyquist limit)
-        0;
+    // mean square height over the n x n points (differs from m0 by the modes at the grid's Nyquist
+    // limit)
+    double grid = 0;
     void add(const ModeSums& other);
 };
 

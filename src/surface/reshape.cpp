@@ -95,9 +95,8 @@ public:
     // in the caller's columns.
     HeightShape run(HeightShape wish, const HeightDistribution* by, double near_enough, int rounds,
                     double still) {
-        constexpr double close =
-            // times near_enough: one more step in the directions of the last one, which are known
-            3;
+        // times near_enough: one more step in the directions of the last one, which are known
+        constexpr double close = 3;
         HeightShape best = now_;
         double nearest = HUGE_VAL, before = HUGE_VAL;
         bool again = true;

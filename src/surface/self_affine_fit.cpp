@@ -99,8 +99,8 @@ public:
     double cost(const Cut& c) const {
         constexpr double kSteepest = -2 * (1 + 1.5), kFlattest = -2 * (1 - 0.5);
         const double slope = power_law(c).slope;
-        constexpr double kLeastPower =
-            0.01;  // of the mean square height; a band with less is regarded as noise
+        // of the mean square height; a band with less is regarded as noise
+        constexpr double kLeastPower = 0.01;
         if (slope < kSteepest || slope > kFlattest) return HUGE_VAL;
         if (power_[c.high] - power_[c.low] < kLeastPower * power_.back()) return HUGE_VAL;
         const auto n = static_cast<double>(x_.size());
@@ -177,8 +177,8 @@ public:
 
 private:
     std::vector<double> blurred(double kl, bool plateau, double hurst) const {
-        constexpr double floor =
-            1e-3;  // of Phi0: leakage over many rings, and deviations from the model
+        // of Phi0: leakage over many rings, and deviations from the model
+        constexpr double floor = 1e-3;
         const double power = -2 * (1 + hurst), break_at = kl * (1 - 1e-9);
         const auto phi = [&](double q) {
             return q >= break_at ? std::pow(q / kl, power) : plateau ? 1.0 : 0.0;
@@ -292,8 +292,8 @@ SelfAffineFit fit_in_rings(const MeasuredSpectrum& spectrum) {
         for (const bool plateau : {false, true}) models.push_back(likelihood.best(kl, plateau));
     Likelihood::Model found;
     std::array<double, 2> least_misfit{HUGE_VAL, HUGE_VAL};
-    constexpr double kEqual =
-        1e-6;  // models that differ only below the lowest ring: the first one counts
+    // models that differ only below the lowest ring: the first one counts
+    constexpr double kEqual = 1e-6;
     for (const Likelihood::Model& m : models) {
         if (m.misfit < found.misfit - kEqual) found = m;
         least_misfit[m.plateau] = std::min(least_misfit[m.plateau], m.misfit);
@@ -368,8 +368,8 @@ SelfAffineFit fit_in_rings(const MeasuredSpectrum& spectrum) {
         double ks = k[best.high - 1];
         if (last < limit && above(last) > 0 && above(last + 1) <= 0) {
             const double share_last = std::exp(above(last)),
-                         share_next =
-                             std::exp(above(last + 1));  // relative to half of the power law
+                         // relative to half of the power law
+                share_next = std::exp(above(last + 1));
             ks = k[last] + (k[last + 1] - k[last]) *
                                std::clamp((share_last - 1) / (share_last - share_next), 0.0, 1.0);
         }
@@ -385,8 +385,8 @@ SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
     MeasuredSpectrum s = spectrum;
     const double unit = s.psd.empty() ? 1 : *std::max_element(s.psd.begin(), s.psd.end());
     for (double& k : s.wavenumber) k = std::round(k / s.ring);
-    constexpr double kRounding =
-        1e-24;  // rings of a map without short waves contain only rounding errors
+    // rings of a map without short waves contain only rounding errors
+    constexpr double kRounding = 1e-24;
     for (double& p : s.psd) p = p > 0 ? std::max(p / unit, kRounding) : 0;
     SelfAffineFit fit = fit_in_rings(s);
     for (const auto& [fitted, scale] :

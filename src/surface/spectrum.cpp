@@ -7,10 +7,10 @@
 namespace rsc {
 namespace {
 
-constexpr double kEdgeTolerance =
-    1e-12;  // relative to q2: a rounded cutoff such as 0.1*240 includes the modes on it
-constexpr double kMostModes =
-    46340.0;  // largest L / lambda_s: integer wavevectors and their squares stay in 32 bits
+// relative to q2: a rounded cutoff such as 0.1*240 includes the modes on it
+constexpr double kEdgeTolerance = 1e-12;
+// largest L / lambda_s: integer wavevectors and their squares stay in 32 bits
+constexpr double kMostModes = 46340.0;
 
 [[noreturn]] void refuse(const std::string& what, double value) {
     bad_input("surface: " + what + ", not " + text_of(value));

@@ -45,9 +45,8 @@ struct Spectrum {
     // isotropic. The spectrum is Phi(sqrt(aspect k1^2 + k2^2/aspect)) with k1 along the direction
     // and k2 across it.
     double aspect = 1.0;
-    double direction =
-        // direction of the long correlation length, from the x axis towards the y axis [degree]
-        0.0;
+    // direction of the long correlation length, from the x axis towards the y axis [degree]
+    double direction = 0.0;
     // Non-Gaussian heights, by skewness and kurtosis, or by their distribution if it is set
     // (surface/reshape.cpp).
     HeightShape shape = {};

@@ -10,8 +10,8 @@ namespace rsc {
 class Stencil {
 public:
     static constexpr int kMostReach = 15;
-    static constexpr int kHalf =
-        kMostReach + 1;  // weights W_q of the points 0 ... reach, padded with zeros
+    // weights W_q of the points 0 ... reach, padded with zeros
+    static constexpr int kHalf = kMostReach + 1;
     static constexpr int kTaps =
         2 * kMostReach + 2;            // weights of the points -reach ... reach, padded with zeros
     static constexpr int kOrders = 5;  // derivatives 0 ... 4 are available from weights()
@@ -41,13 +41,13 @@ private:
         double
             cutoff);  // used by band_limited(); returns the relative error of the fourth derivative
 
-    static constexpr int kDerivatives =
-        19;  // the truncation error of the fourth is (pi/4)^15/15! = 2e-14
+    // the truncation error of the fourth is (pi/4)^15/15! = 2e-14
+    static constexpr int kDerivatives = 19;
     int reach_;
     int derivatives_ = kDerivatives;
     bool band_known_ = false;
-    double centre_[kDerivatives][kHalf] =
-        {};  // W_q(i), i >= 0; even q are symmetric, odd q antisymmetric
+    // W_q(i), i >= 0; even q are symmetric, odd q antisymmetric
+    double centre_[kDerivatives][kHalf] = {};
 };
 
 }  // namespace rsc

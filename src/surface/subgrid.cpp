@@ -68,8 +68,8 @@ std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, 
     constexpr int kMostSteps = 40;  // three or four are usual; more along a ridge
     // The last step changes position and height only; the derivatives are those of the last
     // evaluation.
-    constexpr double kNear =
-        1e-4;  // after a shorter step the next evaluation is the last, with an error of kNear^2
+    // after a shorter step the next evaluation is the last, with an error of kNear^2
+    constexpr double kNear = 1e-4;
     constexpr double kArrived = 1e-7;  // longest accepted step after the last evaluation
     const Step start = less.above ? Step{} : first_step(patch);
     double x = start.peak ? start.x : 0, y = start.peak ? start.y : 0;
@@ -330,8 +330,8 @@ std::optional<RefinedSummit> SummitClimber::summit_from(int i, int j, bool maxim
         broken |= s.has_value();
     }
     if (!maximum) return {};
-    const RefinedSummit point =
-        of_grid(i, j, bend, broken);  // near a break the grid maximum itself is the summit
+    // near a break the grid maximum itself is the summit
+    const RefinedSummit point = of_grid(i, j, bend, broken);
     if (broken) return point;
     return {};
 }
@@ -355,10 +355,8 @@ double SummitClimber::append_biharmonic(const RefinedSummit& s, double lowered,
     const double both = (z40 + z04 - 4 * z22) * cc * tt + 2 * (z13 - z31) * ct * (cc - tt) +
                         z22 * (cc * cc + tt * tt);
     const double k1 = a.kappa1.back(), k2 = a.kappa2.back();
-    constexpr double kAxes =
-        // exponent of the axis ratio of a Hertz contact, (kappa1/kappa2)^0.636 (Brewe and Hamrock
-        // 1977)
-        0.636;
+    // exponent of the axis ratio of a Hertz contact, (kappa1/kappa2)^0.636 (Brewe and Hamrock 1977)
+    constexpr double kAxes = 0.636;
     const double r = std::pow(k1 / k2, 2 * kAxes);
     a.biharmonic.push_back(z40 + 2 * z22 + z04 - lowered);
     return (r * along + across / r + 2 * both) * (k1 + k2) / (2 * std::sqrt(k1 * k2)) - lowered;
@@ -408,8 +406,8 @@ void SummitClimber::climb_from(int i, int j, bool maximum, const Rows& row, Refi
 
 long drop_repeated(RefinedSummits& s, int nx, int ny, bool periodic) {
     using From = RefinedSummits::From;
-    constexpr double kSame =
-        1e-3;  // grid steps; summits are located to 1e-7, and different ones are farther apart
+    // grid steps; summits are located to 1e-7, and different ones are farther apart
+    constexpr double kSame = 1e-3;
     constexpr int kReach = Patch::kTravel + 1;  // largest distance of a start from its summit
     const auto apart = [&](double a, double b, int n) {
         const double d = std::abs(a - b);

@@ -11,12 +11,12 @@ namespace rsc {
 
 // Heights around a grid point, the middle of the patch.
 struct Patch {
-    static constexpr int kTravel =
-        3;  // largest distance of a summit from the grid maximum [grid steps]
+    // largest distance of a summit from the grid maximum [grid steps]
+    static constexpr int kTravel = 3;
     static constexpr int kMargin = Stencil::kMostReach + kTravel;
     static constexpr int kSide = 2 * kMargin + 2;
-    static constexpr int kStride =
-        2 * kMargin + Stencil::kTaps;  // a stencil's padding reads beyond the last point
+    // a stencil's padding reads beyond the last point
+    static constexpr int kStride = 2 * kMargin + Stencil::kTaps;
     alignas(64) double z[kSide][kStride] = {};
     // Range of grid points, counted from the middle, at which the stencil may be centred.
     int first_x = -kTravel, last_x = kTravel, first_y = -kTravel, last_y = kTravel;

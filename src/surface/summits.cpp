@@ -8,8 +8,8 @@ namespace {
 // 4 points per wave and over 99.9 % with 8; with 0.75, 1 % more are missed.
 constexpr double kNearStep = 1.0;
 
-constexpr int kGroup =
-    8;  // points tested together: one in a hundred is a summit, so one test rejects most groups
+// points tested together: one in a hundred is a summit, so one test rejects most groups
+constexpr int kGroup = 8;
 
 // Sets bits of flags[k] for the points k = 0 ... points - 1: 1 if the paraboloid of the second
 // differences has its top within kNearStep grid steps, 2 if the point is above its neighbours along

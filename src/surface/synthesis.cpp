@@ -207,8 +207,8 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     const Band limits = band(spectrum);
     std::vector<ModeSums> sums(static_cast<std::size_t>(limits.highest_kx) + 1);
     auto& plan = *column_plan;
-    const bool at_once =
-        spectrum.gaussian() && shear_ == 0;  // a column is complete when it is drawn
+    // a column is complete when it is drawn
+    const bool at_once = spectrum.gaussian() && shear_ == 0;
     if (shear_ != 0) std::fill_n(store, columns_ * column_stride_, std::complex<double>());
     const Differences differences(std::max(limits.highest_kx, limits.highest_ky),
                                   difference_step / spectrum.L);
@@ -227,8 +227,8 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
                       k = exchanged_ ? kx + shear_ * ky : ky + shear_ * kx;
             if (k >= 0) store[k * column_stride_ + (inner < 0 ? inner + n_ : inner)] = c;
             if (k <= 0)
-                store[-k * column_stride_ + (inner > 0 ? n_ - inner : -inner)] =
-                    std::conj(c);  // the same wave
+                // the same wave
+                store[-k * column_stride_ + (inner > 0 ? n_ - inner : -inner)] = std::conj(c);
         }
     });
     HeightShape shape;
@@ -279,8 +279,8 @@ void RowSource::make_pairs(int j, int count, double* out, std::ptrdiff_t stride,
         const auto* const from =
             reinterpret_cast<const double*>(store + kx * column_stride_ + first);
         prefetch(from + std::min(kAhead, columns_ - 1 - kx) * 2 * column_stride_, 2 * rows);
-        const bool real =
-            kx == 0 || 2 * kx == n_;  // the coefficients of a row are its own mirror image here
+        // the coefficients of a row are its own mirror image here
+        const bool real = kx == 0 || 2 * kx == n_;
         double *to = parts + kx, *mirror = parts + (real ? kx : n_ - kx);
         for (int r = 0; r < rows; r += 2, to += 2 * apart, mirror += 2 * apart) {
             const double a = factor * from[2 * r], b = real ? 0 : factor * from[2 * r + 1];

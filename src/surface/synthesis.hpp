@@ -68,9 +68,8 @@ private:
     int n_ = 0;
     double L_ = 0;
     bool exchanged_ = false;
-    int shear_ =
-        // 1, -1: line j is the diagonal (j + shear y, y), and columns are those of ky + shear kx
-        0;
+    // 1, -1: line j is the diagonal (j + shear y, y), and columns are those of ky + shear kx
+    int shear_ = 0;
     bool pairs_ = false;                // rows 2i and 2i + 1 are the parts of one complex transform
     int columns_ = 0;                   // 0 ... columns_ - 1 hold modes
     std::ptrdiff_t column_stride_ = 0;  // in complex numbers

@@ -27,10 +27,9 @@ const char* error_cause(std::int32_t cause);
 // and counts. They are not set without contact, or where the bounds were not calibrated: without
 // interaction, with selection = 'paper', or if the mean spacing is unknown.
 struct ContactTraits {
-    bool ellipses =
-        // all contacts are most loaded ellipses (law/ellipse_law.hpp), whose forces are nearer to
-        // those of elements
-        false;
+    // all contacts are most loaded ellipses (law/ellipse_law.hpp), whose forces are nearer to those
+    // of elements
+    bool ellipses = false;
     // Contacts of a level with ellipses that have none, or are beyond their last one: along a lay
     // their spots grow together with those of higher summits.
     std::vector<std::size_t> outside = {};
@@ -38,14 +37,12 @@ struct ContactTraits {
     // lie over several summits.
     double doubtful_area = 0;
     double twice = 0;  // share of the area of the spots that lies in more than one
-    double bent =
-        // difference of the indenter from the paraboloid within the contacts, mean weighted by the
-        // forces
-        0;
-    double flanks =
-        // share of N that contacts lose which are taken on the summits of the surface, not on their
-        // flanks
-        0;
+    // difference of the indenter from the paraboloid within the contacts, mean weighted by the
+    // forces
+    double bent = 0;
+    // share of N that contacts lose which are taken on the summits of the surface, not on their
+    // flanks
+    double flanks = 0;
     // Contacts that have yielded, and the forces and areas of all asperities that have, each at its
     // deepest accepted level: in unloading their errors remain.
     std::int32_t yielded = 0;

@@ -264,11 +264,9 @@ double expected_share(double Z0, std::span<const FilledPoints> maps, const Inden
     struct Cell {
         double points = 0, reached = 0;  // outside the holes of body 2
         double filled = 0;               // part of `reached` in those of body 1
-        double
-            missing = 0,
-            smooth =
-                // points in holes of body 2, and their part of the area that is reached as they are
-            0;
+        double missing = 0,
+               // points in holes of body 2, and their part of the area that is reached as they are
+            smooth = 0;
     };
     const FilledPoints& grid = maps.front();
     const int side = indenter.period.finite() ? 1 : 8;  // cells along a side; two flats: one

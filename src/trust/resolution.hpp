@@ -69,10 +69,9 @@ private:
 
     const HeightMap& map_;
     const Indenter& indenter_;
-    Tensor bend_ =
-        // synthetic surfaces: mean of the second derivatives at points of height 1, with a minus
-        // [1/length^2]
-        {};
+    // synthetic surfaces: mean of the second derivatives at points of height 1, with a minus
+    // [1/length^2]
+    Tensor bend_ = {};
 };
 
 // Checks the levels of a run one after the other: each gets the error of the last level that was

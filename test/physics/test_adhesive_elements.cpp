@@ -225,8 +225,8 @@ TEST(test_cut_body) {
         SolverOptions options = attracting(0.02, 0.15);
         options.surface = {0, 0, 1.2, 1.2};
         const auto contact = make_element_contact(map, tip, options);
-        const Level level =
-            contact->at_separation(contact->first_touch() + 0.1);  // attracts without contact
+        // attracts without contact
+        const Level level = contact->at_separation(contact->first_touch() + 0.1);
         CHECK(level.force < 0 && level.contacts == 0);
         CHECK((level.edge_contacts > 0) == (edge == 0) &&
               (edge > 0 || level.status == LevelStatus::out_of_validity));

@@ -58,10 +58,8 @@ TEST(matrix) {
     paper_equations(*law, *kernel, set, delta, force, v, R, K.data());
     double largest = 0, worst = 0;
     for (std::size_t j = 0; j < n; ++j) {
-        const double h =
-            // of forces near 1e-5: truncation and rounding of the difference are both below 1e-5 of
-            // K
-            1e-9;
+        // of forces near 1e-5: truncation and rounding of the difference are both below 1e-5 of K
+        const double h = 1e-9;
         std::vector<double> F = force;
         F[j] = force[j] + h;
         paper_equations(*law, *kernel, set, delta, F, penetrations(F), above, unused.data());
@@ -78,10 +76,9 @@ TEST(matrix) {
 // The slopes of the solution are df/dv of every asperity, from which the proof takes what other
 // solutions there may be.
 TEST(slopes) {
-    constexpr double
-        kShare = 1e-6,
-        kDifference =
-            1e-7;  // of the penetration; of the slope, by central differences and rounding
+    constexpr double kShare = 1e-6,
+                     // of the penetration; of the slope, by central differences and rounding
+        kDifference = 1e-7;
     const Asperities a = random_asperities(150, 0.02, 0.01, 5e-4, 0.5, 7);
     const WorkingSet set = candidates(a, {1.0, 2.5, 0.5, 0.5}, -0.01);
     const auto law = make_law(LawKind::hertz, a, 1.0);

@@ -102,8 +102,8 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
     const std::string micro = "&run length_unit = 'um', force_unit = 'mN', seed = 2147483647 /\n";
     const std::string bodies =
         "&solids E = 80, 200  nu = 0.35, 0.3  R = 900, 2500  resistivity = 2.0e-5, 3.0e-5";
+    // no steep contact
     const std::string round =
-        // no steep contact
         "&solids E = 80, 200  nu = 0.35, 0.3  R = 3000, 8000  resistivity = 2.0e-5, 3.0e-5";
     const std::string flats =
         "&solids E = 80, 200  nu = 0.35, 0.3  R = Infinity, Infinity  resistivity = 2.0e-5, 3.0e-5";

@@ -84,8 +84,8 @@ TEST(against_slow_solver) {
             Asperities a = random_asperities(1 + (k * family.n) / family.systems, family.spacing,
                                              0.01, family.radius, family.spread, seed);
             if (family.law != LawKind::hertz) shape(a, family.law, 0.06, seed);
-            const double Z0 =
-                0.01 - 0.02 * (k % 5);  // down to where every summit under the sphere is pressed
+            // down to where every summit under the sphere is pressed
+            const double Z0 = 0.01 - 0.02 * (k % 5);
             const auto reference =
                 independent::press(summits_of(a, family.law), family.R, 0.5, 0.5, Z0, 1e-15L);
             CHECK(reference.converged);

@@ -183,8 +183,8 @@ TEST(everything_of_every_law) {
 // The tabulated functions against Sneddon's closed forms in long double: cos and sin, or cosh and
 // sinh.
 TEST(fourth_order_to_the_last_digits) {
-    constexpr double kRounding =
-        3e-14;  // of u, whose cosine is flat near the end of the range, and of a polynomial
+    // of u, whose cosine is flat near the end of the range, and of a polynomial
+    constexpr double kRounding = 3e-14;
     const double kappa = 6000, q = 400, A = 2 * kappa / (q * q);
     for (int sign : {1, -1}) {
         const Asperities s = summit(kappa, kappa, sign * 2 * kappa * q * q);

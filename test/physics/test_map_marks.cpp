@@ -46,8 +46,8 @@ Level press(const HeightMap& map, double separation) {
 
 TEST(border) {
     CHECK(press(hills(0, 0), 5e-4).edge_contacts == 0);
-    const Level cut =
-        press(hills(1.5, 0), 5e-4);  // the hill behind the border stands higher than the one inside
+    // the hill behind the border stands higher than the one inside
+    const Level cut = press(hills(1.5, 0), 5e-4);
     CHECK(cut.edge_contacts == 1 && cut.status == LevelStatus::out_of_validity);
     for (const auto& [x, y] : {std::pair{20, 65}, {-2, 20}, {65, 20}})
         CHECK(press(hills(1.5, 0, x, y), 5e-4).edge_contacts == 1);

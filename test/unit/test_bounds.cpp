@@ -119,10 +119,9 @@ TEST(flats_nearly_closed) {
 
 // Yielding contacts: what is told is near the truth, not thirty times as much.
 TEST(yielding) {
-    constexpr double kTold =
-        // of 'fourth_order'; the true errors are 2, 4, 7 %, told were 170 to 390 %; 'elliptic' at
-        // first 18 %
-        0.3;
+    // of 'fourth_order'; the true errors are 2, 4, 7 %, told were 170 to 390 %; 'elliptic' at first
+    // 18 %
+    constexpr double kTold = 0.3;
     Case c = surface(3221843, 0.99, 3, 12, 1.73e-5, 128);
     c.surface.aspect = 3.8, c.surface.direction = 103, c.solids.R[1] = 27.3,
     c.solids.hardness = 6e-5;

@@ -159,8 +159,8 @@ TEST(test_torn) {
     CHECK(says("not a checkpoint"));
     const std::string header = whole.substr(16, ends[0] - 16);
     const auto framed = [&](const std::string& bytes) {
-        std::string frame =
-            whole.substr(0, 16);  // kind, checksum of kind, length and bytes, length
+        // kind, checksum of kind, length and bytes, length
+        std::string frame = whole.substr(0, 16);
         const std::uint64_t length = bytes.size();
         std::memcpy(frame.data() + 8, &length, sizeof length);
         uLong crc = crc32_z(0, reinterpret_cast<const Bytef*>(frame.data()), 4);

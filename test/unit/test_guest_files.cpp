@@ -57,8 +57,8 @@ TEST(test_temporaries) {
     const int held = open((mine + ".rsc-part-2").c_str(), O_RDWR | O_CREAT, 0600);
     CHECK(lock_file(held) == 0);
     const int reader = open((mine + ".rsc-part-2").c_str(), O_RDONLY);
-    CHECK(flock(reader, LOCK_SH | LOCK_NB) ==
-          0);  // as HDF5 does, which reads nothing where that fails
+    // as HDF5 does, which reads nothing where that fails
+    CHECK(flock(reader, LOCK_SH | LOCK_NB) == 0);
     close(reader);
     write_whole(mine, kNotes, std::string("note"));
     CHECK(bytes(mine) == "note" && bytes(other) == "other");

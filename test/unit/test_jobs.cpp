@@ -296,10 +296,9 @@ TEST(punch_on_plane) {
 // spots are those of the rough one.
 TEST(exchanged_maps) {
     constexpr int n = 96, kWaves = 12;
-    constexpr double kSame =
-        // of A; spots of fourth_order depend on the spacing of grid points, or of summits between
-        // points
-        0.08;
+    // of A; spots of fourth_order depend on the spacing of grid points, or of summits between
+    // points
+    constexpr double kSame = 0.08;
     constexpr double kFactor = 2;  // of expected errors, for the same reason
     std::string smooth, rough;
     for (int j = 0; j < n; ++j, smooth += '\n', rough += '\n')

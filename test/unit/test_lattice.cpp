@@ -12,8 +12,8 @@ using std::numbers::pi;
 namespace {
 
 constexpr double kSum = 1e-12;  // of 1/L: what the lattice promises
-constexpr double kSelf =
-    -3.900264920001955886982;  // 4 zeta(1/2) beta(1/2), the square lattice's own sum
+// 4 zeta(1/2) beta(1/2), the square lattice's own sum
+constexpr double kSelf = -3.900264920001955886982;
 
 // Of the square lattice: four sublattices make one of half the side, two one that is turned by 45
 // degrees.

@@ -35,8 +35,8 @@ double difference(const HeightMap& a, const HeightMap& b, int step = 1, bool tra
 
 TEST(directions) {
     const HeightMap isotropic = made(model(1, 0), 128);
-    CHECK(difference(isotropic, made(model(1, 70), 128)) ==
-          0);  // a direction without anisotropy is none
+    // a direction without anisotropy is none
+    CHECK(difference(isotropic, made(model(1, 70), 128)) == 0);
     CHECK(difference(made(model(5, 0), 192), made(model(5, 90), 192), 1, true) == 0);
     CHECK(difference(made(model(5, 20), 192), made(model(5, 70), 192), 1, true) == 0);
     CHECK(difference(made(model(5, 20), 192), made(model(5, 20), 192, nullptr, 3)) == 0);
@@ -208,8 +208,8 @@ double amplitude(const HeightMap& map, int kx, int ky) {
 }
 
 TEST(heights) {
-    CHECK(quantiles({3, 1, 0, 2}, {-9, 0, 9}) ==
-          (std::vector<double>{0, 1.5, 3}));  // the median is in the middle
+    // the median is in the middle
+    CHECK(quantiles({3, 1, 0, 2}, {-9, 0, 9}) == (std::vector<double>{0, 1.5, 3}));
     for (const auto& [skewness, kurtosis, aspect] :
          {std::tuple{-1.0, 4.5, 1.0}, {0.0, 2.0, 3.0}, {0.6, 3.5, 1.0}}) {
         Spectrum s = model(aspect, 25);

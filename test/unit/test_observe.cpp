@@ -196,8 +196,8 @@ TEST(test_gamma_information) {
     };
     const double mean = delta * std::tgamma((alpha + 2) / beta) / std::tgamma((alpha + 1) / beta);
     const GammaFit fit = fit_generalised_gamma(binned, mean, n);
-    constexpr double kDifferences =
-        1e-5;  // of the derivatives, ill-conditioned by the parameters' likeness
+    // of the derivatives, ill-conditioned by the parameters' likeness
+    constexpr double kDifferences = 1e-5;
     CHECK_RELATIVE(fit.alpha_error, error({1, 0, 0}), kDifferences);
     CHECK_RELATIVE(fit.beta_error, error({0, 1, 0}), kDifferences);
     CHECK_RELATIVE(fit.delta_error, error({0, 0, 1}), kDifferences);

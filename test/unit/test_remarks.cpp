@@ -161,8 +161,8 @@ TEST(forecast) {
         CHECK(count > 0 && expected_candidates(job, Z0) == count);
     }
     const double one = expected_seconds(job, 1);
-    job.settings.run.realizations =
-        7;  // in three rounds of three, or in seven, beside the start of the program
+    // in three rounds of three, or in seven, beside the start of the program
+    job.settings.run.realizations = 7;
     CHECK_RELATIVE(expected_seconds(job, 1) - expected_seconds(job, 3),
                    2 * (expected_seconds(job, 3) - one), 1e-9);
     // Memory: of asperities only values that are kept for layers, in each of the parallel

@@ -128,9 +128,8 @@ TEST(against_the_fourier_sum) {
         if (n == 512) fine_summits = a.size();
         if (n == 1024)
             CHECK(
-                a.size() ==
-                fine_summits);  // nothing is missed any more: 32 points in lambda_s tell all apart
-        // No summit twice.
+                // nothing is missed any more: 32 points in lambda_s tell all apart No summit twice.
+                a.size() == fine_summits);
         for (std::size_t i = 0; i < a.size(); ++i)
             for (std::size_t j = 0; j < i; ++j) {
                 const double x = std::remainder(a.x[i] - a.x[j], s.L),

@@ -106,10 +106,9 @@ TEST(told_only_where_it_is_so) {
     for (int set = 0; set < 8000; ++set) {
         const std::size_t n = 2 + static_cast<std::size_t>(set) % 5;
         const bool wide =
-            set >=
             // radii over decades: a flat asperity far outside the spot of a sharp one may be its
             // rival
-            4000;
+            set >= 4000;
         const double side = std::sqrt(static_cast<double>(n)) * (0.3 + 1.2 * uniform(random)) *
                             (wide ? 3 : 1);  // contact radii are up to 1
         Asperities p;

@@ -26,8 +26,8 @@ HeightMap window(const Spectrum& of_window, int number, bool tilted) {
 // ten.
 TEST(coverage) {
     constexpr int kWindows = 8;
-    constexpr double kLeast =
-        0.83;  // of 144 windows a share of 0.9 is found as less with a chance of 1 in 100
+    // of 144 windows a share of 0.9 is found as less with a chance of 1 in 100
+    constexpr double kLeast = 0.83;
     int all = 0, hurst = 0, kl = 0, ks = 0, plateaus = 0;
     double bias = 0;
     for (const double h : {0.3, 0.8})

@@ -13,8 +13,8 @@ constexpr double kFold = 1e-4, kShortest = 1e-9;
 // the point of touching, so that the error of the loss is of second order in it.
 constexpr double kNearTouching = 1e-4;
 constexpr double kOnTheWay = 1e-5;  // residual of states between levels
-constexpr double kSure =
-    1e-3;  // distance from a wanted force, relative to all forces, beyond which its side is certain
+// distance from a wanted force, relative to all forces, beyond which its side is certain
+constexpr double kSure = 1e-3;
 // Largest steps, relative to the expected distance to detachment: by the law of the asperity, and
 // by extrapolation of its rate of change
 // (far and near).

@@ -13,10 +13,10 @@
 
 namespace rsc {
 
-constexpr double kTouching =
-    1e-8;  // tolerance for touching, relative to the detachment penetration of an asperity
-constexpr double kNoiseBeforeJump =
-    3e-7;  // error of the products of the state before a jump; it does not change in the jump
+// tolerance for touching, relative to the detachment penetration of an asperity
+constexpr double kTouching = 1e-8;
+// error of the products of the state before a jump; it does not change in the jump
+constexpr double kNoiseBeforeJump = 3e-7;
 
 struct AdhesivePath : ContactBodies {
     using Vector = std::vector<double>;
@@ -60,8 +60,8 @@ struct AdhesivePath : ContactBodies {
     std::optional<Motion> motion;
     std::vector<int> place;      // position of an asperity in the set; -1: not in the set
     double covered = kInfinity;  // asperities with a clearance above this are in the set
-    double margin =
-        0;  // height by which forces may raise an asperity, and the range of the attraction
+    // height by which forces may raise an asperity, and the range of the attraction
+    double margin = 0;
     std::vector<int> active;  // positions of the attached in the set
     // Asperities that would be in the set, with their clearances, but stay away from touching by
     // more than `safety`.

@@ -13,19 +13,17 @@ constexpr int kMostSteps = 30, kMostProducts = 400;
 // asperity's own force and penetration of detachment: beside large forces small contacts would
 // otherwise be inaccurate.
 constexpr double kOwn = 1e-3, kRounding = 1e-9;
-constexpr double kAttached =
-    // state of a small contact that has just attached, relative to that of detachment (JKR, a
-    // sphere: 6.3)
-    8;
-constexpr double kBent =
-    // change of the forces by the curvature of the law that is neglected in products, relative to
-    // the tolerance
-    0.01;
+// state of a small contact that has just attached, relative to that of detachment (JKR, a sphere:
+// 6.3)
+constexpr double kAttached = 8;
+// change of the forces by the curvature of the law that is neglected in products, relative to the
+// tolerance
+constexpr double kBent = 0.01;
 // Share of the tolerance from which a predicted state needs no step: near detachment small
 // residuals are large errors.
 constexpr double kUnstepped = 0.01;
-constexpr double kExact =
-    1e-11;  // residual of exact solutions in a last step, whatever the tolerance
+// residual of exact solutions in a last step, whatever the tolerance
+constexpr double kExact = 1e-11;
 constexpr double kFarthest = 0.5;  // largest relative change of s in a step
 
 double dot4(const Vector& a, const Vector& b) {
@@ -246,8 +244,8 @@ bool AttachedSolver::apart(const WorkingSet& set) {
 
 bool AttachedSolver::proved(const WorkingSet& set) {
     constexpr int most = 6;
-    constexpr double certain =
-        1e-3;  // share of diag(u') v that must be left; products may have small errors
+    // share of diag(u') v that must be left; products may have small errors
+    constexpr double certain = 1e-3;
     const std::vector<int>& active = products_->active();
     const auto place = [&](std::size_t k) { return at(active[k]); };
     if (products_->kernel().lattice() || products_->kernel().smooth() || !apart(set))

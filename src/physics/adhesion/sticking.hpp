@@ -52,8 +52,8 @@ public:
         double stiffness =
             0;               // D: df/du at a fixed contact area, or the least that the solver needs
         double clamped = 0;  // df/du at a fixed contact area
-        double energy =
-            0;  // elastic energy minus w A; in equilibrium its derivative with respect to u is f
+        // elastic energy minus w A; in equilibrium its derivative with respect to u is f
+        double energy = 0;
         double area = 0;
         double pressed = 0;   // force of the law at this area; f - pressed is the tension
         double outer = 0;     // area including the cohesive ring

@@ -19,9 +19,8 @@ double zero_between(double low, double high, F&& falling) {
 // to a linear change, x = dt/tau.
 double decayed(double x) { return x > 0 ? -std::expm1(-x) / x : 1.0; }
 double lagged(double x) {
-    constexpr double small =
-        // below, the fraction suffers from cancellation and five terms of the series are exact
-        1e-2;
+    // below, the fraction suffers from cancellation and five terms of the series are exact
+    constexpr double small = 1e-2;
     if (x < small) return 0.5 - x * (1 / 6.0 - x * (1 / 24.0 - x * (1 / 120.0 - x / 720.0)));
     return (1 - decayed(x)) / x;
 }

@@ -12,8 +12,8 @@ inline constexpr int kMostRelaxations = 16;
 // Shares g_k > 0, whose sum is at most 1, and times tau_k > 0 [time]. Empty: the body is elastic.
 struct Relaxation {
     std::vector<double> share = {}, time = {};
-    double soft =
-        1;  // share of this body in the compliance 1/E* of the pair; 1 if the other one is rigid
+    // share of this body in the compliance 1/E* of the pair; 1 if the other one is rigid
+    double soft = 1;
     bool none() const { return share.empty(); }
     // The shortest relaxation time with a share; Infinity: there is none.
     double shortest() const {
@@ -68,9 +68,8 @@ struct Passage {
         double stay, before, after;
     };
     std::vector<Lag> lags;
-    double compliance =
-        // mean of J(t)/J(0) over 0 ... dt: deflection at the end of the step per change of the load
-        1;
+    // mean of J(t)/J(0) over 0 ... dt: deflection at the end of the step per change of the load
+    double compliance = 1;
     // d_k becomes stay d_k + change (w_1 - w_0); its mean over the step is change d_k + mean (w_1 -
     // w_0).
     struct Decay {

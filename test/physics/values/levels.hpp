@@ -281,10 +281,9 @@ inline void levels(CheckedFile& f, const Truth& t) {
         }
         return n;
     });
-    Vector with_border =
-        // and the border points that asperities leave out, where they would touch: test_map_marks,
-        // test_trust
-        edges;
+    // and the border points that asperities leave out, where they would touch: test_map_marks,
+    // test_trust
+    Vector with_border = edges;
     for (std::size_t i = 0;
          i < edges.size() && t.c.surface.source != Source::asperities && !t.elements && !t.periodic;
          ++i)
@@ -309,8 +308,8 @@ inline void levels(CheckedFile& f, const Truth& t) {
         const std::size_t i = k * t.steps + s;
         const double given = static_cast<double>(level(k, s).status);
         if (given >= 3) return given;  // how the solver ended
-        const double expected =
-            level(k, s).force_error_expected;  // input/trust; unit/test_resolution
+        // input/trust; unit/test_resolution
+        const double expected = level(k, s).force_error_expected;
         if (t.elements) return with_border[i] > 0 || expected > kUnresolved ? 1 : 0;
         if (!(N[i] > 0)) return given;  // what touches beside the summits: physics/test_touching
         const bool deep = level(k, s).separation<-3 * t.sigma, full = A[i]> nominal[i] * (1 + 1e-9);

@@ -12,8 +12,8 @@ namespace values {
 using namespace rsc;
 using std::numbers::pi;
 
-inline constexpr double kRounding =
-    1e-11;  // sums of some hundred terms, and differences of few digits
+// sums of some hundred terms, and differences of few digits
+inline constexpr double kRounding = 1e-11;
 
 inline double sum(const Vector& v) {
     double s = 0;
