@@ -134,7 +134,12 @@ struct Case {
     static constexpr double kInfinity = __builtin_huge_val();
 };
 
-// The model that solves this case: solver%model, or the choice of 'auto' with its reason.
+struct Spectrum;
+// The spectrum of a surface with source = 'synthetic'.
+Spectrum self_affine_spectrum(const Case& settings);
+
+// The model that solves this case: solver%model, or the choice of 'auto' with its reason
+// (model_choice.cpp).
 struct ModelChoice {
     Model model;           // asperities or elements
     const char* why = "";  // of `auto`, for the screen

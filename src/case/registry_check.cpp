@@ -456,28 +456,4 @@ bool has_closed_forms(const Case& c) {
     return c.solids.layer_thickness.empty() && !relaxes(c) && c.indenter.file.empty();
 }
 
-ModelChoice model_of(const Case& c) {
-    if (c.solver.model != Model::automatic) return {c.solver.model};
-    // With 'auto', elements solve height maps unless a key asks for what only asperities have.
-    const std::pair<bool, const char*> reasons[] = {
-        {c.surface.source == Source::synthetic || c.surface.source == Source::spectrum,
-         "the surface is synthetic"},
-        {c.surface.source == Source::asperities, "only asperities are given"},
-        {c.compare.listed(), "compare%levels compares them with elements"},
-        {c.solids.adhesion > 0 && !(c.solids.adhesion_range > 0),
-         "solids%adhesion without adhesion_range needs them"},
-        {c.solids.friction > 0, "solids%friction needs them"},
-        {c.solids.hardness < Case::kInfinity && c.solids.size_effect > 0,
-         "solids%size_effect needs them"},
-        {c.asperities.law != LawKind::hertz || c.asperities.curvature != Curvature::geometric,
-         "&asperities is set"},
-        {c.solver.method != Method::automatic, "solver%method needs them"},
-        {c.solver.interaction != Interaction::point, "solver%interaction needs them"},
-        {c.indentation.selection != Selection::overlap, "indentation%selection needs them"},
-    };
-    for (const auto& [holds, why] : reasons)
-        if (holds) return {Model::asperities, why};
-    return {Model::elements, "the heights are read from a file"};
-}
-
 }  // namespace rsc

@@ -177,9 +177,7 @@ Spectrum spectrum_of(const Case& settings) {
         spectrum.heights = found.heights;
         return spectrum;
     }
-    return {keys.L.value_or(1.0), keys.hurst,     keys.L_lambda_l,
-            keys.L_lambda_s,      keys.plateau,   keys.sigma.value_or(0.01),
-            keys.aspect,          keys.direction, {keys.skewness, keys.kurtosis}};
+    return self_affine_spectrum(settings);
 }
 
 bool differs_by_realization(const Case& settings) {
