@@ -223,10 +223,6 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
             (void)(now.layers.count > 0 ? stiffness_of(*contact) : conductance_length_of(*contact));
             contact->answer();
         }
-        // So is, at the first move on a surface that repeats, what other images of its spots would
-        // change.
-        if (now.repeats.finite() && !now.around.finite())
-            contact->answer(), contact->answer_committed();
         const rsc::Asperities* const before = contact->contact.asperities();
         contact->contact.move_tip(place.x, place.y);
         if (!remembers && contact->contact.asperities() != before)

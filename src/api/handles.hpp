@@ -63,11 +63,8 @@ struct rsc_contact {
             moment{};  // NaN until they are asked for
     };
     Known known;
-    // Adds the lateral force and the moment to the last level, at whose tip a contact with a memory
-    // must be.
+    // Adds the lateral force and the moment to the last level.
     const Known& answer();
-    // The same for the committed level.
-    void answer_committed();
     bool recalled = true;  // false: `contact` is not at that level, recall() must be called first
 
     // The last level and everything that the next level depends on.

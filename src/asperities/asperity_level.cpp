@@ -15,40 +15,11 @@ namespace {
 std::vector<Spot> spots_of(const Level& level, const Law& law, const Asperities& asperities) {
     std::vector<Spot> spots;
     for (std::size_t k = 0; k < level.asperity.size(); ++k) {
-        if (const auto spot = law.spot(level.asperity[k], level.u[k])) {
-            spots.push_back(*spot);
-            spots.back().x += level.x[k], spots.back().y += level.y[k];
-            continue;
-        }
         const double root = std::sqrt(law.axes(level.asperity[k]));
         spots.push_back({level.x[k], level.y[k], level.a[k] / root, level.a[k] * root,
                          asperities.angle[at(level.asperity[k])]});
     }
     return spots;
-}
-
-// The spot of a summit that lies in that of a larger one is part of it (law/ellipse_law.hpp): the
-// index of the largest such spot for each spot, its own if there is none.
-std::vector<std::size_t> wholes_of(const std::vector<Spot>& spots, const Level& level,
-                                   const Law& law) {
-    std::vector<double> reach(spots.size(), 0.0);
-    for (std::size_t k = 0; k < spots.size(); ++k)
-        if (law.spot(level.asperity[k], level.u[k]))
-            reach[k] =
-                spots[k].major + std::hypot(spots[k].x - level.x[k], spots[k].y - level.y[k]);
-    std::vector<std::size_t> whole(spots.size());
-    std::iota(whole.begin(), whole.end(), std::size_t{0});
-    const auto smaller = [&](std::size_t i, std::size_t j) {
-        return spots[i].major * spots[i].minor < spots[j].major * spots[j].minor;
-    };
-    for_close_pairs(level.x, level.y, reach, [&](std::size_t i, std::size_t j, double) {
-        const std::size_t large = smaller(i, j) ? j : i, small = i + j - large;
-        if (spots[large].contains(level.x[small], level.y[small]) && smaller(whole[small], large))
-            whole[small] = large;
-    });
-    for (std::size_t& k : whole)
-        while (whole[k] != k) k = whole[k];
-    return whole;
 }
 
 // Place on the flank of a summit where the indenter, with the slope s there, touches first, H^-1 s
@@ -261,36 +232,14 @@ std::optional<SolverOptions> with_rim(const Level& level, const ContactBodies& b
 }
 
 // Summits of the difference between surface and indenter; absent if the given asperities are to be
-// used.
-std::optional<FoundSummits> summits_of_difference(const Asperities& asperities,
-                                                  const Indenter& indenter,
-                                                  const SolverOptions& options,
-                                                  const SummitSearch& search) {
+// used. Beyond half the mean distance of summits lies the range of others.
+std::optional<Asperities> summits_of_difference(const Asperities& asperities,
+                                                const Indenter& indenter,
+                                                const SolverOptions& options) {
     require_sound(indenter);
-    if (!search || indenter.shape->flat() || !traits(options.law).between_points ||
-        !(options.rms_slope > 0))
+    if (indenter.shape->flat() || !traits(options.law).between_points || !(options.rms_slope > 0))
         return std::nullopt;
-    double highest = -kInfinity;
-    for (std::size_t i = 0; i < asperities.size(); ++i)
-        highest = std::max(highest,
-                           indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]));
-    constexpr double kFlankSpacing = 0.4;
-    const double steepest =
-        steepest_above(asperities, indenter, highest - kDeepest * options.sigma);
-    // Beside a corner at the tip the curvature of the face is not that above a summit some way off,
-    // and a flank may touch.
-    const bool corner = indenter.shape->edge(0) == 0 && !std::isfinite(options.hardness.H0) &&
-                        options.relaxation.none() && options.adhesion.work == 0;
-    if (steepest > kMostSlopeRatio * options.rms_slope || corner || !std::isfinite(highest)) {
-        FoundSummits found = search(indenter);
-        add_flanks(found.summits, asperities, kFlankSpacing * options.mean_spacing,
-                   indenter.around);
-        found.renumbered = true;
-        return found;
-    }
-    FoundSummits moved;
-    moved.summits = moved_summits(asperities, indenter);
-    return moved;
+    return shifted_summits(asperities, indenter, 0.5 * options.mean_spacing);
 }
 
 // Asperities of a list touch a flat, whatever the curvature c of the indenter at the contact (on a
@@ -352,14 +301,13 @@ SolverOptions of_both(SolverOptions options, const Indenter& indenter) {
 }  // namespace
 
 ContactBodies::ContactBodies(const Asperities& given, const Indenter& indenter_,
-                             const SolverOptions& options_, SummitSearch search_)
+                             const SolverOptions& options_)
     : of_surface(given),
       options(of_both(options_, indenter_)),
       blunt(std::accumulate(given.radius.begin(), given.radius.end(), 0.0) /
             static_cast<double>(given.size())),
-      search(std::move(search_)),
-      of_difference(summits_of_difference(of_surface, indenter_, options_, search)),
-      asperities(of_difference ? of_difference->summits : of_surface),
+      of_difference(summits_of_difference(of_surface, indenter_, options)),
+      asperities(of_difference ? *of_difference : of_surface),
       indenter(indenter_),
       kernel(make_kernel(options_.interaction, substrate_of(indenter_), indenter_.period)) {}
 
@@ -392,21 +340,13 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
     const Asperities& asperities = bodies.asperities;
     const Indenter& indenter = bodies.indenter;
     const SolverOptions& options = bodies.options;
-    ContactTraits contacts{.ellipses = true};
+    ContactTraits contacts;
     if (traits(options.law).elliptic_spots) {
-        const std::vector<Spot> own = spots_of(level, law, asperities);
-        const std::vector<std::size_t> whole = wholes_of(own, level, law);
-        std::vector<Spot> distinct = own;
-        level.spots = own;
-        for (std::size_t k = 0; k < own.size(); ++k) {
-            if (whole[k] != k)
-                distinct[k].major = distinct[k].minor = 0;  // a part does not overlap its whole
-            level.spots[k] = own[whole[k]];
-        }
+        level.spots = spots_of(level, law, asperities);
         level.area =
-            union_area(distinct, &level.overlapping_pairs, indenter.period, &level.own_area);
+            union_area(level.spots, &level.overlapping_pairs, indenter.period, &level.own_area);
         double all = 0;
-        for (const Spot& s : distinct) all += std::numbers::pi * s.major * s.minor;
+        for (const Spot& s : level.spots) all += std::numbers::pi * s.major * s.minor;
         if (all > 0) contacts.twice = std::max(0.0, 1 - level.area / all);
     } else {
         level.overlapping_pairs = count_overlapping(level.x, level.y, level.a, indenter.period);
@@ -414,19 +354,15 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
     if (level.overlapping_pairs > 0) level.status = LevelStatus::overlapping;
     if (options.rms_slope > 0)
         level.slope_ratio = steepest_contact(level, indenter) / options.rms_slope;
-    bool some = false;
     const IndenterShape& shape = *indenter.shape.operator->();
     double upright = 0, leaning = 0;  // N, and what it were with contacts on the flanks
     for (std::size_t k = 0; k < level.asperity.size(); ++k) {
         const int i = level.asperity[k];
-        const bool ellipse = law.spot(i, level.u[k]).has_value();
-        contacts.ellipses = contacts.ellipses && ellipse, some = some || ellipse;
-        if (!ellipse || law.beyond(i, level.u[k])) contacts.outside.push_back(k);
         contacts.yielded += law.deepest(i) > 0;
         const double x = level.x[k] - indenter.x0, y = level.y[k] - indenter.y0,
                      f = std::abs(level.f[k]);
         upright += f;
-        if (bodies.of_difference && !ellipse && !shape.keys().map)
+        if (bodies.of_difference && !shape.keys().map)
             contacts.bent +=
                 f * unlike_paraboloid(shape, x, y, level.a[k],
                                       0.5 * (asperities.kappa1[at(i)] + asperities.kappa2[at(i)]));
@@ -442,15 +378,7 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
                          : std::pow(1 + flank_of(asperities, at(i), indenter).nearer / level.u[k],
                                     1.5));
         }
-        constexpr double kMuchLarger = 4;  // than Hertz's area under the same force
-        const double hertz = std::cbrt(0.75 * std::max(level.f[k], 0.0) * asperities.radius[at(i)] /
-                                       indenter.E_star);
-        if (ellipse && !law.path_dependent())
-            contacts.doubtful_area +=
-                std::numbers::pi *
-                std::max(level.a[k] * level.a[k] - kMuchLarger * hertz * hertz, 0.0);
     }
-    if (!some) contacts.outside.clear();
     if (upright > 0) contacts.bent /= upright;
     if (leaning > upright) contacts.flanks = 1 - upright / leaning;
     // Those that yielded at another position of the tip are out of reach: lower than this level by
@@ -490,8 +418,7 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
     }
     // Summits of the surface are the contact points only if the indenter is nearly flat beside
     // them, and a search may miss some.
-    const bool of_surface = !bodies.of_difference,
-               elsewhere = of_surface || bodies.of_difference->renumbered;
+    const bool of_surface = !bodies.of_difference;
     const auto flank_touches = [&] {
         FlankTouch& flanks = bodies.flanks;
         if (flanks.x0 != indenter.x0 || flanks.y0 != indenter.y0)
@@ -499,7 +426,7 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
         return level.separation < flanks.Z0;
     };
     if ((of_surface && level.slope_ratio > kMostSlopeRatio) ||
-        (level.contacts == 0 && elsewhere && flank_touches()))
+        (level.contacts == 0 && of_surface && flank_touches()))
         level.status = graver(level.status, LevelStatus::out_of_validity);
 }
 

@@ -4,13 +4,10 @@
 
 #include "asperities/law.hpp"
 #include "asperities/newton.hpp"
-#include "asperities/touching.hpp"
+#include "asperities/shifted_summits.hpp"
 #include "contact/level.hpp"
 
 namespace rsc {
-
-// Range of the model: rms heights below the highest summit.
-inline constexpr double kDeepest = 8;
 
 // Resolves method `auto` to direct or mesh by the estimated cost of a Newton solve, with rates
 // measured by test/bench.
@@ -29,14 +26,13 @@ struct EdgePoints {
     std::vector<std::array<double, 3>> points;  // x, y and the Z0 at which the point touches
 };
 
-// The bodies of a contact of asperities. The asperities are those given, or the summits of the
-// difference that `search` finds.
+// The bodies of a contact of asperities. The asperities are those given, or for laws with summits
+// between the points of a surface the summits of the difference from a curved indenter.
 struct ContactBodies {
     const Asperities& of_surface;
     SolverOptions options;
     double blunt;  // mean radius of its summits
-    SummitSearch search;
-    std::optional<FoundSummits> of_difference;
+    std::optional<Asperities> of_difference;
     mutable FlankTouch flanks;
     mutable EdgePoints edge;
     mutable std::shared_ptr<const MapMarks>
@@ -45,8 +41,7 @@ struct ContactBodies {
     Indenter indenter;
     std::shared_ptr<const Kernel> kernel;
 
-    ContactBodies(const Asperities& given, const Indenter& indenter, const SolverOptions& options,
-                  SummitSearch search);
+    ContactBodies(const Asperities& given, const Indenter& indenter, const SolverOptions& options);
     ContactBodies(const ContactBodies&) = delete;
     ContactBodies& operator=(const ContactBodies&) = delete;
 };

@@ -273,7 +273,6 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     std::optional<Crests> ridges;               // of elements
     double side = 0;                            // of their pixels
     std::shared_ptr<const Measured> measured = job.given ? job.measured : nullptr;
-    SummitSearch search;
     SolverOptions solver = job.solver;
     if (by_elements(settings)) {
         if (job.given) {
@@ -308,16 +307,15 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         }
         r.asperities = std::move(model.asperities);
         r.statistics = model.statistics;
-        search = model.search;
         solver.rms_slope = model.domain.rms_slope;
         solver.heights = model.domain.heights;
-        contact = make_asperity_contact(r.asperities, job.indenter, solver, search);
+        contact = make_asperity_contact(r.asperities, job.indenter, solver);
     }
     std::unique_ptr<Contact> slid[2];  // with friction
     std::optional<ContactCurve> curve;
     if (settings.solids.friction > 0) {
         for (auto& copy : slid)
-            copy = std::make_unique<AsperityContact>(r.asperities, job.indenter, solver, search);
+            copy = std::make_unique<AsperityContact>(r.asperities, job.indenter, solver);
         curve.emplace(*slid[0], *slid[1]);
     }
     r.levels.reserve(job.levels.size());

@@ -364,20 +364,8 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
     auto seen = std::make_shared<HeightMap>(map.copy());
     if (!breaks->pits.empty()) raise_pits(*seen, *breaks);
     if (step > 0) smooth_rounded(*seen, step);
-    model.asperities =
-        find_asperities(*seen, settings.asperities.curvature, &count, threads, detail_of(settings),
-                        surface.points_per_wave, nullptr, breaks.get());
-    if (detail_of(settings) == Detail::subgrid)
-        model.search = [kept = std::shared_ptr<const HeightMap>(seen),
-                        curvature = settings.asperities.curvature, threads,
-                        waves = surface.points_per_wave, breaks,
-                        lay = count.lay](const Indenter& indenter) {
-            const Face face(indenter);
-            FoundSummits found{{}, kept, waves, threads, breaks, lay};
-            found.summits = find_asperities(*kept, curvature, nullptr, threads, Detail::subgrid,
-                                            waves, &face, breaks.get(), lay);
-            return found;
-        };
+    model.asperities = find_asperities(*seen, settings.asperities.curvature, &count, threads,
+                                       detail_of(settings), surface.points_per_wave, breaks.get());
     model.domain.heights =
         [kept = std::shared_ptr<const HeightMap>(seen)](const std::vector<Vec2>& points) {
             std::vector<double> z;
@@ -429,7 +417,7 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
         Kept<RowSource>>();  // to draw the modes again takes longer than hundreds of rows
     model.asperities = make_asperities(spectrum, keys.n, keys.normalise, settings.run.seed, number,
                                        settings.asperities.curvature, &count, &sampled, threads,
-                                       detail_of(settings), &differences, nullptr, &rows->made);
+                                       detail_of(settings), &differences, &rows->made);
     if (const int n = summit_points(spectrum, keys.n);
         n > kMostPointsKept || (rows->made && rows->made->n() != n))
         rows->made.reset();
@@ -461,28 +449,6 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
         }
         return z;
     };
-    if (detail_of(settings) == Detail::subgrid)
-        model.search = [keys, spectrum, seed = settings.run.seed, number,
-                        curvature = settings.asperities.curvature, threads, lay = count.lay,
-                        kept = std::make_shared<Kept<HeightMap>>()](const Indenter& indenter) {
-            const Face face(indenter);
-            FoundSummits found{{}, nullptr, 0, threads, nullptr, lay};
-            const int n = summit_points(spectrum, keys.n);
-            if (n <= kMostPointsKept) {  // the same summits, with the heights
-                found.map = kept->get(false, [&] {
-                    return synthesize(spectrum, n, keys.normalise, seed, number, nullptr, threads);
-                });
-                found.points_per_wave = n / shortest_wave(spectrum);
-                found.summits =
-                    find_asperities(*found.map, curvature, nullptr, threads, Detail::subgrid,
-                                    found.points_per_wave, &face, nullptr, lay);
-            } else {
-                found.summits = make_asperities(spectrum, keys.n, keys.normalise, seed, number,
-                                                curvature, nullptr, nullptr, threads,
-                                                Detail::subgrid, nullptr, &face, nullptr, lay);
-            }
-            return found;
-        };
     return model;
 }
 

@@ -67,7 +67,7 @@ Period period_of(const Case& settings, const SurfaceDomain& domain) {
 std::unique_ptr<Contact> make_contact(const SurfaceModel& model, const Indenter& indenter,
                                       const SolverOptions& options) {
     if (model.points) return make_element_contact(*model.points, indenter, options);
-    return make_asperity_contact(model.asperities, indenter, options, model.search);
+    return make_asperity_contact(model.asperities, indenter, options);
 }
 
 double sigma_of(const Case& settings, const SurfaceDomain& domain) {

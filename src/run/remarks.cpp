@@ -1,7 +1,7 @@
 // Remarks after the levels: methods, statuses with their meaning and remedy, expected errors,
 // warnings.
 
-#include "asperities/touching.hpp"
+#include "asperities/shifted_summits.hpp"
 #include "base/format.hpp"
 #include "run/screen.hpp"
 #include "trust/expected_error.hpp"
