@@ -512,7 +512,7 @@ def in_fortran(calls, arrays):
         call = lambda word: word.replace("[", "(").replace("]", ")")
         if name.endswith("_copy"):
             asperities_of[words[0]] = asperities_of.get(words[1])
-            body.append([f"{call(words[0])} = {call(words[1])}"])
+            body.append([f"call {call(words[0])}%copy({call(words[1])})"])
             continue
         if name == "contact_result":
             lines = []
