@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the parts of the bindings that follow from the C interface, from src/rsc.h and src/api/tickets.h.
+"""Writes the parts of the bindings that follow from the C interface, from src/rsc.h.
 
     python3 modules/generate.py            writes the files below
     python3 modules/generate.py --check    writes nothing; exit status 1 if one of them is stale, or if rsc.f90 lacks a procedure
@@ -56,14 +56,6 @@ NAMES_77 = {
     "rscupd": "friction_update",
     "rsccmt": "friction_commit",
     "rscrbk": "friction_rollback",
-}
-# Names, not all regular, of the procedures that assign whole arrays of objects.
-PLURALS = {
-    "case": "cases",
-    "surface": "surfaces",
-    "asperities": "asperities",
-    "contact": "contacts",
-    "friction": "frictions",
 }
 # Inputs that are optional in Fortran, with their defaults.
 DEFAULTS = {"realization": "1"}
@@ -218,20 +210,14 @@ def interface_type(a):
         )
     if a.role == "value":
         return C_TYPES[a.type] + ", value", a.name
-    ticket = a.name in ("ticket", "original")
     return f"{C_TYPES[a.type]}, intent({'in' if a.role == 'in' else 'inout'}){optional}", a.name + (
-        "(*)" if a.role in ("in", "array") and not ticket else ""
+        "(*)" if a.role in ("in", "array") else ""
     )
 
 
 def interface(functions, constants):
-    lines = ["  !> Status codes of calls and levels, and kinds of tickets."]
-    for name, value in constants:
-        lines.append(
-            f"  integer, parameter, public :: {name.lower()} = {value}"
-            if "KIND" not in name
-            else f"  integer(c_int32_t), parameter :: {name.lower()} = {value}"
-        )
+    lines = ["  !> Status codes of calls and levels."]
+    lines += [f"  integer, parameter, public :: {name.lower()} = {value}" for name, value in constants]
     lines += [
         "",
         "  ! Outputs are intent(inout): they keep their value when the function fails.",
@@ -289,7 +275,7 @@ def wrapper(f):
                 (f"class(rsc_{f.kind}), intent({'in' if a.const else 'inout'})", "self")
             )
             call.append(
-                "handle" if f.makes else f"{'reading' if a.const else 'changing'}(self%ticket)"
+                "handle" if f.makes else f"rsc_handle_of(self%number)"
             )
             continue
         if a.role == "value" and a.name == "n":
@@ -312,7 +298,7 @@ def wrapper(f):
             call.append(
                 "options_of(options)"
                 if a.kind == "case"
-                else f"{'reading' if a.const else 'changing'}({a.name}%ticket)"
+                else f"rsc_handle_of({a.name}%number)"
             )
         elif a.role == "text":
             declared.append(("character(*), intent(in)", a.name))
@@ -404,24 +390,17 @@ def wrapper(f):
     if f.makes:
         local += [(SHORT, "status"), ("type(c_ptr)", "handle")]
         before = [
-            "status = rsc_ticket_release(self%ticket)",
+            "call self%free()",
             *refusal,
             *before,
             "handle = c_null_ptr",
         ]
-        after.insert(0, f"call keep(self%ticket, rsc_kind_{f.kind}, handle, status)")
-        if f.kind == "contact" and any(
-            a.role == "handle" and a.kind == "asperities" for a in arguments
-        ):
-            after.insert(
-                1,
-                "if (status == rsc_success) status = rsc_asperities_count(reading(asperities%ticket), self%asperities)",
-            )
+        after.insert(0, "call keep(self%number, handle, status)")
     else:
         before = refusal + before
         if room:
             local += [(LONG, "n")]
-            before = ["n = 0", "status = rsc_asperities_count(reading(self%ticket), n)", *before]
+            before = ["n = 0", "status = rsc_asperities_count(rsc_handle_of(self%number), n)", *before]
         if after:
             local.append((SHORT, "status"))
     called = f"{f.name}({', '.join(call)})"
@@ -451,41 +430,30 @@ def wrapper(f):
 
 
 def ownership(kind):
-    """Assignment and release of a derived type."""
-    one, each = PLURALS[kind] + "_set", PLURALS[kind] + (
-        "_copy" if kind != "asperities" else "_copy_each"
-    )
-    count = "    self%asperities = original%asperities\n" if kind == "contact" else ""
-    return f"""  subroutine {kind}_copy(self, original)
+    """Copy and release of a derived type."""
+    return f"""  !> Its own copy of another object; what this one held is released, unless both are names of one object.
+  subroutine {kind}_copy(self, original, stat, errmsg)
     class(rsc_{kind}), intent(inout) :: self
     class(rsc_{kind}), intent(in) :: original
-{count}    call finish(rsc_ticket_copy(self%ticket, original%ticket))
-  end subroutine
-
-  subroutine {one}(self, original)
-    type(rsc_{kind}), intent(inout), target :: self(:)
-    type(rsc_{kind}), intent(in) :: original
-    integer :: i
-    call require_size(c_loc(self), size(self), size(self))
-    do i = 1, size(self)
-      call {kind}_copy(self(i), original)
-    end do
-  end subroutine
-
-  subroutine {each}(self, original)
-    type(rsc_{kind}), intent(inout), target :: self(:)
-    type(rsc_{kind}), intent(in) :: original(:)
-    integer :: i
-    call require_size(c_loc(self), size(self), size(original))
-    do i = 1, size(self)
-      call {kind}_copy(self(i), original(i))
-    end do
-  end subroutine
-
-  impure elemental subroutine {kind}_final(self)
-    type(rsc_{kind}), intent(inout) :: self
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
-    status = rsc_ticket_release(self%ticket)
+    type(c_ptr) :: handle
+    handle = c_null_ptr
+    status = rsc_{kind}_copy(handle, rsc_handle_of(original%number))
+    if (status == rsc_success .and. self%number /= original%number) call self%free()
+    call keep(self%number, handle, status)
+    call finish(status, stat, errmsg)
+  end subroutine
+
+  !> Releases the object; nothing happens if there is none.
+  subroutine {kind}_free(self)
+    class(rsc_{kind}), intent(inout) :: self
+    integer(c_int32_t) :: status
+    type(c_ptr) :: handle
+    handle = rsc_handle_taken(self%number)
+    self%number = 0
+    status = rsc_{kind}_destroy(handle)
   end subroutine
 """.splitlines() + [
         ""
@@ -624,7 +592,6 @@ def python(functions, constants):
 
 def main():
     functions, constants = read_header("rsc.h")
-    tickets, kinds = read_header("api/tickets.h")
     with open(os.path.join(HERE, "rsc.f90"), encoding="utf-8") as file:
         fortran = file.read()
     with open(os.path.join(HERE, "rsc77.c"), encoding="utf-8") as file:
@@ -634,7 +601,7 @@ def main():
     files = {
         "generated/interface.inc": [
             f"! {note}",
-            *interface(functions + tickets, constants + kinds),
+            *interface(functions, constants),
         ],
         "generated/wrappers.inc": [f"! {note}", *generated],
         "generated/rsc77.inc": ["/* clang-format off */", f"/* {note} */", *names_77(functions, c)],

@@ -9,33 +9,19 @@
 !>     call contact%indent(separation=0.02d0, force=N)
 !>     print *, N, contact%area(), contact%stiffness()
 !>
-!> Objects release their memory when they go out of scope; creating one again releases its former content, and assignment copies
-!> (a copied contact, for example for another thread, includes result and path). Different
-!> objects may be used by different threads at the same time.
-!>
-!> Arrays of objects (type(rsc_contact) :: list(n)) are assigned element by element: list = other, list(1:2) = other(3:4), list
-!> = one. Both sides must have the same size and be allocated; otherwise, as in more = list or list = [list, one], the program
-!> stops with a message. This needs `use rsc` without only, or with assignment(=) in it.
-!>
-!> In your own types, and in parallel regions, compilers copy objects bit by bit in some places. Such a copy refers to the
-!> original as long as that exists and is not changed, gets its own object when it is changed itself, and does not release the
-!> original. If the original is gone or was changed, errmsg reports it. Therefore these work: q = p and q = particle(1, x,
-!> contact) for types that contain objects, allocate with source=, functions that return such types, lists that grow element by
-!> element (longer(i) = list(i), then move_alloc), firstprivate and private. Private copies are released when their
-!> memory is used again.
-!>
-!> Errors of gfortran 12 with whole arrays of types that contain objects. With a component type(rsc_contact) :: c, longer(1:n) =
-!> list crashes in gfortran's code, and list = [list, p] stops with a message. With a component that is an array of fixed
-!> size, type(rsc_contact) :: c(2), gfortran warns that it does not call the assignment of the type, and copies bit by bit. Use loops
-!> there, or a pointer in the type:
-!>     type(rsc_contact), pointer :: contact => null()    ! allocate(p%contact); assignment copies the pointer; deallocate it once
+!> An object refers to something of the library, as a pointer does: assignment (b = a, whole arrays, types that contain objects,
+!> source=, firstprivate) makes another name for the same contact. `call b%copy(a)` gives b a contact of its own, with result and
+!> path; `call q%copy(q)` does so after q = p. `call a%free()` releases it, and every other name of it is an error status (or an
+!> error stop) from then on, never released memory. Creating an object again releases its former content. Nothing is released
+!> by itself, also not where a variable goes out of scope or a list is deallocated. Different objects may be used by different
+!> threads at the same time; names of one object may not.
 !>
 !> Every procedure has stat and errmsg like the statements of the language: with stat, a failure is reported in it (negative: wrong
 !> argument; positive: one of the rsc_* codes) and in errmsg, which otherwise keeps its value; without stat, a failure is an error stop
 !> with the message. After a failure functions return 0, allocatable arrays have size 0, and other outputs are undefined, except with
 !> stat = rsc_not_converged. Asperities count from 1.
 module rsc
-  use, intrinsic :: iso_c_binding, only: c_ptr, c_funptr, c_funloc, c_loc, c_null_ptr, c_associated, c_char, c_null_char, &
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_funptr, c_funloc, c_null_ptr, c_associated, c_char, c_null_char, &
     c_double, c_float, c_int32_t, c_int64_t
   implicit none
   private
@@ -44,10 +30,26 @@ module rsc
 
   include 'generated/interface.inc'
 
+  ! Of src/api/handle_numbers.h: the objects store numbers, which stay safe when the compiler copies them.
+  interface
+    integer(c_int64_t) function rsc_number_of(handle) bind(c)
+      import :: c_int64_t, c_ptr
+      type(c_ptr), value :: handle
+    end function
+    type(c_ptr) function rsc_handle_of(number) bind(c)
+      import :: c_int64_t, c_ptr
+      integer(c_int64_t), value :: number
+    end function
+    type(c_ptr) function rsc_handle_taken(number) bind(c)
+      import :: c_int64_t, c_ptr
+      integer(c_int64_t), value :: number
+    end function
+  end interface
+
   !> Options by the names of the namelist, 'group%key'; all initially at their defaults.
   type :: rsc_case
     private
-    integer(c_int64_t) :: ticket = 0
+    integer(c_int64_t) :: number = 0
   contains
     !> set(name, value): value is a real or an integer of either usual kind, an array of them, a logical, or text in namelist syntax
     !> (with quotes if it is a text). A default real is converted to the shortest decimal number with that value: 0.1 is 0.1.
@@ -58,7 +60,6 @@ module rsc
     procedure :: text => case_text
     procedure :: run => case_run
     procedure :: run_watched => case_run_watched
-    generic :: assignment(=) => copy
     procedure, private :: set_text => case_set_text
     procedure, private :: set_real => case_set_real
     procedure, private :: set_single => case_set_single
@@ -68,14 +69,14 @@ module rsc
     procedure, private :: set_singles => case_set_singles
     procedure, private :: set_integers => case_set_integers
     procedure, private :: set_logical => case_set_logical
-    procedure, private :: copy => case_copy
-    final :: case_final
+    procedure :: copy => case_copy
+    procedure :: free => case_free
   end type
 
   !> Heights z(i,j) at x0 + (i-1) dx, y0 + (j-1) dy.
   type :: rsc_surface
     private
-    integer(c_int64_t) :: ticket = 0
+    integer(c_int64_t) :: number = 0
   contains
     procedure :: synthesize => surface_synthesize
     procedure :: take => surface_take
@@ -84,15 +85,14 @@ module rsc
     procedure :: grid => surface_grid
     procedure :: heights => surface_heights
     procedure :: moments => surface_moments
-    generic :: assignment(=) => copy
-    procedure, private :: copy => surface_copy
-    final :: surface_final
+    procedure :: copy => surface_copy
+    procedure :: free => surface_free
   end type
 
   !> Summits: positions and radii.
   type :: rsc_asperities
     private
-    integer(c_int64_t) :: ticket = 0
+    integer(c_int64_t) :: number = 0
   contains
     procedure :: find => asperities_find
     procedure :: make => asperities_make
@@ -101,16 +101,14 @@ module rsc
     procedure :: count => asperities_count
     procedure :: get => asperities_get
     procedure :: curvatures => asperities_curvatures
-    generic :: assignment(=) => copy
-    procedure, private :: copy => asperities_copy
-    final :: asperities_final
+    procedure :: copy => asperities_copy
+    procedure :: free => asperities_free
   end type
 
   !> A sphere on asperities, and the last level computed.
   type :: rsc_contact
     private
-    integer(c_int64_t) :: ticket = 0
-    integer(c_int64_t) :: asperities = 0
+    integer(c_int64_t) :: number = 0
   contains
     procedure :: create => contact_create
     procedure :: create_from_case => contact_create_from_case
@@ -136,15 +134,14 @@ module rsc
     procedure :: deflection => contact_deflection
     procedure :: save => contact_save
     procedure :: restore => contact_restore
-    generic :: assignment(=) => copy
-    procedure, private :: copy => contact_copy
-    final :: contact_final
+    procedure :: copy => contact_copy
+    procedure :: free => contact_free
   end type
 
-  !> A contact with friction along any path of separations and slides. Assignment also copies the path.
+  !> A contact with friction along any path of separations and slides.
   type :: rsc_friction
     private
-    integer(c_int64_t) :: ticket = 0
+    integer(c_int64_t) :: number = 0
   contains
     procedure :: create => friction_create
     procedure :: create_from_case => friction_create_from_case
@@ -160,9 +157,8 @@ module rsc
     procedure :: spots => friction_spots
     procedure :: save => friction_save
     procedure :: restore => friction_restore
-    generic :: assignment(=) => copy
-    procedure, private :: copy => friction_copy
-    final :: friction_final
+    procedure :: copy => friction_copy
+    procedure :: free => friction_free
   end type
 
   abstract interface
@@ -174,13 +170,6 @@ module rsc
       integer(c_int32_t) :: stop
     end function
   end interface
-
-  !> Assignment of whole arrays of objects; single objects are assigned by their type.
-  interface assignment(=)
-    module procedure cases_set, cases_copy, surfaces_set, surfaces_copy
-    module procedure asperities_set, asperities_copy_each, contacts_set, contacts_copy, frictions_set, frictions_copy
-  end interface
-  public :: assignment(=)
 
 contains
 
@@ -197,7 +186,7 @@ contains
     message = last_message()
     if (status == rsc_no_memory) message = 'out of memory'
     if (index(message, 'must not be null') > 0) then
-      message = message // ': the object was not created, or is a bitwise copy of one that was released or changed (see rsc.f90)'
+      message = message // ': the object was not created'
     end if
     if (present(stat)) then
       if (present(errmsg)) errmsg = message
@@ -219,32 +208,6 @@ contains
     end if
   end subroutine
 
-  !> Stops if an array of objects is assigned to one that is not allocated or of another size: the language offers no way to allocate it.
-  subroutine require_size(place, n, wanted)
-    type(c_ptr), intent(in) :: place
-    integer, intent(in) :: n, wanted
-    if (.not. c_associated(place)) error stop 'rsc: an array of objects must be allocated before it is assigned to'
-    if (n /= wanted) error stop 'rsc: arrays of objects must be of one size to be assigned'
-  end subroutine
-
-  !> The handle of a ticket, for reading; null if there is none.
-  function reading(ticket) result(handle)
-    integer(c_int64_t), intent(in) :: ticket
-    type(c_ptr) :: handle
-    integer(c_int32_t) :: status
-    handle = c_null_ptr
-    status = rsc_ticket_read(ticket, handle)
-  end function
-
-  !> The handle of a ticket, for changing; an object that refers to the handle of another one gets its own copy.
-  function changing(ticket) result(handle)
-    integer(c_int64_t), intent(inout) :: ticket
-    type(c_ptr) :: handle
-    integer(c_int32_t) :: status
-    handle = c_null_ptr
-    status = rsc_ticket_change(ticket, handle)
-  end function
-
   !> Allocates n values, or none after a failure, so that the array has a size.
   subroutine make_room(array, n, status)
     real(c_double), allocatable, intent(out) :: array(:)
@@ -259,12 +222,13 @@ contains
   end subroutine
 
   !> Stores the handle of a constructor, if it succeeded.
-  subroutine keep(ticket, kind, handle, status)
-    integer(c_int64_t), intent(inout) :: ticket
-    integer(c_int32_t), intent(in) :: kind
+  subroutine keep(number, handle, status)
+    integer(c_int64_t), intent(inout) :: number
     type(c_ptr), intent(in) :: handle
     integer(c_int32_t), intent(inout) :: status
-    if (status == rsc_success) status = rsc_ticket_issue(ticket, kind, handle)
+    if (status /= rsc_success) return
+    number = rsc_number_of(handle)
+    if (number == 0) status = rsc_no_memory
   end subroutine
 
   function last_message() result(text)
@@ -328,11 +292,12 @@ contains
     type(c_ptr), intent(out) :: handle
     integer(c_int32_t), intent(out) :: status
     status = rsc_success
-    handle = changing(self%ticket)
-    if (c_associated(handle)) return
-    status = rsc_ticket_release(self%ticket)
-    status = rsc_case_create(handle)
-    call keep(self%ticket, rsc_kind_case, handle, status)
+    if (self%number == 0) then
+      handle = c_null_ptr
+      status = rsc_case_create(handle)
+      call keep(self%number, handle, status)
+    end if
+    handle = rsc_handle_of(self%number)
   end subroutine
 
   !> The handle of the case for reading; if nothing was set, a temporary case of defaults, to be destroyed afterwards.
@@ -342,8 +307,8 @@ contains
     integer(c_int32_t), intent(out) :: status
     status = rsc_success
     defaults = c_null_ptr
-    handle = reading(self%ticket)
-    if (c_associated(handle)) return
+    handle = rsc_handle_of(self%number)
+    if (self%number /= 0) return
     status = rsc_case_create(defaults)
     handle = defaults
   end subroutine
@@ -586,7 +551,7 @@ contains
     class(rsc_case), intent(in), optional :: options
     type(c_ptr) :: handle
     handle = c_null_ptr  ! the defaults
-    if (present(options)) handle = reading(options%ticket)
+    if (present(options)) handle = rsc_handle_of(options%number)
   end function
 
   ! --- surface -----------------------------------------------------------------------------------------------------------------------
@@ -611,10 +576,10 @@ contains
     if (present(y0)) first_y = y0
     wraps = 0
     if (present(periodic)) wraps = merge(1_c_int32_t, 0_c_int32_t, periodic)
-    status = rsc_ticket_release(self%ticket)
+    call self%free()
     handle = c_null_ptr
     status = rsc_surface_take(handle, size(z, 1, c_int64_t), size(z, 2, c_int64_t), dx, step_y, first_x, first_y, wraps, z)
-    call keep(self%ticket, rsc_kind_surface, handle, status)
+    call keep(self%number, handle, status)
     call finish(status, stat, errmsg)
   end subroutine
 
@@ -629,7 +594,7 @@ contains
     integer(c_int32_t) :: status, wraps
     n = 0
     wraps = 0
-    status = rsc_surface_grid(reading(self%ticket), n(1), n(2), dx, dy, x0, y0, wraps)
+    status = rsc_surface_grid(rsc_handle_of(self%number), n(1), n(2), dx, dy, x0, y0, wraps)
     if (present(nx)) nx = int(n(1))
     if (present(ny)) ny = int(n(2))
     if (present(periodic)) periodic = wraps == 1
@@ -644,13 +609,13 @@ contains
     character(*), intent(inout), optional :: errmsg
     integer(c_int64_t) :: nx, ny
     integer(c_int32_t) :: status
-    status = rsc_surface_grid(reading(self%ticket), nx, ny)
+    status = rsc_surface_grid(rsc_handle_of(self%number), nx, ny)
     if (status == rsc_success) then
       if (size(z, 1) /= nx .or. size(z, 2) /= ny) then
         call refuse('the shape of z is not that of the surface', stat, errmsg)
         return
       end if
-      status = rsc_surface_heights(reading(self%ticket), size(z, kind=c_int64_t), z)
+      status = rsc_surface_heights(rsc_handle_of(self%number), size(z, kind=c_int64_t), z)
     end if
     call finish(status, stat, errmsg)
   end subroutine
@@ -666,7 +631,7 @@ contains
     character(*), intent(inout), optional :: errmsg
     real(c_double) :: separation
     separation = 0
-    call finish(rsc_contact_result(reading(self%ticket), separation=separation), stat, errmsg)
+    call finish(rsc_contact_result(rsc_handle_of(self%number), separation=separation), stat, errmsg)
   end function
 
   !> N of the last level.
@@ -676,7 +641,7 @@ contains
     character(*), intent(inout), optional :: errmsg
     real(c_double) :: force
     force = 0
-    call finish(rsc_contact_result(reading(self%ticket), force=force), stat, errmsg)
+    call finish(rsc_contact_result(rsc_handle_of(self%number), force=force), stat, errmsg)
   end function
 
   !> A of the last level.
@@ -686,7 +651,7 @@ contains
     character(*), intent(inout), optional :: errmsg
     real(c_double) :: area
     area = 0
-    call finish(rsc_contact_result(reading(self%ticket), area=area), stat, errmsg)
+    call finish(rsc_contact_result(rsc_handle_of(self%number), area=area), stat, errmsg)
   end function
 
   !> Number of asperities in contact.
@@ -697,7 +662,7 @@ contains
     integer :: n
     integer(c_int64_t) :: contacts
     contacts = 0
-    call finish(rsc_contact_result(reading(self%ticket), contacts=contacts), stat, errmsg)
+    call finish(rsc_contact_result(rsc_handle_of(self%number), contacts=contacts), stat, errmsg)
     n = int(contacts)
   end function
 
@@ -715,7 +680,7 @@ contains
     integer(c_int32_t), allocatable :: which(:)
     integer :: problem
     n = 0
-    status = rsc_contact_result(reading(self%ticket), contacts=n)
+    status = rsc_contact_result(rsc_handle_of(self%number), contacts=n)
     problem = 0
     if (status == rsc_success) allocate (which(n), stat=problem)
     if (problem /= 0) status = rsc_no_memory
@@ -723,7 +688,7 @@ contains
     if (present(force)) call make_room(force_, n, status)
     if (present(radius)) call make_room(radius_, n, status)
     if (present(penetration)) call make_room(penetration_, n, status)
-    if (status == rsc_success) status = rsc_contact_spots(reading(self%ticket), n, which, force_, radius_, penetration_)
+    if (status == rsc_success) status = rsc_contact_spots(rsc_handle_of(self%number), n, which, force_, radius_, penetration_)
     if (present(force)) call move_alloc(force_, force)
     if (present(radius)) call move_alloc(radius_, radius)
     if (present(penetration)) call move_alloc(penetration_, penetration)
@@ -739,23 +704,19 @@ contains
     character(*), intent(inout), optional :: errmsg
     logical :: same
     integer(c_int64_t) :: n
-    integer(c_int32_t) :: status
-    type(c_ptr) :: own
-    n = self%asperities
-    own = c_null_ptr
-    if (rsc_contact_asperities(own, reading(self%ticket)) == 0) then  ! present asperities: after a move of the tip others may touch
-      status = rsc_asperities_count(own, n)
-      status = rsc_asperities_destroy(own)
-    end if
+    n = 0
+    if (present(penetration)) n = size(penetration, kind=c_int64_t)
+    if (present(radius)) n = size(radius, kind=c_int64_t)
+    if (present(force)) n = size(force, kind=c_int64_t)
     same = .true.
     if (present(force)) same = same .and. size(force) == n
     if (present(radius)) same = same .and. size(radius) == n
     if (present(penetration)) same = same .and. size(penetration) == n
     if (.not. same) then
-      call refuse('contact%per_asperity: the size of an array is not the number of asperities', stat, errmsg)
+      call refuse('contact%per_asperity: the arrays are not of one size', stat, errmsg)
       return
     end if
-    call finish(rsc_contact_per_asperity(reading(self%ticket), n, force, radius, penetration), stat, errmsg)
+    call finish(rsc_contact_per_asperity(rsc_handle_of(self%number), n, force, radius, penetration), stat, errmsg)
   end subroutine
 
   !> Presses many contacts with a force each, distributed among threads (0: all of the machine); returns the separations and statuses of
@@ -847,7 +808,7 @@ contains
     type(c_ptr) :: handles(size(contacts))
     integer :: i
     do i = 1, size(contacts)
-      handles(i) = changing(contacts(i)%ticket)
+      handles(i) = rsc_handle_of(contacts(i)%number)
     end do
   end function
 
@@ -876,7 +837,7 @@ contains
     character(*), intent(inout), optional :: errmsg
     real(c_double) :: k(2, 2)
     k = 0
-    call finish(rsc_friction_stiffness(changing(self%ticket), k(1, 1), k(1, 2), k(2, 1), k(2, 2)), stat, errmsg)
+    call finish(rsc_friction_stiffness(rsc_handle_of(self%number), k(1, 1), k(1, 2), k(2, 1), k(2, 2)), stat, errmsg)
   end function
 
   !> The spots of the last update: number of the asperity, contact radius, radius of the stick area, share of Q.
@@ -892,13 +853,13 @@ contains
     real(c_double), allocatable :: radius_(:), stick_radius_(:), force_x_(:), force_y_(:)
     integer(c_int32_t), allocatable :: which(:)
     n = 0
-    status = rsc_friction_spots(changing(self%ticket), 0_c_int64_t, count=n)  ! asks for the number only
+    status = rsc_friction_spots(rsc_handle_of(self%number), 0_c_int64_t, count=n)  ! asks for the number only
     allocate (which(n))
     if (present(radius)) allocate (radius_(n))
     if (present(stick_radius)) allocate (stick_radius_(n))
     if (present(force_x)) allocate (force_x_(n))
     if (present(force_y)) allocate (force_y_(n))
-    if (n > 0) status = rsc_friction_spots(changing(self%ticket), n, n, which, &
+    if (n > 0) status = rsc_friction_spots(rsc_handle_of(self%number), n, n, which, &
         & radius_, stick_radius_, force_x_, force_y_)
     if (present(radius)) call move_alloc(radius_, radius)
     if (present(stick_radius)) call move_alloc(stick_radius_, stick_radius)
@@ -908,7 +869,7 @@ contains
     call finish(status, stat, errmsg)
   end subroutine
 
-  ! --- what does no more than call its C function, assignment and release ---------------------------------------------------------
+  ! --- procedures that only call their C function --------------------------------------------------------------------------------
 
   include 'generated/wrappers.inc'
 

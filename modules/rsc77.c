@@ -4,10 +4,11 @@
  *     CALL RSCIND(ICON, Z0, FORCE, IERR)
  *
  * INTEGER must have 4 bytes and DOUBLE PRECISION 8, the default of compilers. Compilers and linkers do not report other sizes
- * (-fdefault-integer-8, -i8); therefore all calls are refused before RSCINT, which checks the size. Arrays and scalars are passed by address; the
- * length of a CHARACTER follows all arguments by value, as with gfortran and flang; trailing blanks do not count. IERR is the status of rsc.h: 0,
- * -i for the i-th argument of the call here, or a positive value of RSC_STATUS_LIST; RSCMSG returns the message. Outputs keep their values after a
- * failure, except for IERR = 1 (not converged). Indices count from 1. A handle of 0 means none: for a case, the defaults.
+ * (-fdefault-integer-8, -i8, -fdefault-real-8); therefore all calls are refused before RSCINT and RSCDBL, which check the sizes. Arrays
+ * and scalars are passed by address; the length of a CHARACTER follows all arguments by value, as with gfortran and flang; trailing
+ * blanks do not count. IERR is the status of rsc.h: 0, -i for the i-th argument of the call here, or a positive value of
+ * RSC_STATUS_LIST; RSCMSG returns the message. Outputs keep their values after a failure, except for IERR = 1 (not converged).
+ * Indices count from 1. A handle of 0 means none: for a case, the defaults.
  *
  * Different handles may be used by different threads at the same time, as rsc.h says; the table of handles has its own lock.
  */
@@ -29,7 +30,7 @@ static int32_t entries;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
 /* The error of a handle, for RSCMSG; empty if the message is that of the library. */
-static _Thread_local char own_message[100];
+static _Thread_local char own_message[160];
 
 static int32_t refuse(int32_t argument, const char* why) {
     strncpy(own_message, why, sizeof own_message - 1);
@@ -116,18 +117,18 @@ static void put_text(const char* text, char* characters, size_t length) {
     if (n < length) memset(characters + n, ' ', length - n);
 }
 
-/* True once RSCINT has found that INTEGER has 4 bytes. */
-static atomic_int integers_fit;
+/* True once RSCINT has found that INTEGER has 4 bytes, and RSCDBL that DOUBLE PRECISION has 8. */
+static atomic_int integers_fit, doubles_fit;
 
-/* Begins every call; refuses it before RSCINT has succeeded. */
-#define BEGIN                                                                                     \
-    own_message[0] = '\0';                                                                        \
-    if (!atomic_load(&integers_fit)) {                                                            \
-        refuse(0,                                                                                 \
-               "call RSCINT first, with an INTEGER array of 1 and 2: it checks that INTEGER has " \
-               "4 bytes");                                                                        \
-        *ierr = RSC_NO_RESULT;                                                                    \
-        return;                                                                                   \
+/* Begins every call; refuses it before RSCINT and RSCDBL have succeeded. */
+#define BEGIN                                                                                    \
+    own_message[0] = '\0';                                                                       \
+    if (!atomic_load(&integers_fit) || !atomic_load(&doubles_fit)) {                             \
+        refuse(0,                                                                                \
+               "call RSCINT first, with an INTEGER array of 1 and 2, and RSCDBL, with a DOUBLE " \
+               "PRECISION array of 1 and 2: they check the sizes");                              \
+        *ierr = RSC_NO_RESULT;                                                                   \
+        return;                                                                                  \
     }
 /* Finds the object of a handle, or returns with the number of that argument. A case of 0 means the defaults. */
 #define FIND(type, name, handle, kind, argument)                                        \
@@ -180,6 +181,16 @@ RSC_API void rscint_(const int32_t* one_and_two, int32_t* ierr) {
     *ierr =
         fits ? 0
              : refuse(1, "INTEGER must have 4 bytes: compile without -fdefault-integer-8 or -i8");
+}
+
+RSC_API void rscdbl_(const double* one_and_two, int32_t* ierr) {
+    own_message[0] = '\0';
+    const int fits = one_and_two[0] == 1 && one_and_two[1] == 2;
+    atomic_store(&doubles_fit, fits);
+    *ierr = fits ? 0
+                 : refuse(1,
+                          "DOUBLE PRECISION must have 8 bytes: compile without -fdefault-real-8, "
+                          "or with -fdefault-double-8, too");
 }
 
 /* ---- all handles ------------------------------------------------------------------------------------------------------------ */

@@ -140,7 +140,8 @@ RSC_API int32_t rsc_case_read_file(rsc_case* a_case, const char* path);
 
 /* Sets one key.
  * a_case: the case; name: "group%key", "group%key(2)" or "group%key(1:2)", in any case; value: in namelist syntax (texts in
- * quotes). A key with a fixed number of values (solids%E has two) takes all of them, "1e5, 2e5", or one by its subscript.
+ * quotes). A key with a fixed number of values (solids%E has two) takes all of them, "1e5, 2e5", or one by its subscript. An empty
+ * value is the default.
  * Errors: -1 null; -2 null or unknown name; -3 null or an invalid value; RSC_NO_MEMORY. On failure the case is
  * unchanged. Relations between keys are checked when the case is used. */
 RSC_API int32_t rsc_case_set(rsc_case* a_case, const char* name, const char* value);

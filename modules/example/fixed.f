@@ -11,14 +11,17 @@ C     Hertz, errors are reported and change nothing.
       DOUBLE PRECISION Z0, FORCE, AREA, STIFF, RES, TOTAL, ONE(1), W(1)
       CHARACTER*200 TEXT
       INTEGER ITWO(2), IOLD
-      DATA ITWO /1, 2/
-C     Checks the size of INTEGER (8 bytes with -fdefault-integer-8) before
-C     any other call.
+      DOUBLE PRECISION DTWO(2)
+      DATA ITWO /1, 2/, DTWO /1.0D0, 2.0D0/
+C     Checks the sizes of INTEGER (8 bytes with -fdefault-integer-8) and
+C     DOUBLE PRECISION (16 with -fdefault-real-8) before any other call.
       IERR = 0
       CALL RSCCAS(ICASE, IERR)
       IF (IERR .NE. 4) CALL WRONG('a call before RSCINT')
       CALL RSCINT(ITWO, IERR)
       CALL CHECK('RSCINT', IERR)
+      CALL RSCDBL(DTWO, IERR)
+      CALL CHECK('RSCDBL', IERR)
 C     Units: mm and N.
       ICASE = 0
       CALL RSCCAS(ICASE, IERR)

@@ -43,5 +43,8 @@ contains
       area(k) = contact(mine)%area()
     end do
     !$omp end parallel do
+    do k = 1, n_threads
+      call contact(k)%free()
+    end do
   end subroutine
 end program

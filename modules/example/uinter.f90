@@ -60,6 +60,7 @@ contains
       call options%read(text)
       call asperities%make(options)
       call contact%create_from_case(asperities, options)
+      call options%free()
       ready = .true.
     end if
     call contact%indent(Z0 - c, p)

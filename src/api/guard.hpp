@@ -2,6 +2,8 @@
 // message.
 #pragma once
 
+#include <cfenv>
+
 #include "base/error.hpp"
 #include "rsc.h"
 #include "run/signals.hpp"
@@ -25,10 +27,20 @@ struct Outcome {
 std::int32_t failed(std::int32_t status, std::string_view message) noexcept;
 std::int32_t status_of(const Error& error, int input) noexcept;
 
+// A comparison with "not estimated" (NaN) is an invalid operation to the processor: callers that
+// trap these, or test the flags, meet none from here.
+struct QuietArithmetic {
+    std::fenv_t callers;
+    QuietArithmetic() { std::feholdexcept(&callers); }
+    ~QuietArithmetic() { std::fesetenv(&callers); }
+    QuietArithmetic(const QuietArithmetic&) = delete;
+};
+
 // Runs the body of a function. `input`: the number of the argument to blame if the core throws
 // bad_input; 0: none.
 template <class Body>
 std::int32_t guarded(int input, Body&& body) noexcept {
+    const QuietArithmetic quiet;
     try {
         body();
         return RSC_SUCCESS;

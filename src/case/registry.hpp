@@ -99,7 +99,8 @@ void assign(Case& settings, const Key& key, const namelist::Assignment& assignme
             std::vector<namelist::Fault>& faults);
 void finish_lists(Case& settings, Ledger& ledger, std::vector<namelist::Fault>& faults);
 
-// Sets "group%key", "group%key(2)" or "group%key(1:2)" to a value (or values) in namelist syntax.
+// Sets "group%key", "group%key(2)" or "group%key(1:2)" to a value (or values) in namelist syntax,
+// or without a value "group%key" to its default.
 // Checks type, choice, shape and the key's own bounds, not its relation to other keys (check_case
 // does). Throws Error(bad_input); the case is then unchanged.
 // `whole`: a name without subscript needs all values of an array of fixed size.

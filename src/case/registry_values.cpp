@@ -323,10 +323,33 @@ std::string out_of_bounds(Case& settings, const Key& key) {
     return {};
 }
 
+void set_default(Case& settings, const Key& key) {
+    Case fresh;
+    const auto copy = [&key](const Slot& from, const Slot& to) {
+        std::visit(
+            [&](auto place) {
+                const auto origin = std::get<decltype(place)>(from);
+                if constexpr (std::is_pointer_v<decltype(place)>)
+                    std::copy_n(origin, key.list ? 1 : key.size, place);
+                else
+                    place.set(place.object, origin.get(origin.object));
+            },
+            to);
+    };
+    copy(key.slot(fresh), key.slot(settings));
+    if (key.word) copy(key.word(fresh), key.word(settings));
+}
+
 }  // namespace
 
 void set_key(Case& settings, std::string_view name, std::string_view value, bool whole) {
     const auto [key, assignment] = named(name, value);
+    if (value.find_first_not_of(' ') == std::string_view::npos) {
+        if (assignment.subscript)
+            bad_input("an element has no default of its own: give it a value, or leave " +
+                      full_name(*key) + " as a whole without one");
+        return set_default(settings, *key);
+    }
     if (whole && key->size > 1 && !key->list && !assignment.subscript) {
         long given = 0;
         for (const auto& item : assignment.items) given += item.repeat;

@@ -512,7 +512,7 @@ def in_fortran(calls, arrays):
         call = lambda word: word.replace("[", "(").replace("]", ")")
         if name.endswith("_copy"):
             asperities_of[words[0]] = asperities_of.get(words[1])
-            body.append([f"{call(words[0])} = {call(words[1])}"])
+            body.append([f"call {call(words[0])}%copy({call(words[1])})"])
             continue
         if name == "contact_result":
             lines = []
@@ -803,7 +803,7 @@ def in_77(calls, arrays):
             + lines
             + [f"call {called}({', '.join(arguments)}{ending})", f"call told({k})", *puts]
         )
-    externals = sorted({*(n for n, _ in names.values()), "rscmsg", "rscdel", "rscint"})
+    externals = sorted({*(n for n, _ in names.values()), "rscmsg", "rscdel", "rscint", "rscdbl"})
     head = [
         HEAD.replace(
             "integer :: i(20), stat, n",
@@ -845,7 +845,7 @@ def in_77(calls, arrays):
         head,
         arrays,
         used,
-        ["stat = 0", "h = 0", "i(:2) = [1, 2]", "call rscint(i, stat)"],
+        ["stat = 0", "h = 0", "i(:2) = [1, 2]", "call rscint(i, stat)", "r(:2) = [1, 2]", "call rscdbl(r, stat)"],
         body,
         told + TAIL,
     )

@@ -48,9 +48,9 @@ contains
     call options%set('solids%E', 1.0_dp, stat, errmsg)
     call check(stat < 0 .and. index(errmsg, 'solids%E(1)') > 0, 'one value for two')
     call options%set('solids%E(1)', 1.0_dp / 3)  ! every bit of it
-    other = options
+    call other%copy(options)
     call options%set('solids%E(1)', 2.0_dp)
-    call check(other%get('solids%E(1)') == '0.3333333333333333', 'an assigned case is a copy')
+    call check(other%get('solids%E(1)') == '0.3333333333333333', 'a copied case is its own')
     errmsg = 'untouched'
     call options%set('surface%n', 128, stat, errmsg)
     call check(stat == 0 .and. errmsg == 'untouched', 'errmsg keeps its value without failure')
@@ -59,9 +59,11 @@ contains
     call options%read('&surface n = 64 /', stat)
     call check(stat < 0 .and. options%get('surface%n') == '128', 'a refused text changes nothing')
     call check(index(rsc_library_version(), '.') > 0, 'version')
+    call options%free()
+    call other%free()
   end subroutine
 
-  ! Many objects made, made again, and left: a leak or a double release shows under valgrind or AddressSanitizer.
+  ! Objects created, created again and released: a leak or a double release shows under valgrind or AddressSanitizer.
   subroutine lifetimes()
     integer :: k
     do k = 1, 50
@@ -71,21 +73,21 @@ contains
 
   subroutine one_life(k)
     integer, intent(in) :: k
-    type(rsc_asperities) :: asperities, several(3)
-    type(rsc_contact) :: contact
-    type(rsc_contact), allocatable :: other
+    type(rsc_asperities) :: asperities
+    type(rsc_contact) :: contact, other
     real(dp) :: N, M
     call asperities%take([1.0_dp * k], [0.0_dp], [0.0_dp], [1.0_dp])
-    several = asperities
+    call contact%create(asperities, E, 10.0_dp, 1.0_dp * k, 0.0_dp)
+    call other%copy(contact)
     call asperities%take([0.0_dp], [0.0_dp], [0.0_dp], [1.0_dp])
-    asperities = asperities
-    call contact%create(several(2), E, 10.0_dp, 1.0_dp * k, 0.0_dp)
-    allocate (other)
-    other = contact
     call contact%create(asperities, E, 10.0_dp, 0.0_dp, 0.0_dp)
     call contact%indent(-u, N)
+    call asperities%free()
+    call asperities%free()
     call other%indent(-u, M)
     call check(abs(M - N) <= 1e-10_dp * N, 'copies outlive what they came from')
+    call contact%free()
+    call other%free()
   end subroutine
 
   subroutine given_surface()
@@ -99,5 +101,6 @@ contains
     call surface%heights(back)
     call check(all(n == [3, 4]) .and. all(abs(g - [0.5_dp, 2.0_dp, 1.0_dp, -3.0_dp]) <= 0) .and. periodic, 'the grid of a surface')
     call check(all(abs(back - z) <= 0), 'its heights')
+    call surface%free()
   end subroutine
 end program
