@@ -229,6 +229,7 @@ class _Lock:
 class _Object:
     """Owner of a handle of the library."""
 
+    __slots__ = ("_handle", "_lock", "__weakref__")  # contact.tpi = ... is an error
     _kind = None  # "case" of rsc_case
 
     def __init__(self):
@@ -264,6 +265,13 @@ class _Object:
     def closed(self):
         """True after close()."""
         return not getattr(self, "_handle", None)
+
+    def __repr__(self):
+        try:
+            about = "closed" if self.closed else self._about()
+        except Error as error:
+            about = str(error)
+        return f"<rsc.{type(self).__name__}: {about}>"
 
     def __enter__(self):
         return self
@@ -506,8 +514,13 @@ def keys():
     return [_text("rsc_key_name", k) for k in range(_number("rsc_key_count"))]
 
 
+__version__ = version()
+
+
 def _namelist_value(name, value):
     """A Python value in namelist syntax."""
+    if value is None:
+        return ""
     if isinstance(value, (bool, np.bool_)):
         return ".true." if value else ".false."
     if isinstance(value, str):
@@ -521,7 +534,8 @@ def _namelist_value(name, value):
     if isinstance(value, (list, tuple, np.ndarray)) and np.ndim(value) == 1 and len(value):
         return ", ".join(_namelist_value(name, v) for v in value)
     _refuse(
-        name, f"a number, a text, True, False or a list of these is expected, not {value!r:.80}"
+        name,
+        f"a number, a text, True, False, None or a list of these is expected, not {value!r:.80}",
     )
 
 
@@ -544,18 +558,26 @@ class Case(_Object):
     """Every option, by the names of the program's namelist (rsc --describe); all initially at their defaults.
 
     Case(source): source is a dictionary {"surface": {"sigma": 0.01}} or {"surface%sigma": 0.01}, a namelist text as the program reads it
-    ("&surface sigma=0.01 /"), another Case, or None. Values are numbers, texts, True, False, or lists of these.
-    case["surface%sigma"] reads a value (None: not set; a tuple: several) and sets it. str(case) is the whole case as a namelist.
+    ("&surface sigma=0.01 /"), another Case, a path (pathlib.Path) of a namelist file, or None. Values are numbers, texts, True, False, lists
+    of these, or None for the default. case["surface%sigma"] reads a value (None: not set; a tuple: several) and sets it. str(case) is the whole case as a namelist.
     Raises ArgumentError with a line for every invalid key or value."""
 
+    __slots__ = ()
     _kind = "case"
+
+    def _about(self):
+        default = Case()
+        changed = [k for k in keys() if self[k] != default[k]]
+        return ", ".join(f"{k} = {self[k]!r}" for k in changed) or "the defaults"
 
     def __init__(self, source=None):
         if isinstance(source, Case):
             self._create("rsc_case_copy", source)
             return
         self._create("rsc_case_create")
-        if isinstance(source, str):
+        if isinstance(source, os.PathLike):
+            self.read_file(source)
+        elif isinstance(source, str):
             self.read(source)
         elif source is not None:
             self.update(source)
@@ -661,7 +683,12 @@ class Case(_Object):
 class Surface(_Object):
     """Heights on a regular grid, created by synthesize or take."""
 
+    __slots__ = ()
     _kind = "surface"
+
+    def _about(self):
+        grid = self.grid()
+        return f"{grid.nx} x {grid.ny} points, dx = {grid.dx:.6g}"
 
     @classmethod
     def synthesize(cls, case=None, realization=1):
@@ -731,7 +758,11 @@ def _output(name, array, shape):
 class Asperities(_Object):
     """Summits: positions, heights, radii and possibly curvatures. Created by find, make or take; immutable. len(asperities) is their number."""
 
+    __slots__ = ()
     _kind = "asperities"
+
+    def _about(self):
+        return f"{len(self)} summits"
 
     @classmethod
     def find(cls, surface, case=None):
@@ -794,7 +825,11 @@ class Contact(_Object):
     Raises ArgumentError with the name of the wrong argument, Error (no memory). Contact.from_case takes E*, R and the tip from a case.
     """
 
+    __slots__ = ()
     _kind = "contact"
+
+    def _about(self):
+        return "Z0 = {:.6g}, N = {:.6g}, A = {:.6g}, {} contacts".format(*self._result())
 
     def __init__(self, asperities, E_star, R, x0=0.0, y0=0.0, case=None):
         self._create(
@@ -979,7 +1014,11 @@ class Friction(_Object):
     ratio: m = 4 G*/E*, see stiffness_ratio. Raises ArgumentError with the name of the wrong argument, Error (no memory). Friction.from_case takes mu
     and m from a case. copy() also copies the path."""
 
+    __slots__ = ()
     _kind = "friction"
+
+    def _about(self):
+        return ", ".join(f"{k} = {v:.6g}" for k, v in self.state()._asdict().items())
 
     def __init__(self, contact, mu, ratio):
         self._create("rsc_friction_create", _given("contact", contact), mu, ratio)

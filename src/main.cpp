@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/format.hpp"
 #include "base/parallel.hpp"
+#include "base/reason.hpp"
 #include "case/options.hpp"
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
@@ -144,9 +145,11 @@ int run_program(int argc, char** argv, Job& job) {
     }
     if (options.show_case) {
         const std::optional<rsc::ResultHead> head = rsc::head_of_result(options.case_path);
+        const std::string why = head ? "" : rsc::why_not_opened(options.case_path);
         if (!head)
-            rsc::bad_input(options.case_path +
-                           ": is no result of rsc, so there is no case to print");
+            rsc::bad_input(
+                options.case_path + ": " +
+                (why.empty() ? "is no result of rsc, so there is no case to print" : why));
         std::cout << head->case_text;
         return 0;
     }
@@ -196,8 +199,10 @@ int guarded(const std::function<int()>& program) {
     try {
         const int status = program();
         if (std::cout.flush()) return status;
-        std::cerr << "rsc: standard output could not be written: "
-                  << std::generic_category().message(errno) << '\n';
+        // The failure may be an old one, so that errno tells of something else by now.
+        errno = ::write(STDOUT_FILENO, "\n", 1) == 1 ? 0 : errno;
+        std::cerr << "rsc: standard output could not be written"
+                  << (errno != 0 ? ": " + std::generic_category().message(errno) : "") << '\n';
         return 1;
     } catch (const rsc::Interrupted& stop) {
         std::cerr << "rsc: " << stop.what() << '\n';

@@ -69,8 +69,6 @@ SURFACE = [
     "points_per_wave",
     "filled_points",
     "outlier_points",
-    "sal",
-    "str",
 ]
 BODIES = ["e_star", "r_star", "transition_force", "pull_off_force"]
 SOLIDS = [

@@ -1,6 +1,7 @@
 #include "case/read_case.hpp"
 
 #include "base/error.hpp"
+#include "base/reason.hpp"
 
 namespace rsc {
 namespace {
@@ -183,10 +184,11 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
             const std::string& file = group == std::string_view("surface") ? settings.surface.file
                                                                            : settings.indenter.file;
             if (!entry || entry->given.empty() || entry->faulty || file.empty() ||
-                file.find_first_of("*?[") != std::string::npos || std::ifstream(file))
+                file.find_first_of("*?[") != std::string::npos)
                 continue;
-            faults.push_back({entry->given.front().second, "&" + std::string(group) + ": file = '" +
-                                                               file + "': cannot be opened"});
+            if (const std::string why = why_not_opened(file); !why.empty())
+                faults.push_back({entry->given.front().second,
+                                  "&" + std::string(group) + ": file = '" + file + "': " + why});
         }
 
     std::stable_sort(faults.begin(), faults.end(), [](const Fault& a, const Fault& b) {
@@ -229,11 +231,9 @@ ReadCase read_case(std::istream& in, const std::string& name, const Options& opt
 ReadCase read_case(const Options& options) {
     if (options.case_path.empty()) return read_case(std::cin, "<stdin>", options);
     std::ifstream in(options.case_path, std::ios::binary);
-    if (!in) bad_input(options.case_path + ": cannot be opened");
-    // A directory can be opened, but not read.
-    if (in.peek() == std::ifstream::traits_type::eof() && in.bad())
-        bad_input(options.case_path + ": cannot be read");
-    in.clear();
+    std::error_code ignored;  // a folder can be opened, but not read
+    if (!in || std::filesystem::is_directory(options.case_path, ignored))
+        bad_input(options.case_path + ": " + why_not_opened(options.case_path));
     return read_case(in, options.case_path, options);
 }
 

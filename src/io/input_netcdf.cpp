@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/format.hpp"
+#include "base/reason.hpp"
 #include "case/units.hpp"
 #include "io/formats.hpp"
 
@@ -233,13 +234,12 @@ void require_memory(double bytes, const std::string& purpose, const char* remedy
 
 bool is_netcdf(const std::string& path) {
     std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored))
-        bad_input(path + ": is a directory, not a file");
-    if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
+    if (std::filesystem::exists(path, ignored) &&
+        !std::filesystem::is_regular_file(path, ignored) &&
+        !std::filesystem::is_directory(path, ignored))
         bad_input(path + ": is a device or a FIFO; a plain file was expected");
-    errno = 0;
+    if (const std::string why = why_not_opened(path); !why.empty()) bad_input(path + ": " + why);
     std::ifstream file(path, std::ios::binary);
-    if (!file) bad_input(path + ": " + (errno != 0 ? std::strerror(errno) : "cannot be opened"));
     constexpr std::array<char, 8> kHdf5 = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
     for (const long offset :
          {0L, 512L, 1024L, 2048L}) {  // a user block may come before the HDF5 signature

@@ -134,21 +134,7 @@ void ResultTable::measured() {
         of_twins("the other half plane is the mirror image; surface%twins = 'directional' "
                  "generates surfaces with it",
                  m.spectrum.plane_exponent));
-    const Texture& t = m.texture;
-    add_absent("sal", {}, unit(1), "autocorrelation length Sal (ISO 25178-2)", {t.sal},
-               "shortest lag at which the autocorrelation falls to 0.2");
-    add_absent("str", {}, "1", "texture aspect ratio Str (ISO 25178-2)", {t.str},
-               t.str_bounded ? "upper bound, because along the lay the autocorrelation does not "
-                               "fall to 0.2 within half the map"
-                             : "");
-    scalar("std", "degree",
-           "direction of the lay, from the x axis towards the y axis (texture direction Std, ISO "
-           "25178-2)",
-           m.spectrum.lay(),
-           "at right angles to the mean direction of the power around the direction with the most");
-    scalar("sk", unit(1), "core height Sk (ISO 25178-2)", t.sk);
-    scalar("spk", unit(1), "reduced peak height Spk (ISO 25178-2)", t.spk);
-    scalar("svk", unit(1), "reduced valley height Svk (ISO 25178-2)", t.svk);
+    const HeightQuantiles& t = m.quantiles;
     file_.dimension("normal_score", t.score.size());
     add("normal_score", {"normal_score"}, "1",
         "normal score: the share erfc(-score/sqrt 2)/2 of the points is lower", t.score);
@@ -156,18 +142,6 @@ void ResultTable::measured() {
         t.height,
         comment("a straight line for Gaussian heights; surface%twin_heights = 'measured' generates "
                 "surfaces with it"));
-    if (!t.autocorrelation.empty()) {
-        const auto lags = [](int reach, double step) {
-            return each_of(2 * reach + 1, [&](int i) { return (i - reach) * step; });
-        };
-        const std::vector<double> x = lags(t.reach_x, t.step_x), y = lags(t.reach_y, t.step_y);
-        file_.dimension("lag_y", y.size());
-        file_.dimension("lag_x", x.size());
-        add("lag_y", {"lag_y"}, unit(1), "lag along y", y);
-        add("lag_x", {"lag_x"}, unit(1), "lag along x", x);
-        add("autocorrelation", {"lag_y", "lag_x"}, "1", "autocorrelation of the heights",
-            t.autocorrelation);
-    }
     if (!m.fit) return;
     const SelfAffineFit& found = *m.fit;
     std::vector<double> fit;

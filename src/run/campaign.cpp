@@ -1,6 +1,7 @@
 #include "run/run.hpp"
 
 #include "base/error.hpp"
+#include "base/reason.hpp"
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
 #include "io/inputs.hpp"
@@ -254,7 +255,8 @@ std::string numbers(std::int64_t from, std::int64_t to) {
 
 Part open_part(const std::string& file) {
     const std::optional<ResultHead> head = head_of_result(file);
-    if (!head) refuse("'" + file + "' is no result of rsc");
+    const std::string why = head ? "" : why_not_opened(file);
+    if (!head) refuse("'" + file + (why.empty() ? "' is no result of rsc" : "': " + why));
     const ReadCase read = read_case_text(head->case_text, file);
     if (read.study)
         refuse("'" + file + "' is the manifest of a study, not the result of a campaign");

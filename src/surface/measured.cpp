@@ -131,7 +131,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     m.parameters = height_parameters(map);
     const Isotropy slopes = isotropy(map);
     m.isotropy = slopes.ratio;
-    m.texture = measure_texture(map);
+    m.quantiles = height_quantiles(map);
     count_heights(map, m);
     const auto spectrum = [&](double aspect, double direction) {
         MeasuredSpectrum s = measure_spectrum(map, aspect, direction);
@@ -239,10 +239,7 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
                    "noise; surface%%filter_cutoff removes such waves",
                    kFewPointsPerWave));
     const bool directional = m.isotropy < kIsotropic, gaussian = m.gaussian();
-    if (directional)
-        lines.push_back(format("texture: lay at %.0f degrees from x, Sal %.4g %s, Str %s%.2f",
-                               m.spectrum.lay(), m.texture.sal, l,
-                               m.texture.str_bounded ? "at most " : "", m.texture.str));
+    if (directional) lines.push_back(format("lay at %.0f degrees from x", m.spectrum.lay()));
     if (directional || !gaussian)
         lines.push_back(std::string("the map ") + (directional ? "has a lay" : "") +
                         (directional && !gaussian ? " and " : "") +

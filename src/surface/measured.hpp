@@ -41,7 +41,7 @@ struct Measured : PointGrid {
     Roughness as_read, without_form, filtered;  // the last two are equal when there is no filter
     HeightParameters parameters;
     double isotropy = 1;
-    Texture texture;
+    HeightQuantiles quantiles;
     double height_step =
         0;          // rounding step of the heights [length]; 0: not rounded, or filtered afterwards
     Breaks breaks;  // pits, spikes and steps

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/library_lock.hpp"
+#include "surface/height_distribution.hpp"
 
 namespace rsc {
 namespace {
@@ -310,6 +311,19 @@ Isotropy isotropy(const HeightMap& map) {
     if (!(mean + apart > 0)) return {};
     return {std::sqrt(std::max(0.0, mean - apart) / (mean + apart)),
             0.5 * (std::atan2(xy, 0.5 * (xx - yy)) + std::numbers::pi)};
+}
+
+HeightQuantiles height_quantiles(const HeightMap& map) {
+    std::vector<double> heights;
+    heights.reserve(map.points());
+    const double mean = mean_height(map);
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) heights.push_back(map(i, j) - mean);
+    HeightQuantiles q;
+    for (int i = 0; i < HeightQuantiles::kScores; ++i)
+        q.score.push_back(-5 + 10.0 * i / (HeightQuantiles::kScores - 1));
+    q.height = quantiles(std::move(heights), q.score);
+    return q;
 }
 
 }  // namespace rsc

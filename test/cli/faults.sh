@@ -52,6 +52,14 @@ test_file_limit() {
     left work ""
 }
 
+# Lines of a run of some time: the reason is that of the write, not that of a later call. The file is complete.
+test_full_output() {
+    [ -c /dev/full ] || exit 77
+    expect 1 bash -c 'exec "$0" -o out.nc case.nml > /dev/full' "$rsc"
+    says "standard output.*No space left"
+    [ -s out.nc ] || fail "no result"
+}
+
 test_read_only() {
     mkdir work
     chmod 0555 work

@@ -21,8 +21,9 @@ out() { stream out "$1"; }
 
 test_refused() {
     run 2 "" <<< $'&surface simga=1\n hurst=2 /\n&solver method=\'x\' /'; out ''; err '^<stdin>:1:10: .*\|<stdin>:2:8: .*\|<stdin>:3:16: '
-    run 2 "" nowhere.nml; out ''; err 'nowhere.nml: cannot be opened'
-    run 2 "" .; out ''; err '\.: '
+    run 2 "" nowhere.nml; out ''; err 'nowhere.nml: No such file'
+    run 2 "" .; out ''; err '\.: is a folder'
+    run 2 "" --case nowhere.nc; out ''; err 'nowhere.nc: No such file'
     run 2 "" --chek; out ''; err 'chek.*--check'
     run 2 "" --describe surface%simga; out ''; err 'sigma'
     run 2 "" <<< "&surface n=64 L_lambda_l=2 L_lambda_s=8 / &solids R=2*Infinity / &solver model='elements' /

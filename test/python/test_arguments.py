@@ -106,7 +106,7 @@ CASES = [
     (lambda: rsc.Case(3), "source"),
     (lambda: rsc.Case({"surface%sigma": "abc"}), "sigma"),
     (lambda: rsc.Case({"surface%sigma": NAN}), "sigma"),
-    (lambda: rsc.Case({"surface%sigma": None}), "sigma"),
+    (lambda: rsc.Case({"surface%sigma": object()}), "sigma"),
     (lambda: rsc.Case({"surface%n": 2.5}), "n"),
     (lambda: rsc.Case({"surface%sigma": object()}), "sigma"),
     (lambda: rsc.Case({3: 1}), "name"),

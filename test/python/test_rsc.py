@@ -50,6 +50,25 @@ class Values(unittest.TestCase):
         xyzr = np.column_stack(asperities.get())  # columns are 1-D slices with a stride
         self.assertTrue(np.array_equal(np.stack(rsc.Asperities.take(*xyzr.T).get()), xyzr.T))
 
+    def test_defaults_and_representations(self):
+        """None is the default; every object says what it is, and has no attribute by mistake."""
+        case = rsc.Case(SMALL)
+        self.assertIn("surface%n = 128", repr(case))
+        for key in rsc.keys():
+            case[key] = None
+        self.assertEqual(case.text(), rsc.Case().text())
+        self.assertIn("defaults", repr(case))
+        contact = one_asperity()
+        self.assertIn("rsc.Contact", repr(contact))
+        contact.indent(-U)
+        self.assertIn(f"N = {contact.force:.6g}", repr(contact))
+        self.assertIn("1 summits", repr(contact.asperities()))
+        with self.assertRaises(AttributeError):
+            contact.tpi = (0.0, 1.0)
+        contact.close()
+        self.assertIn("closed", repr(contact))
+        self.assertEqual(rsc.__version__, rsc.version())
+
     def test_cases(self):
         case = rsc.Case(
             {

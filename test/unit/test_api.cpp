@@ -1,5 +1,7 @@
 // The C interface against closed forms. Every value of a level against the result file:
 // test_api_run.
+#include <cfenv>
+
 #include "check.hpp"
 #include "unit/library.hpp"
 
@@ -124,6 +126,41 @@ void test_press_after() {
     CHECK_RELATIVE(moved, again, 1e-9);
 }
 
+// A level without contact, and what is not estimated there: a caller that traps floating-point
+// exceptions goes on, and one that tests the flags finds its own.
+void test_caller_of_traps() {
+    std::feclearexcept(FE_ALL_EXCEPT);
+    std::feraiseexcept(FE_UNDERFLOW);
+    const Made made(kRough);
+    double touch = 0;
+    OK(rsc_contact_first_touch(made.contact, &touch));
+    for (const double above : {1e-3, -1e-3}) {
+        OK(rsc_contact_indent(made.contact, touch + above, nullptr));
+        CHECK(std::fetestexcept(FE_ALL_EXCEPT) == FE_UNDERFLOW);
+    }
+    std::feclearexcept(FE_ALL_EXCEPT);
+}
+
+std::string namelist_of(const rsc_case* c) {
+    std::string text(20000, ' ');
+    OK(rsc_case_text(c, text.data(), static_cast<std::int64_t>(text.size()), nullptr));
+    return text.substr(0, text.find('\0'));
+}
+
+// An empty value is the default.
+void test_default_values() {
+    const CaseHandle defaults = case_of("&run /");
+    const CaseHandle c = case_of(
+        "&run seed=7 / &surface window=0,1,0,1 / &output fields='gap' / &compare levels=1 /"
+        "&solids E=1,2 /");
+    CHECK(namelist_of(c) != namelist_of(defaults));
+    for (const char* key : {"run%seed", "surface%window", "output%fields", "compare%levels"})
+        OK(rsc_case_set(c, key, ""));
+    CHECK(rsc_case_set(c, "solids%E(1)", " ") == -3);
+    OK(rsc_case_set(c, "solids%E", " "));
+    CHECK(namelist_of(c) == namelist_of(defaults));
+}
+
 }  // namespace
 
 TEST(api) {
@@ -131,4 +168,6 @@ TEST(api) {
     test_single();
     test_copy_and_cut();
     test_press_after();
+    test_caller_of_traps();
+    test_default_values();
 }

@@ -145,7 +145,7 @@ TEST(heights_from_text) {
     CHECK(read_heights(told, 5.0, "m")(1, 2) == 2 &&
           read_heights(told, 5.0, "mm", "", Missing::refuse, {"m", {}})(1, 2) == 2000);
     REFUSED(read_heights((folder / "absent"), 1.0), "absent: No such file or directory");
-    REFUSED(read_heights(folder.path.string(), 1.0), ": is a directory, not a file");
+    REFUSED(read_heights(folder.path.string(), 1.0), ": is a folder, not a file");
     REFUSED(read_heights(write("t.nc", "1 2 3\n4 5 x\n"), 1.0),
             "t.nc:2: 'x'");  // by content, not by name
 }

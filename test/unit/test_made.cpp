@@ -259,45 +259,12 @@ TEST(tabulated) {
     }
 }
 
-TEST(texture) {
-    // A wave along x: the autocorrelation is its cosine; across it there is no decay.
-    HeightMap wave = height_map(
-        240, 60, 0.5, 1, [](int i, int) { return std::cos(2 * std::numbers::pi * i / 40.0); });
-    wave.periodic = true;
-    const Texture t = measure_texture(wave);
-    CHECK_RELATIVE(t.sal, std::acos(0.2) / (2 * std::numbers::pi) * 20,
-                   2e-3);  // straight between grid points
-    CHECK(t.str_bounded && t.str < 0.2);
-    // Heights spread evenly: all core.
-    const auto of = [](const auto& height) {
-        return measure_texture(height_map(64, 64, 1, 1, height));
-    };
-    const auto even = [](int i, int j) { return (37 * (i + 64 * j)) % 4096; };
-    const Texture flat = of(even);
-    CHECK_RELATIVE(flat.sk, 4096, 0.01);
-    CHECK(flat.spk < 0.01 * flat.sk && flat.svk < 0.01 * flat.sk);
-    CHECK_CLOSE(flat.height[Texture::kScores / 2], 0, 1);  // the median
-    // Heights whose curve is straight over 0.1 to 0.9 of the material ratio and four times as steep
-    // beyond.
-    const Texture both = of([&](int i, int j) {
-        const double share = (even(i, j) + 0.5) / 4096, tail = std::min(share, 1 - share);
-        return share + (tail < 0.1 ? std::copysign(3 * (0.1 - tail), share - 0.5) : 0);
-    });
-    CHECK_CLOSE(both.sk, 1, 2e-3);
-    CHECK_RELATIVE(both.spk, 0.3, 3e-3);
-    CHECK_RELATIVE(both.svk, 0.3, 3e-3);
-    // A curve of third power u^3, u = 1/2 - material ratio: the line of least squares over |u| <
-    // 0.2 has 3/5 of the secant's slope 0.2^2. Steps of a thousandth of the curve are seen in Spk.
-    const Texture cubic =
-        of([&](int i, int j) { return std::pow((even(i, j) + 0.5) / 4096 - 0.5, 3); });
-    const double u = std::cbrt(0.012), above = (1.0 / 16 - std::pow(u, 4)) / 4 - 0.012 * (0.5 - u);
-    CHECK_RELATIVE(cubic.sk, 0.024, 3e-3);
-    CHECK_RELATIVE(cubic.spk, 2 * above / (0.5 - u), 3e-3);
-    CHECK_RELATIVE(cubic.svk, cubic.spk, 3e-3);
-    // Isotropic and stretched surfaces; the sampling error of few waves is some tenths.
-    CHECK(measure_texture(made(model(1, 0), 256)).str > 0.6);
-    const Texture stretched = measure_texture(made(model(6, 0), 256));
-    CHECK(stretched.str < 0.35 && stretched.str > 0.08);
+// Of heights spread evenly a quantile is the share of a normal variable below the score.
+TEST(height_quantiles) {
+    const HeightQuantiles q = height_quantiles(
+        height_map(64, 64, 1, 1, [](int i, int j) { return (37 * (i + 64 * j)) % 4096; }));
+    for (std::size_t k = 0; k < q.score.size(); ++k)
+        CHECK_CLOSE(q.height[k], 2048 * std::erf(q.score[k] / std::numbers::sqrt2), 1);
 }
 
 }  // namespace
