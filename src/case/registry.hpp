@@ -102,6 +102,7 @@ void finish_lists(Case& settings, Ledger& ledger, std::vector<namelist::Fault>& 
 // Sets "group%key", "group%key(2)" or "group%key(1:2)" to a value (or values) in namelist syntax.
 // Checks type, choice, shape and the key's own bounds, not its relation to other keys (check_case
 // does). Throws Error(bad_input); the case is then unchanged.
+// A blank value gives the key its default.
 // `whole`: a name without subscript needs all values of an array of fixed size.
 void set_key(Case& settings, std::string_view name, std::string_view value, bool whole = false);
 

@@ -325,8 +325,53 @@ std::string out_of_bounds(Case& settings, const Key& key) {
 
 }  // namespace
 
+namespace {
+
+// Gives a key, or the elements of its subscript, the values that it has in `from`.
+void copy_key(const Case& from, Case& to, const Key& key, const Assignment& assignment) {
+    const Slot source = key.slot(const_cast<Case&>(from)), target = key.slot(to);
+    Walk walk{1, 1, key.size};
+    if (assignment.subscript && !key.list && key.size > 1)
+        if (std::string problem = resolve(assignment, key.size, walk, key.name); !problem.empty())
+            bad_input(problem);
+    if (assignment.subscript && !assignment.subscript->section) walk.count = 1;
+    if (assignment.subscript && (key.list || key.size == 1))
+        bad_input(std::string(key.name) + ": a part of it has no default");
+    const auto elements = [&](auto* into) {
+        const auto* const out_of = std::get<decltype(into)>(source);
+        for (long k = 0; k < walk.count; ++k)
+            into[walk.first - 1 + k * walk.step] = out_of[walk.first - 1 + k * walk.step];
+    };
+    const auto choice = [&](Slot (*slot)(Case&)) {
+        const ChoiceSlot mine = std::get<ChoiceSlot>(slot(to)),
+                         other = std::get<ChoiceSlot>(slot(const_cast<Case&>(from)));
+        mine.set(mine.object, other.get(other.object));
+    };
+    if (const auto* list = std::get_if<std::vector<double>*>(&target))
+        **list = *std::get<std::vector<double>*>(source);
+    else if (std::holds_alternative<ChoiceSlot>(target))
+        choice(key.slot);
+    else if (const auto* text = std::get_if<std::string*>(&target))
+        **text = *std::get<std::string*>(source);
+    else if (const auto* flag = std::get_if<bool*>(&target))
+        elements(*flag);
+    else if (const auto* n = std::get_if<int*>(&target))
+        elements(*n);
+    else if (const auto* m = std::get_if<std::int64_t*>(&target))
+        elements(*m);
+    else if (const auto* x = std::get_if<double*>(&target))
+        elements(*x);
+    else
+        elements(std::get<std::optional<double>*>(target));
+    if (key.word) choice(key.word);
+}
+
+}  // namespace
+
 void set_key(Case& settings, std::string_view name, std::string_view value, bool whole) {
     const auto [key, assignment] = named(name, value);
+    if (value.find_first_not_of(" \t\r\n") == std::string_view::npos)
+        return copy_key(Case(), settings, *key, assignment);
     if (whole && key->size > 1 && !key->list && !assignment.subscript) {
         long given = 0;
         for (const auto& item : assignment.items) given += item.repeat;
