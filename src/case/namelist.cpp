@@ -26,29 +26,39 @@ public:
             if (text[i] == '\n') lines_.push_back(i + 1);
     }
 
-    // Text outside of groups is skipped; a group inside a comment does not count.
+    // Text outside of groups is skipped unless it looks like a group or a key, and would be lost
+    // without a word; a group inside a comment does not count.
     Document document() {
         std::size_t resumed = 0;  // where the last group ended
+        bool lost = false;        // inside a group whose name is wrong, which is reported once
         for (int c = next(); c != kEnd; c = next()) {
             if (c == '!') skip_line();
-            if (c != '&' && c != '$') continue;
             const std::size_t sign = at_ - 1;
+            if (c == '=' && !lost && outside_key(sign)) skip_line();
+            if (c != '&' && c != '$') continue;
             while (peek() != '%' && is_name(peek())) next();
             const std::string name = lower_case(text_.substr(sign + 1, at_ - sign - 1));
-            if (name.empty() || !is_separator(peek())) continue;
-            if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
-                if (name != "end" && first_on_line(sign, resumed))
-                    fault(sign, "unknown group '&" + name.substr(0, 63) + "'" +
-                                    suggestion(name, known_, "&"));
+            const bool group_like = is_separator(peek()) && !name.empty();
+            if (group_like && name == "end") {
+                lost = false;
                 continue;
             }
+            if (!group_like || std::find(known_.begin(), known_.end(), name) == known_.end()) {
+                // A dollar sign inside prose is a price.
+                if (!lost && (c == '&' || (!name.empty() && first_on_line(sign, resumed))))
+                    wrong_group(sign, name);
+                lost = lost || group_like || first_on_line(sign, resumed);
+                skip_line();
+                continue;
+            }
+            lost = false;
             Group group{name, {}, position(sign)};
             complete_ = false;
             body(group);
             resumed = at_;
             document_.groups.push_back(std::move(group));
         }
-        if (!document_.groups.empty()) nothing_after(resumed);
+        if (!document_.groups.empty() && outside_ < resumed) nothing_after(resumed);
         return std::move(document_);
     }
 
@@ -115,6 +125,35 @@ private:
             word += static_cast<unsigned char>(c) < ' ' ? '?' : c;
         }
         return word;
+    }
+
+    // A group whose name is wrong: "&surfce", "& surface", "&surface%n=1", "&-surface".
+    void wrong_group(std::size_t sign, const std::string& name) {
+        const std::string word = excerpt(sign);
+        outside_ = sign;
+        if (is_separator(peek()) && !name.empty())
+            fault(sign,
+                  "unknown group '&" + name.substr(0, 63) + "'" + suggestion(name, known_, "&"));
+        else
+            fault(sign, "'" + word + "' begins no group: expected '&' and straight after it the " +
+                            "name of a group, then a blank or a new line; comments begin with '!'" +
+                            suggestion(name, known_, "&"));
+    }
+
+    // Reports "n = 128" outside of groups; false if no name stands before the '='.
+    bool outside_key(std::size_t equals) {
+        std::size_t end = equals;
+        while (end > 0 && is_blank(text_[end - 1])) --end;
+        std::size_t start = end;
+        while (start > 0 && (is_name(text_[start - 1]) || text_[start - 1] == ')' ||
+                             text_[start - 1] == '('))
+            --start;
+        if (start == end || is_digit(text_[start])) return false;
+        outside_ = start;
+        fault(start, "'" + std::string(text_.substr(start, std::min(end - start, std::size_t{63}))) +
+                         " =' stands outside a group and would be ignored: keys stand between " +
+                         "&name and '/', comments after '!'");
+        return true;
     }
 
     static std::string shown(const Assignment& a) { return "'" + a.key.substr(0, 63) + "'"; }
@@ -461,6 +500,7 @@ private:
     std::vector<std::size_t> lines_;  // offsets where lines begin
     std::size_t at_ = 0;
     bool at_eol_ = false, comma_ = false, complete_ = false;
+    std::size_t outside_ = 0;  // place of the last fault outside of groups
     bool alone_ = false;   // assignments without a group around them
     std::string context_;  // "&group: " within a group
     Document document_;

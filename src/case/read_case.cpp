@@ -91,12 +91,50 @@ void keys_without_meaning(const Reading& reading, std::vector<Fault>& faults) {
                          ", whose surface is read from the file");
 }
 
+// A value of a command line in namelist syntax: the shell removes the quotes of words, so that they
+// are put back for a key that takes text.
+std::string quoted_words(const Key& key, const std::string& value) {
+    const std::size_t first = value.find_first_not_of(' ');
+    if (first == std::string::npos || value[first] == '\'' || value[first] == '"') return value;
+    const std::string word = value.substr(first, value.find_last_not_of(' ') + 1 - first);
+    if (key.type == Type::string) return namelist::from_string(word);
+    if (key.choices.empty() || (key.type != Type::choice && namelist::to_real(word)) ||
+        (key.type != Type::choice && std::isalpha(static_cast<unsigned char>(word[0])) == 0))
+        return value;
+    if (!key.list || key.type != Type::choice) return namelist::from_string(word);
+    std::string all;
+    std::istringstream words(word);
+    for (std::string one; std::getline(words, one, ',');)
+        all += (all.empty() ? "" : ",") + quoted_words(key_of("output%file"), one);
+    return all;
+}
+
+// Refuses an option that replaces a key of which the study gives every member its own value.
+void require_not_varied(const std::string& name, const std::optional<Study>& study) {
+    if (!study) return;
+    const std::string_view base = std::string_view(name).substr(0, name.find('('));
+    const Key& key = key_of(base);
+    const std::string subscript = base.size() < name.size() ? name.substr(base.size()) : "";
+    for (const Study::Axis& axis : study->axes) {
+        const std::size_t bracket = axis.key.find('(');
+        if (axis.key.substr(0, bracket) != full_name(key)) continue;
+        const bool other_element = !subscript.empty() && bracket != std::string::npos &&
+                                   axis.key.substr(bracket) != subscript;
+        if (!other_element)
+            bad_input("&study varies " + axis.key + ", so that the option has no effect");
+    }
+}
+
 // Applies "--set surface%sigma=1"; returns an error message, or nothing.
-std::string apply_set(Case& settings, const std::string& argument) {
+std::string apply_set(Case& settings, const std::string& argument,
+                      const std::optional<Study>& study) {
     const std::size_t equals = argument.find('=');
     try {
         if (equals == std::string::npos) bad_input("expected 'group%key=value'");
-        set_key(settings, argument.substr(0, equals), argument.substr(equals + 1));
+        const std::string name = argument.substr(0, equals);
+        require_not_varied(name, study);
+        const Key& key = key_of(std::string_view(name).substr(0, name.find('(')));
+        set_key(settings, name, quoted_words(key, argument.substr(equals + 1)));
         return {};
     } catch (const Error& error) {
         return "--set " + argument + ": " + error.what();
@@ -165,7 +203,7 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
     Case& settings = reading.settings;
     std::vector<std::string> set_faults;
     for (const std::string& argument : options.set)
-        if (std::string problem = apply_set(settings, argument); !problem.empty())
+        if (std::string problem = apply_set(settings, argument, reading.study); !problem.empty())
             set_faults.push_back(std::move(problem));
     if (options.output) settings.output.file = *options.output;
 
@@ -214,6 +252,19 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
         read.warnings.push_back(name + ": &solids: " + key_name + ": one value of two; " + other +
                                 " = " + get_key(read.settings, other) + " taken by default");
     }
+    const bool solids =
+        std::ranges::any_of(reading.groups, [](const auto& group) { return group == "solids"; }) ||
+        std::ranges::any_of(options.set, [](const auto& set) { return set.starts_with("solids%"); });
+    if (!solids)
+        read.warnings.push_back(
+            name + ": no &solids: gold, solids%E(1) = " + get_key(read.settings, "solids%E(1)") +
+            " " + read.settings.run.force_unit + "/" + read.settings.run.length_unit +
+            "2, against a rigid body" +
+            (read.settings.indenter.shape == 0 && read.settings.indenter.file.empty()
+                 ? " with a radius of " + get_key(read.settings, "solids%R(2)") + " " +
+                       read.settings.run.length_unit
+                 : "") +
+            " (defaults)");
     const auto& indentation = read.settings.indentation;
     if (indentation.levels.empty() && indentation.control == Control::separation &&
         indentation.start < indentation.stop)

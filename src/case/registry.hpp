@@ -103,6 +103,7 @@ void finish_lists(Case& settings, Ledger& ledger, std::vector<namelist::Fault>& 
 // or without a value "group%key" to its default.
 // Checks type, choice, shape and the key's own bounds, not its relation to other keys (check_case
 // does). Throws Error(bad_input); the case is then unchanged.
+// A blank value gives the key its default.
 // `whole`: a name without subscript needs all values of an array of fixed size.
 void set_key(Case& settings, std::string_view name, std::string_view value, bool whole = false);
 

@@ -344,7 +344,7 @@ void set_default(Case& settings, const Key& key) {
 
 void set_key(Case& settings, std::string_view name, std::string_view value, bool whole) {
     const auto [key, assignment] = named(name, value);
-    if (value.find_first_not_of(' ') == std::string_view::npos) {
+    if (value.find_first_not_of(" \t\r\n") == std::string_view::npos) {
         if (assignment.subscript)
             bad_input("an element has no default of its own: give it a value, or leave " +
                       full_name(*key) + " as a whole without one");

@@ -16,8 +16,9 @@ namespace rsc {
 // those under the channel's mask) are NaN. Lengths are converted to length_unit. The first row of
 // the file, the top of the picture, has the largest y; x0 = y0 = 0.
 bool is_gwy(const std::string& start);
+// `title` (optional) receives the name of the channel.
 HeightMap read_gwy(const std::string& path, const std::string& channel,
-                   const std::string& length_unit);
+                   const std::string& length_unit, std::string* title = nullptr);
 
 // Surface data files (.sdf) of ISO 25178-71, text and binary, and of its predecessor BCR. is_sdf()
 // is true for their first bytes: aISO-1.0, bISO-1.0, aBCR-1.0, ... The heights are converted from
@@ -33,14 +34,23 @@ struct TextTable {
     std::size_t rows = 0, columns = 0;
     std::vector<double> values;
     std::vector<long> line;
-    std::string unit;  // in a comment `# Value units: m`, as Gwyddion writes it
+    // Units that the comments name.
+    struct UnitMention {
+        enum Kind { values, width, height, other } kind = other;
+        std::string unit;
+        double size = 0;  // of width and height, in `unit`
+        long line = 0;
+    };
+    std::vector<UnitMention> units;
+    const UnitMention* mention(UnitMention::Kind kind) const;  // the first; null if there is none
 };
 
 // Numbers in columns from a text file, separated by blanks or tabs, by a comma, or by a semicolon
 // (adjacent blanks are ignored); the same separator is required throughout. With semicolons the
 // decimal mark may be a comma, but then throughout. `#` starts a comment; empty lines are skipped;
 // exponents may be Fortran's (1.5d-3). `columns`: the required number, or 0 for that of the first
-// row. With `missing` the words nan and bad are missing values: NaN. Throws Error(bad_input) for
+// row. With `missing` the words nan and bad and empty cells between commas or semicolons are missing
+// values: NaN. Throws Error(bad_input) for
 // words that are no finite number, rows of different length or separator, files without rows, and
 // UTF-16.
 TextTable read_table(const std::string& path, std::size_t columns, bool missing = false);

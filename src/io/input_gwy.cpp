@@ -166,7 +166,7 @@ std::optional<double> factor_of(const std::string& unit, const std::string& leng
 bool is_gwy(const std::string& start) { return start.substr(0, 3) == "GWY"; }
 
 HeightMap read_gwy(const std::string& path, const std::string& channel,
-                   const std::string& length_unit) {
+                   const std::string& length_unit, std::string* title) {
     const GwyFile file(path);
     std::string names;
     std::optional<long> chosen, numbered;
@@ -190,6 +190,7 @@ HeightMap read_gwy(const std::string& path, const std::string& channel,
     const std::string base = format("/%ld", *chosen);
     const Field field = *file.field(base + "/data");
     const std::string name = path + ": channel '" + printable(file.title(*chosen)) + "'";
+    if (title) *title = printable(file.title(*chosen));
     const auto factor_z = factor_of(field.unit_z, length_unit),
                factor_xy = factor_of(field.unit_xy, length_unit);
     if (!factor_z)

@@ -423,9 +423,14 @@ void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) con
     }
 }
 
+std::optional<std::string> NetcdfInput::unit(const Variable& v) const {
+    const auto units = text_attribute(v, "units");
+    return units ? units : text_attribute(v, "unit");  // SurfaceTopography, contact.engineering
+}
+
 std::optional<double> NetcdfInput::unit_factor(const Variable& v, const std::string& length_unit,
                                                int power) const {
-    const auto units = text_attribute(v, "units");
+    const auto units = unit(v);
     if (!units) return std::nullopt;
     try {
         return length_factor(*units, length_unit, power);

@@ -67,7 +67,9 @@ public:
     // finite; with `missing` missing values become NaN, but infinity is refused.
     void read(const Variable& variable, double* out, bool missing = false) const;
 
-    // Factor from a variable's `units` to length_unit^power; none if it has no units.
+    // The attribute `units`, or `unit`.
+    std::optional<std::string> unit(const Variable& variable) const;
+    // Factor from a variable's unit to length_unit^power; none if it has no units.
     std::optional<double> unit_factor(const Variable& variable, const std::string& length_unit,
                                       int power = 1) const;
     // All values of the variable `name`, with `rank` dimensions, converted from its units, if it

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "case/namelist.hpp"
+#include "case/units.hpp"
 
 namespace rsc {
 namespace {
@@ -58,9 +59,15 @@ double number(std::string_view word, const std::string& path, long line, std::si
     return *value;
 }
 
-// Appends the numbers of a line to `values`; returns how many there were.
-std::size_t parse(std::string_view text, const std::string& path, long line, Style& style,
-                  bool missing, std::vector<double>& values) {
+// The numbers in a line, and whether a comma or semicolon follows the last.
+struct Row {
+    std::size_t count = 0;
+    bool open_end = false;
+};
+
+// Appends the numbers of a line to `values`.
+Row parse(std::string_view text, const std::string& path, long line, Style& style, bool missing,
+          std::vector<double>& values) {
     text = text.substr(0, text.find('#'));
     const bool semicolons = text.find(';') != std::string_view::npos;
     const auto separates = [semicolons](char c) { return c == (semicolons ? ';' : ','); };
@@ -90,9 +97,16 @@ std::size_t parse(std::string_view text, const std::string& path, long line, Sty
         }
         if (i == text.size()) break;
         if (separates(text[i])) {
-            if (gap == text[i] || count == 0)
-                refuse(path, line,
-                       "nothing between the separators at column " + std::to_string(count + 1));
+            if (gap == text[i] || count == 0) {  // an empty cell
+                if (!missing)
+                    refuse(path, line,
+                           "nothing between the separators at column " +
+                               std::to_string(count + 1) +
+                               ": empty cells of a map are missing points (surface%missing)");
+                require(text[i], "an empty cell");
+                values.push_back(std::nan(""));
+                ++count;
+            }
             gap = text[i++];
             continue;
         }
@@ -107,15 +121,147 @@ std::size_t parse(std::string_view text, const std::string& path, long line, Sty
         ++count;
         gap = 0;
     }
-    return count;  // a separator at the end of the line is accepted
+    return {count, count > 0 && gap != 0 && gap != ' '};
+}
+
+// --- units in comments
+
+bool contains_word(std::string_view text, std::string_view word) {
+    const auto letter = [&](std::size_t i) {
+        return i < text.size() && std::isalpha(static_cast<unsigned char>(text[i])) != 0;
+    };
+    for (std::size_t at = text.find(word); at != std::string_view::npos;
+         at = text.find(word, at + 1))
+        if (!letter(at + word.size()) && (at == 0 || !letter(at - 1))) return true;
+    return false;
+}
+
+// Words that are a unit of length wherever they stand. Others, such as m and in, are one only in
+// brackets or after a number.
+bool always_a_length(const std::string& word) {
+    for (const char* const symbol :
+         {"nm", "um", "mm", "pm", "cm", "\xc2\xb5m", "\xce\xbcm", "\xb5m", "\xc3\x85", "\xe2\x84\xab"})
+        if (word == symbol) return true;
+    const std::string lower = namelist::lower_case(word);
+    const auto begins = [&](const char* stem) { return lower.starts_with(stem); };
+    return begins("angstrom") || begins("micron") ||
+           ((begins("nano") || begins("micro") || begins("milli") || begins("pico") ||
+             begins("centi")) &&
+            (lower.find("meter") != std::string::npos || lower.find("metre") != std::string::npos));
+}
+
+// A word as UDUNITS spells it: names in lower case, with the kind of A that it knows.
+std::string as_unit(const std::string& word) {
+    if (word == "\xe2\x84\xab") return "\xc3\x85";
+    return word.size() > 4 ? namelist::lower_case(word) : word;
+}
+
+// The words of a comment between blanks and punctuation, numbers apart from what follows them.
+struct CommentWord {
+    std::string text;
+    std::optional<double> number;
+    bool bracketed = false;
+};
+std::vector<CommentWord> words_of(std::string_view comment) {
+    constexpr std::string_view between = " \t\r,;:=\"'#/";
+    constexpr std::string_view open = "[({<", closed = "])}>";
+    std::vector<CommentWord> words;
+    bool inside = false;
+    for (std::size_t i = 0; i < comment.size();) {
+        if (open.find(comment[i]) != std::string_view::npos) inside = true;
+        if (closed.find(comment[i]) != std::string_view::npos) inside = false;
+        const auto ends = [&](std::size_t k) {
+            return k >= comment.size() || between.find(comment[k]) != std::string_view::npos ||
+                   open.find(comment[k]) != std::string_view::npos ||
+                   closed.find(comment[k]) != std::string_view::npos;
+        };
+        if (ends(i)) {
+            ++i;
+            continue;
+        }
+        std::size_t end = i;
+        while (!ends(end)) ++end;
+        std::size_t digits = i;
+        while (digits < end && std::string_view("0123456789.+-").find(comment[digits]) !=
+                                   std::string_view::npos)
+            ++digits;
+        const std::string whole(comment.substr(i, end - i));
+        if (const auto number = number_in_file(whole)) {
+            words.push_back({whole, number, inside});
+        } else {
+            const auto start = number_in_file(comment.substr(i, digits - i));
+            if (start) words.push_back({whole.substr(0, digits - i), start, inside});
+            words.push_back({start ? whole.substr(digits - i) : whole, {}, inside});
+        }
+        i = end;
+    }
+    return words;
+}
+
+// Units of length named in a comment: `# Value units: m`, `# Width: 10 um` as Gwyddion writes them,
+// `# Exported image units: nm`, `# z [nm]`, ...
+void find_units(std::string_view comment, long line, std::vector<TextTable::UnitMention>& found) {
+    using Mention = TextTable::UnitMention;
+    const std::size_t colon = comment.find_first_of(":=");
+    const std::string label = namelist::lower_case(comment.substr(0, colon));
+    const std::vector<CommentWord> words = words_of(comment);
+    if (colon != std::string_view::npos &&
+        (contains_word(label, "units") || contains_word(label, "unit"))) {
+        const std::vector<CommentWord> value = words_of(comment.substr(colon + 1));
+        if (value.empty()) return;
+        bool lateral = false;
+        for (const char* const word : {"x", "y", "xy", "lateral", "width", "scan", "pixel"})
+            lateral = lateral || contains_word(label, word);
+        found.push_back({lateral ? Mention::other : Mention::values,
+                         as_unit(value[0].number && value.size() > 1 ? value[1].text
+                                                                     : value[0].text),
+                         0, line});
+        return;
+    }
+    for (std::size_t k = 0; k < words.size(); ++k) {
+        const bool after_number = k > 0 && words[k - 1].number && words[k].text != "in";
+        const std::string unit = as_unit(words[k].text);
+        if (words[k].number || !(always_a_length(words[k].text) || after_number ||
+                                 words[k].bracketed))
+            continue;
+        if (unit_factor(unit, "m") == 0) continue;
+        Mention mention{Mention::other, unit, 0, line};
+        const bool side = k == 2 && after_number && colon != std::string_view::npos;
+        if (side && contains_word(label, "width")) mention.kind = Mention::width;
+        if (side && contains_word(label, "height")) mention.kind = Mention::height;
+        if (side) mention.size = *words[k - 1].number;
+        found.push_back(mention);
+    }
 }
 
 }  // namespace
+
+const TextTable::UnitMention* TextTable::mention(UnitMention::Kind kind) const {
+    const auto found = std::ranges::find(units, kind, &UnitMention::kind);
+    return found == units.end() ? nullptr : &*found;
+}
 
 std::optional<double> number_in_file(std::string_view word) {
     const std::size_t sign = word.find_first_of("+-", 1);
     if (sign != std::string_view::npos && word[sign - 1] < 'A') return {};
     return namelist::to_real(word);
+}
+
+// Puts an empty cell at the end of every row but the last, which has one more value than they.
+static void add_empty_column(TextTable& table) {
+    std::vector<double> wider;
+    wider.reserve(table.values.size() + table.line.size());
+    for (std::size_t row = 0; row < table.line.size(); ++row) {
+        const auto start = table.values.begin() + static_cast<std::ptrdiff_t>(row * table.columns);
+        wider.insert(wider.end(), start, start + static_cast<std::ptrdiff_t>(table.columns));
+        wider.push_back(std::nan(""));
+    }
+    wider.insert(wider.end(),
+                 table.values.begin() +
+                     static_cast<std::ptrdiff_t>(table.line.size() * table.columns),
+                 table.values.end());
+    table.values = std::move(wider);
+    ++table.columns;
 }
 
 TextTable read_table(const std::string& path, std::size_t columns, bool missing) {
@@ -126,6 +272,7 @@ TextTable read_table(const std::string& path, std::size_t columns, bool missing)
     table.columns = columns;
     std::string text;
     long line = 0;
+    bool open_ends = true;  // every row so far ends with a separator
     while (std::getline(file, text)) {
         ++line;
         std::string_view view(text);
@@ -135,19 +282,26 @@ TextTable read_table(const std::string& path, std::size_t columns, bool missing)
             bad_input(path + ": is text in UTF-16; save it as UTF-8 or plain ASCII");
         if (view.find('\0') != std::string_view::npos)
             refuse(path, line, "neither text nor a NetCDF file (there is a zero byte)");
-        constexpr std::string_view told = "# Value units: ";
-        if (view.starts_with(told))
-            table.unit = view.substr(told.size(), view.find('\r') - told.size());
-        const std::size_t count = parse(view, path, line, style, missing, table.values);
-        if (count == 0) continue;
-        if (table.columns == 0) table.columns = count;
-        if (count != table.columns) {
+        if (const std::size_t mark = view.find('#'); mark != std::string_view::npos)
+            find_units(view.substr(mark + 1), line, table.units);
+        Row row = parse(view, path, line, style, missing, table.values);
+        if (row.count == 0) continue;
+        if (table.columns == 0) table.columns = row.count;
+        if (missing && row.open_end && row.count + 1 == table.columns) {
+            table.values.push_back(std::nan(""));  // the last cell is empty
+            ++row.count;
+        }
+        if (missing && open_ends && columns == 0 && row.count == table.columns + 1) {
+            add_empty_column(table);  // all rows before end in an empty cell
+        }
+        open_ends = open_ends && row.open_end;
+        if (row.count != table.columns) {
             const std::string wanted = columns > 0
                                            ? std::to_string(columns)
                                            : std::to_string(table.columns) + " as in line " +
                                                  std::to_string(table.line[0]);
             refuse(path, line,
-                   std::to_string(count) + " values where " + wanted + " were expected");
+                   std::to_string(row.count) + " values where " + wanted + " were expected");
         }
         table.line.push_back(line);
     }

@@ -63,6 +63,17 @@ struct TextAxis {
     }
 };
 
+// The unit of the last decimal digit that values have in common.
+double last_digit(const std::vector<double>& values) {
+    double digit = 1e9;
+    const auto rounded = [&](double v) {
+        const double steps = v / digit;
+        return std::abs(steps - std::round(steps)) < 1e-6;
+    };
+    while (digit > 1e-15 && !std::ranges::all_of(values, rounded)) digit /= 10;
+    return digit;
+}
+
 TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t column,
                    const char* name) {
     std::vector<double> c(table.rows);
@@ -78,16 +89,34 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
     const double range = c.back() - c.front(),
                  same =
                      1e-3 * range / static_cast<double>(table.rows);  // less than any uniform step
+    // The smallest gap between values is nearly the step; a wider one is several steps, where all
+    // points of a column are missing.
+    double least = range;
+    for (std::size_t i = 1; i < c.size(); ++i)
+        if (c[i] - c[i - 1] > same) least = std::min(least, c[i] - c[i - 1]);
     axis.count = 1;
-    for (std::size_t i = 1; i < c.size(); ++i) axis.count += c[i] - c[i - 1] > same ? 1 : 0;
+    for (std::size_t i = 1; i < c.size(); ++i)
+        if (c[i] - c[i - 1] > same)
+            axis.count += static_cast<std::size_t>(std::lround((c[i] - c[i - 1]) / least));
     if (axis.count < 2)
         bad_input(path + ": three columns are read as x y z of a map; column " + name + " is " +
                   text_of(axis.first) + " throughout");
     axis.step = range / static_cast<double>(axis.count - 1);
+    const auto uniform = [&](double v) {
+        return axis.first + static_cast<double>(axis.index(v)) * axis.step;
+    };
+    double off = 0;
+    for (const double v : c) off = std::max(off, std::abs(v - uniform(v)));
+    if (off <= kUniformText * axis.step) return axis;
+    // Rounding moves a coordinate by half a unit of its last digit, and the ends as much.
+    if (const double digit = last_digit(c); off <= 1.01 * digit)
+        bad_input(path + ": three columns are read as x y z of a map; " + name +
+                  " has too few digits: it is rounded to " + text_of(digit) +
+                  ", and its step is about " + text_of(axis.step) +
+                  "; a hundredth of the step is expected");
     for (std::size_t i = 0; i < table.rows; ++i) {
         const double v = table.values[3 * i + column];
-        const double uniform = axis.first + static_cast<double>(axis.index(v)) * axis.step;
-        if (!(std::abs(v - uniform) <= kUniformText * axis.step))
+        if (!(std::abs(v - uniform(v)) <= kUniformText * axis.step))
             bad_input(path + ":" + std::to_string(table.line[i]) +
                       ": three columns are read as x y z of a map; " + name + " = " + text_of(v) +
                       " is not on a uniform grid of " + std::to_string(axis.count) +
@@ -112,7 +141,7 @@ HeightMap read_text_triples(const std::string& path, const TextTable& table,
         if (line[point] > 0)
             bad_input(path + ":" + std::to_string(table.line[i]) + ": x = " + text_of(row[0]) +
                       ", y = " + text_of(row[1]) + " is already in line " +
-                      std::to_string(line[point]));
+                      std::to_string(line[point]) + "; have the coordinates too few digits?");
         line[point] = table.line[i];
         map.data[point] = row[2];
     }
@@ -125,7 +154,8 @@ HeightMap read_text_triples(const std::string& path, const TextTable& table,
                   std::to_string(x.count) + " x " + std::to_string(y.count) +
                   " points, but there is none at x = " +
                   text_of(x.first + static_cast<double>(point % x.count) * x.step) +
-                  ", y = " + text_of(y.first + static_cast<double>(point / x.count) * y.step));
+                  ", y = " + text_of(y.first + static_cast<double>(point / x.count) * y.step) +
+                  "; surface%missing = 'fill' fills such points");
     }
     map.x0 = x.first;
     map.y0 = y.first;
@@ -136,13 +166,21 @@ HeightMap read_text_triples(const std::string& path, const TextTable& table,
 }
 
 HeightMap read_text_points(const std::string& path, const TextTable& table, std::optional<double> L,
-                           bool missing, const TextMap& text) {
+                           bool missing, const TextMap& text,
+                           const std::string& length_unit) {
     if (table.columns == 3) return read_text_triples(path, table, L, missing, text);
     if (table.columns == 4)
         bad_input(path +
                   ": four columns are a list of asperities x y z r (surface%source='asperities'), "
                   "not a map");
-    if (!L && !text.pixel)
+    const auto side = [&](TextTable::UnitMention::Kind kind) -> std::optional<double> {
+        const TextTable::UnitMention* const stated = table.mention(kind);
+        if (!stated || !(stated->size > 0)) return {};
+        return stated->size * length_factor(stated->unit, length_unit, 1);
+    };
+    const auto width = side(TextTable::UnitMention::width),
+               height = side(TextTable::UnitMention::height);
+    if (!L && !text.pixel && !width)
         bad_input(path +
                   ": a text matrix has no spacing; surface%pixel must be given, or of body 1 "
                   "surface%L, its extent in x");
@@ -150,20 +188,68 @@ HeightMap read_text_points(const std::string& path, const TextTable& table, std:
     check_grid(path, table.columns, table.rows);
     HeightMap map = allocate_map(table.columns, table.rows);
     std::copy(table.values.begin(), table.values.end(), map.data.get());
-    map.dx = map.dy = text.pixel ? *text.pixel : *L / map.nx;
+    map.dx = map.dy = text.pixel ? *text.pixel : L ? *L / map.nx : *width / map.nx;
+    if (!L && !text.pixel && height) map.dy = *height / map.ny;
     if (text.pixel) check_given_L(path, "x", map.nx, map.dx, L);
+    constexpr double kSameWidth = 0.01;  // relative; a header is rounded
+    if (width && !(std::abs(map.Lx() - *width) <= kSameWidth * *width))
+        bad_input(path + ":" + std::to_string(table.mention(TextTable::UnitMention::width)->line) +
+                  ": a comment says that the map is " + text_of(*width) + " " + length_unit +
+                  " wide, but surface%pixel or surface%L makes it " + text_of(map.Lx()));
     return map;
 }
 
+// Marks heights that mean "no data", as the file has them, and looks for others that may mean it.
+void mark_missing(HeightMap& map, const std::vector<double>& codes, MapOrigin* origin) {
+    constexpr double kSingle = 1e-7;  // a code may have been rounded to single precision
+    for (std::size_t k = 0; !codes.empty() && k < map.points(); ++k)
+        for (const double code : codes)
+            if (std::abs(map.data[k] - code) <= kSingle * std::abs(code))
+                map.data[k] = std::nan("");
+    if (origin) origin->code = likely_code(map, origin->coded);
+}
+
+// The factor of the heights of a text file. A unit in a comment that is not understood, and is
+// another than the unit that applies, is refused.
+double text_height_factor(const std::string& path, const TextTable& table, const TextMap& text,
+                          const std::string& length_unit) {
+    const TextTable::UnitMention* const stated = table.mention(TextTable::UnitMention::values);
+    const std::string unit = !text.height_unit.empty() ? text.height_unit
+                             : stated                  ? stated->unit
+                                                       : length_unit;
+    const bool three = table.columns == 3;
+    for (const TextTable::UnitMention& other : table.units) {
+        const auto same = [&](const std::string& known) {
+            return other.unit == known || unit_factor(other.unit, known) == 1;
+        };
+        const bool understood = !text.height_unit.empty() || stated;
+        if (&other == stated || same(length_unit) || (understood && (!three || same(unit))))
+            continue;
+        bad_input(path + ":" + std::to_string(other.line) + ": a comment names the unit '" +
+                  other.unit + "'; " +
+                  (understood && three
+                       ? "x and y are taken in run%length_unit = '" + length_unit +
+                             "', which must be that of the file"
+                       : "surface%height_unit, the unit of the heights, must be given"));
+    }
+    try {
+        return length_factor(unit, length_unit, 1);
+    } catch (const Error& error) {
+        bad_input(path + (stated && text.height_unit.empty()
+                              ? ":" + std::to_string(stated->line) + ": a comment: "
+                              : ": ") +
+                  error.what() + "; surface%height_unit replaces it");
+    }
+}
+
 HeightMap read_text_heights(const std::string& path, std::optional<double> L, bool missing,
-                            const TextMap& text, const std::string& length_unit) {
+                            const TextMap& text, const std::string& length_unit,
+                            MapOrigin* origin) {
     const TextTable table = read_table(path, 0, missing);
-    HeightMap map = read_text_points(path, table, L, missing, text);
-    if (text.height_unit.empty() && !table.unit.empty() && table.unit != length_unit)
-        bad_input(path + ": its heights are in '" + table.unit +
-                  "', says a comment; surface%height_unit must be given");
-    if (!text.height_unit.empty())
-        scale_heights(map, length_factor(text.height_unit, length_unit, 1));
+    const double factor = text_height_factor(path, table, text, length_unit);
+    HeightMap map = read_text_points(path, table, L, missing, text, length_unit);
+    mark_missing(map, text.missing_value, origin);
+    scale_heights(map, factor);
     return map;
 }
 
@@ -223,7 +309,7 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& c
     std::vector<NetcdfInput::Variable> maps;
     std::string names;
     for (const auto& v : file.variables())
-        if (is_map(v)) {
+        if (is_map(v) && v.name != "mask") {
             names += (maps.empty() ? "" : ", ") + v.shape();
             maps.push_back(v);
         }
@@ -241,10 +327,11 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& c
 // and without conversion slopes would be
 // 1000 times too large. If only some variables have units, the unit of the others is unknown.
 std::array<double, 3> unit_factors(const NetcdfInput& file, const NetcdfInput::Variable& heights,
-                                   const std::string& length_unit, bool coordinates) {
+                                   const std::string& length_unit, bool coordinates,
+                                   std::size_t of_x) {
     std::vector<NetcdfInput::Variable> all = {heights};
     if (coordinates)
-        for (const std::size_t dimension : {1, 0})
+        for (const std::size_t dimension : {of_x, 1 - of_x})
             all.push_back(*file.find(heights.axes[dimension]));
     std::array<double, 3> factor{1, 1, 1};
     const NetcdfInput::Variable *with = nullptr, *without = nullptr;
@@ -257,21 +344,41 @@ std::array<double, 3> unit_factors(const NetcdfInput& file, const NetcdfInput::V
     }
     if (with && without)
         bad_input(file.path() + ": " + with->name + " is in '" +
-                  file.text_attribute(*with, "units").value_or("") + "', but " + without->name +
-                  " has no attribute units, so its unit is unknown");
+                  file.unit(*with).value_or("") + "', but " + without->name +
+                  " has no attribute units or unit, so its unit is unknown");
     return factor;
+}
+
+// Sets points under the variable `mask` to NaN, if there is one of the shape of the heights.
+void apply_mask(const NetcdfInput& file, const NetcdfInput::Variable& heights, HeightMap& map) {
+    const auto mask = file.find("mask");
+    if (!mask || !mask->numeric() || mask->dimensions != heights.dimensions) return;
+    std::vector<double> masked(mask->count());
+    file.read(*mask, masked.data(), true);
+    for (std::size_t k = 0; k < masked.size(); ++k)
+        if (masked[k] != 0) map.data[k] = std::nan("");
+}
+
+// Exchanges the axes of a map without padding.
+HeightMap transposed(const HeightMap& map) {
+    HeightMap turned =
+        allocate_map(static_cast<std::size_t>(map.ny), static_cast<std::size_t>(map.nx));
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) turned.row(i)[j] = map(i, j);
+    return turned;
 }
 
 HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L,
                               const std::string& length_unit, const std::string& channel,
-                              bool missing) {
+                              bool missing, const TextMap& text, MapOrigin* origin) {
     const NetcdfInput file(path);
     const auto variable = find_heights(file, channel);
-    check_grid(path, variable.lengths[1], variable.lengths[0]);
-    if (variable.axes[0] == "x" && variable.axes[1] == "y")
-        bad_input(path + ": " + variable.shape() +
-                  " has y running fastest; (y, x) was expected (ncpdq -a y,x makes it so)");
-    const auto x = read_axis(file, variable, 1), y = read_axis(file, variable, 0);
+    if (origin) origin->channel = variable.name;
+    // SurfaceTopography and others let y run fastest.
+    const bool turned = variable.axes[0] == "x" && variable.axes[1] == "y";
+    const std::size_t of_x = turned ? 0 : 1, of_y = 1 - of_x;
+    check_grid(path, variable.lengths[of_x], variable.lengths[of_y]);
+    const auto x = read_axis(file, variable, of_x), y = read_axis(file, variable, of_y);
     if (x.has_value() != y.has_value())
         bad_input(path + ": " + variable.shape() +
                   " has a coordinate variable for only one dimension; both or none were expected");
@@ -280,20 +387,23 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L,
                   " has no coordinate variables; they must be given, or of body 1 surface%L, its "
                   "extent in x");
     HeightMap map = allocate_map(variable.lengths[1], variable.lengths[0]);
+    file.read(variable, map.data.get(), missing);
+    apply_mask(file, variable, map);
+    mark_missing(map, text.missing_value, origin);
+    if (turned) map = transposed(map);
     if (L) {
         check_L(path, *L);
         map.dx = map.dy = *L / map.nx;
     }
     const auto [factor_z, factor_x, factor_y] =
-        unit_factors(file, variable, length_unit, x.has_value());
+        unit_factors(file, variable, length_unit, x.has_value(), of_x);
     if (x) {
         map.x0 = x->first * factor_x;
         map.y0 = y->first * factor_y;
         map.dx = x->step * factor_x;
         map.dy = y->step * factor_y;
-        check_given_L(path, variable.axes[1], map.nx, map.dx, L);
+        check_given_L(path, variable.axes[of_x], map.nx, map.dx, L);
     }
-    file.read(variable, map.data.get(), missing);
     scale_heights(map, factor_z);
     if (x && x->reversed) reverse_columns(map);
     if (y && y->reversed) reverse_rows(map);
@@ -313,13 +423,18 @@ struct InstrumentFormat {
     const char* name;
     bool (*is)(const std::string& first_bytes);
     HeightMap (*read)(const std::string& path, const std::string& channel,
-                      const std::string& length_unit);
+                      const std::string& length_unit, MapOrigin* origin);
     bool channels;  // a file has several maps, possibly with masks
 };
 constexpr InstrumentFormat kInstrumentFormats[] = {
-    {".gwy", is_gwy, read_gwy, true},
+    {".gwy", is_gwy,
+     [](const std::string& path, const std::string& channel, const std::string& unit,
+        MapOrigin* origin) {
+         return read_gwy(path, channel, unit, origin ? &origin->channel : nullptr);
+     },
+     true},
     {".sdf", is_sdf,
-     [](const std::string& path, const std::string&, const std::string& unit) {
+     [](const std::string& path, const std::string&, const std::string& unit, MapOrigin*) {
          return read_sdf(path, unit);
      },
      false},
@@ -384,16 +499,53 @@ Asperities read_text_asperities(const std::string& path) {
 
 }  // namespace
 
-bool is_text_map(const std::string& path) {
+bool is_instrument_map(const std::string& path) {
     if (is_netcdf(path)) return false;
     const std::string start = first_bytes(path);
-    return std::none_of(std::begin(kInstrumentFormats), std::end(kInstrumentFormats),
-                        [&](const auto& format) { return format.is(start); });
+    return std::any_of(std::begin(kInstrumentFormats), std::end(kInstrumentFormats),
+                       [&](const auto& format) { return format.is(start); });
+}
+
+bool is_text_map(const std::string& path) { return !is_netcdf(path) && !is_instrument_map(path); }
+
+std::optional<double> likely_code(const HeightMap& map, long& points) {
+    constexpr double kShare = 1e-3;
+    double low = kInfinity, high = -kInfinity;
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i)
+            low = std::fmin(low, map(i, j)), high = std::fmax(high, map(i, j));
+    const double many = kShare * static_cast<double>(map.points());
+    for (const double code : {low, high}) {
+        double least = kInfinity, most = -kInfinity;
+        points = 0;
+        for (int j = 0; j < map.ny; ++j)
+            for (int i = 0; i < map.nx; ++i)
+                if (map(i, j) == code)
+                    ++points;
+                else
+                    least = std::fmin(least, map(i, j)), most = std::fmax(most, map(i, j));
+        const double away = code == low ? least - code : code - most;
+        if (static_cast<double>(points) > many && least < most && away > most - least) return code;
+    }
+    long zero_blocks = 0, other_blocks = 0;
+    points = 0;
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) {
+            points += map(i, j) == 0;
+            if (i < 1 || j < 1 || i + 1 == map.nx || j + 1 == map.ny) continue;
+            bool block = true;
+            for (int b = -1; b <= 1; ++b)
+                for (int a = -1; a <= 1; ++a) block = block && map(i + a, j + b) == map(i, j);
+            if (block) ++(map(i, j) == 0 ? zero_blocks : other_blocks);
+        }
+    const bool blocks = static_cast<double>(zero_blocks) > many && zero_blocks > 100 * other_blocks;
+    if (blocks && 2 * points < static_cast<long>(map.points())) return 0.0;
+    return {};
 }
 
 HeightMap read_heights(const std::string& path, std::optional<double> L,
                        const std::string& length_unit, const std::string& channel, Missing missing,
-                       const TextMap& text) {
+                       const TextMap& text, MapOrigin* origin) {
     const bool fill = missing == Missing::fill;
     const bool netcdf = is_netcdf(path);
     const std::string start = first_bytes(path);
@@ -411,9 +563,13 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
         bad_input(
             path +
             ": is not a text file; surface%height_unit and surface%pixel are only for text files");
-    HeightMap map = netcdf       ? read_netcdf_heights(path, L, length_unit, channel, fill)
-                    : instrument ? instrument->read(path, channel, length_unit)
-                                 : read_text_heights(path, L, fill, text, length_unit);
+    if (instrument && !text.missing_value.empty())
+        bad_input(path + ": surface%missing_value is for text and NetCDF files; this format marks "
+                         "its missing points itself");
+    HeightMap map =
+        netcdf       ? read_netcdf_heights(path, L, length_unit, channel, fill, text, origin)
+        : instrument ? instrument->read(path, channel, length_unit, origin)
+                     : read_text_heights(path, L, fill, text, length_unit, origin);
     if (instrument) check_given_L(path, "x", map.nx, map.dx, L);
     for (const double step : {map.dx, map.dy})
         if (!usable_positive(step))

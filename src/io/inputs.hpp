@@ -18,12 +18,30 @@ bool is_pattern(const std::string& name);
 // Error(bad_input) if nothing matches.
 std::vector<std::string> matching_files(const std::string& name);
 
-// Properties of a map that a text file does not contain.
+// Properties of a map that a file may not contain.
 struct TextMap {
     std::string height_unit;      // of its heights; empty: length_unit
     std::optional<double> pixel;  // step between the points of a matrix, instead of L [length_unit]
+    // Heights, as the file has them, that mean a missing point; also for NetCDF.
+    std::vector<double> missing_value = {};
     bool any() const { return !height_unit.empty() || pixel; }
 };
+
+// What a map was read from, for messages and results.
+struct MapOrigin {
+    std::string channel;  // image of a .gwy or variable of a NetCDF file; empty: the file has none
+    // A height, as the file has it, that is probably a code for missing points (likely_code()).
+    std::optional<double> code;
+    long coded = 0;  // points that have it
+};
+
+// A height that fills more than a thousandth of the points and probably means "no data": the lowest
+// or highest one if it is farther from the others than these are from each other, or 0 in blocks of
+// 3 x 3 points and more where no other height fills such blocks. `points` receives their number.
+std::optional<double> likely_code(const HeightMap& map, long& points);
+
+// True if the readable file `path` is one of an instrument, .gwy or .sdf.
+bool is_instrument_map(const std::string& path);
 
 // True if the readable file `path` is neither NetCDF nor of an instrument, so that TextMap applies
 // to it.
@@ -44,9 +62,10 @@ bool is_text_map(const std::string& path);
 //   coordinates; decreasing coordinates are
 //   reversed. Without coordinate variables the steps are dx = dy = L/nx and x0 = y0 = 0. If both
 //   are given, nx dx must equal L to 1e-6.
-// Text (formats.hpp): a matrix in length_unit (a comment that names another unit is refused), one
-// line for each y in increasing order;
-//   needs L. Or three columns x y z, in any order of the lines: the points of a full grid whose
+// Text (formats.hpp): a matrix, one line for each y in increasing order; heights are in the unit that
+// a comment states as theirs, otherwise in length_unit; a comment that names another unit of length
+// asks for `text.height_unit`. Needs L, or a comment with the width.
+//   Or three columns x y z, in any order of the lines: the points of a full grid whose
 //   coordinates are uniform to a hundredth of
 //   a step, as text is rounded. Four columns are refused, because they are a list of asperities.
 // L: extent in x [length_unit] of the points as cells (L = nx dx). At least 3 x 3 points. The map
@@ -60,7 +79,8 @@ bool is_text_map(const std::string& path);
 // `text` is for text files only; other files are refused with it.
 HeightMap read_heights(const std::string& path, std::optional<double> L,
                        const std::string& length_unit = "mm", const std::string& channel = "",
-                       Missing missing = Missing::refuse, const TextMap& text = {});
+                       Missing missing = Missing::refuse, const TextMap& text = {},
+                       MapOrigin* origin = nullptr);
 
 // Asperities from `path`.
 // NetCDF: asperity_x, asperity_y, asperity_z, asperity_radius over one dimension; asperity_kappa1,
