@@ -1,6 +1,6 @@
 #include "asperities/asperity_level.hpp"
 
-#include "asperities/spots.hpp"
+#include "contact/spots.hpp"
 #include "interaction/close_pairs.hpp"
 #include "interaction/mesh.hpp"
 #include "interaction/products.hpp"

@@ -1,5 +1,7 @@
 #include "contact/indentation.hpp"
 
+#include "interaction/layers.hpp"
+
 #include "base/error.hpp"
 
 namespace rsc {
@@ -11,6 +13,10 @@ void require_sound(const Indenter& indenter) {
     if (indenter.period.finite() && !indenter.shape->repeats(indenter.period.x, indenter.period.y))
         throw Error(Failure::bad_input,
                     "periodic boundaries require two flats: both radii must be Infinity");
+}
+
+Substrate substrate_of(const Indenter& indenter) {
+    return {indenter.E_star, layers_of(indenter.layers, indenter.E_star)};
 }
 
 }  // namespace rsc

@@ -1,8 +1,9 @@
 // A rough surface pressed by an indenter: the problem (paper, section 4).
 #pragma once
 
-#include "contact/period.hpp"
-#include "physics/indenter/shape.hpp"
+#include "contact/shape.hpp"
+#include "interaction/kernel.hpp"
+#include "interaction/layered_body.hpp"
 #include "physics/relaxation/relaxation.hpp"
 #include "surface/asperities.hpp"
 
@@ -17,25 +18,8 @@ enum class Model : std::int32_t { asperities, elements, automatic };
 inline constexpr std::array kModelNames = {"asperities", "elements", "auto"};
 enum class Selection { overlap, paper };
 inline constexpr std::array kSelectionNames = {"overlap", "paper"};
-enum class Interaction { point, none };
-inline constexpr std::array kInteractionNames = {"point", "none"};
 enum class LawKind { hertz, elliptic, fourth_order };  // law/law.hpp
 inline constexpr std::array kLawNames = {"hertz", "elliptic", "fourth_order"};
-
-// Layers of body 1, from the top, bonded to each other and to a half-space of E, nu
-// (interaction/layers.hpp).
-inline constexpr int kMostLayers = 8;
-struct Layer {
-    double thickness = 0, E = 0,
-           nu = 0;  // [length], Young's modulus [force/length^2], Poisson's ratio
-    friend bool operator==(const Layer&, const Layer&) = default;
-};
-struct LayeredBody {
-    std::int64_t count = 0;  // 0: a homogeneous half-space
-    std::array<Layer, kMostLayers> layer{};
-    double E = 0, nu = 0;  // E = Infinity: rigid
-    friend bool operator==(const LayeredBody&, const LayeredBody&) = default;
-};
 
 // Equivalent problem: elastic half-space E_star (with layers, that of the top layer) and a rigid
 // indenter with its tip above (x0, y0).
@@ -73,6 +57,9 @@ struct Indenter {
 // Throws Error(bad_input) unless E* is positive and finite and there is a shape, which must be
 // periodic if the period is finite.
 void require_sound(const Indenter& indenter);
+
+// The elastic body of the problem, including its layers.
+Substrate substrate_of(const Indenter& indenter);
 
 // Rectangle of a free surface.
 struct Rectangle {

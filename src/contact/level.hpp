@@ -2,8 +2,8 @@
 // and libraries.
 #pragma once
 
-#include "asperities/spots.hpp"
 #include "contact/indentation.hpp"
+#include "contact/spots.hpp"
 
 namespace rsc {
 

@@ -2,7 +2,7 @@
 // boxes, for pixel_tree.cpp.
 #pragma once
 
-#include "elements/pixel_kernels.hpp"
+#include "interaction/pixel_kernels.hpp"
 #include "interaction/kernel.hpp"
 
 namespace rsc {

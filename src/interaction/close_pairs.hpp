@@ -3,7 +3,7 @@
 // before its own ends.
 #pragma once
 
-#include "contact/period.hpp"
+#include "interaction/period.hpp"
 
 namespace rsc {
 

@@ -4,8 +4,8 @@
 
 #include "base/dispatch.hpp"
 #include "base/error.hpp"
-#include "elements/pixel_kernels.hpp"
 #include "interaction/layers.hpp"
+#include "interaction/pixel_kernels.hpp"
 
 namespace rsc {
 namespace {
@@ -210,10 +210,6 @@ double Substrate::under_pixel(double x, double y, double dx, double dy) const {
     double sum = near() * dx * pixel_kernel(x / dx, y / dx, dy / dx);
     if (smooth_) sum += smooth_->over_rectangle(x, y, 0.5 * dx, 0.5 * dy);
     return sum;
-}
-
-Substrate substrate_of(const Indenter& indenter) {
-    return {indenter.E_star, layers_of(indenter.layers, indenter.E_star)};
 }
 
 Kernel::Kernel(Interaction interaction, Substrate substrate, Period period)

@@ -2,10 +2,13 @@
 // with the smooth part s(d) due to layers.
 #pragma once
 
-#include "contact/indentation.hpp"
 #include "interaction/lattice.hpp"
 
 namespace rsc {
+
+// Deflection of the surface around an asperity: that of a point force, or none.
+enum class Interaction { point, none };
+inline constexpr std::array kInteractionNames = {"point", "none"};
 
 // Table of a smooth function v of t^2 as polynomials of degree 4 in y = 1 + t^2/unit^2, 64 per
 // octave of y. A lookup gathers only five numbers.
@@ -93,9 +96,6 @@ private:
     double E_star_, bulge_ = 0;
     std::shared_ptr<const SmoothPart> smooth_;
 };
-
-// The elastic body of an indenter problem, including its layers.
-Substrate substrate_of(const Indenter& indenter);
 
 // G(dx, dy): deflection of the surface at an offset from a unit force [length/force]. B_ij = G(x_i
 // - x_j, y_i - y_j), B_ii = self().

@@ -2,7 +2,7 @@
 // 1/d.
 #pragma once
 
-#include "contact/period.hpp"
+#include "interaction/period.hpp"
 
 namespace rsc {
 

@@ -1,8 +1,8 @@
 // Elastic layers bonded to an elastic half-space: effect of a coating on surface deflections.
 #pragma once
 
-#include "contact/indentation.hpp"
 #include "interaction/kernel.hpp"
+#include "interaction/layered_body.hpp"
 
 namespace rsc {
 

@@ -7,7 +7,7 @@
 #include "contact/answers.hpp"
 #include "contact/deflection.hpp"
 #include "elements/element_contact.hpp"
-#include "elements/pixel_kernels.hpp"
+#include "interaction/pixel_kernels.hpp"
 #include "height_maps.hpp"
 #include "interaction/lattice.hpp"
 #include "physics/elimination.hpp"

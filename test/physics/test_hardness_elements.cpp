@@ -5,7 +5,7 @@
 #include "base/error.hpp"
 #include "check.hpp"
 #include "elements/element_contact.hpp"
-#include "elements/pixel_kernels.hpp"
+#include "interaction/pixel_kernels.hpp"
 #include "height_maps.hpp"
 #include "surface/synthesis.hpp"
 

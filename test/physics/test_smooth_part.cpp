@@ -9,7 +9,7 @@
 #include "check.hpp"
 #include "contact/deflection.hpp"
 #include "elements/periodic_pixels.hpp"
-#include "elements/pixel_kernels.hpp"
+#include "interaction/pixel_kernels.hpp"
 
 using namespace rsc;
 

@@ -2,7 +2,7 @@
 // that repeats, against the double loop; the same order at every call.
 #include "interaction/close_pairs.hpp"
 
-#include "asperities/spots.hpp"
+#include "contact/spots.hpp"
 #include "check.hpp"
 
 using namespace rsc;

@@ -1,6 +1,6 @@
 // The potential of a point and its images: closed forms, sums over finer lattices, Ewald's sum with
 // other parameters; and spots across the borders.
-#include "asperities/spots.hpp"
+#include "contact/spots.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
 #include "interaction/kernel.hpp"

@@ -2,7 +2,7 @@
 // tree against direct sums.
 #include "check.hpp"
 #include "elements/elements.hpp"
-#include "elements/pixel_kernels.hpp"
+#include "interaction/pixel_kernels.hpp"
 #include "elements/pixel_products.hpp"
 
 #include "base/parallel.hpp"

@@ -1,5 +1,5 @@
 // The union of elliptic spots against closed forms of circles, their affine images, and counting.
-#include "asperities/spots.hpp"
+#include "contact/spots.hpp"
 #include "check.hpp"
 
 using namespace rsc;

@@ -1,6 +1,6 @@
 // What a level is worth: status, expected errors, grids of elements, borders, filled points.
 #include "asperities/asperity_contact.hpp"
-#include "asperities/spots.hpp"
+#include "contact/spots.hpp"
 #include "case/registry.hpp"
 #include "check.hpp"
 #include "elements/element_contact.hpp"

@@ -4,7 +4,7 @@
 
 #include "asperities/lapack.hpp"
 #include "asperities/law.hpp"
-#include "asperities/spots.hpp"
+#include "contact/spots.hpp"
 #include "check.hpp"
 
 using namespace rsc;

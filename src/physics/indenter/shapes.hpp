@@ -1,7 +1,7 @@
 // Table of all indenter shapes.
 #pragma once
 
-#include "physics/indenter/shape.hpp"
+#include "contact/shape.hpp"
 
 namespace rsc {
 

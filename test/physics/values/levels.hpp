@@ -2,7 +2,7 @@
 #pragma once
 
 #include "asperities/law.hpp"
-#include "asperities/spots.hpp"
+#include "contact/spots.hpp"
 #include "asperities/touching.hpp"
 #include "base/version.h"
 #include "case/read_case.hpp"

@@ -1,4 +1,4 @@
-#include "physics/indenter/shape.hpp"
+#include "contact/shape.hpp"
 
 #include "physics/indenter/shapes.hpp"
 

@@ -1,4 +1,4 @@
-#include "elements/pixel_kernels.hpp"
+#include "interaction/pixel_kernels.hpp"
 
 #include "base/dispatch.hpp"
 

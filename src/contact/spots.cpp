@@ -1,4 +1,4 @@
-#include "asperities/spots.hpp"
+#include "contact/spots.hpp"
 
 #include "interaction/close_pairs.hpp"
 

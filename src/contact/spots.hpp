@@ -4,7 +4,7 @@
 // is much slower than this code.
 #pragma once
 
-#include "contact/period.hpp"
+#include "interaction/period.hpp"
 
 namespace rsc {
 
