@@ -39,6 +39,7 @@ void write_result(const Result& result, const std::string& path, const WriteOpti
 void ResultTable::measured() {
     if (!r_.measured) return;
     const Measured& m = *r_.measured;
+    if (!m.channel.empty()) file_.attribute("surface_channel", m.channel);
     const auto scalar = [&](const std::string& name, const std::string& units,
                             const std::string& long_name, double value,
                             const std::string& note = "") {
@@ -144,8 +145,7 @@ void ResultTable::measured() {
     scalar("std", "degree",
            "direction of the lay, from the x axis towards the y axis (texture direction Std, ISO "
            "25178-2)",
-           m.spectrum.lay(),
-           "at right angles to the mean direction of the power around the direction with the most");
+           m.spectrum.lay, "at right angles to the mean direction of the power");
     scalar("sk", unit(1), "core height Sk (ISO 25178-2)", t.sk);
     scalar("spk", unit(1), "reduced peak height Spk (ISO 25178-2)", t.spk);
     scalar("svk", unit(1), "reduced valley height Svk (ISO 25178-2)", t.svk);
