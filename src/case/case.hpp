@@ -69,10 +69,11 @@ struct Case {
         Missing missing = Missing::refuse;
         double filter_cutoff = 0;  // 0: no filter
         std::string channel;
-        std::string height_unit;          // of a text map; empty: run%length_unit
-        std::optional<double> pixel;      // of a text matrix: step between its points [length]
-        std::optional<double> window[4];  // x0, x1, y0, y1: part of the map to use; default: all
-        double outliers = 0;              // 0: no search
+        std::string height_unit;            // of a text map; empty: run%length_unit
+        std::optional<double> pixel;        // of a text matrix: step between its points [length]
+        std::optional<double> window[4];    // x0, x1, y0, y1: part of the map to use; default: all
+        double outliers = 0;                // 0: no search
+        std::vector<double> missing_value;  // heights in a file that mean a missing point
     } surface;
     struct AsperityKeys {
         Curvature curvature = Curvature::geometric;

@@ -218,7 +218,11 @@ std::vector<Key> make_registry() {
             "points of a height map that differ from the median of the means of opposite points "
             "around them (5 x 5 points) by more than this "
             "number of standard deviations (estimated from the 90 % quantile of the differences) "
-            "are filled like missing ones; 0: none; 6 removes spikes and keeps roughness"),
+            "are filled like missing ones, and groups of up to 12 points alone inside a missing "
+            "part that differ as much from its filling; 0: none; 6 removes spikes and keeps "
+            "roughness"),
+        list(RSC_KEY(surface, missing_value), 16, "", kAny, "none",
+             "heights that mean a missing point, as they stand in a text or NetCDF file"),
 
         choice(RSC_KEY(asperities, curvature), kCurvatureNames,
                "mean of the principal curvatures that defines the radius of an asperity"),

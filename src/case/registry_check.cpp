@@ -230,7 +230,8 @@ private:
             {"surface%height_unit", !s.height_unit.empty()},
             {"surface%pixel", s.pixel.has_value()},
             {"surface%window", s.window[0].has_value()},
-            {"surface%outliers", s.outliers > 0}};
+            {"surface%outliers", s.outliers > 0},
+            {"surface%missing_value", !s.missing_value.empty()}};
         for (const auto& [key, given] : of_maps)
             require(maps || !given, {key, "surface%source"},
                     "is only for heights read from files, here source = " +

@@ -39,6 +39,7 @@ void write_result(const Result& result, const std::string& path, const WriteOpti
 void ResultTable::measured() {
     if (!r_.measured) return;
     const Measured& m = *r_.measured;
+    if (!m.channel.empty()) file_.attribute("surface_channel", m.channel);
     const auto scalar = [&](const std::string& name, const std::string& units,
                             const std::string& long_name, double value,
                             const std::string& note = "") {

@@ -27,16 +27,6 @@ std::vector<double> times_of(const Case::Indentation& keys, std::size_t levels) 
     return times;
 }
 
-// As many files as realizations.
-void require_maps(const Case& settings) {
-    const auto files = static_cast<std::int64_t>(matching_files(settings.surface.file).size());
-    const std::int64_t last =
-        std::int64_t{settings.run.first_realization} + settings.run.realizations - 1;
-    if (last > files)
-        bad_input(settings.surface.file + ": realizations up to " + std::to_string(last) +
-                  " are requested, but " + std::to_string(files) + " files match");
-}
-
 // The sphere touches every map at the same position, so that all maps must have the same size;
 // their origins do not matter.
 void move_to(const Domain& place, HeightMap& map, std::int64_t number) {
@@ -47,6 +37,20 @@ void move_to(const Domain& place, HeightMap& map, std::int64_t number) {
                   " x " + text_of(map.Ly()) + ", the first is " + text_of(place.Lx) + " x " +
                   text_of(place.Ly) + "; maps of one size are expected");
     map.x0 = place.x0, map.y0 = place.y0;
+}
+
+// As many files as realizations, and all of the size of the first. Only the sizes are read here.
+void require_maps(const Case& settings, const Domain& first) {
+    const auto files = static_cast<std::int64_t>(matching_files(settings.surface.file).size());
+    const std::int64_t last =
+        std::int64_t{settings.run.first_realization} + settings.run.realizations - 1;
+    if (last > files)
+        bad_input(settings.surface.file + ": realizations up to " + std::to_string(last) +
+                  " are requested, but " + std::to_string(files) + " files match");
+    for (std::int64_t k = settings.run.first_realization + 1; k <= last; ++k) {
+        HeightMap map = read_points(settings, k);
+        move_to(first, map, k);
+    }
 }
 
 // The m2 for relative pressures, common to all realizations: that of the map or of the single
@@ -195,7 +199,7 @@ Job prepare(const Case& settings) {
                                           : typical_sqrt_m4(model.asperities);
         if (!differs_by_realization(settings) || settings.run.realizations == 1)
             job.given = std::move(model);
-        if (differs_by_realization(settings)) require_maps(settings);
+        if (differs_by_realization(settings)) require_maps(settings, job.domain);
     }
     job.sigma = sigma_of(settings, job.domain);
     if (!(job.sigma > 0)) {

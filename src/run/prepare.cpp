@@ -123,24 +123,38 @@ HeightMap part_of(const HeightMap& map, const std::optional<double> (&window)[4]
     return part;
 }
 
-Surface read_map(const Case& settings, const std::string& path, std::optional<double> L,
-                 const std::string& channel, bool windowed = false) {
+// The heights of a map as the file has them, and of body 1 only those in surface%window.
+HeightMap read_raw_map(const Case& settings, const std::string& path, std::optional<double> L,
+                       const std::string& channel, bool windowed, MapOrigin* origin) {
     const auto& keys = settings.surface;
     const bool part = windowed && keys.window[0];
     // Of two maps one may be a text file, to which alone these keys apply.
     const std::string other = windowed                         ? settings.indenter.file
                               : keys.source == Source::heights ? map_file(keys.file, 1)
                                                                : "";
-    const bool for_other = !other.empty() && is_text_map(other) && !is_text_map(path);
+    TextMap text{keys.height_unit, keys.pixel, keys.missing_value};
+    if (!other.empty() && is_text_map(other) && !is_text_map(path))
+        text = {"", {}, keys.missing_value};
+    if (!other.empty() && is_instrument_map(path) && !is_instrument_map(other))
+        text.missing_value.clear();
+    HeightMap map = read_heights(path, L, settings.run.length_unit, channel,
+                                 part ? Missing::fill : keys.missing, text, origin);
+    return part ? part_of(map, keys.window, path) : std::move(map);
+}
+
+Surface read_map(const Case& settings, const std::string& path, std::optional<double> L,
+                 const std::string& channel, bool windowed = false) {
+    const auto& keys = settings.surface;
     Surface surface;
-    surface.map = read_heights(path, L, settings.run.length_unit, channel,
-                               part ? Missing::fill : keys.missing,
-                               for_other ? TextMap{} : TextMap{keys.height_unit, keys.pixel});
-    if (part) surface.map = part_of(surface.map, keys.window, path);
+    MapOrigin origin;
+    surface.map = read_raw_map(settings, path, L, channel, windowed, &origin);
     surface.name = path;
     try {
-        surface.measured = std::make_shared<const Measured>(
+        auto measured = std::make_shared<Measured>(
             measure(surface.map, {keys.missing, keys.detrend, keys.filter_cutoff, keys.outliers}));
+        measured->channel = origin.channel;
+        measured->code = origin.code, measured->coded = origin.coded;
+        surface.measured = std::move(measured);
     } catch (const Error& error) {
         throw Error(error.kind(), path + ": " + error.what());
     }
@@ -183,6 +197,11 @@ Spectrum spectrum_of(const Case& settings) {
 bool differs_by_realization(const Case& settings) {
     return has_spectrum(settings) ||
            (settings.surface.source == Source::heights && is_pattern(settings.surface.file));
+}
+
+HeightMap read_points(const Case& settings, std::int64_t number) {
+    return read_raw_map(settings, map_file(settings.surface.file, number), settings.surface.L,
+                        settings.surface.channel, true, nullptr);
 }
 
 bool has_spectrum(const Case& settings) {
@@ -396,7 +415,9 @@ SurfaceModel make_bare_model(const Surface& surface) {
     model.domain.step = std::max(map.dx, map.dy);
     if (surface.theory) model.domain.mean_spacing = surface.theory->mean_spacing();
     auto& s = model.statistics;
-    const Moments grid = surface.differences ? *surface.differences : grid_moments(map);
+    const Moments grid = surface.differences ? *surface.differences
+                         : surface.measured  ? surface.measured->moments
+                                             : grid_moments(map);
     s.sigma = surface.sigma;
     s.m2 = s.m2_grid = grid.m2;
     s.m4 = s.m4_grid = grid.m4;

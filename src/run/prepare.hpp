@@ -19,6 +19,9 @@ bool has_spectrum(const Case& settings);
 // True if every realization has its own surface: synthesized, or read from several files.
 bool differs_by_realization(const Case& settings);
 
+// The heights of realization `number` of a case whose surface is read from several files, untreated.
+HeightMap read_points(const Case& settings, std::int64_t number);
+
 struct Surface {
     HeightMap map;
     double sigma = 0;  // rms height: that of the case, or after detrending [length]

@@ -347,7 +347,10 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
         levels.begin(), levels.end(), [](const LevelValues& p, const LevelValues& q) {
             return p.extreme_area_fraction < q.extreme_area_fraction;
         });
-    if (!std::isfinite(job.settings.solids.hardness) && !relaxes(job.settings) &&
+    // the hardness of hardened steel; softer bodies bear E*/10
+    constexpr double kHardest = 5e9;  // [Pa]
+    if (job.indenter.E_star / 10 * pascals(job.settings) > kHardest &&
+        !std::isfinite(job.settings.solids.hardness) && !relaxes(job.settings) &&
         extreme != levels.end() && extreme->extreme_area_fraction > kExtremeShare)
         out << format(
             "  pressures above E*/10 on %.0f %% of the contact area at Z0/sigma = %.4g: no metal "

@@ -88,6 +88,14 @@ std::string twins_text(const Job& job, const std::string& result) {
     twins.run.first_realization = 1;
     const Case::Surface keys = twins.surface;
     twins.surface = {};
+    if (!twins.indenter.file.empty()) {  // these keys belong to the map of body 2, too
+        twins.surface.detrend = keys.detrend, twins.surface.missing = keys.missing;
+        twins.surface.filter_cutoff = keys.filter_cutoff, twins.surface.outliers = keys.outliers;
+        if (is_text_map(twins.indenter.file))
+            twins.surface.height_unit = keys.height_unit, twins.surface.pixel = keys.pixel;
+        if (!is_instrument_map(twins.indenter.file))
+            twins.surface.missing_value = keys.missing_value;
+    }
     twins.surface.source = Source::spectrum;
     twins.surface.file = result;
     twins.surface.L = L;
@@ -121,6 +129,11 @@ std::string twins_text(const Job& job, const std::string& result) {
     twins.output.file = stem(result) + "_twins.nc";
     twins.output.contacts = Contacts::automatic;
     twins.output.heights = false;
+    // What is for one realization only.
+    const Case defaults;
+    twins.output.fields.clear(), twins.output.field_levels.clear();
+    std::ranges::copy(defaults.output.field_window, twins.output.field_window);
+    twins.solids.friction = 0;
     twins.solver.model = model_of(job.settings).model;  // as for the map, for comparison
     return kMark + effective_namelist(twins);
 }

@@ -4,6 +4,7 @@
 
 #include "base/format.hpp"
 #include "case/units.hpp"
+#include "io/inputs.hpp"
 #include "observe/quantities.hpp"
 #include "observe/regimes.hpp"
 
@@ -49,7 +50,64 @@ std::string status_text(LevelStatus status) {
     return text;
 }
 
+double pascals(const Case& settings) {
+    const auto& run = settings.run;
+    return run.length_unit == "mm" && run.force_unit == "N"
+               ? 1e6
+               : unit_factor(unit_of(run.length_unit, -2, run.force_unit, 1), "Pa");
+}
+
 namespace {
+
+// Half the width of the contact of a smooth indenter at the largest load; NaN if it is not known.
+double smooth_radius(const Job& job) {
+    const double R = job.indenter.shape->hertz_radius(), E = job.indenter.E_star;
+    if (job.indenter.period.finite() || !std::isfinite(R) || job.levels.empty())
+        return kNotComputed;
+    if (job.settings.indentation.control == Control::separation)
+        return std::sqrt(R * std::max(0.0, -*std::ranges::min_element(job.levels)));
+    return std::cbrt(0.75 * R * std::max(0.0, *std::ranges::max_element(job.levels)) / E);
+}
+
+// Lengths and moduli in another unit than that of the case are a common mistake. No solid is
+// stiffer than diamond, 1.2e12 Pa, and gels softer than 1 kPa flow.
+void print_unlikely_units(std::ostream& out, const Job& job) {
+    const auto& run = job.settings.run;
+    const char *l = run.length_unit.c_str(), *f = run.force_unit.c_str();
+    constexpr double stiffest = 2e12, softest = 1e3, steepest = 3, flattest = 1e-6, highest = 0.1;
+    const double in_pascals = pascals(job.settings);
+    const auto modulus = [&](const char* key, double E) {
+        const double value = E * in_pascals;
+        if (value > 0 && std::isfinite(E) && (value > stiffest || value < softest))
+            out << format(
+                "warning: %s = %g %s/%s2 is %.2g Pa, which no solid has: is it in "
+                "%s/%s2?\n",
+                key, E, f, l, value, f, l);
+    };
+    for (const double E : job.settings.solids.E) modulus("solids%E", E);
+    for (const double E : job.settings.solids.layer_E) modulus("solids%layer_E", E);
+    const double slope = job.theory     ? job.theory->rms_slope()
+                         : job.measured ? job.measured->parameters.sdq
+                                        : kNotComputed,
+                 height = job.spectrum   ? job.spectrum->sigma
+                          : job.measured ? job.measured->parameters.sq
+                                         : kNotComputed,
+                 L = std::max(job.domain.Lx, job.domain.Ly);
+    const char* const heights = job.spectrum ? "surface%sigma or surface%L"
+                                             : "surface%height_unit, surface%pixel or surface%L";
+    if (slope > steepest || (slope > 0 && slope < flattest))
+        out << format("warning: the rms slope is %.3g: are %s in %s?\n", slope, heights, l);
+    if (height > highest * L)
+        out << format(
+            "warning: the rms height, %.4g %s, is more than a tenth of the side, %.4g "
+            "%s: are %s in %s?\n",
+            height, l, L, l, heights, l);
+    if (const double a = smooth_radius(job); 2 * a > L)
+        out << format(
+            "warning: a smooth contact would be %.4g %s wide at the largest load, the "
+            "surface is %.4g %s: solids%%R, surface%%L or indentation%%levels?\n",
+            2 * a, l, L, l);
+}
 
 // The title, the bodies, and the theoretical properties of the surface.
 void print_case(std::ostream& out, const Job& job) {
@@ -81,22 +139,19 @@ void print_case(std::ostream& out, const Job& job) {
                           f);
         out << '\n';
     }
-    // Moduli in another unit than that of the case are a common mistake. No solid is stiffer than
-    // diamond, 1.2e12 Pa, or softer than a gel.
-    constexpr double stiffest = 2e12, softest = 100;
-    const double pascals = run.length_unit == "mm" && run.force_unit == "N"
-                               ? 1e6
-                               : unit_factor(unit_of(l, -2, f, 1), "Pa");
-    for (const double E : job.settings.solids.E)
-        if (pascals > 0 && std::isfinite(E) && (E * pascals > stiffest || E * pascals < softest))
-            out << format(
-                "warning: solids%%E = %g %s/%s2 is %.2g Pa, which no solid has: is it in %s/%s2?\n",
-                E, f, l, E * pascals, f, l);
+    print_unlikely_units(out, job);
 }
 
 // The treatment of a measured map, or of the first of several maps.
 void print_measured(std::ostream& out, const Job& job) {
     if (!job.measured) return;
+    if (is_pattern(job.settings.surface.file)) {
+        const std::size_t files = matching_files(job.settings.surface.file).size();
+        if (job.settings.run.realizations == 1 && files > 1)
+            out << format(
+                "%zu files match surface%%file; only number %d is used (run%%realizations = 1)\n",
+                files, job.settings.run.first_realization);
+    }
     if (!job.given) out << "the first of the maps:\n";
     for (const std::string& line : report(*job.measured, job.settings.run.length_unit))
         out << line << '\n';

@@ -33,6 +33,9 @@ void tell_unreached_heights(std::ostream& out, std::span<const SurfaceStatistics
 void print_result(std::ostream& out, const std::string& file, bool replaces);
 
 // A share in percent with two digits, and without exponent: "0.015 %", "4.2 %", "120 %".
+// One unit of pressure of a case in Pa; 0: its units are not known.
+double pascals(const Case& settings);
+
 std::string percent(double share);
 
 // "12.3 s", "4 min 10 s", ...

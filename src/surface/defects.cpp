@@ -125,6 +125,59 @@ long count_missing(const HeightMap& map) {
     return missing;
 }
 
+namespace {
+
+// Indices of the points of small groups, half of 5 x 5, that have only missing points around them.
+std::vector<std::size_t> small_islands(const HeightMap& map) {
+    constexpr std::size_t kMost = 12;
+    std::vector<std::uint8_t> seen(map.points(), 0);
+    std::vector<std::size_t> group, islands;
+    const auto visit = [&](int i, int j) {
+        if (i < 0 || j < 0 || i >= map.nx || j >= map.ny || std::isnan(map(i, j))) return;
+        std::uint8_t& known = seen[map.index(i, j)];
+        if (!known) group.push_back(map.index(i, j));
+        known = 1;
+    };
+    const auto width = static_cast<std::size_t>(map.nx);
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) {
+            if (seen[map.index(i, j)]) continue;
+            group.clear();
+            visit(i, j);
+            for (std::size_t k = 0; k < group.size(); ++k)
+                for (int b = -1; b <= 1; ++b)
+                    for (int a = -1; a <= 1; ++a)
+                        visit(static_cast<int>(group[k] % width) + a,
+                              static_cast<int>(group[k] / width) + b);
+            if (group.size() <= kMost) islands.insert(islands.end(), group.begin(), group.end());
+        }
+    return islands;
+}
+
+// Sets the points of small islands to NaN that differ by more than `threshold` from the filling of
+// the hole without them. Returns their number.
+long remove_islands(HeightMap& map, double threshold) {
+    const std::vector<std::size_t> islands =
+        count_missing(map) > 0 ? small_islands(map) : std::vector<std::size_t>{};
+    HeightMap filled = map.copy();
+    const auto width = static_cast<std::size_t>(map.nx);
+    const auto at = [width](HeightMap& of, std::size_t k) -> double& {
+        return of.row(static_cast<int>(k / width))[k % width];
+    };
+    for (const std::size_t k : islands) at(filled, k) = std::nan("");
+    if (islands.empty() || count_missing(filled) == static_cast<long>(map.points())) return 0;
+    fill_missing(filled);
+    long removed = 0;
+    for (const std::size_t k : islands) {
+        if (!(std::abs(at(map, k) - at(filled, k)) > threshold)) continue;
+        at(map, k) = std::nan("");
+        ++removed;
+    }
+    return removed;
+}
+
+}  // namespace
+
 Outliers remove_outliers(HeightMap& map, double times) {
     constexpr int kReach = 2;
     std::vector<double> distance(map.points()), around, present;
@@ -168,13 +221,15 @@ Outliers remove_outliers(HeightMap& map, double times) {
     const auto ninth = present.begin() +
                        static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(present.size() - 1));
     std::nth_element(present.begin(), ninth, present.end());
-    Outliers found{0, times * std::max(*ninth / 1.645, height_step(map) / std::sqrt(12.0))};
+    Outliers found{0, 0, times * std::max(*ninth / 1.645, height_step(map) / std::sqrt(12.0))};
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i) {
             if (std::isnan(map(i, j)) || !(distance[map.index(i, j)] > found.threshold)) continue;
             map.row(j)[i] = std::numeric_limits<double>::quiet_NaN();
             ++found.count;
         }
+    found.islands = remove_islands(map, found.threshold);
+    found.count += found.islands;
     return found;
 }
 

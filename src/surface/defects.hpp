@@ -11,7 +11,8 @@ long count_missing(const HeightMap& map);
 // Outliers are single points or small groups of points far from their neighbours, caused by dust or
 // lost light.
 struct Outliers {
-    long count = 0;
+    long count = 0;        // all of them
+    long islands = 0;      // of these in small groups of points alone inside a missing part
     double threshold = 0;  // [length]
 };
 
@@ -19,7 +20,8 @@ struct Outliers {
 // the map fewer) make likely, the median of the mean heights of opposite points, by more than
 // `times` the standard deviation of these differences, estimated from their 90 % quantile, and of
 // rounded heights. On the border straight lines through two neighbours take the place of the
-// median. Missing points are ignored.
+// median. Missing points are ignored. Groups of at most 12 points without any other around them are
+// outliers where they differ by more from the harmonic function of the heights around the hole.
 Outliers remove_outliers(HeightMap& map, double times);
 
 // Fills missing points with the discrete harmonic function of the heights around them: every filled

@@ -84,6 +84,7 @@ Roughness roughness(const HeightMap& map) {
 }
 
 bool Measured::gaussian() const {
+    if (!(parameters.sq > 0)) return true;  // flat
     return std::abs(parameters.ssk) <= 0.3 && std::abs(parameters.sku - 3) <= 0.6;
 }
 
@@ -129,6 +130,7 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     }
     m.breaks = find_breaks(map, m.height_step);
     m.parameters = height_parameters(map);
+    m.moments = grid_moments(map);
     const Isotropy slopes = isotropy(map);
     m.isotropy = slopes.ratio;
     m.quantiles = height_quantiles(map);
@@ -172,25 +174,40 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
 std::vector<std::string> report(const Measured& m, const std::string& length_unit) {
     const char* const l = length_unit.c_str();
     std::vector<std::string> lines;
-    lines.push_back(format("map: %d x %d points of %.6g x %.6g %s, %.6g x %.6g %s", m.nx, m.ny,
+    lines.push_back(format("map%s: %d x %d points of %.6g x %.6g %s, %.6g x %.6g %s",
+                           m.channel.empty() ? "" : (" '" + m.channel + "'").c_str(), m.nx, m.ny,
                            m.dx, m.dy, l, m.Lx(), m.Ly(), l));
-    if (m.outlier_times > 0)
+    if (m.code)
         lines.push_back(
-            format("outliers: %ld points differ by more than %.4g %s (%.3g standard deviations) "
-                   "from the 5 x 5 points around them",
-                   m.outliers.count, m.outliers.threshold, l, m.outlier_times));
+            format("warning: %ld points (%.3g %%) have the height %g in the file: if that means a "
+                   "missing point, set surface%%missing_value = %g",
+                   m.coded, 100 * static_cast<double>(m.coded) / static_cast<double>(m.points()),
+                   *m.code, *m.code));
+    if (m.outlier_times > 0)
+        lines.push_back(format(
+            "outliers: %ld points differ by more than %.4g %s (%.3g standard deviations) "
+            "from the 5 x 5 points around them%s",
+            m.outliers.count, m.outliers.threshold, l, m.outlier_times,
+            m.outliers.islands > 0
+                ? format("; %ld of these are alone inside a missing part", m.outliers.islands)
+                      .c_str()
+                : ""));
     if (m.missing > 0)
         lines.push_back(format("missing points%s: %ld (%.3g %%) filled",
                                m.outliers.count > 0 ? " and outliers" : "", m.missing,
                                100 * m.missing_share));
     if (m.missing > 0 && std::abs(m.without_form.height / m.form.rms - 1) > kMuchByFilled)
         lines.push_back(format(
-            "warning: filled points change the rms height from %.4g to %.4g %s: they continue "
-            "outliers at their border, a wide margin of "
-            "the map is missing, or narrow grooves were taken for outliers; a %s surface%%outliers "
-            "helps, or surface%%window, which "
-            "crops the map",
-            m.form.rms, m.without_form.height, l, m.outliers.count > 0 ? "larger" : "positive"));
+            "warning: filled points change the rms height from %.4g to %.4g %s: %s, or a wide "
+            "margin of the map is missing, which surface%%window crops",
+            m.form.rms, m.without_form.height, l,
+            m.outliers.count > 0
+                ? "narrow grooves were taken for outliers, which a larger surface%outliers leaves, "
+                  "or outliers at the border of the holes are left, which a smaller one removes"
+            : m.outlier_times > 0 ? "they continue outliers at the border of the holes, which a "
+                                    "smaller surface%outliers removes"
+                                  : "they continue outliers at the border of the holes, which a "
+                                    "positive surface%outliers (6) removes"));
     std::string form =
         std::string("form '") + kDetrendNames[static_cast<std::size_t>(m.form.how)] + "': ";
     if (m.form.how == Detrend::plane || m.form.how == Detrend::quadratic)
@@ -202,9 +219,12 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
     if (m.filter_cutoff > 0)
         lines.push_back(format("filter (Gaussian, %.4g %s): ", m.filter_cutoff, l) +
                         told_change(m.without_form, m.filtered, l));
-    lines.push_back(format(
-        "heights: Sq %.5g %s, Ssk %.3f, Sku %.3f, Sdq %.4g; isotropy ratio of slopes %.2f",
-        m.parameters.sq, l, m.parameters.ssk, m.parameters.sku, m.parameters.sdq, m.isotropy));
+    if (!(m.parameters.sq > 0))
+        lines.push_back("heights: all are equal");
+    else
+        lines.push_back(format(
+            "heights: Sq %.5g %s, Ssk %.3f, Sku %.3f, Sdq %.4g; isotropy ratio of slopes %.2f",
+            m.parameters.sq, l, m.parameters.ssk, m.parameters.sku, m.parameters.sdq, m.isotropy));
     if (m.height_step > 0)
         lines.push_back(
             format("heights are rounded to multiples of %.4g %s: asperities are detected after a "
@@ -239,7 +259,7 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
                    "noise; surface%%filter_cutoff removes such waves",
                    kFewPointsPerWave));
     const bool directional = m.isotropy < kIsotropic, gaussian = m.gaussian();
-    if (directional) lines.push_back(format("lay at %.0f degrees from x", m.spectrum.lay()));
+    if (directional) lines.push_back(format("lay at %.0f degrees from x", m.spectrum.lay));
     if (directional || !gaussian)
         lines.push_back(std::string("the map ") + (directional ? "has a lay" : "") +
                         (directional && !gaussian ? " and " : "") +

@@ -29,10 +29,14 @@ Roughness roughness(const HeightMap& map);
 
 // Processing of a measured map, and the properties of the result.
 struct Measured : PointGrid {
-    long missing = 0;          // points filled
-    double outlier_times = 0;  // MeasureOptions::outliers
-    Outliers outliers;         // of the points filled
-    double missing_share = 0;  // of all points
+    std::string channel;         // of the file that the map was read from; empty: it has none
+    std::optional<double> code;  // a height, as the file has it, that probably means "no data"
+    long coded = 0;              // points that have it
+    Moments moments;             // of the treated map, without differences across its border
+    long missing = 0;            // points filled
+    double outlier_times = 0;    // MeasureOptions::outliers
+    Outliers outliers;           // of the points filled
+    double missing_share = 0;    // of all points
     std::vector<std::uint8_t>
         // 1 at j*nx + i where a point deep in a hole was filled (keep_depths()); empty: none
         filled;

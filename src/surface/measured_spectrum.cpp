@@ -71,37 +71,6 @@ private:
 
 }  // namespace
 
-double MeasuredSpectrum::lay() const {
-    double power[kAngles] = {};
-    for (std::size_t g = 1; g < plane_wavenumber.size(); ++g)
-        for (std::size_t a = 0; a < kAngles; ++a)
-            power[a] += plane_psd[g * kAngles + a] * plane_wavenumber[g] *
-                        (plane_wavenumber[g] - plane_wavenumber[g - 1]);
-    // The power of single angles scatters: the angle with the most power within 15 degrees of it,
-    // then the mean angle of the power within 45.
-    constexpr std::size_t near = kAngles / 12, far = kAngles / 4;
-    const auto around = [&](std::size_t a, std::size_t reach, auto visit) {
-        for (std::size_t t = 0; t <= 2 * reach; ++t) {
-            const double c = std::cos(std::numbers::pi / 2 *
-                                      (static_cast<double>(t) / static_cast<double>(reach) - 1));
-            visit(static_cast<double>(t) - static_cast<double>(reach),
-                  c * c * power[(a + kAngles + t - reach) % kAngles]);
-        }
-    };
-    std::size_t best = 0;
-    double most = -1;
-    for (std::size_t a = 0; a < kAngles; ++a) {
-        double sum = 0;
-        around(a, near, [&](double, double weight) { sum += weight; });
-        if (sum > most) most = sum, best = a;
-    }
-    double all = 0, offset = 0;
-    around(best, far, [&](double t, double weight) { all += weight, offset += t * weight; });
-    const double angle =
-        180 * (static_cast<double>(best) + (all > 0 ? offset / all : 0)) / kAngles + 90;
-    return angle - 180 * std::floor(angle / 180);
-}
-
 MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double direction) {
     const int nx = map.nx, ny = map.ny, columns = nx / 2 + 1;
     const std::vector<double> wx = hann(nx, map.periodic), wy = hann(ny, map.periodic);
@@ -141,16 +110,17 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
     // Up to this stretched wavenumber the grid holds waves of all directions.
     const double stretch = std::sqrt(aspect),
                  nyquist = std::numbers::pi / (std::max(map.dx, map.dy) * stretch);
-    const double along = std::cos(direction), across = std::sin(direction);
+    const double along = std::cos(direction), aside = std::sin(direction);
     const auto rings =
         static_cast<std::size_t>(std::max(1.0, std::floor(nyquist / ring * (1 + 1e-12) + 0.5)));
     std::vector<double> power(rings + 1, 0.0), count(rings + 1, 0.0);
     Plane plane(rings);
+    std::complex<double> directed = 0;  // mean direction of the power, at twice the angle
     for (int j = 0; j < ny; ++j) {
         const double ky = step_y * (j <= ny / 2 ? j : j - ny);
         for (int i = 0; i < columns; ++i) {
-            const double kx = step_x * i, q = std::hypot(stretch * (kx * along + ky * across),
-                                                         (ky * along - kx * across) / stretch) /
+            const double kx = step_x * i, q = std::hypot(stretch * (kx * along + ky * aside),
+                                                         (ky * along - kx * aside) / stretch) /
                                               ring;
             const std::size_t r = nearest(q);
             if (r > rings) continue;
@@ -160,7 +130,9 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
                 copies * std::norm(modes[static_cast<std::ptrdiff_t>(j) * columns + i]);
             power[r] += of_mode;
             count[r] += copies;
-            if (aspect == 1) plane.add(r, kx, ky, of_mode, copies);
+            if (aspect != 1) continue;
+            plane.add(r, kx, ky, of_mode, copies);
+            if (r > 0) directed += std::polar(of_mode, 2 * std::atan2(ky, kx));
         }
     }
     // The sensitivity of the rings of long waves to each wavenumber, from the squared transform of
@@ -185,8 +157,8 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
     for (int j = -std::min(far, ny / 2); j <= std::min(far, ny / 2); ++j)
         for (int i = 0; i <= std::min(far, nx / 2); ++i) {
             const auto stretched = [&](double kx, double ky) {
-                return std::hypot(stretch * (kx * along + ky * across),
-                                  (ky * along - kx * across) / stretch) /
+                return std::hypot(stretch * (kx * along + ky * aside),
+                                  (ky * along - kx * aside) / stretch) /
                        ring;
             };
             const std::size_t r = nearest(stretched(step_x * i, step_y * j));
@@ -225,6 +197,8 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
     }
     s.lost = map.periodic ? 0 : 1.5;
     if (aspect == 1) plane.finish(s, ring, scale);
+    const double across = 90 / std::numbers::pi * std::arg(directed) + 90;
+    s.lay = across < 180 ? across : across - 180;
     return s;
 }
 
@@ -235,8 +209,9 @@ HeightParameters height_parameters(const HeightMap& map) {
     };
     HeightParameters p;
     p.sq = std::sqrt(mean_power(2));
-    p.ssk = mean_power(3) / std::pow(p.sq, 3);
-    p.sku = mean_power(4) / std::pow(p.sq, 4);
+    // of equal heights neither exists
+    p.ssk = p.sq > 0 ? mean_power(3) / std::pow(p.sq, 3) : std::nan("");
+    p.sku = p.sq > 0 ? mean_power(4) / std::pow(p.sq, 4) : std::nan("");
     p.sdq = grid_moments(map).rms_slope();
     double all = 0, high = 0, high_points = 0;
     for (int j = 0; j + 1 < map.ny; ++j)

@@ -62,8 +62,8 @@ struct MeasuredSpectrum {
     // likewise plane_psd (twin_exponent()).
     double exponent = 0, plane_exponent = 0;
     // Direction of the lay from the x axis, 0 to 180 [degree]: perpendicular to the mean direction
-    // of the power around the largest.
-    double lay() const;
+    // of the power, averaged at twice the angle. Of a spectrum with aspect 1.
+    double lay = 0;
 };
 
 // Measures the spectrum. A map that is not periodic is multiplied by a Hann window and the loss of

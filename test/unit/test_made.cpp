@@ -142,7 +142,7 @@ TEST(circle) {
             const HeightMap map = made(s, 256);
             const MeasuredSpectrum measured = measure_spectrum(map);
             if (aspect > 1) {
-                const double off = std::remainder(measured.lay() - direction, 180);
+                const double off = std::remainder(measured.lay - direction, 180);
                 CHECK(std::abs(off) <= (aspect > 3 ? 2 : 6));  // the few long waves scatter
                 // Rms slopes are in the ratio of the correlation lengths.
                 CHECK_RELATIVE(isotropy(map).ratio, 1 / aspect, 0.15);
