@@ -177,16 +177,14 @@ int run_program(int argc, char** argv, Job& job) {
     if (options.check) {
         const rsc::RunOptions how = how_to_run(options, command_line(argc, argv));
         const std::size_t threads = threads_of(read.settings);
-        const rsc::Forecast expected =
+        const double megabytes =
             named(options, [&] { return rsc::check_members(read, options.member, how, threads); });
         std::cout << rsc::effective_namelist(read);
         if (!options.quiet)
-            std::cerr << "rsc: the inputs can be read and the result can be written; expected to "
-                         "take about "
-                      << rsc::duration(expected.seconds) << " with " << threads
-                      << (threads == 1 ? " thread" : " threads")
-                      << (expected.megabytes > 0
-                              ? rsc::format(" and %.0f MB of memory", expected.megabytes)
+            std::cerr << "rsc: the inputs can be read and the result can be written"
+                      << (megabytes > 0
+                              ? rsc::format("; %.0f MB of memory with %zu thread%s are expected",
+                                            megabytes, threads, threads == 1 ? "" : "s")
                               : "")
                       << '\n';
         return 0;

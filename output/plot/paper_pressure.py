@@ -6,6 +6,7 @@ from scipy.special import gamma as gamma_function
 from scipy.special import gammainc
 
 from paper_common import STYLES, Result, judge, mean_and_error, members, plt, save, text
+from plot_fits import exponential, generalised_gamma, rayleigh
 
 PAPER_COUNTS = {2.0: 320000, 2.5: 157000, 3.0: 39000}
 
@@ -21,7 +22,7 @@ def pressures(folder, report):
     width = bins[1] - bins[0]
     figure, axes = plt.subplots(1, 2, figsize=(10.6, 4.3), constrained_layout=True)
     for k, z, (marker, line, colour) in levels_of(result):
-        s = result.attribute("pressure_mean_pdf", "rayleigh_scale")[k] / 1e3
+        s = rayleigh(result, k).scale / 1e3
         total = counts[k].sum() + result.attribute("pressure_mean_count", "overflow")[k]
         for axis, logarithmic in zip(axes, (False, True)):
             p = np.linspace(0, bins[-1], 300)
@@ -113,10 +114,7 @@ def pressures(folder, report):
         "Ensembles of different sizes would explain all three; the paper does not state this, and no other reason was found."
     )
     for k, z, _ in levels_of(result):
-        scale, error, ks = (
-            result.attribute("pressure_mean_pdf", a)[k]
-            for a in ("rayleigh_scale", "rayleigh_scale_error", "ks_distance")
-        )
+        scale, error, ks = rayleigh(result, k)
         total = counts[k].sum()
         report.row(
             f"Rayleigh scale at Z0/sigma = {z:g} [N/mm2]",
@@ -241,7 +239,7 @@ def yielding(folder, report):
 
 def result_scale(run, k, z):
     nearest = int(np.argmin(abs(run["pdf_separation_sigma"] - z)))
-    return run.attribute("pressure_mean_pdf", "rayleigh_scale")[nearest]
+    return rayleigh(run, nearest).scale
 
 
 def each_contact_once(bins, counts, rng):
@@ -292,9 +290,8 @@ def full_pressure(folder, report):
     figure, axes = plt.subplots(1, 2, figsize=(10.6, 4.3), constrained_layout=True)
     report.heading("Pressure at a point of the contact area (paper_pressure_full.png)")
     report.columns()
-    names = ("alpha", "beta", "delta")
     for k, z, (marker, line, colour) in levels_of(result):
-        alpha, beta, delta = (result.attribute("pressure_pdf", a)[k] for a in names)
+        alpha, beta, delta, *_, ks = generalised_gamma(result, k)
         mean = result.attribute("pressure_pdf", "mean")[k] / 1e3
         # The paper's exponents with the mean of the data: <p> = delta Gamma((a + 2)/b)/Gamma((a + 1)/b).
         fixed = mean * gamma_function((2 / 3 + 1) / 1.5) / gamma_function((2 / 3 + 2) / 1.5)
@@ -325,11 +322,9 @@ def full_pressure(folder, report):
                 axis.plot(p, law(p, alpha, beta, delta / 1e3), "-", color=colour, lw=1)
             axis.plot(p, law(p, 2 / 3, 1.5, fixed), "--", color=colour, lw=1)
         for run, name in ((result, "no plateau"), (plateau, "plateau")):
+            fit = generalised_gamma(run, k)
             for a, paper in (("alpha", 2 / 3), ("beta", 1.5)):
-                value, error = (
-                    run.attribute("pressure_pdf", a)[k],
-                    run.attribute("pressure_pdf", a + "_error")[k],
-                )
+                value, error = getattr(fit, a), getattr(fit, a + "_error")
                 report.row(
                     f"exponent {a} at Z0/sigma = {z:g}, {name}",
                     paper,
@@ -354,7 +349,7 @@ def full_pressure(folder, report):
                     judge(once[i], errors[i], paper).capitalize() + ".",
                 )
         report.raw(
-            f"      Kolmogorov-Smirnov distance of the fit {text(float(result.attribute('pressure_pdf', 'ks_distance')[k]), 2)}, no plateau; "
+            f"      Kolmogorov-Smirnov distance of the fit {text(ks, 2)}, no plateau; "
             f"{result.attribute('pressure_pdf', 'independent_contacts')[k]:.0f} independent contacts"
         )
     for axis in axes:
@@ -384,8 +379,8 @@ def spots(folder, report):
     report.heading("Spot areas (paper_spots.png)")
     report.columns()
     for k, z, (marker, line, colour) in levels_of(result):
-        scale = result.attribute("spot_area_pdf", "exponential_scale")[k] * 1e6
-        error = result.attribute("spot_area_pdf", "exponential_scale_error")[k] * 1e6
+        scale, error, ks = exponential(result, k)
+        scale, error = 1e6 * scale, 1e6 * error
         total = counts[k].sum() + result.attribute("spot_area_count", "overflow")[k]
         shown = counts[k] > 0
         a = np.linspace(0.01, bins[-1], 400)
@@ -405,7 +400,7 @@ def spots(folder, report):
             None,
             scale,
             error,
-            f"Kolmogorov-Smirnov distance from the exponential {result.attribute('spot_area_pdf', 'ks_distance')[k]:.4f} (sampling alone, 95 %: {1.36 / np.sqrt(max(total, 1)):.4f}); "
+            f"Kolmogorov-Smirnov distance from the exponential {ks:.4f} (sampling alone, 95 %: {1.36 / np.sqrt(max(total, 1)):.4f}); "
             f"standard deviation over mean {result.attribute('spot_area_pdf', 'standard_deviation')[k] * 1e6 / scale:.3f}, exponential 1.",
         )
     axis.set(

@@ -3,6 +3,7 @@
 import numpy as np
 
 from plot_curves import panel_looks, title
+from plot_fits import exponential, generalised_gamma, rayleigh
 from plot_results import names
 from plot_style import Page, label
 
@@ -10,26 +11,22 @@ from plot_style import Page, label
 ENOUGH = 60
 
 
-# Fits in the units of the file, from their parameters there: (values, text of the parameters).
+# Fits in the units of the file: (values, text of the parameters).
 def _rayleigh(result, k, p):
-    s = result.attribute("pressure_mean_pdf", "rayleigh_scale")[k]
+    s = rayleigh(result, k).scale
     return p / s**2 * np.exp(-(p**2) / (2 * s**2)), ""
 
 
 def _gamma(result, k, p):
-    alpha, beta, delta, factor = (
-        result.attribute("pressure_pdf", a)[k] for a in ("alpha", "beta", "delta", "gamma")
-    )
-    if not np.isfinite(alpha):
-        return np.full_like(p, np.nan), ""
+    fit = generalised_gamma(result, k)
     return (
-        factor * p**alpha * np.exp(-((p / delta) ** beta)),
-        rf"; $\alpha$ = {alpha:.2f}, $\beta$ = {beta:.2f}",
+        fit.factor * p**fit.alpha * np.exp(-((p / fit.delta) ** fit.beta)),
+        rf"; $\alpha$ = {fit.alpha:.2f}, $\beta$ = {fit.beta:.2f}" if np.isfinite(fit.alpha) else "",
     )
 
 
 def _exponential(result, k, a):
-    s = result.attribute("spot_area_pdf", "exponential_scale")[k]
+    s = exponential(result, k).scale
     return np.exp(-a / s) / s, ""
 
 

@@ -323,8 +323,8 @@ std::vector<Key> make_registry() {
                  "after the run, solves the level nearest to each of these by elements on the "
                  "first realization, to measure the error of the "
                  "asperity model on this surface. auto: the last level of a single run of the "
-                 "program, if elements are "
-                 "expected to take less than 2 s")),
+                 "program, if elements have at most 2^24 points, and 2^18 under the indenter (a "
+                 "sixth of these for a force)")),
 
         changing(Changes::file, text(RSC_KEY(output, file), 4096, "the result file")),
         changing(Changes::file,

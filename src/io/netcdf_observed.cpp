@@ -7,18 +7,21 @@
 namespace rsc {
 namespace {
 
-using Fits = FittedDistributions;
+using Shown = ShownDistributions;
 
-// Numbers of a fit, or of moments, as attributes with one value for each pdf_level. NaN becomes the
-// fill value, as in a variable.
-template <class Fit>
-NetcdfAttributes numbers_of(const std::vector<Fits>& distributions, Fit Fits::*fit,
-                            std::initializer_list<std::pair<const char*, double Fit::*>> numbers) {
+// Moments as attributes with one value for each pdf_level. NaN becomes the fill value, as in a
+// variable.
+NetcdfAttributes moments_of(const std::vector<Shown>& distributions,
+                            DistributionMoments Shown::*moments) {
+    using M = DistributionMoments;
     NetcdfAttributes attributes;
-    for (const auto& [name, number] : numbers) {
+    for (const auto& [name, number] : {std::pair("mean", &M::mean),
+                                       {"standard_deviation", &M::deviation},
+                                       {"skewness", &M::skewness},
+                                       {"kurtosis", &M::kurtosis}}) {
         std::vector<double> values;
-        for (const Fits& f : distributions)
-            values.push_back(std::isnan(f.*fit.*number) ? NC_FILL_DOUBLE : f.*fit.*number);
+        for (const Shown& f : distributions)
+            values.push_back(std::isnan(f.*moments.*number) ? NC_FILL_DOUBLE : f.*moments.*number);
         attributes.push_back({name, values});
     }
     return attributes;
@@ -98,7 +101,7 @@ void ResultTable::distributions() {
     std::vector<double> wanted, used;
     std::vector<std::int32_t> step;
     for (double level : o_.options.pdf_levels) wanted.push_back(level / r_.sigma);
-    for (const FittedDistributions& f : o_.distributions) {
+    for (const ShownDistributions& f : o_.distributions) {
         used.push_back(f.sum.separation / static_cast<double>(f.sum.levels) / r_.sigma);
         step.push_back(f.sum.step);
     }
@@ -116,31 +119,18 @@ void ResultTable::distributions() {
     bin_axis("pressure_bin", unit(-2, 1), "middle of the bins of pressure_pdf",
              bins.pressure_width());
     bin_axis("spot_area_bin", unit(2), "middle of the bins of spot_area_pdf", bins.area_width());
-    using S = ScaleFit;
     histogram("pressure_mean_count", "pressure_mean_bin", "1",
               "contacts by mean pressure, all realizations", &Distributions::mean_pressure,
               "integers; overflow: contacts");
     density("pressure_mean_pdf", "pressure_mean_bin", unit(2, -1),
             "probability density of the mean pressure of a contact, f/(pi a^2)",
-            &Fits::mean_pressure_pdf, &Fits::mean_pressure_moments,
-            numbers_of(o_.distributions, &Fits::rayleigh,
-                       {{"rayleigh_scale", &S::scale},
-                        {"rayleigh_scale_error", &S::scale_error},
-                        {"ks_distance", &S::ks_distance}}),
-            "fit: Rayleigh, (p/s^2) exp(-p^2/(2 s^2)), s = rayleigh_scale by maximum likelihood, "
-            "with its standard error");
+            &Shown::mean_pressure_pdf, &Shown::mean_pressure_moments, {}, "");
     pressure();
     histogram("spot_area_count", "spot_area_bin", "1", "contacts by area, all realizations",
               &Distributions::spot_area, "integers; overflow: contacts");
     density("spot_area_pdf", "spot_area_bin", unit(-2),
-            "probability density of the area of a contact, pi a^2", &Fits::spot_area_pdf,
-            &Fits::spot_area_moments,
-            numbers_of(o_.distributions, &Fits::exponential,
-                       {{"exponential_scale", &S::scale},
-                        {"exponential_scale_error", &S::scale_error},
-                        {"ks_distance", &S::ks_distance}}),
-            "fit: exponential, exp(-A/s)/s, s = exponential_scale by maximum likelihood, with its "
-            "standard error");
+            "probability density of the area of a contact, pi a^2", &Shown::spot_area_pdf,
+            &Shown::spot_area_moments, {}, "");
     if (o_.realizations == 1) return;
     std::vector<double> sums;
     for (const DistributionSums& level : o_.distribution_sums)
@@ -161,7 +151,7 @@ void ResultTable::histogram(const std::string& name, const std::string& axis,
                             const std::string& units, const std::string& long_name,
                             Histogram Distributions::*which, const std::string& note) {
     std::vector<double> values, overflow;
-    for (const FittedDistributions& f : o_.distributions) {
+    for (const ShownDistributions& f : o_.distributions) {
         const Histogram& h = f.sum.*which;
         values.insert(values.end(), h.weight.begin(), h.weight.end());
         overflow.push_back(h.overflow);
@@ -174,56 +164,33 @@ void ResultTable::histogram(const std::string& name, const std::string& axis,
 
 void ResultTable::density(const std::string& name, const std::string& axis,
                           const std::string& units, const std::string& long_name,
-                          std::vector<double> Fits::*which, DistributionMoments Fits::*moments,
-                          NetcdfAttributes fit, const std::string& note) {
+                          std::vector<double> Shown::*which, DistributionMoments Shown::*moments,
+                          NetcdfAttributes more, const std::string& note) {
     std::vector<double> values;
-    for (const Fits& f : o_.distributions)
+    for (const Shown& f : o_.distributions)
         values.insert(values.end(), (f.*which).begin(), (f.*which).end());
-    using M = DistributionMoments;
     NetcdfAttributes all{{"coordinates", axis}};
-    append(all, std::move(fit));
-    append(all, numbers_of(o_.distributions, moments,
-                           {{"mean", &M::mean},
-                            {"standard_deviation", &M::deviation},
-                            {"skewness", &M::skewness},
-                            {"kurtosis", &M::kurtosis}}));
-    append(all, comment(note +
-                        "; ks_distance is the Kolmogorov-Smirnov distance at the bin edges; one "
-                        "value for each pdf_level; " +
-                        kAbsentMeans));
+    append(all, std::move(more));
+    append(all, moments_of(o_.distributions, moments));
+    append(all, comment(note + "one value of an attribute for each pdf_level; " + kAbsentMeans));
     file_.variable(
         {name, {"pdf_level", "bin"}, units, long_name, std::move(values), std::move(all), true});
 }
 
 void ResultTable::pressure() {
     std::vector<double> equal;
-    for (const Fits& f : o_.distributions)
+    for (const Shown& f : o_.distributions)
         equal.push_back(f.sum.pressure.squares > 0
                             ? f.sum.pressure.total * f.sum.pressure.total / f.sum.pressure.squares
                             : 0);
     histogram("pressure_area", "pressure_bin", unit(2),
               "contact area by pressure, summed over realizations", &Distributions::pressure,
               "overflow: area");
-    using G = GammaFit;
-    NetcdfAttributes fit = numbers_of(o_.distributions, &Fits::gamma,
-                                      {{"alpha", &G::alpha},
-                                       {"alpha_error", &G::alpha_error},
-                                       {"beta", &G::beta},
-                                       {"beta_error", &G::beta_error},
-                                       {"delta", &G::delta},
-                                       {"delta_error", &G::delta_error},
-                                       {"gamma", &G::gamma},
-                                       {"gamma_error", &G::gamma_error},
-                                       {"ks_distance", &G::ks_distance}});
-    fit.push_back({"independent_contacts", equal});
     density("pressure_pdf", "pressure_bin", unit(2, -1),
             "probability density of the pressure at a random point of the contact area",
-            &Fits::pressure_pdf, &Fits::pressure_moments, std::move(fit),
+            &Shown::pressure_pdf, &Shown::pressure_moments, {{"independent_contacts", equal}},
             "each contact contributes 2 p/p0^2 on [0, p0], p0 = 1.5 f/(pi a^2), weighted by its "
-            "area; fit: gamma p^alpha "
-            "exp(-(p/delta)^beta), "
-            "by maximum likelihood of the bins; standard errors for independent_contacts = (sum "
-            "A)^2/sum A^2 draws");
+            "area; independent_contacts = (sum A)^2/sum A^2; ");
 }
 
 void ResultTable::asperities() {

@@ -120,8 +120,8 @@ private:
                    const std::string& long_name, Histogram Distributions::*which,
                    const std::string& note);
     void density(const std::string& name, const std::string& axis, const std::string& units,
-                 const std::string& long_name, std::vector<double> FittedDistributions::*which,
-                 DistributionMoments FittedDistributions::*moments, NetcdfAttributes fit,
+                 const std::string& long_name, std::vector<double> ShownDistributions::*which,
+                 DistributionMoments ShownDistributions::*moments, NetcdfAttributes more,
                  const std::string& note);
     void pressure();
     void asperities();

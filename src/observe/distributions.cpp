@@ -55,11 +55,15 @@ Distributions no_contacts(const PdfBins& bins) {
     return d;
 }
 
-std::vector<double> density(const Binned& binned) {
-    const double total = binned.total();
-    std::vector<double> pdf(binned.weight.size(), kAbsent);
+double all_weights(const Histogram& h) {
+    return std::accumulate(h.weight.begin(), h.weight.end(), 0.0) + h.overflow;
+}
+
+std::vector<double> density(const Histogram& h, double width) {
+    const double total = all_weights(h);
+    std::vector<double> pdf(h.weight.size(), kAbsent);
     if (!(total > 0)) return pdf;
-    for (std::size_t b = 0; b < pdf.size(); ++b) pdf[b] = binned.weight[b] / (total * binned.width);
+    for (std::size_t b = 0; b < pdf.size(); ++b) pdf[b] = h.weight[b] / (total * width);
     return pdf;
 }
 
@@ -150,29 +154,16 @@ DistributionMoments moments_of(double count, const std::array<double, 4>& power)
     return m;
 }
 
-FittedDistributions fit_distributions(const PdfBins& bins, const Distributions& sum) {
-    FittedDistributions out;
+ShownDistributions shown_distributions(const PdfBins& bins, const Distributions& sum) {
+    ShownDistributions out;
     out.sum = sum;
-    const Binned mean_pressure{bins.mean_pressure_width(), sum.mean_pressure.weight,
-                               sum.mean_pressure.overflow};
-    const Binned spot_area{bins.area_width(), sum.spot_area.weight, sum.spot_area.overflow};
-    const Binned pressure{bins.pressure_width(), sum.pressure.weight, sum.pressure.overflow};
-    const double contacts = mean_pressure.total();  // without those under tension
-
-    out.mean_pressure_pdf = density(mean_pressure);
-    out.mean_pressure_moments = moments_of(contacts, sum.mean_pressure.power);
-    out.rayleigh = fit_rayleigh(contacts, sum.mean_pressure.power[1], mean_pressure);
-
-    out.spot_area_pdf = density(spot_area);
-    out.spot_area_moments = moments_of(spot_area.total(), sum.spot_area.power);
-    out.exponential = fit_exponential(spot_area.total(), sum.spot_area.power[0], spot_area);
-
-    out.pressure_pdf = density(pressure);
+    out.mean_pressure_pdf = density(sum.mean_pressure, bins.mean_pressure_width());
+    out.mean_pressure_moments =
+        moments_of(all_weights(sum.mean_pressure), sum.mean_pressure.power);  // not under tension
+    out.spot_area_pdf = density(sum.spot_area, bins.area_width());
+    out.spot_area_moments = moments_of(all_weights(sum.spot_area), sum.spot_area.power);
+    out.pressure_pdf = density(sum.pressure, bins.pressure_width());
     out.pressure_moments = moments_of(sum.pressure.total, sum.pressure.power);
-    if (sum.pressure.squares > 0)
-        out.gamma =
-            fit_generalised_gamma(pressure, out.pressure_moments.mean,
-                                  sum.pressure.total * sum.pressure.total / sum.pressure.squares);
     return out;
 }
 

@@ -1,8 +1,8 @@
 // Distributions over contacts (paper, section 5), and their exact sums over realizations.
 #pragma once
 
+#include "base/std.hpp"
 #include "contact/level.hpp"
-#include "observe/fits.hpp"
 
 namespace rsc {
 
@@ -123,22 +123,21 @@ void add(DistributionSums& sums, const PdfBins& bins, const Distributions& one);
 void add(DistributionSums& sums, const DistributionSums& more);
 Distributions rounded(const DistributionSums& sums, const PdfBins& bins, std::int64_t realizations);
 
+inline constexpr double kAbsent = std::numeric_limits<double>::quiet_NaN();
+
+// NaN without contacts.
 struct DistributionMoments {
     double mean = kAbsent, deviation = kAbsent, skewness = kAbsent,
            kurtosis = kAbsent;  // kurtosis is 3 for a Gaussian
 };
 DistributionMoments moments_of(double count, const std::array<double, 4>& power);
 
-// Results for the file: probability densities (integral 1 including the overflow), moments and
-// fits.
-struct FittedDistributions {
+// Results for the file: probability densities (integral 1 including the overflow) and moments.
+struct ShownDistributions {
     Distributions sum;
     std::vector<double> mean_pressure_pdf, pressure_pdf, spot_area_pdf;
     DistributionMoments mean_pressure_moments, pressure_moments, spot_area_moments;
-    ScaleFit rayleigh;     // of the mean pressure
-    GammaFit gamma;        // of the pressure
-    ScaleFit exponential;  // of the spot area
 };
-FittedDistributions fit_distributions(const PdfBins& bins, const Distributions& sum);
+ShownDistributions shown_distributions(const PdfBins& bins, const Distributions& sum);
 
 }  // namespace rsc

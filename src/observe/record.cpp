@@ -183,7 +183,7 @@ Observations Accumulators::finish() const {
         for (double v : mean(o.map_pressure.data() + s * cells)) o.radial_pressure.push_back(v);
     }
     for (const DistributionSums& d : distributions)
-        o.distributions.push_back(fit_distributions(
+        o.distributions.push_back(shown_distributions(
             options.pdf, rounded(d, options.pdf, static_cast<std::int64_t>(o.realizations))));
     o.distribution_sums = distributions;
     return o;

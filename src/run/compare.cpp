@@ -3,19 +3,20 @@
 #include "base/error.hpp"
 #include "base/format.hpp"
 #include "elements/element_contact.hpp"
-#include "run/forecast.hpp"
+#include "run/memory.hpp"
 #include "run/screen.hpp"
 #include "trust/resolution.hpp"
 
 namespace rsc {
 namespace {
 
-// The grid of elements is refined only if the expected time is at most this.
-constexpr double kRefineSeconds = 60;
-// Longest expected time of compare%levels = 'auto'.
-constexpr double kAutoSeconds = 2;
-// Relative cost including the second grid for the error, which has a quarter of the points.
-constexpr double kWithCoarser = 1.25;
+// The grid of elements is refined up to these numbers of points, all and under the indenter, and
+// compare%levels = 'auto' compares up to these: about a minute, and two seconds.
+constexpr ElementSize kRefine{1 << 28, 1 << 25}, kAuto{1 << 24, 1 << 18};
+
+bool within(const ElementSize& size, const ElementSize& most, double times = 1) {
+    return times * size.points <= most.points && times * size.under <= most.under;
+}
 
 // "A = 1.2 mm2 (itself +- 0.4 %)"
 std::string itself(double error) {
@@ -149,7 +150,7 @@ private:
         const double finer = 2 * points_per_wave_;
         if (finer * job_.spectrum->L_lambda_s > kMostElementPoints ||
             points_per_wave_ >= kMostPointsPerWave ||
-            element_seconds(job_, level.separation, finer) > kRefineSeconds)
+            !within(element_size(job_, level.separation, finer), kRefine))
             return false;
         std::unique_ptr<HeightMap> map = make(finer);
         std::unique_ptr<Contact> contact = make_element_contact(*map, job_.indenter, job_.solver);
@@ -174,22 +175,6 @@ private:
 
 }  // namespace
 
-double comparison_seconds(const Job& job) {
-    const Case& c = job.settings;
-    // separations tried for a force
-    const double once = c.indentation.control == Control::separation ? 1 : 6;
-    double seconds = 0;
-    for (std::size_t k = 0;
-         k < (c.compare.listed() ? c.compare.levels.size() : 1) && !job.levels.empty(); ++k)
-        seconds += once * kWithCoarser *
-                   element_seconds(job,
-                                   likely_separation(job, c.compare.listed()
-                                                              ? c.compare.levels[k] * job.level_unit
-                                                              : job.levels.back()),
-                                   c.elements.points_per_wave);
-    return seconds;
-}
-
 bool compares(const Job& job, bool automatically) {
     const Case& c = job.settings;
     if (c.compare.listed()) return true;
@@ -202,7 +187,12 @@ bool compares(const Job& job, bool automatically) {
                           !relaxes(c) && !(c.solids.adhesion > 0);
     if (!possible || (job.spectrum && !too_large_for_elements(c, *job.spectrum).empty()))
         return false;
-    return !job.levels.empty() && comparison_seconds(job) < kAutoSeconds;
+    if (job.levels.empty()) return false;
+    // separations tried for a force
+    const double tries = c.indentation.control == Control::separation ? 1 : 6;
+    return within(
+        element_size(job, likely_separation(job, job.levels.back()), c.elements.points_per_wave),
+        kAuto, tries);
 }
 
 ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads,

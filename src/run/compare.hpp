@@ -7,11 +7,8 @@
 namespace rsc {
 
 // True if levels are compared: those listed, or with compare%levels = 'auto' and `automatically`,
-// the last one if its expected time is short.
+// the last one if elements are small.
 bool compares(const Job& job, bool automatically);
-
-// Expected time of the comparison, as if every level were the last one.
-double comparison_seconds(const Job& job);
 
 // `levels` are those of realization `number`; the one nearest to each entry of compare%levels is
 // used. A line for each is written to `table`, if not null; the remaining levels are skipped once

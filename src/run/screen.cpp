@@ -256,6 +256,9 @@ std::string duration(double seconds) {
                   static_cast<int>(seconds / 60) % 60);
 }
 
+// Seconds from which the time of the rest is said after the first step.
+constexpr double kWorthSaying = 10;
+
 ProgressLine::ProgressLine(const RunOptions& options, const char* unit, double already,
                            bool scrolls)
     : terminal_(isatty(STDERR_FILENO) != 0),
@@ -263,6 +266,7 @@ ProgressLine::ProgressLine(const RunOptions& options, const char* unit, double a
       already_(already),
       start_(Clock::now()),
       last_(start_) {
+    if (options.progress != Progress::never) messages_ = options.messages;
     if (options.progress == Progress::always ||
         (options.progress == Progress::automatic && terminal_ && !scrolls))
         out_ = options.messages;
@@ -276,10 +280,18 @@ void ProgressLine::wipe() {
 }
 
 void ProgressLine::show(double done, double total) {
-    if (!out_) return;
     const auto now = Clock::now();
     const double since = std::chrono::duration<double>(now - last_).count(),
                  spent = std::chrono::duration<double>(now - start_).count();
+    if (messages_ && done > already_) {
+        const double rest = spent * (total - done) / (done - already_);
+        if (rest > kWorthSaying && !(out_ && terminal_))
+            *messages_ << format("rsc: %.0f of %.0f %s after ", done, total, unit_)
+                       << duration(spent) << "; at this rate the rest takes " << duration(rest)
+                       << std::endl;
+        messages_ = nullptr;
+    }
+    if (!out_) return;
     if (since < (terminal_ ? 0.1 : 30.0)) return;
     last_ = now;
     drawn_ = true;

@@ -42,7 +42,7 @@ std::string percent(double share);
 std::string duration(double seconds);
 
 // Progress with rate and remaining time: a line that is redrawn on a terminal, a line every 30 s on
-// other streams.
+// other streams. Without such a line the remaining time is said once, after the first step.
 class ProgressLine {
 public:
     // On options.messages, as options.progress says. `already`: done by an earlier run, not
@@ -56,7 +56,8 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-    std::ostream* out_ = nullptr;  // null: no output
+    std::ostream* out_ = nullptr;       // null: no output
+    std::ostream* messages_ = nullptr;  // until the time of the rest was said once
     bool terminal_, drawn_ = false;
     const char* unit_;
     double already_;

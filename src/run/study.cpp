@@ -11,7 +11,7 @@
 #include "io/result.hpp"
 #include "io/whole_file.hpp"
 #include "run/checkpoint.hpp"
-#include "run/forecast.hpp"
+#include "run/memory.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
 
@@ -332,31 +332,28 @@ CampaignWork make_work(const std::vector<Member>& members, const RunOptions& opt
     return {std::move(cases), options};
 }
 
-Forecast check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options,
-                       std::size_t threads) {
+double check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options,
+                     std::size_t threads) {
     const std::vector<Member> all = members_of(read);
     const std::vector<const Member*> wanted = wanted_of(read, all, only);
-    // members whose time is estimated; the others are assumed similar
+    // members whose memory is estimated; the others are assumed similar
     constexpr std::size_t samples = 20;
-    Forecast all_members;
-    std::size_t timed = 0;
+    double megabytes = 0;
+    std::size_t estimated = 0;
     std::set<std::vector<std::string>> files_read;
     look_at_all(read, all, wanted, options, [&](const Member& member, bool) {
         const bool campaign = member.settings.run.realizations > 1;
-        if (timed == samples) return prepare_once(member.settings, files_read);
-        ++timed;
+        if (estimated == samples) return prepare_once(member.settings, files_read);
+        ++estimated;
         // Members of one realization run in parallel.
         const double side_by_side = campaign || wanted.size() == 1
                                         ? 1.0
                                         : static_cast<double>(std::min(threads, wanted.size()));
-        const Job job = prepare(member.settings);
-        all_members.seconds += expected_seconds(job, static_cast<double>(threads)) / side_by_side;
-        all_members.megabytes =
-            std::max(all_members.megabytes,
-                     expected_megabytes(job, static_cast<double>(threads)) * side_by_side);
+        const double workers = static_cast<double>(threads);
+        megabytes = std::max(megabytes,
+                             expected_megabytes(prepare(member.settings), workers) * side_by_side);
     });
-    all_members.seconds *= static_cast<double>(wanted.size()) / static_cast<double>(timed);
-    return all_members;
+    return megabytes;
 }
 
 RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunOptions& options,

@@ -28,14 +28,10 @@ CampaignWork make_work(const std::vector<Member>& members, const RunOptions& opt
 
 // Checks all members, or the one numbered `only`, without solving a level: reads every input and
 // checks the path of every result.
-// Returns what the run is expected to take with `threads` threads. Error(bad_input) names the
-// member.
-struct Forecast {
-    double seconds = 0;
-    double megabytes = 0;  // of elements and coated asperities at their peak; 0: not estimated
-};
-Forecast check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options,
-                       std::size_t threads);
+// Returns the memory [MB] of elements and coated asperities at their peak with `threads` threads;
+// 0: not estimated. Error(bad_input) names the member.
+double check_members(const ReadCase& read, std::optional<int> only, const RunOptions& options,
+                     std::size_t threads);
 
 // Runs all members, or the one numbered `only` (from 1), and writes the manifest. With
 // options.resume finished members are kept. All members are checked before anything runs:

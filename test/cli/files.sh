@@ -123,10 +123,12 @@ test_study() {
     expect 2 "$rsc" --member 5 case.nml; says "4 members"
 }
 
-# --check does all that can fail before the first level, runs nothing, and says how long the run may take.
+# --check does all that can fail before the first level, runs nothing, and says the memory that elements take.
 test_check() {
-    for threads in 1 2; do expect 0 "$rsc" --check case.nml -s run%threads=$threads; says "about .* with $threads thread"; done
-    expect 0 "$rsc" --check -q case.nml; silent_on "expected to take"
+    for threads in 1 2; do
+        expect 0 "$rsc" --check case.nml -s run%threads=$threads -s "solver%model='elements'"; says "[0-9] MB .* $threads thread"
+    done
+    expect 0 "$rsc" --check -q case.nml; silent_on "can be written"
     from heights absent.txt; refused "absent.txt"
     printf '1 2 3 4 5\n1 2 nan 4 5\n1 2 3 4 5\n' > bad.txt
     from heights bad.txt; refused "bad.txt:2: 'nan' in column 3" -s surface%L=1

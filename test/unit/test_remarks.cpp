@@ -2,7 +2,7 @@
 // that --check foresees.
 #include "case/read_case.hpp"
 #include "check.hpp"
-#include "run/forecast.hpp"
+#include "run/memory.hpp"
 #include "run/screen.hpp"
 #include "unit/temporary_folder.hpp"
 
@@ -136,8 +136,8 @@ TEST(edges) {
 
 // A list's candidates are counted; a synthetic surface's are the area under the sphere of a
 // Gaussian surface over that of a summit: the share of it above Z0 between flats, 2 pi R times its
-// mean excess over Z0 under a sphere, at most all. Time grows with the realizations.
-TEST(forecast) {
+// mean excess over Z0 under a sphere, at most all.
+TEST(memory) {
     const Folder folder;
     std::ofstream list(folder / "many.txt");
     for (int k = 0; k < 300; ++k)
@@ -149,7 +149,7 @@ TEST(forecast) {
     };
     const std::string text = "&surface source='asperities' L=1.5 sigma=0.01 file='" +
                              folder / "many.txt" + "' / &indentation ";
-    Job job = job_of(text + "levels=0.5,0,-0.5 / &solver method='direct' /");
+    const Job job = job_of(text + "levels=0.5,0,-0.5 / &solver method='direct' /");
     CHECK(job.given->statistics.summits == 300 && job.domain.Lx == 1.5 && !job.domain.guessed);
     const Asperities& a = job.given->asperities;
     for (const double Z0 : {0.005, 0.0, -0.005}) {
@@ -160,11 +160,6 @@ TEST(forecast) {
         }
         CHECK(count > 0 && expected_candidates(job, Z0) == count);
     }
-    const double one = expected_seconds(job, 1);
-    // in three rounds of three, or in seven, beside the start of the program
-    job.settings.run.realizations = 7;
-    CHECK_RELATIVE(expected_seconds(job, 1) - expected_seconds(job, 3),
-                   2 * (expected_seconds(job, 3) - one), 1e-9);
     // Memory: of asperities only values that are kept for layers, in each of the parallel
     // realizations, are estimated; elements that yield store all heights, in each of the parallel
     // realizations, and more at depth.

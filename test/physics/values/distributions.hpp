@@ -1,7 +1,6 @@
-// Histograms, densities, moments and fits, from the contacts of all realizations.
+// Histograms, densities and moments, from the contacts of all realizations.
 #pragma once
 
-#include "observe/fits.hpp"
 #include "physics/values/truth.hpp"
 
 namespace values {
@@ -53,18 +52,6 @@ inline Moments1 moments_of(const std::vector<Part>& parts) {
                                 (v * v))};
 }
 
-inline double ks(const Vector& weight, double width, double total,
-                 const std::function<double(double)>& cdf) {
-    double below = 0, worst = 0;
-    for (std::size_t b = 0; b < weight.size(); ++b) {
-        below += weight[b];
-        worst = std::max(worst, std::abs(below / total - cdf(width * (number(b) + 1))));
-    }
-    return total > 0 ? worst : kNone;
-}
-
-inline int gammas_fitted = 0;
-
 inline void distributions(CheckedFile& f, const Truth& t) {
     const auto& wanted = t.c.output.pdf_levels;
     const std::size_t n = at(t.c.output.pdf_bins), D = wanted.size();
@@ -91,10 +78,7 @@ inline void distributions(CheckedFile& f, const Truth& t) {
     Vector used, step, sums;
     Vector counts, count_over, count_pdf, spot_counts, spot_over, spot_pdf, areas, area_over,
         area_pdf, independent;
-    Vector rayleigh, rayleigh_error, rayleigh_ks, exponential, exponential_error, exponential_ks,
-        gamma_ks;
     std::array<std::vector<Moments1>, 3> moments;
-    const std::array<const char*, 4> names{"alpha", "beta", "delta", "gamma"};
     for (std::size_t d = 0; d < D; ++d) {
         Vector p, A, one, count(n), spot(n), area(n);
         std::vector<Part> parts;
@@ -146,33 +130,11 @@ inline void distributions(CheckedFile& f, const Truth& t) {
                 spot_pdf.push_back(m > 0 ? spot[b] / (m * width_A) : kNone);
             area_pdf.push_back(m > 0 ? area[b] / (total * width_q) : kNone);
         }
-        double pp = 0;
-        for (double v : p) pp += v * v;
-        const double s = m > 0 ? std::sqrt(pp / m / 2) : kNone, mean_A = m > 0 ? sum(A) / m : kNone;
-        rayleigh.push_back(s), rayleigh_error.push_back(s / (2 * std::sqrt(m)));
-        rayleigh_ks.push_back(
-            ks(count, width_p, m, [&](double x) { return 1 - std::exp(-x * x / (2 * s * s)); }));
-        exponential.push_back(mean_A), exponential_error.push_back(mean_A / std::sqrt(m));
-        exponential_ks.push_back(
-            ks(spot, width_A, m, [&](double x) { return 1 - std::exp(-x / mean_A); }));
         independent.push_back(squares > 0 ? total * total / squares : 0);
         const Moments1 none{kNone, kNone, kNone, kNone};
         moments[0].push_back(m > 0 ? moments_of(p, one).or_absent() : none);
         moments[1].push_back(m > 0 ? moments_of(parts).or_absent() : none);
         moments[2].push_back(m > 0 ? moments_of(A, one).or_absent() : none);
-
-        // The gamma fit itself: unit/test_observe.
-        Vector fit;
-        for (const char* name : names)
-            fit.push_back(f.reader().numbers("pressure_pdf", name).at(d));
-        const auto filled =
-            std::count_if(area.begin(), area.end(), [](double a) { return a > 0; }) + (over_q > 0);
-        const bool fitted = fit[0] != NC_FILL_DOUBLE;
-        if (filled < 5 || independent.back() < 10) CHECK(!fitted);
-        gammas_fitted += fitted;
-        gamma_ks.push_back(!fitted ? kNone : ks(area, width_q, total, [&](double x) {
-            return generalised_gamma_cdf(x, fit[0], fit[1], fit[2]);
-        }));
 
         // In the order in which they are stored.
         sums.push_back(Z);
@@ -200,14 +162,7 @@ inline void distributions(CheckedFile& f, const Truth& t) {
         f.attribute("pressure_area", "overflow", area_over, 1e-9, 1e-12 * most);
     f.same("pressure_mean_pdf", count_pdf, 1e-9), f.same("spot_area_pdf", spot_pdf, 1e-9);
     f.same("pressure_pdf", area_pdf, 1e-9, 1e-11 / width_q);
-    f.attribute("pressure_mean_pdf", "rayleigh_scale", rayleigh, 1e-10),
-        f.attribute("pressure_mean_pdf", "rayleigh_scale_error", rayleigh_error, 1e-10);
-    f.attribute("pressure_mean_pdf", "ks_distance", rayleigh_ks, 1e-9);
-    f.attribute("spot_area_pdf", "exponential_scale", exponential, 1e-10);
-    f.attribute("spot_area_pdf", "exponential_scale_error", exponential_error, 1e-10);
-    f.attribute("spot_area_pdf", "ks_distance", exponential_ks, 1e-9);
     f.attribute("pressure_pdf", "independent_contacts", independent, 1e-10);
-    f.attribute("pressure_pdf", "ks_distance", gamma_ks, 1e-9);
     const std::array<const char*, 3> of{"pressure_mean_pdf", "pressure_pdf", "spot_area_pdf"};
     for (std::size_t i = 0; i < 3; ++i) {
         const auto put = [&](const char* name, double Moments1::*member) {

@@ -1,9 +1,6 @@
-#include "run/forecast.hpp"
+#include "run/memory.hpp"
 
-#include "base/error.hpp"
-#include "interaction/mesh.hpp"
 #include "interaction/pair_matrix.hpp"
-#include "run/compare.hpp"
 
 namespace rsc {
 namespace {
@@ -19,7 +16,7 @@ double mean_excess(double Z0, double sigma, double power) {
         const double z = low + (k + 0.5) * width;
         sum += std::pow(z - Z0, power) * std::exp(-0.5 * z * z / (sigma * sigma));
     }
-    return sum * std::max(width, 0.0) / (sigma * std::sqrt(2 * 3.14159265358979));
+    return sum * std::max(width, 0.0) / (sigma * std::sqrt(2 * std::numbers::pi));
 }
 
 // The integral of mean_excess(Z0 + s) over the domain, s being the height of the indenter's face:
@@ -70,20 +67,6 @@ double separation_at(const Job& job, double force) {
     return low;
 }
 
-double level_seconds(const Job& job, double candidates) {
-    // As for method `auto` (contact.cpp): about 40 products with the contacts, which are 0.4 of the
-    // candidates, at 6e9 pairs per second.
-    const double contacts = 0.4 * candidates;
-    double solve = 40 * contacts * contacts / 6e9;
-    if (job.solver.method == Method::dgesv)
-        solve = 10 * candidates * candidates * candidates /
-                1.5e9;  // ten factorisations of 2/3 n^3 operations at 1e9 per second
-    else if (job.solver.method != Method::direct && candidates > 1)
-        solve = std::min(
-            solve, 160 * MeshPotential::estimated_cost(static_cast<std::size_t>(candidates), 1e-3));
-    return 1e-4 + 3e-6 * candidates + solve;
-}
-
 // The part of the domain where a Gaussian surface is higher than the indenter at Z0.
 double area_under(const Job& job, double Z0) { return under_indenter(job, Z0, 0); }
 
@@ -108,64 +91,10 @@ double points_under(const Job& job, double Z0, double points) {
     return points * area_under(job, Z0) / (job.domain.Lx * job.domain.Ly);
 }
 
-// An indenter over nearly the whole surface is a punch, with high pressures at the border:
-// additional time, and its share.
-constexpr double kPunch = 2.5;
-double punch_share(double under, double points) { return std::pow(under / points, 6); }
-
-// Elastic separations with half as many points again as the level before start from pressures that
-// help little.
-constexpr double kCold = 1.7, kGrown = 1.5;
-
-// Seconds to make a point of a surface: all heights, or modes and the heights that can touch.
-double making_seconds(const Job& job) {
-    return !job.spectrum ? 0 : reads_high_points(job.settings) ? 7e-9 : 3e-8;
-}
-
-// Seconds for a level by elements, a separation or a force, from trials on one core. Two flats:
-// transforms of all points, and steps on those in contact. Otherwise the time is that of the points
-// under the indenter. A force takes some more products than a separation, and levels where points
-// yield many more.
-double element_level_seconds(const Job& job, double level, double points, bool is_force) {
-    if (job.indenter.period.finite()) {
-        const double share = share_in_contact(job, level, is_force);
-        return points *
-               (job.settings.solids.adhesion > 0 ? 2.4e-7 + 2.5e-6 * share : 9e-8 + 3e-6 * share);
-    }
-    const double under =
-                     points_under(job, is_force ? likely_separation(job, level) : level, points),
-                 share = punch_share(under, points);
-    const bool yields = std::isfinite(job.settings.solids.hardness);
-    const double products =
-        (yields ? 3 : 1) * (is_force ? (yields ? 4 : 1.5) * (1 + 2 * share) : 1);
-    return 5e-5 * std::pow(under, 0.75) * (1 + kPunch * share) * products *
-           (job.settings.solids.layer_thickness.empty() ? 1 : 2);
-}
-
 // Penetration of the smooth indenter under a force; 0 if no closed form is known.
 double smooth_depth(const Job& job, double force) {
     const auto smooth = job.indenter.shape->smooth(job.indenter.E_star);
     return smooth ? smooth->depth_under(force) : 0.0;
-}
-
-// Seconds for a surface, including its summits.
-double surface_seconds(const Case& settings) {
-    constexpr int small = 512;
-    Case sample = settings;
-    auto& keys = sample.surface;
-    const double scale = std::max(1.0, settings.surface.n / static_cast<double>(small));
-    if (scale > 1) {
-        keys.n = small;
-        keys.L_lambda_s = std::max(2.0, settings.surface.L_lambda_s / scale);
-        keys.L_lambda_l =
-            std::min(std::max(1.0, settings.surface.L_lambda_l / scale), 0.5 * keys.L_lambda_s);
-    }
-    const std::clock_t start = std::clock();  // of the processor, which other programs may share
-    try {
-        make_surface_model(sample, 1, 1);
-    } catch (const Error&) {  // the piece of surface is so small that it has no summit
-    }
-    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC * scale * scale;
 }
 
 }  // namespace
@@ -195,56 +124,9 @@ double likely_separation(const Job& job, double level) {
                                                std::sqrt(1.5 * area / std::numbers::pi)));
 }
 
-double element_seconds(const Job& job, double Z0, double points_per_wave) {
-    constexpr double making = 3e-8;  // for each point of a synthetic surface
+ElementSize element_size(const Job& job, double Z0, double points_per_wave) {
     const double points = points_of_elements(job, points_per_wave);
-    return (job.spectrum ? making * points : 0) +
-           kCold * element_level_seconds(job, Z0, points, false);
-}
-
-double expected_seconds(const Job& job, double workers) {
-    const bool force = job.settings.indentation.control != Control::separation;
-    const bool elements = by_elements(job.settings);
-    const double points =
-        elements ? points_of_elements(job, job.settings.elements.points_per_wave) : 0;
-    const bool layers = !job.settings.solids.layer_thickness.empty();
-    constexpr double program = 0.04;
-    double one = elements    ? making_seconds(job) * points
-                 : job.given ? 0
-                             : surface_seconds(job.settings);
-    if (compares(job, true)) one += comparison_seconds(job);
-    const bool steps = elements && !force && !layers && !job.indenter.period.finite() &&
-                       !std::isfinite(job.settings.solids.hardness);
-    double before = 0, longest = 0, last_time = job.times.empty() ? 0.0 : job.times.front();
-    for (std::size_t k = 0; k < job.levels.size(); ++k) {
-        const double level = job.levels[k], begun = one;
-        const double under = steps ? points_under(job, level, points) : 0;
-        if (elements)
-            one += std::max(1.0, steps && under > kGrown * before
-                                     ? kCold / (1 + kPunch * punch_share(under, points))
-                                     : 0.0) *
-                   element_level_seconds(job, level, points, force);
-        else
-            one += (force && !job.indenter.period.finite() ? 2.5 : 1) * (layers ? 2 : 1) *
-                   (job.indenter.period.finite() ? 8 : 1) *
-                   level_seconds(job, expected_candidates(job, likely_separation(job, level)));
-        if (relaxes(job.settings)) {  // in steps of time, of elements also on a coarser grid
-            const double parts =
-                steps_of_time(job.times[k] - last_time, job.solver.relaxation.shortest());
-            one += (one - begun) *
-                   ((elements && job.settings.run.realizations == 1 ? 1.25 : 1.0) * parts - 1);
-            last_time = job.times[k];
-        }
-        before = under;
-        if (elements && job.indenter.period.finite())
-            longest = std::max(longest, element_level_seconds(job, level, points, force));
-    }
-    one += 0.25 * longest;            // two flats: the check on a coarser grid
-    constexpr double circles = 1e-6;  // for the weights of the radial means
-    const auto& output = job.settings.output;
-    one += circles * output.map_cells * output.radial_bins;
-    const double realizations = job.settings.run.realizations;
-    return program + one * std::ceil(realizations / std::max(1.0, std::min(workers, realizations)));
+    return {points, points_under(job, Z0, points)};
 }
 
 double expected_megabytes(const Job& job, double workers) {

@@ -1,4 +1,4 @@
-// Estimate of the time that a case takes.
+// Sizes of a case and its memory, before it runs.
 #pragma once
 
 #include "run/job.hpp"
@@ -14,14 +14,12 @@ double expected_candidates(const Job& job, double Z0);
 // with approximately that force.
 double likely_separation(const Job& job, double level);
 
-// Seconds for a level at Z0 by elements with points_per_wave points in the shortest wavelength,
-// including the synthesis of the surface.
-double element_seconds(const Job& job, double Z0, double points_per_wave);
-
-// Time of all realizations of the case [s], `workers` of them in parallel. The time of a surface is
-// measured on a smaller one (about ten milliseconds), that of the levels follows from their numbers
-// of candidates and typical rates, mostly within a factor of two.
-double expected_seconds(const Job& job, double workers);
+// Numbers of grid points of elements with points_per_wave points in the shortest wavelength: all,
+// and those that are higher than the indenter at Z0.
+struct ElementSize {
+    double points, under;
+};
+ElementSize element_size(const Job& job, double Z0, double points_per_wave);
 
 // Largest memory [MB] of a run with `workers` realizations in parallel: of elements from the sizes
 // of the surface and of the contact, of coated asperities from the values of the kernel that are
