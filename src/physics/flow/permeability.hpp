@@ -27,7 +27,7 @@ double permeability_points(double bytes);
 // Solves for the permeability. `flow`: if not null, the magnitude of the flux at each point times
 // eta for a mean gradient 1 along x [length^3], row by row. Links so narrow that rounding hides
 // them beside the widest are left out. Throws Error(no_memory), and Error(internal) without
-// CHOLMOD or if the equations are not solved to 1e-9 of K.
+// CHOLMOD or if the equations are not solved to 1e-11 of K.
 Permeability permeability(const GapMap& map, std::vector<double>* flow = nullptr);
 
 }  // namespace rsc
