@@ -12,6 +12,7 @@ need() {  # need PACKAGE COMMAND...: PACKAGE (Debian's name) is missing unless C
 }
 header() { printf '#include <%s>\n' "$1" | g++ -E -x c++ - ; }
 header_udunits() { header udunits2.h || header udunits2/udunits2.h; }
+header_cholmod() { header suitesparse/cholmod.h || header cholmod.h; }
 links() { echo 'int main() {}' | g++ -x c++ - -o /dev/null "$@"; }
 plots() { python3 -c 'import numpy, matplotlib, netCDF4' || /usr/bin/python3 -c 'import numpy, matplotlib, netCDF4'; }
 look() {
@@ -29,6 +30,7 @@ look() {
     need librandom123-dev header Random123/philox.h
     need libboost-dev header boost/math/special_functions/gamma.hpp
     need zlib1g-dev header zlib.h
+    need libsuitesparse-dev header_cholmod
     need netcdf-bin command -v ncdump
     need python3 command -v python3
     need 'python3-matplotlib python3-netcdf4' plots

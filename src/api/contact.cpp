@@ -5,6 +5,8 @@
 #include "contact/answers.hpp"
 #include "contact/deflection.hpp"
 #include "observe/quantities.hpp"
+#include "physics/flow/permeability.hpp"
+#include "run/gap.hpp"
 #include "surface/asperities.hpp"
 
 namespace rsc::api {
@@ -121,6 +123,24 @@ double resistance_of(rsc_contact& contact) {
     return constriction_resistance(conductance_length_of(contact), resistivity);
 }
 
+// The level with its gap, and with its permeability if `with_flow`.
+const Level& gap_of(rsc_contact& contact, bool with_flow) {
+    Level& level = *contact.known.level;
+    if (!contact.on->points || !contact.contact.indenter().period.finite())
+        throw Outcome{RSC_NO_RESULT, "only two flats solved by elements have a gap"};
+    if (with_flow && !has_permeability())
+        throw Outcome{RSC_NO_RESULT, "this rsc was built without CHOLMOD"};
+    const double known = with_flow ? level.permeability_xx : level.gap_mean;
+    if (!contact.recalled) contact.recall();
+    if (std::isnan(known)) measure_gap(*contact.on->points, contact.contact, level, with_flow);
+    return level;
+}
+
+template <double LevelValues::*member, bool with_flow = false>
+double of_gap(rsc_contact& contact) {
+    return gap_of(contact, with_flow).*member;
+}
+
 // Quantities that are not direct members of a level, by the names of the result file (vectors by
 // component).
 struct Derived {
@@ -137,14 +157,22 @@ constexpr Derived kDerived[] = {
     {"lateral_force_y", [](rsc_contact& c) { return c.answer().lateral.y; }},
     {"moment_x", [](rsc_contact& c) { return c.answer().moment.x; }},
     {"moment_y", [](rsc_contact& c) { return c.answer().moment.y; }},
+    {"gap_mean", of_gap<&LevelValues::gap_mean>},
+    {"gap_mean_open", of_gap<&LevelValues::gap_mean_open>},
+    {"percolates_x", of_gap<&LevelValues::percolates_x>},
+    {"percolates_y", of_gap<&LevelValues::percolates_y>},
+    {"permeability_xx", of_gap<&LevelValues::permeability_xx, true>},
+    {"permeability_yy", of_gap<&LevelValues::permeability_yy, true>},
+    {"permeability_xy", of_gap<&LevelValues::permeability_xy, true>},
+    {"hydraulic_gap_x", of_gap<&LevelValues::hydraulic_gap_x, true>},
+    {"hydraulic_gap_y", of_gap<&LevelValues::hydraulic_gap_y, true>},
 };
 
 // Quantities of the result file that rsc_contact_value does not return: those of maps, which the
-// library does not compute, and vectors
-// (their components have names).
+// library does not compute, and vectors and tensors (their components have names).
 bool of_map(std::string_view name) {
-    return name == "crowded_cells" || name == "contacts_outside_map" || name == "lateral_force" ||
-           name == "moment";
+    const LevelQuantity* quantity = find_quantity(name);
+    return name == "crowded_cells" || name == "contacts_outside_map" || (quantity && quantity->y);
 }
 
 std::string known_values() {

@@ -177,6 +177,7 @@ void put_state(Entries& to, const std::string& prefix, const rsc_contact::State&
     for (const LevelQuantity& q : level_quantities()) {
         to.numbers[prefix + "level." + q.name] = {q.of(level)};
         if (q.y) to.numbers[prefix + "level." + q.name + ".y"] = {level.*q.y};
+        if (q.z) to.numbers[prefix + "level." + q.name + ".z"] = {level.*q.z};
     }
     visit_arrays(level, [&](const char* name, const auto& values) {
         to.numbers[prefix + "level." + name] = {values.begin(), values.end()};
@@ -204,6 +205,7 @@ rsc_contact::State get_state(const Entries& from, const std::string& prefix,
         const std::string name = prefix + "level." + q.name;
         if (from.numbers.contains(name)) q.put(level, from.one(name));
         if (q.y && from.numbers.contains(name + ".y")) level.*q.y = from.one(name + ".y");
+        if (q.z && from.numbers.contains(name + ".z")) level.*q.z = from.one(name + ".z");
     }
     visit_arrays(level, [&](const char* name, auto& values) {
         const auto found = from.numbers.find(prefix + "level." + name);

@@ -5,6 +5,9 @@ include(CMakePackageConfigHelpers)
 
 set_target_properties(rsc_core PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
 set(rsc_dependencies LAPACK::LAPACK Threads::Threads PkgConfig::FFTW PkgConfig::NETCDF rsc_udunits ZLIB::ZLIB)
+if(rsc_cholmod)
+  list(APPEND rsc_dependencies ${CHOLMOD_LIBRARY})
+endif()
 
 add_library(rsc_shared SHARED $<TARGET_OBJECTS:rsc_core>)
 set_target_properties(rsc_shared PROPERTIES OUTPUT_NAME rsc EXPORT_NAME rsc VERSION ${PROJECT_VERSION}
@@ -20,7 +23,7 @@ endif()
 add_library(rsc_static STATIC $<TARGET_OBJECTS:rsc_core>)
 set_target_properties(rsc_static PROPERTIES OUTPUT_NAME rsc EXPORT_NAME static LINKER_LANGUAGE CXX)
 target_link_libraries(rsc_static PUBLIC "$<BUILD_INTERFACE:${rsc_dependencies}>"
-                      "$<INSTALL_INTERFACE:LAPACK::LAPACK;Threads::Threads;PkgConfig::rsc_fftw;PkgConfig::rsc_netcdf;udunits2;ZLIB::ZLIB>")
+                      "$<INSTALL_INTERFACE:LAPACK::LAPACK;Threads::Threads;PkgConfig::rsc_fftw;PkgConfig::rsc_netcdf;udunits2;ZLIB::ZLIB;${rsc_cholmod}>")
 
 foreach(library rsc_shared rsc_static)
   target_include_directories(${library} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
@@ -103,6 +106,9 @@ foreach(library ${LAPACK_LIBRARIES} ${BLAS_LIBRARIES})
     list(APPEND rsc_private_libraries "${library}")
   endif()
 endforeach()
+if(rsc_cholmod)
+  list(APPEND rsc_private_libraries -lcholmod)
+endif()
 list(APPEND rsc_private_libraries -lfftw3_threads -lfftw3f_threads -ludunits2 ${CMAKE_THREAD_LIBS_INIT} -lstdc++ -lm)
 list(REMOVE_DUPLICATES rsc_private_libraries)
 list(JOIN rsc_private_libraries " " rsc_private_libraries)

@@ -122,7 +122,7 @@ struct Case {
         std::string file = "output/rsc.nc";
         Format format = Format::netcdf4;
         Contacts contacts = Contacts::automatic;
-        bool heights = false;
+        bool heights = false, flow = false;
         int map_cells = 50, radial_bins = 50;
         std::vector<double> pdf_levels = {2.0, 2.5, 3.0};
         int pdf_bins = 60;

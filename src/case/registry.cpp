@@ -333,6 +333,9 @@ std::vector<Key> make_registry() {
                "levels whose contacts are written; auto: all levels of a single realization, none "
                "of a campaign"),
         number(RSC_KEY(output, heights), "", kAny, "write the height map to the result"),
+        number(RSC_KEY(output, flow), "", kAny,
+               "permeability of the gap between two flats at each level, by elements with boundary "
+               "= 'periodic'"),
         words(choice(RSC_KEY(output, fields), kFieldNames,
                      "quantities to write at the points of the surface, for a single realization. "
                      "Elements: the pressure and gap of the solution. Asperities: "

@@ -4,6 +4,8 @@
 #include "case/case.hpp"
 #include "case/registry.hpp"
 #include "case/units.hpp"
+#include "observe/fields.hpp"
+#include "physics/flow/permeability.hpp"
 #include "physics/indenter/shapes.hpp"
 #include "surface/asperities.hpp"
 
@@ -38,6 +40,7 @@ public:
         check_indenter();
         check_levels();
         check_boundary();
+        check_flow();
         check_sizes();
         return std::move(problems_);
     }
@@ -395,6 +398,23 @@ private:
                     " E* sqrt(2 m2): at 1 and above less than 5 % of the area is gap, too little "
                     "for the asperity model; use solver%model = "
                     "'elements', which is valid up to full contact");
+    }
+
+    void check_flow() {
+        const Case::Output& o = c_.output;
+        const bool field = std::ranges::count(o.fields, static_cast<double>(Field::flow)) > 0;
+        require(!field || o.flow, {"output%fields", "output%flow"},
+                "'flow' needs output%flow = .true.");
+        if (!o.flow) return;
+        require(c_.indentation.boundary == Boundary::periodic,
+                {"output%flow", "indentation%boundary"},
+                "fluid flows through the gap of two flats, whose surface is periodic; give "
+                "boundary = 'periodic' and R = Infinity, Infinity");
+        require(elements_, {"output%flow", "solver%model"},
+                "asperities have no gap between them; use model = 'elements'");
+        require(has_permeability(), {"output%flow"},
+                "this rsc was built without CHOLMOD (Debian: libsuitesparse-dev), which solves for "
+                "the flow");
     }
 
     void check_sizes() {

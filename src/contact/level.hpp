@@ -93,7 +93,16 @@ struct LevelValues {
     // area of the points that attract without contact [length^2]
     double cohesive_area = kNotComputed;
     double cohesive_resolution =
-        kNotComputed;                   // boundary elements: ratio of z0 to the side of a pixel
+        kNotComputed;  // boundary elements: ratio of z0 to the side of a pixel
+    // Two flats by elements: the gap (physics/flow/flow.hpp).
+    double gap_mean = kNotComputed;       // over the whole cell [length]
+    double gap_mean_open = kNotComputed;  // where the bodies do not touch [length]
+    // 1 if openings wind around the cell along the axis, otherwise 0
+    double percolates_x = kNotComputed, percolates_y = kNotComputed;
+    // with output%flow [length^3], [length]
+    double permeability_xx = kNotComputed, permeability_yy = kNotComputed;
+    double permeability_xy = kNotComputed;
+    double hydraulic_gap_x = kNotComputed, hydraulic_gap_y = kNotComputed;
     std::int32_t jumps = 0;             // number of jumps since the previous level
     std::int32_t plastic_contacts = 0;  // yielding contacts at this level
     double time = kNotComputed;         // time of the level, relaxing bodies [time]

@@ -99,6 +99,9 @@ void ResultTable::levels() {
                 std::vector<double>(values.begin(),
                                     values.begin() + static_cast<std::ptrdiff_t>(o_.steps)),
                 attributes);
+        else if (q.z)
+            add_absent(q.name, {"realization", "step", "tensor_component"}, units(q), q.meaning,
+                       tensors(q), q.comment);
         else if (q.y)
             add_absent(q.name, {"realization", "step", "component"}, units(q), q.meaning,
                        pairs(values, of_rows<double>([&](const LevelValues& l) { return l.*q.y; })),
@@ -134,6 +137,20 @@ std::vector<double> ResultTable::pairs(const std::vector<double>& x, const std::
     return both;
 }
 
+// The components xx, yy, xy of a symmetric tensor as the last dimension.
+std::vector<double> ResultTable::tensors(const LevelQuantity& q) {
+    file_.dimension("tensor_component", 3);
+    add("tensor_component", {"tensor_component"}, "1", "component of a symmetric tensor", one_to(3),
+        {{"flag_values", one_to(3)}, {"flag_meanings", "xx yy xy"}});
+    std::vector<double> all;
+    for (const LevelValues& l : o_.rows) {
+        all.push_back(q.of(l));
+        all.push_back(l.*q.y);
+        all.push_back(l.*q.z);
+    }
+    return all;
+}
+
 void ResultTable::means() {
     add("converged", {"step"}, "1", "number of realizations in the means", o_.force.count,
         comment(
@@ -150,22 +167,30 @@ void ResultTable::means() {
     }
     for (const LevelQuantity& q : level_quantities()) {
         if (!q.statistics) continue;
-        LevelStatistics s = o_.statistics([&](const LevelValues& l) { return q.of(l); });
+        const auto seen = [&](double value) {
+            if (!q.logarithm) return value;
+            return value > 0 ? std::log(value) : kNotComputed;
+        };
+        LevelStatistics s = o_.statistics([&](const LevelValues& l) { return seen(q.of(l)); });
         if (!q.always && !computed(of_rows<double>([&](const LevelValues& l) { return q.of(l); })))
             continue;
-        const std::string name = q.name, of = std::string(q.plain) + " over realizations";
+        const std::string name = q.name + std::string(q.logarithm ? "_log" : ""),
+                          of = (q.logarithm ? "natural logarithm of the " : std::string()) +
+                               q.plain + " over realizations",
+                          unit_of_mean = q.logarithm ? "1" : units(q);
         Names dims{"step"};
         if (q.y) {
-            const LevelStatistics y = o_.statistics([&](const LevelValues& l) { return l.*q.y; });
+            const LevelStatistics y =
+                o_.statistics([&](const LevelValues& l) { return seen(l.*q.y); });
             s = {pairs(s.mean, y.mean), pairs(s.deviation, y.deviation), pairs(s.error, y.error),
                  s.count};
             dims.push_back("component");
         }
-        add_absent(name + "_mean", dims, units(q), "mean " + of, s.mean);
-        add_absent(name + "_std", dims, units(q), "standard deviation of the " + of, s.deviation,
-                   "divisor M - 1 for M realizations");
-        add_absent(name + "_stderr", dims, units(q), "standard error of " + name + "_mean", s.error,
-                   name + "_std/sqrt(M)");
+        add_absent(name + "_mean", dims, unit_of_mean, "mean " + of, s.mean);
+        add_absent(name + "_std", dims, unit_of_mean, "standard deviation of the " + of,
+                   s.deviation, "divisor M - 1 for M realizations");
+        add_absent(name + "_stderr", dims, unit_of_mean, "standard error of " + name + "_mean",
+                   s.error, name + "_std/sqrt(M)");
         if (s.count != o_.force.count)
             add(name + "_count", {"step"}, "1",
                 "number of realizations with a value of the " + std::string(q.plain), s.count);

@@ -358,6 +358,11 @@ void ResultTable::fields() {
                    "0 where they touch");
     if (!f.contact.empty())
         add("field_contact", dims, "1", "1 where the bodies touch, 0 elsewhere", f.contact);
+    if (!f.flow.empty())
+        add_disorder("field_flow", dims, unit(3),
+                     "magnitude of the flux per width times the viscosity, for a mean pressure "
+                     "gradient of 1 along x",
+                     f.flow);
     if (!f.heights.empty())
         add_disorder("field_height", {"field_y", "field_x"}, unit(1),
                      "height of the surface without load", f.heights);

@@ -96,6 +96,7 @@ private:
     void levels();
     static bool computed(const std::vector<double>& values);
     std::vector<double> pairs(const std::vector<double>& x, const std::vector<double>& y);
+    std::vector<double> tensors(const LevelQuantity& q);
     bool components_ = false;  // the dimension of vectors is declared
     std::string units(const LevelQuantity& q) const {
         if (!q.unit) return unit(q.length_power, q.force_power);

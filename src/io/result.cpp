@@ -171,7 +171,7 @@ void read_levels(const Columns& file, Accumulators& sums) {
         sums.rows[k].separation = separation[of_each ? k : k % steps];
     for (const LevelQuantity& q : level_quantities()) {
         if (!file.find(q.name) && !q.always) continue;  // no level has it
-        const std::size_t parts = q.y ? 2 : 1;
+        const std::size_t parts = q.z ? 3 : q.y ? 2 : 1;
         std::vector<std::size_t> lengths{count, steps};
         if (q.of_step) lengths = {steps};
         if (q.y) lengths.push_back(parts);
@@ -179,6 +179,7 @@ void read_levels(const Columns& file, Accumulators& sums) {
         for (std::size_t k = 0; k < sums.rows.size(); ++k) {
             q.put(sums.rows[k], values[q.of_step ? k % steps : k * parts]);
             if (q.y) sums.rows[k].*q.y = values[k * parts + 1];
+            if (q.z) sums.rows[k].*q.z = values[k * parts + 2];
         }
     }
 }

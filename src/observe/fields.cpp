@@ -85,8 +85,8 @@ void add_spot(Pressures& all, const HeightMap& map, bool repeats, const Spot& s,
 
 Pressures pressures_of(const HeightMap& map, bool repeats, const Level& level) {
     Pressures all;
-    for (std::size_t k = 0; k < level.pixels.index.size(); ++k)
-        all[level.pixels.index[k]] = {level.pixels.pressure[k], true};
+    for (std::size_t k = 0; k < level.pixels.index.size(); ++k)  // row by row
+        all.emplace_hint(all.end(), level.pixels.index[k], Load{level.pixels.pressure[k], true});
     for (const std::int32_t k : level.pixels.cohesive) all[k] = {level.pixels.tension, false};
     if (!all.empty()) return all;
     const auto hertz = [](double t) { return std::sqrt(t); };
@@ -243,13 +243,13 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
                              map.row(j) + columns.last + 1);
     for (std::size_t s = 0; s < levels.size(); ++s) {
         const Level& level = *levels[s].level;
-        std::vector<double> p(points, 0.0);
+        std::vector<double> p(asked.pressure ? points : 0, 0.0);
         std::vector<std::int32_t> touches(points, 0);
         for (const auto& [point, load] : pressures[s]) {
             const int i = static_cast<int>(point % map.nx) - columns.first,
                       j = static_cast<int>(point / map.nx) - rows.first;
             if (i < 0 || i >= columns.size() || j < 0 || j >= rows.size()) continue;
-            p[at(j) * f.x.size() + at(i)] = load.pressure;
+            if (asked.pressure) p[at(j) * f.x.size() + at(i)] = load.pressure;
             touches[at(j) * f.x.size() + at(i)] = load.touches;
         }
         if (asked.contact) f.contact.insert(f.contact.end(), touches.begin(), touches.end());
@@ -283,6 +283,10 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
             f.gap.insert(f.gap.end(), gap.begin(), gap.end());
         }
         if (asked.pressure) f.pressure.insert(f.pressure.end(), p.begin(), p.end());
+        for (int j = rows.first; j <= rows.last && asked.flow; ++j) {
+            const auto row = levels[s].flow.begin() + std::ptrdiff_t{j} * map.nx;
+            f.flow.insert(f.flow.end(), row + columns.first, row + columns.last + 1);
+        }
     }
     return f;
 }

@@ -9,12 +9,12 @@
 namespace rsc {
 
 // In the order of the names for output%fields.
-enum class Field { pressure, gap, contact, heights };
-inline constexpr std::array kFieldNames = {"pressure", "gap", "contact", "heights"};
+enum class Field { pressure, gap, contact, heights, flow };
+inline constexpr std::array kFieldNames = {"pressure", "gap", "contact", "heights", "flow"};
 
 struct FieldsAsked {
-    bool pressure = false, gap = false, contact = false, heights = false;
-    bool any() const { return pressure || gap || contact || heights; }
+    bool pressure = false, gap = false, contact = false, heights = false, flow = false;
+    bool any() const { return pressure || gap || contact || heights || flow; }
     std::optional<std::array<double, 4>>
         window;  // x0, x1, y0, y1 [length]; absent: around the contact
 };
@@ -27,6 +27,8 @@ struct Fields {
         gap;  // [step][y][x] [force/length^2], [length; NaN where there is no indenter above]
     std::vector<std::int32_t> contact;  // [step][y][x] 1 in contact, otherwise 0
     std::vector<double> heights;        // [y][x] of the undeformed surface [length]
+    // [step][y][x] magnitude of the flux times viscosity for a mean pressure gradient 1 along x
+    std::vector<double> flow;  // [length^3]
 };
 
 // The points that yielded asperities have lost: those around a summit that are above it less its
@@ -41,6 +43,7 @@ struct FieldLevel {
     const Level* level;
     ResidualProfile lowered;
     std::optional<Level> lasting = {};
+    std::vector<double> flow = {};  // of all points, row by row
 };
 
 // Computes fields of levels of one contact. Pressures are those of boundary elements, or of

@@ -15,6 +15,8 @@ struct LevelQuantity {
     Member member;     // NaN (double): not computed
     // second component of a vector, whose first is `member`; adds a dimension in files
     double LevelValues::*y = nullptr;
+    // third component of a symmetric tensor: member, y and z are xx, yy and xy
+    double LevelValues::*z = nullptr;
     int length_power = 0, force_power = 0;  // powers in its unit
     const char* unit = nullptr;  // unit that replaces these powers; "time": the unit of times
     bool of_step = false;        // has the same value in every realization
@@ -24,6 +26,9 @@ struct LevelQuantity {
     double LevelValues::*beside =
         nullptr;              // a count: written with this quantity, even if it is 0 at all levels
     bool statistics = false;  // files also have name_mean and name_std over realizations
+    // these are of its logarithm, name_log_mean ..., over the realizations where it is positive
+    bool logarithm = false;
+    bool of_flow = false;  // on the screen only with output%flow
     const char* plain = "";
     const char* heading = nullptr;  // of its column on the screen; null: not shown
     int width = 0, digits = 0;      // of the column; significant digits of a double, 0: "%.1e"

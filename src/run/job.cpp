@@ -11,6 +11,7 @@
 #include "io/inputs.hpp"
 #include "physics/adhesion/adhesive_elements.hpp"
 #include "physics/friction/contact_curve.hpp"
+#include "run/gap.hpp"
 #include "surface/synthesis.hpp"
 #include "trust/expected_error.hpp"
 #include "trust/resolution.hpp"
@@ -140,8 +141,8 @@ FieldsAsked fields_asked(const Case& settings) {
         const auto& all = settings.output.fields;
         return std::find(all.begin(), all.end(), static_cast<double>(f)) != all.end();
     };
-    FieldsAsked asked{
-        has(Field::pressure), has(Field::gap), has(Field::contact), has(Field::heights), {}};
+    FieldsAsked asked{has(Field::pressure), has(Field::gap),  has(Field::contact),
+                      has(Field::heights),  has(Field::flow), {}};
     if (w[0]) asked.window = {*w[0], *w[1], *w[2], *w[3]};
     return asked;
 }
@@ -264,6 +265,11 @@ Job prepare(const Case& settings) {
                               : 0.0;
         require_resolved(settings.solids.adhesion_range, side);
     }
+    if (settings.output.flow)
+        require_flow_memory(settings,
+                            job.given_heights
+                                ? static_cast<double>(job.given_heights->nx) * job.given_heights->ny
+                                : std::pow(element_points(settings, *job.spectrum), 2.0));
     job.observe = observe_options(settings, job.domain, job.indenter, job.sigma, sqrt_m4);
     return job;
 }
@@ -376,6 +382,11 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         }
         const bool field = std::find(field_steps.begin(), field_steps.end(),
                                      static_cast<std::int32_t>(k)) != field_steps.end();
+        std::vector<double> flow;
+        if (has_gap(settings))
+            measure_gap(job.given_heights ? *job.given_heights : *r.heights, *contact, level,
+                        settings.output.flow,
+                        field && fields_asked(settings).flow ? &flow : nullptr);
         if (const Asperities* yielding = contact->asperities();
             field && !std::isnan(level.force))  // a level without a state has none
             fields.push_back(
@@ -384,7 +395,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
                                             job.indenter.period.finite(), *yielding,
                                             contact->residual_depths())
                           : contact->residual_profile(),
-                 contact->lasting_loads(level)});
+                 contact->lasting_loads(level), std::move(flow)});
         if (on_level && !on_level(k, r.levels.back())) break;
     }
     r.residual_depth = contact->residual_depths();

@@ -11,6 +11,7 @@
 #include "io/whole_file.hpp"
 #include "observe/regimes.hpp"
 #include "run/compare.hpp"
+#include "run/gap.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
 #include "run/team.hpp"
@@ -58,6 +59,7 @@ void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s,
                       job.settings.run.length_unit.c_str(), slope, slope_remark(slope));
     tell_unreached_heights(out, {&s, 1}, job);
     print_remarks(out, levels, job);
+    print_gap(out, levels, job);
     if (!twins.empty()) out << twins << '\n';
     print_result(out, file, replaces);
 }

@@ -7,6 +7,7 @@
 #include "io/inputs.hpp"
 #include "observe/quantities.hpp"
 #include "observe/regimes.hpp"
+#include "run/gap.hpp"
 
 namespace rsc {
 namespace fs = std::filesystem;
@@ -29,6 +30,7 @@ namespace {
 
 // Columns that only two flats have are shown for two flats only.
 bool shown(const LevelQuantity& q, const Job& job) {
+    if (q.of_flow) return q.heading && job.settings.output.flow;
     return q.heading &&
            (q.always || (q.of_step ? !job.times.empty() : job.indenter.period.finite()));
 }
@@ -382,6 +384,7 @@ void print_campaign_summary(std::ostream& out, const Job& job, const Observation
     }
     tell_unreached_heights(out, o.surface, job);
     print_remarks(out, o.rows, job);
+    print_gap(out, o.rows, job);
     print_result(out, file, replaces);
 }
 

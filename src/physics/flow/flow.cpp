@@ -1,0 +1,36 @@
+#include "physics/flow/flow.hpp"
+
+namespace rsc {
+
+void add_gap(LevelValues& level, const GapMap& map) {
+    double sum = 0;
+    std::size_t open = 0;
+    for (int j = 0; j < map.ny; ++j) {
+        double row = 0;
+        for (int i = 0; i < map.nx; ++i) {
+            const double g =
+                map.gap[static_cast<std::size_t>(j) * static_cast<std::size_t>(map.nx) +
+                        static_cast<std::size_t>(i)];
+            row += g;
+            open += g > 0 ? 1 : 0;
+        }
+        sum += row;
+    }
+    level.gap_mean = sum / static_cast<double>(map.points());
+    level.gap_mean_open = open > 0 ? sum / static_cast<double>(open) : 0;
+    const Openings openings(
+        map, [&](std::size_t k, std::size_t l) { return map.gap[k] > 0 && map.gap[l] > 0; });
+    level.percolates_x = openings.any_winds_x() ? 1 : 0;
+    level.percolates_y = openings.any_winds_y() ? 1 : 0;
+}
+
+void add_permeability(LevelValues& level, const GapMap& map, std::vector<double>* flow) {
+    const Permeability k = permeability(map, flow);
+    level.permeability_xx = k.xx;
+    level.permeability_yy = k.yy;
+    level.permeability_xy = k.xy;
+    level.hydraulic_gap_x = std::cbrt(12 * k.xx);
+    level.hydraulic_gap_y = std::cbrt(12 * k.yy);
+}
+
+}  // namespace rsc

@@ -1,0 +1,33 @@
+// Permeability of the gap between two flats: Reynolds' thin film div(g^3 grad P) = 0 in the open
+// gap, with pressures that are periodic apart from a mean gradient.
+//
+// Finite volumes on the points: between two open neighbours the conductance is the harmonic mean of
+// g^3/12 times side over distance, as in ReynoldsFlow (github vyastreb/reynoldsflow). Only sets of
+// points that wind around the cell carry fluid, and of these not the dead ends. The equations are
+// solved by CHOLMOD (Chen, Davis, Hager and Rajamanickam, ACM Trans. Math. Softw. 35, 2008).
+#pragma once
+
+#include "physics/flow/openings.hpp"
+
+namespace rsc {
+
+// Flux per width q = -(K/eta) grad P of the means over the cell [length^3]; symmetric.
+struct Permeability {
+    double xx = 0, yy = 0, xy = 0;
+};
+
+// False if rsc was built without CHOLMOD.
+bool has_permeability();
+
+// Largest memory for n points [bytes], and the most points for that memory: from the peaks of gaps
+// that are open everywhere, which take the most.
+double permeability_bytes(double points);
+double permeability_points(double bytes);
+
+// Solves for the permeability. `flow`: if not null, the magnitude of the flux at each point times
+// eta for a mean gradient 1 along x [length^3], row by row. Links so narrow that rounding hides
+// them beside the widest are left out. Throws Error(no_memory), and Error(internal) without
+// CHOLMOD or if the equations are not solved to 1e-11 of K.
+Permeability permeability(const GapMap& map, std::vector<double>* flow = nullptr);
+
+}  // namespace rsc
