@@ -47,6 +47,10 @@ RICH, RICH_FITTED = (
     530,
 )  # surfaces from the first number on have broad spectra, loaded as in the paper; fitted up to the second
 PUBLIC = 600  # from this number on surfaces of --maps; they give the factor of files
+GENTLE, GENTLE_FITTED = (
+    2000,
+    2100,
+)  # from this number on surfaces under balls so large that slope_ratio stays near 0.2
 POINTS, CUTOFF = 256, 6  # of their square windows a side, and the filter's in points
 RESOLVED = 0.02  # change of N with the grid of elements
 FITTED_SHARE = (
@@ -150,7 +154,7 @@ def draw(number):
         "R": float(10 ** rng.uniform(-1, 2)),
         "points": float(rng.choice([4, 5, 6, 8])),
     }
-    if number >= RICH:
+    if RICH <= number < GENTLE:
         kind = "rich"
         s.update(
             group="rich",
@@ -161,7 +165,11 @@ def draw(number):
             R=float(rng.uniform(1, 5)),
             points=float(rng.choice([4, 6])),
         )
-    if number >= SMOOTH:
+    if number >= GENTLE:
+        s["sigma"] = float(10 ** rng.uniform(-4, -2))
+        s["hurst"] = max(s["hurst"], 0.4)
+        s["R"] = 6 * s["sigma"] / (rng.uniform(0.05, 0.2) * rms_slope(s)) ** 2
+    elif number >= SMOOTH:
         kind = "smooth"
         s.update(
             group="smooth",
@@ -292,7 +300,7 @@ def rms_slope(s):
 
 
 def prepared(number, rsc, folder):
-    s = public(number, rsc, folder) if number >= PUBLIC else draw(number)
+    s = public(number, rsc, folder) if PUBLIC <= number < GENTLE else draw(number)
     if "hardness" in s:
         s["hardness_value"] = s["hardness"] * E_STAR * rms_slope(s)
     return s
@@ -408,6 +416,12 @@ def predictors(s, r, level):
     }
 
 
+def elongation_of(r):
+    """Mean of ln(kappa1/kappa2) over all summits of the surface."""
+    ratio = np.ravel(r["asperity_kappa1"]) / np.ravel(r["asperity_kappa2"])
+    return float(np.mean(np.log(np.clip(ratio, 1, 1e3))))
+
+
 def spacing_of(s, r):
     if "density_theory" in r and made_by_rsc(s):
         return 1 / math.sqrt(float(r["density_theory"]))
@@ -442,6 +456,8 @@ def solve_asperities(rsc, number, folder):
             "A": take("contact_area"),
             "status": take("status"),
             "edge": take("edge_contacts"),
+            "beyond": take("beyond_law"),
+            "elongated": elongation_of(r),
             "told": take("force_error_expected") if "force_error_expected" in r else None,
             "x": [predictors(s, r, k) for k in range(len(s["levels"]))],
         }

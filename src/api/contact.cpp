@@ -79,7 +79,7 @@ void put_finite(double* to, double value) {
 }
 
 void tell_convergence(const rsc_contact& contact) {
-    if (contact.known.level->status == LevelStatus::not_converged) {
+    if (!contact.known.level->converged) {
         if (contact.known.level->fallback == rsc::Fallback::held)
             throw Outcome{RSC_NOT_CONVERGED,
                           "no state has this force: the result is the level of smallest force"};

@@ -199,8 +199,8 @@ Level AsperityContact::Impl::level(double Z0, const NewtonOutcome& outcome, bool
     level.method = method;
     if (options.method == Method::mesh && method != Method::mesh)
         level.fallback = Fallback::no_interaction;
-    if (!unique) level.status = graver(level.status, LevelStatus::not_unique);
-    if (!outcome.converged) level.status = LevelStatus::not_converged;
+    level.unique = unique;
+    level.converged = outcome.converged;
     return level;
 }
 

@@ -117,7 +117,7 @@ public:
             Level truth = by_force && level.force > 0 ? contact_->at_force(level.force)
                                                       : contact_->at_separation(level.separation);
             error =
-                truth.status == LevelStatus::not_converged ? std::nullopt : other_->error(truth);
+                !truth.converged ? std::nullopt : other_->error(truth);
             if (error) {
                 truth.stiffness = contact_->stiffness();
                 const GridError crests = Crests(job_, *map_).error(truth);
@@ -144,7 +144,7 @@ private:
     // Doubles the points a side; false if that is impossible or would take too long.
     bool refine(const Level& level) {
         if (!job_.spectrum || contact_->path_dependent() ||
-            level.status == LevelStatus::not_converged)
+            !level.converged)
             return false;
         const double finer = 2 * points_per_wave_;
         if (finer * job_.spectrum->L_lambda_s > kMostElementPoints ||
@@ -240,7 +240,7 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads,
                                  level.separation / job.sigma, error.what());
             continue;
         }
-        const bool found = truth.status != LevelStatus::not_converged && on_path;
+        const bool found = truth.converged && on_path;
         c.failed += !found;
         const auto error = [&](double model, double elements) {
             return found && elements != 0 ? model / elements - 1 : kNotComputed;
