@@ -59,10 +59,11 @@ const Level& level_of(const rsc_contact* contact) {
 // Computes a level. After an exception the contact has no result; a level that did not converge is
 // kept with that status.
 template <class Compute>
-void compute(rsc_contact& contact, Compute&& level) {
+void compute(rsc_contact& contact, bool by_force, Compute&& level) {
     auto& known = contact.known;
     known.level.reset();
     Level computed = level();
+    contact.judge.judge(computed, contact.contact, by_force);
     const Indenter& indenter = contact.contact.indenter();
     known.x0 = indenter.x0, known.y0 = indenter.y0;
     known.energy = contact.contact.energy();
@@ -223,10 +224,6 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
             (void)(now.layers.count > 0 ? stiffness_of(*contact) : conductance_length_of(*contact));
             contact->answer();
         }
-        // So is, at the first move on a surface that repeats, what other images of its spots would
-        // change.
-        if (now.repeats.finite() && !now.around.finite())
-            contact->answer(), contact->answer_committed();
         const rsc::Asperities* const before = contact->contact.asperities();
         contact->contact.move_tip(place.x, place.y);
         if (!remembers && contact->contact.asperities() != before)
@@ -261,7 +258,9 @@ int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* forc
             known.level && known.level->separation == separation && known.x0 == tip.x0 &&
             known.y0 == tip.y0 && !contact->contact.pulls() &&
             (!contact->contact.relaxes() || known.level->time == contact->contact.time());
-        if (!same) compute(*contact, [&] { return contact->contact.at_separation(separation); });
+        if (!same) 
+            compute(*contact, false,
+                    [&] { return contact->contact.at_separation(separation); });
         put(force, contact->known.level->force);
         tell_convergence(*contact);
     });
@@ -282,7 +281,7 @@ int32_t rsc_contact_press(rsc_contact* contact, double force, double* separation
         const double touch = contact->contact.first_touch();
         if (!std::isfinite(touch))
             refuse(1, "contact", "has no asperity under its sphere, so its force is always 0");
-        compute(*contact, [&] {
+        compute(*contact, force > 0 || pulls, [&] {
             return force > 0 || pulls ? contact->contact.at_force(force)
                                       : contact->contact.at_separation(touch);
         });

@@ -62,6 +62,7 @@ rsc_contact::rsc_contact(std::shared_ptr<const rsc::SurfaceModel> on_,
       options(rsc::solver_of(*keys, domain_of(*keys, *on))),
       model(rsc::make_contact(*on, indenter, options)),
       contact(*model),
+      judge(options, rsc::JudgedSurface{on->points.get()}),
       committed(state()) {}
 
 rsc_contact::rsc_contact(const rsc_contact& like)
@@ -72,58 +73,10 @@ rsc_contact::rsc_contact(const rsc_contact& like)
 const rsc_contact::Known& rsc_contact::answer() {
     if (!known.level || !std::isnan(known.lateral.x)) return known;
     rsc::Indenter tip = contact.indenter();
-    const double x0 = std::exchange(tip.x0, known.x0), y0 = std::exchange(tip.y0, known.y0);
-    const rsc::Vec2 moment = rsc::tip_moment(tip, *known.level);
-    rsc::Vec2 force;
-    if (const rsc::Asperities* used = contact.asperities(); !used || used == &on->asperities) {
-        force = rsc::lateral_force(tip, *known.level);
-    } else {  // of summits that change with the tip, which goes back to that of the level meanwhile
-        const auto back = [&] {
-            put_tip(*this, x0, y0);
-            if (contact.asperities() != used) recalled = false;
-        };
-        try {
-            put_tip(*this, known.x0, known.y0);
-            // Laws that know the summits only around the penetrations of levels need this level.
-            if (!contact.pulls() && !contact.path_dependent() &&
-                (!recalled || contact.asperities() != used))
-                contact.recall({}, &*known.level), recalled = true;
-            force = contact.lateral(*known.level);
-        } catch (...) {
-            back();
-            throw;
-        }
-        back();
-    }
-    known.lateral = force, known.moment = moment;
+    tip.x0 = known.x0, tip.y0 = known.y0;
+    known.lateral = rsc::lateral_force(tip, *known.level);
+    known.moment = rsc::tip_moment(tip, *known.level);
     return known;
-}
-
-void rsc_contact::answer_committed() {
-    Known& of = committed.known;
-    if (!of.level || !std::isnan(of.lateral.x)) return;
-    const State now = state();
-    if (known.level && known.level->separation == of.level->separation &&
-        known.energy == of.energy && now.memory == committed.memory)
-        return void(of = known);
-    const rsc::Asperities* const used = contact.asperities();
-    const bool moves =
-        used &&
-        used != &on->asperities;  // the lateral force is one of the state, not of its level alone
-    const double time = contact.time();
-    const auto back = [&] {
-        if (moves) go_back(now), contact.set_time(time);
-        known = now.known;
-    };
-    try {
-        if (moves) go_back(committed);
-        known = of;
-        of = answer();
-    } catch (...) {
-        back();
-        throw;
-    }
-    back();
 }
 
 rsc_contact::State rsc_contact::state() const {

@@ -7,6 +7,7 @@
 #include "physics/friction/friction.hpp"
 #include "rsc.h"
 #include "run/prepare.hpp"
+#include "trust/judge.hpp"
 
 namespace rsc::api {
 
@@ -54,6 +55,7 @@ struct rsc_contact {
     rsc::SolverOptions options;
     std::unique_ptr<rsc::Contact> model;
     rsc::Contact& contact;
+    rsc::Judge judge;  // elements have no second grid here
     // The last level and its derived results.
     struct Known {
         std::optional<rsc::Level> level;
@@ -63,11 +65,8 @@ struct rsc_contact {
             moment{};  // NaN until they are asked for
     };
     Known known;
-    // Adds the lateral force and the moment to the last level, at whose tip a contact with a memory
-    // must be.
+    // Adds the lateral force and the moment to the last level.
     const Known& answer();
-    // The same for the committed level.
-    void answer_committed();
     bool recalled = true;  // false: `contact` is not at that level, recall() must be called first
 
     // The last level and everything that the next level depends on.

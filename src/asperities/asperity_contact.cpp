@@ -2,9 +2,7 @@
 
 #include "asperities/asperity_impl.hpp"
 #include "asperities/dgesv.hpp"
-#include "asperities/ellipse_law.hpp"
 #include "base/error.hpp"
-#include "contact/answers.hpp"
 #include "physics/adhesion/adhesive_contact.hpp"
 #include "physics/hardness/hardness.hpp"
 
@@ -13,57 +11,12 @@ namespace {
 
 using Vector = std::vector<double>;
 
-// Distance that the tip may move before the summits of the difference are detected again.
-double summits_keep(const Asperities& asperities, const Indenter& indenter,
-                    const SolverOptions& options) {
-    double curvature = 0;
-    for (std::size_t i = 0; i < asperities.kappa1.size(); ++i)
-        curvature += std::sqrt(asperities.kappa1[i] * asperities.kappa2[i]);
-    const double size =
-        options.rms_slope * static_cast<double>(asperities.kappa1.size()) / curvature;
-    return std::fmax(
-        0.1 * size,
-        0.02 * options.rms_slope *
-            indenter.shape->hertz_radius());  // hertz_radius() is NaN unless it is a sphere
-}
-
-// Number of summits not deeper than `depth` below the highest one under the indenter.
-std::size_t count_reachable(const Asperities& asperities, const Indenter& indenter, double depth) {
-    std::vector<double> height(asperities.size());
-    for (std::size_t i = 0; i < height.size(); ++i)
-        height[i] = indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]);
-    const double highest = height.empty() ? 0.0 : *std::max_element(height.begin(), height.end());
-    return static_cast<std::size_t>(
-        std::count_if(height.begin(), height.end(), [&](double h) { return h > highest - depth; }));
-}
-
-// True if the law is that of most loaded ellipses.
-bool of_ellipses(const ContactBodies& bodies) {
-    const SolverOptions& options = bodies.options;
-    const auto& found = bodies.of_difference;
-    return traits(options.law).needs_heights && found && found->map &&
-           !std::isfinite(options.hardness.H0) && options.relaxation.none() &&
-           options.mean_spacing > 0 &&
-           count_reachable(bodies.asperities, bodies.indenter, kDeepest * options.sigma) <=
-               kMostEllipses;
-}
-
-// The law of these summits under a tip, without what relaxing bodies remember. With `found`
-// (optional) that of ellipses, which are like those of `like` (optional).
-std::unique_ptr<Law> law_under(const Asperities& asperities, const Indenter& indenter,
-                               const ContactBodies& bodies, const FoundSummits* found,
-                               const Law* like = nullptr) {
-    const SolverOptions& options = bodies.options;
-    auto law = make_law(options.law, asperities, indenter.E_star);
-    if (found) law = make_ellipse_law(std::move(law), *found, indenter, options.mean_spacing, like);
-    return make_yielding(std::move(law), asperities, options.hardness, traits(options.law).sinks);
-}
-
-std::unique_ptr<Law> law_of(const ContactBodies& bodies, bool ellipses,
+// The law of the asperities under the tip, without loads; of a relaxing body with what it remembers.
+std::unique_ptr<Law> law_of(const ContactBodies& bodies,
                             std::optional<RelaxingAsperities>& relaxing) {
     const SolverOptions& options = bodies.options;
-    auto law = law_under(bodies.asperities, bodies.indenter, bodies,
-                         ellipses ? &*bodies.of_difference : nullptr);
+    auto law = make_yielding(make_law(options.law, bodies.asperities, bodies.indenter.E_star),
+                             bodies.asperities, options.hardness, traits(options.law).sinks);
     if (options.relaxation.none()) return law;
     const Creep creep(options.relaxation);
     auto relaxes = make_relaxing(std::move(law), bodies.asperities.size(), creep);
@@ -74,42 +27,16 @@ std::unique_ptr<Law> law_of(const ContactBodies& bodies, bool ellipses,
 }  // namespace
 
 AsperityContact::Impl::Impl(const Asperities& asperities_, const Indenter& indenter_,
-                            const SolverOptions& options_, SummitSearch search_)
-    : ContactBodies(asperities_, indenter_, options_, std::move(search_)),
-      found_x(indenter_.x0),
-      found_y(indenter_.y0),
-      keeps(of_difference && !of_difference->map ? summits_keep(of_surface, indenter, options) : 0),
-      ellipses(of_ellipses(*this)),
-      law(law_of(*this, ellipses, relaxing)),
+                            const SolverOptions& options_)
+    : ContactBodies(asperities_, indenter_, options_),
+      law(law_of(*this, relaxing)),
       direct(make_direct_products(kernel)),
-      newton(*law),
-      beside(*this, ellipses) {
+      newton(*law) {
     use(Method::direct);
     if (options.selection == Selection::paper && std::isnan(indenter.shape->hertz_radius()))
         throw Error(Failure::bad_input,
                     "indentation%selection = 'paper' is defined for a sphere only");
     ranking.assign(asperities, indenter);
-}
-
-// With ellipses all summits down to a depth are followed, which is counted in half octaves, so that
-// results do not depend on earlier levels; otherwise those in contact.
-void AsperityContact::Impl::look_beside(const Level& level) {
-    std::vector<int> which = level.asperity;
-    if (ellipses) {
-        // nodes of the law's tables are up to a twentieth beyond the penetration
-        constexpr double more = 1.1;
-        const double depth =
-            more * (ranking.highest() - level.separation + kernel->shift() * level.force);
-        const double lowest = ranking.highest() - std::exp2(0.5 * std::ceil(2 * std::log2(depth)));
-        if (lowest != std::exchange(beside_lowest, lowest)) beside.forget();
-        which.clear();
-        for (std::size_t i = 0; i < asperities.size(); ++i)
-            if (indenter.clearance(asperities.x[i], asperities.y[i], asperities.z[i]) > lowest)
-                which.push_back(static_cast<int>(i));
-    }
-    beside.follow(which, [&](const FoundSummits& found, const Indenter& there) {
-        return law_under(found.summits, there, *this, ellipses ? &found : nullptr, law.get());
-    });
 }
 
 void AsperityContact::Impl::use(Method how) {
@@ -175,7 +102,7 @@ Level AsperityContact::Impl::report(double Z0) const {
         if (f > kExtreme * indenter.E_star * area) extreme += area;
     }
     if (level.area > 0) level.extreme_area_fraction = extreme / level.area;
-    judge_asperities(level, *law, *this);
+    complete_level(level, *law, *this);
     return level;
 }
 
@@ -205,8 +132,8 @@ Level AsperityContact::Impl::level(double Z0, const NewtonOutcome& outcome, bool
 }
 
 AsperityContact::AsperityContact(const Asperities& asperities, const Indenter& indenter,
-                                 const SolverOptions& options, SummitSearch search)
-    : impl_(std::make_unique<Impl>(asperities, indenter, options, std::move(search))) {}
+                                 const SolverOptions& options)
+    : impl_(std::make_unique<Impl>(asperities, indenter, options)) {}
 AsperityContact::~AsperityContact() = default;
 AsperityContact::AsperityContact(AsperityContact&&) noexcept = default;
 
@@ -328,10 +255,8 @@ void AsperityContact::step(double dt) { impl_->relaxing->step(dt); }
 
 void AsperityContact::forget_levels() {
     const Impl& my = *impl_;
-    if (my.of_difference && (my.law->path_dependent() || my.indenter.x0 != my.found_x ||
-                             my.indenter.y0 != my.found_y)) {
-        impl_ = std::make_unique<Impl>(my.of_surface, Indenter(my.indenter),
-                                       SolverOptions(my.options), my.search);
+    if (my.law->path_dependent()) {
+        impl_ = std::make_unique<Impl>(my.of_surface, my.indenter, my.options);
         return;
     }
     impl_->earlier = {};
@@ -339,7 +264,6 @@ void AsperityContact::forget_levels() {
     impl_->proof = {};
     impl_->candidates = {};
     impl_->solution.clear();
-    impl_->ranking.assign(impl_->asperities, impl_->indenter);
 }
 
 bool AsperityContact::path_dependent() const { return impl_->law->path_dependent(); }
@@ -380,18 +304,6 @@ double AsperityContact::energy() const {
     return 0.0 - impl_->newton.energy() - 0.5 * shift() * N * N;
 }
 
-// Spots that were unloaded, or relax, have the pressures of a first loading at a smaller scale.
-Vec2 AsperityContact::lateral(const Level& level) {
-    Impl& my = *impl_;
-    if (!my.beside.known() || !(level.force > 0)) return lateral_force(my.indenter, level);
-    my.look_beside(level);
-    return my.beside.lateral(
-        level.asperity, level.f, relaxes(), [&](SummitsBeside::Tip& tip, std::size_t k) {
-            return tip.law->response(level.asperity[k],
-                                     my.law->first_loading(level.asperity[k], level.u[k]));
-        });
-}
-
 void AsperityContact::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0))
         throw Error(Failure::bad_input, "the tip's position must be finite");
@@ -399,18 +311,15 @@ void AsperityContact::move_tip(double x0, double y0) {
     if (my.of_difference && my.law->path_dependent()) return move_with_memory(x0, y0);
     my.earlier.carry(my.candidates, my.solution.v, my.asperities.size(),
                      {my.indenter.x0, my.indenter.y0}, {x0, y0});
-    const bool opens = my.indenter.repeats.finite() && !my.indenter.around.finite();
-    my.indenter.move(x0, y0);
     if (my.of_difference) {
-        const double moved = std::hypot(my.indenter.around.nearest_x(x0 - my.found_x),
-                                        my.indenter.around.nearest_y(y0 - my.found_y));
-        // With the heights at hand the summits are those of the place of the tip, as in a new
-        // contact.
-        if (opens || moved > my.keeps) {
-            forget();
-            return;
-        }
+        Indenter there = my.indenter;
+        there.move(x0, y0);
+        auto moved = std::make_unique<Impl>(my.of_surface, there, my.options);
+        moved->earlier = std::move(my.earlier);
+        impl_ = std::move(moved);
+        return;
     }
+    my.indenter.move(x0, y0);
     my.ranking.move(x0, y0);
     my.expect_repeats(true);
 }
@@ -423,10 +332,9 @@ const Asperities* AsperityContact::asperities() const { return &impl_->asperitie
 
 std::unique_ptr<Contact> make_asperity_contact(const Asperities& asperities,
                                                const Indenter& indenter,
-                                               const SolverOptions& options, SummitSearch search) {
-    if (options.adhesion.work > 0)
-        return make_adhesive_contact(asperities, indenter, options, std::move(search));
-    return std::make_unique<AsperityContact>(asperities, indenter, options, std::move(search));
+                                               const SolverOptions& options) {
+    if (options.adhesion.work > 0) return make_adhesive_contact(asperities, indenter, options);
+    return std::make_unique<AsperityContact>(asperities, indenter, options);
 }
 
 }  // namespace rsc

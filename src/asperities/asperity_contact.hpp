@@ -2,7 +2,6 @@
 // model (paper, section 4).
 #pragma once
 
-#include "asperities/touching.hpp"
 #include "contact/contact.hpp"
 #include "surface/asperities.hpp"
 
@@ -10,14 +9,12 @@ namespace rsc {
 
 class AsperityContact final : public Contact {
 public:
-    // The asperities are the summits of the surface and must outlive the contact. If `search` is
-    // given, laws for summits between grid points use the summits of the difference between surface
-    // and indenter instead. These are detected by `search` if the slope of the indenter in the
-    // possible contact region exceeds kMostSlopeRatio times options.rms_slope; otherwise the given
-    // summits are moved.
-    // Throws Error(bad_input) for moduli, shapes or options out of range.
+    // The asperities are the summits of the surface and must outlive the contact. Laws with summits
+    // between grid points use the summits of the difference between surface and indenter instead
+    // (shifted_summits.hpp), if options.rms_slope is known. Throws Error(bad_input) for moduli,
+    // shapes or options out of range.
     AsperityContact(const Asperities& asperities, const Indenter& indenter,
-                    const SolverOptions& options, SummitSearch search = {});
+                    const SolverOptions& options);
     ~AsperityContact() override;
     AsperityContact(AsperityContact&&) noexcept;
 
@@ -29,18 +26,8 @@ public:
     // the residual.
     double energy() const override;
 
-    // The gradient of W at fixed forces (beside.hpp), of summits of the difference that can be
-    // followed; otherwise lateral_force(). W is that of a first loading, with the plastic work; the
-    // force of a spot that is unloaded, or relaxes, keeps its direction.
-    Vec2 lateral(const Level& level) override;
-
-    // The last level is a starting point for the next if its solution is proved unique, or within a
-    // hundredth of one that was found from its defining start (LastingProof::selected). Summits of
-    // the difference are those of a new contact at this place if the heights are kept or the
-    // contact is path-dependent; otherwise they are detected again when the tip has moved by more
-    // than a tenth of the size of a summit and by a distance that tilts the indenter by more than a
-    // fiftieth of the rms slope. Throws Error(bad_input) if bodies yielded or relax where the
-    // indenter is so steep that the summits of the two places do not correspond.
+    // The last level is a starting point for the next if its solution is proved unique. Summits of
+    // the difference are those of a new contact at this place.
     void move_tip(double x0, double y0) override;
     double first_touch() const override;
     const Indenter& indenter() const override;
@@ -83,9 +70,8 @@ private:
 // must outlive it.
 std::unique_ptr<Contact> make_asperity_contact(const Asperities& asperities,
                                                const Indenter& indenter,
-                                               const SolverOptions& options,
-                                               SummitSearch search = {});
-std::unique_ptr<Contact> make_asperity_contact(Asperities&&, const Indenter&, const SolverOptions&,
-                                               SummitSearch = {}) = delete;
+                                               const SolverOptions& options);
+std::unique_ptr<Contact> make_asperity_contact(Asperities&&, const Indenter&,
+                                               const SolverOptions&) = delete;
 
 }  // namespace rsc

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "asperities/asperity_contact.hpp"
-#include "asperities/beside.hpp"
+#include "asperities/asperity_level.hpp"
 #include "asperities/candidates.hpp"
 #include "asperities/ranking.hpp"
 #include "asperities/start.hpp"
@@ -13,10 +13,7 @@
 namespace rsc {
 
 struct AsperityContact::Impl : ContactBodies {
-    double found_x, found_y;  // position of the tip at which the summits were found
-    double keeps;             // distance from there up to which they are kept
     std::optional<RelaxingAsperities> relaxing;
-    bool ellipses;  // the law is that of most loaded ellipses
     std::unique_ptr<Law> law;
     Ranking ranking;
 
@@ -37,11 +34,8 @@ struct AsperityContact::Impl : ContactBodies {
     std::unique_ptr<Products> direct, mesh;  // mesh: created on first use
     Products* products = nullptr;            // the products in use
     Newton newton;
-    SummitsBeside beside;
-    double beside_lowest = 0;  // with ellipses, clearance down to which summits were followed
 
-    Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_,
-         SummitSearch search_);
+    Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_);
 
     double scale() const {
         return relaxing ? relaxing->scale() : 1.0;
@@ -93,7 +87,6 @@ struct AsperityContact::Impl : ContactBodies {
                            {set.g0.front(), indenter.x0, indenter.y0});
     }
     Level report(double Z0) const;
-    void look_beside(const Level& level);
 };
 
 }  // namespace rsc

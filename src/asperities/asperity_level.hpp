@@ -4,55 +4,33 @@
 
 #include "asperities/law.hpp"
 #include "asperities/newton.hpp"
-#include "asperities/touching.hpp"
+#include "asperities/shifted_summits.hpp"
 #include "contact/level.hpp"
 
 namespace rsc {
-
-// Range of the model: rms heights below the highest summit.
-inline constexpr double kDeepest = 8;
 
 // Resolves method `auto` to direct or mesh by the estimated cost of a Newton solve, with rates
 // measured by test/bench.
 Method choose_method(const SolverOptions& options, const Kernel& kernel,
                      const WorkingSet& candidates);
 
-// Z0 below which the flank of a summit of the surface touches the indenter, stored for the last
-// position of the tip.
-struct FlankTouch {
-    double x0 = std::numeric_limits<double>::quiet_NaN(), y0 = 0, Z0 = 0;
-};
-
-// Points of the surface under the edge of the indenter, stored for the last position of the tip.
-struct EdgePoints {
-    double x0 = std::numeric_limits<double>::quiet_NaN(), y0 = 0;
-    std::vector<std::array<double, 3>> points;  // x, y and the Z0 at which the point touches
-};
-
-// The bodies of a contact of asperities. The asperities are those given, or the summits of the
-// difference that `search` finds.
+// The bodies of a contact of asperities. The asperities are those given, or for laws with summits
+// between the points of a surface the summits of the difference from a curved indenter.
 struct ContactBodies {
     const Asperities& of_surface;
     SolverOptions options;
-    double blunt;  // mean radius of its summits
-    SummitSearch search;
-    std::optional<FoundSummits> of_difference;
-    mutable FlankTouch flanks;
-    mutable EdgePoints edge;
-    mutable std::shared_ptr<const MapMarks>
-        rim;                       // border of a synthetic surface, once the indenter is near it
+    std::optional<Asperities> of_difference;
     const Asperities& asperities;  // refers to one of the two above
     Indenter indenter;
     std::shared_ptr<const Kernel> kernel;
 
-    ContactBodies(const Asperities& given, const Indenter& indenter, const SolverOptions& options,
-                  SummitSearch search);
+    ContactBodies(const Asperities& given, const Indenter& indenter, const SolverOptions& options);
     ContactBodies(const ContactBodies&) = delete;
     ContactBodies& operator=(const ContactBodies&) = delete;
 };
 
 // Completes a level that has contacts, force and the sum of areas: area of the union of elliptic
-// spots, overlaps, validity of the model, expected errors and status.
-void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies);
+// spots, overlaps and slope_ratio.
+void complete_level(Level& level, const Law& law, const ContactBodies& bodies);
 
 }  // namespace rsc

@@ -83,15 +83,9 @@ void AsperityContact::move_with_memory(double x0, double y0) {
     const std::vector<double> kept = memory();
     Indenter there = my.indenter;
     there.move(x0, y0);
-    auto moved = std::make_unique<Impl>(my.of_surface, there, SolverOptions(my.options), my.search);
+    auto moved = std::make_unique<Impl>(my.of_surface, there, my.options);
     const bool nothing =
         kept.empty() || (relaxes() && my.relaxing->stored() == 0 && my.relaxing->lost() == 0);
-    if (!nothing &&
-        (my.of_difference->renumbered || !moved->of_difference || moved->of_difference->renumbered))
-        throw Error(Failure::bad_input,
-                    "the tip cannot move over bodies that yielded or relax, where the slope of the "
-                    "indenter is above 0.2 of that of the "
-                    "surface: use solver%model = 'elements' or asperities%law = 'hertz'");
     impl_ = std::move(moved);
     const double now = time();
     if (!nothing) recall(kept, nullptr);

@@ -198,10 +198,10 @@ std::unique_ptr<Law> made(const Asperities& asperities, double E_star) {
     return std::make_unique<T>(asperities, E_star, more...);
 }
 constexpr Row kLaws[] = {
-    // curvatures, biharmonic, between points, heights, sinks, elliptic spots
-    {{kLawNames[0], false, false, false, false, false, false}, made<Hertz>},
-    {{kLawNames[1], true, false, true, false, false, true}, made<FourthOrder, false>},
-    {{kLawNames[2], true, true, true, true, true, true}, made<FourthOrder, true>},
+    // curvatures, biharmonic, between points, sinks, elliptic spots
+    {{kLawNames[0], false, false, false, false, false}, made<Hertz>},
+    {{kLawNames[1], true, false, true, false, true}, made<FourthOrder, false>},
+    {{kLawNames[2], true, true, true, true, true}, made<FourthOrder, true>},
 };
 static_assert(std::size(kLaws) == kLawNames.size());
 

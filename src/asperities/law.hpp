@@ -2,7 +2,6 @@
 // property of an asperity that solvers use.
 #pragma once
 
-#include "asperities/spots.hpp"
 #include "contact/indentation.hpp"
 
 namespace rsc {
@@ -12,17 +11,11 @@ struct LawTraits {
     const char* name;       // name in &asperities law
     bool needs_curvatures;  // kappa1, kappa2 and angle of every asperity
     bool needs_biharmonic;  // nabla^4 z at every summit
-    bool
-        // uses summits between grid points, not grid maxima (surface/detection.hpp)
-        between_points;
-    bool
-        // uses the heights around summits where the indenter is steep (ellipse_law.hpp)
-        needs_heights;
+    // uses summits between grid points, not grid maxima (surface/detection.hpp)
+    bool between_points;
     bool sinks;  // a flattened summit sinks in as a whole (hardness.hpp)
-    bool
-        // the contact area is that of the union of elliptic spots; otherwise the sum of circular
-        // areas
-        elliptic_spots;
+    // the contact area is that of the union of elliptic spots; otherwise the sum of circular areas
+    bool elliptic_spots;
 };
 const LawTraits& traits(LawKind kind);
 
@@ -76,11 +69,6 @@ public:
     virtual double axes(int asperity) const = 0;            // b/a <= 1 of the contact ellipse
     virtual bool beyond(int asperity,
                         double u) const = 0;  // true beyond the range of validity of the law
-    // Spot with its centre counted from the summit, if that depends on the penetration; otherwise
-    // the spot is an ellipse about the summit with area(), axes() and the direction of the summit.
-    virtual std::optional<Spot> spot(int asperity, double u) const {
-        return (void)asperity, (void)u, std::nullopt;
-    }
 
     // Functions that only some models need. Hardness: growth of the area, and smallest penetration
     // at which the mean pressure f/A reaches a value.
@@ -116,18 +104,15 @@ public:
     virtual void forget() {}
 };
 
-// hertz         paraboloid of the asperity's radius r: f = (4/3) E* sqrt(r) u^(3/2), area pi r u.
-// elliptic      Hertz with both principal curvatures (ellipse.hpp): the same with R_e =
-// 1/sqrt(kappa1 kappa2) for r and u/F2 for u, area
-//               times F1^2.
-// fourth_order  the elliptic law for the profile A (1 - J0(q r)) (bessel_profile.hpp, delta =
-// u/F2), which is r^2/(2 R_e) - b r^4 to fourth
-//               order, b = q^2/(32 R_e), and remains bounded: curvature 1/R_e, q^2 = -nabla^4
-//               z/nabla^2 z = biharmonic/(kappa1 + kappa2),
-//               A = 2/(R_e q^2). Beyond delta = 2 A (q a = pi), where the contact would reach its
-//               neighbours, a and the stiffness 2 E* a
-//               are constant. Where the indenter is steep or a cone, the most loaded ellipse of
-//               each summit is used instead (ellipse_law.hpp).
+// hertz: paraboloid of the asperity's radius r, f = (4/3) E* sqrt(r) u^(3/2), area pi r u.
+// elliptic: Hertz with both principal curvatures (ellipse.hpp), the same with R_e = 1/sqrt(kappa1
+// kappa2) for r and u/F2 for u, area times F1^2.
+// fourth_order: the elliptic law for the profile A (1 - J0(q r)) (bessel_profile.hpp, delta =
+// u/F2), which is r^2/(2 R_e) - b r^4 to fourth order, b = q^2/(32 R_e), and remains bounded:
+// curvature 1/R_e, q^2 = -nabla^4 z/nabla^2 z = biharmonic/(kappa1 + kappa2), A = 2/(R_e q^2).
+// Beyond delta = 2 A (q a = pi), where the contact would reach its neighbours, a and the stiffness
+// 2 E* a are constant.
+//
 // Throws Error(bad_input) if data required by the law are missing.
 std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double E_star);
 

@@ -20,16 +20,8 @@ void for_each_force(const Indenter& indenter, const Level& level, Add add) {
     const LevelTractions& t = level.tractions;  // also of asperities that attract before contact
     for (std::size_t k = 0; k < t.x.size(); ++k)
         add(t.x[k] - indenter.x0, t.y[k] - indenter.y0, t.pressed[k] + t.pulled[k]);
-    // The pressure is a sum of those of flat punches on all spots since the first touch at the
-    // summit. If the centre of the spot has moved in proportion to u, and the force is ~ u^(3/2),
-    // the force acts at 3/5 of the way.
-    constexpr double way = 0.6;
-    for (std::size_t k = 0; k < level.f.size() && t.x.empty(); ++k) {
-        double x = level.x[k], y = level.y[k];
-        if (!level.spots.empty())
-            x += way * (level.spots[k].x - x), y += way * (level.spots[k].y - y);
-        add(x - indenter.x0, y - indenter.y0, level.f[k]);
-    }
+    for (std::size_t k = 0; k < level.f.size() && t.x.empty(); ++k)
+        add(level.x[k] - indenter.x0, level.y[k] - indenter.y0, level.f[k]);
 }
 
 }  // namespace
@@ -44,8 +36,6 @@ Vec2 lateral_force(const Indenter& indenter, const Level& level) {
     });
     return sum;
 }
-
-Vec2 Contact::lateral(const Level& level) { return lateral_force(indenter(), level); }
 
 Vec2 tip_moment(const Indenter& indenter, const Level& level) {
     Vec2 sum;
@@ -74,7 +64,7 @@ void add_answers(Contact& contact, Level& level, const double (&resistivity)[2])
     const Indenter& indenter = contact.indenter();
     level.stiffness = contact.stiffness();
     level.energy = contact.energy();
-    const Vec2 force = contact.lateral(level), moment = tip_moment(indenter, level);
+    const Vec2 force = lateral_force(indenter, level), moment = tip_moment(indenter, level);
     level.lateral_x = force.x, level.lateral_y = force.y;
     level.moment_x = moment.x, level.moment_y = moment.y;
     level.conductance_length = conductance_length(contact, level.stiffness);

@@ -23,9 +23,9 @@ void add_answers(Contact& contact, Level& level, const double (&resistivity)[2])
 // Lateral force on the indenter at fixed Z0 [force]: F = -dW/d(x0, y0), where W is the elastic
 // energy. At a solution dW = sum f_i dg0_i, so F = -sum f_i grad s(x_i - x0, y_i - y0) with the
 // forces f_i of contacts or pixels at (x_i, y_i); no further solve is required. Positive along x,
-// y; 0 for a flat and without contact. The force of a most loaded ellipse acts between its summit
-// and its centre. That the place and curvature of a summit also change with the tip (laws
-// 'elliptic' and 'fourth_order') is left out here, and in moments: Contact::lateral().
+// y; 0 for a flat and without contact. With laws 'elliptic' and 'fourth_order' the curvatures of a
+// summit of the difference change with the tip as those of the face above it do. This is left out:
+// it is 0 for a paraboloid, and for a sphere of the order of (d/R)^2, d the distance from the tip.
 Vec2 lateral_force(const Indenter& indenter, const Level& level);
 
 // Moment of the contact forces on the indenter about its tip [force length]. A force f_i acts at

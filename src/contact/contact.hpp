@@ -53,11 +53,6 @@ public:
     // the residual.
     virtual double energy() const = 0;
 
-    // Lateral force of the last level on the indenter, -dW/d(x0, y0) at fixed Z0 [force]:
-    // lateral_force() of answers.hpp, and with asperities that are summits of the difference what
-    // their change with the tip adds.
-    virtual Vec2 lateral(const Level& level);
-
     // Moves the tip to (x0, y0). The last level may be used as a starting point for the next.
     // Throws Error(bad_input) if not finite.
     virtual void move_tip(double x0, double y0) = 0;

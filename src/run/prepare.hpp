@@ -2,7 +2,6 @@
 // library. Sets the defaults of keys that are not set.
 #pragma once
 
-#include "asperities/touching.hpp"
 #include "case/case.hpp"
 #include "contact/contact.hpp"
 #include "io/result.hpp"
@@ -80,17 +79,14 @@ struct SurfaceDomain : Domain {
     bool repeats = false;
     std::shared_ptr<const MapMarks> marks =
         nullptr;                  // of a measured map that is free at its border
-    bool measured = false;        // heights from a file or from the caller of the library
-    SurfaceHeights heights = {};  // of surfaces whose summits are found
+    // heights from a file or from the caller of the library, or not isotropic and Gaussian
+    bool measured = false;
 };
 
 // The surface for contacts: asperities, or with solver%model = 'elements' the points of the
 // surface.
 struct SurfaceModel {
-    Asperities asperities;  // the summits of the surface
-    SummitSearch
-        // finds the summits that an indenter touches, for laws with summits between the points
-        search;
+    Asperities asperities;                    // the summits of the surface
     std::shared_ptr<const HeightMap> points;  // for elements, without asperities
     SurfaceDomain domain;
     SurfaceStatistics statistics;

@@ -67,7 +67,7 @@ Period period_of(const Case& settings, const SurfaceDomain& domain) {
 std::unique_ptr<Contact> make_contact(const SurfaceModel& model, const Indenter& indenter,
                                       const SolverOptions& options) {
     if (model.points) return make_element_contact(*model.points, indenter, options);
-    return make_asperity_contact(model.asperities, indenter, options, model.search);
+    return make_asperity_contact(model.asperities, indenter, options);
 }
 
 double sigma_of(const Case& settings, const SurfaceDomain& domain) {
@@ -97,7 +97,6 @@ SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     options.points_per_wave = domain.points_per_wave;
     options.grid_step = domain.step;
     options.rms_slope = domain.rms_slope;
-    options.heights = domain.heights;
     const bool free = settings.indentation.boundary == Boundary::free;
     options.measured = domain.measured || !settings.indenter.file.empty();
     if (free) options.marks = domain.marks;

@@ -31,7 +31,7 @@ double lay_share(const Asperities& summits) {
 // Concatenates the parts in order. Those between grid points (`refined`) lose what was found
 // several times.
 Asperities join(std::vector<RefinedSummits>& parts, bool refined, int nx, int ny, bool periodic,
-                SummitCount* count, std::optional<double> lay) {
+                SummitCount* count) {
     RefinedSummits all = std::move(parts[0]);
     const auto append = [](auto& to, const auto& from) {
         to.insert(to.end(), from.begin(), from.end());
@@ -48,8 +48,7 @@ Asperities join(std::vector<RefinedSummits>& parts, bool refined, int nx, int ny
     // With a lay, the quartic term continues along the long axis of an elongated summit. On
     // isotropic surfaces summits are elongated by chance in all directions; there the plain
     // biharmonic agrees better with boundary elements (study in input/trust).
-    const double share = lay ? *lay : lay_share(all.found);
-    if (count) count->lay = share;
+    const double share = lay_share(all.found);
     for (std::size_t i = 0; i < all.from.size(); ++i)
         all.found.biharmonic[i] += share * (all.from[i].elongated - all.found.biharmonic[i]);
     return std::move(all.found);
@@ -135,40 +134,6 @@ SummitClimber::Rows rows_about(const HeightMap& map, int j) {
 
 }  // namespace
 
-Asperities follow_summits(const HeightMap& map, Asperities summits,
-                          const std::vector<std::size_t>& which, double lay, int threads,
-                          double points_per_wave, const BodyAbove& above, const Breaks* breaks) {
-    constexpr double kNear = 0.1;  // grid steps
-    const std::vector<Stencil> stencils = stencils_for(points_per_wave);
-    const RowPlace place{map.nx, map.x0, map.dx, map.dy, 0.0, map.periodic};
-    const auto within = [&](int& i, int n) {
-        return map.periodic ? (i = wrapped(i, n), true) : i >= 1 && i < n - 1;
-    };
-    parallel_for(which.size(), 16, threads, [&](std::size_t k) {
-        const std::size_t i = which[k];
-        const double u = (summits.x[i] - map.x0) / map.dx, v = (summits.y[i] - map.y0) / map.dy;
-        SummitClimber climber(stencils, place, map.ny, map.y0, Curvature::geometric, &above,
-                              breaks);
-        // From the nearest point, or if that leads elsewhere, from one beside it, as the first
-        // search did.
-        for (const auto& [right, up] : {std::pair{0, 0}, {-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-            int column = static_cast<int>(std::lround(u)) + right,
-                row = static_cast<int>(std::lround(v)) + up;
-            if (!within(column, map.nx) || !within(row, map.ny)) continue;
-            RefinedSummits again;
-            climber.climb_from(column, row, true, rows_about(map, row), again);
-            if (again.from.empty() || std::hypot(again.from[0].u - u, again.from[0].v - v) > kNear)
-                continue;
-            again.found.biharmonic[0] +=
-                lay * (again.from[0].elongated - again.found.biharmonic[0]);
-            for (const AsperityColumn& column_of : kAsperityColumns)
-                (summits.*column_of.values)[i] = (again.found.*column_of.values)[0];
-            return;
-        }
-    });
-    return summits;
-}
-
 SummitCount counted(const Asperities& all, long saddles, long repeated) {
     double sum_g = 0, sum_a = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -181,8 +146,7 @@ SummitCount counted(const Asperities& all, long saddles, long repeated) {
 
 Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count,
                            int threads, Detail detail, double points_per_wave,
-                           const BodyAbove* above, const Breaks* breaks,
-                           std::optional<double> lay) {
+                           const Breaks* breaks) {
     const bool refined = detail == Detail::subgrid;
     const std::vector<Stencil> stencils =
         refined ? stencils_for(points_per_wave) : std::vector<Stencil>{};
@@ -191,7 +155,7 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
     std::vector<RefinedSummits> parts =
         share_rows(rows, threads, [&](RefinedSummits& part, int first, int last) {
             RowPlace place{map.nx, map.x0, map.dx, map.dy, 0.0, map.periodic};
-            SummitClimber climber(stencils, place, map.ny, map.y0, curvature, above, breaks);
+            SummitClimber climber(stencils, place, map.ny, map.y0, curvature, breaks);
             for (int j = first + edge; j < last + edge; ++j) {
                 const SummitClimber::Rows row = rows_about(map, j);
                 if (refined) {
@@ -203,8 +167,7 @@ Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCoun
                     append_summits(place, row(-1), row(0), row(1), curvature, part.found);
             }
         });
-    return join(parts, refined, map.nx, map.ny, map.periodic && (!above || above->periodic()),
-                count, lay);
+    return join(parts, refined, map.nx, map.ny, map.periodic, count);
 }
 
 int summit_points(const Spectrum& spectrum, int n) {
@@ -217,38 +180,28 @@ int summit_points(const Spectrum& spectrum, int n) {
 
 Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed,
                            std::int64_t realization, Curvature curvature, SummitCount* count,
-                           Moments* sampled, int threads, Detail detail, Moments* differences,
-                           const BodyAbove* above, std::shared_ptr<const RowSource>* rows,
-                           std::optional<double> lay) {
+                           Moments* sampled, int threads, Detail detail, Moments* differences) {
     const bool mirror = made_as_transpose(spectrum);
-    const std::unique_ptr<BodyAbove> mirrored_above =
-        mirror && above ? above->transposed() : nullptr;
-    if (mirror && (!above || mirrored_above)) {  // no need to store the surface
-        const Asperities found = make_asperities(
-            transposed(spectrum), n, normalise, seed, realization, curvature, count, sampled,
-            threads, detail, differences, mirrored_above.get(), nullptr, lay);
+    if (mirror) {  // no need to store the surface
+        const Asperities found =
+            make_asperities(transposed(spectrum), n, normalise, seed, realization, curvature, count,
+                            sampled, threads, detail, differences);
         if (sampled) sampled->tensor = sampled->tensor.transposed();
         return mirrored(found, spectrum.L, n);
     }
     threads = std::max(threads, 1);
     const bool refined = detail == Detail::subgrid;
     const int fine = refined ? summit_points(spectrum, n) : n;
-    const auto kept = std::make_shared<const RowSource>(spectrum, fine, normalise, seed,
-                                                        realization, threads, spectrum.L / n);
-    const RowSource& source = *kept;
-    if (rows) *rows = kept;
+    const RowSource source(spectrum, fine, normalise, seed, realization, threads, spectrum.L / n);
     const double step = spectrum.L / fine;
     if (sampled) *sampled = source.sampled();
     if (differences) *differences = source.differences();
-    if (mirror)
-        return find_asperities(source.all(threads), curvature, count, threads, detail,
-                               fine / shortest_wave(spectrum), above, nullptr, lay);
     std::vector<Stencil> stencils;
     if (refined) stencils.push_back(Stencil::band_limited(fine / shortest_wave(spectrum)));
     std::vector<RefinedSummits> parts =
         share_rows(fine, threads, [&](RefinedSummits& part, int first, int last) {
             RowPlace place{fine, 0.0, step, step, 0.0, true};
-            SummitClimber climber(stencils, place, fine, 0.0, curvature, above);
+            SummitClimber climber(stencils, place, fine, 0.0, curvature);
             const int margin = refined ? climber.margin() : 1;
             // The window is at least twice as long as the 2 margin rows kept from one filling to
             // the next, so that moving these is cheap.
@@ -263,7 +216,7 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
                                            place, z - stride, z, z + stride, curvature, part.found);
                                });
         });
-    return join(parts, refined, fine, fine, !above || above->periodic(), count, lay);
+    return join(parts, refined, fine, fine, true, count);
 }
 
 }  // namespace rsc

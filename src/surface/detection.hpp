@@ -1,5 +1,4 @@
-// Detection of asperities: the summits of a height map, or of the gap between it and a body above
-// (paper, section 3).
+// Detection of asperities: the summits of a height map (paper, section 3).
 #pragma once
 
 #include "surface/asperities.hpp"
@@ -9,23 +8,6 @@
 namespace rsc {
 
 class RowSource;
-
-// Face of the body above a surface. It is subtracted before summits are detected, because contact
-// depends only on the difference.
-class BodyAbove {
-public:
-    // Height, derivatives and nabla^4 at one point.
-    struct Form {
-        double height = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, biharmonic = 0;
-    };
-    virtual ~BodyAbove() = default;
-    // Heights at the points (x0 + k dx, y), k = 0 ... n-1; Infinity where the body has no face.
-    virtual void row(int n, double x0, double dx, double y, double* height) const = 0;
-    virtual Form at(double x, double y) const = 0;
-    virtual bool periodic() const = 0;
-    // The body with x and y exchanged; null if it has to be taken point by point.
-    virtual std::unique_ptr<BodyAbove> transposed() const { return nullptr; }
-};
 
 // Method by which a summit is located.
 enum class Detail {
@@ -41,8 +23,6 @@ struct SummitCount {
     long repeated = 0;
     double mean_kappa_g = 0;  // mean of the geometric mean curvature [1/length]
     double mean_kappa_a = 0;  // mean of the algebraic mean curvature [1/length]
-    // Detail::subgrid: share of the biharmonic that is that along a lay (Asperities::biharmonic)
-    double lay = 0;
 };
 
 // Detail::grid: summits are grid points strictly above their 8 neighbours, with curvatures from
@@ -63,25 +43,11 @@ struct SummitCount {
 // points are used near the border of a map that is not periodic and near breaks (pits have been
 // raised before).
 //
-// With a body above (Detail::subgrid only), the summits are those of the map minus its face. x, y
-// and z are the place and the surface height there; curvatures and biharmonic are those of the
-// difference. If the map is periodic and the body is not, only summits within the map are returned.
-// With a lay, the biharmonic is the one described at Asperities::biharmonic; `lay` is its share if
-// known, otherwise it is estimated from the summits found. It is a property of the surface: of the
-// few summits that a steep body leaves it would be chance, and change as the body moves.
+// With a lay, the biharmonic is the one described at Asperities::biharmonic.
 Asperities find_asperities(const HeightMap& map, Curvature curvature, SummitCount* count = nullptr,
                            int threads = 1, Detail detail = Detail::grid,
-                           double points_per_wave = 0, const BodyAbove* above = nullptr,
-                           const Breaks* breaks = nullptr, std::optional<double> lay = {});
+                           double points_per_wave = 0, const Breaks* breaks = nullptr);
 inline constexpr int kMeasuredReach = 6;
-
-// Summits found by find_asperities() with Detail::subgrid after the body above has moved by a small
-// part of a grid step to `above`: those of the indices `which` are found again, with the same share
-// `lay`; the others, and those that are not within a tenth of a step, remain.
-// `map`, `points_per_wave` and `breaks` as there.
-Asperities follow_summits(const HeightMap& map, Asperities summits,
-                          const std::vector<std::size_t>& which, double lay, int threads,
-                          double points_per_wave, const BodyAbove& above, const Breaks* breaks);
 
 // Points along a side of the grid on which summits between the points are found: n, or its smallest
 // multiple with 4 points in lambda_s.
@@ -93,14 +59,11 @@ int summit_points(const Spectrum& spectrum, int n);
 // synthesize() adds up diagonals: to rounding). Throws as synthesize(). With fewer than 4 points in
 // lambda_s, Detail::subgrid uses the smallest multiple of n that has 4; the surface is the same.
 // `differences` (optional) receives the moments by finite differences on the n x n grid, as
-// grid_moments(synthesize(...)), computed as exact sums over the modes; `rows` (optional) what the
-// heights were made of, or nothing for the transposed surface.
+// grid_moments(synthesize(...)), computed as exact sums over the modes.
 Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed,
                            std::int64_t realization, Curvature curvature,
                            SummitCount* count = nullptr, Moments* sampled = nullptr,
                            int threads = 1, Detail detail = Detail::grid,
-                           Moments* differences = nullptr, const BodyAbove* above = nullptr,
-                           std::shared_ptr<const RowSource>* rows = nullptr,
-                           std::optional<double> lay = {});
+                           Moments* differences = nullptr);
 
 }  // namespace rsc

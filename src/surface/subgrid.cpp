@@ -63,15 +63,14 @@ Step first_step(const Patch& patch) {
 
 }  // namespace
 
-std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, int travel,
-                                    const PatchAbove& less) {
+std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, int travel) {
     constexpr int kMostSteps = 40;  // three or four are usual; more along a ridge
     // The last step changes position and height only; the derivatives are those of the last
     // evaluation.
     // after a shorter step the next evaluation is the last, with an error of kNear^2
     constexpr double kNear = 1e-4;
     constexpr double kArrived = 1e-7;  // longest accepted step after the last evaluation
-    const Step start = less.above ? Step{} : first_step(patch);
+    const Step start = first_step(patch);
     double x = start.peak ? start.x : 0, y = start.peak ? start.y : 0;
     bool last = false;
     for (int k = 0; k < kMostSteps; ++k) {
@@ -88,14 +87,6 @@ std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch, 
         const int corner = Patch::kMargin - stencil.reach();
         contract(&patch.z[corner + static_cast<int>(ry)][corner + static_cast<int>(rx)],
                  2 * stencil.reach() + 1, orders, wx, wy, d);
-        if (less.above) {
-            const BodyAbove::Form f = less.above->at(less.x + x * less.dx, less.y + y * less.dy);
-            if (!std::isfinite(f.height)) return {};
-            d[0][0] -= f.height;
-            d[1][0] -= f.x * less.dx, d[0][1] -= f.y * less.dy;
-            d[2][0] -= f.xx * less.dx * less.dx, d[1][1] -= f.xy * less.dx * less.dy,
-                d[0][2] -= f.yy * less.dy * less.dy;
-        }
         const Step s = step_to_summit({d[1][0], d[0][1], d[2][0], d[1][1], d[0][2]});
         const double length = std::max(std::abs(s.x), std::abs(s.y));
         if (last && s.peak && length <= kArrived) {
@@ -128,33 +119,13 @@ double wrapped(double u, int n) {
 }  // namespace
 
 SummitClimber::SummitClimber(const std::vector<Stencil>& stencils, const RowPlace& place, int ny,
-                             double y0, Curvature curvature, const BodyAbove* above,
-                             const Breaks* breaks)
-    : above_(above),
-      goes_on_(above && place.periodic && !above->periodic()),
-      stencils_(stencils),
+                             double y0, Curvature curvature, const Breaks* breaks)
+    : stencils_(stencils),
       breaks_(breaks),
       place_(place),
       ny_(ny),
       y0_(y0),
       curvature_(curvature) {}
-
-// Row j of the surface, z, minus the face of the body above; null if there is no row.
-const double* SummitClimber::difference_row(int j, const double* z) {
-    if (!z) return nullptr;
-    DifferenceRow& row = differences_[wrapped(j, kRows)];
-    const int beside = goes_on_ ? kBeside : 0, n = place_.nx + 2 * beside;
-    if (!row.known || row.j != j) {
-        row.j = j, row.known = true;
-        row.z.resize(static_cast<std::size_t>(n));
-        above_->row(n, place_.x0 - beside * place_.dx, place_.dx, y0_ + j * place_.dy,
-                    row.z.data());
-        for (int i = 0; i < n; ++i)
-            row.z[static_cast<std::size_t>(i)] =
-                z[wrapped(i - beside, place_.nx)] - row.z[static_cast<std::size_t>(i)];
-    }
-    return row.z.data() + beside;
-}
 
 // Largest reach of a stencil at (i, j), limited by the border of the map and the nearest break; 0
 // at a break.
@@ -200,16 +171,15 @@ void SummitClimber::cut_out(int i, int, const Rows& row) {
 
 // True if a grid maximum beside (i, j) leads to the same summit, so that (i, j) need not be a
 // start.
-bool SummitClimber::seen_from_maximum(const RowPlace& place, int i, int j, const Rows& row) const {
+bool SummitClimber::seen_from_maximum(int i, int j, const Rows& row) const {
     constexpr double kSameTop = 0.75;  // grid steps; second differences locate a top to some tenths
-    const int nx = place.nx;
-    if (!place.periodic && !goes_on_ && (i < 2 || j < 2 || i + 2 >= nx || j + 2 >= ny_))
-        return false;
+    const int nx = place_.nx;
+    if (!place_.periodic && (i < 2 || j < 2 || i + 2 >= nx || j + 2 >= ny_)) return false;
     double z[5][5];  // around (i, j)
     for (int dj = -2; dj <= 2; ++dj) {
         const double* const from = row(dj);
         for (int di = -2; di <= 2; ++di)
-            z[dj + 2][di + 2] = from[place.periodic ? wrapped(i + di, nx) : i + di];
+            z[dj + 2][di + 2] = from[place_.periodic ? wrapped(i + di, nx) : i + di];
     }
     struct Top {
         double x, y;
@@ -230,30 +200,15 @@ bool SummitClimber::seen_from_maximum(const RowPlace& place, int i, int j, const
     return false;
 }
 
-// Height at the point (i + di, j + dj) of the patch about (i, j), minus the face of the body above.
-double SummitClimber::difference(int i, int j, int di, int dj) const {
-    const double z = patch_.z[Patch::kMargin + dj][Patch::kMargin + di];
-    return above_
-               ? z - above_->at(place_.x0 + (i + di) * place_.dx, y0_ + (j + dj) * place_.dy).height
-               : z;
-}
-
-// Typical second difference, without the face of the body above, around the middle (i, j) of the
-// patch: the sum of the medians along x and along y. Pits, grooves and steps affect a minority of
+// Typical second difference around the middle of the patch: the sum of the medians along x and
+// along y. Pits, grooves and steps affect a minority of
 // the points and do not change it.
-double SummitClimber::usual_bend(int i, int j) const {
+double SummitClimber::usual_bend() const {
     constexpr int reach = 3, around = reach + 1, side = 2 * around + 1,
-                  points = (2 * reach + 1) * (2 * reach + 1), m = Patch::kMargin;
+                  points = (2 * reach + 1) * (2 * reach + 1);
     double along_x[points], along_y[points], z[side][side];
-    for (int l = 0; l < side; ++l) {
-        double face[side] = {};
-        if (above_)
-            above_->row(side, place_.x0 + (i - around) * place_.dx, place_.dx,
-                        y0_ + (j + l - around) * place_.dy, face);
-        for (int k = 0; k < side; ++k)
-            z[l][k] =
-                patch_.z[m + l - around][m + k - around] - (std::isfinite(face[k]) ? face[k] : 0);
-    }
+    for (int l = 0; l < side; ++l)
+        for (int k = 0; k < side; ++k) z[l][k] = height(k - around, l - around);
     int n = 0;
     for (int l = 1; l + 1 < side; ++l)
         for (int k = 1; k + 1 < side; ++k, ++n) {
@@ -267,7 +222,7 @@ double SummitClimber::usual_bend(int i, int j) const {
 
 // True if the summit is no higher above the points around it than the second differences `bend`
 // permit. A polynomial through a pit, step or seam overshoots by some tenths of its depth.
-bool SummitClimber::smooth_around(int i, int j, const RefinedSummit& summit, double bend) const {
+bool SummitClimber::smooth_around(const RefinedSummit& summit, double bend) const {
     // A summit half a step from its grid point in both directions rises by bend/8, and its
     // curvature may be several times the median.
     constexpr double most = 0.75;
@@ -275,16 +230,15 @@ bool SummitClimber::smooth_around(int i, int j, const RefinedSummit& summit, dou
               cj = static_cast<int>(std::lround(summit.y));
     double highest = -kInfinity;
     for (int dj = -1; dj <= 1; ++dj)
-        for (int di = -1; di <= 1; ++di)
-            highest = std::max(highest, difference(i, j, ci + di, cj + dj));
+        for (int di = -1; di <= 1; ++di) highest = std::max(highest, height(ci + di, cj + dj));
     return summit.z <= highest + most * bend;
 }
 
-// The grid maximum (i, j) as a summit with second differences. If one of these is that of a pit or
+// The grid maximum in the middle of the patch as a summit with second differences. If one of these is that of a pit or
 // a step, the smallest one at the point and its neighbours is used.
-RefinedSummit SummitClimber::of_grid(int i, int j, double bend, bool& broken) const {
+RefinedSummit SummitClimber::of_grid(double bend, bool& broken) const {
     constexpr double usual = 8;
-    const auto z = [&](int di, int dj) { return difference(i, j, di, dj); };
+    const auto z = [&](int di, int dj) { return height(di, dj); };
     bool bends_usually = true;
     const auto second = [&](int ex, int ey) {
         const auto bent = [&](int k) {
@@ -309,29 +263,27 @@ RefinedSummit SummitClimber::of_grid(int i, int j, double bend, bool& broken) co
 
 std::optional<RefinedSummit> SummitClimber::summit_from(int i, int j, bool maximum,
                                                         const Rows& row) {
-    const PatchAbove less{above_, place_.x0 + i * place_.dx, y0_ + j * place_.dy, place_.dx,
-                          place_.dy};
     const int travel = maximum ? Patch::kTravel : kShortTravel, clear = clear_reach(i, j);
     const Stencil& longest = stencils_.back();
     if (longest.band_known()) {
         if (clear < longest.reach()) return {};
         cut_out(i, j, row);
         keep_within(i, j, clear);
-        return refine(longest, patch_, travel, less);
+        return refine(longest, patch_, travel);
     }
     cut_out(i, j, row);
-    const double bend = usual_bend(i, j);
+    const double bend = usual_bend();
     bool broken = clear == 0;
     for (int reach = clear; reach > 0; --reach) {
         keep_within(i, j, reach);
-        const auto s = refine(stencils_[static_cast<std::size_t>(reach - 1)], patch_, travel, less);
-        if (s && smooth_around(i, j, *s, bend)) return s;
+        const auto s = refine(stencils_[static_cast<std::size_t>(reach - 1)], patch_, travel);
+        if (s && smooth_around(*s, bend)) return s;
         if (!s && clear == longest.reach()) break;  // no break is near
         broken |= s.has_value();
     }
     if (!maximum) return {};
     // near a break the grid maximum itself is the summit
-    const RefinedSummit point = of_grid(i, j, bend, broken);
+    const RefinedSummit point = of_grid(bend, broken);
     if (broken) return point;
     return {};
 }
@@ -341,8 +293,7 @@ std::optional<RefinedSummit> SummitClimber::summit_from(int i, int j, bool maxim
 // c_LS/8 for an ellipse of area pi with the axis ratio sqrt(r), long over short. c_LL, c_LS and
 // c_SS are the coefficients of the quartic along the long and short axes (physics, section 16).
 // Also appends the plain one.
-double SummitClimber::append_biharmonic(const RefinedSummit& s, double lowered,
-                                        Asperities& a) const {
+double SummitClimber::append_biharmonic(const RefinedSummit& s, Asperities& a) const {
     const double dx = place_.dx, dy = place_.dy, z40 = s.zxxxx / (dx * dx * dx * dx),
                  z31 = s.zxxxy / (dx * dx * dx * dy), z22 = s.zxxyy / (dx * dx * dy * dy),
                  z13 = s.zxyyy / (dx * dy * dy * dy), z04 = s.zyyyy / (dy * dy * dy * dy);
@@ -358,49 +309,34 @@ double SummitClimber::append_biharmonic(const RefinedSummit& s, double lowered,
     // exponent of the axis ratio of a Hertz contact, (kappa1/kappa2)^0.636 (Brewe and Hamrock 1977)
     constexpr double kAxes = 0.636;
     const double r = std::pow(k1 / k2, 2 * kAxes);
-    a.biharmonic.push_back(z40 + 2 * z22 + z04 - lowered);
-    return (r * along + across / r + 2 * both) * (k1 + k2) / (2 * std::sqrt(k1 * k2)) - lowered;
+    a.biharmonic.push_back(z40 + 2 * z22 + z04);
+    return (r * along + across / r + 2 * both) * (k1 + k2) / (2 * std::sqrt(k1 * k2));
 }
 
 void SummitClimber::climb(int j, const Rows& row, RefinedSummits& to) {
-    const Rows seen = above_ ? Rows([&](int d) { return difference_row(j + d, row(d)); }) : row;
-    RowPlace place = place_;
-    if (goes_on_) {  // include one more point on either side, without wrapping
-        place.periodic = false;
-        place.nx += 2;
-        find_starts(place, seen(-1) - 1, seen(0) - 1, seen(1) - 1, starts_);
-        for (Start& start : starts_) --start.column;
-        place.nx -= 2;
-    } else {
-        find_starts(place, seen(-1), seen(0), seen(1), starts_);
-    }
+    find_starts(place_, row(-1), row(0), row(1), starts_);
     for (const auto [i, maximum] : starts_)
-        if (maximum || !seen_from_maximum(place, i, j, seen)) climb_from(i, j, maximum, row, to);
+        if (maximum || !seen_from_maximum(i, j, row)) climb_from(i, j, maximum, row, to);
 }
 
 void SummitClimber::climb_from(int i, int j, bool maximum, const Rows& row, RefinedSummits& to) {
     const auto s = summit_from(i, j, maximum, row);
-    double u = 0, v = 0, lowered = 0;
+    double u = 0, v = 0;
     bool kept = s.has_value();
     if (kept) {
         u = i + s->x, v = j + s->y;
-        if (goes_on_ && !(u >= 0 && u < place_.nx && v >= 0 && v < ny_))
-            return;  // outside the map: its periodic image is found within
-        if (place_.periodic && !goes_on_) u = wrapped(u, place_.nx), v = wrapped(v, ny_);
+        if (place_.periodic) u = wrapped(u, place_.nx), v = wrapped(v, ny_);
         const SecondOrder second{0.5 * s->zxx / (place_.dx * place_.dx),
                                  0.5 * s->zyy / (place_.dy * place_.dy),
                                  0.5 * s->zxy / (place_.dx * place_.dy)};
-        BodyAbove::Form under;
-        const double x = place_.x0 + u * place_.dx, y = y0_ + v * place_.dy;
-        if (above_) under = above_->at(x, y);
-        lowered = under.biharmonic;
-        kept = append_summit(x, y, s->z + under.height, second, curvature_, to.found);
+        kept = append_summit(place_.x0 + u * place_.dx, y0_ + v * place_.dy, s->z, second,
+                             curvature_, to.found);
     }
     if (!kept) {
         to.saddles += maximum;
         return;
     }
-    const double elongated = append_biharmonic(*s, lowered, to.found);
+    const double elongated = append_biharmonic(*s, to.found);
     to.from.push_back({j, i, maximum, u, v, std::max(std::abs(s->x), std::abs(s->y)), elongated});
 }
 

@@ -30,18 +30,11 @@ struct RefinedSummit {
     double zxxxx = 0, zxxxy = 0, zxxyy = 0, zxyyy = 0, zyyyy = 0;
 };
 
-// A body above a patch with its middle at (x, y) and grid steps dx and dy.
-struct PatchAbove {
-    const BodyAbove* above = nullptr;
-    double x = 0, y = 0, dx = 1, dy = 1;
-};
-
 // Climbs from the middle of the patch to the summit by Newton's method on grad z = 0, with steps of
 // at most one grid step, uphill where the surface is not concave. Returns nothing if there is no
-// summit within `travel` grid steps. With a body above, it climbs on the patch minus the body's
-// face; the fourth derivatives are those of the patch alone.
+// summit within `travel` grid steps.
 std::optional<RefinedSummit> refine(const Stencil& stencil, const Patch& patch,
-                                    int travel = Patch::kTravel, const PatchAbove& less = {});
+                                    int travel = Patch::kTravel);
 
 // Summits found from starts in a range of rows, in the order of the starts.
 struct RefinedSummits {
@@ -64,11 +57,9 @@ class SummitClimber {
 public:
     // The map has ny rows as described by `place` (its y is not used); y0 is the y of row 0.
     // `stencils` is one stencil if the band of the map is known, otherwise polynomials of reach 1,
-    // 2, ..., of which the longest that crosses no break or border is used. With a body above,
-    // summits of the difference are sought.
+    // 2, ..., of which the longest that crosses no break or border is used.
     SummitClimber(const std::vector<Stencil>& stencils, const RowPlace& place, int ny, double y0,
-                  Curvature curvature, const BodyAbove* above = nullptr,
-                  const Breaks* breaks = nullptr);
+                  Curvature curvature, const Breaks* breaks = nullptr);
 
     // Number of rows on either side that climb() may request; a map that is not periodic has none
     // beyond its edges.
@@ -86,26 +77,16 @@ private:
     void cut_out(int i, int j, const Rows& row);
     void keep_within(int i, int j, int reach);
     std::optional<RefinedSummit> summit_from(int i, int j, bool maximum, const Rows& row);
-    bool seen_from_maximum(const RowPlace& place, int i, int j, const Rows& row) const;
-    const double* difference_row(int j, const double* z);
-    double difference(int i, int j, int di, int dj) const;
-    bool smooth_around(int i, int j, const RefinedSummit& summit, double bend) const;
-    double usual_bend(int i, int j) const;
-    RefinedSummit of_grid(int i, int j, double bend, bool& broken) const;
-    double append_biharmonic(const RefinedSummit& s, double lowered, Asperities& a) const;
+    bool seen_from_maximum(int i, int j, const Rows& row) const;
+    // Height of the patch at an offset from its middle [grid steps].
+    double height(int di, int dj) const {
+        return patch_.z[Patch::kMargin + dj][Patch::kMargin + di];
+    }
+    bool smooth_around(const RefinedSummit& summit, double bend) const;
+    double usual_bend() const;
+    RefinedSummit of_grid(double bend, bool& broken) const;
+    double append_biharmonic(const RefinedSummit& s, Asperities& a) const;
 
-    // Buffer of five rows of the difference. A periodic surface under a body that is not periodic
-    // is continued by kBeside points on either side.
-    static constexpr int kBeside = 2, kRows = 5;
-    struct DifferenceRow {
-        int j = -1;
-        bool known = false;
-        std::vector<double> z;
-    };
-
-    const BodyAbove* above_;
-    bool goes_on_ = false;  // the surface is periodic, the body above is not
-    DifferenceRow differences_[kRows];
     const std::vector<Stencil>& stencils_;
     const Breaks* breaks_;
     RowPlace place_;

@@ -163,19 +163,4 @@ HeightMap every_second_point_of(const HeightMap& map, int column, int row) {
     return view;
 }
 
-double height_at(const HeightMap& map, double x, double y) {
-    const double u = (x - map.x0) / map.dx, v = (y - map.y0) / map.dy;
-    if (!map.periodic && !(u >= 0 && v >= 0 && u <= map.nx - 1 && v <= map.ny - 1))
-        return -kInfinity;
-    const auto place = [&](double t, int n) {
-        const int before = static_cast<int>(std::floor(t) - n * std::floor(std::floor(t) / n));
-        return std::pair{before, map.periodic ? (before + 1) % n : std::min(before + 1, n - 1)};
-    };
-    const auto [i, right] = place(u, map.nx);
-    const auto [j, above] = place(v, map.ny);
-    const double s = u - std::floor(u), t = v - std::floor(v);
-    return (1 - t) * ((1 - s) * map(i, j) + s * map(right, j)) +
-           t * ((1 - s) * map(i, above) + s * map(right, above));
-}
-
 }  // namespace rsc

@@ -91,7 +91,4 @@ Moments grid_moments(const HeightMap& map);
 // j), not by row().
 HeightMap every_second_point_of(const HeightMap& map, int column = 0, int row = 0);
 
-// Height at a point between those of a map, linear in x and in y; -Infinity outside.
-double height_at(const HeightMap& map, double x, double y);
-
 }  // namespace rsc

@@ -13,16 +13,17 @@ double mean_radius(const Level& level) {
 
 }  // namespace
 
-AsperityError asperity_error(const Level& level, const Asperities& asperities,
-                             const SolverOptions& options) {
+AsperityError asperity_error(const Level& level, const SolverOptions& options) {
     const double radius = mean_radius(level) / options.mean_spacing;
     const auto law = static_cast<std::size_t>(options.law);
     const auto bin = static_cast<std::size_t>(
         std::upper_bound(std::begin(kRadii), std::end(kRadii), radius) - std::begin(kRadii));
     if (bin >= std::size(kRadii)) return {};
-    const std::array<double, 2> file =
-        options.measured ? std::array{kOfFiles[law][0], kOfFiles[law][1]} : std::array{1.0, 1.0};
-    return {kErrors[law][0][bin] * file[0], kErrors[law][1][bin] * file[1]};
+    const auto error = [&](std::size_t what) {
+        return kErrors[law][what][bin] * (options.measured ? kOfFiles[law][what] : 1.0) *
+               (level.plastic_contacts > 0 ? kOfYielding[law][what] : 1.0);
+    };
+    return {error(0), error(1)};
 }
 
 bool few_points(const SolverOptions& options) {

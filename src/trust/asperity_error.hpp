@@ -12,10 +12,9 @@ struct AsperityError {
     double force = kNotComputed, area = kNotComputed;
 };
 
-// Of a level with contacts, without the errors that the judge adds. The study has levels up to a
-// mean contact radius, weighted by the forces, and surfaces up to a mean elongation of summits.
-AsperityError asperity_error(const Level& level, const Asperities& asperities,
-                             const SolverOptions& options);
+// Of a level with contacts, by their mean radius, weighted by the forces, over the mean spacing of
+// the summits.
+AsperityError asperity_error(const Level& level, const SolverOptions& options);
 
 // True if the grid of the surface has fewer points in the shortest wave than those of the study.
 bool few_points(const SolverOptions& options);

@@ -6,10 +6,10 @@
 namespace rsc {
 namespace {
 
-// Elements: a larger error of N is a doubt, with adhesion one above kMuchError. Under a prescribed
-// force N is not in doubt, and the separation may be off by this share of the rms height, the area
-// by kMuchError.
-constexpr double kUnresolved = 0.01, kMuchError = 0.1;
+// A larger expected error of N of asperities, or with adhesion, is a doubt. Under a prescribed force
+// N of elements is not in doubt; the error of the separation is, above kUnresolved times the rms
+// height, and this one of the area.
+constexpr double kMuchError = 0.1;
 
 // Asperities: largest slope of the indenter at a contact over the rms slope of the surface. Above,
 // the bodies touch beside the summits.
@@ -72,6 +72,10 @@ Doubt edges_of_adhesion(const Level& level, const Indenter& indenter, const Heig
 
 }  // namespace
 
+Tensor curvature_at_unit_height(const Moments& m) {
+    return {m.tensor.m20 / m.m0, m.tensor.m11 / m.m0, m.tensor.m02 / m.m0};
+}
+
 Judge::Judge(const SolverOptions& options, JudgedSurface surface)
     : options_(options), surface_(std::move(surface)) {}
 
@@ -108,7 +112,7 @@ std::vector<Doubt> Judge::of_asperities(Level& level, const Contact& contact) co
           Cause::outside_calibration);
     doubt(few_points(options_), Cause::few_points);
     if (!doubts.empty()) return doubts;
-    const AsperityError error = asperity_error(level, *contact.asperities(), options_);
+    const AsperityError error = asperity_error(level, options_);
     doubt(std::isnan(error.force), Cause::beyond_law);
     doubts.push_back({Cause::model_error, error.force, error.area, error.force > kMuchError});
     if (const double share = share_on_spikes(level, options_); share > 0)
@@ -121,14 +125,7 @@ std::vector<Doubt> Judge::of_elements(Level& level, Contact& contact, bool by_fo
     std::vector<Doubt> doubts;
     const bool attracts = level.cohesive_area > 0;
     if (level.contacts == 0 && !attracts) {
-        const PlaceOfTip tip{indenter.x0, indenter.y0};
-        const bool lowered = contact.relaxes() || !contact.residual_profile().x.empty();
-        if (surface_.map && !lowered && between_at_ != tip) {
-            between_at_ = tip;
-            between_ = touch_between_points(*surface_.map, indenter);
-        }
-        if (surface_.map && !lowered && level.separation < between_)
-            doubts.push_back({Cause::missed_contact});
+        if (level.separation < touch_between(contact)) doubts.push_back({Cause::missed_contact});
         // The other grid follows the path.
         if (surface_.second_grid && contact.path_dependent()) (void)grid(level, contact, by_force);
         return doubts;
@@ -142,6 +139,24 @@ std::vector<Doubt> Judge::of_elements(Level& level, Contact& contact, bool by_fo
         doubts.push_back({Cause::filled_points, share, share, share > kUnresolved});
     }
     return doubts;
+}
+
+// Upper bound of the Z0 at which the bodies touch, between the points of elements, too; -Infinity
+// if the surface is lower than its map.
+double Judge::touch_between(const Contact& contact) {
+    const Indenter& indenter = contact.indenter();
+    const PlaceOfTip tip{indenter.x0, indenter.y0};
+    if (!surface_.map || contact.relaxes() || !contact.residual_profile().x.empty())
+        return -kInfinity;
+    if (between_at_ == tip) return between_;
+    between_at_ = tip;
+    if (!surface_.curvature) return between_ = touch_between_points(*surface_.map, indenter);
+    // Not all heights of synthetic surfaces need be kept. A top is at most twice as curved as is
+    // expected at its height.
+    const Tensor& c = *surface_.curvature;
+    const double dx = surface_.map->dx, dy = surface_.map->dy, touch = contact.first_touch();
+    return between_ = touch + 0.25 * std::max(touch, options_.sigma) *
+                                  (std::abs(c.xx) * dx * dx + std::abs(c.yy) * dy * dy);
 }
 
 // The error by the grid, with adhesion by the resolution of the edges, too.

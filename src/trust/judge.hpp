@@ -10,13 +10,19 @@
 
 namespace rsc {
 
+// A larger expected error of N of elements is a doubt.
+inline constexpr double kUnresolved = 0.01;
+
+// Mean curvature of a synthetic surface at points of unit height [1/length^2].
+Tensor curvature_at_unit_height(const Moments& moments);
+
 // What of the surface the judgement depends on, beside the options of the solver.
 struct JudgedSurface {
     const HeightMap* map = nullptr;  // of elements; must outlive the judge
     // Elements: the levels are solved on a second grid, without which they have no expected error.
     // Path-dependent levels must then all be judged, in the order of the path.
     bool second_grid = false;
-    // Elements on a synthetic surface: its mean curvature at points of unit height [1/length^2]
+    // Elements on a synthetic surface: curvature_at_unit_height().
     std::optional<Tensor> curvature = {};
     std::vector<FilledPoints> filled = {};  // of the maps of both bodies
     double scattered = 0;  // share of the points of a map that were filled from their neighbours
@@ -33,6 +39,7 @@ public:
 private:
     std::vector<Doubt> of_asperities(Level& level, const Contact& contact) const;
     std::vector<Doubt> of_elements(Level& level, Contact& contact, bool by_force);
+    double touch_between(const Contact& contact);
     Doubt grid(const Level& level, Contact& contact, bool by_force);
 
     SolverOptions options_;

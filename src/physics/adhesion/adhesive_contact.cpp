@@ -12,8 +12,8 @@ constexpr std::size_t kBefore = 7;  // numbers in memory() before the pairs
 class AdhesiveContact final : public Contact {
 public:
     AdhesiveContact(const Asperities& asperities, const Indenter& indenter,
-                    const SolverOptions& options, SummitSearch search)
-        : path_(std::make_unique<AdhesivePath>(asperities, indenter, options, std::move(search))) {}
+                    const SolverOptions& options)
+        : path_(std::make_unique<AdhesivePath>(asperities, indenter, options)) {}
 
     double stiffness() override {
         if (std::exchange(fresh_, false)) slope_ = path_->solver.slope(path_->here.states);
@@ -25,7 +25,6 @@ public:
                    : path_->solver.clamped_stiffness(path_->here.states);
     }
     double energy() const override { return energy_; }
-    Vec2 lateral(const Level& level) override;
     void move_tip(double x0, double y0) override;
     double first_touch() const override { return path_->ranking.highest(); }
     const Indenter& indenter() const override { return path_->indenter; }
@@ -58,8 +57,7 @@ private:
         const AdhesivePath& my = *path_;
         Indenter tip = my.indenter;
         if (x0 != tip.x0 || y0 != tip.y0) tip.move(x0, y0);
-        return std::make_unique<AdhesivePath>(my.of_surface, tip, SolverOptions(my.options),
-                                              my.search);
+        return std::make_unique<AdhesivePath>(my.of_surface, tip, my.options);
     }
 
     std::unique_ptr<AdhesivePath> path_;
@@ -104,7 +102,7 @@ Level AdhesiveContact::report() {
         l.area += state.area;
         l.beyond_law += state.beyond || my.law->beyond(i, my.now.s[k]);
     }
-    judge_asperities(l, *my.law, my);
+    complete_level(l, *my.law, my);
     if (my.options.adhesion.range > 0) l.cohesive_area = cohesive;
     l.jumps = my.jumps + my.accepted.jumps;
     l.energy_lost = my.now.lost;
@@ -112,29 +110,6 @@ Level AdhesiveContact::report() {
     slope_ = 0, fresh_ = !my.active.empty();
     energy_ = my.active.empty() ? 0.0 : my.here.energy;
     return l;
-}
-
-// At the areas of the present tip, from the state with this area and the force that belongs to it.
-Vec2 AdhesiveContact::lateral(const Level& level) {
-    AdhesivePath& my = *path_;
-    const std::vector<int>& which = my.now.asperity;
-    if (!my.beside.known() || which.empty() || std::isnan(level.force))
-        return lateral_force(my.indenter, level);
-    my.beside.follow(which, [&](const FoundSummits& found, const Indenter&) {
-        return make_law(my.options.law, found.summits, my.indenter.E_star);
-    });
-    std::vector<Sticking::State> here;
-    std::vector<double> f;
-    for (std::size_t k = 0; k < which.size(); ++k)
-        here.push_back(my.sticking.at(which[k], my.now.s[k])), f.push_back(here[k].f);
-    std::optional<Sticking> sticking;
-    return my.beside.lateral(which, f, false, [&](SummitsBeside::Tip& tip, std::size_t k) {
-        if (k == 0)
-            sticking.emplace(*tip.law, my.options.adhesion.work, my.options.adhesion.range),
-                sticking->prepare(which);
-        const Sticking::State there = sticking->at(which[k], my.now.s[k]);
-        return Response{f[k], 0, there.energy + there.f * (here[k].u - there.u)};
-    });
 }
 
 Level AdhesiveContact::solve(double Z0) {
@@ -181,18 +156,8 @@ void AdhesiveContact::move_tip(double x0, double y0) {
     if (x0 == my.indenter.x0 && y0 == my.indenter.y0) return;
     (void)stiffness();
     if (!my.accepted.asperity.empty()) {
-        std::unique_ptr<AdhesivePath>
-            // with the summits of the difference at the new place, if the attached ones are among
-            // them
-            there;
-        if (my.of_difference && !my.of_difference->renumbered) there = path_at(x0, y0);
-        if (my.of_difference &&
-            !(there && there->of_difference && !there->of_difference->renumbered))
-            throw Error(Failure::bad_input,
-                        "the tip cannot move while asperities are attached, where the slope of the "
-                        "indenter is above 0.2 of that of the "
-                        "surface: pull it off first, or use solver%model = 'elements' or "
-                        "asperities%law = 'hertz'");
+        // with the summits of the difference at the new place
+        std::unique_ptr<AdhesivePath> there = my.of_difference ? path_at(x0, y0) : nullptr;
         AdhesivePath::Past before = my.accepted;
         const Indenter old = my.indenter;
         bool done = my.move(x0, y0);
@@ -260,8 +225,8 @@ void AdhesiveContact::recall(const std::vector<double>& memory, const Level* las
 
 std::unique_ptr<Contact> make_adhesive_contact(const Asperities& asperities,
                                                const Indenter& indenter,
-                                               const SolverOptions& options, SummitSearch search) {
-    return std::make_unique<AdhesiveContact>(asperities, indenter, options, std::move(search));
+                                               const SolverOptions& options) {
+    return std::make_unique<AdhesiveContact>(asperities, indenter, options);
 }
 
 }  // namespace rsc

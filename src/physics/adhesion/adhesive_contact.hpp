@@ -9,13 +9,12 @@
 // states before and after it.
 #pragma once
 
-#include "asperities/touching.hpp"
 #include "contact/contact.hpp"
 #include "surface/asperities.hpp"
 
 namespace rsc {
 
-// Asperities, indenter and search as for AsperityContact; options.adhesion.work is positive. Throws
+// Asperities and indenter as for AsperityContact; options.adhesion.work is positive. Throws
 // Error(bad_input) for options that are not available with adhesion.
 //
 // energy() is the elastic energy minus w A, with dW/dZ0 = -N; 0 if nothing is attached. If
@@ -23,12 +22,10 @@ namespace rsc {
 // the separation of the last accepted level; they attach and detach on the way as on a path of
 // separations. The next level includes these jumps. It throws Error(not_converged) if the path is
 // lost; the tip then stays where it was. If none is attached, the next level is approached from
-// above. The summits of the difference that `search` finds are those of the new place: attached
-// ones keep their numbers, and come to the equilibrium there at the end of the way; where numbers
-// do not last (FoundSummits::renumbered) move_tip() throws Error(bad_input).
+// above. The summits of the difference are those of the new place: attached ones come to the
+// equilibrium there at the end of the way.
 std::unique_ptr<Contact> make_adhesive_contact(const Asperities& asperities,
                                                const Indenter& indenter,
-                                               const SolverOptions& options,
-                                               SummitSearch search = {});
+                                               const SolverOptions& options);
 
 }  // namespace rsc

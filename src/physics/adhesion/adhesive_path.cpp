@@ -23,8 +23,8 @@ constexpr double kOwnWay = 0.7, kFarWay = 0.6, kNearWay = 0.9, kLongestWay = 0.9
 }  // namespace
 
 AdhesivePath::AdhesivePath(const Asperities& asperities_, const Indenter& indenter_,
-                           const SolverOptions& options_, SummitSearch search_)
-    : ContactBodies(asperities_, indenter_, options_, std::move(search_)),
+                           const SolverOptions& options_)
+    : ContactBodies(asperities_, indenter_, options_),
       law(make_law(options_.law, asperities, indenter_.E_star)),
       sticking(*law, options_.adhesion.work, options_.adhesion.range),
       direct(make_direct_products(kernel)),

@@ -3,9 +3,7 @@
 #pragma once
 
 #include "asperities/asperity_level.hpp"
-#include "asperities/beside.hpp"
 #include "asperities/ranking.hpp"
-#include "asperities/touching.hpp"
 #include "contact/contact.hpp"
 #include "interaction/products.hpp"
 #include "physics/adhesion/attached.hpp"
@@ -38,7 +36,6 @@ struct AdhesivePath : ContactBodies {
     std::unique_ptr<Products> direct, mesh;
     Products* products = nullptr;
     AttachedSolver solver;
-    SummitsBeside beside{*this};
     double goal = 1e-9;  // tolerance of the relative residual
 
     Past accepted, now;
@@ -101,7 +98,7 @@ struct AdhesivePath : ContactBodies {
 
     // As AdhesiveContact.
     AdhesivePath(const Asperities& asperities_, const Indenter& indenter_,
-                 const SolverOptions& options_, SummitSearch search_);
+                 const SolverOptions& options_);
 
     void cover(double lowest);
     bool leave_out(double lowest);

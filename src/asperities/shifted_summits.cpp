@@ -1,0 +1,98 @@
+#include "asperities/shifted_summits.hpp"
+
+#include "surface/summits.hpp"
+
+namespace rsc {
+namespace {
+
+// A symmetric matrix by its eigenvalues, high >= low, and the direction (c, s) of that of `low`.
+struct Principal {
+    double high, low, c, s;
+};
+
+Tensor tensor_of(const Principal& p) {
+    return {p.high * p.s * p.s + p.low * p.c * p.c, (p.low - p.high) * p.s * p.c,
+            p.high * p.c * p.c + p.low * p.s * p.s};
+}
+
+// Maximum of -g'd - d'H d/2 over |d| <= radius for a positive definite H: d = -(H + m)^-1 g, with
+// m = 0 within the range and on its border the m > 0 at which |d| = radius.
+Vec2 highest_within(const Tensor& H, const Vec2& g, double radius) {
+    const double mean = 0.5 * (H.xx + H.yy),
+                 half = std::hypot(0.5 * (H.xx - H.yy), H.xy);  // eigenvalues mean +- half
+    const auto at = [&](double m) {
+        const double xx = H.xx + m, yy = H.yy + m, determinant = xx * yy - H.xy * H.xy;
+        return Vec2{-(yy * g.x - H.xy * g.y) / determinant, -(xx * g.y - H.xy * g.x) / determinant};
+    };
+    Vec2 d = at(0);
+    if (!(std::hypot(d.x, d.y) > radius)) return d;
+    // 1/|d(m)| is a concave function of m between two straight lines: Newton's method on it
+    // converges monotonically from below.
+    double m = std::max(0.0, std::hypot(g.x, g.y) / radius - (mean + half));
+    constexpr int most = 30;
+    for (int k = 0; k < most; ++k) {
+        d = at(m);
+        const double length = std::hypot(d.x, d.y);
+        const double xx = H.xx + m, yy = H.yy + m, determinant = xx * yy - H.xy * H.xy;
+        const double fall =
+            (yy * d.x * d.x - 2 * H.xy * d.x * d.y + xx * d.y * d.y) / (determinant * length);
+        const double more = (length / radius - 1) * length / fall;
+        if (!(more > 4 * std::numeric_limits<double>::epsilon() * (m + mean))) break;
+        m += more;
+    }
+    return d;
+}
+
+}  // namespace
+
+Asperities shifted_summits(const Asperities& of_surface, const Indenter& indenter,
+                           double farthest) {
+    const Asperities& a = of_surface;
+    const IndenterShape& shape = *indenter.shape.operator->();
+    const bool geometric =
+        a.size() == 0 || std::abs(a.radius[0] * std::sqrt(a.kappa1[0] * a.kappa2[0]) - 1) <
+                             std::abs(a.radius[0] * 0.5 * (a.kappa1[0] + a.kappa2[0]) - 1);
+    Asperities shifted;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const Tensor H =
+            tensor_of({a.kappa1[i], a.kappa2[i], std::cos(a.angle[i]), std::sin(a.angle[i])});
+        const Vec2 at = indenter.from_tip(a.x[i], a.y[i]);
+        Vec2 d;
+        Tensor bent = H;
+        double flattened = 0;
+        if (std::isfinite(shape.height(at.x, at.y))) {
+            const Tensor C = shape.curvature(at.x, at.y);
+            const Tensor both{H.xx + C.xx, H.xy + C.xy, H.yy + C.yy};
+            if (both.xx > 0 && both.xx * both.yy - both.xy * both.xy > 0) {
+                double range = farthest;
+                if (!a.biharmonic.empty() && a.biharmonic[i] > 0)
+                    range =
+                        std::min(range, std::sqrt((a.kappa1[i] + a.kappa2[i]) / a.biharmonic[i]));
+                d = highest_within(both, shape.gradient(at.x, at.y), range);
+                bent = both;
+                flattened = shape.biharmonic(at.x, at.y);
+            }
+        }
+        const double z =
+            a.z[i] - 0.5 * (H.xx * d.x * d.x + 2 * H.xy * d.x * d.y + H.yy * d.y * d.y);
+        append_summit(a.x[i] + d.x, a.y[i] + d.y, z,
+                      {-0.5 * bent.xx, -0.5 * bent.yy, -0.5 * bent.xy},
+                      geometric ? Curvature::geometric : Curvature::algebraic, shifted);
+        if (!a.biharmonic.empty()) shifted.biharmonic.push_back(a.biharmonic[i] - flattened);
+    }
+    return shifted;
+}
+
+double steepest_contact(const Level& level, const Indenter& indenter) {
+    Vec2 steepest;
+    double square = 0;
+    for (std::size_t k = 0; k < level.x.size(); ++k) {
+        const Vec2 slope =
+            indenter.shape->gradient(level.x[k] - indenter.x0, level.y[k] - indenter.y0);
+        if (const double here = slope.x * slope.x + slope.y * slope.y; here > square)
+            square = here, steepest = slope;
+    }
+    return std::hypot(steepest.x, steepest.y);
+}
+
+}  // namespace rsc
