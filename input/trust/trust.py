@@ -56,7 +56,9 @@ RESOLVED = 0.02  # change of N with the grid of elements
 FITTED_SHARE = (
     0.94  # share of fitted levels within the bound, so that nine of ten of the others are
 )
-READ = ("anisotropic", "skewed", "stepped", "pitted", "measured")
+READ = ("anisotropic", "skewed", "ground", "stepped", "pitted", "measured")
+# from this number on ground surfaces: with a lay and skewed; fitted up to the second
+GROUND, GROUND_FITTED = 2200, 2250
 E_STAR = 1.0e5
 MAPS = []  # files of --maps
 
@@ -159,6 +161,10 @@ def draw(number):
         s["sigma"] = float(10 ** rng.uniform(-4, -2))
         s["hurst"] = max(s["hurst"], 0.4)
         s["R"] = 6 * s["sigma"] / (rng.uniform(0.05, 0.2) * rms_slope(s)) ** 2
+        if number >= GROUND:
+            kind = s["group"] = "ground"
+            s["shortest"] = min(s["shortest"], 16)
+            s["R"] *= 4
     elif number >= SMOOTH:
         kind = "smooth"
         s.update(
@@ -192,7 +198,7 @@ def draw(number):
     if rng.random() < 0.2 and kind != "rich":
         s["hardness"] = float(10 ** rng.uniform(-1, 0))
     s["aspect"], s["angle"] = 1.0, 0.0
-    if kind == "anisotropic":
+    if kind in ("anisotropic", "ground"):
         s["aspect"], s["angle"] = float(10 ** rng.uniform(0.2, 0.9)), float(
             rng.choice([0, math.pi / 2, rng.uniform(0, math.pi)])
         )
@@ -214,7 +220,7 @@ def height_map(s, fine):
         rng, n, s["longest"], s["shortest"], s["hurst"], s["aspect"], s["angle"], s["plateau"]
     )
     x = np.arange(n) / n
-    if s["group"] == "skewed":
+    if s["group"] in ("skewed", "ground"):
         tail = (0.25, -0.25, 0.5, -0.5)[s["seed"] % 4]  # log-normal of either sign
         z = (np.exp(tail * z) - 1) / tail
     if s["group"] == "stepped":
@@ -495,7 +501,7 @@ def usable(e, k):
 
 
 def rows(elements, asperities, law):
-    """One row for each level: surface, group, predictors, errors of N and A, True if asperities touch."""
+    """One row for each level: surface, group, predictors, errors of N and A relative to those of asperities, as they are printed."""
     found = []
     for number, e in sorted(elements.items()):
         if e.get("refused") or number not in asperities or law not in asperities[number]["laws"]:
@@ -509,8 +515,8 @@ def rows(elements, asperities, law):
                     "number": number,
                     "group": e["group"],
                     "x": a["x"][k],
-                    "N": a["N"][k] / e["N"][k] - 1,
-                    "A": a["A"][k] / e["A"][k] - 1,
+                    "N": e["N"][k] / a["N"][k] - 1 if a["N"][k] > 0 else math.inf,
+                    "A": e["A"][k] / a["A"][k] - 1 if a["A"][k] > 0 else math.inf,
                     "status": a["status"][k],
                     "resolution": abs(e["N_coarse"][k] / e["N"][k] - 1) / 2,
                 }
@@ -545,6 +551,7 @@ def fitted(r):
         or RICH <= number < RICH_FITTED
         or SMOOTH <= number < SMOOTH_FITTED
         or GENTLE <= number < GENTLE_FITTED
+        or GROUND <= number < GROUND_FITTED
     )
 
 

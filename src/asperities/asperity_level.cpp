@@ -25,7 +25,7 @@ std::optional<Asperities> summits_of_difference(const Asperities& asperities,
                                                 const Indenter& indenter,
                                                 const SolverOptions& options) {
     require_sound(indenter);
-    if (indenter.shape->flat() || !traits(options.law).between_points || !(options.rms_slope > 0))
+    if (indenter.shape->flat() || !traits(options.law).between_points || !(options.gentlest_slope > 0))
         return std::nullopt;
     return shifted_summits(asperities, indenter, 0.5 * options.mean_spacing);
 }
@@ -84,8 +84,8 @@ void complete_level(Level& level, const Law& law, const ContactBodies& bodies) {
     } else {
         level.overlapping_pairs = count_overlapping(level.x, level.y, level.a, indenter.period);
     }
-    if (options.rms_slope > 0)
-        level.slope_ratio = steepest_contact(level, indenter) / options.rms_slope;
+    if (options.gentlest_slope > 0)
+        level.slope_ratio = steepest_contact(level, indenter) / options.gentlest_slope;
 }
 
 }  // namespace rsc

@@ -119,8 +119,9 @@ struct SolverOptions {
     double mean_spacing = 0;  // <d> = 1/sqrt(D) of the summits [length]; 0: unknown
     double points_per_wave = 0;  // grid points in the shortest wave of the surface; 0: unknown
     double grid_step = 0;        // of the grid on which the summits were found [length]; 0: unknown
-    // rms slope sqrt(2 m2) of the surface, for comparison with slopes of the indenter; 0: unknown
-    double rms_slope = 0;
+    // MomentTensor::gentlest_slope() of the surface, for comparison with slopes of the indenter; 0:
+    // unknown, asperities of a list
+    double gentlest_slope = 0;
     Rectangle surface = {};  // the free surface, for counting contacts near its border
     // Heights of either body from a file or a caller, or not isotropic and Gaussian: their expected
     // errors are larger.

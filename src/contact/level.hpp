@@ -66,7 +66,7 @@ struct LevelValues {
     std::int32_t doubts = 0;  // bits of Cause (trust/doubts.hpp)
     // What the solver says: the tolerance is reached, and the solution is known to be the only one.
     bool converged = true, unique = true;
-    // asperities: largest slope of the indenter at a contact over the rms slope of the surface
+    // asperities: largest slope of the indenter at a contact over the gentlest slope of the surface
     double slope_ratio = kNotComputed;
     double filled_share = kNotComputed;  // share of the contact area in holes of a measured map
     // Set by add_answers (contact/answers.hpp):

@@ -63,7 +63,7 @@ constexpr LevelQuantity kQuantities[] = {
      .meaning = "expected error of the separation under a prescribed force, a length",
      .comment = "as force_error_expected: the error of N over the stiffness", .always = false},
     {.name = "slope_ratio", .member = &V::slope_ratio, .unit = "1",
-     .meaning = "largest slope of the indenter at a contact over the rms slope of the surface",
+     .meaning = "largest slope of the indenter at a contact over the rms slope of the surface, with a lay sqrt(2) times that along it",
      .comment = "above 0.2 the surface also touches beside its summits, and no error is stated", .always = false},
     {.name = "filled_share", .member = &V::filled_share, .unit = "1",
      .meaning = "share of the contact area in holes of the map (missing points, except near measured ones), as it is or, if larger, as Gaussian heights would have it there", .always = false},

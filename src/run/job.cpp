@@ -303,7 +303,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         }
         r.asperities = std::move(model.asperities);
         r.statistics = model.statistics;
-        solver.rms_slope = model.domain.rms_slope;
+        solver.gentlest_slope = model.domain.gentlest_slope;
         contact = make_asperity_contact(r.asperities, job.indenter, solver);
     }
     std::unique_ptr<Contact> slid[2];  // with friction

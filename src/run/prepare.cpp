@@ -289,7 +289,7 @@ SurfaceDomain synthetic_domain(const Spectrum& spectrum, int n) {
     SurfaceDomain domain{
         {0, 0, spectrum.L, spectrum.L}, spectrum.sigma, false, theory.mean_spacing()};
     domain.points_per_wave = n / spectrum.L_lambda_s, domain.step = spectrum.L / n;
-    domain.rms_slope = theory.rms_slope();
+    domain.gentlest_slope = theory.tensor.gentlest_slope();
     domain.repeats = true;
     domain.measured = spectrum.directional() || !spectrum.gaussian();
     return domain;
@@ -380,7 +380,7 @@ SurfaceModel make_bare_model(const Surface& surface) {
     s.m4 = s.m4_grid = grid.m4;
     s.tensor = grid.tensor;
     if (surface.sampled) set_sampled(*surface.sampled, s);
-    model.domain.rms_slope = std::sqrt(2 * s.m2);
+    model.domain.gentlest_slope = s.tensor.gentlest_slope();
     return model;
 }
 
@@ -400,7 +400,7 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
     s.m2_grid = differences.m2;
     s.m4_grid = differences.m4;
     count_summits(count, s);
-    model.domain.rms_slope = std::sqrt(2 * s.m2);
+    model.domain.gentlest_slope = s.tensor.gentlest_slope();
     return model;
 }
 

@@ -74,7 +74,7 @@ struct SurfaceDomain : Domain {
     // Half a grid step of a map: its points are cells that begin at 0, so the middle of the points
     // is half a step below that of the cells.
     double half_step_x = 0, half_step_y = 0;
-    double rms_slope = 0;  // 0: not known (a list)
+    double gentlest_slope = 0;  // MomentTensor::gentlest_slope(); 0: not known (a list)
     // periodic beyond its rectangle: synthetic surfaces, and heights declared periodic
     bool repeats = false;
     std::shared_ptr<const MapMarks> marks =

@@ -11,8 +11,7 @@ namespace {
 // height, and this one of the area.
 constexpr double kMuchError = 0.1;
 
-// Asperities: largest slope of the indenter at a contact over the rms slope of the surface. Above,
-// the bodies touch beside the summits.
+// Asperities: largest slope_ratio. Above, the bodies touch beside the summits.
 constexpr double kSteepest = 0.2;
 
 // A larger share of the contact area on filled points is a doubt.
@@ -42,7 +41,7 @@ bool calibrated(const Level& level, const Contact& contact, const SolverOptions&
         std::count_if(depths.begin(), depths.end(), [](double depth) { return depth > 0; });
     return options.interaction == Interaction::point && options.selection == Selection::overlap &&
            options.adhesion.work == 0 && options.relaxation.none() &&
-           known_shape(contact.indenter()) && options.mean_spacing > 0 && options.rms_slope > 0 &&
+           known_shape(contact.indenter()) && options.mean_spacing > 0 && options.gentlest_slope > 0 &&
            !(yields && (options.hardness.length > 0 || contact.indenter().layers.count > 0)) &&
            yielded <= level.plastic_contacts;  // otherwise some are unloaded
 }
@@ -121,7 +120,6 @@ std::vector<Doubt> Judge::of_asperities(Level& level, const Contact& contact) co
 }
 
 std::vector<Doubt> Judge::of_elements(Level& level, Contact& contact, bool by_force) {
-    const Indenter& indenter = contact.indenter();
     std::vector<Doubt> doubts;
     const bool attracts = level.cohesive_area > 0;
     if (level.contacts == 0 && !attracts) {
