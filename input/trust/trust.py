@@ -5,7 +5,7 @@
                                              called again, finished surfaces are kept)
     python3 input/trust/trust.py asperities  solves the same levels by the three laws (likewise)
     python3 input/trust/trust.py fit         fits the bounds to the first surfaces, prints how often the others are within them, by
-                                             group, and writes src/trust/expected_error_table.hpp
+                                             group, and writes src/trust/asperity_error_table.hpp
     python3 input/trust/trust.py slopes      N and A over those of elements by slope_ratio and law
 
 Options: --maps DIR  height maps measured by the reader or published, in any format that rsc reads: surfaces 600 and above, four for each map (with a
@@ -47,22 +47,18 @@ RICH, RICH_FITTED = (
     530,
 )  # surfaces from the first number on have broad spectra, loaded as in the paper; fitted up to the second
 PUBLIC = 600  # from this number on surfaces of --maps; they give the factor of files
+GENTLE, GENTLE_FITTED = (
+    2000,
+    2100,
+)  # from this number on surfaces under balls so large that slope_ratio stays near 0.2
 POINTS, CUTOFF = 256, 6  # of their square windows a side, and the filter's in points
 RESOLVED = 0.02  # change of N with the grid of elements
 FITTED_SHARE = (
     0.94  # share of fitted levels within the bound, so that nine of ten of the others are
 )
-REAL_SHARE = 0.9  # share of levels of measured maps within the bound times the factor of files
-ALONE = 0.15  # additional error of few large contacts on smooth summits: times q a/pi over their number (src/trust/expected_error.cpp)
-# Coefficients of the predictor `plastic`, found on random bodies that yield (test/README): those of the fit, 2.3 to 4.1, made bounds of a tenth of N
-# tens of times as large. Others are fitted.
-PLASTIC = {
-    ("hertz", "N"): 0.5,
-    ("elliptic", "N"): 0.7,
-    ("fourth_order", "N"): 0.6,
-    ("fourth_order", "A"): 0.6,
-}
-READ = ("anisotropic", "skewed", "stepped", "pitted", "measured")
+READ = ("anisotropic", "skewed", "ground", "stepped", "pitted", "measured")
+# from this number on ground surfaces: with a lay and skewed; fitted up to the second
+GROUND, GROUND_FITTED = 2200, 2250
 E_STAR = 1.0e5
 MAPS = []  # files of --maps
 
@@ -150,7 +146,7 @@ def draw(number):
         "R": float(10 ** rng.uniform(-1, 2)),
         "points": float(rng.choice([4, 5, 6, 8])),
     }
-    if number >= RICH:
+    if RICH <= number < GENTLE:
         kind = "rich"
         s.update(
             group="rich",
@@ -161,7 +157,15 @@ def draw(number):
             R=float(rng.uniform(1, 5)),
             points=float(rng.choice([4, 6])),
         )
-    if number >= SMOOTH:
+    if number >= GENTLE:
+        s["sigma"] = float(10 ** rng.uniform(-4, -2))
+        s["hurst"] = max(s["hurst"], 0.4)
+        s["R"] = 6 * s["sigma"] / (rng.uniform(0.05, 0.2) * rms_slope(s)) ** 2
+        if number >= GROUND:
+            kind = s["group"] = "ground"
+            s["shortest"] = min(s["shortest"], 16)
+            s["R"] *= 4
+    elif number >= SMOOTH:
         kind = "smooth"
         s.update(
             group="smooth",
@@ -194,7 +198,7 @@ def draw(number):
     if rng.random() < 0.2 and kind != "rich":
         s["hardness"] = float(10 ** rng.uniform(-1, 0))
     s["aspect"], s["angle"] = 1.0, 0.0
-    if kind == "anisotropic":
+    if kind in ("anisotropic", "ground"):
         s["aspect"], s["angle"] = float(10 ** rng.uniform(0.2, 0.9)), float(
             rng.choice([0, math.pi / 2, rng.uniform(0, math.pi)])
         )
@@ -216,7 +220,7 @@ def height_map(s, fine):
         rng, n, s["longest"], s["shortest"], s["hurst"], s["aspect"], s["angle"], s["plateau"]
     )
     x = np.arange(n) / n
-    if s["group"] == "skewed":
+    if s["group"] in ("skewed", "ground"):
         tail = (0.25, -0.25, 0.5, -0.5)[s["seed"] % 4]  # log-normal of either sign
         z = (np.exp(tail * z) - 1) / tail
     if s["group"] == "stepped":
@@ -292,7 +296,7 @@ def rms_slope(s):
 
 
 def prepared(number, rsc, folder):
-    s = public(number, rsc, folder) if number >= PUBLIC else draw(number)
+    s = public(number, rsc, folder) if PUBLIC <= number < GENTLE else draw(number)
     if "hardness" in s:
         s["hardness_value"] = s["hardness"] * E_STAR * rms_slope(s)
     return s
@@ -362,7 +366,7 @@ PREDICTORS = (
 
 
 def predictors(s, r, level):
-    """The predictors of a bound, all known after a solution by asperities (src/trust/expected_error.cpp)."""
+    """What an error may depend on, all known after a solution by asperities (src/trust/asperity_error.cpp)."""
     start, count = int(np.ravel(r["contact_start"])[level]) - 1, int(
         np.ravel(r["contact_count"])[level]
     )
@@ -408,6 +412,12 @@ def predictors(s, r, level):
     }
 
 
+def elongation_of(r):
+    """Mean of ln(kappa1/kappa2) over all summits of the surface."""
+    ratio = np.ravel(r["asperity_kappa1"]) / np.ravel(r["asperity_kappa2"])
+    return float(np.mean(np.log(np.clip(ratio, 1, 1e3))))
+
+
 def spacing_of(s, r):
     if "density_theory" in r and made_by_rsc(s):
         return 1 / math.sqrt(float(r["density_theory"]))
@@ -442,6 +452,8 @@ def solve_asperities(rsc, number, folder):
             "A": take("contact_area"),
             "status": take("status"),
             "edge": take("edge_contacts"),
+            "beyond": take("beyond_law"),
+            "elongated": elongation_of(r),
             "told": take("force_error_expected") if "force_error_expected" in r else None,
             "x": [predictors(s, r, k) for k in range(len(s["levels"]))],
         }
@@ -489,7 +501,7 @@ def usable(e, k):
 
 
 def rows(elements, asperities, law):
-    """One row for each level: surface, group, predictors, errors of N and A, True if asperities touch."""
+    """One row for each level: surface, group, predictors, errors of N and A relative to those of asperities, as they are printed."""
     found = []
     for number, e in sorted(elements.items()):
         if e.get("refused") or number not in asperities or law not in asperities[number]["laws"]:
@@ -503,8 +515,8 @@ def rows(elements, asperities, law):
                     "number": number,
                     "group": e["group"],
                     "x": a["x"][k],
-                    "N": a["N"][k] / e["N"][k] - 1,
-                    "A": a["A"][k] / e["A"][k] - 1,
+                    "N": e["N"][k] / a["N"][k] - 1 if a["N"][k] > 0 else math.inf,
+                    "A": e["A"][k] / a["A"][k] - 1 if a["A"][k] > 0 else math.inf,
                     "status": a["status"][k],
                     "resolution": abs(e["N_coarse"][k] / e["N"][k] - 1) / 2,
                 }
@@ -512,114 +524,134 @@ def rows(elements, asperities, law):
     return found
 
 
-LEAST, MOST = 0.003, 1000.0
+STEEPEST = 0.2  # largest slope_ratio of levels that have a bound
+COARSEST = 1.5  # of the predictor `coarse`: fewer points in the shortest wave have no bound
+BINS = 3  # of the mean contact radius over the mean spacing of summits, with equally many levels
+LARGEST_SHARE = 0.975  # larger radii than those of this share of the levels have no bound
 
 
-def quantile_fit(X, y, share, plastic=None):
-    """Coefficients b for which X b is the share-quantile of y (Koenker and Bassett 1978), by linear programming; nonnegative for
-    predictors that can only increase the error, and that of `plastic` as given."""
-    from scipy.optimize import linprog
-
-    n, p = X.shape
-    c = np.concatenate([np.zeros(p), share * np.ones(n), (1 - share) * np.ones(n)])
-    A = np.hstack([X, np.eye(n), -np.eye(n)])
-    signed = {"crowding"}
-    bounds = (
-        [(None, None)]
-        + [(None, None) if name in signed else (0, None) for name in PREDICTORS]
-        + [(0, None)] * (2 * n)
+def in_range(r):
+    """True if the asperity model holds at a level, and a bound is stated."""
+    x = r["x"]
+    return (
+        x is not None
+        and 0.2 * math.sqrt(math.expm1(x["slope"])) <= STEEPEST
+        and x["coarse"] < COARSEST
     )
-    if plastic is not None:
-        bounds[1 + PREDICTORS.index("plastic")] = (plastic, plastic)
-    return linprog(c, A_eq=A, b_eq=y, bounds=bounds, method="highs").x[:p]
 
 
-def matrix(found):
-    return np.array([[1.0] + [r["x"][name] for name in PREDICTORS] for r in found])
+def radius(r):
+    return math.exp(r["x"]["crowding"])
+
+
+def fitted(r):
+    number = r["number"]
+    return (
+        number < CALIBRATED
+        or RICH <= number < RICH_FITTED
+        or SMOOTH <= number < SMOOTH_FITTED
+        or GENTLE <= number < GENTLE_FITTED
+        or GROUND <= number < GROUND_FITTED
+    )
+
+
+class Table:
+    """Bounds of the errors of N and A of a law: quantiles of the fitted levels by contact radius, on isotropic Gaussian surfaces without
+    yielding, and one factor each for other heights and for yielding contacts."""
+
+    def __init__(self, levels, edges):
+        self.edges = edges
+        self.errors, self.of_files, self.of_yielding = {}, {}, {}
+        file = lambda r: r["group"] in READ
+        yields = lambda r: r["x"]["plastic"] > 0
+        for what in ("N", "A"):
+            plain = [r for r in levels if not file(r) and not yields(r)]
+            self.errors[what] = [
+                float(np.quantile([abs(r[what]) for r in plain if self.bin(r) == k], FITTED_SHARE))
+                for k in range(BINS)
+            ]
+            ratio = lambda some: max(
+                1.0,
+                float(
+                    np.quantile(
+                        [abs(r[what]) / self.errors[what][self.bin(r)] for r in some], FITTED_SHARE
+                    )
+                ),
+            )
+            self.of_files[what] = ratio([r for r in levels if file(r) and not yields(r)])
+            self.of_yielding[what] = ratio([r for r in levels if yields(r) and not file(r)])
+
+    def bin(self, r):
+        return min(int(np.searchsorted(self.edges, radius(r))), BINS - 1)
+
+    def bound(self, r, what):
+        return (
+            self.errors[what][self.bin(r)]
+            * (self.of_files[what] if r["group"] in READ else 1.0)
+            * (self.of_yielding[what] if r["x"]["plastic"] > 0 else 1.0)
+        )
+
+
+def braces(values):
+    return "{" + ", ".join(f"{v:.3g}" if not isinstance(v, str) else v for v in values) + "}"
 
 
 def fit(out, header):
     elements, asperities = read(out, "elements"), read(out, "asperities")
-    table, factor, report = {}, {}, []
+    tables, report = {}, []
+    levels = {law: rows(elements, asperities, law) for law in LAWS}
+    ranged = {law: [r for r in levels[law] if in_range(r)] for law in LAWS}
+    radii = [radius(r) for law in LAWS for r in ranged[law] if fitted(r)]
+    largest = float(f"{np.quantile(radii, LARGEST_SHARE):.3g}")
+    inside = sorted(v for v in radii if v <= largest)
+    edges = [float(f"{np.quantile(inside, (k + 1) / BINS):.3g}") for k in range(BINS - 1)]
+    edges.append(largest)
     for law in LAWS:
-        every = rows(elements, asperities, law)
-        touching = [r for r in every if r["x"] is not None]
-        calibrated = (
-            lambda r: r["number"] < CALIBRATED
-            or RICH <= r["number"] < RICH_FITTED
-            or SMOOTH <= r["number"] < SMOOTH_FITTED
-        )
-        fitted = [r for r in touching if calibrated(r)]
-        held = [r for r in touching if not calibrated(r)]
+        own = [r for r in ranged[law] if radius(r) <= largest]
+        table = tables[law] = Table([r for r in own if fitted(r)], edges)
+        held = [r for r in own if not fitted(r)]
         for what in ("N", "A"):
-            y = np.log(np.clip([abs(r[what]) for r in fitted], LEAST, MOST))
-            b = quantile_fit(matrix(fitted), y, FITTED_SHARE, PLASTIC.get((law, what)))
-            table[law, what] = b
-            bare = lambda some: np.clip(np.exp(matrix(some) @ b), LEAST, MOST)
-            alone = lambda some: np.array(
-                [ALONE * math.sqrt(r["x"]["pressed"]) * r["x"]["few"] ** 2 for r in some]
-            )
-            real = [
-                r for r in touching if r["group"] == "measured"
-            ]  # maps of instruments are further off than heights made for this study
-            factor[law, what] = (
-                max(
-                    1.0,
-                    float(np.quantile(np.abs([r[what] for r in real]) / bare(real), REAL_SHARE)),
-                )
-                if real
-                else 1.0
-            )
-            bound = lambda some: bare(some) * np.where(
-                [r["group"] in READ for r in some], factor[law, what], 1.0
-            ) + alone(some)
-            line = f"{law:13s} {what}: {len(fitted)} levels fitted, {np.mean(np.abs([r[what] for r in fitted]) <= bound(fitted)):.3f} within"
-            if held:
-                ok = np.abs([r[what] for r in held]) <= bound(held)
-                line += f"; held out {len(held)}: {ok.mean():.3f} within; median bound {np.median(bound(held)):.3f}"
-                for group in sorted({r["group"] for r in held}):
-                    mine = np.array([r["group"] == group for r in held])
-                    line += f"; {group} {ok[mine].mean():.2f} of {mine.sum()}"
-                sure = bound(held) <= 0.1
-                wrong = np.abs([r[what] for r in held]) > 0.1
-                line += f"; bound below 10 %: {sure.sum()}, of these beyond 10 %: {(wrong & sure).sum()}"
+            ok = lambda some: np.array([abs(r[what]) <= table.bound(r, what) for r in some])
+            first = [r for r in own if fitted(r)]
+            line = f"{law:13s} {what}: {len(first)} levels fitted, {ok(first).mean():.3f} within; held out {len(held)}: {ok(held).mean():.3f} within; "
+            line += f"median bound {np.median([table.bound(r, what) for r in held]):.3f}"
+            for group in sorted({r["group"] for r in held}):
+                mine = [r for r in held if r["group"] == group]
+                line += f"; {group} {ok(mine).mean():.2f} of {len(mine)}"
+            sure = [r for r in held if table.bound(r, what) <= 0.1]
+            line += f"; bound below 10 %: {len(sure)}, of these beyond 10 %: {sum(abs(r[what]) > 0.1 for r in sure)}"
             report.append(line)
-        missed = [r for r in every if r["x"] is None]
         report.append(
-            f"{law:13s} nothing touches where elements carry load: {len(missed)} of {len(every)} levels"
+            f"{law:13s} levels in range: {len(own)} of {len(levels[law])}; nothing touches where elements carry load: "
+            f"{sum(r['x'] is None for r in levels[law])}"
         )
     print("\n".join(report))
     (out / "report.txt").write_text("\n".join(report) + "\n")
+    of_laws = lambda of: braces(
+        [braces([of(tables[law], what) for what in ("N", "A")]) for law in LAWS]
+    )
     lines = [
         "// Written by input/trust/trust.py from its study of asperities against elements; do not edit.",
         "#pragma once",
         "",
         "namespace rsc {",
         "",
-        f"// ln of the bound = sum of coefficient times predictor, the first one 1: {', '.join(PREDICTORS)}.",
-        f"inline constexpr int kErrorPredictors = {len(PREDICTORS)};",
-        f"inline constexpr double kLeastError = {LEAST}, kMostError = {MOST};",
-        "inline constexpr double kErrorTable[3][2][kErrorPredictors + 1] = {",
-        "    // hertz, elliptic, fourth_order; N, A",
+        "// Fewest points in the shortest wave.",
+        f"inline constexpr double kFewestPointsPerWave = {4 / COARSEST:.4g};",
+        "// Upper ends of the bins of the mean contact radius over the mean spacing of summits.",
+        f"inline constexpr double kRadii[] = {braces(edges)};",
+        "// Relative errors by law (hertz, elliptic, fourth_order), of N and A, by bin.",
+        f"inline constexpr double kErrors[3][2][{BINS}] =",
+        f"    {of_laws(lambda table, what: braces(table.errors[what]))};",
+        "// Factors of heights from a file or not isotropic and Gaussian, and of yielding contacts.",
+        "inline constexpr double kOfFiles[3][2] =",
+        f"    {of_laws(lambda table, what: table.of_files[what])};",
+        "inline constexpr double kOfYielding[3][2] =",
+        f"    {of_laws(lambda table, what: table.of_yielding[what])};",
+        "",
+        "}  // namespace rsc",
+        "",
     ]
-    for law in LAWS:
-        lines.append(
-            "    {"
-            + ", ".join(
-                "{" + ", ".join(f"{v:.4g}" for v in table[law, what]) + "}" for what in ("N", "A")
-            )
-            + "},"
-        )
-    lines += [
-        "};",
-        "// Factor of the bound for heights read from a file: N, A.",
-        "inline constexpr double kErrorOfFiles[3][2] = {",
-    ]
-    lines += [
-        "    {" + ", ".join(f"{factor[law, what]:.3g}" for what in ("N", "A")) + "},"
-        for law in LAWS
-    ]
-    lines += ["};", "", "}  // namespace rsc", ""]
     pathlib.Path(header).write_text("\n".join(lines))
 
 
@@ -664,7 +696,7 @@ def main():
     p.add_argument("--out", type=pathlib.Path, default=here / "output" / "trust")
     p.add_argument("--surfaces", type=int, default=500)
     p.add_argument("--first", type=int, default=0)
-    p.add_argument("--table", default=here / "src" / "contact" / "expected_error_table.hpp")
+    p.add_argument("--table", default=here / "src" / "trust" / "asperity_error_table.hpp")
     p.add_argument("--maps", type=pathlib.Path)
     o = p.parse_args()
     if o.maps:

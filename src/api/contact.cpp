@@ -61,10 +61,11 @@ const Level& level_of(const rsc_contact* contact) {
 // Computes a level. After an exception the contact has no result; a level that did not converge is
 // kept with that status.
 template <class Compute>
-void compute(rsc_contact& contact, Compute&& level) {
+void compute(rsc_contact& contact, bool by_force, Compute&& level) {
     auto& known = contact.known;
     known.level.reset();
     Level computed = level();
+    contact.judge.judge(computed, contact.contact, by_force);
     const Indenter& indenter = contact.contact.indenter();
     known.x0 = indenter.x0, known.y0 = indenter.y0;
     known.energy = contact.contact.energy();
@@ -81,7 +82,7 @@ void put_finite(double* to, double value) {
 }
 
 void tell_convergence(const rsc_contact& contact) {
-    if (contact.known.level->status == LevelStatus::not_converged) {
+    if (!contact.known.level->converged) {
         if (contact.known.level->fallback == rsc::Fallback::held)
             throw Outcome{RSC_NOT_CONVERGED,
                           "no state has this force: the result is the level of smallest force"};
@@ -285,7 +286,9 @@ int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* forc
             known.level && known.level->separation == separation && known.x0 == tip.x0 &&
             known.y0 == tip.y0 && !contact->contact.pulls() &&
             (!contact->contact.relaxes() || known.level->time == contact->contact.time());
-        if (!same) compute(*contact, [&] { return contact->contact.at_separation(separation); });
+        if (!same) 
+            compute(*contact, false,
+                    [&] { return contact->contact.at_separation(separation); });
         put(force, contact->known.level->force);
         tell_convergence(*contact);
     });
@@ -306,7 +309,7 @@ int32_t rsc_contact_press(rsc_contact* contact, double force, double* separation
         const double touch = contact->contact.first_touch();
         if (!std::isfinite(touch))
             refuse(1, "contact", "has no asperity under its sphere, so its force is always 0");
-        compute(*contact, [&] {
+        compute(*contact, force > 0 || pulls, [&] {
             return force > 0 || pulls ? contact->contact.at_force(force)
                                       : contact->contact.at_separation(touch);
         });

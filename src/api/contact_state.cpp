@@ -62,6 +62,7 @@ rsc_contact::rsc_contact(std::shared_ptr<const rsc::SurfaceModel> on_,
       options(rsc::solver_of(*keys, domain_of(*keys, *on))),
       model(rsc::make_contact(*on, indenter, options)),
       contact(*model),
+      judge(options, rsc::JudgedSurface{on->points.get()}),
       committed(state()) {}
 
 rsc_contact::rsc_contact(const rsc_contact& like)

@@ -7,6 +7,7 @@
 #include "physics/friction/friction.hpp"
 #include "rsc.h"
 #include "run/prepare.hpp"
+#include "trust/judge.hpp"
 
 namespace rsc::api {
 
@@ -54,6 +55,7 @@ struct rsc_contact {
     rsc::SolverOptions options;
     std::unique_ptr<rsc::Contact> model;
     rsc::Contact& contact;
+    rsc::Judge judge;  // elements have no second grid here
     // The last level and its derived results.
     struct Known {
         std::optional<rsc::Level> level;

@@ -102,7 +102,7 @@ Level AsperityContact::Impl::report(double Z0) const {
         if (f > kExtreme * indenter.E_star * area) extreme += area;
     }
     if (level.area > 0) level.extreme_area_fraction = extreme / level.area;
-    judge_asperities(level, *law, *this);
+    complete_level(level, *law, *this);
     return level;
 }
 
@@ -126,8 +126,8 @@ Level AsperityContact::Impl::level(double Z0, const NewtonOutcome& outcome, bool
     level.method = method;
     if (options.method == Method::mesh && method != Method::mesh)
         level.fallback = Fallback::no_interaction;
-    if (!unique) level.status = graver(level.status, LevelStatus::not_unique);
-    if (!outcome.converged) level.status = LevelStatus::not_converged;
+    level.unique = unique;
+    level.converged = outcome.converged;
     return level;
 }
 

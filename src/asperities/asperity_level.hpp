@@ -14,29 +14,12 @@ namespace rsc {
 Method choose_method(const SolverOptions& options, const Kernel& kernel,
                      const WorkingSet& candidates);
 
-// Z0 below which the flank of a summit of the surface touches the indenter, stored for the last
-// position of the tip.
-struct FlankTouch {
-    double x0 = std::numeric_limits<double>::quiet_NaN(), y0 = 0, Z0 = 0;
-};
-
-// Points of the surface under the edge of the indenter, stored for the last position of the tip.
-struct EdgePoints {
-    double x0 = std::numeric_limits<double>::quiet_NaN(), y0 = 0;
-    std::vector<std::array<double, 3>> points;  // x, y and the Z0 at which the point touches
-};
-
 // The bodies of a contact of asperities. The asperities are those given, or for laws with summits
 // between the points of a surface the summits of the difference from a curved indenter.
 struct ContactBodies {
     const Asperities& of_surface;
     SolverOptions options;
-    double blunt;  // mean radius of its summits
     std::optional<Asperities> of_difference;
-    mutable FlankTouch flanks;
-    mutable EdgePoints edge;
-    mutable std::shared_ptr<const MapMarks>
-        rim;                       // border of a synthetic surface, once the indenter is near it
     const Asperities& asperities;  // refers to one of the two above
     Indenter indenter;
     std::shared_ptr<const Kernel> kernel;
@@ -47,7 +30,7 @@ struct ContactBodies {
 };
 
 // Completes a level that has contacts, force and the sum of areas: area of the union of elliptic
-// spots, overlaps, validity of the model, expected errors and status.
-void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies);
+// spots, overlaps and slope_ratio.
+void complete_level(Level& level, const Law& law, const ContactBodies& bodies);
 
 }  // namespace rsc

@@ -72,7 +72,7 @@ void AsperityContact::recall(const std::vector<double>& memory, const Level* lev
     my.solution.clear();
     if (start.empty()) return;
     my.solve_from(start, false);
-    my.solved = {Z0, level->status != LevelStatus::not_unique};
+    my.solved = {Z0, level->unique};
     my.earlier.remember(Z0, my.candidates, my.solution.v, my.solved.unique);
 }
 

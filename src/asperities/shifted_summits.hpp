@@ -6,11 +6,6 @@
 
 namespace rsc {
 
-// Largest ratio of the slope of the indenter's face to the rms slope of the surface at which the
-// shift of summits describes where bodies touch; beyond, summits of the difference appear and
-// vanish.
-inline constexpr double kMostSlopeRatio = 0.2;
-
 // Summits of the difference between a surface and the face of an indenter, to second order. Where
 // the face has the gradient g and the curvatures C above a summit of curvatures H, the summit of
 // the difference has the curvatures H' = H + C and lies at d = -H'^-1 g from that of the surface:

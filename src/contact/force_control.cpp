@@ -69,7 +69,7 @@ Level search(double begin, double below, double above, int most, Look&& look, Se
                 continue;
             }
             stuck = i + 1 < most;
-            if (!stuck) level.status = LevelStatus::not_converged;
+            if (!stuck) level.converged = false;
             break;
         }
         z = next;
@@ -112,13 +112,13 @@ Level Contact::in_steps(double from, double to, Level (Contact::*reach)(double))
             level = (this->*reach)(k < steps ? from + k / steps * (to - from) : to);
             level.iterations = iterations += level.iterations,
             level.products = products += level.products;
-            if (level.status == LevelStatus::not_converged) break;
+            if (!level.converged) break;
         }
     } catch (...) {
         take_back();
         throw;
     }
-    if (level.status == LevelStatus::not_converged) take_back(), level.time = end;
+    if (!level.converged) take_back(), level.time = end;
     return level;
 }
 
@@ -131,7 +131,7 @@ Level Contact::to_separation(double Z0) {
 }
 
 void Contact::finish(Level& level) {
-    const bool converged = level.status != LevelStatus::not_converged;
+    const bool converged = level.converged;
     if (converged || level.fallback == Fallback::held) {
         accept(level);
         accepted_ = time_;
@@ -146,12 +146,10 @@ void Contact::finish(Level& level) {
             std::isfinite(level.residual) ? level.residual : std::numeric_limits<double>::max();
         nothing.candidates = level.candidates, nothing.iterations = level.iterations,
         nothing.products = level.products;
-        nothing.status = level.status, nothing.method = level.method,
+        nothing.converged = level.converged, nothing.method = level.method,
         nothing.fallback = level.fallback;
         level = std::move(nothing);
     }
-    if (!converged && level.fallback != Fallback::held)
-        level.force_error_expected = level.area_error_expected = kNotComputed;
     if (relaxes()) level.time = time_;
     last_force_ = converged ? level.force : 0.0;
     if (const Period& period = indenter().period; period.finite()) {
@@ -208,7 +206,7 @@ Level Contact::solve_between_planes(double Z0) {
         const double rounding =
             4 * std::numeric_limits<double>::epsilon() * (std::abs(Z0) + std::abs(z));
         const bool found =
-            level.status == LevelStatus::not_converged || std::abs(miss) <= rounding ||
+            !level.converged || std::abs(miss) <= rounding ||
             (steep > 0 && std::abs(miss * rise) <= 0.1 * tolerance() * level.force * steep);
         return Verdict{found, miss > 0, steep > 0 ? z - miss / steep : -kInfinity};
     };
@@ -221,10 +219,10 @@ Level Contact::solve_between_planes(double Z0) {
         begin, -kInfinity, Z0, most,
         [&](double z, bool passing) { return passing ? pass(z) : solve(z); },
         [&](const Level& passed) { return settle(passed); }, judge, reach, stuck);
-    if (stuck) level.status = LevelStatus::not_converged;
+    if (stuck) level.converged = false;
     // Without a solution the search goes on to forces without bounds: a level far from Z0 is no
     // state of it.
-    if (level.status == LevelStatus::not_converged)
+    if (!level.converged)
         level.residual = std::max(level.residual, std::abs(miss) / (first_touch() - Z0));
     level.separation = Z0;
     return level;
@@ -270,7 +268,7 @@ Level Contact::to_force(double N) {
     const auto judge = [&](const Level& level, double z) {
         const double miss = level.force / N - 1;
         const bool found =
-            std::abs(miss) <= tolerance() || level.status == LevelStatus::not_converged;
+            std::abs(miss) <= tolerance() || !level.converged;
         if (found) return Verdict{true, false, z};
         if (!(level.force > 0)) return Verdict{false, true, -kInfinity};
         rise_ = slope() / level.force;
@@ -294,7 +292,7 @@ Level Contact::to_force(double N) {
         const double ulp = std::nextafter(std::abs(Z0), kInfinity) - std::abs(Z0);
         const double resolved = 2 * ulp * std::abs(slope()) + force_at_most(2 * ulp);
         if (std::abs(level.force - N) > resolved)
-            level.status = LevelStatus::not_converged, level.fallback = Fallback::jump;
+            level.converged = false, level.fallback = Fallback::jump;
         else if (std::abs(level.force / N - 1) > kUnresolved)  // N is proportional to depth^(3/2)
             throw Error(Failure::bad_input,
                         format("a force of %.9g is too small for the resolution of the separation: "

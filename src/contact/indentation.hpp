@@ -89,10 +89,6 @@ struct MapMarks {
     double reach = 0;  // a grid step [length]
 };
 
-// Heights of a surface at points of the plane, -Infinity outside; empty if only its summits are
-// known.
-using SurfaceHeights = std::function<std::vector<double>(const std::vector<Vec2>&)>;
-
 struct SolverOptions {
     Method method = Method::automatic;
     LawKind law = LawKind::hertz;
@@ -106,20 +102,18 @@ struct SolverOptions {
     double tolerance = 1e-6;  // relative residual of F - C<G0 - B F>^(3/2)
     int max_iterations = 100;
     double delta0 = 0.01;  // initial regularisation of the paper's method, in units of sigma
-    // the paper's method divides delta by this each iteration (the paper: 2 to 10) <d> = 1/sqrt(D),
-    // for counting contacts with a > <d>/4 or near the border; 0: not counted
-    double delta_cut = 5.0;
-    double mean_spacing = 0;
+    double delta_cut = 5.0;  // the paper's method divides delta by this (the paper: 2 to 10)
+    double mean_spacing = 0;  // <d> = 1/sqrt(D) of the summits [length]; 0: unknown
     double points_per_wave = 0;  // grid points in the shortest wave of the surface; 0: unknown
     double grid_step = 0;        // of the grid on which the summits were found [length]; 0: unknown
-    // rms slope sqrt(2 m2) of the surface, for comparison with slopes of the indenter; 0: unknown
-    double rms_slope = 0;
-    // the free surface, for counting contacts near its border; not counted if unknown heights of
-    // either body from a file or a caller, for which expected errors are larger
-    Rectangle surface = {};
+    // MomentTensor::gentlest_slope() of the surface, for comparison with slopes of the indenter; 0:
+    // unknown, asperities of a list
+    double gentlest_slope = 0;
+    Rectangle surface = {};  // the free surface, for counting contacts near its border
+    // Heights of either body from a file or a caller, or not isotropic and Gaussian: their expected
+    // errors are larger.
     bool measured = false;
     std::shared_ptr<const MapMarks> marks = nullptr;  // marks of a measured map, or null
-    SurfaceHeights heights = {};  // of the surface between its summits, for indenters with an edge
 };
 
 }  // namespace rsc

@@ -7,9 +7,9 @@
 
 namespace rsc {
 
-// Outcome of a level, with the values of `status` in the result file. If several apply, the most
-// serious is stored, in the order converged, overlapping, not_unique, out_of_validity,
-// not_converged.
+// Outcome of a level, with the values of `status` in the result file (trust/judge.hpp). If several
+// apply, the most serious is stored, in the order converged, overlapping, not_unique,
+// out_of_validity, not_converged.
 enum class LevelStatus : std::int32_t {
     converged = 0,
     out_of_validity = 1,
@@ -19,11 +19,6 @@ enum class LevelStatus : std::int32_t {
 };
 inline constexpr std::array kLevelStatusNames = {"converged", "out_of_validity", "overlapping",
                                                  "not_unique", "not_converged"};
-constexpr LevelStatus graver(LevelStatus a, LevelStatus b) {
-    constexpr int seriousness[] = {0, 3, 1, 2, 4};
-    return seriousness[static_cast<std::size_t>(a)] < seriousness[static_cast<std::size_t>(b)] ? b
-                                                                                               : a;
-}
 
 // Reason why a level was solved by another method than requested, with the values of `fallback` in
 // the result file.
@@ -62,14 +57,16 @@ struct LevelValues {
     double pressure = kNotComputed;       // two flats: nominal pressure N/A0 [force/length^2]
     double area_fraction = kNotComputed;  // two flats: A/A0
     double residual = 0;  // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
-    // boundary elements: median pixels per contact, weighted by area Expected relative errors of N
-    // and A: of asperities relative to boundary elements (expected_error.hpp), of these relative to
-    // finer grids.
+    // boundary elements: median pixels per contact, weighted by area
     double pixels_per_contact = kNotComputed;
+    // Expected relative errors of N and A, and under a prescribed force the error of Z0 [length]
+    // (trust/judge.hpp).
     double force_error_expected = kNotComputed, area_error_expected = kNotComputed;
-    // asperities: predictor that increases it most (expected_error.hpp); 0: none asperities:
-    // largest slope of the indenter at a contact over the rms slope of the surface
-    std::int32_t error_cause = 0;
+    double separation_error_expected = kNotComputed;
+    std::int32_t doubts = 0;  // bits of Cause (trust/doubts.hpp)
+    // What the solver says: the tolerance is reached, and the solution is known to be the only one.
+    bool converged = true, unique = true;
+    // asperities: largest slope of the indenter at a contact over the gentlest slope of the surface
     double slope_ratio = kNotComputed;
     double filled_share = kNotComputed;  // share of the contact area in holes of a measured map
     // Set by add_answers (contact/answers.hpp):

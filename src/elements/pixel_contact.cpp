@@ -2,8 +2,6 @@
 
 #include "base/error.hpp"
 #include "elements/pixel_spots.hpp"
-#include "surface/stencil.hpp"
-#include "trust/validity.hpp"
 
 namespace rsc {
 
@@ -127,53 +125,6 @@ void PixelContact::accept(Level& level) {
     }
 }
 
-// Highest point under the indenter of polynomials through the heights beside each highest one:
-// where the bodies touch first if that is between points.
-double PixelContact::top_between_points() {
-    if (between_) return *between_;
-    constexpr int kReach = 3, kSide = 2 * kReach + 1,
-                  kPlaces = 5;  // places a quarter of a step apart, up to half a step
-    // Waves of four points, and the places between, rise by up to 1.3 times as much (test/README).
-    constexpr double kMissed = 1.3;
-    static const Stencil stencil = Stencil::polynomial(kReach);
-    double weights[kPlaces][1][Stencil::kTaps];
-    const auto part = [](std::size_t k) { return 0.25 * (static_cast<double>(k) - kPlaces / 2); };
-    for (std::size_t k = 0; k < kPlaces; ++k) stencil.weights(part(k), 1, weights[k]);
-    const bool repeats = indenter_.period.finite();
-    const auto z = [&](int i, int j) {
-        return height(column(continued(i, frame.nx, repeats)),
-                      row(continued(j, frame.ny, repeats)));
-    };
-    const auto clear = [&](int i, int j) { return indenter_.clearance(x(i), y(j), z(i, j)); };
-    between_ = top_;
-    std::vector<double> line(static_cast<std::size_t>(frame.nx) + 2);
-    for (int j = 0; j < frame.ny; ++j) {
-        for (int i = -1; i <= frame.nx; ++i) line[static_cast<std::size_t>(i + 1)] = clear(i, j);
-        for (int i = 0; i < frame.nx; ++i) {
-            const double* const here = &line[static_cast<std::size_t>(i + 1)];
-            if (*here == -kInfinity) continue;  // beside the indenter
-            if (!(*here >= std::max(here[-1], here[1])) ||
-                !(*here >= std::max(clear(i, j - 1), clear(i, j + 1))))
-                continue;
-            double along[kPlaces][kSide] = {};  // heights at the places in x
-            for (int b = 0; b < kSide; ++b)
-                for (int a = 0; a < kSide; ++a) {
-                    const double height = z(i + a - kReach, j + b - kReach);
-                    for (std::size_t k = 0; k < kPlaces; ++k)
-                        along[k][b] += weights[k][0][a] * height;
-                }
-            for (std::size_t k = 0; k < kPlaces; ++k)
-                for (std::size_t l = 0; l < kPlaces; ++l) {
-                    const double top = indenter_.clearance(
-                        x(i) + part(k) * frame.dx, y(j) + part(l) * frame.dy,
-                        std::inner_product(along[k], along[k] + kSide, weights[l][0], 0.0));
-                    between_ = std::max(*between_, *here + kMissed * (top - *here));
-                }
-        }
-    }
-    return *between_;
-}
-
 Level PixelContact::report(double Z0, const ElementsOutcome& outcome, std::size_t candidates,
                            const std::vector<Pixel>& touching, std::vector<double> pressure) {
     Level level;
@@ -183,23 +134,10 @@ Level PixelContact::report(double Z0, const ElementsOutcome& outcome, std::size_
     level.products = outcome.products;
     level.residual = outcome.residual;
     level.method = Method::automatic;
-    if (!outcome.converged) level.status = LevelStatus::not_converged;
+    level.converged = outcome.converged;
     for (double& p : pressure) p /= scale();
     add_pixels(level, frame, indenter_, options_.hardness.H0, touching, std::move(pressure));
     number_by_map(level);
-    if (indenter_.period.finite())
-        level.nominal_area = heights_.Lx() * heights_.Ly();
-    else
-        judge_edges(level, indenter_, options_);
-    // Farther from the surface than its rms height and that of the indenter's face within a pixel
-    // nothing touches between points either.
-    const bool recovers = loads_ && !loads_->places().empty();  // the surface is lower than the map
-    if (touching.empty() && !recovers &&
-        Z0 - top_ < options_.sigma + indenter_.shape->height(0.5 * frame.dx, 0.5 * frame.dy) &&
-        Z0 < top_between_points()) {
-        level.status = graver(level.status, LevelStatus::out_of_validity);
-        level.force_error_expected = level.area_error_expected = 1;
-    }
     return level;
 }
 

@@ -50,7 +50,7 @@ protected:
     }
     std::vector<Pixel> loaded_pixels() const;
     // The tip, the residual or the load memory has changed, and with them the highest point.
-    void set_top(double top) { top_ = top, between_.reset(); }
+    void set_top(double top) { top_ = top; }
     // Level with these pixels under pressures scale() times the true ones.
     Level report(double Z0, const ElementsOutcome& outcome, std::size_t candidates,
                  const std::vector<Pixel>& touching, std::vector<double> pressure);
@@ -66,13 +66,10 @@ protected:
 private:
     std::vector<std::pair<std::int32_t, double>> residual() const;  // row by row
 
-    double top_between_points();
-
     using Depths = std::unordered_map<std::int32_t, double>;
     void set_residual(Depths depths);
 
     Depths residual_;                // depths by the index of the point on the map [length]
-    std::optional<double> between_;  // top_between_points(), once it was needed
     std::vector<bool>
         lowered_;  // whether a point has a residual, which is looked up often; empty: none has
 };

@@ -4,6 +4,7 @@
 #include "io/netcdf_table.hpp"
 #include "observe/quantities.hpp"
 #include "observe/regimes.hpp"
+#include "trust/doubts.hpp"
 
 namespace rsc {
 namespace {
@@ -74,6 +75,8 @@ void ResultTable::levels() {
         NetcdfAttributes attributes;
         if (std::holds_alternative<LevelStatus LevelValues::*>(q.member))
             attributes = flags(kLevelStatusNames);
+        if (q.member == LevelQuantity::Member(&LevelValues::doubts))
+            attributes = masks(kCauseNames);
         if (std::holds_alternative<Method LevelValues::*>(q.member))
             attributes = flags(kMethodNames, 1);  // 0 is 'auto'
         if (std::holds_alternative<Fallback LevelValues::*>(q.member))

@@ -56,6 +56,16 @@ NetcdfAttributes flags(const std::array<const char*, n>& names, std::size_t firs
     return {{"flag_values", values}, {"flag_meanings", meanings}};
 }
 
+// flag_masks, bit k for name k.
+template <std::size_t n>
+NetcdfAttributes masks(const std::array<const char*, n>& names) {
+    NetcdfAttributes attributes = flags(names);
+    std::vector<std::int32_t> bits;
+    for (std::size_t k = 0; k < n; ++k) bits.push_back(std::int32_t{1} << k);
+    attributes[0] = {"flag_masks", bits};
+    return attributes;
+}
+
 class ResultTable {
 public:
     explicit ResultTable(const Result& result)

@@ -48,11 +48,10 @@ constexpr LevelQuantity kQuantities[] = {
      .comment = "without regularisation, over all candidates; boundary elements: rms of the gap under pressure and of "
                 "remaining penetrations, relative to the mean overlap under pressure", .heading = "residual", .width = 9},
     {.name = "status", .member = &V::status, .meaning = "outcome of the level",
-     .comment = "1: force_error_expected above 10 % (if unknown: large_contacts or beyond_law; boundary elements without adhesion: above 1 %), contacts at "
-                "the border (edge_contacts), contact_area above nominal_area, Z0 below -3 sigma, wide_contacts, cohesive_resolution below 2, filled_share above 1 %, or a first touch of elements between grid points; 2: "
-                "contacts overlap, d < a_i + a_j; 3: a local minimum of the energy, possibly not unique; 4: not converged, do not use. "
-                "4 overrides all others, 1 overrides 2 and 3, 3 overrides 2",
+     .comment = "1: some doubt (doubts); 2: contacts overlap, d < a_i + a_j; 3: a local minimum of the energy, possibly not unique; "
+                "4: not converged, do not use. 4 overrides all others, 1 overrides 2 and 3, 3 overrides 2",
      .heading = "status", .width = 0},
+    {.name = "doubts", .member = &V::doubts, .meaning = "what limits the level; 0: nothing that is known"},
     {.name = "method", .member = &V::method, .meaning = "solver that found the solution",
      .comment = "fallback gives the reason if it is not the requested one"},
     {.name = "fallback", .member = &V::fallback, .meaning = "reason why the requested solver was not used",
@@ -69,15 +68,18 @@ constexpr LevelQuantity kQuantities[] = {
      .comment = "half of the contact area belongs to contacts with at most this number of pixels; contacts of few pixels are inaccurate",
      .always = false},
     {.name = "force_error_expected", .member = &V::force_error_expected, .unit = "1",
-     .meaning = "expected relative error of the force",
-     .comment = "asperities: difference from boundary elements, not exceeded in nine of ten cases (calibrated: input/trust); boundary "
-                "elements: from the change of N on another grid, solved at some levels, and from crests between the points; with adhesion from cohesive_resolution (test/README). Times |force| it is the error of "
-                "the force, also where adhesion makes the force small and this fraction large; missing where the force is 0", .always = false},
+     .meaning = "expected relative error of the force at the separation",
+     .comment = "not exceeded in nine of ten cases. Asperities: difference from boundary elements (calibrated: input/trust); elements: "
+                "from the change of N on another grid and from crests between the points; with adhesion from cohesive_resolution. Times |force| it "
+                "is the error of the force. Missing without contact, under a prescribed force, and where nothing was calibrated (doubts)", .always = false},
     {.name = "area_error_expected", .member = &V::area_error_expected, .unit = "1",
-     .meaning = "expected relative error of the contact area", .comment = "as force_error_expected", .always = false},
+     .meaning = "expected relative error of the contact area", .comment = "as force_error_expected; under a prescribed force that of the area under this force", .always = false},
+    {.name = "separation_error_expected", .member = &V::separation_error_expected, .length_power = 1,
+     .meaning = "expected error of the separation under a prescribed force, a length",
+     .comment = "as force_error_expected: the error of N over the stiffness", .always = false},
     {.name = "slope_ratio", .member = &V::slope_ratio, .unit = "1",
-     .meaning = "largest slope of the indenter at a contact over the rms slope of the surface",
-     .comment = "above 0.2 the surface also touches beside its summits", .always = false},
+     .meaning = "largest slope of the indenter at a contact over the rms slope of the surface, with a lay sqrt(2) times that along it",
+     .comment = "above 0.2 the surface also touches beside its summits, and no error is stated", .always = false},
     {.name = "filled_share", .member = &V::filled_share, .unit = "1",
      .meaning = "share of the contact area in holes of the map (missing points, except near measured ones), as it is or, if larger, as Gaussian heights would have it there", .always = false},
     {.name = "large_contacts", .member = &V::large_contacts, .meaning = "contacts with a > <d>/4",

@@ -5,7 +5,7 @@
 #include "elements/element_contact.hpp"
 #include "run/memory.hpp"
 #include "run/screen.hpp"
-#include "trust/resolution.hpp"
+#include "trust/judge.hpp"
 
 namespace rsc {
 namespace {
@@ -106,32 +106,32 @@ public:
         points_per_wave_ = job.settings.elements.points_per_wave;
         map_ = make(points_per_wave_);
         contact_ = make_element_contact(*map_, job.indenter, job.solver);
-        other_.emplace(job, number, threads, *map_, points_per_wave_);
+        judge_.emplace(job.solver, judged());
     }
 
     Contact& contact() { return *contact_; }
     const HeightMap& map() const { return *map_; }
 
-    // The level at a separation, or under the force of `level`, and its own error.
-    Level solve(const LevelValues& level, bool by_force, std::optional<GridError>& error) {
+    // The level at a separation, or under the force of `level`, with its own expected errors.
+    Level solve(const LevelValues& level, bool by_force) {
         for (;;) {
-            Level truth = by_force && level.force > 0 ? contact_->at_force(level.force)
-                                                      : contact_->at_separation(level.separation);
-            error =
-                truth.status == LevelStatus::not_converged ? std::nullopt : other_->error(truth);
-            if (error) {
-                truth.stiffness = contact_->stiffness();
-                const GridError crests = Crests(job_, *map_).error(truth);
-                error = GridError{std::max(error->force, crests.force),
-                                  std::max(error->area, crests.area)};
-            }
-            const bool enough =
-                error ? error->force <= kUnresolved : truth.contacts == 0 && level.contacts == 0;
-            if (enough || !refine(truth)) return truth;
+            by_force = by_force && level.force > 0;
+            Level truth = by_force ? contact_->at_force(level.force)
+                                   : contact_->at_separation(level.separation);
+            truth.stiffness = truth.converged ? contact_->stiffness() : kNotComputed;
+            judge_->judge(truth, *contact_, by_force);
+            const bool unresolved = truth.doubts & (bit(Cause::grid) | bit(Cause::missed_contact));
+            if (!unresolved || !refine(truth)) return truth;
         }
     }
 
 private:
+    JudgedSurface judged() const {
+        JudgedSurface surface{map_.get(), true};
+        if (job_.theory) surface.curvature = curvature_at_unit_height(*job_.theory);
+        return surface;
+    }
+
     std::unique_ptr<HeightMap> make(double points_per_wave) const {
         Case settings = job_.settings;
         settings.elements.points_per_wave = points_per_wave;
@@ -145,7 +145,7 @@ private:
     // Doubles the points a side; false if that is impossible or would take too long.
     bool refine(const Level& level) {
         if (!job_.spectrum || contact_->path_dependent() ||
-            level.status == LevelStatus::not_converged)
+            !level.converged)
             return false;
         const double finer = 2 * points_per_wave_;
         if (finer * job_.spectrum->L_lambda_s > kMostElementPoints ||
@@ -154,11 +154,10 @@ private:
             return false;
         std::unique_ptr<HeightMap> map = make(finer);
         std::unique_ptr<Contact> contact = make_element_contact(*map, job_.indenter, job_.solver);
-        other_.reset();
-        coarse_map_ = std::move(map_);
-        other_.emplace(std::move(contact_));
-        map_ = std::move(map);
+        judge_.reset();
         contact_ = std::move(contact);
+        map_ = std::move(map);
+        judge_.emplace(job_.solver, judged());
         points_per_wave_ = finer;
         return true;
     }
@@ -168,9 +167,9 @@ private:
     std::int64_t number_;
     int threads_;
     double points_per_wave_;
-    std::unique_ptr<HeightMap> map_, coarse_map_;  // the contacts below stand on them
+    std::unique_ptr<HeightMap> map_;  // on which the contact stands
     std::unique_ptr<Contact> contact_;
-    std::optional<OtherGrid> other_;
+    std::optional<Judge> judge_;
 };
 
 }  // namespace
@@ -212,14 +211,11 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads,
          steps_to_compare(job, levels, reference.contact().path_dependent())) {
         const LevelValues& level = levels[step];
         Level truth;
-        std::optional<GridError> own;
         try {
             for (; reference.contact().path_dependent() && next < step; ++next)
                 if (turns(levels, next))
-                    on_path = reference.contact().at_separation(levels[next].separation).status !=
-                                  LevelStatus::not_converged &&
-                              on_path;
-            truth = reference.solve(level, by_force, own);
+                    on_path = reference.solve(levels[next], false).converged && on_path;
+            truth = reference.solve(level, by_force);
         } catch (
             const Error&
                 // two flats closer than their mean planes, which only the asperity model allows
@@ -230,7 +226,7 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads,
                                  level.separation / job.sigma, error.what());
             continue;
         }
-        const bool found = truth.status != LevelStatus::not_converged && on_path;
+        const bool found = truth.converged && on_path;
         c.failed += !found;
         const auto error = [&](double model, double elements) {
             return found && elements != 0 ? model / elements - 1 : kNotComputed;
@@ -242,7 +238,7 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads,
                           truth.area_pixels,
                           truth.residual};
         row.force_error_expected = truth.force_error_expected;
-        if (own) row.force_error_expected = own->force, row.area_error_expected = own->area;
+        row.area_error_expected = truth.area_error_expected;
         row.contacts = truth.contacts, row.columns = reference.map().nx,
         row.rows = reference.map().ny;
         if (!by_force) row.force_error = error(level.force, truth.force);

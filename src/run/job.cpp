@@ -13,8 +13,7 @@
 #include "physics/friction/contact_curve.hpp"
 #include "run/gap.hpp"
 #include "surface/synthesis.hpp"
-#include "trust/expected_error.hpp"
-#include "trust/resolution.hpp"
+#include "trust/judge.hpp"
 
 namespace rsc {
 namespace {
@@ -279,9 +278,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     Realization r;
     const auto& settings = job.settings;
     std::unique_ptr<Contact> contact;
-    std::optional<ResolutionCheck> resolution;  // of elements, single runs only
-    std::optional<Crests> ridges;               // of elements
-    double side = 0;                            // of their pixels
+    JudgedSurface judged;
     std::shared_ptr<const Measured> measured = job.given ? job.measured : nullptr;
     SolverOptions solver = job.solver;
     if (by_elements(settings)) {
@@ -296,11 +293,10 @@ Realization realize(const Job& job, std::int64_t number, int threads,
             r.heights = std::move(surface.map);
         }
         const HeightMap& map = job.given ? *job.given_heights : *r.heights;
-        side = std::max(map.dx, map.dy);
         contact = make_element_contact(map, job.indenter, job.solver);
-        if (settings.run.realizations == 1 && !(settings.solids.adhesion > 0))
-            resolution.emplace(job, number, threads, map);
-        ridges.emplace(job, map);
+        judged.map = &map;
+        judged.second_grid = true;
+        if (job.theory) judged.curvature = curvature_at_unit_height(*job.theory);
     } else {
         if ((settings.output.heights || !settings.output.fields.empty()) && job.spectrum)
             r.heights = make_surface(settings, *job.spectrum, number, threads).map;
@@ -317,8 +313,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         }
         r.asperities = std::move(model.asperities);
         r.statistics = model.statistics;
-        solver.rms_slope = model.domain.rms_slope;
-        solver.heights = model.domain.heights;
+        solver.gentlest_slope = model.domain.gentlest_slope;
         contact = make_asperity_contact(r.asperities, job.indenter, solver);
     }
     std::unique_ptr<Contact> slid[2];  // with friction
@@ -330,15 +325,13 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     }
     r.levels.reserve(job.levels.size());
     const std::vector<std::int32_t> field_steps = steps_of_fields(job);
-    const std::vector<FilledPoints> filled = filled_points(job, measured.get());
-    // Share of the missing points that are filled by their neighbours: with 30 % N of elements was
-    // 1 to 3.4 % too low.
-    constexpr double kScattered = 0.15;
-    const double scattered =
-        measured ? static_cast<double>(measured->missing - std::count(measured->filled.begin(),
-                                                                      measured->filled.end(), 1)) /
-                       static_cast<double>(measured->points())
-                 : 0.0;
+    judged.filled =
+        filled_points(measured.get(), job.domain.x0, job.domain.y0, job.indenter);
+    if (measured)
+        judged.scattered = static_cast<double>(measured->missing - std::ranges::count(
+                                                                       measured->filled, 1)) /
+                           static_cast<double>(measured->points());
+    Judge judge(solver, std::move(judged));
     std::vector<FieldLevel> fields;
     if (settings.indentation.control != Control::separation &&
         !job.levels.empty())  // before the levels below it are solved
@@ -358,28 +351,15 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         Level& level = r.levels.back();
         if (!job.times.empty()) level.time = job.times[k];
         add_answers(*contact, level, settings.solids.resistivity);
-        if (resolution)
-            resolution->judge(k, level, *ridges);
-        else if (by_elements(settings))
-            judge_pixels(level, job, side, *ridges);
-        judge_filled(level, filled, job.indenter, job.sigma);
-        if (by_elements(settings) && level.force_error_expected >= 0) {
-            level.force_error_expected += kScattered * scattered;
-            if (level.force_error_expected >
-                (settings.solids.adhesion > 0 ? kMuchError : kUnresolved))
-                level.status = graver(level.status, LevelStatus::out_of_validity);
-        }
-        if (level.force == 0 &&
-            level.separation < job.points_touch)  // contact at points that are no summits
-            level.status = graver(level.status, LevelStatus::out_of_validity);
         if (curve) {
             const long failed = curve->failed();
             add_friction(
                 *curve,
                 {settings.solids.friction, tangential_ratio(settings.solids.E, settings.solids.nu)},
                 level, r.friction);
-            if (curve->failed() > failed) level.status = LevelStatus::not_converged;
+            if (curve->failed() > failed) level.converged = false;
         }
+        judge.judge(level, *contact, settings.indentation.control != Control::separation);
         const bool field = std::find(field_steps.begin(), field_steps.end(),
                                      static_cast<std::int32_t>(k)) != field_steps.end();
         std::vector<double> flow;

@@ -82,7 +82,7 @@ double points_of_elements(const Job& job, double points_per_wave) {
 double share_in_contact(const Job& job, double level, bool is_force) {
     const double area = job.domain.Lx * job.domain.Ly;
     if (!is_force) return std::min(1.0, 0.4 * area_under(job, level) / area);
-    const double slope = job.theory ? job.theory->rms_slope() : job.solver.rms_slope;
+    const double slope = job.theory ? job.theory->rms_slope() : job.solver.gentlest_slope;
     return slope > 0 ? std::erf(1.86 * level / area / (job.indenter.E_star * slope)) : 1.0;
 }
 

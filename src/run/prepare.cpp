@@ -32,25 +32,6 @@ Detail detail_of(const Case& settings) {
     return traits(settings.asperities.law).between_points ? Detail::subgrid : Detail::grid;
 }
 
-// Largest number of points along a side of a synthetic surface whose heights are kept for the law.
-constexpr int kMostPointsKept = 4096;
-
-// What is made once for all places of a tip, and kept while a contact uses it, or always.
-template <class T>
-struct Kept {
-    template <class Make>
-    std::shared_ptr<const T> get(bool always, Make&& make) {
-        const std::lock_guard lock(mutex);
-        std::shared_ptr<const T> found = made ? made : used.lock();
-        if (!found) used = found = std::shared_ptr<const T>(new const T(make()));
-        if (always) made = found;
-        return found;
-    }
-    std::mutex mutex;
-    std::weak_ptr<const T> used;
-    std::shared_ptr<const T> made;
-};
-
 double rms(const std::vector<double>& values) {
     double mean = 0, square = 0;
     for (double v : values) mean += v;
@@ -325,8 +306,9 @@ SurfaceDomain synthetic_domain(const Spectrum& spectrum, int n) {
     SurfaceDomain domain{
         {0, 0, spectrum.L, spectrum.L}, spectrum.sigma, false, theory.mean_spacing()};
     domain.points_per_wave = n / spectrum.L_lambda_s, domain.step = spectrum.L / n;
-    domain.rms_slope = theory.rms_slope();
+    domain.gentlest_slope = theory.tensor.gentlest_slope();
     domain.repeats = true;
+    domain.measured = spectrum.directional() || !spectrum.gaussian();
     return domain;
 }
 
@@ -385,12 +367,6 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
     if (step > 0) smooth_rounded(*seen, step);
     model.asperities = find_asperities(*seen, settings.asperities.curvature, &count, threads,
                                        detail_of(settings), surface.points_per_wave, breaks.get());
-    model.domain.heights =
-        [kept = std::shared_ptr<const HeightMap>(seen)](const std::vector<Vec2>& points) {
-            std::vector<double> z;
-            for (const Vec2& p : points) z.push_back(height_at(*kept, p.x, p.y));
-            return z;
-        };
     require_summits(model, surface.name, map.periodic ? "" : " inside the map");
     if (!surface.theory)
         model.domain.mean_spacing =
@@ -423,7 +399,7 @@ SurfaceModel make_bare_model(const Surface& surface) {
     s.m4 = s.m4_grid = grid.m4;
     s.tensor = grid.tensor;
     if (surface.sampled) set_sampled(*surface.sampled, s);
-    model.domain.rms_slope = std::sqrt(2 * s.m2);
+    model.domain.gentlest_slope = s.tensor.gentlest_slope();
     return model;
 }
 
@@ -434,42 +410,16 @@ SurfaceModel make_surface_model(const Case& settings, const Spectrum& spectrum, 
     model.domain = synthetic_domain(spectrum, keys.n);
     SummitCount count;
     Moments sampled, differences;
-    const auto rows = std::make_shared<
-        Kept<RowSource>>();  // to draw the modes again takes longer than hundreds of rows
     model.asperities = make_asperities(spectrum, keys.n, keys.normalise, settings.run.seed, number,
                                        settings.asperities.curvature, &count, &sampled, threads,
-                                       detail_of(settings), &differences, &rows->made);
-    if (const int n = summit_points(spectrum, keys.n);
-        n > kMostPointsKept || (rows->made && rows->made->n() != n))
-        rows->made.reset();
+                                       detail_of(settings), &differences);
     require_summits(model, "the surface", "");
     auto& s = model.statistics;
     set_sampled(sampled, s);
     s.m2_grid = differences.m2;
     s.m4_grid = differences.m4;
     count_summits(count, s);
-    model.domain.rms_slope = std::sqrt(2 * s.m2);
-    model.domain.heights = [keys, spectrum, seed = settings.run.seed, number, threads,
-                            rows](const std::vector<Vec2>& points) {
-        const int n = summit_points(spectrum, keys.n);
-        const auto source = rows->get(
-            true, [&] { return RowSource(spectrum, n, keys.normalise, seed, number, threads); });
-        RowSource::Scratch scratch(*source);
-        HeightMap two;
-        two.allocate(n, 2, (n + 7) / 8 * 8), two.dx = two.dy = spectrum.L / n, two.periodic = true;
-        std::vector<double> z;
-        int made = -1;  // the first of the two rows
-        for (const Vec2& p : points) {
-            stopping_point();
-            const double x = source->exchanged() ? p.y : p.x, y = source->exchanged() ? p.x : p.y;
-            const int j = static_cast<int>(std::floor(y / two.dy));
-            if (z.empty() || j != made)
-                source->rows(j, 2, two.row(0), two.stride, scratch), made = j;
-            two.y0 = j * two.dy;
-            z.push_back(height_at(two, x, y));
-        }
-        return z;
-    };
+    model.domain.gentlest_slope = s.tensor.gentlest_slope();
     return model;
 }
 

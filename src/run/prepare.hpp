@@ -77,13 +77,13 @@ struct SurfaceDomain : Domain {
     // Half a grid step of a map: its points are cells that begin at 0, so the middle of the points
     // is half a step below that of the cells.
     double half_step_x = 0, half_step_y = 0;
-    double rms_slope = 0;  // 0: not known (a list)
+    double gentlest_slope = 0;  // MomentTensor::gentlest_slope(); 0: not known (a list)
     // periodic beyond its rectangle: synthetic surfaces, and heights declared periodic
     bool repeats = false;
     std::shared_ptr<const MapMarks> marks =
         nullptr;                  // of a measured map that is free at its border
-    bool measured = false;        // heights from a file or from the caller of the library
-    SurfaceHeights heights = {};  // of surfaces whose summits are found
+    // heights from a file or from the caller of the library, or not isotropic and Gaussian
+    bool measured = false;
 };
 
 // The surface for contacts: asperities, or with solver%model = 'elements' the points of the

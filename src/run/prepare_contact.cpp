@@ -96,8 +96,7 @@ SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     options.mean_spacing = domain.mean_spacing;
     options.points_per_wave = domain.points_per_wave;
     options.grid_step = domain.step;
-    options.rms_slope = domain.rms_slope;
-    options.heights = domain.heights;
+    options.gentlest_slope = domain.gentlest_slope;
     const bool free = settings.indentation.boundary == Boundary::free;
     options.measured = domain.measured || !settings.indenter.file.empty();
     if (free) options.marks = domain.marks;

@@ -4,9 +4,7 @@
 #include "asperities/shifted_summits.hpp"
 #include "base/format.hpp"
 #include "run/screen.hpp"
-#include "trust/expected_error.hpp"
-#include "trust/resolution.hpp"
-#include "trust/validity.hpp"
+#include "trust/judge.hpp"
 
 namespace rsc {
 namespace {
@@ -24,168 +22,127 @@ void print_methods(std::ostream& out, std::span<const LevelValues> levels) {
     out << '\n';
 }
 
-void print_statuses(std::ostream& out, std::span<const LevelValues> levels, const Job& job,
-                    bool elements) {
-    const double sigma = job.sigma;
-    const std::string remedy = job.spectrum ? format("use elements%%points_per_wave = %g.",
-                                                     2 * job.settings.elements.points_per_wave)
-                                            : "the map has too few points for its contacts.";
-    const auto count = [&](auto holds) {
-        return static_cast<long>(std::count_if(levels.begin(), levels.end(), holds));
-    };
-    const auto tell = [&](long found, const std::string& what) {
-        if (found > 0) out << format("  %ld of %zu levels: ", found, levels.size()) << what << '\n';
-    };
-    const auto tell_status = [&](LevelStatus status, const char* meaning) {
-        tell(count([status](const LevelValues& l) { return l.status == status; }),
-             status_text(status) + " - " + meaning);
-    };
-    // Reasons for status out_of_validity, reported also if a more serious status overrides it.
-    tell(count([](const LevelValues& l) { return l.edge_contacts > 0; }),
-         "contacts, or their attraction, within <d> of the border of the surface - what lies "
-         "beyond it is missing: |N| is too small.");
-    tell(count([](const LevelValues& l) { return l.filled_share > kMuchFilled; }),
-         "more than 1 % of the contact area would be in holes of the map, which are filled "
-         "smoothly (filled_share): N is too small.");
+// What is said of some of the levels.
+class Sayings {
+public:
+    Sayings(std::ostream& out, std::span<const LevelValues> levels) : out_(out), levels_(levels) {}
+    template <class Holds>
+    long count(Holds holds) const {
+        return static_cast<long>(std::count_if(levels_.begin(), levels_.end(), holds));
+    }
+    template <class Holds>
+    void say(Holds holds, const std::string& what) const {
+        if (const long found = count(holds); found > 0)
+            out_ << format("  %ld of %zu levels: ", found, levels_.size()) << what << ".\n";
+    }
+
+private:
+    std::ostream& out_;
+    std::span<const LevelValues> levels_;
+};
+
+std::string remedy_of_grid(const Job& job) {
+    return job.spectrum ? format("; use elements%%points_per_wave = %g",
+                                 2 * job.settings.elements.points_per_wave)
+                        : "; the map has too few points for its contacts";
+}
+
+void print_doubts(std::ostream& out, std::span<const LevelValues> levels, const Job& job,
+                  bool elements) {
+    const Sayings levels_with(out, levels);
+    for (std::size_t k = 0; k < kCauseNames.size(); ++k) {
+        const Cause cause{static_cast<int>(k)};
+        const bool of_grid = elements && (cause == Cause::grid || cause == Cause::missed_contact);
+        levels_with.say([&](const LevelValues& l) { return (l.doubts & bit(cause)) != 0; },
+                        words_of_doubts(bit(cause)) + " - " + sentence(cause, elements) +
+                            (of_grid ? remedy_of_grid(job) : ""));
+    }
     if (std::isfinite(job.points_touch) &&
         std::all_of(levels.begin(), levels.end(), [](const auto& l) { return l.force == 0; }))
         out << format(
             "  no level reaches contact: the first point of the map touches at Z0 = %g (%g "
             "sigma).\n",
-            job.points_touch, job.points_touch / sigma);
-    if (elements) {
-        double worst = 0;
-        for (const LevelValues& l : levels)
-            worst = std::max(worst, l.force_error_expected);  // ignores NaN
-        const double much = job.settings.solids.adhesion > 0 ? kMuchError : kUnresolved;
-        tell(count([much](const LevelValues& l) { return l.force_error_expected > much; }),
-             format("a finer grid may change N by more than %s, in nine of ten cases %s "
-                    "(force_error_expected); ",
-                    percent(much).c_str(),
-                    worst > 10 ? "by many times N"
-                               : format("by less than %.3g %%", 100 * worst).c_str()) +
-                 remedy);
-        tell(count([](const LevelValues& l) {
-                 return l.force == 0 && l.status == LevelStatus::out_of_validity;
-             }),
-             "the bodies touch between the points of the grid, so that N is not 0; " + remedy);
-    }
-    if (!elements) {
-        tell(count([](const LevelValues& l) {
-                 return l.force == 0 && l.status == LevelStatus::out_of_validity;
-             }),
-             "the surface may touch outside the summits of the model, so that N need not be 0; use "
-             "solver%model = 'elements'" +
-                 std::string(job.indenter.shape && job.indenter.shape->edge(HUGE_VAL) >= 0
-                                 ? "."
-                                 : " or law = 'fourth_order'."));
-        const bool list = job.settings.surface.source == Source::asperities;
-        double steepest = 0;
-        for (const LevelValues& l : levels)
-            steepest = std::max(steepest, std::isnan(l.slope_ratio) ? 0.0 : l.slope_ratio);
-        if (list || job.settings.asperities.law == LawKind::hertz)
-            tell(count([](const LevelValues& l) { return l.slope_ratio > kMostSlopeRatio; }),
-                 format("at contacts the indenter is up to %.2g times as steep as the surface "
-                        "(slope_ratio), and touches points other than the "
-                        "summits of the surface; ",
-                        steepest) +
-                     (list ? "a list of asperities has no other points."
-                           : "use asperities%law = 'elliptic' or 'fourth_order'."));
-        tell(count([sigma](const LevelValues& l) {
-                 return l.separation < kLowestSeparation * sigma;
-             }),
-             "separation below -3 sigma - the tip lies below 99.9 % of the heights: the asperity "
-             "model is outside its range.");
-        tell(count([](const LevelValues& l) { return exceeds_nominal_area(l); }),
-             "contact area above the nominal area - the asperity model is outside its range.");
-        std::map<std::int32_t, long> causes;
-        for (const LevelValues& l : levels)
-            causes[l.error_cause] += l.force_error_expected > kMuchError;
-        for (const auto& [cause, found] : causes)
-            tell(found,
-                 "N may differ from elements by more than 10 % (force_error_expected)" +
-                     (cause > 0 ? std::string(", mainly because of ") + error_cause(cause) : "") +
-                     ".");
-        tell(count([](const LevelValues& l) { return l.large_contacts > 0; }),
-             "contacts with a > <d>/4, a quarter of the mean spacing of summits - the asperity "
-             "model is near the limit of its range.");
-    }
-    double widest = 0;
-    for (const LevelValues& l : levels) widest = std::max(widest, l.wide_contacts);
-    tell(count([](const LevelValues& l) { return l.wide_contacts > 0; }),
-         format("up to %.0f %% of the contacts have a > h/5, where h is the thickness of the top "
-                "layer - elements have no such limit.",
-                100 * widest));
-    tell(count([](const LevelValues& l) { return l.beyond_law > 0; }),
-         "contacts beyond the range of validity of the contact law (beyond_law in the file).");
-    tell(count([](const LevelValues& l) {
-             return std::isnan(l.stiffness) && l.contacts > 0 &&
-                    l.status != LevelStatus::not_converged;
-         }),
-         std::string("stiffness, conductance and resistance are missing: ") +
-             (elements ? "their iteration did not converge."
-                       : "contacts overlap too much for them; use solver%model = 'elements'."));
-    tell_status(LevelStatus::overlapping,
-                "pairs of contact spots closer than the sum of their radii: spots that would merge "
-                "are counted as two.");
-    tell_status(LevelStatus::not_unique,
-                "spots that overlap so much that other solutions may exist: this one is a local "
-                "minimum of the energy, selected by a fixed rule.");
-    const auto held = [](const LevelValues& l) { return l.fallback == Fallback::held; };
-    tell(count(held),
-         "no state has the force asked for: the level is the last stable one, that of the smallest "
-         "force, where the bodies part under a dead "
-         "load; give separations (indentation%control = 'separation') to go beyond.");
-    const auto jump = [](const LevelValues& l) { return l.fallback == Fallback::jump; };
-    tell(count(jump),
-         status_text(LevelStatus::not_converged) +
-             " - the force asked for is inside a jump of N(Z0), so that no separation has it. The "
-             "level is a state at one side of "
-             "the jump; prescribe separations there, or another force" +
-             (elements ? "."
-                       : "; solver%model = 'elements' has no such jumps between close contacts."));
-    const auto failed = [&](const LevelValues& l) {
-        return l.status == LevelStatus::not_converged && !held(l) && !jump(l);
-    };
-    const auto lost = [&](const LevelValues& l) {
-        return failed(l) && !elements && job.settings.solids.adhesion > 0;
-    };
-    tell(count(lost), status_text(LevelStatus::not_converged) +
-                          " - the path of the attached asperities could not be followed to these "
-                          "levels, mostly because contacts overlap: "
-                          "that is beyond the asperity model; use model = 'elements'.");
-    tell(count([&](const LevelValues& l) { return failed(l) && !lost(l); }),
-         status_text(LevelStatus::not_converged) +
-             " - the residual is above solver%tolerance: do not use these values; " +
-             (!elements && (!job.settings.solids.layer_thickness.empty() ||
-                            job.settings.indentation.boundary == Boundary::periodic)
-                  ? "with contacts wider than the top layer, or between flats pressed deep, the "
-                    "asperity model may have no solution: use "
-                    "solver%model = 'elements'."
-              : elements && !job.settings.solids.relaxation_share.empty() &&
-                      job.settings.indentation.boundary == Boundary::periodic
-                  ? "bodies that relax may have closed the gap between flats; otherwise raise "
-                    "solver%max_iterations or the tolerance."
-                  : "raise solver%max_iterations or the tolerance."));
+            job.points_touch, job.points_touch / job.sigma);
 }
 
-// "N = 1.23 N +- 5 %": the last level of a single run with its expected errors.
+void print_failures(std::ostream& out, std::span<const LevelValues> levels, const Job& job,
+                    bool elements) {
+    const Sayings levels_with(out, levels);
+    const std::string failure = "NOT CONVERGED - ";
+    const Case::Solids& solids = job.settings.solids;
+    const auto held = [](const LevelValues& l) { return l.fallback == Fallback::held; };
+    levels_with.say(held,
+                    "no state has the force asked for: the level is the last stable one, that of "
+                    "the smallest force, where the bodies part under a dead load; give separations "
+                    "(indentation%control = 'separation') to go beyond");
+    const auto jump = [](const LevelValues& l) { return l.fallback == Fallback::jump; };
+    levels_with.say(jump,
+                    failure +
+                        "the force asked for is inside a jump of N(Z0), so that no separation has "
+                        "it. The level is a state at one side of the jump; prescribe separations "
+                        "there, or another force" +
+                        (elements ? ""
+                                  : "; solver%model = 'elements' has no such jumps between close "
+                                    "contacts"));
+    const auto failed = [&](const LevelValues& l) { return !l.converged && !held(l) && !jump(l); };
+    const bool flats = job.settings.indentation.boundary == Boundary::periodic;
+    std::string remedy = "raise solver%max_iterations or the tolerance";
+    if (!elements && solids.adhesion > 0)
+        remedy = "contacts overlap too much to follow their path; use solver%model = 'elements'";
+    else if (!elements && (!solids.layer_thickness.empty() || flats))
+        remedy = "with contacts wider than the top layer, or between flats pressed deep, the "
+                 "asperity model may have no solution: use solver%model = 'elements'";
+    else if (elements && !solids.relaxation_share.empty() && flats)
+        remedy = "bodies that relax may have closed the gap between flats; otherwise " + remedy;
+    levels_with.say(failed, failure +
+                                "the residual is above solver%tolerance: do not use these values; " +
+                                remedy);
+}
+
+void print_statuses(std::ostream& out, std::span<const LevelValues> levels, const Job& job,
+                    bool elements) {
+    print_doubts(out, levels, job, elements);
+    const Sayings levels_with(out, levels);
+    levels_with.say(
+        [](const LevelValues& l) {
+            return std::isnan(l.stiffness) && l.contacts > 0 && l.converged;
+        },
+        std::string("stiffness, conductance and resistance are missing: ") +
+            (elements ? "their iteration did not converge"
+                      : "contacts overlap too much for them; use solver%model = 'elements'"));
+    levels_with.say([](const LevelValues& l) { return l.status == LevelStatus::overlapping; },
+                    "overlapping - pairs of contact spots closer than the sum of their radii: "
+                    "spots that would merge are counted as two");
+    levels_with.say([](const LevelValues& l) { return l.status == LevelStatus::not_unique; },
+                    "not unique - spots that overlap so much that other solutions may exist: this "
+                    "one is a local minimum of the energy, selected by a fixed rule");
+    print_failures(out, levels, job, elements);
+}
+
+// "N = 1.23 N +- 5 %": the last level of a single run that has expected errors; under a prescribed
+// force the separation instead of N.
 void print_bounds(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
     const auto last = std::find_if(levels.rbegin(), levels.rend(), [](const LevelValues& l) {
-        return l.force_error_expected >= 0;
+        return l.force_error_expected >= 0 || l.separation_error_expected >= 0;
     });
     if (job.settings.run.realizations > 1 || last == levels.rend()) return;
     const char *l = job.settings.run.length_unit.c_str(), *f = job.settings.run.force_unit.c_str();
+    std::string first;
+    if (last->separation_error_expected >= 0) {
+        first = format("Z0 = %.6g %s +- %.2g %s", last->separation, l,
+                       last->separation_error_expected, l);
+    } else {
+        // Where adhesion nearly balances N, the error is many times N, and is printed as a force.
+        const double error = last->force_error_expected;
+        first = format("N = %.4g %s +- ", last->force, f) +
+                (error > 1 ? format("%.2g %s", error * std::abs(last->force), f) : percent(error));
+    }
     const std::string area = last->area_error_expected >= 0
                                  ? format(", A = %.4g %s2 +- %s", last->area, l,
                                           percent(last->area_error_expected).c_str())
                                  : "";
-    // Where adhesion nearly balances N, the error is many times N, and is printed as a force.
-    const double error = last->force_error_expected;
-    const std::string bound =
-        error > 1 ? format("%.2g %s", error * std::abs(last->force), f) : percent(error);
-    out << format("level %td: N = %.4g %s +- %s%s: bounds valid in nine of ten cases\n",
-                  levels.rend() - last, last->force, f, bound.c_str(), area.c_str());
+    out << format("level %td: %s%s: bounds valid in nine of ten cases\n", levels.rend() - last,
+                  first.c_str(), area.c_str());
 }
 
 // The summary of plastic contacts for cases with hardness, and of the energy lost in bodies that
@@ -311,7 +268,7 @@ double coupling(const Case::Solids& s) {
 // Effects that the model of this case neglects.
 void print_words(std::ostream& out, const Job& job, bool elements) {
     const Case& c = job.settings;
-    constexpr double much_coupling = 0.05, least_points = 5;
+    constexpr double much_coupling = 0.05;
     if (c.solids.friction > 0 && std::abs(coupling(c.solids)) > much_coupling)
         out << format(
             "  friction between unlike bodies: the coupling of pressure and tangential "
@@ -319,15 +276,6 @@ void print_words(std::ostream& out, const Job& job, bool elements) {
             "forces.\n",
             coupling(c.solids));
     if (elements) return;
-    const double points = job.spectrum   ? c.surface.n / job.spectrum->L_lambda_s
-                          : job.measured ? job.measured->points_per_wave()
-                                         : least_points;
-    if (c.asperities.law == LawKind::hertz && points < least_points)
-        out << format(
-            "  law 'hertz' on %.2g points in the shortest wave: summits between the points are "
-            "missed, N is too low near first contact (by half "
-            "at 3 points); use 5 or more, or law 'fourth_order'.\n",
-            points);
     if (c.indentation.selection == Selection::paper && c.indentation.selection_factor < 1.5)
         out << format(
             "  selection = 'paper' with a factor of %g excludes asperities that touch: N may be "

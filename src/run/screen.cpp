@@ -8,6 +8,7 @@
 #include "observe/quantities.hpp"
 #include "observe/regimes.hpp"
 #include "run/gap.hpp"
+#include "trust/doubts.hpp"
 
 namespace rsc {
 namespace fs = std::filesystem;
@@ -41,15 +42,6 @@ std::string percent(double share) {
     return std::abs(share) > 10
                ? "more than 1000 %"
                : format(std::abs(share) < 0.995 ? "%.2g %%" : "%.0f %%", 100 * share);
-}
-
-std::string status_text(LevelStatus status) {
-    std::string text = kLevelStatusNames[static_cast<std::size_t>(status)];
-    for (char& c : text) {
-        if (c == '_') c = ' ';
-        if (status == LevelStatus::not_converged) c = static_cast<char>(std::toupper(c));
-    }
-    return text;
 }
 
 double pascals(const Case& settings) {
@@ -212,12 +204,20 @@ void print_heading(std::ostream& out, const Job& job) {
     out << '\n';
 }
 
+// The status of a level, or the words of its doubts.
+static std::string outcome_of(const LevelValues& level) {
+    if (level.status == LevelStatus::not_converged) return "NOT CONVERGED";
+    if (level.status == LevelStatus::out_of_validity) return words_of_doubts(level.doubts);
+    if (level.status == LevelStatus::not_unique) return "not unique";
+    return kLevelStatusNames[static_cast<std::size_t>(level.status)];
+}
+
 void print_level(std::ostream& out, const Job& job, std::size_t number, const Level& level) {
     out << format("%5zu %12.6g %9.5f", number + 1, level.separation, level.separation / job.sigma);
     for (const LevelQuantity& q : level_quantities()) {
         if (!shown(q, job)) continue;
         if (std::holds_alternative<LevelStatus LevelValues::*>(q.member))
-            out << "  " << status_text(level.status)
+            out << "  " << outcome_of(level)
                 << (level.fallback == Fallback::none ? ""
                                                      : std::string(", ") + name_of(level.method) +
                                                            ": " + fallback_text(level.fallback));

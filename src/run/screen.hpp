@@ -8,7 +8,6 @@
 
 namespace rsc {
 
-std::string status_text(LevelStatus status);
 std::string name_of(Method method);
 const char* fallback_text(
     Fallback fallback);  // why another method solved the level than the one asked for; empty: none

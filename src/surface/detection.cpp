@@ -180,8 +180,7 @@ int summit_points(const Spectrum& spectrum, int n) {
 
 Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed,
                            std::int64_t realization, Curvature curvature, SummitCount* count,
-                           Moments* sampled, int threads, Detail detail, Moments* differences,
-                           std::shared_ptr<const RowSource>* rows) {
+                           Moments* sampled, int threads, Detail detail, Moments* differences) {
     const bool mirror = made_as_transpose(spectrum);
     if (mirror) {  // no need to store the surface
         const Asperities found =
@@ -193,10 +192,7 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
     threads = std::max(threads, 1);
     const bool refined = detail == Detail::subgrid;
     const int fine = refined ? summit_points(spectrum, n) : n;
-    const auto kept = std::make_shared<const RowSource>(spectrum, fine, normalise, seed,
-                                                        realization, threads, spectrum.L / n);
-    const RowSource& source = *kept;
-    if (rows) *rows = kept;
+    const RowSource source(spectrum, fine, normalise, seed, realization, threads, spectrum.L / n);
     const double step = spectrum.L / fine;
     if (sampled) *sampled = source.sampled();
     if (differences) *differences = source.differences();

@@ -59,13 +59,11 @@ int summit_points(const Spectrum& spectrum, int n);
 // synthesize() adds up diagonals: to rounding). Throws as synthesize(). With fewer than 4 points in
 // lambda_s, Detail::subgrid uses the smallest multiple of n that has 4; the surface is the same.
 // `differences` (optional) receives the moments by finite differences on the n x n grid, as
-// grid_moments(synthesize(...)), computed as exact sums over the modes; `rows` (optional) what the
-// heights were made of, or nothing for the transposed surface.
+// grid_moments(synthesize(...)), computed as exact sums over the modes.
 Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed,
                            std::int64_t realization, Curvature curvature,
                            SummitCount* count = nullptr, Moments* sampled = nullptr,
                            int threads = 1, Detail detail = Detail::grid,
-                           Moments* differences = nullptr,
-                           std::shared_ptr<const RowSource>* rows = nullptr);
+                           Moments* differences = nullptr);
 
 }  // namespace rsc

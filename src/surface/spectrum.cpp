@@ -111,6 +111,11 @@ Spectrum tabulated_spectrum(std::shared_ptr<const SpectrumTable> table, double L
     return s;
 }
 
+double MomentTensor::gentlest_slope() const {
+    constexpr double rounding = 1e-12;  // straight ridges
+    return std::sqrt(2 * std::max(m2() - std::hypot(0.5 * (m20 - m02), m11), rounding * m2()));
+}
+
 double Moments::rms_slope() const { return std::sqrt(2.0 * m2); }
 double Moments::summit_density() const {
     double second = m2, fourth = m4;

@@ -73,6 +73,9 @@ struct MomentTensor {
     // m4 of an isotropic surface of the same mean square curvature <(nabla^2 z)^2>, which does not
     // depend on the axes.
     double m4() const { return 3.0 / 8.0 * (m40 + 2 * m22 + m04); }
+    // rms of the slope along the direction in which it is smallest, times sqrt(2): the rms slope of
+    // an isotropic surface that is as gentle as this one along its lay.
+    double gentlest_slope() const;
     MomentTensor transposed() const { return {m02, m11, m20, m04, m13, m22, m31, m40}; }
 };
 

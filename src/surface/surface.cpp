@@ -152,28 +152,15 @@ Moments grid_moments(const HeightMap& map) {
     return m;
 }
 
-HeightMap every_second_point_of(const HeightMap& map) {
+HeightMap every_second_point_of(const HeightMap& map, int column, int row) {
     HeightMap view;
-    static_cast<PointGrid&>(view) = {(map.nx + 1) / 2, (map.ny + 1) / 2, 2 * map.dx,
-                                     2 * map.dy,       map.x0,           map.y0};
+    static_cast<PointGrid&>(view) = {(map.nx - column + 1) / 2, (map.ny - row + 1) / 2,
+                                     2 * map.dx,                2 * map.dy,
+                                     map.x(column),             map.y(row)};
     view.stride = 2 * map.stride, view.every = 2 * map.every, view.periodic = map.periodic;
-    view.data = std::unique_ptr<double[], HeightMap::Free>(map.data.get(), HeightMap::Free(false));
+    double* const first = map.data.get() + row * map.stride + std::ptrdiff_t{column} * map.every;
+    view.data = std::unique_ptr<double[], HeightMap::Free>(first, HeightMap::Free(false));
     return view;
-}
-
-double height_at(const HeightMap& map, double x, double y) {
-    const double u = (x - map.x0) / map.dx, v = (y - map.y0) / map.dy;
-    if (!map.periodic && !(u >= 0 && v >= 0 && u <= map.nx - 1 && v <= map.ny - 1))
-        return -kInfinity;
-    const auto place = [&](double t, int n) {
-        const int before = static_cast<int>(std::floor(t) - n * std::floor(std::floor(t) / n));
-        return std::pair{before, map.periodic ? (before + 1) % n : std::min(before + 1, n - 1)};
-    };
-    const auto [i, right] = place(u, map.nx);
-    const auto [j, above] = place(v, map.ny);
-    const double s = u - std::floor(u), t = v - std::floor(v);
-    return (1 - t) * ((1 - s) * map(i, j) + s * map(right, j)) +
-           t * ((1 - s) * map(i, above) + s * map(right, above));
 }
 
 }  // namespace rsc

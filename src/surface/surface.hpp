@@ -86,12 +86,9 @@ inline constexpr std::array kNormaliseNames = {"sample", "ensemble"};
 // contain missing points (NaN) are left out.
 Moments grid_moments(const HeightMap& map);
 
-// Every second point of a map along both sides, from the first one on: the map of a measurement
-// half as fine. Not a copy: its heights are those of `map`, which must outlive it. Read it by (i,
+// Every second point of a map along both sides, from the first one on, or from column 1 or row 1:
+// the map of a measurement half as fine. Not a copy: its heights are those of `map`, which must outlive it. Read it by (i,
 // j), not by row().
-HeightMap every_second_point_of(const HeightMap& map);
-
-// Height at a point between those of a map, linear in x and in y; -Infinity outside.
-double height_at(const HeightMap& map, double x, double y);
+HeightMap every_second_point_of(const HeightMap& map, int column = 0, int row = 0);
 
 }  // namespace rsc

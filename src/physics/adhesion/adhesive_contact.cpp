@@ -72,7 +72,7 @@ Level AdhesiveContact::report() {
     // there is no state to report: the values become not-a-number (Contact::finish)
     if (my.lost_way) {
         my.now = my.accepted;
-        l.status = LevelStatus::not_converged;
+        l.converged = false;
         l.residual = 1;
         l.candidates = my.set.size(), l.iterations = my.steps;
         slope_ = energy_ = kNotComputed;
@@ -102,18 +102,8 @@ Level AdhesiveContact::report() {
         l.area += state.area;
         l.beyond_law += state.beyond || my.law->beyond(i, my.now.s[k]);
     }
-    judge_asperities(l, *my.law, my);
+    complete_level(l, *my.law, my);
     if (my.options.adhesion.range > 0) l.cohesive_area = cohesive;
-    // Where the zones that attract around the summits overlap, they would count twice.
-    if (cohesive + l.area > static_cast<double>(my.now.asperity.size()) * 0.25 * std::numbers::pi *
-                                my.options.mean_spacing * my.options.mean_spacing &&
-        my.options.adhesion.range > 0 && my.options.mean_spacing > 0) {
-        l.status = graver(l.status, LevelStatus::out_of_validity);
-        const double pulled =
-            std::accumulate(l.tractions.pulled.begin(), l.tractions.pulled.end(), 0.0);
-        if (l.force != 0)
-            l.force_error_expected = std::fmax(l.force_error_expected, std::abs(pulled / l.force));
-    }
     l.jumps = my.jumps + my.accepted.jumps;
     l.energy_lost = my.now.lost;
     l.least_force = my.now.least_force;
@@ -152,7 +142,7 @@ std::optional<Level> AdhesiveContact::solve_under(double N) {
             if (my.lost_way) return report();
             Level level = report();
             level.fallback = Fallback::held;
-            level.status = LevelStatus::not_converged;
+            level.converged = false;
             return level;
         }
     }

@@ -73,9 +73,9 @@ public:
         }
         state_.accepted = std::move(past);
         if ((level || state_.accepted.separation < kInfinity) &&
-            solve(state_.accepted.separation < kInfinity ? state_.accepted.separation
-                                                         : level->separation)
-                    .status == LevelStatus::not_converged)
+            !solve(state_.accepted.separation < kInfinity ? state_.accepted.separation
+                                                          : level->separation)
+                 .converged)
             throw Error(
                 Failure::bad_input,
                 "the state of the contact cannot be reached again: the solver does not converge");
@@ -92,7 +92,7 @@ protected:
         const auto look = [&](double Z) {
             level = state_.step(Z);
             iterations += level.iterations, products += level.products;
-            return level.status == LevelStatus::not_converged
+            return !level.converged
                        ? std::numeric_limits<double>::quiet_NaN()
                        : level.force - N;
         };
@@ -124,7 +124,7 @@ protected:
                                                        "of full contact on this surface, %.4g",
                                                        N / area, level.force / area));
             }
-            if (level.status != LevelStatus::not_converged && level.force < least)
+            if (level.converged && level.force < least)
                 least = level.force, least_at = Z;
             found = precise(miss);
         }
@@ -146,8 +146,8 @@ protected:
         }
         if (!found) {
             (void)look(least_at);
-            if (level.status != LevelStatus::not_converged) level.fallback = Fallback::held;
-            level.status = LevelStatus::not_converged;
+            if (level.converged) level.fallback = Fallback::held;
+            level.converged = false;
         }
         level.iterations = iterations, level.products = products;
         return level;

@@ -5,20 +5,11 @@
 #include "base/parallel.hpp"
 #include "elements/pixel_spots.hpp"
 #include "physics/adhesion/adhesive_elements.hpp"
-#include "trust/validity.hpp"
 
 namespace rsc {
 namespace {
 
 constexpr double kCoarsest = 0.5;  // smallest ratio of z0 to the side of a pixel
-constexpr double kResolved = 2;    // smallest ratio of a level within the range of validity
-// Expected error of N, relative to the force of the traction s0 on all points that attract, times
-// z0/h: edges are resolved to a pixel only. Errors of separate contacts cancel on average
-// (measured: test/README).
-constexpr double kEdgeError = 0.13;
-// Expected error of A: of w on the area, times h over the length E* z0^2/w in which the traction
-// acts, and of edges, times h over the radius.
-constexpr double kWorkError = 1.0, kRadiusError = 0.8;
 // Largest error of the work of a step, relative to w times the area that attracts: beyond it the
 // step is divided, at once into this number of pieces at most, and never below this share of a
 // level's way.
@@ -238,15 +229,6 @@ Level AdhesivePixels::step(double Z) {
     level.force -= pixel * tension;
     level.cohesive_area = pixel * static_cast<double>(cohesive);
     level.cohesive_resolution = resolution();
-    if (converged && level.force != 0)
-        level.force_error_expected =
-            kEdgeError / resolution() * s0 * (level.area + level.cohesive_area) /
-            (std::sqrt(std::max(level.contacts, 1)) * std::abs(level.force));
-    if (converged && level.contacts > 0)
-        level.area_error_expected =
-            (kWorkError * s0 / (indenter.E_star * resolution()) +
-             kRadiusError * std::sqrt(std::numbers::pi * pixel * level.contacts / level.area)) /
-            std::sqrt(level.contacts);
     energy = pixel * (0.5 * twice - attraction);
     if (accepted.separation < kInfinity)
         now.work += 0.5 * (accepted.force + level.force) * (accepted.separation - Z);
@@ -257,30 +239,8 @@ Level AdhesivePixels::step(double Z) {
     level.least_force = now.least_force;
     level.energy_lost = now.lost = now.work - energy;
     if (converged) level.jumps = accepted.jumps + count_jumps();
-    if (flats)
-        level.nominal_area = heights.Lx() * heights.Ly();
-    else
-        judge_edges(level, indenter, options);
-    // The surface ends, and so does a map of the indenter.
-    const bool ends = indenter.shape->keys().map != nullptr;
-    const auto at_border = [&](std::int32_t k) {
-        const Pixel p = pixel_at(k);
-        const auto beyond = [&](int i, int j) {
-            return ends && std::isinf(clearance[at(place({i, j}))]);
-        };
-        return p.x == 0 || p.y == 0 || p.x == heights.nx - 1 || p.y == heights.ny - 1 ||
-               beyond(p.x - 1, p.y) || beyond(p.x + 1, p.y) || beyond(p.x, p.y - 1) ||
-               beyond(p.x, p.y + 1);
-    };
-    if (!flats && std::any_of(now.attracting.begin(), now.attracting.end(),
-                              at_border)) {  // attraction beyond the border is missing
-        level.edge_contacts = std::max(level.edge_contacts, 1);
-        level.status = graver(level.status, LevelStatus::out_of_validity);
-    }
-    if (resolution() < kResolved && !now.attracting.empty())
-        level.status = graver(level.status, LevelStatus::out_of_validity);
+    level.converged = converged;
     if (!converged)
-        level.status = LevelStatus::not_converged,
         level.residual = 1;  // no state: Contact::finish() leaves no values
     return level;
 }
@@ -312,7 +272,7 @@ Level AdhesivePixels::solve(double Z) {
         const double most =
             kWorkShare * options.adhesion.work * pixel *
             static_cast<double>(std::max(now.attracting.size(), accepted.attracting.size()));
-        const double error = level.status == LevelStatus::not_converged ? 0 : work_error();
+        const double error = !level.converged ? 0 : work_error();
         if (!(error > most) || !(std::abs(now.separation - accepted.separation) > shortest))
             return 1;
         return static_cast<int>(std::ceil(std::min(std::sqrt(error / most), kMostPieces)));
@@ -330,7 +290,7 @@ Level AdhesivePixels::solve(double Z) {
                 const double end = ends.back(), way = accepted.separation - end;
                 for (int k = 1; k < n; ++k) ends.push_back(end + way * k / n);
             } else {
-                if (level.status == LevelStatus::not_converged) {  // in one step it converges
+                if (!level.converged) {  // in one step it converges
                     restore();
                     return step(Z);
                 }
@@ -457,7 +417,7 @@ void AdhesivePixels::follow() {
                         "a body with an edge cannot be moved while points attract near its edge: "
                         "pull it off first");
     const Level level = solve(accepted.separation);
-    if (level.status == LevelStatus::not_converged)
+    if (!level.converged)
         throw Error(Failure::not_converged,
                     "the path of the attracting points to the new position of the tip is lost; the "
                     "tip stays where it was");

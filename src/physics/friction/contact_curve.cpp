@@ -17,7 +17,7 @@ const Level& ContactCurve::level(double delta) {
         last_[k].reset();  // after an exception there is no level instead of the old one
         last_[k] = std::make_unique<Level>(contact_[k]->at_separation(-delta));
         ++levels_;
-        failed_ += last_[k]->status == LevelStatus::not_converged;
+        failed_ += !last_[k]->converged;
     }
     return *last_[k];
 }
@@ -40,7 +40,7 @@ double ContactCurve::approach(double force) {
     last_[1].reset();
     last_[1] = std::make_unique<Level>(contact_[1]->at_force(force));
     ++levels_;
-    failed_ += last_[1]->status == LevelStatus::not_converged;
+    failed_ += !last_[1]->converged;
     return -last_[1]->separation;
 }
 

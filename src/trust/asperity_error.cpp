@@ -1,0 +1,67 @@
+#include "trust/asperity_error.hpp"
+
+#include "trust/asperity_error_table.hpp"
+
+namespace rsc {
+namespace {
+
+// Mean contact radius, weighted by the forces.
+double mean_radius(const Level& level) {
+    return std::inner_product(level.f.begin(), level.f.end(), level.a.begin(), 0.0) /
+           std::accumulate(level.f.begin(), level.f.end(), 0.0);
+}
+
+}  // namespace
+
+AsperityError asperity_error(const Level& level, const SolverOptions& options) {
+    const double radius = mean_radius(level) / options.mean_spacing;
+    const auto law = static_cast<std::size_t>(options.law);
+    const auto bin = static_cast<std::size_t>(
+        std::upper_bound(std::begin(kRadii), std::end(kRadii), radius) - std::begin(kRadii));
+    if (bin >= std::size(kRadii)) return {};
+    const auto error = [&](std::size_t what) {
+        return kErrors[law][what][bin] * (options.measured ? kOfFiles[law][what] : 1.0) *
+               (level.plastic_contacts > 0 ? kOfYielding[law][what] : 1.0);
+    };
+    return {error(0), error(1)};
+}
+
+bool few_points(const SolverOptions& options) {
+    return !(options.points_per_wave >= kFewestPointsPerWave);
+}
+
+double share_on_spikes(const Level& level, const SolverOptions& options) {
+    if (!options.marks || options.marks->spikes.empty()) return 0;
+    const MapMarks& marks = *options.marks;
+    double force = 0;
+    for (std::size_t k = 0; k < level.x.size(); ++k) {
+        const double near = std::max(1.5 * marks.reach, level.a[k]);
+        const bool on_spike = std::any_of(
+            marks.spikes.begin(), marks.spikes.end(), [&](const std::array<double, 2>& spike) {
+                return std::hypot(spike[0] - level.x[k], spike[1] - level.y[k]) < near;
+            });
+        if (on_spike) force += level.f[k];
+    }
+    return force / level.force;
+}
+
+bool may_touch_beside(const Asperities& asperities, const Indenter& indenter,
+                      const SolverOptions& options, double Z0) {
+    const double w = options.mean_spacing;
+    if (!(w > 0)) return false;
+    // Grid points lie below the tops between them, which are within half a step in both directions.
+    const double below = 0.125 * options.grid_step * options.grid_step;
+    for (std::size_t i = 0; i < asperities.size(); ++i) {
+        const double bend = asperities.kappa1.empty()
+                                ? 2 / asperities.radius[i]
+                                : asperities.kappa1[i] + asperities.kappa2[i];
+        const double top = asperities.z[i] + below * bend;
+        if (!(top > Z0)) continue;  // the indenter is nowhere lower than its tip
+        const Vec2 d = indenter.from_tip(asperities.x[i], asperities.y[i]);
+        const Box around{d.x - w, d.x + w, d.y - w, d.y + w};
+        if (top - indenter.shape->lowest(around) > Z0) return true;
+    }
+    return false;
+}
+
+}  // namespace rsc

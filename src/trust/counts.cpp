@@ -1,0 +1,123 @@
+#include "trust/counts.hpp"
+
+namespace rsc {
+namespace {
+
+// Distance to the border, negative outside.
+double inside(const Rectangle& r, double x, double y) {
+    return std::min({x - r.x0, r.x0 + r.Lx - x, y - r.y0, r.y0 + r.Ly - y});
+}
+
+// Area of the smallest disc about the tip that contains all spots (or all pixels, if any), at most
+// the area of the surface; for periodic flats the area of the period.
+double nominal_area(const Level& level, const Indenter& indenter, const Rectangle& surface) {
+    if (indenter.period.finite()) return indenter.period.area();
+    double radius = 0;
+    for (std::size_t k = 0; k < level.x.size() && level.pixels.index.empty(); ++k) {
+        const double x = level.x[k] - indenter.x0, y = level.y[k] - indenter.y0;
+        radius = std::max(radius, std::sqrt(x * x + y * y) + level.a[k]);
+    }
+    const LevelPixels& pixels = level.pixels;
+    for (std::size_t k = 0; k < pixels.index.size(); ++k) {
+        const double x = std::abs(pixels.x(k) - indenter.x0) + 0.5 * pixels.dx,
+                     y = std::abs(pixels.y(k) - indenter.y0) + 0.5 * pixels.dy;
+        if (x * x + y * y > 0.99 * radius * radius) radius = std::max(radius, std::hypot(x, y));
+    }
+    const double disc = std::numbers::pi * radius * radius;
+    return surface.known() ? std::min(disc, surface.Lx * surface.Ly) : disc;
+}
+
+// Counts border points that touch but are not represented by asperities; neighbouring points count
+// once.
+std::int32_t border_contacts(const Level& level, const Indenter& indenter, const MapMarks& marks) {
+    std::vector<Vec2> touching;
+    std::int32_t count = 0;
+    for (const auto& [x, y, z] : marks.border) {
+        double gap = indenter.clearance(x, y, z) - level.separation;
+        for (std::size_t k = 0; k < level.x.size() && gap > 0; ++k) {
+            const double distance =
+                std::max(std::hypot(level.x[k] - x, level.y[k] - y), level.a[k]);
+            gap -= level.f[k] / (std::numbers::pi * indenter.E_star * distance);
+        }
+        if (!(gap > 0)) continue;
+        const bool counted = std::any_of(touching.begin(), touching.end(), [&](const Vec2& t) {
+            return std::hypot(t.x - x, t.y - y) < 1.5 * marks.reach;
+        });
+        count += !counted;
+        touching.push_back({x, y});
+    }
+    return count;
+}
+
+// The contacts of the pixels that are, or attract, at the border of the surface, or of a map of the
+// indenter, beyond which there is no load; -1: pixels that only attract.
+void mark_border_pixels(const Level& level, const Indenter& indenter, double Ly,
+                        const std::function<void(std::int32_t)>& mark) {
+    const LevelPixels& p = level.pixels;
+    const bool ends = indenter.shape->keys().map != nullptr;
+    const auto rows = static_cast<std::int32_t>(std::lround(Ly / p.dy));
+    const auto at_border = [&](std::int32_t pixel) {
+        const std::int32_t column = pixel % p.columns, row = pixel / p.columns;
+        if (column == 0 || row == 0 || column + 1 == p.columns || row + 1 == rows) return true;
+        const double x = p.x_of(pixel) - indenter.x0, y = p.y_of(pixel) - indenter.y0;
+        const auto beyond = [&](double dx, double dy) {
+            return std::isinf(indenter.shape->height(x + dx, y + dy));
+        };
+        return ends && (beyond(-p.dx, 0) || beyond(p.dx, 0) || beyond(0, -p.dy) || beyond(0, p.dy));
+    };
+    for (std::size_t k = 0; k < p.index.size(); ++k)
+        if (at_border(p.index[k])) mark(p.contact[k]);
+    if (std::any_of(p.cohesive.begin(), p.cohesive.end(), at_border)) mark(-1);
+}
+
+// Counts contacts whose distance from the border is less than <d> or their radius, and those with a
+// pixel on it.
+void count_edges(Level& level, const Indenter& indenter, const SolverOptions& options) {
+    level.edge_contacts = 0;
+    Rectangle surface = options.surface;
+    if (!surface.known() || indenter.period.finite()) return;
+    const LevelPixels& pixels = level.pixels;
+    if (indenter.around.finite()) {  // cut open far from the tip
+        const bool points = pixels.dx > 0;
+        surface.x0 = points ? pixels.x0 : indenter.x0 - 0.5 * surface.Lx;
+        surface.y0 = points ? pixels.y0 : indenter.y0 - 0.5 * surface.Ly;
+    }
+    std::vector<bool> cut(level.x.size(), false);
+    for (std::size_t k = 0; k < cut.size(); ++k)
+        cut[k] =
+            inside(surface, level.x[k], level.y[k]) < std::max(options.mean_spacing, level.a[k]);
+    bool attracts = false;
+    if (pixels.dx > 0)
+        mark_border_pixels(level, indenter, surface.Ly, [&](std::int32_t contact) {
+            if (contact < 0)
+                attracts = true;
+            else
+                cut[static_cast<std::size_t>(contact)] = true;
+        });
+    const auto count = static_cast<std::int32_t>(std::count(cut.begin(), cut.end(), true));
+    level.edge_contacts = attracts ? std::max(count, 1) : count;
+    if (options.marks && !(pixels.dx > 0))
+        level.edge_contacts += border_contacts(level, indenter, *options.marks);
+}
+
+}  // namespace
+
+void count_contacts(Level& level, const Indenter& indenter, const SolverOptions& options) {
+    const auto larger_than = [&](double most) {
+        return static_cast<std::int32_t>(std::count_if(level.a.begin(), level.a.end(),
+                                                       [&](double a) { return a > most; }));
+    };
+    if (options.mean_spacing > 0) level.large_contacts = larger_than(options.mean_spacing / 4);
+    if (indenter.layers.count > 0 && level.pixels.dx == 0)
+        level.wide_contacts = larger_than(indenter.layers.layer[0].thickness / 5) /
+                              std::max(static_cast<double>(level.a.size()), 1.0);
+    count_edges(level, indenter, options);
+    level.nominal_area = nominal_area(level, indenter, options.surface);
+}
+
+bool exceeds_nominal_area(const LevelValues& level) {
+    constexpr double rounding = 1e-9;  // the area of one spot under the tip equals the nominal area
+    return level.nominal_area > 0 && level.area > (1 + rounding) * level.nominal_area;
+}
+
+}  // namespace rsc

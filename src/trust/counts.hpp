@@ -1,0 +1,14 @@
+// Counts of a level that say how near it is to the limits of its model.
+#pragma once
+
+#include "contact/level.hpp"
+
+namespace rsc {
+
+// Sets large_contacts, wide_contacts, edge_contacts and nominal_area of a level.
+void count_contacts(Level& level, const Indenter& indenter, const SolverOptions& options);
+
+// True if the contact area exceeds the nominal area.
+bool exceeds_nominal_area(const LevelValues& level);
+
+}  // namespace rsc

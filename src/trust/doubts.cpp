@@ -1,0 +1,78 @@
+#include "trust/doubts.hpp"
+
+namespace rsc {
+
+std::string sentence(Cause cause, bool elements) {
+    const std::string by_elements =
+        elements ? "" : "; solver%model = 'elements' solves the surface itself";
+    switch (cause) {
+        case Cause::border:
+            return "contacts, or their attraction, within <d> of the border of the surface: what "
+                   "lies beyond it is missing, |N| is too small";
+        case Cause::filled_points:
+            return "the contact may lie on missing points of the map, which are filled smoothly "
+                   "(filled_share): N is too small";
+        case Cause::grid:
+            return "a finer grid may change N by more than 1 %, with adhesion 10 %";
+        case Cause::slope_ratio:
+            return "the indenter is too steep beside the surface (slope_ratio above 0.2), which "
+                   "it touches beside the summits" +
+                   by_elements;
+        case Cause::beyond_law:
+            return "contacts are larger than the contact law or the calibration of its errors "
+                   "reaches" +
+                   by_elements;
+        case Cause::few_points:
+            return "the summits have too few points, or are spikes one point wide" + by_elements;
+        case Cause::layer:
+            return "contacts with a > h/5, where h is the thickness of the top layer" +
+                   by_elements;
+        case Cause::adhesion_range:
+            return "the range of the attraction is less than two pixels (cohesive_resolution): "
+                   "the pull-off force is too high";
+        case Cause::outside_calibration:
+            return "nothing of this kind was compared with elements, so that no error is stated" +
+                   by_elements;
+        case Cause::missed_contact:
+            return elements ? "the bodies may touch between the points of the grid, so that N "
+                              "need not be 0"
+                            : "the bodies may touch beside the summits, so that N need not be 0" +
+                                  by_elements;
+        case Cause::model_error:
+            return "N may differ from that of elements by more than 10 %" + by_elements;
+    }
+    return "";
+}
+
+std::string words_of_doubts(std::int32_t doubts) {
+    std::string words;
+    for (std::size_t k = 0; k < kCauseNames.size(); ++k)
+        if (doubts & (std::int32_t{1} << k))
+            words += (words.empty() ? "" : ", ") + std::string(kCauseNames[k]);
+    std::replace(words.begin(), words.end(), '_', ' ');
+    return words;
+}
+
+void conclude(LevelValues& level, std::span<const Doubt> doubts, bool by_force) {
+    double force = 0, area = 0;
+    level.doubts = 0;
+    for (const Doubt& doubt : doubts) {
+        force += doubt.force;
+        area += doubt.area;
+        if (doubt.serious) level.doubts |= bit(doubt.cause);
+    }
+    level.status = !level.converged              ? LevelStatus::not_converged
+                   : level.doubts                ? LevelStatus::out_of_validity
+                   : !level.unique               ? LevelStatus::not_unique
+                   : level.overlapping_pairs > 0 ? LevelStatus::overlapping
+                                                 : LevelStatus::converged;
+    const bool known = level.converged && !doubts.empty();
+    level.force_error_expected = known && !by_force ? force : kNotComputed;
+    level.area_error_expected = known ? area + (by_force ? force : 0.0) : kNotComputed;
+    level.separation_error_expected =
+        known && by_force && level.stiffness < 0
+            ? force * std::abs(level.force) / std::abs(level.stiffness)
+            : kNotComputed;
+}
+
+}  // namespace rsc

@@ -1,0 +1,211 @@
+#include "trust/grid_error.hpp"
+
+#include "base/error.hpp"
+#include "elements/element_contact.hpp"
+#include "surface/summits.hpp"
+
+namespace rsc {
+namespace {
+
+// Expected error of N for contacts of one pixel, on synthetic surfaces and on maps, assumed to
+// decrease as the third power of the contact radius in pixels: an empirical lower bound for
+// contacts of few pixels.
+constexpr double kOnePixel = 2, kOnePixelRead = 0.7;
+double of_pixels(double pixels, bool read) {
+    return (read ? kOnePixelRead : kOnePixel) * std::pow(pixels, -1.5);
+}
+
+// Error of A of pixels in whole numbers: fitted to 180 levels of random surfaces and shapes against
+// 40 points in the shortest wave (test/README).
+constexpr double kPixelArea = 0.5;
+
+// Elements, sharp punches on a plane: N differs from 2 a E* d by up to this share of the ratio of
+// pixel side to radius, in nine of ten cases.
+constexpr double kEdgeShare = 0.17;
+
+// Two flats: changes of N with the grid are several times larger than this tolerance, and are
+// needed to one digit.
+constexpr double kTolerance = 2e-5;
+
+// Errors of N and A on ridges, fitted to 150 ridged bodies (test/README). If all crests rose above
+// the points as far as they can, N would grow by a share q. The error of N is 0.35 q where contacts
+// are wide (small q), and three times as much just after first touch (large q). That of A is 0.8
+// sqrt(q): the width of a contact in points is proportional to 1/sqrt(q).
+constexpr double kCrest = 0.35, kCrestArea = 0.8;
+
+double edge_share(const Indenter& indenter, double side) {
+    const double edge = indenter.shape->edge(side);
+    return edge > 0 ? kEdgeShare * side / edge : 0;
+}
+
+// The clearance of the points of a row, z - s.
+void clearances(const HeightMap& map, const Indenter& indenter, int row,
+                std::vector<double>& line) {
+    line.resize(static_cast<std::size_t>(map.nx));
+    for (int i = 0; i < map.nx; ++i)
+        line[static_cast<std::size_t>(i)] =
+            indenter.clearance(map.x(i), map.y(row), map(i, row));
+}
+
+// Column and row of the highest point under the indenter.
+std::array<int, 2> highest_point(const HeightMap& map, const Indenter& indenter) {
+    std::array<int, 2> place{0, 0};
+    double highest = -kInfinity;
+    std::vector<double> line;
+    for (int j = 0; j < map.ny; ++j) {
+        clearances(map, indenter, j, line);
+        const auto top = std::max_element(line.begin(), line.end());
+        if (*top > highest) {
+            highest = *top;
+            place = {static_cast<int>(top - line.begin()), j};
+        }
+    }
+    return place;
+}
+
+HeightMap coarser_period(const HeightMap& map, std::array<int, 2> first) {
+    HeightMap coarse;
+    const int nx = (map.nx + 1) / 2, ny = (map.ny + 1) / 2;
+    coarse.allocate(nx, ny, nx);
+    coarse.dx = map.Lx() / nx;
+    coarse.dy = map.Ly() / ny;
+    coarse.x0 = map.x(first[0]);
+    coarse.y0 = map.y(first[1]);
+    coarse.periodic = map.periodic;
+    const auto at = [](int first_, int k, int n, int half) {
+        return wrapped(first_ + static_cast<int>(std::int64_t{k} * n / half), n);
+    };
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i)
+            coarse.row(j)[i] = map(at(first[0], i, map.nx, nx), at(first[1], j, map.ny, ny));
+    return coarse;
+}
+
+// Height of a crest above points half a step beside it, as far as it is longer than wide: (k1 - k2)
+// h^2/8 of the curvatures at a point.
+double crest_height(const HeightMap& map, const Indenter& indenter,
+                    const std::optional<Tensor>& curvature, int column, int row) {
+    const bool repeats = indenter.period.finite();
+    double z[3][3];
+    for (int b = 0; b < 3; ++b)
+        for (int a = 0; a < 3; ++a) {
+            const int i = continued(column + a - 1, map.nx, repeats),
+                      j = continued(row + b - 1, map.ny, repeats);
+            z[b][a] = indenter.clearance(map.x(i), map.y(j), curvature ? 0.0 : map(i, j));
+        }
+    // Beyond the edge of the indenter, which lies somewhere between two points, the face is as
+    // steep as if it rose to half-way between.
+    for (int b = 0; b < 3; ++b)
+        for (int a = 0; a < 3; ++a)
+            if (const double opposite = z[2 - b][2 - a]; !std::isfinite(z[b][a]))
+                z[b][a] = std::isfinite(opposite) ? 3 * opposite - 2 * z[1][1] : z[1][1];
+    PointDifferences d = differences(z[0], z[1], z[2], 0, 1, 2);
+    if (curvature) {
+        const double top = map(column, row);
+        d.zxx -= top * curvature->xx * map.dx * map.dx;
+        d.zxy -= top * curvature->xy * map.dx * map.dy;
+        d.zyy -= top * curvature->yy * map.dy * map.dy;
+    }
+    const double sum = -(d.zxx + d.zyy), difference = std::hypot(d.zxx - d.zyy, 2 * d.zxy);
+    const double ridge = std::min(difference, 0.5 * (sum + difference)) / 8;
+    return ridge > 0 && std::isfinite(ridge) ? ridge : 0.0;
+}
+
+}  // namespace
+
+HeightMap coarser_map(const HeightMap& map, const Indenter& indenter) {
+    std::array<int, 2> first = highest_point(map, indenter);
+    for (int& k : first) ++k;
+    if (indenter.period.finite()) return coarser_period(map, first);
+    return every_second_point_of(map, first[0] % 2, first[1] % 2);
+}
+
+SecondGrid::SecondGrid(const HeightMap& map, const Indenter& indenter, const SolverOptions& options,
+                       bool read)
+    : map_(coarser_map(map, indenter)), read_(read) {
+    SolverOptions coarse = options;
+    if (indenter.period.finite()) coarse.tolerance = std::max(coarse.tolerance, kTolerance);
+    contact_ = make_element_contact(map_, indenter, coarse);
+}
+
+std::optional<GridError> SecondGrid::error(const LevelValues& level, Contact& contact,
+                                           bool by_force) {
+    const Indenter &here = contact.indenter(), &there = contact_->indenter();
+    if (here.x0 != there.x0 || here.y0 != there.y0) contact_->move_tip(here.x0, here.y0);
+    if (contact_->relaxes()) contact_->set_time(level.time);
+    Level other;
+    try {
+        other = by_force && level.force > 0 ? contact_->at_force(level.force)
+                                            : contact_->at_separation(level.separation);
+    } catch (const Error& error) {  // two flats closer than this grid allows
+        if (error.kind() != Failure::bad_input) throw;
+        return {};
+    }
+    if (!other.converged || level.contacts == 0) return {};
+    // Under the same force the change of the separation is one of N at the separation.
+    const double change_of_N = by_force ? contact.stiffness() * (level.separation - other.separation)
+                                        : level.force - other.force;
+    const double force = 0.5 * std::abs(change_of_N / level.force),
+                 area = 0.5 * std::abs(1 - other.area / level.area);
+    const GridError few =
+        error_of_pixels(level, contact.indenter(), 0.5 * std::max(map_.dx, map_.dy), read_);
+    // Fitted to maps solved on a grid of half the step (test/README, elements on maps): nine of ten
+    // are within these bounds.
+    if (read_) return GridError{few.force + force + 0.04 * area, few.area + 1.4 * area + 2 * force};
+    // Contacts of a few pixels may have the same error on both grids, and their areas in whole
+    // pixels by chance.
+    const double by_chance = of_pixels(level.pixels_per_contact, false);
+    return GridError{few.force + std::max(force - by_chance, 0.0),
+                     few.area + std::max(area - by_chance, 0.0)};
+}
+
+GridError error_of_pixels(const LevelValues& level, const Indenter& indenter, double side,
+                          bool read) {
+    const double pixels = level.pixels_per_contact,
+                 force = of_pixels(pixels, read) + edge_share(indenter, side);
+    return {force, force + (read ? 1.0 : kPixelArea) * std::pow(pixels, -0.75)};
+}
+
+GridError error_of_crests(const Level& level, double stiffness, const HeightMap& map,
+                          const Indenter& indenter, const std::optional<Tensor>& curvature) {
+    double mean = 0;
+    for (std::size_t c = 0; c < level.f.size(); ++c)
+        mean += level.f[c] / level.force *
+                crest_height(map, indenter, curvature, level.asperity[c] % map.nx,
+                             level.asperity[c] / map.nx);
+    const double share = mean * -stiffness / level.force;
+    return share > 0 ? GridError{kCrest * share * (1 + 2 * share / (1 + share)),
+                                 kCrestArea * std::sqrt(share)}
+                     : GridError{};
+}
+
+double touch_between_points(const HeightMap& map, const Indenter& indenter) {
+    const bool repeats = indenter.period.finite();
+    std::vector<double> below, here, above;
+    clearances(map, indenter, continued(-1, map.ny, repeats), below);
+    clearances(map, indenter, 0, here);
+    double highest = -kInfinity;
+    for (int j = 0; j < map.ny; ++j) {
+        clearances(map, indenter, continued(j + 1, map.ny, repeats), above);
+        for (int i = 0; i < map.nx; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            const double top = here[k];
+            const auto rise = [&](double one, double other) {
+                const double lower = std::min(one, other);
+                return std::isfinite(lower) ? 0.5 * (top - lower) : 0.0;
+            };
+            const auto beside = [&](int way) {
+                return here[static_cast<std::size_t>(continued(i + way, map.nx, repeats))];
+            };
+            const double left = beside(-1), right = beside(1);
+            if (std::isfinite(top) && top >= left && top >= right && top >= below[k] &&
+                top >= above[k])
+                highest = std::max(highest, top + rise(left, right) + rise(below[k], above[k]));
+        }
+        std::swap(below, here);
+        std::swap(here, above);
+    }
+    return highest;
+}
+
+}  // namespace rsc

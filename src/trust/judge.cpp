@@ -1,0 +1,181 @@
+#include "trust/judge.hpp"
+
+#include "trust/asperity_error.hpp"
+#include "trust/counts.hpp"
+
+namespace rsc {
+namespace {
+
+// A larger expected error of N of asperities, or with adhesion, is a doubt. Under a prescribed force
+// N of elements is not in doubt; the error of the separation is, above kUnresolved times the rms
+// height, and this one of the area.
+constexpr double kMuchError = 0.1;
+
+// Asperities: largest slope_ratio. Above, the bodies touch beside the summits.
+constexpr double kSteepest = 0.2;
+
+// A larger share of the contact area on filled points is a doubt.
+constexpr double kMuchFilled = 0.01;
+
+// Error of N by points that were filled from their neighbours, times their share: with 30 % of them
+// N of elements was 1 to 3.4 % too low.
+constexpr double kScattered = 0.15;
+
+// Elements with adhesion. Smallest ratio of the range to the side of a pixel. Error of N, relative
+// to the force of the traction s0 on all points that attract, times z0/h: edges are resolved to a
+// pixel only, and errors of separate contacts cancel on average (measured: test/README). Error of
+// A: of w on the area, times h over the length E* z0^2/w in which the traction acts, and of edges,
+// times h over the radius.
+constexpr double kResolved = 2, kEdgeError = 0.13, kWorkError = 1.0, kRadiusError = 0.8;
+
+bool known_shape(const Indenter& indenter) {
+    const std::string_view name = indenter.shape->name();
+    return name == "sphere" || name == "paraboloid" || indenter.shape->flat();
+}
+
+// What the study of asperities against elements (input/trust) contains.
+bool calibrated(const Level& level, const Contact& contact, const SolverOptions& options) {
+    const bool yields = std::isfinite(options.hardness.H0);
+    const std::vector<double> depths = contact.residual_depths();
+    const auto yielded =
+        std::count_if(depths.begin(), depths.end(), [](double depth) { return depth > 0; });
+    return options.interaction == Interaction::point && options.selection == Selection::overlap &&
+           options.adhesion.work == 0 && options.relaxation.none() &&
+           known_shape(contact.indenter()) && options.mean_spacing > 0 && options.gentlest_slope > 0 &&
+           !(yields && (options.hardness.length > 0 || contact.indenter().layers.count > 0)) &&
+           yielded <= level.plastic_contacts;  // otherwise some are unloaded
+}
+
+Doubt edges_of_adhesion(const Level& level, const Indenter& indenter, const HeightMap& map,
+                        bool read, const SolverOptions& options) {
+    Doubt doubt{Cause::grid};
+    if (level.force == 0) return doubt;
+    const double traction = options.adhesion.work / options.adhesion.range,
+                 pulled = traction * (level.area + level.cohesive_area),
+                 contacts = std::max(level.contacts, 1);
+    double dN = kEdgeError / level.cohesive_resolution * pulled / std::sqrt(contacts);
+    if (level.contacts > 0) {
+        const GridError few =
+            error_of_pixels(level, indenter, std::max(map.dx, map.dy), read);
+        dN += few.force * std::max(level.force + pulled, 0.0);
+        doubt.area = few.area +
+                     (kWorkError * traction / (indenter.E_star * level.cohesive_resolution) +
+                      kRadiusError *
+                          std::sqrt(std::numbers::pi * map.dx * map.dy * contacts / level.area)) /
+                         std::sqrt(contacts);
+    }
+    doubt.force = dN / std::abs(level.force);
+    doubt.serious = doubt.force > kMuchError;
+    return doubt;
+}
+
+}  // namespace
+
+Tensor curvature_at_unit_height(const Moments& m) {
+    return {m.tensor.m20 / m.m0, m.tensor.m11 / m.m0, m.tensor.m02 / m.m0};
+}
+
+Judge::Judge(const SolverOptions& options, JudgedSurface surface)
+    : options_(options), surface_(std::move(surface)) {}
+
+void Judge::judge(Level& level, Contact& contact, bool by_force) {
+    const Asperities* const asperities = contact.asperities();
+    const Indenter& indenter = contact.indenter();
+    count_contacts(level, indenter, options_);
+    if (!level.converged) return conclude(level, {}, by_force);
+    std::vector<Doubt> doubts =
+        asperities ? of_asperities(level, contact) : of_elements(level, contact, by_force);
+    if (level.edge_contacts > 0) doubts.push_back({Cause::border});
+    if (!surface_.filled.empty()) {
+        level.filled_share =
+            share_on_filled(level, surface_.filled, indenter, options_.sigma);
+        if (level.filled_share > kMuchFilled) doubts.push_back({Cause::filled_points});
+    }
+    conclude(level, doubts, by_force);
+}
+
+std::vector<Doubt> Judge::of_asperities(Level& level, const Contact& contact) const {
+    const Indenter& indenter = contact.indenter();
+    std::vector<Doubt> doubts;
+    const auto doubt = [&](bool is, Cause cause) {
+        if (is) doubts.push_back({cause});
+    };
+    if (level.contacts == 0 && level.force == 0) {
+        doubt(may_touch_beside(*contact.asperities(), indenter, options_, level.separation),
+              Cause::missed_contact);
+        return doubts;
+    }
+    doubt(level.slope_ratio > kSteepest, Cause::slope_ratio);
+    doubt(level.wide_contacts > 0, Cause::layer);
+    doubt(!calibrated(level, contact, options_) || exceeds_nominal_area(level),
+          Cause::outside_calibration);
+    doubt(few_points(options_), Cause::few_points);
+    if (!doubts.empty()) return doubts;
+    const AsperityError error = asperity_error(level, options_);
+    doubt(std::isnan(error.force), Cause::beyond_law);
+    doubts.push_back({Cause::model_error, error.force, error.area, error.force > kMuchError});
+    if (const double share = share_on_spikes(level, options_); share > 0)
+        doubts.push_back({Cause::few_points, share, share, share > kMuchError});
+    return doubts;
+}
+
+std::vector<Doubt> Judge::of_elements(Level& level, Contact& contact, bool by_force) {
+    std::vector<Doubt> doubts;
+    const bool attracts = level.cohesive_area > 0;
+    if (level.contacts == 0 && !attracts) {
+        if (level.separation < touch_between(contact)) doubts.push_back({Cause::missed_contact});
+        // The other grid follows the path.
+        if (surface_.second_grid && contact.path_dependent()) (void)grid(level, contact, by_force);
+        return doubts;
+    }
+    if (options_.adhesion.work > 0 && level.cohesive_resolution < kResolved)
+        doubts.push_back({Cause::adhesion_range});
+    if (surface_.second_grid || options_.adhesion.work > 0)
+        doubts.push_back(grid(level, contact, by_force));
+    if (surface_.scattered > 0) {
+        const double share = kScattered * surface_.scattered;
+        doubts.push_back({Cause::filled_points, share, share, share > kUnresolved});
+    }
+    return doubts;
+}
+
+// Upper bound of the Z0 at which the bodies touch, between the points of elements, too; -Infinity
+// if the surface is lower than its map.
+double Judge::touch_between(const Contact& contact) {
+    const Indenter& indenter = contact.indenter();
+    const PlaceOfTip tip{indenter.x0, indenter.y0};
+    if (!surface_.map || contact.relaxes() || !contact.residual_profile().x.empty())
+        return -kInfinity;
+    if (between_at_ == tip) return between_;
+    between_at_ = tip;
+    if (!surface_.curvature) return between_ = touch_between_points(*surface_.map, indenter);
+    // Not all heights of synthetic surfaces need be kept. A top is at most twice as curved as is
+    // expected at its height.
+    const Tensor& c = *surface_.curvature;
+    const double dx = surface_.map->dx, dy = surface_.map->dy, touch = contact.first_touch();
+    return between_ = touch + 0.25 * std::max(touch, options_.sigma) *
+                                  (std::abs(c.xx) * dx * dx + std::abs(c.yy) * dy * dy);
+}
+
+// The error by the grid, with adhesion by the resolution of the edges, too.
+Doubt Judge::grid(const Level& level, Contact& contact, bool by_force) {
+    const Indenter& indenter = contact.indenter();
+    const HeightMap& map = *surface_.map;
+    const bool read = !surface_.curvature;
+    if (options_.adhesion.work > 0) return edges_of_adhesion(level, indenter, map, read, options_);
+    Doubt doubt{Cause::grid};
+    if (std::min(map.nx, map.ny) < kFewestPoints) return doubt;
+    if (!second_) second_.emplace(map, indenter, options_, read);
+    const auto error = second_->error(level, contact, by_force);
+    if (!error) return doubt;
+    const double stiffness = std::isnan(level.stiffness) ? contact.stiffness() : level.stiffness;
+    const GridError crests = error_of_crests(level, stiffness, map, indenter, surface_.curvature);
+    doubt.force = std::max(error->force, crests.force);
+    doubt.area = std::max(error->area, crests.area);
+    const double change = doubt.force * std::abs(level.force / stiffness);  // of the separation
+    doubt.serious = by_force ? change > kUnresolved * options_.sigma || doubt.area > kMuchError
+                             : doubt.force > kUnresolved;
+    return doubt;
+}
+
+}  // namespace rsc

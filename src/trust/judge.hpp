@@ -1,0 +1,52 @@
+// The judge of levels: after a level exists, what it is worth. The only place where the status of a
+// level, its doubts and its expected errors are assigned. They depend on the level, the bodies and
+// the options, not on other levels, except where the bodies themselves remember them.
+#pragma once
+
+#include "contact/contact.hpp"
+#include "trust/doubts.hpp"
+#include "trust/filled_points.hpp"
+#include "trust/grid_error.hpp"
+
+namespace rsc {
+
+// A larger expected error of N of elements is a doubt.
+inline constexpr double kUnresolved = 0.01;
+
+// Mean curvature of a synthetic surface at points of unit height [1/length^2].
+Tensor curvature_at_unit_height(const Moments& moments);
+
+// What of the surface the judgement depends on, beside the options of the solver.
+struct JudgedSurface {
+    const HeightMap* map = nullptr;  // of elements; must outlive the judge
+    // Elements: the levels are solved on a second grid, without which they have no expected error.
+    // Path-dependent levels must then all be judged, in the order of the path.
+    bool second_grid = false;
+    // Elements on a synthetic surface: curvature_at_unit_height().
+    std::optional<Tensor> curvature = {};
+    std::vector<FilledPoints> filled = {};  // of the maps of both bodies
+    double scattered = 0;  // share of the points of a map that were filled from their neighbours
+};
+
+class Judge {
+public:
+    Judge(const SolverOptions& options, JudgedSurface surface);
+
+    // Judges a level of `contact`, which must be at that level. `by_force`: the level was found for
+    // a prescribed force.
+    void judge(Level& level, Contact& contact, bool by_force);
+
+private:
+    std::vector<Doubt> of_asperities(Level& level, const Contact& contact) const;
+    std::vector<Doubt> of_elements(Level& level, Contact& contact, bool by_force);
+    double touch_between(const Contact& contact);
+    Doubt grid(const Level& level, Contact& contact, bool by_force);
+
+    SolverOptions options_;
+    JudgedSurface surface_;
+    std::optional<SecondGrid> second_;  // once it is needed
+    std::optional<PlaceOfTip> between_at_;
+    double between_ = 0;  // Z0 at which the bodies may touch between points, at that place
+};
+
+}  // namespace rsc
