@@ -231,15 +231,11 @@ std::optional<SolverOptions> with_rim(const Level& level, const ContactBodies& b
     return with;
 }
 
-// Summits of the difference between surface and indenter; absent if the given asperities are to be
-// used. Beyond half the mean distance of summits lies the range of others.
-std::optional<Asperities> summits_of_difference(const Asperities& asperities,
-                                                const Indenter& indenter,
-                                                const SolverOptions& options) {
+// True if the summits of the difference between surface and indenter differ from those of the
+// surface.
+bool shifts_summits(const Indenter& indenter, const SolverOptions& options) {
     require_sound(indenter);
-    if (indenter.shape->flat() || !traits(options.law).between_points || !(options.rms_slope > 0))
-        return std::nullopt;
-    return shifted_summits(asperities, indenter, 0.5 * options.mean_spacing);
+    return !indenter.shape->flat() && traits(options.law).between_points && options.rms_slope > 0;
 }
 
 // Asperities of a list touch a flat, whatever the curvature c of the indenter at the contact (on a
@@ -306,9 +302,13 @@ ContactBodies::ContactBodies(const Asperities& given, const Indenter& indenter_,
       options(of_both(options_, indenter_)),
       blunt(std::accumulate(given.radius.begin(), given.radius.end(), 0.0) /
             static_cast<double>(given.size())),
-      of_difference(summits_of_difference(of_surface, indenter_, options)),
-      asperities(of_difference ? *of_difference : of_surface),
       indenter(indenter_),
+      of_difference(
+          shifts_summits(indenter, options)
+              // beyond half the mean distance of summits lies the range of others
+              ? std::make_unique<ShiftedSummits>(of_surface, indenter, 0.5 * options.mean_spacing)
+              : nullptr),
+      asperities(of_difference ? of_difference->summits() : of_surface),
       kernel(make_kernel(options_.interaction, substrate_of(indenter_), indenter_.period)) {}
 
 // `auto`: direct or mesh by the estimated cost of a Newton solve, with rates measured by
@@ -426,7 +426,7 @@ void judge_asperities(Level& level, const Law& law, const ContactBodies& bodies)
         return level.separation < flanks.Z0;
     };
     if ((of_surface && level.slope_ratio > kMostSlopeRatio) ||
-        (level.contacts == 0 && of_surface && flank_touches()))
+        (level.contacts == 0 && flank_touches()))
         level.status = graver(level.status, LevelStatus::out_of_validity);
 }
 

@@ -32,13 +32,13 @@ struct ContactBodies {
     const Asperities& of_surface;
     SolverOptions options;
     double blunt;  // mean radius of its summits
-    std::optional<Asperities> of_difference;
+    Indenter indenter;
+    std::unique_ptr<ShiftedSummits> of_difference;  // null: asperities are those of the surface
     mutable FlankTouch flanks;
     mutable EdgePoints edge;
     mutable std::shared_ptr<const MapMarks>
         rim;                       // border of a synthetic surface, once the indenter is near it
     const Asperities& asperities;  // refers to one of the two above
-    Indenter indenter;
     std::shared_ptr<const Kernel> kernel;
 
     ContactBodies(const Asperities& given, const Indenter& indenter, const SolverOptions& options);
