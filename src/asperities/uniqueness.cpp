@@ -148,6 +148,110 @@ double secant(const Law& law, double E_star, int asperity, double v, double forc
     return (law.force(asperity, high) - force) / rise / (2 * E_star);
 }
 
+// Tests whether a cluster, in the field of all others, has only the given solution: the box of its
+// possible penetrations is divided until each part is proved to contain no solution or to be too
+// small for two.
+class Search {
+public:
+    Search(const Law& law, double E_star, const Cluster& cluster,
+           const std::vector<Coupling>& close, const std::vector<int>& asperity, const Vector& v,
+           const Vector& slope, double noise)
+        : law_(law),
+          E_star_(E_star),
+          cluster_(cluster),
+          v_(of_points(cluster, v)),
+          slope_(of_points(cluster, slope)),
+          noise_(noise) {
+        for (std::size_t i : cluster.points) asperity_.push_back(asperity[i]);
+        std::vector<std::size_t> place(v.size(), v.size());
+        for (std::size_t k = 0; k < cluster.points.size(); ++k) place[cluster.points[k]] = k;
+        for (const auto& c : close) {
+            const std::size_t i = place[c.i], j = place[c.j];
+            if (i < v.size() && j < v.size()) inside_.push_back({i, j, c.value});
+        }
+        force_ = forces(v_);
+        f_low_ = f_high_ = change_ = relief_ = force_;
+    }
+
+    // `low` and `high`: bounds on the penetrations of the cluster's points.
+    bool finds_one(Vector low, Vector high) { return within(std::move(low), std::move(high), 12); }
+
+private:
+    Vector forces(const Vector& v) const {
+        Vector f(v.size());
+        for (std::size_t k = 0; k < v.size(); ++k) f[k] = law_.force(asperity_[k], v[k]);
+        return f;
+    }
+
+    // Narrows the bounds by the equation v = v0 - B (F - F0). Returns false if there is no solution
+    // between them.
+    bool narrow(Vector& low, Vector& high) {
+        // Possible change of the field of more distant contacts, relative to the possible change by
+        // the cluster itself.
+        constexpr double give = 0.1;
+        f_low_ = forces(low);
+        f_high_ = forces(high);
+        Vector& up = relief_;
+        for (std::size_t k = 0; k < v_.size(); ++k)
+            change_[k] = std::max(f_high_[k] - force_[k], force_[k] - f_low_[k]);
+        couple(inside_, change_, up);
+        Vector slack(up);
+        for (std::size_t k = 0; k < slack.size(); ++k) slack[k] = give * slack[k] + noise_;
+        for (std::size_t k = 0; k < v_.size(); ++k) change_[k] = force_[k] - f_low_[k];
+        couple(inside_, change_, up);
+        for (std::size_t k = 0; k < v_.size(); ++k)
+            high[k] = std::min(high[k], v_[k] + up[k] + slack[k]);
+        for (std::size_t k = 0; k < v_.size(); ++k) change_[k] = f_high_[k] - force_[k];
+        couple(inside_, change_, up);
+        for (std::size_t k = 0; k < v_.size(); ++k)
+            low[k] = std::max(low[k], v_[k] - up[k] - slack[k]);
+        for (std::size_t k = 0; k < v_.size(); ++k) {
+            if (low[k] > high[k]) return false;
+        }
+        return true;
+    }
+
+    bool within(Vector low, Vector high, int deepest) {
+        constexpr int parts = 200, narrowings = 3;
+        if (++parts_ > parts) return false;
+        for (int i = 0; i < narrowings; ++i) {
+            if (!narrow(low, high)) return true;
+        }
+        Vector a(v_.size());
+        for (std::size_t k = 0; k < a.size(); ++k)
+            a[k] = secant(law_, E_star_, asperity_[k], v_[k], force_[k], slope_[k], high[k]);
+        if (positive_definite(cluster_, a)) return true;
+        if (deepest == 0) return false;
+        std::size_t widest = 0;
+        double range = -1;
+        for (std::size_t k = 0; k < a.size(); ++k) {
+            const double wide =
+                law_.force(asperity_[k], high[k]) - law_.force(asperity_[k], low[k]);
+            if (wide > range) {
+                widest = k;
+                range = wide;
+            }
+        }
+        const double middle = 0.5 * (std::max(low[widest], 0.0) + high[widest]);
+        Vector below(high), above(low);
+        below[widest] = above[widest] = middle;
+        // A second solution, if any, is found faster in the half without the first.
+        if (v_[widest] > middle)
+            return within(low, below, deepest - 1) && within(above, high, deepest - 1);
+        return within(above, high, deepest - 1) && within(low, below, deepest - 1);
+    }
+
+    const Law& law_;
+    double E_star_;
+    const Cluster& cluster_;
+    Vector v_, slope_, force_;
+    double noise_;  // errors of v
+    std::vector<int> asperity_;
+    std::vector<Coupling> inside_;
+    int parts_ = 0;
+    Vector f_low_, f_high_, change_, relief_;
+};
+
 }  // namespace
 
 bool positive_definite_by_shells(const Vector& x, const Vector& y, const Vector& a,
@@ -255,7 +359,13 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
     }
     secants();
     doubtful = doubtful_clusters(pairs, a);
-    return std::all_of(doubtful.begin(), doubtful.end(), settled);
+    std::erase_if(doubtful, settled);
+    // Penetrations of candidates far from contact are computed in single precision.
+    constexpr double precision = 1e-4;
+    return std::all_of(doubtful.begin(), doubtful.end(), [&](const Cluster& cluster) {
+        return Search(law, E_star, cluster, close, asperity, v, slope, precision * deepest)
+            .finds_one(of_points(cluster, low), of_points(cluster, high));
+    });
 }
 
 }  // namespace rsc

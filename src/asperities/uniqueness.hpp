@@ -35,8 +35,10 @@ bool positive_definite_by_shells(const std::vector<double>& x, const std::vector
 // forces; slopes) of all candidates. A second solution differs by dF with dF'(B + 1/D')dF = 0,
 // where D' is the secant slope of the law between the two, and its penetrations cannot exceed those
 // without close partners. The shell test with these secants can prove that there is none. If it
-// does not, the penetrations are bounded more narrowly, by the forces of the close partners at the
-// bounds, and the doubtful clusters are tested again.
+// does not, the box of possible penetrations of a doubtful cluster is bisected, and each part is
+// narrowed by the equation until it is empty or passes the test with its own, smaller secants. The
+// field of more distant contacts is that of the given solution, within a tenth of the possible
+// change by the cluster itself.
 bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<int>& asperity,
                       const std::vector<double>& x, const std::vector<double>& y,
                       const std::vector<double>& v, const std::vector<double>& force,
