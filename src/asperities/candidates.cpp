@@ -10,10 +10,7 @@ std::size_t Contenders::above(double Z0) {
         return last;
     }
     const std::size_t last = ranking.above(Z0 - shifts->most_gained(Z0), fresh);
-    fresh.clear();
-    for (std::size_t r = 0; r < last; ++r)
-        if (const int i = ranking[r].asperity; !shifts->shifted(at(i))) fresh.push_back(i);
-    law.prepare(fresh);
+    for (std::size_t r = 0; r < last; ++r) shifts->shift(at(ranking[r].asperity));
     return last;
 }
 
@@ -57,6 +54,10 @@ void select_candidates(Contenders contenders, const SolverOptions& options, doub
     }
     for (auto* list : {&set.x, &set.y, &set.g0}) list->resize(n);
     candidates.rank.resize(n), set.asperity.resize(n);
+    std::vector<int> fresh;
+    for (const int i : set.asperity)
+        if (shifts && !shifts->prepared(at(i))) fresh.push_back(i);
+    law.prepare(fresh);
 }
 
 NewtonOutcome solve_candidates(const WorkingSet& candidates, Newton& newton, Products& products,

@@ -19,7 +19,7 @@ struct Contenders {
     ShiftedSummits* shifts;
     Law& law;
 
-    // Number of entries of the ranking that may be above Z0; the law is prepared for them.
+    // Number of entries of the ranking that may be above Z0.
     std::size_t above(double Z0);
     // Clearance of an entry.
     double height(std::size_t rank) const;

@@ -64,7 +64,7 @@ public:
 
     void prepare(std::span<const int> asperities) override {
         for (int i : asperities) {
-            if (shifts_) shifts_->shift(at(i));
+            if (shifts_) shifts_->shift_and_prepare(at(i));
             const double kappa1 = asperities_.kappa1[at(i)], kappa2 = asperities_.kappa2[at(i)],
                          kappa = std::sqrt(kappa1 * kappa2);
             const double q2 = quartic_ ? asperities_.biharmonic[at(i)] / (kappa1 + kappa2) : 0.0;

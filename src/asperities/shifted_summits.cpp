@@ -60,14 +60,14 @@ ShiftedSummits::ShiftedSummits(const Asperities& of_surface, const Indenter& ind
       done_(of_surface.size()) {}
 
 void ShiftedSummits::forget() {
-    for (const std::size_t i : which_) done_[i] = 0;
+    for (const std::size_t i : which_) done_[i] = kNothing;
     which_.clear();
 }
 
 void ShiftedSummits::shift(std::size_t i) {
-    if (done_[i]) return;
+    if (done_[i] != kNothing) return;
     which_.push_back(i);
-    done_[i] = 1;
+    done_[i] = kShifted;
     const Asperities& a = of_surface_;
     const IndenterShape& shape = *indenter_.shape.operator->();
     const Tensor H = curvatures_of(a, i);
@@ -88,11 +88,12 @@ void ShiftedSummits::shift(std::size_t i) {
         }
     }
     const double z = a.z[i] - 0.5 * (H.xx * d.x * d.x + 2 * H.xy * d.x * d.y + H.yy * d.y * d.y);
-    Asperities one;
+    for (const AsperityColumn& column : kAsperityColumns) (one_.*column.values).clear();
     append_summit(a.x[i] + d.x, a.y[i] + d.y, z, {-0.5 * bent.xx, -0.5 * bent.yy, -0.5 * bent.xy},
-                  geometric_ ? Curvature::geometric : Curvature::algebraic, one);
-    if (!a.biharmonic.empty()) one.biharmonic.push_back(a.biharmonic[i] - flattened);
-    replace(shifted_, {i}, one);
+                  geometric_ ? Curvature::geometric : Curvature::algebraic, one_);
+    if (!a.biharmonic.empty()) one_.biharmonic.push_back(a.biharmonic[i] - flattened);
+    for (const AsperityColumn& column : kAsperityColumns)
+        if (!(one_.*column.values).empty()) (shifted_.*column.values)[i] = (one_.*column.values)[0];
 }
 
 // The face above the shifted place is at most highest_ - Z0; from there to the summit it rises by

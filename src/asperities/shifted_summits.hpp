@@ -30,7 +30,12 @@ public:
     void forget();
     // Shifts summit i, unless that was done since the tip moved.
     void shift(std::size_t i);
-    bool shifted(std::size_t i) const { return done_[i] != 0; }
+    // True if the law was prepared for summit i since the tip moved; told by the law.
+    bool prepared(std::size_t i) const { return done_[i] == kPrepared; }
+    void shift_and_prepare(std::size_t i) {
+        shift(i);
+        done_[i] = kPrepared;
+    }
 
     // Those that are not shifted have the values of the surface or of another place of the tip.
     const Asperities& summits() const { return shifted_; }
@@ -46,8 +51,10 @@ private:
     bool geometric_;  // the radius is 1/kappa_g, otherwise 1/kappa_a
     double highest_;  // largest z
     Asperities shifted_;
-    std::vector<std::uint8_t> done_;
-    std::vector<std::size_t> which_;  // those with done_
+    Asperities one_;  // work space
+    enum Done : std::uint8_t { kNothing, kShifted, kPrepared };
+    std::vector<Done> done_;
+    std::vector<std::size_t> which_;  // those with which something is done
 };
 
 // Largest slope of the face at the contacts of a level; 0 if there are none.
