@@ -33,7 +33,7 @@ Level press(const HeightMap& map, double separation) {
     const Breaks breaks = find_breaks(map, 0);
     SummitCount count;
     const Asperities a =
-        find_asperities(map, Curvature::geometric, &count, 1, Detail::subgrid, 0, nullptr, &breaks);
+        find_asperities(map, Curvature::geometric, &count, 1, Detail::subgrid, 0, &breaks);
     SolverOptions options{.law = LawKind::fourth_order,
                           .sigma = 2e-4,
                           .mean_spacing = 0.1,

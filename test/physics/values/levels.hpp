@@ -2,8 +2,8 @@
 #pragma once
 
 #include "asperities/law.hpp"
+#include "asperities/shifted_summits.hpp"
 #include "contact/spots.hpp"
-#include "asperities/touching.hpp"
 #include "base/version.h"
 #include "case/read_case.hpp"
 #include "physics/values/truth.hpp"
@@ -311,7 +311,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         // input/trust; unit/test_resolution
         const double expected = level(k, s).force_error_expected;
         if (t.elements) return with_border[i] > 0 || expected > kUnresolved ? 1 : 0;
-        if (!(N[i] > 0)) return given;  // what touches beside the summits: physics/test_touching
+        if (!(N[i] > 0)) return given;  // what touches beside the summits: physics/test_edges
         const bool deep = level(k, s).separation<-3 * t.sigma, full = A[i]> nominal[i] * (1 + 1e-9);
         const bool far_off =
             std::isnan(expected) ? large[i] > 0 || beyond[i] > 0 : expected > kMuchError;
@@ -422,7 +422,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         return v;
     };
     const double most = *std::max_element(N.begin(), N.end());
-    // Summits between points also move with the tip (physics/test_touching): shares of N.
+    // Summits between points also move with the tip (physics/test_edges): shares of N.
     constexpr double kMotion = 0.01;
     f.same("lateral_force", pushed(false), kRounding,
            (t.elements || t.hertz ? kRounding : kMotion) * most);
