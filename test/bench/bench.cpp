@@ -81,7 +81,7 @@ void bench_solve() {
                 differ = std::max(differ, std::abs(dgesv[k].force / direct[k].force - 1));
             steps += direct[k].iterations;
             solves += dgesv[k].iterations;
-            not_unique += direct[k].status == LevelStatus::not_unique;
+            not_unique += !direct[k].unique;
         }
         std::printf(
             "  realization %d: dgesv %.3f s (%ld solves), direct %.4f s (%ld Newton steps, %ld "

@@ -31,7 +31,7 @@ void print_cold(const char* what, const HeightMap& map, double wanted) {
         "residual %.1e%s: %.3f s (wanted: %g)\n",
         what, level.pixels.index.size(), level.candidates, level.iterations,
         static_cast<long>(level.products), level.residual,
-        level.status == LevelStatus::not_converged ? ", NOT CONVERGED" : "", time, wanted);
+        !level.converged ? ", NOT CONVERGED" : "", time, wanted);
 }
 
 }  // namespace

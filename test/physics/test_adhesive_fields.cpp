@@ -198,7 +198,7 @@ TEST(test_element_fields) {
         const auto kernel = make_kernel(Interaction::point, Substrate(kE), tip.period);
         for (const double Z : {0.11, 0.09, 0.1}) {
             const Level level = contact->at_separation(Z);
-            CHECK(level.status == LevelStatus::converged);
+            CHECK(level.converged);
             const Fields f = fields_of(map, tip, Interaction::point, {{0, &level, {}}},
                                        {true, true, true, false, {{0, 1, 0, 1}}});
             double force = 0, cohesive = 0;

@@ -53,7 +53,7 @@ void test_conditions(bool flats, const LayeredBody& body, bool fine) {
     CHECK(before.force == 0);
     for (int k = 1; k < kLevels; ++k) {
         const Level level = contact->at_separation(separation(flats, k));
-        CHECK(level.status != LevelStatus::not_converged);
+        CHECK(level.converged);
         most_lost = std::max(most_lost, level.energy_lost);
         before = level;
         if (flats) continue;

@@ -55,7 +55,7 @@ void elements(double E_star) {
         double worst_N = 0, worst_A = 0;
         for (const Row& row : levels) {
             const Level level = contact->at_separation(row.separation * spectrum.sigma);
-            CHECK(level.status == LevelStatus::converged);
+            CHECK(level.converged);
             worst_N = check::worse(worst_N, std::abs(level.force / row.N - 1));
             worst_A = check::worse(worst_A, std::abs(level.area_pixels / row.counted - 1));
             CHECK_RELATIVE(level.area, row.A, 1e-3);
@@ -84,7 +84,7 @@ TEST(all_boundary_elements) {
         CHECK(levels.size() == 5);
         for (const Row& row : levels) {
             const Level level = contact.at_separation(row.separation * spectrum.sigma);
-            CHECK(level.status != LevelStatus::not_converged);
+            CHECK(level.converged);
             const double N = 100 * (level.force / row.N - 1), A = 100 * (level.area / row.A - 1);
             if (row.separation > 2.75) continue;
             CHECK(std::abs(N) <= wanted_N(ratio));

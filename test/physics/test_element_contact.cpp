@@ -2,6 +2,7 @@
 // tolerances, on pixels of other shapes).
 
 #include "check.hpp"
+#include "judged.hpp"
 #include "elements/element_contact.hpp"
 #include "height_maps.hpp"
 #include "physics/indenter/shapes.hpp"
@@ -33,7 +34,7 @@ TEST(hertz) {
         const auto contact = make_element_contact(
             map, {kE, R, (0.5 * n + 0.31) * h, (0.5 * n - 0.17) * h}, options(1e-8));
         const Level level = contact->at_separation(-delta);
-        CHECK(level.status == LevelStatus::converged);
+        CHECK(level.converged);
         const double N = 4.0 / 3 * kE * std::sqrt(R * delta) * delta;
         const double error = level.force / N - 1, area = level.area / (kPi * a * a) - 1,
                      counted = level.area_pixels / (kPi * a * a) - 1;
@@ -107,7 +108,7 @@ TEST(tolerances) {
              ++rounds) {  // the set of pixels grows in the second round, which may be the last one
             const auto contact =
                 make_element_contact(map, tip, {.tolerance = 1e-7, .max_iterations = rounds});
-            CHECK(contact->at_separation(0.01).status == LevelStatus::not_converged);
+            CHECK(!contact->at_separation(0.01).converged);
             CHECK_RELATIVE(contact->energy(), solved->energy(), 0.05);
             CHECK_RELATIVE(contact->stiffness(), solved->stiffness(), 0.3);
         }
@@ -136,12 +137,12 @@ TEST(between_points) {
         o.sigma = h * h / R;
         const auto contact = make_element_contact(map, tip, o);
         CHECK(contact->first_touch() < 0);  // the top is at 0
-        CHECK(contact->at_separation(-0.4 * contact->first_touch()).status ==
-              LevelStatus::converged);
+        const double above = -0.4 * contact->first_touch();
+        CHECK(judged(contact->at_separation(above), *contact, o, &map).doubts == 0);
         for (const double deep : {0.1, 0.9}) {
-            const Level level = contact->at_separation(deep * contact->first_touch());
-            CHECK(level.contacts == 0 && level.force_error_expected == 1);
-            CHECK(level.status == LevelStatus::out_of_validity);
+            const Level level =
+                judged(contact->at_separation(deep * contact->first_touch()), *contact, o, &map);
+            CHECK(level.contacts == 0 && level.doubts == bit(Cause::missed_contact));
         }
         CHECK(contact->at_separation(2 * contact->first_touch()).contacts > 0);
     };

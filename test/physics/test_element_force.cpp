@@ -40,7 +40,7 @@ void compare(double R, const std::vector<double>& forces) {
         return contact.at_separation(Z0);
     });
     for (std::size_t k = 0; k < forces.size(); ++k) {
-        CHECK(by_force.levels[k].status != LevelStatus::not_converged);
+        CHECK(by_force.levels[k].converged);
         CHECK_RELATIVE(by_force.levels[k].force, forces[k], 1e-6);
         CHECK_RELATIVE(by_separation.levels[k].force, forces[k], 1e-6);
         CHECK_RELATIVE(by_force.levels[k].area, by_separation.levels[k].area, 1e-3);

@@ -58,7 +58,7 @@ TEST(pressed_levels_do_not_remember) {
             const Level level = pressed.at_force(N), alone = fresh(level.separation);
             CHECK(level.asperity == alone.asperity);
             CHECK_CLOSE(level.force, alone.force, kTolerance * alone.force);
-            if (level.status != LevelStatus::not_converged)
+            if (level.converged)
                 CHECK_CLOSE(level.force, N, kTolerance * N);
         }
     }
@@ -76,7 +76,7 @@ TEST(of_two_the_first_met_carries) {
             for (Method method : {Method::direct, Method::dgesv, Method::mesh}) {
                 const Level level =
                     AsperityContact(a, {kE, HUGE_VAL, 0.5, 0.5}, options(method)).at_separation(0);
-                CHECK(level.status == LevelStatus::not_unique);
+                CHECK(!level.unique);
                 CHECK(level.asperity == std::vector<int>{1});
                 CHECK_RELATIVE(level.force, 4.0 / 3.0 * kE * std::sqrt(r) * std::pow(g, 1.5), 1e-9);
             }
@@ -99,7 +99,7 @@ TEST(auto_chooses) {
         o.tolerance = 1e-4, o.interaction = interaction;
         const Level level =
             AsperityContact(a, {kE, HUGE_VAL, 0.5, 0.5, period}, o).at_separation(0);
-        CHECK(level.candidates == side * side && level.status == LevelStatus::converged);
+        CHECK(level.candidates == side * side && level.converged);
         CHECK(level.fallback == (method == Method::mesh && level.method != method
                                      ? Fallback::no_interaction
                                      : Fallback::none));

@@ -88,7 +88,7 @@ TEST(not_unique) {
     const auto moved = [&](bool force) {
         const auto contact = make_asperity_contact(asperities, {1, 2, 0.5, 0.5}, {});
         const Level before = contact->at_separation(-0.01);
-        CHECK(before.status == LevelStatus::not_unique);
+        CHECK(!before.unique);
         contact->move_tip(0.5001, 0.5);
         return force ? contact->at_force(before.force) : contact->at_separation(-0.01);
     };

@@ -59,7 +59,7 @@ TEST(westergaard) {
         for (const double share : {0.1, 0.5, 0.9}) {
             const Level level = contact->at_force(share * closed * map.Ly());
             const double width = 2 / kPi * std::asin(std::sqrt(share));
-            CHECK(level.status == LevelStatus::converged);
+            CHECK(level.converged);
             CHECK_CLOSE(level.area_pixels / map.Ly(), width, 1.5 / n);
             if (share != 0.5) continue;
             // With s = p/p* the stiffness is p*/(Delta ln(1/s)): Z0 = Delta (1 - s + s ln s).
@@ -107,7 +107,7 @@ TEST(any_grid) {
             const double N = share * closed * map.Lx() * map.Ly();
             const Level level = contact->at_force(N),
                         again = contact->at_separation(level.separation);
-            CHECK(level.status == LevelStatus::converged && again.status == LevelStatus::converged);
+            CHECK(level.converged && again.converged);
             CHECK_RELATIVE(again.force, N, 1e-4);
             CHECK(level.area_fraction > 0 &&
                   level.pixels.index.size() < static_cast<std::size_t>(nx * ny));
@@ -125,7 +125,7 @@ TEST(threads_change_no_bit) {
         levels.push_back(contact->at_force(2e-3));
         stiffness.push_back(contact->stiffness());
     }
-    CHECK(levels[0].status == LevelStatus::converged);
+    CHECK(levels[0].converged);
     CHECK(levels[0].pixels.pressure == levels[1].pixels.pressure &&
           levels[0].separation == levels[1].separation);
     CHECK(stiffness[0] == stiffness[1]);

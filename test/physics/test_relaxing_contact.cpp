@@ -207,11 +207,11 @@ void test_refused(const Kind& model) {
     const double nearly = make(model, {})->at_separation(5e-4).force;
     const auto pressed = make(model, kBody);
     CHECK_THROWS(pressed->require_gap(10 * nearly), Error);
-    CHECK(pressed->at_force(nearly).status == LevelStatus::converged);
+    CHECK(pressed->at_force(nearly).converged);
     pressed->set_time(10);
     const Level closed = pressed->at_force(nearly);
-    CHECK(closed.status == LevelStatus::not_converged && std::isnan(closed.force));
-    CHECK(pressed->at_force(0.1 * nearly).status == LevelStatus::converged);
+    CHECK(!closed.converged && std::isnan(closed.force));
+    CHECK(pressed->at_force(0.1 * nearly).converged);
 }
 
 // The deflections are those of the elastic contact while the indenter is held, at once and after

@@ -42,7 +42,7 @@ protected:
         level.force = factor * std::pow(std::max(kTop - z, 0.0), 1.5) + (z < 0.3 ? jump : 0);
         level.area = 2 * level.force;
         slope_ = z < kTop ? -1.5 * factor * std::sqrt(kTop - z) : 0;
-        if (fails) level.status = LevelStatus::not_converged;
+        if (fails) level.converged = false;
         return level;
     }
     Level solve(double z) override {
@@ -87,7 +87,7 @@ TEST(control) {
             const auto check = [&](const Level& level, double z, double N) {
                 CHECK_CLOSE(level.separation, z + shift * N, 1e-8 * std::max(1.0, N));
                 CHECK_RELATIVE(level.force, N, 1e-8);
-                CHECK(level.status == LevelStatus::converged && contact.accepted == ++levels &&
+                CHECK(level.converged && contact.accepted == ++levels &&
                       level.plastic_work == 42);
                 CHECK(level.iterations == contact.iterations() - iterations &&
                       level.products == contact.products() - products);
@@ -108,9 +108,9 @@ TEST(control) {
             CHECK(none.iterations == 3 && none.products == 30);
             // What failed is told and not accepted.
             contact.fails = true;
-            CHECK(contact.at_force(2.0).status == LevelStatus::not_converged &&
+            CHECK(!contact.at_force(2.0).converged &&
                   contact.accepted == levels);
-            CHECK(contact.at_separation(0.5).status == LevelStatus::not_converged &&
+            CHECK(!contact.at_separation(0.5).converged &&
                   contact.accepted == levels);
         }
 }
@@ -122,12 +122,12 @@ TEST(jumps) {
     const double below = std::pow(1.2, 1.5);
     for (const double N : {0.5, below - 1e-3, below + 5.001, 8.0}) {
         const Level level = contact.at_force(N);
-        CHECK(level.status == LevelStatus::converged);
+        CHECK(level.converged);
         CHECK_RELATIVE(level.force, N, 1e-8);
     }
     for (const double N : {below + 0.01, 3.0, below + 4.99}) {
         const Level level = contact.at_force(N);
-        CHECK(level.status == LevelStatus::not_converged && level.fallback == Fallback::jump);
+        CHECK(!level.converged && level.fallback == Fallback::jump);
         CHECK_CLOSE(level.separation, 0.3, 1e-12);
     }
 }

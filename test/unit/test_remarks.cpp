@@ -4,6 +4,7 @@
 #include "check.hpp"
 #include "run/memory.hpp"
 #include "run/screen.hpp"
+#include "trust/doubts.hpp"
 #include "unit/temporary_folder.hpp"
 
 using namespace rsc;
@@ -29,28 +30,21 @@ TEST(thresholds) {
         return remarks([](V&) {}).find(word) == std::string::npos &&
                remarks(change).find(word) != std::string::npos;
     };
-    CHECK(!said("-3 sigma", [](V& v) { v.separation = -6; }));
-    CHECK(said("-3 sigma", [](V& v) { v.separation = std::nextafter(-6.0, -7.0); }));
-    CHECK(!said("nominal area", [](V& v) { v.area = 2 * (1 + 1e-9); }) &&
-          said("nominal area", [](V& v) { v.area = 2 * (1 + 2e-9); }));
-    CHECK(said("<d> of", [](V& v) { v.edge_contacts = 1; }) &&
-          said("<d>/4", [](V& v) { v.large_contacts = 1; }));
-    CHECK(said("beyond", [](V& v) { v.beyond_law = 3; }) &&
-          said("more than 10 %", [](V& v) { v.force_error_expected = 0.11, v.error_cause = 1; }));
+    for (std::size_t k = 0; k < kCauseNames.size(); ++k) {
+        const Cause cause{static_cast<int>(k)};
+        CHECK(said(words_of_doubts(bit(cause)).c_str(), [&](V& v) { v.doubts = bit(cause); }));
+    }
     CHECK(!said("E*/10", [](V& v) { v.extreme_area_fraction = 0.01; }) &&
           said("E*/10", [](V& v) { v.extreme_area_fraction = 0.0149; }));
     CHECK(said("are missing", [](V& v) { v.stiffness = kNotComputed; }));
     CHECK(said("overlapping", [](V& v) { v.status = LevelStatus::overlapping; }));
     CHECK(said("not unique", [](V& v) { v.status = LevelStatus::not_unique; }));
-    CHECK(said("NOT CONVERGED", [](V& v) { v.status = LevelStatus::not_converged; }));
+    CHECK(said("NOT CONVERGED", [](V& v) { v.converged = false; }));
     // A map that no level reaches: levels without force alone, and the separation where its first
     // point touches.
     job.points_touch = -3.5;
     CHECK(remarks([](V&) {}).find("-3.5") != std::string::npos);
     CHECK(remarks([](V& v) { v.force = 1; }).find("-3.5") == std::string::npos);
-    job.settings.solver.model = Model::elements;  // of which the asperities' range says nothing
-    CHECK(!said("<d>/4", [](V& v) { v.separation = -7, v.area = 3, v.large_contacts = 1; }));
-    job.settings.solver.model = Model::asperities;
     job.settings.solids.hardness = 100;
     CHECK(said("1 of 7 contacts yield",
                [](V& v) { v.plastic_contacts = 1, v.plastic_work = 0.5, v.contacts = 7; }));

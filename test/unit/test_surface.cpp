@@ -47,18 +47,6 @@ std::vector<double> by_cosines(const Spectrum& s, int n, NoiseKey key) {
     return z;
 }
 
-// Between its points a map is bilinear, also across the border of a periodic one.
-TEST(between_points) {
-    HeightMap map =
-        height_map(3, 4, 0.5, 2, [](int i, int j) { return 2.0 + 3 * i + 5 * j + 7 * i * j; });
-    map.x0 = 10, map.y0 = -1;
-    CHECK_RELATIVE(height_at(map, 10 + 0.5 * 1.25, -1 + 2 * 2.5),
-                   2 + 3 * 1.25 + 5 * 2.5 + 7 * 1.25 * 2.5, 1e-14);
-    map.periodic = true;
-    CHECK_RELATIVE(height_at(map, 10 + 0.5 * 2.5, -1 + 2 * 3.5),
-                   0.25 * (map(2, 3) + map(0, 3) + map(2, 0) + map(0, 0)), 1e-14);
-}
-
 TEST(against_cosines) {
     // n = 30 has n = 2 L_lambda_s modes at the limit of the grid; 32 and 36 do not. All must follow
     // the definition.

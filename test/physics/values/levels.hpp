@@ -2,14 +2,11 @@
 #pragma once
 
 #include "asperities/law.hpp"
-#include "asperities/shifted_summits.hpp"
 #include "contact/spots.hpp"
 #include "base/version.h"
 #include "case/read_case.hpp"
 #include "physics/values/truth.hpp"
 #include "run/run.hpp"
-#include "trust/expected_error.hpp"
-#include "trust/resolution.hpp"
 
 namespace values {
 
@@ -304,21 +301,15 @@ inline void levels(CheckedFile& f, const Truth& t) {
         return std::min(A0, pi * reach * reach);
     });
     f.same("nominal_area", nominal, kRounding);
+    // What the doubts are raised by: unit/test_trust.
     f.same("status", t.rows([&](std::size_t k, std::size_t s) -> double {
-        const std::size_t i = k * t.steps + s;
         const double given = static_cast<double>(level(k, s).status);
         if (given >= 3) return given;  // how the solver ended
-        // input/trust; unit/test_resolution
-        const double expected = level(k, s).force_error_expected;
-        if (t.elements) return with_border[i] > 0 || expected > kUnresolved ? 1 : 0;
-        if (!(N[i] > 0)) return given;  // what touches beside the summits: physics/test_edges
-        const bool deep = level(k, s).separation<-3 * t.sigma, full = A[i]> nominal[i] * (1 + 1e-9);
-        const bool far_off =
-            std::isnan(expected) ? large[i] > 0 || beyond[i] > 0 : expected > kMuchError;
-        const bool others_touch = (t.hertz || t.list) && level(k, s).slope_ratio > kMostSlopeRatio;
-        if (far_off || with_border[i] > 0 || deep || full || others_touch) return 1;
-        return pairs[i] > 0 ? 2 : 0;
+        if (level(k, s).doubts != 0) return 1;
+        return pairs[k * t.steps + s] > 0 ? 2 : 0;
     }));
+    for (std::size_t i = 0; i < with_border.size(); ++i)
+        CHECK(!(with_border[i] > 0) || level(i / t.steps, i % t.steps).status != LevelStatus::converged);
 
     // Yielding: at the hardness, and as deep as ever.
     Vector deepest(t.elements ? 0 : t.r[0].asperities.size());

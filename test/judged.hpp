@@ -1,0 +1,10 @@
+// Levels as the judge leaves them.
+#pragma once
+
+#include "trust/judge.hpp"
+
+inline rsc::Level judged(rsc::Level level, rsc::Contact& contact, const rsc::SolverOptions& options,
+                         const rsc::HeightMap* map = nullptr) {
+    rsc::Judge(options, {map, map != nullptr}).judge(level, contact, false);
+    return level;
+}
