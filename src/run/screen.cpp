@@ -95,7 +95,8 @@ void print_unlikely_units(std::ostream& out, const Job& job) {
                  L = std::max(job.domain.Lx, job.domain.Ly);
     const char* const heights = job.spectrum ? "surface%sigma or surface%L"
                                              : "surface%height_unit, surface%pixel or surface%L";
-    if (slope > steepest || (slope > 0 && slope < flattest))
+    constexpr double rounding = 1e-12;  // of heights from which a form was subtracted
+    if (slope > steepest || (slope > rounding && slope < flattest))
         out << format("warning: the rms slope is %.3g: are %s in %s?\n", slope, heights, l);
     if (height > highest * L)
         out << format(
@@ -128,6 +129,15 @@ void print_case(std::ostream& out, const Job& job) {
         const ModelChoice choice = model_of(job.settings);
         out << format("by %s: %s (solver%%model = 'auto')\n",
                       kModelNames[static_cast<std::size_t>(choice.model)], choice.why);
+    }
+    static const Case defaults;
+    if (job.spectrum && by_elements(job.settings) && job.settings.surface.n != defaults.surface.n) {
+        const int n = element_points(job.settings, *job.spectrum);
+        if (job.settings.surface.n != n)
+            out << format(
+                "surface%%n = %d has no effect on elements, which take %d x %d points "
+                "(elements%%points_per_wave)\n",
+                job.settings.surface.n, n, n);
     }
     if (job.theory) {
         const Moments& m = *job.theory;
@@ -329,7 +339,7 @@ void print_campaign_heading(std::ostream& out, const Job& job, std::size_t worke
         << std::flush;
 }
 
-void print_batch(std::ostream& out, const Job&, const Accumulators& sums, double seconds,
+void print_batch(std::ostream& out, const Job& job, const Accumulators& sums, double seconds,
                  std::size_t done_in_this_run) {
     const std::size_t count = sums.realization.size();
     Observations last;  // the last level of each realization
@@ -340,8 +350,10 @@ void print_batch(std::ostream& out, const Job&, const Accumulators& sums, double
     const auto scatter = [](const LevelStatistics& s) {
         return s.count[0] > 1 ? s.deviation[0] : 0.0;
     };
+    const bool prescribed = job.settings.indentation.control != Control::separation;
     out << format("%12zu %14.8g %10.3g %14.8g %10.3g %12s %10.3g\n", count, force.mean[0],
-                  scatter(force), area.mean[0], scatter(area), duration(seconds).c_str(),
+                  prescribed ? 0.0 : scatter(force), area.mean[0], scatter(area),
+                  duration(seconds).c_str(),
                   static_cast<double>(done_in_this_run) / std::max(seconds, 1e-3))
         << std::flush;
 }
@@ -354,9 +366,11 @@ void print_campaign_summary(std::ostream& out, const Job& job, const Observation
                   "Z0/sigma", format("N [%s]", run.force_unit.c_str()).c_str(), "scatter",
                   format("A [%s2]", run.length_unit.c_str()).c_str(), "scatter");
     for (const std::size_t s : shown_steps(o.steps))
-        out << format("%5zu %12.6g %9.5f %14.8g %10.3g %14.8g %10.3g\n", s + 1,
-                      o.separation.mean[s], o.separation.mean[s] / job.sigma, o.force.mean[s],
-                      o.force.deviation[s], o.area.mean[s], o.area.deviation[s]);
+        out << format(
+            "%5zu %12.6g %9.5f %14.8g %10.3g %14.8g %10.3g\n", s + 1, o.separation.mean[s],
+            o.separation.mean[s] / job.sigma, o.force.mean[s],
+            job.settings.indentation.control == Control::separation ? o.force.deviation[s] : 0.0,
+            o.area.mean[s], o.area.deviation[s]);
 
     out << '\n'
         << o.realizations << " realizations, " << o.rows.size() << " levels in "
