@@ -68,7 +68,7 @@ double last_digit(const std::vector<double>& values) {
     double digit = 1e9;
     const auto rounded = [&](double v) {
         const double steps = v / digit;
-        return std::abs(steps - std::round(steps)) < 1e-6;
+        return std::abs(steps - std::round(steps)) <= 1e-12 * std::abs(steps);
     };
     while (digit > 1e-15 && !std::ranges::all_of(values, rounded)) digit /= 10;
     return digit;
@@ -218,12 +218,18 @@ double text_height_factor(const std::string& path, const TextTable& table, const
                              : stated                  ? stated->unit
                                                        : length_unit;
     const bool three = table.columns == 3 && !table.matrix();
+    const auto in_length_unit = [&](const TextTable::UnitMention& mention) {
+        return mention.unit == length_unit || unit_factor(mention.unit, length_unit) == 1;
+    };
+    // One of the units in the comments is that of the coordinates.
+    const bool coordinates = std::ranges::any_of(table.units, in_length_unit);
     for (const TextTable::UnitMention& other : table.units) {
         const auto same = [&](const std::string& known) {
             return other.unit == known || unit_factor(other.unit, known) == 1;
         };
         const bool understood = !text.height_unit.empty() || stated;
-        if (&other == stated || same(length_unit) || (understood && (!three || same(unit))))
+        if (&other == stated || in_length_unit(other) ||
+            (understood && (!three || (coordinates && same(unit)))))
             continue;
         bad_input(path + ":" + std::to_string(other.line) + ": a comment names the unit '" +
                   other.unit + "'; " +

@@ -125,12 +125,20 @@ void print_case(std::ostream& out, const Job& job) {
         out << job.indenter.shape->text(l)
             << format(" on a rough half-space, E* = %g %s/%s2, sigma = %g %s\n",
                       job.indenter.E_star, f, l, job.sigma, l);
+    static const Case defaults;
+    const auto& solids = job.settings.solids;
+    if (std::ranges::equal(solids.E, defaults.solids.E) &&
+        std::ranges::equal(solids.nu, defaults.solids.nu) &&
+        std::ranges::equal(solids.R, defaults.solids.R) && solids.layer_E.empty())
+        out << (pascals(job.settings) == 1e6 && run.length_unit == "mm"
+                    ? "gold against a rigid sphere of 2.5 mm (defaults of &solids)\n"
+                    : format("&solids by default: E(1) = %g %s/%s2, body 2 is rigid\n", solids.E[0],
+                             f, l));
     if (job.settings.solver.model == Model::automatic) {
         const ModelChoice choice = model_of(job.settings);
         out << format("by %s: %s (solver%%model = 'auto')\n",
                       kModelNames[static_cast<std::size_t>(choice.model)], choice.why);
     }
-    static const Case defaults;
     if (job.spectrum && by_elements(job.settings) && job.settings.surface.n != defaults.surface.n) {
         const int n = element_points(job.settings, *job.spectrum);
         if (job.settings.surface.n != n)
