@@ -252,19 +252,6 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
         read.warnings.push_back(name + ": &solids: " + key_name + ": one value of two; " + other +
                                 " = " + get_key(read.settings, other) + " taken by default");
     }
-    const bool solids =
-        std::ranges::any_of(reading.groups, [](const auto& group) { return group == "solids"; }) ||
-        std::ranges::any_of(options.set, [](const auto& set) { return set.starts_with("solids%"); });
-    if (!solids)
-        read.warnings.push_back(
-            name + ": no &solids: gold, solids%E(1) = " + get_key(read.settings, "solids%E(1)") +
-            " " + read.settings.run.force_unit + "/" + read.settings.run.length_unit +
-            "2, against a rigid body" +
-            (read.settings.indenter.shape == 0 && read.settings.indenter.file.empty()
-                 ? " with a radius of " + get_key(read.settings, "solids%R(2)") + " " +
-                       read.settings.run.length_unit
-                 : "") +
-            " (defaults)");
     const auto& indentation = read.settings.indentation;
     if (indentation.levels.empty() && indentation.control == Control::separation &&
         indentation.start < indentation.stop)

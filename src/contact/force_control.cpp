@@ -137,8 +137,10 @@ void Contact::finish(Level& level) {
         accepted_ = time_;
         separation_ = level.separation, force_ = level.force;
     }
-    // With a residual as large as the forces there is no valid state: its values are not returned.
-    if (!converged && level.fallback != Fallback::held && !(level.residual < 1)) {
+    // With a residual above a tenth of the forces not even a first digit is known: there is no
+    // state, and no values are returned.
+    constexpr double kNoDigit = 0.1;
+    if (!converged && level.fallback != Fallback::held && !(level.residual < kNoDigit)) {
         Level nothing;
         nothing.separation = level.separation;
         nothing.force = nothing.area = kNotComputed;

@@ -11,7 +11,7 @@ public:
     PeriodicElementContact(const HeightMap& heights, const Indenter& indenter,
                            const SolverOptions& options)
         : PixelContact(heights, indenter, options),
-          changed_(path_dependent() || !indenter.shape->flat() ? heights.copy() : HeightMap{}),
+          changed_(path_dependent() || !indenter.shape->flat() ? less_face() : HeightMap{}),
           solver_({heights.nx, heights.ny, heights.dx, heights.dy, present().data.get(),
                    present().stride},
                   substrate_of(indenter), options.hardness.H0) {
@@ -87,18 +87,29 @@ private:
     // Subtracts the indenter's face, the residual and the deflection by earlier loads from the
     // heights.
     void set_heights() {
-        for (int j = 0; j < heights_.ny && changed_.data; ++j)
-            for (int i = 0; i < heights_.nx; ++i) {
-                double& z = changed_.row(j)[i];
-                z = indenter_.clearance(x(i), y(j), height(i, j));
-                if (!lowered_.empty()) z -= lowered_[static_cast<std::size_t>(place({i, j}))];
-            }
-        if (changed_.data) solver_.heights_changed();
+        if (changed_.data) {
+            subtract(changed_);
+            solver_.heights_changed();
+        }
         double top = -kInfinity;
         for (int j = 0; j < heights_.ny; ++j)
             top =
                 std::max(top, *std::max_element(present().row(j), present().row(j) + heights_.nx));
         set_top(top);
+    }
+    void subtract(HeightMap& changed) const {
+        for (int j = 0; j < heights_.ny; ++j)
+            for (int i = 0; i < heights_.nx; ++i) {
+                double& z = changed.row(j)[i];
+                z = indenter_.clearance(x(i), y(j), height(i, j));
+                if (!lowered_.empty()) z -= lowered_[static_cast<std::size_t>(place({i, j}))];
+            }
+    }
+    // The heights that the solver takes its units from, so that body 1 may be smooth.
+    HeightMap less_face() const {
+        HeightMap changed = heights_.copy();
+        subtract(changed);
+        return changed;
     }
     Level report(double Z0, const ElementsOutcome& outcome) {
         touches_ = Z0 < top_, accepted_ = false;
@@ -108,11 +119,10 @@ private:
         return PixelContact::report(Z0, outcome, candidates, solver_.pixels(), solver_.pressures());
     }
 
-    HeightMap
-        // the heights less what set_heights() subtracts; without data where this is nothing
-        changed_;
-    std::vector<double>
-        lowered_;  // deflection of each point by earlier loads at the end of the step; empty: none
+    // Deflection of each point by earlier loads at the end of the step; empty: none. It is declared
+    // before the heights, which are made with it.
+    std::vector<double> lowered_;
+    HeightMap changed_;  // the heights less what subtract() takes; without data where it is nothing
     PeriodicElements solver_;
     bool touches_ = false;  // the last level is in contact
 };

@@ -43,6 +43,8 @@ struct TextTable {
     };
     std::vector<UnitMention> units;
     const UnitMention* mention(UnitMention::Kind kind) const;  // the first; null if there is none
+    // True if a comment states a width: a matrix, however few columns it has.
+    bool matrix() const { return mention(UnitMention::width) != nullptr; }
 };
 
 // Numbers in columns from a text file, separated by blanks or tabs, by a comma, or by a semicolon

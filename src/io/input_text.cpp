@@ -100,8 +100,7 @@ Row parse(std::string_view text, const std::string& path, long line, Style& styl
             if (gap == text[i] || count == 0) {  // an empty cell
                 if (!missing)
                     refuse(path, line,
-                           "nothing between the separators at column " +
-                               std::to_string(count + 1) +
+                           "nothing between the separators at column " + std::to_string(count + 1) +
                                ": empty cells of a map are missing points (surface%missing)");
                 require(text[i], "an empty cell");
                 values.push_back(std::nan(""));
@@ -139,8 +138,8 @@ bool contains_word(std::string_view text, std::string_view word) {
 // Words that are a unit of length wherever they stand. Others, such as m and in, are one only in
 // brackets or after a number.
 bool always_a_length(const std::string& word) {
-    for (const char* const symbol :
-         {"nm", "um", "mm", "pm", "cm", "\xc2\xb5m", "\xce\xbcm", "\xb5m", "\xc3\x85", "\xe2\x84\xab"})
+    for (const char* const symbol : {"nm", "um", "mm", "pm", "cm", "\xc2\xb5m", "\xce\xbcm",
+                                     "\xb5m", "\xc3\x85", "\xe2\x84\xab"})
         if (word == symbol) return true;
     const std::string lower = namelist::lower_case(word);
     const auto begins = [&](const char* stem) { return lower.starts_with(stem); };
@@ -182,8 +181,8 @@ std::vector<CommentWord> words_of(std::string_view comment) {
         std::size_t end = i;
         while (!ends(end)) ++end;
         std::size_t digits = i;
-        while (digits < end && std::string_view("0123456789.+-").find(comment[digits]) !=
-                                   std::string_view::npos)
+        while (digits < end &&
+               std::string_view("0123456789.+-").find(comment[digits]) != std::string_view::npos)
             ++digits;
         const std::string whole(comment.substr(i, end - i));
         if (const auto number = number_in_file(whole)) {
@@ -212,23 +211,28 @@ void find_units(std::string_view comment, long line, std::vector<TextTable::Unit
         bool lateral = false;
         for (const char* const word : {"x", "y", "xy", "lateral", "width", "scan", "pixel"})
             lateral = lateral || contains_word(label, word);
-        found.push_back({lateral ? Mention::other : Mention::values,
-                         as_unit(value[0].number && value.size() > 1 ? value[1].text
-                                                                     : value[0].text),
-                         0, line});
+        found.push_back(
+            {lateral ? Mention::other : Mention::values,
+             as_unit(value[0].number && value.size() > 1 ? value[1].text : value[0].text), 0,
+             line});
         return;
     }
     for (std::size_t k = 0; k < words.size(); ++k) {
         const bool after_number = k > 0 && words[k - 1].number && words[k].text != "in";
         const std::string unit = as_unit(words[k].text);
-        if (words[k].number || !(always_a_length(words[k].text) || after_number ||
-                                 words[k].bracketed))
+        if (words[k].number ||
+            !(always_a_length(words[k].text) || after_number || words[k].bracketed))
             continue;
         if (unit_factor(unit, "m") == 0) continue;
         Mention mention{Mention::other, unit, 0, line};
         const bool side = k == 2 && after_number && colon != std::string_view::npos;
-        if (side && contains_word(label, "width")) mention.kind = Mention::width;
-        if (side && contains_word(label, "height")) mention.kind = Mention::height;
+        // Gwyddion writes them in the language of its user.
+        const auto is = [&](std::initializer_list<const char*> names) {
+            return side && std::ranges::any_of(
+                               names, [&](const char* name) { return contains_word(label, name); });
+        };
+        if (is({"width", "breite", "largeur"})) mention.kind = Mention::width;
+        if (is({"height", "h\xc3\xb6he", "hauteur"})) mention.kind = Mention::height;
         if (side) mention.size = *words[k - 1].number;
         found.push_back(mention);
     }
@@ -256,10 +260,10 @@ static void add_empty_column(TextTable& table) {
         wider.insert(wider.end(), start, start + static_cast<std::ptrdiff_t>(table.columns));
         wider.push_back(std::nan(""));
     }
-    wider.insert(wider.end(),
-                 table.values.begin() +
-                     static_cast<std::ptrdiff_t>(table.line.size() * table.columns),
-                 table.values.end());
+    wider.insert(
+        wider.end(),
+        table.values.begin() + static_cast<std::ptrdiff_t>(table.line.size() * table.columns),
+        table.values.end());
     table.values = std::move(wider);
     ++table.columns;
 }

@@ -68,7 +68,7 @@ double last_digit(const std::vector<double>& values) {
     double digit = 1e9;
     const auto rounded = [&](double v) {
         const double steps = v / digit;
-        return std::abs(steps - std::round(steps)) < 1e-6;
+        return std::abs(steps - std::round(steps)) <= 1e-12 * std::abs(steps);
     };
     while (digit > 1e-15 && !std::ranges::all_of(values, rounded)) digit /= 10;
     return digit;
@@ -166,10 +166,10 @@ HeightMap read_text_triples(const std::string& path, const TextTable& table,
 }
 
 HeightMap read_text_points(const std::string& path, const TextTable& table, std::optional<double> L,
-                           bool missing, const TextMap& text,
-                           const std::string& length_unit) {
-    if (table.columns == 3) return read_text_triples(path, table, L, missing, text);
-    if (table.columns == 4)
+                           bool missing, const TextMap& text, const std::string& length_unit) {
+    const bool matrix = table.matrix();
+    if (table.columns == 3 && !matrix) return read_text_triples(path, table, L, missing, text);
+    if (table.columns == 4 && !matrix)
         bad_input(path +
                   ": four columns are a list of asperities x y z r (surface%source='asperities'), "
                   "not a map");
@@ -217,13 +217,19 @@ double text_height_factor(const std::string& path, const TextTable& table, const
     const std::string unit = !text.height_unit.empty() ? text.height_unit
                              : stated                  ? stated->unit
                                                        : length_unit;
-    const bool three = table.columns == 3;
+    const bool three = table.columns == 3 && !table.matrix();
+    const auto in_length_unit = [&](const TextTable::UnitMention& mention) {
+        return mention.unit == length_unit || unit_factor(mention.unit, length_unit) == 1;
+    };
+    // One of the units in the comments is that of the coordinates.
+    const bool coordinates = std::ranges::any_of(table.units, in_length_unit);
     for (const TextTable::UnitMention& other : table.units) {
         const auto same = [&](const std::string& known) {
             return other.unit == known || unit_factor(other.unit, known) == 1;
         };
         const bool understood = !text.height_unit.empty() || stated;
-        if (&other == stated || same(length_unit) || (understood && (!three || same(unit))))
+        if (&other == stated || in_length_unit(other) ||
+            (understood && (!three || (coordinates && same(unit)))))
             continue;
         bad_input(path + ":" + std::to_string(other.line) + ": a comment names the unit '" +
                   other.unit + "'; " +
@@ -235,9 +241,10 @@ double text_height_factor(const std::string& path, const TextTable& table, const
     try {
         return length_factor(unit, length_unit, 1);
     } catch (const Error& error) {
-        bad_input(path + (stated && text.height_unit.empty()
-                              ? ":" + std::to_string(stated->line) + ": a comment: "
-                              : ": ") +
+        bad_input(path +
+                  (stated && text.height_unit.empty()
+                       ? ":" + std::to_string(stated->line) + ": a comment: "
+                       : ": ") +
                   error.what() + "; surface%height_unit replaces it");
     }
 }
@@ -343,8 +350,8 @@ std::array<double, 3> unit_factors(const NetcdfInput& file, const NetcdfInput::V
             with = &all[k];
     }
     if (with && without)
-        bad_input(file.path() + ": " + with->name + " is in '" +
-                  file.unit(*with).value_or("") + "', but " + without->name +
+        bad_input(file.path() + ": " + with->name + " is in '" + file.unit(*with).value_or("") +
+                  "', but " + without->name +
                   " has no attribute units or unit, so its unit is unknown");
     return factor;
 }
@@ -525,7 +532,8 @@ std::optional<double> likely_code(const HeightMap& map, long& points) {
                 else
                     least = std::fmin(least, map(i, j)), most = std::fmax(most, map(i, j));
         const double away = code == low ? least - code : code - most;
-        if (static_cast<double>(points) > many && least < most && away > most - least) return code;
+        const bool fills = points > 1 && static_cast<double>(points) > many;  // one is an outlier
+        if (fills && least < most && away > most - least) return code;
     }
     long zero_blocks = 0, other_blocks = 0;
     points = 0;
@@ -564,12 +572,12 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
             path +
             ": is not a text file; surface%height_unit and surface%pixel are only for text files");
     if (instrument && !text.missing_value.empty())
-        bad_input(path + ": surface%missing_value is for text and NetCDF files; this format marks "
-                         "its missing points itself");
-    HeightMap map =
-        netcdf       ? read_netcdf_heights(path, L, length_unit, channel, fill, text, origin)
-        : instrument ? instrument->read(path, channel, length_unit, origin)
-                     : read_text_heights(path, L, fill, text, length_unit, origin);
+        bad_input(path +
+                  ": surface%missing_value is for text and NetCDF files; this format marks "
+                  "its missing points itself");
+    HeightMap map = netcdf ? read_netcdf_heights(path, L, length_unit, channel, fill, text, origin)
+                    : instrument ? instrument->read(path, channel, length_unit, origin)
+                                 : read_text_heights(path, L, fill, text, length_unit, origin);
     if (instrument) check_given_L(path, "x", map.nx, map.dx, L);
     for (const double step : {map.dx, map.dy})
         if (!usable_positive(step))

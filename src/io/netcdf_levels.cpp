@@ -20,9 +20,14 @@ void ResultTable::global_attributes(const std::string& history) {
     file_.attribute("Conventions", "CF-1.10");
     file_.attribute(
         "title", r_.settings.run.title.empty() ? "Contact of rough bodies" : r_.settings.run.title);
-    file_.attribute("source",
-                    "rsc " RSC_VERSION
-                    ", deterministic multi-asperity model of rough spheres in elastic contact");
+    file_.attribute(
+        "source",
+        "rsc " RSC_VERSION +
+            (by_elements(r_.settings)
+                 ? std::string(", boundary elements of rough bodies in contact")
+                 : std::string(", deterministic multi-asperity model of rough bodies in contact, "
+                               "law ") +
+                       kLawNames[static_cast<std::size_t>(r_.settings.asperities.law)]));
     file_.attribute("history", history);
     file_.attribute("references", kPaper);
     file_.attribute("indenter", r_.indenter.shape->text(r_.settings.run.length_unit));
@@ -113,14 +118,22 @@ void ResultTable::levels() {
             add_absent(q.name, dims, units(q), q.meaning, values, q.comment);
     }
     std::vector<double> pull_off(o_.realizations, std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t k = 0; k < pull_off.size(); ++k)
-        for (std::size_t s = 0; s < o_.steps; ++s)
-            pull_off[k] = std::fmin(pull_off[k], o_.row(k, s).least_force);
-    if (computed(pull_off))
+    bool adhesive = false;
+    for (std::size_t k = 0; k < pull_off.size(); ++k) {
+        bool without_state = false;  // the smallest force may have been that of such a level
+        for (std::size_t s = 0; s < o_.steps; ++s) {
+            const double least = o_.row(k, s).least_force;
+            pull_off[k] = std::fmin(pull_off[k], least);
+            adhesive = adhesive || !std::isnan(least);
+            without_state = without_state || std::isnan(o_.row(k, s).force);
+        }
+        if (without_state) pull_off[k] = std::numeric_limits<double>::quiet_NaN();
+    }
+    if (adhesive)
         add_absent("pull_off_force", {"realization"}, unit(0, 1),
                    "smallest force since the first level", pull_off,
                    "adhesion: including forces between levels; negative if separating the bodies "
-                   "takes a tensile force");
+                   "takes a tensile force; missing if a level has no state");
 }
 
 bool ResultTable::computed(const std::vector<double>& values) {
@@ -189,12 +202,18 @@ void ResultTable::means() {
                  s.count};
             dims.push_back("component");
         }
-        add_absent(name + "_mean", dims, unit_of_mean, "mean " + of, s.mean);
-        add_absent(name + "_std", dims, unit_of_mean, "standard deviation of the " + of,
-                   s.deviation, "divisor M - 1 for M realizations");
-        add_absent(name + "_stderr", dims, unit_of_mean, "standard error of " + name + "_mean",
-                   s.error, name + "_std/sqrt(M)");
-        if (s.count != o_.force.count)
+        const bool fewer = s.count != o_.force.count;
+        // A prescribed force scatters as little as the solver leaves of it.
+        if (r_.force_control() && name == "force")
+            for (std::size_t step = 0; step < s.mean.size(); ++step)
+                if (s.count[step] > 1) s.deviation[step] = s.error[step] = 0;
+        add_absent(name + "_mean", dims, unit_of_mean, "mean " + of, s.mean,
+                   fewer ? "over `" + name + "_count` realizations, those that have it" : "");
+        add_absent(name + "_std", dims, unit_of_mean, "standard deviation of the " + of, s.deviation,
+                   "divisor M - 1 for M realizations");
+        add_absent(name + "_stderr", dims, unit_of_mean, "standard error of " + name + "_mean", s.error,
+                   name + "_std/sqrt(M)");
+        if (fewer)
             add(name + "_count", {"step"}, "1",
                 "number of realizations with a value of the " + std::string(q.plain), s.count);
     }

@@ -192,7 +192,11 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
         how = c.indentation.control == Control::separation
                   ? format(" (below %.1g not resolved)", resolved * c.solids.adhesion * attracting)
                   : " (trapezoidal rule over the levels)";
-    if (c.run.realizations == 1)
+    const bool without_state = std::ranges::any_of(
+        levels, [](const LevelValues& level) { return std::isnan(level.force); });
+    if (c.run.realizations == 1 && without_state)
+        out << "  adhesion: the smallest force is not known, because levels have no state.\n";
+    else if (c.run.realizations == 1)
         out << format(
             "  adhesion: the smallest force is %.4g %s; jumps: %ld, energy lost: %.4g %s %s%s. "
             "Levels depend on the levels before.\n",

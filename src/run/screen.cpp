@@ -89,7 +89,8 @@ void print_unlikely_units(std::ostream& out, const Job& job) {
                  L = std::max(job.domain.Lx, job.domain.Ly);
     const char* const heights = job.spectrum ? "surface%sigma or surface%L"
                                              : "surface%height_unit, surface%pixel or surface%L";
-    if (slope > steepest || (slope > 0 && slope < flattest))
+    constexpr double rounding = 1e-12;  // of heights from which a form was subtracted
+    if (slope > steepest || (slope > rounding && slope < flattest))
         out << format("warning: the rms slope is %.3g: are %s in %s?\n", slope, heights, l);
     if (height > highest * L)
         out << format(
@@ -118,10 +119,27 @@ void print_case(std::ostream& out, const Job& job) {
         out << job.indenter.shape->text(l)
             << format(" on a rough half-space, E* = %g %s/%s2, sigma = %g %s\n",
                       job.indenter.E_star, f, l, job.sigma, l);
+    static const Case defaults;
+    const auto& solids = job.settings.solids;
+    if (std::ranges::equal(solids.E, defaults.solids.E) &&
+        std::ranges::equal(solids.nu, defaults.solids.nu) &&
+        std::ranges::equal(solids.R, defaults.solids.R) && solids.layer_E.empty())
+        out << (pascals(job.settings) == 1e6 && run.length_unit == "mm"
+                    ? "gold against a rigid sphere of 2.5 mm (defaults of &solids)\n"
+                    : format("&solids by default: E(1) = %g %s/%s2, body 2 is rigid\n", solids.E[0],
+                             f, l));
     if (job.settings.solver.model == Model::automatic) {
         const ModelChoice choice = model_of(job.settings);
         out << format("by %s: %s (solver%%model = 'auto')\n",
                       kModelNames[static_cast<std::size_t>(choice.model)], choice.why);
+    }
+    if (job.spectrum && by_elements(job.settings) && job.settings.surface.n != defaults.surface.n) {
+        const int n = element_points(job.settings, *job.spectrum);
+        if (job.settings.surface.n != n)
+            out << format(
+                "surface%%n = %d has no effect on elements, which take %d x %d points "
+                "(elements%%points_per_wave)\n",
+                job.settings.surface.n, n, n);
     }
     if (job.theory) {
         const Moments& m = *job.theory;
@@ -343,7 +361,7 @@ void print_campaign_heading(std::ostream& out, const Job& job, std::size_t worke
         << std::flush;
 }
 
-void print_batch(std::ostream& out, const Job&, const Accumulators& sums, double seconds,
+void print_batch(std::ostream& out, const Job& job, const Accumulators& sums, double seconds,
                  std::size_t done_in_this_run) {
     const std::size_t count = sums.realization.size();
     Observations last;  // the last level of each realization
@@ -354,8 +372,10 @@ void print_batch(std::ostream& out, const Job&, const Accumulators& sums, double
     const auto scatter = [](const LevelStatistics& s) {
         return s.count[0] > 1 ? s.deviation[0] : 0.0;
     };
+    const bool prescribed = job.settings.indentation.control != Control::separation;
     out << format("%12zu %14.8g %10.3g %14.8g %10.3g %12s %10.3g\n", count, force.mean[0],
-                  scatter(force), area.mean[0], scatter(area), duration(seconds).c_str(),
+                  prescribed ? 0.0 : scatter(force), area.mean[0], scatter(area),
+                  duration(seconds).c_str(),
                   static_cast<double>(done_in_this_run) / std::max(seconds, 1e-3))
         << std::flush;
 }
@@ -368,9 +388,11 @@ void print_campaign_summary(std::ostream& out, const Job& job, const Observation
                   "Z0/sigma", format("N [%s]", run.force_unit.c_str()).c_str(), "scatter",
                   format("A [%s2]", run.length_unit.c_str()).c_str(), "scatter");
     for (const std::size_t s : shown_steps(o.steps))
-        out << format("%5zu %12.6g %9.5f %14.8g %10.3g %14.8g %10.3g\n", s + 1,
-                      o.separation.mean[s], o.separation.mean[s] / job.sigma, o.force.mean[s],
-                      o.force.deviation[s], o.area.mean[s], o.area.deviation[s]);
+        out << format(
+            "%5zu %12.6g %9.5f %14.8g %10.3g %14.8g %10.3g\n", s + 1, o.separation.mean[s],
+            o.separation.mean[s] / job.sigma, o.force.mean[s],
+            job.settings.indentation.control == Control::separation ? o.force.deviation[s] : 0.0,
+            o.area.mean[s], o.area.deviation[s]);
 
     out << '\n'
         << o.realizations << " realizations, " << o.rows.size() << " levels in "

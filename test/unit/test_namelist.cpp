@@ -175,4 +175,47 @@ TEST(test_options) {
     CHECK(parse({"-h", "--nonsense"}).help);
 }
 
+// What would be lost without a word outside of groups, and what is a comment there.
+TEST(test_outside_groups) {
+    const std::string run = "&run threads = 1 /\n";
+    for (const char* const line :
+         {"surface n=128 /", "& surface n=128 /", "&surface%n=128 /", "&-surface n=128 /",
+          "&surfac\u00e9 n=128 /", "&surfce n=128 /", "E(1) = 3", "this & that"}) {
+        CHECK(complaint(std::string(line) + "\n" + run).starts_with("case.nml:1:"));
+        CHECK(complaint(run + line).starts_with("case.nml:2:"));
+    }
+    // One message for a group whose name is wrong, whatever is in it.
+    const std::string all = complaint("&surfce\n n = 128\n sigma = 1e-3\n/\n" + run);
+    CHECK(all.find('\n') == std::string::npos && all.find("did you mean '&surface'") != all.npos);
+    for (const char* const line : {"a title", "2!n = 3", "! &surfce n = 1 /", "", "costs 5 $ only"})
+        CHECK(complaint(std::string(line) + "\n" + run).empty());
+}
+
+// --set: words without quotes, defaults, keys of a study.
+TEST(test_set) {
+    const auto with = [](std::vector<std::string> set, const std::string& text = "&run /") {
+        Options options;
+        options.set = std::move(set);
+        return read_case_text(text, "case.nml", options).settings;
+    };
+    const Case c = with({"solver%model=elements", "surface%source=heights", "surface%file=a b.nc",
+                         "output%fields=pressure,gap", "compare%levels=none",
+                         "surface%detrend='none'", "surface%L=2"});
+    CHECK(c.solver.model == Model::elements && c.surface.file == "a b.nc" &&
+          c.surface.detrend == Detrend::none && c.surface.L == 2 && c.output.fields.size() == 2 &&
+          c.compare.what == CompareWhat::none);
+    const Case back = with({"surface%n=", "solids%E(1)=", "run%title=", "surface%L=",
+                            "surface%twins=", "indentation%levels=", "compare%levels="},
+                           "&run title='t' / &solids E=1.0, 2.0 nu=0.3,0.3 /\n"
+                           "&surface n=64 L=3 / &indentation levels=3.0 / &compare levels=2.0 /");
+    CHECK(back.surface.n == Case().surface.n && back.solids.E[0] == Case().solids.E[0] &&
+          back.solids.E[1] == 2 && back.run.title.empty() && !back.surface.L &&
+          back.indentation.levels.empty() && !back.compare.listed());
+    const std::string study = "&study surface%sigma = 0.01, 0.02 solids%E(1) = 1.0, 2.0 /";
+    REFUSED(with({"surface%sigma=0.03"}, study), "&study varies surface%sigma");
+    REFUSED(with({"solids%E=1.0,2.0"}, study), "&study varies solids%E(1)");
+    CHECK(with({"solids%E(2)=5.0"}, study).solids.E[1] == 5);
+    REFUSED(with({"solver%model=element"}), "solver%model=element");
+}
+
 }  // namespace
