@@ -4,9 +4,11 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from plot_curves import begin, curve, title
-from plot_style import COLOURS, GREY, amount, colour_bar, label, plt
+from plot_style import GREY, amount, label, plt
 
 CLOSED = 0.42  # A/A0 where gaps of isotropic surfaces close (Persson; Dapp and others 2012)
+
+LEAST = 0.1  # smallest flux that is drawn, over its mean
 
 
 def seal(results, options):
@@ -34,7 +36,7 @@ def seal(results, options):
         share = result.mean("area_fraction")[at]
         if share.min() < CLOSED < share.max():
             limit = np.exp(np.interp(CLOSED, share, np.log(pressure[at])))
-            axis.axvline(limit, color=GREY, ls="-.", lw=1.0, label=f"$A/A_0$ = {CLOSED}")
+            axis.axvline(limit, color=GREY, ls="-.", lw=1.0, label=f"$A/A_0$ = {CLOSED} (Persson)")
     axis.set_xscale("log")
     axis.set_yscale("log")
     label(axis, "x", "nominal pressure $p$", results[0].dimension("pressure"))
@@ -94,28 +96,37 @@ def flow(results, options):
         constrained_layout=True,
         squeeze=False,
     )
+    colours = plt.get_cmap("plasma").copy()
+    colours.set_bad(alpha=0)
     x, y = result["field_x"], result["field_y"]
     dx, dy = (x[-1] - x[0]) / (x.size - 1) / 2, (y[-1] - y[0]) / (y.size - 1) / 2
     extent = (x[0] - dx, x[-1] + dx, y[0] - dy, y[-1] + dy)
     for axis, k in zip(axes[0], drawn):
         gap, flux = result["field_gap"][k], result["field_flow"][k]
+        grey = plt.get_cmap("Greys_r").copy()
+        grey.set_bad("k")
+        lightest = 1.6 * gap.max()
         axis.imshow(
-            np.where(gap > 0, gap, np.nan), origin="lower", extent=extent, cmap="Greys_r", alpha=0.6
+            np.where(gap > 0, gap, np.nan),
+            origin="lower",
+            extent=extent,
+            cmap=grey,
+            vmin=-lightest,
+            vmax=lightest / 1.6,
         )
-        axis.set_facecolor("black")
         text = "closed"
-        if flux.max() > 0:
+        mean = result["permeability"][0, steps[k], 0]
+        if mean > 0:
+            flux = flux / mean
             image = axis.imshow(
-                np.where(flux > 1e-3 * flux.max(), flux, np.nan),
+                np.where(flux > LEAST, flux, np.nan),
                 origin="lower",
                 extent=extent,
-                cmap=COLOURS,
-                norm=LogNorm(1e-3 * flux.max(), flux.max()),
+                cmap=colours,
+                norm=LogNorm(LEAST, flux.max()),
             )
             bar = figure.colorbar(image, ax=axis, orientation="horizontal", shrink=0.9)
-            bar.set_label(
-                r"$\eta|q|/|\nabla P|$ [" + str(result.unit("field_flow")) + "]", fontsize=7
-            )
+            bar.set_label("flux over its mean along x", fontsize=7)
             bar.ax.tick_params(labelsize=6)
             narrowest = constriction(gap)
             if narrowest:
@@ -126,6 +137,6 @@ def flow(results, options):
         label(axis, "y", "$y$", result.dimension("field_y"))
         axis.set_title(f"{result.level_name(steps[k])}\n{text}", fontsize=7)
     figure.suptitle(
-        result.heading("Flow through the gap (black: contact), critical constriction"), fontsize=8
+        result.heading("Flow along x through the gap (grey; black: contact; ring: critical constriction)"), fontsize=8
     )
     return figure
