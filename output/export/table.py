@@ -42,6 +42,7 @@ COLUMNS = [
     "permeability",
     "hydraulic_gap",
 ]
+OPEN = "percolates", "permeability", "hydraulic_gap"
 AXES = "_x", "_y"  # of the columns of a vector, or of the first two components of a tensor
 EXPECTED = {"force": "force_error_expected", "contact_area": "area_error_expected"}
 
@@ -144,6 +145,8 @@ class Table:
             power = (a > 0) & (b > 0)
             safe_a, safe_b = np.where(power, a, 1.0), np.where(power, b, 1.0)
             between = np.where(power, safe_a * (safe_b / safe_a) ** share, a + share * (b - a))
+            if name.startswith(OPEN):  # between an open and a closed gap nothing is known
+                between = np.where((a > 0) == (b > 0), between, np.nan)
             columns[name] = np.where(share == 0, a, np.where(share == 1, b, between))
         columns[by] = wanted
         status = np.array([self.status[levels][r - 1 : r + 1] for r in right])
