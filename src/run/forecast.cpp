@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "interaction/mesh.hpp"
 #include "interaction/pair_matrix.hpp"
+#include "physics/flow/permeability.hpp"
 #include "run/compare.hpp"
 
 namespace rsc {
@@ -280,11 +281,15 @@ double expected_megabytes(const Job& job, double workers) {
     const double points = points_of_elements(job, job.settings.elements.points_per_wave);
     // Where most of the surface is under the indenter, its far products take more.
     constexpr double deep = 50;
+    // The gap of two flats, and what its permeability takes where it is open everywhere.
+    constexpr double of_gap = 80;
+    const double gap =
+        of_gap * points + (job.settings.output.flow ? permeability_bytes(points) : 0);
     double most = 0, kept = 0;
     for (const double level : job.levels) {
         if (job.indenter.period.finite()) {
             const double share = share_in_contact(job, level, force);
-            most = std::max(most, points * (flats + sticking + touching * share));
+            most = std::max(most, points * (flats + sticking + touching * share) + gap);
             if (job.settings.run.realizations == 1) kept += pixel * share * points;
             continue;
         }
