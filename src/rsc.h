@@ -411,6 +411,7 @@ RSC_API int32_t rsc_contact_answer(rsc_contact* contact, double* separation, dou
 /* One quantity of the last level by its name in the result file: "force", "contact_area", "contacts", "candidates", "iterations",
  * "residual", "status", "products", "overlapping_pairs", "large_contacts", "beyond_law", ... ; "separation", "stiffness", "energy",
  * "conductance_length" (2 |dN/dZ0|/E* at fixed contact areas), "lateral_force_x", "lateral_force_y", "moment_x", "moment_y",
+ * "gap_mean", "percolates_x", "permeability_xx", "hydraulic_gap_x", ... (two flats by elements),
  * "resistance" (with solids%resistivity in the case the contact was made from). The message of an unknown name lists all.
  * "force_error_expected" and "area_error_expected", the expected errors of N and A, exist for asperities, and for elements with adhesion.
  * rsc_case_run estimates the error of other elements on a second grid; a contact handle does not, and its status does not include that error.

@@ -37,7 +37,13 @@ COLUMNS = [
     "stiffness",
     "resistance",
     "contacts",
+    "gap_mean",
+    "percolates",
+    "permeability",
+    "hydraulic_gap",
 ]
+OPEN = "percolates", "permeability", "hydraulic_gap"
+AXES = "_x", "_y"  # of the columns of a vector, or of the first two components of a tensor
 EXPECTED = {"force": "force_error_expected", "contact_area": "area_error_expected"}
 
 
@@ -65,24 +71,26 @@ class Table:
             for name in COLUMNS:
                 if name not in variables:
                     continue
-                values, many = self._values(variables[name], good)
-                if not np.isfinite(values).any():
-                    continue
-                mean, stderr = _mean(values)
-                self._add(name, mean, getattr(variables[name], "units", "1"))
-                if many:
-                    self._add(name + "_stderr", stderr, self.units[name])
+                every = _numbers(variables[name])
+                vector = every.ndim == 3
+                for part, axis in enumerate(AXES if vector else ("",)):
+                    values, many = self._values(every[..., part] if vector else every, good)
+                    if not np.isfinite(values).any():
+                        continue
+                    mean, stderr = _mean(values)
+                    self._add(name + axis, mean, getattr(variables[name], "units", "1"))
+                    if many:
+                        self._add(name + axis + "_stderr", stderr, self.units[name + axis])
                 if EXPECTED.get(name) in variables:
                     self._add(
                         name + "_expected_error",
-                        _mean(self._values(variables[EXPECTED[name]], good)[0])[0],
+                        _mean(self._values(_numbers(variables[EXPECTED[name]]), good)[0])[0],
                         "1",
                     )
         self.load = "pressure" if "pressure" in self.columns else "force"
 
-    def _values(self, variable, good):
+    def _values(self, values, good):
         """(realization, step), with NaN for levels that did not converge; and True if there are several realizations."""
-        values = np.ma.filled(np.ma.asarray(variable[:]).astype(float), np.nan)
         many = values.ndim == 2 and values.shape[0] > 1
         return (
             np.where(
@@ -137,6 +145,8 @@ class Table:
             power = (a > 0) & (b > 0)
             safe_a, safe_b = np.where(power, a, 1.0), np.where(power, b, 1.0)
             between = np.where(power, safe_a * (safe_b / safe_a) ** share, a + share * (b - a))
+            if name.startswith(OPEN):  # between an open and a closed gap nothing is known
+                between = np.where((a > 0) == (b > 0), between, np.nan)
             columns[name] = np.where(share == 0, a, np.where(share == 1, b, between))
         columns[by] = wanted
         status = np.array([self.status[levels][r - 1 : r + 1] for r in right])
@@ -144,6 +154,11 @@ class Table:
         return columns, np.where(
             share == 0, status[:, 0], np.where(share == 1, status[:, 1], graver)
         )
+
+
+def _numbers(variable):
+    """The values of a variable, NaN where they are missing."""
+    return np.ma.filled(np.ma.asarray(variable[:]).astype(float), np.nan)
 
 
 def open_result(path):

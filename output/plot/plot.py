@@ -29,6 +29,7 @@ import plot_flats
 import plot_friction
 import plot_map
 import plot_radial
+import plot_seal
 import plot_spots
 import plot_study
 import plot_surface
@@ -42,6 +43,8 @@ PICTURES = {
     "load": plot_curves.load,
     "area": plot_area.area,
     "flats": plot_flats.flats,
+    "seal": plot_seal.seal,
+    "flow": plot_seal.flow,
     "study": plot_study.study,
     "map": plot_map.maps,
     "radial": plot_radial.radial,

@@ -151,6 +151,7 @@ ModelChoice model_of(const Case& c) {
     if (const char* why = why_asperities(c); *why) return {Model::asperities, why};
     if (c.surface.source == Source::heights)
         return {Model::elements, "the heights are read from a file"};
+    if (c.output.flow) return {Model::elements, "output%flow needs them"};
     try {
         if (const char* why = why_elements(c); *why) return {Model::elements, why};
     } catch (const Error&) {

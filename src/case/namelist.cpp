@@ -145,12 +145,13 @@ private:
         std::size_t end = equals;
         while (end > 0 && is_blank(text_[end - 1])) --end;
         std::size_t start = end;
-        while (start > 0 && (is_name(text_[start - 1]) || text_[start - 1] == ')' ||
-                             text_[start - 1] == '('))
+        while (start > 0 &&
+               (is_name(text_[start - 1]) || text_[start - 1] == ')' || text_[start - 1] == '('))
             --start;
         if (start == end || is_digit(text_[start])) return false;
         outside_ = start;
-        fault(start, "'" + std::string(text_.substr(start, std::min(end - start, std::size_t{63}))) +
+        fault(start, "'" +
+                         std::string(text_.substr(start, std::min(end - start, std::size_t{63}))) +
                          " =' stands outside a group and would be ignored: keys stand between " +
                          "&name and '/', comments after '!'");
         return true;
@@ -501,8 +502,8 @@ private:
     std::size_t at_ = 0;
     bool at_eol_ = false, comma_ = false, complete_ = false;
     std::size_t outside_ = 0;  // place of the last fault outside of groups
-    bool alone_ = false;   // assignments without a group around them
-    std::string context_;  // "&group: " within a group
+    bool alone_ = false;       // assignments without a group around them
+    std::string context_;      // "&group: " within a group
     Document document_;
 };
 

@@ -2,8 +2,8 @@
 // boxes, for pixel_tree.cpp.
 #pragma once
 
-#include "interaction/pixel_kernels.hpp"
 #include "interaction/kernel.hpp"
+#include "interaction/pixel_kernels.hpp"
 
 namespace rsc {
 

@@ -209,10 +209,10 @@ void ResultTable::means() {
                 if (s.count[step] > 1) s.deviation[step] = s.error[step] = 0;
         add_absent(name + "_mean", dims, unit_of_mean, "mean " + of, s.mean,
                    fewer ? "over `" + name + "_count` realizations, those that have it" : "");
-        add_absent(name + "_std", dims, unit_of_mean, "standard deviation of the " + of, s.deviation,
-                   "divisor M - 1 for M realizations");
-        add_absent(name + "_stderr", dims, unit_of_mean, "standard error of " + name + "_mean", s.error,
-                   name + "_std/sqrt(M)");
+        add_absent(name + "_std", dims, unit_of_mean, "standard deviation of the " + of,
+                   s.deviation, "divisor M - 1 for M realizations");
+        add_absent(name + "_stderr", dims, unit_of_mean, "standard error of " + name + "_mean",
+                   s.error, name + "_std/sqrt(M)");
         if (fewer)
             add(name + "_count", {"step"}, "1",
                 "number of realizations with a value of the " + std::string(q.plain), s.count);

@@ -111,7 +111,7 @@ struct Observations : Realizations {
     std::vector<double> map_area_fraction, map_pressure;        // [step][j][i]
     std::vector<double> radii;                                  // middle of the rings [length]
     std::vector<double> radial_area_fraction, radial_pressure;  // [step][radius]
-    std::vector<ShownDistributions> distributions;             // [pdf level]
+    std::vector<ShownDistributions> distributions;              // [pdf level]
     // Rounding errors of the means above, which restore the exact sums over several realizations
     // (map_sums): [step][j][i]
     std::vector<double> map_area_rest, map_force_rest;  // [length^2], [force]

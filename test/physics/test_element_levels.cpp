@@ -7,9 +7,9 @@
 #include "contact/answers.hpp"
 #include "contact/deflection.hpp"
 #include "elements/element_contact.hpp"
-#include "interaction/pixel_kernels.hpp"
 #include "height_maps.hpp"
 #include "interaction/lattice.hpp"
+#include "interaction/pixel_kernels.hpp"
 #include "physics/elimination.hpp"
 
 using namespace rsc;

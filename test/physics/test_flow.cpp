@@ -6,6 +6,7 @@
 #include "physics/flow/flow.hpp"
 #include "run/job.hpp"
 #include "truth/flow.hpp"
+#include "unit/library.hpp"
 
 using namespace rsc;
 
@@ -161,8 +162,8 @@ TEST(channels_dead_ends_and_islands) {
     CHECK_RELATIVE(K.xx, 1 / (12 * inverse) / 12, 1e-12);
     CHECK(K.yy == 0 && K.xy == 0);
     // A channel that winds once along both axes: the flux along it is that of the sum of gradients.
-    const Permeability both =
-        solved(gap(8, 8, 1, 1, [](int i, int j) { return i == j || i == (j + 1) % 8 ? 1.0 : 0.0; }));
+    const Permeability both = solved(
+        gap(8, 8, 1, 1, [](int i, int j) { return i == j || i == (j + 1) % 8 ? 1.0 : 0.0; }));
     CHECK(both.xx > 0);
     same(both, {both.xx, both.xx, both.xx}, 1e-12);
     // Wide islands behind gaps so narrow that rounding hides them do not spoil the rest.
@@ -222,17 +223,20 @@ TEST(every_point_is_eliminated_once) {
     }
 }
 
+namespace {
+
+constexpr const char* kFlats =
+    "&solids E = Infinity, 5.0 nu = 0.3, 0.49 R = Infinity, Infinity /\n"
+    "&surface L = 0.5 sigma = 8e-4 L_lambda_l = 4 L_lambda_s = 12 n = 64 /\n"
+    "&solver model = 'elements' /\n"
+    "&indentation boundary = 'periodic' control = 'pressure' unit = 'pressure' "
+    "levels = 0.01, 0.02, 0.3 /\n"
+    "&output flow = .true. fields = 'gap', 'flow' field_levels = 0.01, 0.02 /\n";
+
+}  // namespace
+
 TEST(the_gap_of_a_level) {
-    Case c = read_case_text(
-                 "&solids E = Infinity, 5.0 nu = 0.3, 0.49 R = Infinity, Infinity /\n"
-                 "&surface L = 0.5 sigma = 8e-4 L_lambda_l = 4 L_lambda_s = 12 n = 64 /\n"
-                 "&solver model = 'elements' /\n"
-                 "&indentation boundary = 'periodic' control = 'pressure' unit = 'pressure' "
-                 "levels = 0.01, 0.02, 0.3 /\n"
-                 "&output flow = .true. fields = 'gap', 'flow' field_levels = 0.01, 0.02 /\n",
-                 "case")
-                 .settings;
-    const Job job = prepare(c);
+    const Job job = prepare(read_case_text(kFlats, "case").settings);
     const Realization r = realize(job, 1, 1);
     const int n = static_cast<int>(r.fields.x.size());
     const std::size_t points = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
@@ -254,4 +258,11 @@ TEST(the_gap_of_a_level) {
     CHECK(r.levels[1].permeability_xx < r.levels[0].permeability_xx);
     CHECK(r.levels[2].gap_mean < r.levels[1].gap_mean);
     CHECK(r.fields.flow.size() == 2 * points);
+
+    Made library(kFlats);
+    OK(rsc_contact_press(library.contact, r.levels[1].force, nullptr));
+    CHECK_RELATIVE(value(library.contact, "gap_mean"), r.levels[1].gap_mean, 1e-9);
+    CHECK_RELATIVE(value(library.contact, "permeability_xx"), r.levels[1].permeability_xx, 1e-9);
+    CHECK_RELATIVE(value(library.contact, "hydraulic_gap_y"), r.levels[1].hydraulic_gap_y, 1e-9);
+    CHECK(value(library.contact, "percolates_x") == 1);
 }

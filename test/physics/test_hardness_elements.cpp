@@ -5,8 +5,8 @@
 #include "base/error.hpp"
 #include "check.hpp"
 #include "elements/element_contact.hpp"
-#include "interaction/pixel_kernels.hpp"
 #include "height_maps.hpp"
+#include "interaction/pixel_kernels.hpp"
 #include "surface/synthesis.hpp"
 
 using namespace rsc;

@@ -2,8 +2,8 @@
 // that repeats, against the double loop; the same order at every call.
 #include "interaction/close_pairs.hpp"
 
-#include "contact/spots.hpp"
 #include "check.hpp"
+#include "contact/spots.hpp"
 
 using namespace rsc;
 

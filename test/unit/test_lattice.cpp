@@ -1,8 +1,8 @@
 // The potential of a point and its images: closed forms, sums over finer lattices, Ewald's sum with
 // other parameters; and spots across the borders.
-#include "contact/spots.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
+#include "contact/spots.hpp"
 #include "interaction/kernel.hpp"
 #include "interaction/lattice.hpp"
 

@@ -2,8 +2,8 @@
 // tree against direct sums.
 #include "check.hpp"
 #include "elements/elements.hpp"
-#include "interaction/pixel_kernels.hpp"
 #include "elements/pixel_products.hpp"
+#include "interaction/pixel_kernels.hpp"
 
 #include "base/parallel.hpp"
 

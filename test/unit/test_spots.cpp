@@ -1,6 +1,6 @@
 // The union of elliptic spots against closed forms of circles, their affine images, and counting.
-#include "contact/spots.hpp"
 #include "check.hpp"
+#include "contact/spots.hpp"
 
 using namespace rsc;
 using std::numbers::pi;

@@ -4,8 +4,8 @@
 
 #include "asperities/lapack.hpp"
 #include "asperities/law.hpp"
-#include "contact/spots.hpp"
 #include "check.hpp"
+#include "contact/spots.hpp"
 
 using namespace rsc;
 

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-// Peak bytes of an open gap of n points: kBytes n + kLog n log2(n); measured at n = 512^2 to 2048^2
-// (test/bench, open_gap).
-constexpr double kBytes = 300, kLog = 62;
+// Bytes of an open gap of n points, n (kBytes + kLog log2 n): from the peaks of parallel gaps of
+// 256^2, 512^2 and 1024^2 points (976, 1012 and 1072 bytes a point); contact leaves less.
+constexpr double kBytes = 600, kLog = 25;
 
 }  // namespace
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "asperities/law.hpp"
-#include "contact/spots.hpp"
 #include "base/version.h"
 #include "case/read_case.hpp"
+#include "contact/spots.hpp"
 #include "physics/values/truth.hpp"
 #include "run/run.hpp"
 
@@ -309,7 +309,8 @@ inline void levels(CheckedFile& f, const Truth& t) {
         return pairs[k * t.steps + s] > 0 ? 2 : 0;
     }));
     for (std::size_t i = 0; i < with_border.size(); ++i)
-        CHECK(!(with_border[i] > 0) || level(i / t.steps, i % t.steps).status != LevelStatus::converged);
+        CHECK(!(with_border[i] > 0) ||
+              level(i / t.steps, i % t.steps).status != LevelStatus::converged);
 
     // Yielding: at the hardness, and as deep as ever.
     Vector deepest(t.elements ? 0 : t.r[0].asperities.size());
