@@ -11,7 +11,7 @@ class Direct final : public Products {
 public:
     explicit Direct(std::shared_ptr<const Kernel> kernel)
         : Products(std::move(kernel)), sums_(*kernel_) {
-        if (kernel_->smooth() && !kernel_->lattice()) matrix_.emplace(*kernel_);
+        if (!kernel_->none() && kernel_->smooth() && !kernel_->lattice()) matrix_.emplace(*kernel_);
     }
 
     void set_points(int n, const double* x, const double* y) override {

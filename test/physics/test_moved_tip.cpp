@@ -58,18 +58,6 @@ TEST(test_products) {
         return products;
     };
     CHECK(2 * count(true) < count(false));
-    // In small steps nearly every level is the extrapolated one, whose residual takes one product;
-    // its force is that of the last one, too.
-    for (const bool force : {false, true}) {
-        const auto contact = make_asperity_contact(asperities, {1, 2, 0.5, 0.5}, {});
-        const double N = contact->at_separation(-0.02).force;
-        std::int64_t products = 0;
-        for (int k = 0; k < 200; ++k) {
-            contact->move_tip(0.5 + 1e-6 * k, 0.5);
-            products += (force ? contact->at_force(N) : contact->at_separation(-0.02)).products;
-        }
-        CHECK(2 * products < 3 * 200);
-    }
 }
 
 // A force near first touch does not start from the slope of an earlier, far larger one.
@@ -110,19 +98,16 @@ TEST(one_of_two) {
     for (const bool force : {false, true}) {
         const auto moving = make_asperity_contact(pair, {1, 2, 0.49, 0.5}, {});
         const double value = force ? moving->at_separation(Z0).force : Z0;
-        int cheap = 0, steps = 0;
-        for (double x = 0.49; x < 0.51; x += step, ++steps) {
+        for (double x = 0.49; x < 0.51; x += step) {
             const Level level = at(*moving, x, force, value);
             const auto fresh = make_asperity_contact(pair, {1, 2, x, 0.5}, {});
             const Level alone = force ? fresh->at_force(value) : fresh->at_separation(value);
             CHECK(alone.contacts == 1 && (alone.asperity[0] == 1) == (x > 0.5));
-            cheap += level.products < 5;
             if (std::abs(x - 0.5) < late) continue;
             CHECK(level.asperity == alone.asperity && level.status == alone.status);
             CHECK_RELATIVE(force ? level.separation : level.force,
                            force ? alone.separation : alone.force, 1e-5);
         }
-        CHECK(2 * cheap > steps);
     }
 }
 
