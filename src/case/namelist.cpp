@@ -74,7 +74,6 @@ public:
 
 private:
     // --- characters
-    // -------------------------------------------------------------------------------------------------------
     // at_eol_: the last character read, even if put back, ended a line. The separators below depend
     // on it.
     int next() {
@@ -185,7 +184,6 @@ private:
     }
 
     // --- separators, the way gfortran does them
-    // ---------------------------------------------------------------------------
     // After a value: blanks, then at most one comma, or the end of the line with all that is blank
     // or comment after it.
     void skip_separator() {
@@ -242,7 +240,6 @@ private:
     }
 
     // --- a group
-    // ----------------------------------------------------------------------------------------------------------
     void body(Group& group) {
         context_ = alone_ ? "" : "&" + group.name + ": ";
         bool lost = false;  // a fault was reported and no valid assignment followed yet
@@ -354,7 +351,6 @@ private:
     }
 
     // --- values
-    // -----------------------------------------------------------------------------------------------------------
     // Up to the next key, the end of the group or the end of the text.
     void values(Assignment& a) {
         std::size_t doubtful = std::string_view::

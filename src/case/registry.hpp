@@ -69,7 +69,6 @@ const Key& key_of(std::string_view name);
 std::string full_name(const Key& key);  // "group%key"
 
 // --- values by name
-// -----------------------------------------------------------------------------------------------------------
 
 // The elements of keys that have been given, with their positions, to detect duplicates and to
 // locate messages.
@@ -113,7 +112,6 @@ void set_key(Case& settings, std::string_view name, std::string_view value, bool
 std::string get_key(const Case& settings, std::string_view name);
 
 // --- a whole case
-// -------------------------------------------------------------------------------------------------------------
 
 // An error in a case or a single value, and the keys ("surface%n") it concerns, the most important
 // first.

@@ -1,5 +1,6 @@
 // Measured maps: the namelist of their twins, and no contact near points that were filled.
 #include "base/error.hpp"
+#include "base/format.hpp"
 #include "case/read_case.hpp"
 #include "case/registry.hpp"
 #include "check.hpp"
@@ -63,6 +64,67 @@ TEST(twins_of_an_oblong_map) {
     CHECK(flat.indentation.control == Control::pressure &&
           flat.indentation.unit == LevelUnit::pressure);
     CHECK_RELATIVE(flat.indentation.levels.at(0), 3 / (1.0 * 0.5), 1e-12);
+}
+
+// What belongs to body 2 is kept, with its map alone; what is for one realization is not.
+TEST(twins_with_a_second_map) {
+    std::string rows;
+    for (int j = 0; j < 32; ++j) {
+        for (int i = 0; i < 32; ++i)
+            rows +=
+                std::to_string(1e-3 * std::sin(0.9 * i) * std::cos(0.7 * j) + 1e-4 * (i * j % 7)) +
+                " ";
+        rows += "\n";
+    }
+    const std::string file = folder.write("rows.txt", rows);
+    const auto twins = [&](std::string keys) {
+        const Case one = read_case_text("&surface source='heights' file='" + file +
+                                            "' pixel=0.03 outliers=8 filter_cutoff=0.1 "
+                                            "missing='fill' missing_value=-9999 / "
+                                            "&solids R=Infinity,Infinity friction=0.1 / " +
+                                            "&output fields='pressure' / " + keys,
+                                        "one.nml")
+                             .settings;
+        return read_case_text(twins_text(prepare(one), "t.nc"), "twins.nml").settings;
+    };
+    const Case two = twins("&indenter shape='map' file='" + file + "' /");
+    CHECK(two.surface.pixel == 0.03 && two.surface.outliers == 8 &&
+          two.surface.filter_cutoff == 0.1 && two.surface.missing == Missing::fill &&
+          two.surface.missing_value == std::vector<double>{-9999});
+    CHECK(two.output.fields.empty() && two.solids.friction == 0);
+    (void)contacts_kept(two);
+    const Case alone = twins("&indenter shape='paraboloid' radii=5.0,5.0 /");
+    CHECK(!alone.surface.pixel && alone.surface.missing_value.empty());
+}
+
+// The gap between two bodies is all that counts: a rough body 2 on a smooth body 1 is the surface
+// upside down on a smooth body 2.
+TEST(smooth_on_rough) {
+    std::string wave, zero;
+    for (int j = 0; j < 32; ++j) {
+        for (int i = 0; i < 32; ++i)
+            wave += format("%.17g ", 1e-3 * std::cos(std::numbers::pi * i / 8) *
+                                         std::cos(std::numbers::pi * j / 16)),
+                zero += "0 ";
+        wave += "\n", zero += "\n";
+    }
+    const auto level = [&](const std::string& first, const std::string& second) {
+        const Case c = read_case_text(
+                           "&solids E=1e4,Infinity nu=0.3,0.0 R=Infinity,Infinity / &surface "
+                           "source='heights' pixel=0.03125 sigma=1e-3 file='" +
+                               first + "' / &indenter shape='map' file='" + second +
+                               "' / &indentation boundary='periodic' control='pressure' "
+                               "unit='pressure' levels=1.0 /",
+                           "c.nml")
+                           .settings;
+        return realize(prepare(c), 1, 1).levels.at(0);
+    };
+    const std::string rough = folder.write("wave.txt", wave),
+                      smooth = folder.write("zero.txt", zero);
+    const Level below = level(rough, smooth), above = level(smooth, rough);
+    CHECK(above.area > 0);
+    CHECK_RELATIVE(above.area, below.area, 1e-9);
+    CHECK_RELATIVE(above.separation, below.separation, 1e-6);
 }
 
 // A surface of 256 x 256 points as a map, whose point (i, j) `change` may alter.

@@ -15,6 +15,7 @@ namespace {
 TEST(thresholds) {
     Job job;
     job.sigma = 2;
+    job.indenter.E_star = 50e3 * (1 + 1e-9);  // E*/10 is above the 5 GPa of hardened steel
     using V = LevelValues;
     const auto remarks = [&](const std::function<void(V&)>& change) {
         std::vector<V> levels(2);
@@ -36,6 +37,8 @@ TEST(thresholds) {
     }
     CHECK(!said("E*/10", [](V& v) { v.extreme_area_fraction = 0.01; }) &&
           said("E*/10", [](V& v) { v.extreme_area_fraction = 0.0149; }));
+    job.indenter.E_star = 50e3 * (1 - 1e-9);
+    CHECK(!said("E*/10", [](V& v) { v.extreme_area_fraction = 0.9; }));
     CHECK(said("are missing", [](V& v) { v.stiffness = kNotComputed; }));
     CHECK(said("overlapping", [](V& v) { v.status = LevelStatus::overlapping; }));
     CHECK(said("not unique", [](V& v) { v.status = LevelStatus::not_unique; }));
