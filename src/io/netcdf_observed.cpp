@@ -49,14 +49,6 @@ void ResultTable::maps() {
         o_.map_pressure,
         comment("p = sum of f/w^2 over the asperities in the cell, also of those that attract "
                 "without contact"));
-    if (o_.realizations == 1) return;
-    const std::string
-        rest = ": sum over realizations minus the mean times number of realizations times w^2",
-        why = "for rsc --merge and --resume, which add realizations without rounding";
-    add("map_area_fraction_rest", dims, unit(2), "rest of map_area_fraction" + rest,
-        o_.map_area_rest, comment(why));
-    add("map_pressure_rest", dims, unit(0, 1), "rest of map_pressure" + rest, o_.map_force_rest,
-        comment(why));
 }
 
 void ResultTable::radial() {
@@ -134,17 +126,14 @@ void ResultTable::distributions() {
     if (o_.realizations == 1) return;
     std::vector<double> sums;
     for (const DistributionSums& level : o_.distribution_sums)
-        for (const ExactSum& sum : level.numbers) sums.push_back(sum.high), sums.push_back(sum.low);
+        for (const ExactSum& sum : level.numbers) sums.push_back(sum.high);
     const std::size_t numbers = o_.distribution_sums.front().numbers.size();
     file_.dimension("pdf_sum", numbers);
-    file_.dimension("part", 2);
     add("pdf_sum", {"pdf_sum"}, "1", "number of the sum", one_to(numbers));
-    add("part", {"part"}, "1", "part of a sum", one_to(2),
-        {{"flag_values", one_to(2)}, {"flag_meanings", "rounded rest"}});
-    add("pdf_sums", {"pdf_level", "pdf_sum", "part"}, "1",
+    add("pdf_sums", {"pdf_level", "pdf_sum"}, "1",
         "sums over realizations from which the distributions are computed", sums,
-        comment("the exact value is the sum of the two parts, in powers of the units of length and "
-                "force; for rsc --merge and --resume, which add realizations without rounding"));
+        comment("in powers of the units of length and force; for rsc --merge and --resume, which "
+                "add realizations"));
 }
 
 void ResultTable::histogram(const std::string& name, const std::string& axis,

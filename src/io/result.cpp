@@ -221,11 +221,11 @@ void read_distributions(const Columns& file, Accumulators& sums) {
     Distributions one = rounded({}, sums.options.pdf, 0);
     std::size_t count = 0;
     for_each_number(one, sums.options.pdf, [&count](auto&, double) { ++count; });
-    const std::vector<double> parts = file.values("pdf_sums", {levels, count, 2});
+    const std::vector<double> numbers = file.values("pdf_sums", {levels, count});
     for (std::size_t d = 0; d < levels; ++d) {
         sums.distributions[d].step = static_cast<std::int32_t>(step[d]) - 1;
         for (std::size_t k = d * count; k < (d + 1) * count; ++k)
-            sums.distributions[d].numbers.push_back({parts[2 * k], parts[2 * k + 1]});
+            sums.distributions[d].numbers.push_back({numbers[k], 0});
     }
 }
 
@@ -243,8 +243,7 @@ Accumulators read_sums(const std::string& path, const ObserveOptions& options, s
         const MapGrid& g = options.map;
         const std::vector<std::size_t> lengths{steps, static_cast<std::size_t>(g.ny),
                                                static_cast<std::size_t>(g.nx)};
-        const std::vector<double> rests = file.values(name + "_rest", lengths);
-        return map_sums(g, sums.converged(), file.values(name, lengths), rests);
+        return map_sums(g, sums.converged(), file.values(name, lengths));
     };
     sums.map_area = map("map_area_fraction");
     sums.map_force = map("map_pressure");

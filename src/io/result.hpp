@@ -108,7 +108,7 @@ Moments regime_moments(const Result& result);
 // Reads the sums over realizations from the result file of a campaign, so that realizations can be
 // added.
 
-// The sums at the time of writing, bit for bit; `options` and `steps` are those of the case. Throws
+// The sums at the time of writing, within rounding; `options` and `steps` are those of the case. Throws
 // Error(bad_input) with the name of the file if it lacks the sums (it has one realization, or is of
 // an earlier version), has other bins, map or levels, or is damaged.
 Accumulators read_sums(const std::string& path, const ObserveOptions& options, std::size_t steps);

@@ -6,8 +6,8 @@
 
 namespace rsc {
 
-// Sums over realizations are independent of the order and grouping of their terms, bit for bit, so
-// that the results of two campaigns can be merged.
+// Sums over realizations are independent of the order and grouping of their terms, bit for bit,
+// whichever thread, rank or interrupted run computed them.
 
 // A sum without rounding errors, stored as two doubles (T. J. Dekker, Numer. Math. 18, 1971; D. E.
 // Knuth): high is the rounded sum, low the remainder. Every term is a multiple of a power of two,

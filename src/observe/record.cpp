@@ -22,13 +22,6 @@ double map_divisor(const MapGrid& grid, std::int32_t converged) {
     return grid.side * grid.side * std::max(1, converged);
 }
 
-// Product rounded to a double; volatile prevents the compiler from fusing it with the following
-// sum.
-double rounded_product(double a, double b) {
-    const volatile double product = a * b;
-    return product;
-}
-
 }  // namespace
 
 std::int32_t nearest_level(const std::vector<double>& levels, double wanted) {
@@ -161,19 +154,13 @@ Observations Accumulators::finish() const {
 
     const std::vector<std::int32_t> counts = converged();
     const auto cells = static_cast<std::size_t>(options.map.cells());
-    const auto divide = [&](const std::vector<ExactSum>& sums, std::vector<double>& means,
-                            std::vector<double>& rests) {
+    const auto divide = [&](const std::vector<ExactSum>& sums, std::vector<double>& means) {
         means.reserve(sums.size());
-        if (o.realizations > 1) rests.reserve(sums.size());
-        for (const ExactSum& sum : sums) {
-            const double divisor = map_divisor(options.map, counts[means.size() / cells]);
-            means.push_back(sum.high / divisor);
-            if (o.realizations > 1)
-                rests.push_back((sum.high - rounded_product(means.back(), divisor)) + sum.low);
-        }
+        for (const ExactSum& sum : sums)
+            means.push_back(sum.high / map_divisor(options.map, counts[means.size() / cells]));
     };
-    divide(map_area, o.map_area_fraction, o.map_area_rest);
-    divide(map_force, o.map_pressure, o.map_force_rest);
+    divide(map_area, o.map_area_fraction);
+    divide(map_force, o.map_pressure);
 
     const RadialMean mean(options.map, options.tip_x, options.tip_y, options.radial_bins);
     o.radii = mean.radii();
@@ -197,12 +184,11 @@ std::vector<std::int32_t> Accumulators::converged() const {
 }
 
 std::vector<ExactSum> map_sums(const MapGrid& grid, const std::vector<std::int32_t>& converged,
-                               const std::vector<double>& means, const std::vector<double>& rests) {
+                               const std::vector<double>& means) {
     std::vector<ExactSum> sums(means.size());
     const auto cells = static_cast<std::size_t>(grid.cells());
     for (std::size_t k = 0; k < sums.size(); ++k)
-        sums[k] = ExactSum::of_two(
-            rounded_product(means[k], map_divisor(grid, converged[k / cells])), rests[k]);
+        sums[k].high = means[k] * map_divisor(grid, converged[k / cells]);
     return sums;
 }
 

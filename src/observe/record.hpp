@@ -3,8 +3,8 @@
 // observe() reduces one realization to a RealizationRecord of plain numbers and vectors, which can
 // be written to a checkpoint.
 // Accumulators::add() adds records in the order of their realizations, independent of the thread,
-// rank or run that computed them; sums are exact (ExactSum), so that the sums of two campaigns can
-// be merged. finish() computes means, radial means and fits.
+// rank or run that computed them; sums are exact (ExactSum), so that a campaign that goes on from
+// its checkpoint gives the same bits. finish() computes means and radial means.
 #pragma once
 
 #include "contact/level.hpp"
@@ -112,16 +112,13 @@ struct Observations : Realizations {
     std::vector<double> radii;                                  // middle of the rings [length]
     std::vector<double> radial_area_fraction, radial_pressure;  // [step][radius]
     std::vector<ShownDistributions> distributions;              // [pdf level]
-    // Rounding errors of the means above, which restore the exact sums over several realizations
-    // (map_sums): [step][j][i]
-    std::vector<double> map_area_rest, map_force_rest;  // [length^2], [force]
-    std::vector<DistributionSums> distribution_sums;    // [pdf level]
+    std::vector<DistributionSums> distribution_sums;            // [pdf level]
     const LevelValues& row(std::size_t k, std::size_t step) const { return rows[k * steps + step]; }
     LevelStatistics statistics(const std::function<double(const LevelValues&)>& of) const;
 };
 
-// Restores the exact sums of a map from the means and rests computed by finish().
+// The sums of a map over realizations from the means computed by finish(), within their rounding.
 std::vector<ExactSum> map_sums(const MapGrid& grid, const std::vector<std::int32_t>& converged,
-                               const std::vector<double>& means, const std::vector<double>& rests);
+                               const std::vector<double>& means);
 
 }  // namespace rsc

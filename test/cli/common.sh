@@ -17,6 +17,16 @@ expect() {
 says() { grep -q -- "$1" "$folder/said" || { cat "$folder/said"; fail "it does not say: $1"; }; }
 silent_on() { ! grep -q -- "$1" "$folder/said" || { cat "$folder/said"; fail "it says: $1"; }; }
 same() { cmp "$1" "$2" || fail "$1 and $2 differ"; }
+# Two results of equal names: the same text, and numbers within 1e-9 of each other.
+alike() {
+    command -v ncdump > /dev/null || exit 77
+    for file in "$1" "$2"; do ncdump "$file" | tr ',; ' '\n\n\n' | sed '/^$/d'; done > words
+    awk -v half=$(($(wc -l < words) / 2)) '{ w[NR] = $0 } END { for (k = 1; k <= half; ++k) {
+        a = w[k]; b = w[k + half]; d = a - b; s = a < 0 ? -a : a + 0
+        if (a != b && !(a ~ /^[-+.0-9e]+$/ && b ~ /^[-+.0-9e]+$/ && d <= 1e-9 * s && -d <= 1e-9 * s)) { print a, b; exit 1 } }
+        exit NR != 2 * half }' words || fail "$1 and $2 differ"
+    rm words
+}
 # left FOLDER NAMES: what is there, and nothing else.
 left() { [ "$(ls -A "$1" | tr '\n' ' ')" = "${2:+$2 }" ] || fail "left in $1: $(ls -A "$1"); expected: $2"; }
 # shortened NAME PICTURES...: input/NAME/run.sh --short from beginning to end leaves these pictures, and a report without "not a number" that says it is

@@ -36,10 +36,12 @@ RealizationRecord observed(const Job& job, int k) {
     return observe(job.observe, k, r.statistics, r.levels);
 }
 
-bool same(const std::vector<ExactSum>& a, const std::vector<ExactSum>& b) {
-    return std::equal(
-        a.begin(), a.end(), b.begin(), b.end(),
-        [](const ExactSum& x, const ExactSum& y) { return x.high == y.high && x.low == y.low; });
+// Within the rounding of a mean and of a sum.
+bool alike(const std::vector<ExactSum>& a, const std::vector<ExactSum>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const ExactSum& x, const ExactSum& y) {
+                          return std::abs(x.high - y.high) <= 4e-16 * std::abs(y.high);
+                      });
 }
 
 TEST(test_archive) {
@@ -67,10 +69,8 @@ TEST(test_archive) {
     left.append(right);
     CHECK(to_bytes(left) == to_bytes(sums));
     const Observations o = sums.finish();
-    CHECK(same(map_sums(job.observe.map, sums.converged(), o.map_area_fraction, o.map_area_rest),
-               sums.map_area));
-    CHECK(same(map_sums(job.observe.map, sums.converged(), o.map_pressure, o.map_force_rest),
-               sums.map_force));
+    CHECK(alike(map_sums(job.observe.map, sums.converged(), o.map_area_fraction), sums.map_area));
+    CHECK(alike(map_sums(job.observe.map, sums.converged(), o.map_pressure), sums.map_force));
     Accumulators other(job.observe, job.levels.size() + 1);
     CHECK_THROWS(sums_from_bytes(to_bytes(sums), other), Error);
 }

@@ -143,7 +143,7 @@ inline void maps(CheckedFile& f, const Truth& t) {
     const double below_last = static_cast<double>(g.ny - 1) * g.side,
                  covered = std::min(1.0, (t.Ly - below_last) / g.side);
     f.attribute("y", "share_of_last_row", {covered}, 1e-12);
-    Vector area(t.steps * cells), force(area), area_rest(area), force_rest(area);
+    Vector area(t.steps * cells), force(area);
     std::vector<long double> area_sum(area.size()), force_sum(area.size());
     for (std::size_t k = 0; k < t.M; ++k)
         for (std::size_t s = 0; s < t.steps; ++s) {
@@ -152,39 +152,13 @@ inline void maps(CheckedFile& f, const Truth& t) {
                 area_sum[s * cells + i] += c.area[i], force_sum[s * cells + i] += c.force[i];
         }
     const double divisor = g.side * g.side * number(t.M);
-    const Vector there = f.values("map_area_fraction"), pressed = f.values("map_pressure");
-    const auto rest = [divisor](double mean_value, long double total) {
-        const double product = mean_value * divisor;
-        return static_cast<double>(total - static_cast<long double>(product));
-    };
     for (std::size_t i = 0; i < area.size(); ++i) {
         area[i] = static_cast<double>(area_sum[i]) / divisor,
         force[i] = static_cast<double>(force_sum[i]) / divisor;
-        area_rest[i] = rest(there[i], area_sum[i]), force_rest[i] = rest(pressed[i], force_sum[i]);
     }
     const double scale = *std::max_element(force.begin(), force.end());
     f.same("map_area_fraction", area, 1e-13), f.same("map_pressure", force, 1e-13);
     CHECK(scale > 0);
-    if (t.M >
-        // the cells' sums come of differently rounded terms here: within their rounding, and not
-        // nothing
-        1) {
-        for (const bool of_force : {false, true}) {
-            const std::string name = of_force ? "map_pressure_rest" : "map_area_fraction_rest";
-            const Vector in_file = f.values(name), &sums = of_force ? force : area;
-            double largest = 0;
-            for (std::size_t i = 0; i < in_file.size(); ++i) {
-                CHECK(std::abs(in_file[i]) <= 3e-16 * sums[i] * divisor);
-                largest = std::max(largest, std::abs(in_file[i]));
-            }
-            CHECK(largest > 0);
-            f.same(name, of_force ? force_rest : area_rest, 0,
-                   4e-16 * (of_force ? scale : 1) * divisor);
-        }
-    } else {
-        CHECK(!f.has("map_area_fraction_rest") && !f.has("map_pressure_rest"));
-    }
-
     if (t.periodic) return CHECK(!f.has("radius") && !f.has("radial_pressure"));
     const double largest =
         std::min({t.tip_x - t.x0, t.x0 + t.Lx - t.tip_x, t.tip_y - t.y0, t.y0 + t.Ly - t.tip_y});
