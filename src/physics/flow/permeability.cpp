@@ -115,8 +115,11 @@ struct Cholmod {
     Cholmod() {
         cholmod_l_start(&common);
         common.print = 0;
-        common.nmethods = 1;
-        common.method[0].ordering = CHOLMOD_NATURAL;  // the matrix is in the order of dissection
+        // The order with fewer numbers in the factor: that of the matrix, which is the order of
+        // dissection and good for open gaps, or that of minimum degree, for gaps full of contacts.
+        common.nmethods = 2;
+        common.method[0].ordering = CHOLMOD_NATURAL;
+        common.method[1].ordering = CHOLMOD_AMD;
         common.supernodal = CHOLMOD_SUPERNODAL;
         common.try_catch = 1;
     }
