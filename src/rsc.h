@@ -332,9 +332,7 @@ RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
  * With solids%adhesion the state of attached asperities, or of elements that attract, is followed while the tip moves on a straight line (the
  * shortest one on a periodic surface) at the last separation; the next level includes the jumps on this path. Near the edge of a body (a
  * punch) that attracts, the tip cannot be moved (-2). Errors: -1 null; -2, -3 not finite; -2 a position outside a surface that is
- * not periodic; -2 bodies that yielded or relax, or attached asperities (pull the tip off first), under an indenter of more than 0.2 of the
- * surface's rms slope, with laws 'elliptic' and 'fourth_order': their summits are others at each place; RSC_NOT_CONVERGED (adhesion: the path is
- * lost); the tip is then not moved; RSC_NO_MEMORY. */
+ * not periodic; RSC_NOT_CONVERGED (adhesion: the path is lost); the tip is then not moved; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
 
 /* Stores the state for rsc_contact_rollback: the tip, the last level and the loading history (solids%hardness, solids%adhesion). A new
@@ -353,10 +351,10 @@ RSC_API int32_t rsc_contact_tip(const rsc_contact* contact, double* x0, double* 
  * contact: the contact; separation (out) [length]. Errors: -1 null, or no asperity under the sphere; -2 null. */
 RSC_API int32_t rsc_contact_first_touch(const rsc_contact* contact, double* separation);
 
-/* Computes the contact at a separation. The result depends on the separation and the tip only (where several solutions exist, a call that
- * changes penetrations by less than a hundredth may keep the one of the call before); with solids%hardness or
- * solids%adhesion also on the levels before (with adhesion it follows from the last level under prescribed separation). A level near
- * the last one is computed faster; the last one itself is not computed again, except with adhesion.
+/* Computes the contact at a separation. The result depends, within the tolerance, on the bodies, the place of the tip, the separation and,
+ * with solids%hardness, solids%relaxation_share or solids%adhesion, the state left by the levels before, on nothing else: not on earlier
+ * calls nor on the way of the tip. A level near the last one is computed faster; the last one itself is not computed again, except with
+ * adhesion.
  * contact: the contact; separation: Z0, height of the tip above z = 0 [length]; force (out, may be null): N, 0 without contact
  * [force]. Errors: -1 null; -2 not finite; RSC_NOT_CONVERGED, with the results of the last iterate, not-a-number if there is no state
  * (with adhesion, or two flats deeper than asperities bear); RSC_NO_MEMORY, RSC_INTERNAL, after which the contact has no result. */
@@ -395,11 +393,9 @@ RSC_API int32_t rsc_contact_level(const rsc_contact* contact, int32_t* level_sta
 /* The results of the last level in one call. All outputs may be null. contact: the contact;
  * separation: Z0 [length]; force: N [force]; stiffness: dN/dZ0, negative, 0 without contact (takes one more solution of linear
  * equations, unless null) [force/length]; area: A [length^2]; energy: W, dW/dZ0 = -N [force length]; lateral_x, lateral_y: lateral
- * force on the sphere at this separation, -dW/dx0 = -sum f_i (x_i - x0)/sqrt(R^2 - rho_i^2), and -dW/dy0 likewise [force]; with the laws
- * 'elliptic' and 'fourth_order' W changes by more, because summits change with the tip: this is included by differences of W, with the
- * plastic work (under steep indenters up to 4096 x 4096 points), once a level when it is first asked for, which takes half of the time of
- * a first level to one and a half times as much, or when the tip moves, if the state follows it; with RSC_LEVEL_OUT_OF_VALIDITY, where W of the model may be far too steep, it can be off by a tenth of N and
- * more; level_status: of RSC_LEVEL_LIST; contacts: number of contacts; overlapping_pairs: pairs that overlap;
+ * force on the indenter at this separation, -dW/d(x0, y0), the sum of -f_i times the gradient of the indenter's face at contact i: for a
+ * sphere -sum f_i (x_i - x0)/sqrt(R^2 - rho_i^2) [force]. With the laws 'elliptic' and 'fourth_order' it leaves out that the curvature of
+ * the face above a summit changes as the tip moves: nothing for a paraboloid, for a sphere a share of (rho_i/R)^2; level_status: of RSC_LEVEL_LIST; contacts: number of contacts; overlapping_pairs: pairs that overlap;
  * large_contacts: with a radius above a quarter of the mean spacing; beyond_law:
  * outside the range of validity of the contact law; edge_contacts: within a mean spacing of the border of the surface. All hold for the
  * position of the tip when the level was computed.

@@ -220,14 +220,9 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
         // Contacts with a memory follow the tip at once: what can be asked of the last level is
         // kept.
         const bool remembers = contact->contact.pulls() || contact->contact.path_dependent();
-        if (remembers && contact->known.level) {
+        if (remembers && contact->known.level)
             (void)(now.layers.count > 0 ? stiffness_of(*contact) : conductance_length_of(*contact));
-            contact->answer();
-        }
-        const rsc::Asperities* const before = contact->contact.asperities();
         contact->contact.move_tip(place.x, place.y);
-        if (!remembers && contact->contact.asperities() != before)
-            contact->recalled = !contact->known.level;  // other summits, without a level
     });
 }
 
@@ -414,7 +409,7 @@ int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* 
 int32_t rsc_contact_asperities(rsc_asperities** asperities, const rsc_contact* contact) {
     return constructed(0, asperities, "asperities", [&] {
         require(contact, 2, "contact");
-        const rsc::Asperities* touched = contact->contact.asperities();
+        const auto touched = contact->contact.asperities();
         if (!touched) refuse(2, "contact", "has no asperities: it is solved by boundary elements");
         rsc::SurfaceModel model;
         model.asperities = *touched;

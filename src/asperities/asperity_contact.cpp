@@ -12,15 +12,15 @@ namespace {
 using Vector = std::vector<double>;
 
 // The law of the asperities under the tip, without loads; of a relaxing body with what it remembers.
-std::unique_ptr<Law> law_of(const ContactBodies& bodies,
-                            std::optional<RelaxingAsperities>& relaxing) {
+std::unique_ptr<Law> law_of(ContactBodies& bodies, std::optional<RelaxingAsperities>& relaxing) {
     const SolverOptions& options = bodies.options;
-    auto law = make_yielding(make_law(options.law, bodies.asperities, bodies.indenter.E_star),
+    auto law = make_yielding(make_law(options.law, bodies.asperities, bodies.indenter.E_star,
+                                      bodies.of_difference.get()),
                              bodies.asperities, options.hardness, traits(options.law).sinks);
     if (options.relaxation.none()) return law;
     const Creep creep(options.relaxation);
     auto relaxes = make_relaxing(std::move(law), bodies.asperities.size(), creep);
-    relaxing.emplace(bodies.asperities, bodies.indenter, *relaxes, creep, options.tolerance);
+    relaxing.emplace(bodies.of_surface, bodies.indenter, *relaxes, creep, options.tolerance);
     return relaxes;
 }
 
@@ -36,7 +36,7 @@ AsperityContact::Impl::Impl(const Asperities& asperities_, const Indenter& inden
     if (options.selection == Selection::paper && std::isnan(indenter.shape->hertz_radius()))
         throw Error(Failure::bad_input,
                     "indentation%selection = 'paper' is defined for a sphere only");
-    ranking.assign(asperities, indenter);
+    ranking.assign(of_surface, indenter);
 }
 
 void AsperityContact::Impl::use(Method how) {
@@ -51,7 +51,7 @@ void AsperityContact::Impl::use(Method how) {
 }
 
 void AsperityContact::Impl::select(double Z0) {
-    select_candidates(ranking, indenter, options, *law, Z0 - raised(), candidates);
+    select_candidates(contenders(), options, Z0 - raised(), candidates);
     use(choose_method(options, *kernel, candidates.set));
     if (relaxing) relaxing->lower(candidates, *products);
 }
@@ -92,8 +92,10 @@ Level AsperityContact::Impl::report(double Z0) const {
     for (std::size_t k : order) {
         const double area = law->area(set.asperity[k], v[k]);
         const double f = force[k] / scale();
-        level.add_contact(set.asperity[k], set.x[k], set.y[k], f,
-                          std::sqrt(area / std::numbers::pi), v[k]);
+        const auto i = at(set.asperity[k]);
+        const Vec2 place = indenter.image(asperities.x[i], asperities.y[i]);
+        level.add_contact(set.asperity[k], place.x, place.y, f, std::sqrt(area / std::numbers::pi),
+                          v[k]);
         level.force += f;
         level.area += area;
         level.beyond_law += law->beyond(set.asperity[k], v[k]);
@@ -165,26 +167,23 @@ Level AsperityContact::solve(double Z0) {
     const bool by_dgesv = dense && unique;
     if (Vector start; !unique && (my.follows() || !dense) &&
                       my.earlier.predict(Z0, my.candidates, start) &&
-                      (my.follows() || my.earlier.unique() || my.selected(start))) {
+                      (my.follows() || my.earlier.unique())) {
         outcome = my.solve_from(start, false);
         iterations += outcome.iterations;
-        followed = outcome.converged && (my.follows() || my.selected(my.solution.v));
-        unique = outcome.converged && (my.follows() || !followed) && my.one_solution();
+        followed = outcome.converged && my.follows();
+        unique = outcome.converged && my.one_solution();
     }
     if (!unique && !followed) {
         outcome = my.solve_cold();
         iterations += outcome.iterations;
         unique = outcome.converged && my.one_solution();
-        if (outcome.converged && !unique) my.select_cold();
     }
     if (dense && !by_dgesv && fallback == Fallback::none) fallback = Fallback::not_unique;
     my.solved = {Z0, unique};
     if (!my.follows()) my.earlier.remember(Z0, my.candidates, my.solution.v, unique);
     Level level = my.level(Z0, outcome, unique);
     level.iterations = iterations;
-    level.products = by_dgesv
-                         ? iterations
-                         : my.products_taken() - products_before + std::exchange(my.guessing, 0);
+    level.products = by_dgesv ? iterations : my.products_taken() - products_before;
     if (by_dgesv) level.method = Method::dgesv;
     if (dense) level.fallback = fallback;
     return level;
@@ -201,12 +200,12 @@ Level AsperityContact::pass(double Z0) {
     my.outcome = my.solve_from(start, false);
     if (!my.outcome.converged) return solve(Z0);
     my.passed = true;
-    my.earlier.remember(Z0, my.candidates, my.solution.v, false, true);
+    my.earlier.remember(Z0, my.candidates, my.solution.v, false);
     Level level;
     level.separation = Z0;
     for (double f : my.solution.force) level.force += f / my.scale();
     level.iterations = my.outcome.iterations;
-    level.products = my.products_taken() - products_before + std::exchange(my.guessing, 0);
+    level.products = my.products_taken() - products_before;
     return level;
 }
 
@@ -215,12 +214,11 @@ Level AsperityContact::settle(const Level& passed) {
     if (!my.passed) return Contact::settle(passed);
     my.passed = false;
     const long products_before = my.products_taken();
-    const bool selected = my.selected(my.solution.v), unique = !selected && my.one_solution();
+    const bool unique = my.one_solution();
     int iterations = 0;
-    if (!unique && !selected) {  // the solution of pass() is not proved to be unique
+    if (!unique) {  // the solution of pass() is not proved to be unique
         my.outcome = my.solve_cold();
         iterations = my.outcome.iterations;
-        if (my.outcome.converged) my.select_cold();
     }
     my.earlier.remember(passed.separation, my.candidates, my.solution.v, unique);
     Level level = my.level(passed.separation, my.outcome, unique);
@@ -260,17 +258,13 @@ void AsperityContact::forget_levels() {
         return;
     }
     impl_->earlier = {};
-    impl_->expect_repeats(false);
-    impl_->proof = {};
     impl_->candidates = {};
     impl_->solution.clear();
 }
 
 bool AsperityContact::path_dependent() const { return impl_->law->path_dependent(); }
 
-double AsperityContact::tolerance() const {
-    return impl_->options.tolerance * impl_->newton.share();
-}
+double AsperityContact::tolerance() const { return impl_->options.tolerance; }
 
 std::optional<double> AsperityContact::likely_separation() const {
     if (impl_->solution.force.empty()) return std::nullopt;
@@ -281,13 +275,21 @@ std::size_t AsperityContact::levels_since_move() const { return impl_->earlier.s
 
 double AsperityContact::shift() const { return impl_->kernel->shift() * impl_->scale(); }
 
-void AsperityContact::begins() { impl_->newton.begin_level(); }
+// The force without interaction, which is an upper bound.
+double AsperityContact::force_at_most(double depth) {
+    Impl& my = *impl_;
+    const double Z0 = first_touch() - depth;
+    Candidates there;
+    select_candidates(my.contenders(), my.options, Z0, there);
+    const WorkingSet& set = there.set;
+    double sum = 0;
+    for (std::size_t k = 0; k < set.g0.size(); ++k)
+        sum += my.law->force(set.asperity[k], set.g0[k]);
+    return sum / my.scale();
+}
 
 // With Z0 = Z0' + c N, c the kernel's shift: dZ0/dN = 1/(dN/dZ0') + c.
-double AsperityContact::slope() {
-    if (shift() == 0) impl_->newton.expect_exact();
-    return impl_->solution.v.empty() ? 0 : impl_->force_slope(1e-3);
-}
+double AsperityContact::slope() { return impl_->solution.v.empty() ? 0 : impl_->force_slope(1e-3); }
 
 double AsperityContact::stiffness() {
     if (impl_->solution.v.empty()) return 0;
@@ -311,24 +313,24 @@ void AsperityContact::move_tip(double x0, double y0) {
     if (my.of_difference && my.law->path_dependent()) return move_with_memory(x0, y0);
     my.earlier.carry(my.candidates, my.solution.v, my.asperities.size(),
                      {my.indenter.x0, my.indenter.y0}, {x0, y0});
-    if (my.of_difference) {
-        Indenter there = my.indenter;
-        there.move(x0, y0);
-        auto moved = std::make_unique<Impl>(my.of_surface, there, my.options);
-        moved->earlier = std::move(my.earlier);
-        impl_ = std::move(moved);
-        return;
-    }
     my.indenter.move(x0, y0);
     my.ranking.move(x0, y0);
-    my.expect_repeats(true);
+    if (my.of_difference) my.of_difference->forget();
 }
 
-double AsperityContact::first_touch() const { return impl_->ranking.highest() + impl_->raised(); }
+double AsperityContact::first_touch() const {
+    return impl_->contenders().highest() + impl_->raised();
+}
 
 const Indenter& AsperityContact::indenter() const { return impl_->indenter; }
 
-const Asperities* AsperityContact::asperities() const { return &impl_->asperities; }
+std::shared_ptr<const Asperities> AsperityContact::asperities() const {
+    const std::shared_ptr<const Asperities> present(std::shared_ptr<void>(), &impl_->asperities);
+    if (!impl_->of_difference) return present;
+    const auto all = std::make_shared<ShiftedSummits>(*impl_->of_difference);
+    for (std::size_t i = 0; i < present->size(); ++i) all->shift(i);
+    return {all, &all->summits()};
+}
 
 std::unique_ptr<Contact> make_asperity_contact(const Asperities& asperities,
                                                const Indenter& indenter,

@@ -11,7 +11,7 @@ class AsperityContact final : public Contact {
 public:
     // The asperities are the summits of the surface and must outlive the contact. Laws with summits
     // between grid points use the summits of the difference between surface and indenter instead
-    // (shifted_summits.hpp), if options.rms_slope is known. Throws Error(bad_input) for moduli,
+    // (shifted_summits.hpp), if options.gentlest_slope is known. Throws Error(bad_input) for moduli,
     // shapes or options out of range.
     AsperityContact(const Asperities& asperities, const Indenter& indenter,
                     const SolverOptions& options);
@@ -31,7 +31,7 @@ public:
     void move_tip(double x0, double y0) override;
     double first_touch() const override;
     const Indenter& indenter() const override;
-    const Asperities* asperities() const override;
+    std::shared_ptr<const Asperities> asperities() const override;
     bool path_dependent() const override;
     bool relaxes() const override;
     double shortest_time() const override;
@@ -48,7 +48,6 @@ protected:
     Level solve(double Z0) override;
     Level pass(double Z0) override;
     Level settle(const Level& passed) override;
-    void begins() override;
     double slope() override;
     void accept(Level& level) override;
     void step(double dt) override;
@@ -56,7 +55,6 @@ protected:
     double tolerance() const override;
     double force_at_most(double depth) override;
     std::optional<double> likely_separation() const override;
-    std::optional<double> guessed_separation(double N) override;
     std::size_t levels_since_move() const override;
 
 private:

@@ -23,14 +23,12 @@ struct AsperityContact::Impl : ContactBodies {
     Method method = Method::direct;
     NewtonOutcome outcome;  // outcome of pass() and settle()
     bool passed = false;    // the solution is that of pass() and has not been settled
-    long guessing = 0;      // products taken by guessed_separation() and not yet told
     struct {
         double separation = 0;
         bool unique = true;  // the solution is proved to be unique
     } solved;                // last result of solve()
 
     EarlierLevels earlier;
-    LastingProof proof;
     std::unique_ptr<Products> direct, mesh;  // mesh: created on first use
     Products* products = nullptr;            // the products in use
     Newton newton;
@@ -44,10 +42,8 @@ struct AsperityContact::Impl : ContactBodies {
     // flats).
     double raised() const { return relaxing ? kernel->shift() * relaxing->rest() : 0.0; }
     long products_taken() const { return direct->count() + (mesh ? mesh->count() : 0); }
+    Contenders contenders() { return {ranking, indenter, of_difference.get(), *law}; }
     void use(Method how);
-    void expect_repeats(bool expect) {
-        newton.expect_repeats(expect), direct->expect_repeats(expect);
-    }
     void select(double Z0);  // determines candidates and method
     NewtonOutcome solve_from(const std::vector<double>& start, bool rough_start);
     // True if the solution continues the branch of the accepted levels (path-dependent laws). For
@@ -57,17 +53,6 @@ struct AsperityContact::Impl : ContactBodies {
     // if there are several.
     NewtonOutcome solve_cold() {
         return solve_from(cold_start(*law, *products, candidates.set), true);
-    }
-    // To be called with its solution, if that is not proved to be unique.
-    void select_cold() {
-        if (!follows())
-            proof.select(candidates.set.asperity, candidates.set.x, candidates.set.y, solution.v);
-    }
-    // True for the solution v to which solve_cold() leads although there may be others: one nearly
-    // at this place is known.
-    bool selected(const std::vector<double>& v) const {
-        return !follows() &&
-               proof.selected(candidates.set.asperity, candidates.set.x, candidates.set.y, v);
     }
     double force_slope(
         double tolerance);  // dN/dZ0; the next level is predicted with what this takes
@@ -81,10 +66,7 @@ struct AsperityContact::Impl : ContactBodies {
                         [&](double rate) { return 1 + rate * kernel->self() <= 0; }))
             return false;
         const WorkingSet& set = candidates.set;
-        if (follows())
-            return has_one_solution(*law, *kernel, set.asperity, set.x, set.y, v, force, slope);
-        return proof.holds(*law, *kernel, set.asperity, set.x, set.y, v, force, slope,
-                           {set.g0.front(), indenter.x0, indenter.y0});
+        return has_one_solution(*law, *kernel, set.asperity, set.x, set.y, v, force, slope);
     }
     Level report(double Z0) const;
 };

@@ -19,15 +19,12 @@ std::vector<Spot> spots_of(const Level& level, const Law& law, const Asperities&
     return spots;
 }
 
-// Summits of the difference between surface and indenter; absent if the given asperities are to be
-// used. Beyond half the mean distance of summits lies the range of others.
-std::optional<Asperities> summits_of_difference(const Asperities& asperities,
-                                                const Indenter& indenter,
-                                                const SolverOptions& options) {
+// True if the summits of the difference between surface and indenter differ from those of the
+// surface.
+bool shifts_summits(const Indenter& indenter, const SolverOptions& options) {
     require_sound(indenter);
-    if (indenter.shape->flat() || !traits(options.law).between_points || !(options.gentlest_slope > 0))
-        return std::nullopt;
-    return shifted_summits(asperities, indenter, 0.5 * options.mean_spacing);
+    return !indenter.shape->flat() && traits(options.law).between_points &&
+           options.gentlest_slope > 0;
 }
 
 // With the spacing of summits of the finer of two rough bodies: contacts are as close as its waves.
@@ -44,9 +41,13 @@ ContactBodies::ContactBodies(const Asperities& given, const Indenter& indenter_,
                              const SolverOptions& options_)
     : of_surface(given),
       options(of_both(options_, indenter_)),
-      of_difference(summits_of_difference(of_surface, indenter_, options)),
-      asperities(of_difference ? *of_difference : of_surface),
       indenter(indenter_),
+      of_difference(
+          shifts_summits(indenter, options)
+              // beyond half the mean distance of summits lies the range of others
+              ? std::make_unique<ShiftedSummits>(of_surface, indenter, 0.5 * options.mean_spacing)
+              : nullptr),
+      asperities(of_difference ? of_difference->summits() : of_surface),
       kernel(make_kernel(options_.interaction, substrate_of(indenter_), indenter_.period)) {}
 
 // `auto`: direct or mesh by the estimated cost of a Newton solve, with rates measured by

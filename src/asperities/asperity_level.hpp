@@ -19,9 +19,9 @@ Method choose_method(const SolverOptions& options, const Kernel& kernel,
 struct ContactBodies {
     const Asperities& of_surface;
     SolverOptions options;
-    std::optional<Asperities> of_difference;
-    const Asperities& asperities;  // refers to one of the two above
     Indenter indenter;
+    std::unique_ptr<ShiftedSummits> of_difference;  // null: asperities are those of the surface
+    const Asperities& asperities;  // refers to one of the two above
     std::shared_ptr<const Kernel> kernel;
 
     ContactBodies(const Asperities& given, const Indenter& indenter, const SolverOptions& options);

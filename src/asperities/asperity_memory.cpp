@@ -52,7 +52,6 @@ void AsperityContact::recall(const std::vector<double>& memory, const Level* lev
         my.law->commit(static_cast<int>(yielded.size()), yielded.data(), deepest.data());
     }
     my.earlier = {};
-    my.expect_repeats(false);
     my.candidates = {};
     my.solution.clear();
     if (!level) return;

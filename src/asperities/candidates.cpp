@@ -2,11 +2,37 @@
 
 namespace rsc {
 
-void select_candidates(Ranking& ranking, const Indenter& indenter, const SolverOptions& options,
-                       Law& law, double Z0, Candidates& candidates) {
+std::size_t Contenders::above(double Z0) {
     std::vector<int> fresh;
-    const std::size_t last = ranking.above(Z0, fresh);
-    law.prepare(fresh);
+    if (!shifts) {
+        const std::size_t last = ranking.above(Z0, fresh);
+        law.prepare(fresh);
+        return last;
+    }
+    const std::size_t last = ranking.above(Z0 - shifts->most_gained(Z0), fresh);
+    for (std::size_t r = 0; r < last; ++r) shifts->shift(at(ranking[r].asperity));
+    return last;
+}
+
+double Contenders::height(std::size_t rank) const {
+    if (!shifts) return ranking[rank].height;
+    const Asperities& summits = shifts->summits();
+    const std::size_t i = at(ranking[rank].asperity);
+    return indenter.clearance(summits.x[i], summits.y[i], summits.z[i]);
+}
+
+double Contenders::highest() {
+    double most = ranking.highest();
+    if (!shifts || !std::isfinite(most)) return most;
+    const std::size_t last = above(most);
+    for (std::size_t r = 0; r < last; ++r) most = std::max(most, height(r));
+    return most;
+}
+
+void select_candidates(Contenders contenders, const SolverOptions& options, double Z0,
+                       Candidates& candidates) {
+    const auto& [ranking, indenter, shifts, law] = contenders;
+    const std::size_t last = contenders.above(Z0);
     double r0_squared = kInfinity;
     if (options.selection == Selection::paper) {
         const double depth = std::max(0.0, 4 * options.sigma - Z0);
@@ -18,14 +44,20 @@ void select_candidates(Ranking& ranking, const Indenter& indenter, const SolverO
     candidates.rank.resize(last), set.asperity.resize(last);
     std::size_t n = 0;
     for (std::size_t r = 0; r < last; ++r) {
+        const double height = contenders.height(r);
+        if (!(height > Z0)) continue;
         const auto [x, y] = ranking.place(r);
         const Vec2 d = indenter.from_tip(x, y), image = indenter.image(x, y);
         if (d.x * d.x + d.y * d.y > r0_squared) continue;
         candidates.rank[n] = r, set.asperity[n] = ranking[r].asperity;
-        set.x[n] = image.x, set.y[n] = image.y, set.g0[n++] = ranking[r].height - Z0;
+        set.x[n] = image.x, set.y[n] = image.y, set.g0[n++] = height - Z0;
     }
     for (auto* list : {&set.x, &set.y, &set.g0}) list->resize(n);
     candidates.rank.resize(n), set.asperity.resize(n);
+    std::vector<int> fresh;
+    for (const int i : set.asperity)
+        if (shifts && !shifts->prepared(at(i))) fresh.push_back(i);
+    law.prepare(fresh);
 }
 
 NewtonOutcome solve_candidates(const WorkingSet& candidates, Newton& newton, Products& products,

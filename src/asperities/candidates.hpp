@@ -5,10 +5,27 @@
 #include "asperities/law.hpp"
 #include "asperities/newton.hpp"
 #include "asperities/ranking.hpp"
+#include "asperities/shifted_summits.hpp"
 #include "contact/indentation.hpp"
 #include "interaction/kernel.hpp"
 
 namespace rsc {
+
+// Asperities in their order under the indenter. With `shifts` the ranking is that of the summits of
+// the surface, and those of the difference are determined as far as they are needed.
+struct Contenders {
+    Ranking& ranking;
+    const Indenter& indenter;
+    ShiftedSummits* shifts;
+    Law& law;
+
+    // Number of entries of the ranking that may be above Z0.
+    std::size_t above(double Z0);
+    // Clearance of an entry.
+    double height(std::size_t rank) const;
+    // Largest clearance; -Infinity if there are no asperities.
+    double highest();
+};
 
 struct Candidates {
     WorkingSet set;
@@ -18,9 +35,11 @@ struct Candidates {
 
 // Selects the asperities with g0 > 0. No others can touch, because forces only lower the surface (B
 // F >= 0). Selection::paper also drops those outside r0 = 1.5 sqrt(2 (4 sigma - Z0) R) (paper,
-// section 4). The law is prepared for all candidates.
-void select_candidates(Ranking& ranking, const Indenter& indenter, const SolverOptions& options,
-                       Law& law, double Z0, Candidates& candidates);
+// section 4). The law is prepared for all candidates. The places between which forces interact are
+// those of the summits of the surface, which do not change with the tip: then the lateral force of
+// contact/answers.hpp is the gradient of the energy.
+void select_candidates(Contenders contenders, const SolverOptions& options, double Z0,
+                       Candidates& candidates);
 
 // Solution over the candidates: penetrations v with interaction (negative: no contact), forces and
 // slopes of the law.

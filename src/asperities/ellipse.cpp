@@ -2,7 +2,6 @@
 
 #include <boost/math/special_functions/ellint_rd.hpp>
 #include <boost/math/special_functions/ellint_rf.hpp>
-#include <boost/math/tools/toms748_solve.hpp>
 
 #include "base/error.hpp"
 
@@ -35,19 +34,21 @@ EllipseFactors ellipse_factors(double ratio) {
     }
     // ln ratio as a function of ln axes is nearly a straight line of slope -3/2 (Johnson, eq.
     // 4.28): kappa1/kappa2 = [(a/b)^2 E - K]/[K - E].
+    // Newton's method with dK = -B and d(B + axes^2 D) = axes^2 D for a change of ln axes by 1.
     constexpr double nearly_round = 1e-9;
     const double wanted = std::log(ratio);
     double x = -2.0 / 3 * wanted;
     if (wanted > nearly_round) {
-        std::uintmax_t steps = 100;
-        const auto miss = [wanted](double at) {
-            const double axes = std::exp(at);
-            const Elliptic e = elliptic(axes);
-            return std::log(e.B / (axes * axes * e.D)) - wanted;
-        };
-        const auto [low, high] = boost::math::tools::toms748_solve(
-            miss, -wanted, -0.5 * wanted, boost::math::tools::eps_tolerance<double>(), steps);
-        x = 0.5 * (low + high);
+        constexpr int most = 50;
+        for (int k = 0; k < most; ++k) {
+            const double square = std::exp(2 * x);
+            const Elliptic e = elliptic(std::exp(x));
+            const double dD = -(e.B - square * e.D) / -std::expm1(2 * x), dB = -e.B - dD;
+            const double step =
+                (std::log(e.B / (square * e.D)) - wanted) / (dB / e.B - dD / e.D - 2);
+            x -= step;
+            if (std::abs(step) < 1e-8 * std::abs(x)) break;  // the next would be its square
+        }
     }
     EllipseFactors f;
     f.axes = std::exp(x);

@@ -4,6 +4,7 @@
 
 #include "asperities/bessel_profile.hpp"
 #include "asperities/ellipse.hpp"
+#include "asperities/shifted_summits.hpp"
 #include "base/error.hpp"
 
 namespace rsc {
@@ -11,7 +12,7 @@ namespace {
 
 class Hertz final : public Law {
 public:
-    Hertz(const Asperities& asperities, double E_star)
+    Hertz(const Asperities& asperities, double E_star, ShiftedSummits*)
         : radius_(asperities.radius), E_star_(E_star), c_(asperities.size()) {}
 
     void prepare(std::span<const int> asperities) override {
@@ -54,15 +55,16 @@ private:
 // Laws 'fourth_order' and 'elliptic'; the latter has q = 0.
 class FourthOrder final : public Law {
 public:
-    FourthOrder(const Asperities& asperities, double E_star, bool quartic)
+    FourthOrder(const Asperities& asperities, double E_star, ShiftedSummits* shifts, bool quartic)
         : asperities_(asperities),
+          shifts_(shifts),
           E_star_(E_star),
           quartic_(quartic),
           place_(asperities.size(), -1) {}
 
     void prepare(std::span<const int> asperities) override {
         for (int i : asperities) {
-            if (place_[at(i)] >= 0) continue;
+            if (shifts_) shifts_->shift_and_prepare(at(i));
             const double kappa1 = asperities_.kappa1[at(i)], kappa2 = asperities_.kappa2[at(i)],
                          kappa = std::sqrt(kappa1 * kappa2);
             const double q2 = quartic_ ? asperities_.biharmonic[at(i)] / (kappa1 + kappa2) : 0.0;
@@ -76,8 +78,11 @@ public:
                                             : kInfinity);
             s.spot = std::numbers::pi * ellipse.F1 * ellipse.F1;
             s.axes = ellipse.axes;
-            place_[at(i)] = static_cast<int>(summits_.size());
-            summits_.push_back(s);
+            if (place_[at(i)] < 0) {
+                place_[at(i)] = static_cast<int>(summits_.size());
+                summits_.emplace_back();
+            }
+            summits_[at(place_[at(i)])] = s;
         }
     }
 
@@ -181,6 +186,7 @@ private:
     const Summit& summit(int asperity) const { return summits_[at(place_[at(asperity)])]; }
 
     const Asperities& asperities_;
+    ShiftedSummits* shifts_;
     double E_star_;
     bool quartic_;
     const BesselProfile& profile_ = BesselProfile::table();
@@ -191,11 +197,12 @@ private:
 // All laws in the order of LawKind.
 struct Row {
     LawTraits traits;
-    std::unique_ptr<Law> (*make)(const Asperities& asperities, double E_star);
+    std::unique_ptr<Law> (*make)(const Asperities& asperities, double E_star,
+                                 ShiftedSummits* shifts);
 };
 template <class T, auto... more>
-std::unique_ptr<Law> made(const Asperities& asperities, double E_star) {
-    return std::make_unique<T>(asperities, E_star, more...);
+std::unique_ptr<Law> made(const Asperities& asperities, double E_star, ShiftedSummits* shifts) {
+    return std::make_unique<T>(asperities, E_star, shifts, more...);
 }
 constexpr Row kLaws[] = {
     // curvatures, biharmonic, between points, sinks, elliptic spots
@@ -209,7 +216,8 @@ static_assert(std::size(kLaws) == kLawNames.size());
 
 const LawTraits& traits(LawKind kind) { return kLaws[static_cast<int>(kind)].traits; }
 
-std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double E_star) {
+std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double E_star,
+                              ShiftedSummits* shifts) {
     const LawTraits& law = traits(kind);
     if (law.needs_curvatures && asperities.size() > 0 &&
         asperities.kappa1.size() != asperities.size()) {
@@ -225,7 +233,7 @@ std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double
                     "summit, which was "
                     "not given: 'hertz' and 'elliptic' are possible");
     }
-    return kLaws[static_cast<int>(kind)].make(asperities, E_star);
+    return kLaws[static_cast<int>(kind)].make(asperities, E_star, shifts);
 }
 
 }  // namespace rsc

@@ -6,6 +6,8 @@
 
 namespace rsc {
 
+class ShiftedSummits;
+
 // Properties of a kind of law: required columns of asperities and treatment of spots.
 struct LawTraits {
     const char* name;       // name in &asperities law
@@ -50,7 +52,8 @@ public:
         (void)n, (void)asperity, (void)u;
     }
 
-    // Precomputes the data of these asperities; must be called before any other function for them.
+    // Precomputes the data of these asperities; must be called before any other function for them,
+    // and again for elastic laws when an asperity has changed.
     virtual void prepare(std::span<const int> asperities) = 0;
 
     // For k = 0 .. n-1: force f(u), slope D = df/du and work W = int_0^u f du of asperity[k] at the
@@ -113,7 +116,10 @@ public:
 // Beyond delta = 2 A (q a = pi), where the contact would reach its neighbours, a and the stiffness
 // 2 E* a are constant.
 //
+//
+// With `shifts` the asperities are its summits, each of which is shifted before it is prepared.
 // Throws Error(bad_input) if data required by the law are missing.
-std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double E_star);
+std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double E_star,
+                              ShiftedSummits* shifts = nullptr);
 
 }  // namespace rsc

@@ -193,20 +193,12 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
                             bool ask_minimum) {
     NewtonOutcome outcome;
     now_.v = v;
-    evaluate(set, now_, !rough_will_do(begun_));
-    if (repeats_) begun_ = now_.residual;
-    if (std::exchange(first_, false) && stepped_ == 2 && begun_ > kNextShare * tolerance)
-        stepped_ = -kPause;
-    const bool near = repeats_ && stepped_ >= 0 && now_.residual < kNear * tolerance;
-    const double enough = ask_minimum ? 1.0
-                          : exact_    ? kLeft
-                                      : share(),
-                 left = near ? kLeft : kLastShare;
+    evaluate(set, now_, !rough_will_do(1));
     double radius = kInfinity, entering = 1.0;
     Step step_now;
     for (;; ++outcome.iterations) {
         outcome.residual = now_.residual;
-        if (now_.residual <= (outcome.iterations == 0 ? enough : 1.0) * tolerance) {
+        if (now_.residual <= tolerance) {
             Vector lowest;
             outcome.minimum = !ask_minimum || positive_definite(set, now_, lowest);
             if (outcome.minimum || outcome.iterations >= max_iterations) {
@@ -224,7 +216,7 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
             break;
         }
         const double forcing = std::clamp(std::max(std::min(kLoosest, std::sqrt(now_.residual)),
-                                                   left * tolerance / now_.residual),
+                                                   kLastShare * tolerance / now_.residual),
                                           kFinestForcing, kMostForcing);
         double size2 = 0;  // |S v|^2, with v measured from where the force begins
         for (int k : now_.active) {
@@ -264,7 +256,6 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
         std::swap(now_, trial_);
     }
     outcome.converged = outcome.converged || (!ask_minimum && now_.residual <= tolerance);
-    if (near && outcome.iterations > 0) exact_ = true;
     v = now_.v;
     return outcome;
 }
@@ -367,14 +358,6 @@ std::vector<double> Newton::sinking() const {
     Vector change(sinking_);
     for (std::size_t k = 0; k < change.size(); ++k) change[k] /= root_[k];
     return change;
-}
-
-// With J = I + B D, dv = -J^-1 res and D J^-1 symmetric: sum D dv = sum D (dv/dZ0) res.
-double Newton::missing_force() const {
-    double sum = 0;
-    for (std::size_t k = 0; k < sinking_.size(); ++k)
-        sum += root_[k] * sinking_[k] * now_.res[at(now_.active[k])];
-    return sum;
 }
 
 }  // namespace rsc

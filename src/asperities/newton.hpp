@@ -49,22 +49,6 @@ public:
     // Sets the products with B, which must remain valid.
     void use(Products& products) { products_ = &products; }
 
-    // For time loops: expects the next starts to be as near to the solution as the last one.
-    void expect_repeats(bool expect) {
-        repeats_ = expect;
-        if (!expect) begun_ = 1, stepped_ = 0, exact_ = false;
-    }
-    // To be called before the solutions of each level.
-    void begin_level() {
-        first_ = true, stepped_ = stepped_ < 0 || exact_ ? stepped_ + 1 : 0;
-        exact_ = false;
-    }
-    // The rest of this level of a time loop is solved more accurately, because its first trial
-    // missed the force.
-    void expect_exact() { exact_ = repeats_ && stepped_ >= 0; }
-    // Share of the tolerance that the first trial of a level has to reach.
-    double share() const { return stepped_ == 1 && !exact_ ? kNextShare : 1.0; }
-
     // Solves from the start v (size of the set); the solution is in v, force() and phi(). The
     // products must have the points of the set. ask_minimum = false omits the test for a minimum,
     // for approximations or if uniqueness is tested afterwards.
@@ -91,10 +75,8 @@ public:
     // tolerance or the accuracy of full products.
     double stiffness(double tolerance);
 
-    // After stiffness(): dv/dZ0 at the active points, and what is missing in sum F by the residual
-    // of the solution, to first order.
+    // After stiffness(): dv/dZ0 at the active points.
     std::vector<double> sinking() const;
-    double missing_force() const;
 
 private:
     struct State {
@@ -128,18 +110,6 @@ private:
     const Law& law_;
     Products* products_ = nullptr;
     State now_, trial_;
-    // in time loops the residual from which the last solution began, about that of the next
-    double begun_ = 1;
-    bool repeats_ = false, first_ = true;  // first: no solution of this level yet
-    bool exact_ = false;  // this level took a step, or a second trial, from a near start
-    int stepped_ = 0;     // levels in a row before this one that did
-    // In a time loop starts are extrapolated from two levels, and errors near the tolerance would
-    // come again in each, doubled: every second level would take a step. From starts with a
-    // residual below kNear times the tolerance steps leave kLeft of it, and the next start is
-    // accepted with kNextShare of it only. If the one after it is not that near, the motion is too
-    // fast for this: not again for kPause levels.
-    static constexpr double kNear = 5, kLeft = 1e-3, kNextShare = 0.1;
-    static constexpr int kPause = 64;
     std::vector<double> root_, sinking_;  // S over the active set; S dv/dZ0
     std::vector<double> force_, phi_, r_, p_, mp_, df_, active_force_, error_, passive_;
 };

@@ -5,14 +5,11 @@
 namespace rsc {
 namespace {
 
-// A symmetric matrix by its eigenvalues, high >= low, and the direction (c, s) of that of `low`.
-struct Principal {
-    double high, low, c, s;
-};
-
-Tensor tensor_of(const Principal& p) {
-    return {p.high * p.s * p.s + p.low * p.c * p.c, (p.low - p.high) * p.s * p.c,
-            p.high * p.c * p.c + p.low * p.s * p.s};
+// Curvatures of a summit.
+Tensor curvatures_of(const Asperities& a, std::size_t i) {
+    const double c = std::cos(a.angle[i]), s = std::sin(a.angle[i]), high = a.kappa1[i],
+                 low = a.kappa2[i];
+    return {high * s * s + low * c * c, (low - high) * s * c, high * c * c + low * s * s};
 }
 
 // Maximum of -g'd - d'H d/2 over |d| <= radius for a positive definite H: d = -(H + m)^-1 g, with
@@ -45,42 +42,64 @@ Vec2 highest_within(const Tensor& H, const Vec2& g, double radius) {
 
 }  // namespace
 
-Asperities shifted_summits(const Asperities& of_surface, const Indenter& indenter,
-                           double farthest) {
-    const Asperities& a = of_surface;
-    const IndenterShape& shape = *indenter.shape.operator->();
-    const bool geometric =
-        a.size() == 0 || std::abs(a.radius[0] * std::sqrt(a.kappa1[0] * a.kappa2[0]) - 1) <
-                             std::abs(a.radius[0] * 0.5 * (a.kappa1[0] + a.kappa2[0]) - 1);
-    Asperities shifted;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        const Tensor H =
-            tensor_of({a.kappa1[i], a.kappa2[i], std::cos(a.angle[i]), std::sin(a.angle[i])});
-        const Vec2 at = indenter.from_tip(a.x[i], a.y[i]);
-        Vec2 d;
-        Tensor bent = H;
-        double flattened = 0;
-        if (std::isfinite(shape.height(at.x, at.y))) {
-            const Tensor C = shape.curvature(at.x, at.y);
-            const Tensor both{H.xx + C.xx, H.xy + C.xy, H.yy + C.yy};
-            if (both.xx > 0 && both.xx * both.yy - both.xy * both.xy > 0) {
-                double range = farthest;
-                if (!a.biharmonic.empty() && a.biharmonic[i] > 0)
-                    range =
-                        std::min(range, std::sqrt((a.kappa1[i] + a.kappa2[i]) / a.biharmonic[i]));
-                d = highest_within(both, shape.gradient(at.x, at.y), range);
-                bent = both;
-                flattened = shape.biharmonic(at.x, at.y);
-            }
+ShiftedSummits::ShiftedSummits(const Asperities& of_surface, const Indenter& indenter,
+                               double farthest)
+    : of_surface_(of_surface),
+      indenter_(indenter),
+      farthest_(farthest),
+      geometric_(
+          of_surface.size() == 0 ||
+          std::abs(of_surface.radius[0] * std::sqrt(of_surface.kappa1[0] * of_surface.kappa2[0]) -
+                   1) <
+              std::abs(of_surface.radius[0] * 0.5 * (of_surface.kappa1[0] + of_surface.kappa2[0]) -
+                       1)),
+      highest_(of_surface.size() == 0
+                   ? -kInfinity
+                   : *std::max_element(of_surface.z.begin(), of_surface.z.end())),
+      shifted_(of_surface),
+      done_(of_surface.size()) {}
+
+void ShiftedSummits::forget() {
+    for (const std::size_t i : which_) done_[i] = kNothing;
+    which_.clear();
+}
+
+void ShiftedSummits::shift(std::size_t i) {
+    if (done_[i] != kNothing) return;
+    which_.push_back(i);
+    done_[i] = kShifted;
+    const Asperities& a = of_surface_;
+    const IndenterShape& shape = *indenter_.shape.operator->();
+    const Tensor H = curvatures_of(a, i);
+    const Vec2 at = indenter_.from_tip(a.x[i], a.y[i]);
+    Vec2 d;
+    Tensor bent = H;
+    double flattened = 0;
+    if (std::isfinite(shape.height(at.x, at.y))) {
+        const Tensor C = shape.curvature(at.x, at.y);
+        const Tensor both{H.xx + C.xx, H.xy + C.xy, H.yy + C.yy};
+        if (both.xx > 0 && both.xx * both.yy - both.xy * both.xy > 0) {
+            double range = farthest_;
+            if (!a.biharmonic.empty() && a.biharmonic[i] > 0)
+                range = std::min(range, std::sqrt((a.kappa1[i] + a.kappa2[i]) / a.biharmonic[i]));
+            d = highest_within(both, shape.gradient(at.x, at.y), range);
+            bent = both;
+            flattened = shape.biharmonic(at.x, at.y);
         }
-        const double z =
-            a.z[i] - 0.5 * (H.xx * d.x * d.x + 2 * H.xy * d.x * d.y + H.yy * d.y * d.y);
-        append_summit(a.x[i] + d.x, a.y[i] + d.y, z,
-                      {-0.5 * bent.xx, -0.5 * bent.yy, -0.5 * bent.xy},
-                      geometric ? Curvature::geometric : Curvature::algebraic, shifted);
-        if (!a.biharmonic.empty()) shifted.biharmonic.push_back(a.biharmonic[i] - flattened);
     }
-    return shifted;
+    const double z = a.z[i] - 0.5 * (H.xx * d.x * d.x + 2 * H.xy * d.x * d.y + H.yy * d.y * d.y);
+    for (const AsperityColumn& column : kAsperityColumns) (one_.*column.values).clear();
+    append_summit(a.x[i] + d.x, a.y[i] + d.y, z, {-0.5 * bent.xx, -0.5 * bent.yy, -0.5 * bent.xy},
+                  geometric_ ? Curvature::geometric : Curvature::algebraic, one_);
+    if (!a.biharmonic.empty()) one_.biharmonic.push_back(a.biharmonic[i] - flattened);
+    for (const AsperityColumn& column : kAsperityColumns)
+        if (!(one_.*column.values).empty()) (shifted_.*column.values)[i] = (one_.*column.values)[0];
+}
+
+// The face above the shifted place is at most highest_ - Z0; from there to the summit it rises by
+// no more than it may fall in a move of the tip over the range.
+double ShiftedSummits::most_gained(double Z0) const {
+    return indenter_.shape->most_fallen(farthest_, highest_ - Z0);
 }
 
 double steepest_contact(const Level& level, const Indenter& indenter) {

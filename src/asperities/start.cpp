@@ -8,42 +8,38 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-void EarlierLevels::remember(double Z0, const Candidates& candidates, const Vector& v, bool unique,
-                             bool passed) {
+void EarlierLevels::remember(double Z0, const Candidates& candidates, const Vector& v,
+                             bool unique) {
     unique_ = unique;
     ++solved_;
-    if (!past_.empty() && past_.front().passed) past_.pop_front();
     const auto& rank = candidates.rank;
-    Past level{Z0, Vector(rank.empty() ? 0 : rank.back() + 1, kUnknown), passed};
+    Past level{Z0, Vector(rank.empty() ? 0 : rank.back() + 1, kUnknown)};
     for (std::size_t k = 0; k < rank.size(); ++k) level.phi[rank[k]] = candidates.set.g0[k] - v[k];
-    past_.push_front(std::move(level));
-    if (past_.size() > 4) past_.pop_back();
+    past_ = std::move(level);
 }
 
 void EarlierLevels::bend(const Candidates& candidates, const Vector& slope) {
-    if (past_.empty() || past_.front().phi.size() != candidates.rank.back() + 1) return;
-    Past& last = past_.front();
+    if (!past_ || past_->phi.size() != candidates.rank.back() + 1) return;
+    Past& last = *past_;
     last.slope.assign(last.phi.size(), 0.0);
     for (std::size_t k = 0; k < slope.size(); ++k) last.slope[candidates.rank[k]] = slope[k];
 }
 
 void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::size_t asperities,
                           Vec2 from, Vec2 to) {
-    if (!past_
-             // otherwise moved twice without a level between; the carried state is kept
-             .empty()) {
+    if (past_) {  // otherwise moved twice without a level between; the carried state is kept
         std::swap(carried_, before_);
         for (const int i : carried_.known) carried_.phi[at(i)] = kUnknown;
         carried_.known.clear();
         if (v.size() == at(candidates.size())) {
-            carried_.separation = past_.front().separation;
+            carried_.separation = past_->separation;
             carried_.place = from;
             carried_.phi.resize(asperities, kUnknown);
             carried_.known = candidates.set.asperity;
             for (std::size_t k = 0; k < v.size(); ++k)
                 carried_.phi[at(candidates.set.asperity[k])] = candidates.set.g0[k] - v[k];
         }
-        past_.clear();
+        past_.reset();
         solved_ = 0;
     }
     constexpr double straight = 0.2, furthest = 2.5;
@@ -61,7 +57,7 @@ void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::si
 bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& start) const {
     const auto& rank = candidates.rank;
     const Vector& g0 = candidates.set.g0;
-    if (past_.empty() && !carried_.known.empty()) {
+    if (!past_ && !carried_.known.empty()) {
         start.resize(rank.size());
         bool any = false;
         for (std::size_t k = 0; k < rank.size(); ++k) {
@@ -74,45 +70,21 @@ bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& sta
         }
         return any;
     }
-    if (past_.empty()) return false;
-    std::size_t used = 1;
-    while (used < past_.size() && used < 4) {
-        const double gap = std::abs(past_[used - 1].separation - past_[used].separation);
-        if (!(gap > 0) || std::abs(Z0 - past_[0].separation) > 2.5 * gap) break;
-        ++used;
-    }
-    double weight[4];
-    for (std::size_t a = 0; a < used; ++a) {
-        weight[a] = 1;
-        for (std::size_t b = 0; b < used; ++b) {
-            if (b != a)
-                weight[a] *=
-                    (Z0 - past_[b].separation) / (past_[a].separation - past_[b].separation);
-        }
-    }
+    if (!past_) return false;
     start.resize(rank.size());
     bool any = false;
     for (std::size_t k = 0; k < rank.size(); ++k) {
-        double phi = 0;
-        bool known = true;
-        for (std::size_t a = 0; a < used && known; ++a) {
-            known = rank[k] < past_[a].phi.size();
-            if (known) phi += weight[a] * past_[a].phi[rank[k]];
-        }
-        if (!known && rank[k] < past_[0].phi.size()) {
-            phi = past_[0].phi[rank[k]];
-            known = true;
-        }
-        if (used == 1 && known && !past_[0].slope.empty())
-            phi = std::max(phi + (Z0 - past_[0].separation) * past_[0].slope[rank[k]], 0.0);
-        start[k] = known && std::isfinite(phi) ? g0[k] - phi : -kInfinity;
+        double phi = rank[k] < past_->phi.size() ? past_->phi[rank[k]] : kUnknown;
+        if (rank[k] < past_->slope.size())
+            phi = std::max(phi + (Z0 - past_->separation) * past_->slope[rank[k]], 0.0);
+        start[k] = std::isfinite(phi) ? g0[k] - phi : -kInfinity;
         any = any || start[k] > 0;
     }
     return any;
 }
 
 std::optional<double> EarlierLevels::likely_separation(double first_touch) const {
-    if (!past_.empty()) return past_.front().separation;
+    if (past_) return past_->separation;
     if (carried_.known.empty() || !(carried_.separation < first_touch)) return std::nullopt;
     const double next = carried_.separation + ahead_ * (carried_.separation - before_.separation);
     return next < first_touch ? next : carried_.separation;

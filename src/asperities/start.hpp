@@ -14,7 +14,7 @@ public:
     // proved to be unique. `passed`: an intermediate solution, which is replaced by the next one
     // and need not be unique.
     void remember(double Z0, const Candidates& candidates, const std::vector<double>& v,
-                  bool unique, bool passed = false);
+                  bool unique);
 
     // Sets dphi/dZ0 of the last level stored, over its candidates, which serves until there is
     // another level.
@@ -27,7 +27,8 @@ public:
                Vec2 from, Vec2 to);
 
     bool unique() const { return unique_; }  // the last solution is proved to be unique
-    // Predicts penetrations at Z0. Candidates that are not in earlier levels are assumed not to
+    // Predicts penetrations at Z0 from the last level and its slope, or at a new place of the tip
+    // from the levels of the last two places. Candidates that are not in earlier levels are assumed not to
     // touch (which is checked later). Returns false without a prediction.
     bool predict(double Z0, const Candidates& candidates, std::vector<double>& start) const;
 
@@ -38,11 +39,10 @@ public:
 private:
     struct Past {
         double separation;
-        std::vector<double> phi;  // B F by rank; NaN: unknown
-        bool passed;
+        std::vector<double> phi;         // B F by rank; NaN: unknown
         std::vector<double> slope = {};  // d phi/dZ0; empty: unknown
     };
-    std::deque<Past> past_;
+    std::optional<Past> past_;  // the last level at this place of the tip
     std::size_t solved_ = 0;
     bool unique_ = true;
 

@@ -155,12 +155,13 @@ class Search {
 public:
     Search(const Law& law, double E_star, const Cluster& cluster,
            const std::vector<Coupling>& close, const std::vector<int>& asperity, const Vector& v,
-           const Vector& slope, double noise, double spread)
+           const Vector& slope, double noise)
         : law_(law),
           E_star_(E_star),
           cluster_(cluster),
           v_(of_points(cluster, v)),
-          slope_(of_points(cluster, slope)) {
+          slope_(of_points(cluster, slope)),
+          noise_(noise) {
         for (std::size_t i : cluster.points) asperity_.push_back(asperity[i]);
         std::vector<std::size_t> place(v.size(), v.size());
         for (std::size_t k = 0; k < cluster.points.size(); ++k) place[cluster.points[k]] = k;
@@ -169,13 +170,7 @@ public:
             if (i < v.size() && j < v.size()) inside_.push_back({i, j, c.value});
         }
         force_ = forces(v_);
-        f_low_ = f_high_ = change_ = relief_ = noise_ = force_;
-        Vector least(v_);
-        for (double& u : least) u -= spread;
-        least = forces(least);
-        for (std::size_t k = 0; k < least.size(); ++k) change_[k] = force_[k] - least[k];
-        couple(inside_, change_, noise_);
-        for (double& s : noise_) s += spread + noise;
+        f_low_ = f_high_ = change_ = relief_ = force_;
     }
 
     // `low` and `high`: bounds on the penetrations of the cluster's points.
@@ -201,7 +196,7 @@ private:
             change_[k] = std::max(f_high_[k] - force_[k], force_[k] - f_low_[k]);
         couple(inside_, change_, up);
         Vector slack(up);
-        for (std::size_t k = 0; k < slack.size(); ++k) slack[k] = give * slack[k] + noise_[k];
+        for (std::size_t k = 0; k < slack.size(); ++k) slack[k] = give * slack[k] + noise_;
         for (std::size_t k = 0; k < v_.size(); ++k) change_[k] = force_[k] - f_low_[k];
         couple(inside_, change_, up);
         for (std::size_t k = 0; k < v_.size(); ++k)
@@ -250,7 +245,7 @@ private:
     double E_star_;
     const Cluster& cluster_;
     Vector v_, slope_, force_;
-    Vector noise_;  // errors of v, and what it differs by in the solutions considered
+    double noise_;  // errors of v
     std::vector<int> asperity_;
     std::vector<Coupling> inside_;
     int parts_ = 0;
@@ -268,12 +263,9 @@ bool positive_definite_by_shells(const Vector& x, const Vector& y, const Vector&
     return true;
 }
 
-namespace {
-
-// For all solutions with penetrations between v - spread and v.
-bool proved(const Law& law, const Kernel& kernel, const std::vector<int>& asperity, const Vector& x,
-            const Vector& y, const Vector& v, const Vector& force, const Vector& slope,
-            double spread) {
+bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<int>& asperity,
+                      const Vector& x, const Vector& y, const Vector& v, const Vector& force,
+                      const Vector& slope) {
     if (kernel.none() || v.empty()) return true;
     const double E_star = kernel.modulus();
     const std::size_t n = v.size();
@@ -301,12 +293,11 @@ bool proved(const Law& law, const Kernel& kernel, const std::vector<int>& asperi
         reach[i] = std::max({near * radius[i], farthest * sharpest * flatness[i], touch});
     // Penetrations of candidates far from contact are computed in single precision, which cannot
     // resolve nearly coinciding partners.
-    constexpr double resolved = 1e-6, precision = 1e-4;
+    constexpr double resolved = 1e-6;
     const double nearest =
         resolved *
         std::max(*std::max_element(x.begin(), x.end()) - *std::min_element(x.begin(), x.end()),
                  *std::max_element(y.begin(), y.end()) - *std::min_element(y.begin(), y.end()));
-    const double noise = precision * deepest;
     bool told_apart = true;
     std::vector<Coupling> close;
     std::vector<Pair>
@@ -361,111 +352,20 @@ bool proved(const Law& law, const Kernel& kernel, const std::vector<int>& asperi
     };
     std::erase_if(doubtful, settled);
     if (doubtful.empty()) return true;
-    Vector least(alone);
-    if (spread > 0) {
-        for (std::size_t i = 0; i < n; ++i) f[i] = law.force(asperity[i], v[i] - spread);
-        couple(close, f, relief);
-        for (std::size_t i = 0; i < n; ++i) least[i] = v[i] - spread + relief[i];
-    }
-    for (auto [from, to, base] :
-         {std::tuple{&high, &low, &least}, std::tuple{&low, &high, &alone}}) {
+    for (auto [from, to] : {std::pair{&high, &low}, std::pair{&low, &high}}) {
         for (std::size_t i = 0; i < n; ++i) f[i] = law.force(asperity[i], (*from)[i]);
         couple(close, f, relief);
-        for (std::size_t i = 0; i < n; ++i) (*to)[i] = (*base)[i] - relief[i];
+        for (std::size_t i = 0; i < n; ++i) (*to)[i] = alone[i] - relief[i];
     }
     secants();
     doubtful = doubtful_clusters(pairs, a);
     std::erase_if(doubtful, settled);
+    // Penetrations of candidates far from contact are computed in single precision.
+    constexpr double precision = 1e-4;
     return std::all_of(doubtful.begin(), doubtful.end(), [&](const Cluster& cluster) {
-        return Search(law, E_star, cluster, close, asperity, v, slope, noise, spread)
+        return Search(law, E_star, cluster, close, asperity, v, slope, precision * deepest)
             .finds_one(of_points(cluster, low), of_points(cluster, high));
     });
-}
-
-}  // namespace
-
-bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<int>& asperity,
-                      const Vector& x, const Vector& y, const Vector& v, const Vector& force,
-                      const Vector& slope) {
-    return proved(law, kernel, asperity, x, y, v, force, slope, 0);
-}
-
-void LastingProof::Bounds::set(const std::vector<int>& asperities, const Vector& x, const Vector& y,
-                               const Vector& v, double share, double width) {
-    const std::size_t size =
-        static_cast<std::size_t>(*std::max_element(asperities.begin(), asperities.end())) + 1;
-    if (by_asperity.size() < size) by_asperity.resize(size);
-    for (const int i : asperity) by_asperity[static_cast<std::size_t>(i)] = {};
-    asperity.clear();  // no bounds remain if the copy finds no memory
-    asperity = asperities, touching = 0;
-    for (std::size_t k = 0; k < v.size(); ++k) {
-        const double wide = std::max(share * std::abs(v[k]), width);
-        by_asperity[static_cast<std::size_t>(asperity[k])] = {v[k] - wide, v[k] + wide, x[k], y[k]};
-        touching += v[k] + wide > 0;
-    }
-}
-
-bool LastingProof::Bounds::contain(const std::vector<int>& asperities, const Vector& x,
-                                   const Vector& y, const Vector& v, bool others) const {
-    std::size_t touch = 0;
-    constexpr double rounding = 1e-9;
-    const auto same = [](double a, double b) { return std::abs(a - b) <= rounding * std::abs(b); };
-    for (std::size_t k = 0; k < v.size(); ++k) {
-        const auto i = static_cast<std::size_t>(asperities[k]);
-        const bool known = i < by_asperity.size() && std::isfinite(by_asperity[i].high);
-        if (!known && others && !(v[k] > 0)) continue;
-        if (!known) return false;
-        const Asperity& own = by_asperity[i];
-        if (!(v[k] <= own.high && v[k] >= own.low && same(own.x, x[k]) && same(own.y, y[k])))
-            return false;
-        touch += own.high > 0;
-    }
-    return touch == touching;
-}
-
-// Nearness relative to the penetration, and to the largest one where that is small. On the default
-// surface 1600 levels of 'fourth_order' under tips that moved by 1e-5 or 1e-4 mm, most of them not
-// unique, had the contacts found from the start each time, with three times this, too.
-void LastingProof::select(const std::vector<int>& asperity, const Vector& x, const Vector& y,
-                          const Vector& v) {
-    constexpr double near = 1e-2, least = 1e-3;
-    chosen_.set(asperity, x, y, v, near, least * *std::max_element(v.begin(), v.end()));
-}
-
-bool LastingProof::selected(const std::vector<int>& asperity, const Vector& x, const Vector& y,
-                            const Vector& v) const {
-    return !chosen_.asperity.empty() && chosen_.contain(asperity, x, y, v, true);
-}
-
-bool LastingProof::holds(const Law& law, const Kernel& kernel, const std::vector<int>& asperity,
-                         const Vector& x, const Vector& y, const Vector& v, const Vector& force,
-                         const Vector& slope, const std::array<double, 3>& place) {
-    if (proved_.contain(asperity, x, y, v, false)) return true;
-    const double width = v.empty() ? 0 : wide_ * *std::max_element(v.begin(), v.end());
-    const auto last = std::exchange(place_, place);
-    bool near = waits_ == 0;
-    constexpr std::array<double, 3> share{
-        1, 0.1, 0.1};  // of a change of place that penetrations change by, roughly
-    for (std::size_t d = 0; d < place.size(); ++d)
-        near = near && share[d] * std::abs(place[d] - last[d]) < width;
-    waits_ = std::max(waits_ - 1, 0);
-    if (near) {
-        Vector high(v), f(v.size()), D(v.size()), W(v.size());
-        for (double& bound : high) bound += width;
-        law.respond(static_cast<int>(v.size()), asperity.data(), high.data(), f.data(), D.data(),
-                    W.data());
-        if (proved(law, kernel, asperity, x, y, high, f, D, 2 * width)) {
-            proved_.set(asperity, x, y, v, 0, width);
-            return true;
-        }
-    }
-    const bool one = has_one_solution(law, kernel, asperity, x, y, v, force, slope);
-    constexpr int
-        pause = 16,
-        // calls until bounds are tried again: narrower ones, or where there is nothing to prove
-        longer = 256;
-    if (near) wide_ /= one ? 4 : 1, waits_ = one ? pause : longer;
-    return one;
 }
 
 }  // namespace rsc

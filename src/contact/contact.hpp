@@ -63,7 +63,7 @@ public:
     virtual const Indenter& indenter() const = 0;
 
     // Asperities used at present (positions, heights, curvatures); null for boundary elements.
-    virtual const Asperities* asperities() const { return nullptr; }
+    virtual std::shared_ptr<const Asperities> asperities() const { return nullptr; }
 
     // Resets to the state of a new contact at this position of the tip: earlier levels are no
     // longer used as starting points.
@@ -120,8 +120,6 @@ protected:
         level.iterations = 0, level.products = 0;
         return level;
     }
-    // Called at the beginning of each level, which may take several trials.
-    virtual void begins() {}
     // dN/dZ0 of the last trial, with separations as in solve(), accurate enough for Newton's method
     // on Z0.
     virtual double slope();
@@ -151,9 +149,6 @@ protected:
     virtual std::optional<double> likely_separation() const {
         return {};
     }  // initial guess; absent: near first touch
-    virtual std::optional<double> guessed_separation(double) {
-        return {};
-    }  // the same of a first level, from a rough solution for a force
     virtual std::size_t levels_since_move() const {
         return 0;
     }  // number of levels since the tip was moved, at most a few
@@ -180,7 +175,6 @@ private:
     void finish(Level& level);
     double last_force_ = 0;  // of the last level, 0 if it did not converge
     void begin() {
-        begins();
         if (relaxes()) step(accepted_ ? time_ - *accepted_ : 0.0);
     }
     double time_ = 0;

@@ -243,14 +243,13 @@ Level Contact::to_force(double N) {
     // Initial depth: the force cannot be reached before half of it.
     double depth = std::numeric_limits<double>::epsilon() *
                    std::max(std::abs(above), std::numeric_limits<double>::min());
-    const std::optional<double> guess = last_force_ > 0 ? std::nullopt : guessed_separation(N);
     const std::optional<double> likely =
-        last_force_ > 0.5 * N && last_force_ < 2 * N ? likely_separation() : guess;
+        last_force_ > 0.5 * N && last_force_ < 2 * N ? likely_separation() : std::nullopt;
     if (likely && *likely < above)
         depth = above - *likely;
     else
         while (force_at_most(depth) < N) depth *= 2;
-    double Z0 = guess && *guess < above ? *guess : above - 0.25 * depth;
+    double Z0 = above - 0.25 * depth;
     // Starts from the last level unless it failed, had no contact, or is so much deeper that a
     // start from first touch takes fewer steps.
     if (last_force_ > 0 && last_force_ < kFarAbove * N) {

@@ -29,20 +29,10 @@ void for_close_pairs(const std::vector<double>& x, const std::vector<double>& y,
     };
     if (extent(&Point::y) > extent(&Point::x))
         for (Point& p : points) std::swap(p.x, p.y), p.low = p.x - p.reach;
-    // In a time loop the points come again and again, nearly in the order of the last time.
-    constexpr std::size_t few = 4096;
-    static thread_local std::vector<std::size_t> last;
     const auto before = [](const Point& a, const Point& b) {
         return a.low != b.low ? a.low < b.low : a.index < b.index;
     };
-    if (last.size() == x.size() && points.size() == x.size()) {
-        const std::vector<Point> given = points;
-        for (std::size_t k = 0; k < points.size(); ++k) points[k] = given[last[k]];
-    }
-    if (!std::is_sorted(points.begin(), points.end(), before))
-        std::sort(points.begin(), points.end(), before);
-    last.resize(points.size() == x.size() && x.size() <= few ? x.size() : 0);
-    for (std::size_t k = 0; k < last.size(); ++k) last[k] = points[k].index;
+    std::sort(points.begin(), points.end(), before);
     for (auto p = points.begin(); p != points.end(); ++p) {
         const double end = p->x + p->reach;
         for (auto q = p + 1; q != points.end() && q->low < end; ++q) {

@@ -19,7 +19,6 @@ public:
 
     // Number of a point, valid until forget().
     std::uint32_t find(double x, double y);
-    std::size_t points() const { return points_.size(); }  // known
     // Sets the points that carry force; false if two of them coincide, for which there are no
     // products.
     bool set_active(const std::vector<std::uint32_t>& active);

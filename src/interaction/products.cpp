@@ -11,26 +11,16 @@ class Direct final : public Products {
 public:
     explicit Direct(std::shared_ptr<const Kernel> kernel)
         : Products(std::move(kernel)), sums_(*kernel_) {
-        if (!kernel_->none() && !kernel_->lattice()) matrix_.emplace(*kernel_);
+        if (kernel_->smooth() && !kernel_->lattice()) matrix_.emplace(*kernel_);
     }
 
     void set_points(int n, const double* x, const double* y) override {
-        const bool same = std::equal(x, x + n, x_.begin(), x_.end()) &&
-                          std::equal(y, y + n, y_.begin(), y_.end());
-        const bool kept = again_ > kOften;
+        if (std::equal(x, x + n, x_.begin(), x_.end()) &&
+            std::equal(y, y + n, y_.begin(), y_.end()))
+            return;
         x_.assign(x, x + n);
         y_.assign(y, y + n);
-        const bool known = repeats_ && (same || mostly_known());
-        again_ = std::clamp(again_ + (known ? 1 : -1), 0, 3 * kOften);
-        if (same && known && kept == (again_ > kOften)) return;
         fresh_ = true;
-    }
-
-    void expect_repeats(bool expect) override {
-        repeats_ = expect;
-        if (expect || again_ == 0) return;
-        again_ = 0, fresh_ = true;
-        if (matrix_ && !kernel_->smooth()) matrix_->forget(), xo_.clear(), all_.clear();
     }
 
     void set_active(const std::vector<int>& active) override {
@@ -41,7 +31,7 @@ public:
         if (stored_) {
             const bool again = matrix_->stale(active_.size());
             if (again) matrix_->forget(), xo_.clear();
-            if ((moved && !repeats_) || again || all_.size() != x_.size())
+            if (moved || again || all_.size() != x_.size())
                 number(x_.size(), x_.data(), y_.data(), all_);
             select(active_, active_numbers_);
             select(passive_, passive_numbers_);
@@ -94,26 +84,9 @@ public:
     double inner_error() const override { return sums_.has_single() ? 1e-6 : full_error(); }
 
 private:
-    // True if the values at the pairs are stored: those of kernels that are expensive to evaluate,
-    // and 1/d where the same points come again and again, as in a time loop, if it stays in the
-    // cache.
+    // True if the values at the pairs are stored.
     bool keeps_pairs(std::size_t others) const {
-        if (!matrix_ || matrix_->too_large(active_.size(), others)) return false;
-        return kernel_->smooth() ||
-               (again_ > kOften && active_.size() * (active_.size() / 2 + others) < kCached);
-    }
-
-    // True if most points are in the matrix; all are from then on.
-    bool mostly_known() {
-        if (!matrix_) return false;
-        const std::size_t before = matrix_->points();
-        number(x_.size(), x_.data(), y_.data(), all_);
-        if (8 * (matrix_->points() - before) <= x_.size()) return true;
-        if (again_ <= kOften && !kernel_->smooth()) {
-            matrix_->forget(), xo_.clear();
-            number(x_.size(), x_.data(), y_.data(), all_);
-        }
-        return false;
+        return matrix_ && !matrix_->too_large(active_.size(), others);
     }
 
     void among(bool single, const double* f, double* phi) {
@@ -140,10 +113,6 @@ private:
             to[k] = all_[static_cast<std::size_t>(which[k])];
     }
 
-    static constexpr int kOften = 4;
-    static constexpr std::size_t kCached = 200'000;
-    bool repeats_ = false;
-    int again_ = 0;        // how often points came again, less how often they did not
     bool fresh_ = true;    // true until set_active() is called for the current points
     bool stored_ = false;  // the matrix is used for the current points
     std::vector<double> xa_, ya_, xp_, yp_, xo_, yo_, active_phi_, passive_phi_;

@@ -31,10 +31,6 @@ public:
     // phi = B f at every point of the working set, in full accuracy; f over the active list.
     virtual void full(const double* f, double* phi) = 0;
 
-    // For time loops: expects the same points again and again; false: no longer, and forgets those
-    // known.
-    virtual void expect_repeats(bool) {}
-
     const Kernel& kernel() const { return *kernel_; }
 
     // Relative error (2-norm) of full products.

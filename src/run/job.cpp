@@ -352,8 +352,8 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         judge.judge(level, *contact, settings.indentation.control != Control::separation);
         const bool field = std::find(field_steps.begin(), field_steps.end(),
                                      static_cast<std::int32_t>(k)) != field_steps.end();
-        if (const Asperities* yielding = contact->asperities();
-            field && !std::isnan(level.force))  // a level without a state has none
+        if (field && !std::isnan(level.force)) {  // a level without a state has none
+            const auto yielding = contact->asperities();
             fields.push_back(
                 {static_cast<std::int32_t>(k), &level,
                  yielding ? lowered_summits(job.given_heights ? *job.given_heights : *r.heights,
@@ -361,6 +361,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
                                             contact->residual_depths())
                           : contact->residual_profile(),
                  contact->lasting_loads(level)});
+        }
         if (on_level && !on_level(k, r.levels.back())) break;
     }
     r.residual_depth = contact->residual_depths();
@@ -368,7 +369,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     if (!fields.empty())
         r.fields = fields_of(job.given_heights ? *job.given_heights : *r.heights, job.indenter,
                              job.solver.interaction, fields, fields_asked(settings));
-    if (const Asperities* touched = contact->asperities(); touched && touched != &r.asperities) {
+    if (const auto touched = contact->asperities(); touched && touched.get() != &r.asperities) {
         Asperities used = *touched;
         curve.reset(), contact.reset();
         for (auto& copy : slid) copy.reset();

@@ -28,7 +28,6 @@ struct Kind {
     const char* name;
     std::unique_ptr<Products> products;
     double full, inner, elsewhere;  // errors promised
-    int times = 1;                  // that the points are set, as in a time loop
 };
 
 void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, const char* name) {
@@ -46,7 +45,6 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
             yo.push_back(-3.05 + kHigh * uniform(random));
     Kind kinds[] = {
         {"direct", make_direct_products(kernel), 1e-13, 1e-6, 1e-5},
-        {"direct, pairs stored", make_direct_products(kernel), 1e-13, 1e-6, 1e-5, 9},
         {"mesh", make_mesh_products(kernel, 1e-7, 1e-3), 1e-7, 1e-3, 1e-5},
         {"mesh, direct where full", make_mesh_products(kernel, 1e-12, 1e-4), 1e-13, 1e-4, 1e-5}};
     for (Kind& kind : kinds) {
@@ -54,8 +52,7 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
         Products& p = *kind.products;
         CHECK(&p.kernel() == kernel.get() && p.full_error() <= kind.full &&
               p.inner_error() <= kind.inner && p.count() == 0);
-        p.expect_repeats(kind.times > 1);
-        for (int time = 0; time < kind.times; ++time) p.set_points(n, x.data(), y.data());
+        p.set_points(n, x.data(), y.data());
         for (const int every : {1, 2, 9, n, n + 1,
                                 1}) {  // every so many a point carries a force; none; and all again
             std::vector<int> active, passive;

@@ -100,9 +100,9 @@ std::vector<Vector> all_minima(const Law& law, double E_star, const Asperities& 
 // Where a second solution exists, uniqueness is never told; where none does, nearly always.
 TEST(told_only_where_it_is_so) {
     constexpr double E_star = 1 / std::numbers::pi;
-    std::mt19937_64 random(1), changes(2);
+    std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(0, 1);
-    int unique = 0, several = 0, told = 0, several_wide = 0, told_again = 0;
+    int unique = 0, several = 0, told = 0, several_wide = 0;
     for (int set = 0; set < 8000; ++set) {
         const std::size_t n = 2 + static_cast<std::size_t>(set) % 5;
         const bool wide =
@@ -139,31 +139,9 @@ TEST(told_only_where_it_is_so) {
             CHECK(!one || minima.size() == 1);
             told += one && !wide;
         }
-        // A proof between bounds: of solutions of similar and of quite different problems it says
-        // no more than is true.
-        if (set % 4 != 0 || wide) continue;
-        LastingProof proof;
-        const auto holds = [&](const Vector& v) {
-            Vector force(n), slope(n), work(n);
-            law->respond(static_cast<int>(n), all.data(), v.data(), force.data(), slope.data(),
-                         work.data());
-            return proof.holds(*law, *make_kernel(Interaction::point, E_star), all, p.x, p.y, v,
-                               force, slope, {});
-        };
-        for (int k = 0; k < 2; ++k) holds(minima[0]);  // the second one looks for bounds
-        for (const double change : {0.002, 1.0}) {
-            Vector other(g0);
-            for (double& g : other) g += change * (uniform(changes) - 0.5);
-            const auto others = all_minima(*law, E_star, p, other);
-            for (const Vector& v : others) {
-                const bool one = holds(v);
-                CHECK(!one || others.size() == 1);
-                told_again += one && change < 1;
-            }
-        }
     }
     CHECK(several > 200 && several_wide > 200);
-    CHECK(told > 0.8 * unique && told_again > 0.7 * unique / 4);
+    CHECK(told > 0.8 * unique);
 }
 
 // The lowest eigenvalue against bisection on Cholesky of the shifted matrix.

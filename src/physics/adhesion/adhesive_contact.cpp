@@ -28,7 +28,9 @@ public:
     void move_tip(double x0, double y0) override;
     double first_touch() const override { return path_->ranking.highest(); }
     const Indenter& indenter() const override { return path_->indenter; }
-    const Asperities* asperities() const override { return &path_->asperities; }
+    std::shared_ptr<const Asperities> asperities() const override {
+        return {std::shared_ptr<void>(), &path_->asperities};
+    }
     bool path_dependent() const override { return true; }
     bool pulls() const override { return true; }
     // Position of the tip, separation, dissipated energy, smallest force, jumps, margin, and pairs

@@ -25,7 +25,7 @@ constexpr double kOwnWay = 0.7, kFarWay = 0.6, kNearWay = 0.9, kLongestWay = 0.9
 AdhesivePath::AdhesivePath(const Asperities& asperities_, const Indenter& indenter_,
                            const SolverOptions& options_)
     : ContactBodies(asperities_, indenter_, options_),
-      law(make_law(options_.law, asperities, indenter_.E_star)),
+      law(make_law(options_.law, asperities, indenter_.E_star, of_difference.get())),
       sticking(*law, options_.adhesion.work, options_.adhesion.range),
       direct(make_direct_products(kernel)),
       solver(sticking),
@@ -44,6 +44,7 @@ AdhesivePath::AdhesivePath(const Asperities& asperities_, const Indenter& indent
     if (options.adhesion.range > 0 && options.law == LawKind::fourth_order)
         refuse(
             "not available yet with solids%adhesion_range > 0 and asperities%law = 'fourth_order'");
+    for (std::size_t i = 0; of_difference && i < asperities.size(); ++i) of_difference->shift(i);
     margin = options.adhesion.range;
     ranking.assign(asperities, indenter);
 }
@@ -62,7 +63,7 @@ void AdhesivePath::cover(double lowest) {
     const auto add = [&](int i, double height) {
         place[at(i)] = set.size();
         set.asperity.push_back(i);
-        const Vec2 image = indenter.image(asperities.x[at(i)], asperities.y[at(i)]);
+        const Vec2 image = indenter.image(of_surface.x[at(i)], of_surface.y[at(i)]);
         set.x.push_back(image.x), set.y.push_back(image.y);
         clearance.push_back(height);
     };
@@ -129,7 +130,7 @@ bool AdhesivePath::missed() {
     constexpr double near = 0.5;  // share of the distance that it should have kept
     Vector f, x, y, phi(left_out.size(), 0.0);
     for (const auto& [i, height] : left_out) {
-        const Vec2 image = indenter.image(asperities.x[at(i)], asperities.y[at(i)]);
+        const Vec2 image = indenter.image(of_surface.x[at(i)], of_surface.y[at(i)]);
         x.push_back(image.x), y.push_back(image.y);
     }
     for (const Sticking::State& state : here.states) f.push_back(state.f);

@@ -413,7 +413,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         return v;
     };
     const double most = *std::max_element(N.begin(), N.end());
-    // Summits between points also move with the tip (physics/test_touching): shares of N.
+    // Summits between points also move with the tip (physics/test_edges): shares of N.
     constexpr double kMotion = 0.01;
     f.same("lateral_force", pushed(false), kRounding,
            (t.elements || t.hertz ? kRounding : kMotion) * most);
