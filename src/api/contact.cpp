@@ -253,9 +253,8 @@ int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* forc
             known.level && known.level->separation == separation && known.x0 == tip.x0 &&
             known.y0 == tip.y0 && !contact->contact.pulls() &&
             (!contact->contact.relaxes() || known.level->time == contact->contact.time());
-        if (!same) 
-            compute(*contact, false,
-                    [&] { return contact->contact.at_separation(separation); });
+        if (!same)
+            compute(*contact, false, [&] { return contact->contact.at_separation(separation); });
         put(force, contact->known.level->force);
         tell_convergence(*contact);
     });

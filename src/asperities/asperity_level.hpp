@@ -21,7 +21,7 @@ struct ContactBodies {
     SolverOptions options;
     Indenter indenter;
     std::unique_ptr<ShiftedSummits> of_difference;  // null: asperities are those of the surface
-    const Asperities& asperities;  // refers to one of the two above
+    const Asperities& asperities;                   // refers to one of the two above
     std::shared_ptr<const Kernel> kernel;
 
     ContactBodies(const Asperities& given, const Indenter& indenter, const SolverOptions& options);

@@ -266,8 +266,7 @@ Level Contact::to_force(double N) {
     if (!(Z0 > below)) Z0 = 0.5 * (above + below);
     const auto judge = [&](const Level& level, double z) {
         const double miss = level.force / N - 1;
-        const bool found =
-            std::abs(miss) <= tolerance() || !level.converged;
+        const bool found = std::abs(miss) <= tolerance() || !level.converged;
         if (found) return Verdict{true, false, z};
         if (!(level.force > 0)) return Verdict{false, true, -kInfinity};
         rise_ = slope() / level.force;

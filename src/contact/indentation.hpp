@@ -114,9 +114,9 @@ struct SolverOptions {
     double sigma = 0;         // rms height [length], the unit of delta0 and of selection='paper'
     double tolerance = 1e-6;  // relative residual of F - C<G0 - B F>^(3/2)
     int max_iterations = 100;
-    double delta0 = 0.01;  // initial regularisation of the paper's method, in units of sigma
-    double delta_cut = 5.0;  // the paper's method divides delta by this (the paper: 2 to 10)
-    double mean_spacing = 0;  // <d> = 1/sqrt(D) of the summits [length]; 0: unknown
+    double delta0 = 0.01;        // initial regularisation of the paper's method, in units of sigma
+    double delta_cut = 5.0;      // the paper's method divides delta by this (the paper: 2 to 10)
+    double mean_spacing = 0;     // <d> = 1/sqrt(D) of the summits [length]; 0: unknown
     double points_per_wave = 0;  // grid points in the shortest wave of the surface; 0: unknown
     double grid_step = 0;        // of the grid on which the summits were found [length]; 0: unknown
     // MomentTensor::gentlest_slope() of the surface, for comparison with slopes of the indenter; 0:

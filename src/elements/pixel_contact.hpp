@@ -69,7 +69,7 @@ private:
     using Depths = std::unordered_map<std::int32_t, double>;
     void set_residual(Depths depths);
 
-    Depths residual_;                // depths by the index of the point on the map [length]
+    Depths residual_;  // depths by the index of the point on the map [length]
     std::vector<bool>
         lowered_;  // whether a point has a residual, which is looked up often; empty: none has
 };

@@ -143,9 +143,7 @@ private:
 
     // Doubles the points a side; false if that is impossible or would take too long.
     bool refine(const Level& level) {
-        if (!job_.spectrum || contact_->path_dependent() ||
-            !level.converged)
-            return false;
+        if (!job_.spectrum || contact_->path_dependent() || !level.converged) return false;
         const double finer = 2 * points_per_wave_;
         if (finer * job_.spectrum->L_lambda_s > kMostElementPoints ||
             points_per_wave_ >= kMostPointsPerWave ||

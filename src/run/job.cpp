@@ -315,12 +315,11 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     }
     r.levels.reserve(job.levels.size());
     const std::vector<std::int32_t> field_steps = steps_of_fields(job);
-    judged.filled =
-        filled_points(measured.get(), job.domain.x0, job.domain.y0, job.indenter);
+    judged.filled = filled_points(measured.get(), job.domain.x0, job.domain.y0, job.indenter);
     if (measured)
-        judged.scattered = static_cast<double>(measured->missing - std::ranges::count(
-                                                                       measured->filled, 1)) /
-                           static_cast<double>(measured->points());
+        judged.scattered =
+            static_cast<double>(measured->missing - std::ranges::count(measured->filled, 1)) /
+            static_cast<double>(measured->points());
     Judge judge(solver, std::move(judged));
     std::vector<FieldLevel> fields;
     if (settings.indentation.control != Control::separation &&

@@ -78,7 +78,7 @@ struct SurfaceDomain : Domain {
     // periodic beyond its rectangle: synthetic surfaces, and heights declared periodic
     bool repeats = false;
     std::shared_ptr<const MapMarks> marks =
-        nullptr;                  // of a measured map that is free at its border
+        nullptr;  // of a measured map that is free at its border
     // heights from a file or from the caller of the library, or not isotropic and Gaussian
     bool measured = false;
 };

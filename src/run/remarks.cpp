@@ -90,13 +90,14 @@ void print_failures(std::ostream& out, std::span<const LevelValues> levels, cons
     if (!elements && solids.adhesion > 0)
         remedy = "contacts overlap too much to follow their path; use solver%model = 'elements'";
     else if (!elements && (!solids.layer_thickness.empty() || flats))
-        remedy = "with contacts wider than the top layer, or between flats pressed deep, the "
-                 "asperity model may have no solution: use solver%model = 'elements'";
+        remedy =
+            "with contacts wider than the top layer, or between flats pressed deep, the "
+            "asperity model may have no solution: use solver%model = 'elements'";
     else if (elements && !solids.relaxation_share.empty() && flats)
         remedy = "bodies that relax may have closed the gap between flats; otherwise " + remedy;
-    levels_with.say(failed, failure +
-                                "the residual is above solver%tolerance: do not use these values; " +
-                                remedy);
+    levels_with.say(
+        failed,
+        failure + "the residual is above solver%tolerance: do not use these values; " + remedy);
 }
 
 void print_statuses(std::ostream& out, std::span<const LevelValues> levels, const Job& job,

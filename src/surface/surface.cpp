@@ -154,9 +154,12 @@ Moments grid_moments(const HeightMap& map) {
 
 HeightMap every_second_point_of(const HeightMap& map, int column, int row) {
     HeightMap view;
-    static_cast<PointGrid&>(view) = {(map.nx - column + 1) / 2, (map.ny - row + 1) / 2,
-                                     2 * map.dx,                2 * map.dy,
-                                     map.x(column),             map.y(row)};
+    static_cast<PointGrid&>(view) = {(map.nx - column + 1) / 2,
+                                     (map.ny - row + 1) / 2,
+                                     2 * map.dx,
+                                     2 * map.dy,
+                                     map.x(column),
+                                     map.y(row)};
     view.stride = 2 * map.stride, view.every = 2 * map.every, view.periodic = map.periodic;
     double* const first = map.data.get() + row * map.stride + std::ptrdiff_t{column} * map.every;
     view.data = std::unique_ptr<double[], HeightMap::Free>(first, HeightMap::Free(false));

@@ -52,9 +52,8 @@ bool may_touch_beside(const Asperities& asperities, const Indenter& indenter,
     // Grid points lie below the tops between them, which are within half a step in both directions.
     const double below = 0.125 * options.grid_step * options.grid_step;
     for (std::size_t i = 0; i < asperities.size(); ++i) {
-        const double bend = asperities.kappa1.empty()
-                                ? 2 / asperities.radius[i]
-                                : asperities.kappa1[i] + asperities.kappa2[i];
+        const double bend = asperities.kappa1.empty() ? 2 / asperities.radius[i]
+                                                      : asperities.kappa1[i] + asperities.kappa2[i];
         const double top = asperities.z[i] + below * bend;
         if (!(top > Z0)) continue;  // the indenter is nowhere lower than its tip
         const Vec2 d = indenter.from_tip(asperities.x[i], asperities.y[i]);

@@ -104,8 +104,8 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
 
 void count_contacts(Level& level, const Indenter& indenter, const SolverOptions& options) {
     const auto larger_than = [&](double most) {
-        return static_cast<std::int32_t>(std::count_if(level.a.begin(), level.a.end(),
-                                                       [&](double a) { return a > most; }));
+        return static_cast<std::int32_t>(
+            std::count_if(level.a.begin(), level.a.end(), [&](double a) { return a > most; }));
     };
     if (options.mean_spacing > 0) level.large_contacts = larger_than(options.mean_spacing / 4);
     if (indenter.layers.count > 0 && level.pixels.dx == 0)

@@ -12,8 +12,7 @@ std::string sentence(Cause cause, bool elements) {
         case Cause::filled_points:
             return "the contact may lie on missing points of the map, which are filled smoothly "
                    "(filled_share): N is too small";
-        case Cause::grid:
-            return "a finer grid may change N by more than 1 %, with adhesion 10 %";
+        case Cause::grid: return "a finer grid may change N by more than 1 %, with adhesion 10 %";
         case Cause::slope_ratio:
             return "the indenter is too steep beside the surface (slope_ratio above 0.2), which "
                    "it touches beside the summits" +
@@ -25,8 +24,7 @@ std::string sentence(Cause cause, bool elements) {
         case Cause::few_points:
             return "the summits have too few points, or are spikes one point wide" + by_elements;
         case Cause::layer:
-            return "contacts with a > h/5, where h is the thickness of the top layer" +
-                   by_elements;
+            return "contacts with a > h/5, where h is the thickness of the top layer" + by_elements;
         case Cause::adhesion_range:
             return "the range of the attraction is less than two pixels (cohesive_resolution): "
                    "the pull-off force is too high";

@@ -43,8 +43,7 @@ void clearances(const HeightMap& map, const Indenter& indenter, int row,
                 std::vector<double>& line) {
     line.resize(static_cast<std::size_t>(map.nx));
     for (int i = 0; i < map.nx; ++i)
-        line[static_cast<std::size_t>(i)] =
-            indenter.clearance(map.x(i), map.y(row), map(i, row));
+        line[static_cast<std::size_t>(i)] = indenter.clearance(map.x(i), map.y(row), map(i, row));
 }
 
 // Column and row of the highest point under the indenter.
@@ -143,8 +142,9 @@ std::optional<GridError> SecondGrid::error(const LevelValues& level, Contact& co
     }
     if (!other.converged || level.contacts == 0) return {};
     // Under the same force the change of the separation is one of N at the separation.
-    const double change_of_N = by_force ? contact.stiffness() * (level.separation - other.separation)
-                                        : level.force - other.force;
+    const double change_of_N = by_force
+                                   ? contact.stiffness() * (level.separation - other.separation)
+                                   : level.force - other.force;
     const double force = 0.5 * std::abs(change_of_N / level.force),
                  area = 0.5 * std::abs(1 - other.area / level.area);
     const GridError few =

@@ -41,7 +41,8 @@ bool calibrated(const Level& level, const Contact& contact, const SolverOptions&
         std::count_if(depths.begin(), depths.end(), [](double depth) { return depth > 0; });
     return options.interaction == Interaction::point && options.selection == Selection::overlap &&
            options.adhesion.work == 0 && options.relaxation.none() &&
-           known_shape(contact.indenter()) && options.mean_spacing > 0 && options.gentlest_slope > 0 &&
+           known_shape(contact.indenter()) && options.mean_spacing > 0 &&
+           options.gentlest_slope > 0 &&
            !(yields && (options.hardness.length > 0 || contact.indenter().layers.count > 0)) &&
            yielded <= level.plastic_contacts;  // otherwise some are unloaded
 }
@@ -55,14 +56,13 @@ Doubt edges_of_adhesion(const Level& level, const Indenter& indenter, const Heig
                  contacts = std::max(level.contacts, 1);
     double dN = kEdgeError / level.cohesive_resolution * pulled / std::sqrt(contacts);
     if (level.contacts > 0) {
-        const GridError few =
-            error_of_pixels(level, indenter, std::max(map.dx, map.dy), read);
+        const GridError few = error_of_pixels(level, indenter, std::max(map.dx, map.dy), read);
         dN += few.force * std::max(level.force + pulled, 0.0);
-        doubt.area = few.area +
-                     (kWorkError * traction / (indenter.E_star * level.cohesive_resolution) +
-                      kRadiusError *
-                          std::sqrt(std::numbers::pi * map.dx * map.dy * contacts / level.area)) /
-                         std::sqrt(contacts);
+        doubt.area =
+            few.area +
+            (kWorkError * traction / (indenter.E_star * level.cohesive_resolution) +
+             kRadiusError * std::sqrt(std::numbers::pi * map.dx * map.dy * contacts / level.area)) /
+                std::sqrt(contacts);
     }
     doubt.force = dN / std::abs(level.force);
     doubt.serious = doubt.force > kMuchError;
@@ -87,8 +87,7 @@ void Judge::judge(Level& level, Contact& contact, bool by_force) {
         asperities ? of_asperities(level, contact) : of_elements(level, contact, by_force);
     if (level.edge_contacts > 0) doubts.push_back({Cause::border});
     if (!surface_.filled.empty()) {
-        level.filled_share =
-            share_on_filled(level, surface_.filled, indenter, options_.sigma);
+        level.filled_share = share_on_filled(level, surface_.filled, indenter, options_.sigma);
         if (level.filled_share > kMuchFilled) doubts.push_back({Cause::filled_points});
     }
     conclude(level, doubts, by_force);

@@ -376,8 +376,7 @@ TEST(test_lost) {
         const auto contact =
             make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, options);
         const Level lost = contact->at_separation(0);
-        CHECK(!lost.converged && std::isnan(lost.force) &&
-              std::isnan(contact->energy()));
+        CHECK(!lost.converged && std::isnan(lost.force) && std::isnan(contact->energy()));
         const Level away = contact->at_separation(0.05);
         CHECK(away.converged && away.force == 0 && away.energy_lost == 0);
     }

@@ -3,9 +3,9 @@
 #include "adhesive_paths.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
-#include "judged.hpp"
 #include "elements/element_contact.hpp"
 #include "height_maps.hpp"
+#include "judged.hpp"
 #include "physics/indenter/shapes.hpp"
 
 using namespace rsc;
@@ -183,13 +183,11 @@ TEST(test_force) {
     const Level same = other->at_separation(carried.separation);
     CHECK_CLOSE(same.force, 0.02, 2e-6);
     const Level held = one->at_force(-10);
-    CHECK(!held.converged && held.fallback == Fallback::held &&
-          held.force < 0);
+    CHECK(!held.converged && held.fallback == Fallback::held && held.force < 0);
     SolverOptions few = attracting(0.02, 0.15);
     few.max_iterations = 1;
     const Level none = make_element_contact(map, tip, few)->at_separation(carried.separation);
-    CHECK(!none.converged && std::isnan(none.force) &&
-          std::isnan(none.area));
+    CHECK(!none.converged && std::isnan(none.force) && std::isnan(none.area));
 }
 
 // No force between states that press and that pull, by the difference of pressure and attraction,

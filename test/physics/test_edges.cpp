@@ -114,8 +114,7 @@ TEST(coincident) {
             sane(level, "nearly coincident");
             if (gap < 1e-9) {
                 CHECK((!level.unique || !level.converged));
-                CHECK(!level.converged ||
-                      residual(near, {kE, 2.5, 0.5, 0.5}, 0.0, level) <= 2e-10);
+                CHECK(!level.converged || residual(near, {kE, 2.5, 0.5, 0.5}, 0.0, level) <= 2e-10);
                 continue;
             }
             CHECK(!level.unique);
@@ -141,8 +140,7 @@ TEST(overlapping) {
             // Beyond (2/pi) a of the radius each would have alone, the largest any solution can
             // have, there is one solution only; far within it there are others, and this is told.
             const double unique_from = 2 / std::numbers::pi * std::sqrt(r * g);
-            if (d > 1.2 * unique_from)
-                CHECK(level.unique && level.converged);
+            if (d > 1.2 * unique_from) CHECK(level.unique && level.converged);
             if (d < 0.5 * unique_from) CHECK(!level.unique);
             if (level.f.size() == 2)
                 CHECK(d >= 2 / std::numbers::pi * std::sqrt(level.a[0] * level.a[1]) * (1 - 1e-6));

@@ -2,9 +2,9 @@
 // tolerances, on pixels of other shapes).
 
 #include "check.hpp"
-#include "judged.hpp"
 #include "elements/element_contact.hpp"
 #include "height_maps.hpp"
+#include "judged.hpp"
 #include "physics/indenter/shapes.hpp"
 #include "surface/synthesis.hpp"
 

@@ -96,8 +96,7 @@ TEST(against_slow_solver) {
                     AsperityContact(a, {kE, family.R, 0.5, 0.5}, options(method, family.law))
                         .at_separation(Z0);
                 CHECK(level.converged);
-                if ((!level.unique || !level.converged))
-                    continue;  // the two may find two minima
+                if ((!level.unique || !level.converged)) continue;  // the two may find two minima
                 unique += method == Method::direct;
                 const double N = static_cast<double>(reference.force) * kE,
                              A = static_cast<double>(reference.area);

@@ -8,11 +8,11 @@
 
 #include "asperities/asperity_contact.hpp"
 #include "check.hpp"
-#include "judged.hpp"
 #include "contact/equivalent.hpp"
 #include "elements/element_contact.hpp"
 #include "height_maps.hpp"
 #include "interaction/lattice.hpp"
+#include "judged.hpp"
 #include "physics/elimination.hpp"
 #include "random_asperities.hpp"
 

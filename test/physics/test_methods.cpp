@@ -58,8 +58,7 @@ TEST(pressed_levels_do_not_remember) {
             const Level level = pressed.at_force(N), alone = fresh(level.separation);
             CHECK(level.asperity == alone.asperity);
             CHECK_CLOSE(level.force, alone.force, kTolerance * alone.force);
-            if (level.converged)
-                CHECK_CLOSE(level.force, N, kTolerance * N);
+            if (level.converged) CHECK_CLOSE(level.force, N, kTolerance * N);
         }
     }
 }

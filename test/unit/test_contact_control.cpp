@@ -87,8 +87,7 @@ TEST(control) {
             const auto check = [&](const Level& level, double z, double N) {
                 CHECK_CLOSE(level.separation, z + shift * N, 1e-8 * std::max(1.0, N));
                 CHECK_RELATIVE(level.force, N, 1e-8);
-                CHECK(level.converged && contact.accepted == ++levels &&
-                      level.plastic_work == 42);
+                CHECK(level.converged && contact.accepted == ++levels && level.plastic_work == 42);
                 CHECK(level.iterations == contact.iterations() - iterations &&
                       level.products == contact.products() - products);
                 iterations = contact.iterations(), products = contact.products();
@@ -108,10 +107,8 @@ TEST(control) {
             CHECK(none.iterations == 3 && none.products == 30);
             // What failed is told and not accepted.
             contact.fails = true;
-            CHECK(!contact.at_force(2.0).converged &&
-                  contact.accepted == levels);
-            CHECK(!contact.at_separation(0.5).converged &&
-                  contact.accepted == levels);
+            CHECK(!contact.at_force(2.0).converged && contact.accepted == levels);
+            CHECK(!contact.at_separation(0.5).converged && contact.accepted == levels);
         }
 }
 

@@ -6,9 +6,9 @@
 #include "contact/equivalent.hpp"
 #include "physics/indenter/shapes.hpp"
 #include "run/job.hpp"
-#include "trust/doubts.hpp"
 #include "run/prepare.hpp"
 #include "run/run.hpp"
+#include "trust/doubts.hpp"
 #include "unit/refused.hpp"
 #include "unit/temporary_folder.hpp"
 

@@ -106,8 +106,7 @@ TEST(mirrored) {
             const HeightMap a = coarser_map(map, flat), b = coarser_map(other, flat);
             std::vector<double> left, right;
             for (int j = 0; j < a.ny; ++j)
-                for (int i = 0; i < a.nx; ++i)
-                    left.push_back(a(i, j)), right.push_back(b(i, j));
+                for (int i = 0; i < a.nx; ++i) left.push_back(a(i, j)), right.push_back(b(i, j));
             std::ranges::sort(left), std::ranges::sort(right);
             CHECK(a.nx == b.nx && (flats ? a.Lx() == n : a.dx == 2));
             if (n % 2 == 0 || !flats) CHECK(left == right);
@@ -239,8 +238,7 @@ TEST(doubts_combined_once) {
     conclude(level, std::array{small, spikes}, false);
     CHECK_RELATIVE(level.force_error_expected, 0.23, kRounding);
     CHECK_RELATIVE(level.area_error_expected, 0.15, kRounding);
-    CHECK(level.doubts == bit(Cause::few_points) &&
-          level.status == LevelStatus::out_of_validity &&
+    CHECK(level.doubts == bit(Cause::few_points) && level.status == LevelStatus::out_of_validity &&
           std::isnan(level.separation_error_expected));
     conclude(level, std::array{small, spikes}, true);  // the same as an error of the separation
     CHECK_RELATIVE(level.separation_error_expected, 0.23 * 2 / 10, kRounding);

@@ -92,9 +92,7 @@ protected:
         const auto look = [&](double Z) {
             level = state_.step(Z);
             iterations += level.iterations, products += level.products;
-            return !level.converged
-                       ? std::numeric_limits<double>::quiet_NaN()
-                       : level.force - N;
+            return !level.converged ? std::numeric_limits<double>::quiet_NaN() : level.force - N;
         };
         // Near N = 0 the force is the difference of pressure and attraction, and no more exact than
         // these.
@@ -124,8 +122,7 @@ protected:
                                                        "of full contact on this surface, %.4g",
                                                        N / area, level.force / area));
             }
-            if (level.converged && level.force < least)
-                least = level.force, least_at = Z;
+            if (level.converged && level.force < least) least = level.force, least_at = Z;
             found = precise(miss);
         }
         if (!found && miss * before_miss < 0) {

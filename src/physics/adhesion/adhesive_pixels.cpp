@@ -240,8 +240,7 @@ Level AdhesivePixels::step(double Z) {
     level.energy_lost = now.lost = now.work - energy;
     if (converged) level.jumps = accepted.jumps + count_jumps();
     level.converged = converged;
-    if (!converged)
-        level.residual = 1;  // no state: Contact::finish() leaves no values
+    if (!converged) level.residual = 1;  // no state: Contact::finish() leaves no values
     return level;
 }
 

@@ -309,7 +309,8 @@ inline void levels(CheckedFile& f, const Truth& t) {
         return pairs[k * t.steps + s] > 0 ? 2 : 0;
     }));
     for (std::size_t i = 0; i < with_border.size(); ++i)
-        CHECK(!(with_border[i] > 0) || level(i / t.steps, i % t.steps).status != LevelStatus::converged);
+        CHECK(!(with_border[i] > 0) ||
+              level(i / t.steps, i % t.steps).status != LevelStatus::converged);
 
     // Yielding: at the hardness, and as deep as ever.
     Vector deepest(t.elements ? 0 : t.r[0].asperities.size());
