@@ -11,7 +11,7 @@ class AsperityContact final : public Contact {
 public:
     // The asperities are the summits of the surface and must outlive the contact. Laws with summits
     // between grid points use the summits of the difference between surface and indenter instead
-    // (shifted_summits.hpp), if options.rms_slope is known. Throws Error(bad_input) for moduli,
+    // (shifted_summits.hpp), if options.gentlest_slope is known. Throws Error(bad_input) for moduli,
     // shapes or options out of range.
     AsperityContact(const Asperities& asperities, const Indenter& indenter,
                     const SolverOptions& options);

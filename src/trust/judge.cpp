@@ -79,12 +79,12 @@ Judge::Judge(const SolverOptions& options, JudgedSurface surface)
     : options_(options), surface_(std::move(surface)) {}
 
 void Judge::judge(Level& level, Contact& contact, bool by_force) {
-    const Asperities* const asperities = contact.asperities();
+    const bool elements = !contact.asperities();
     const Indenter& indenter = contact.indenter();
     count_contacts(level, indenter, options_);
     if (!level.converged) return conclude(level, {}, by_force);
     std::vector<Doubt> doubts =
-        asperities ? of_asperities(level, contact) : of_elements(level, contact, by_force);
+        elements ? of_elements(level, contact, by_force) : of_asperities(level, contact);
     if (level.edge_contacts > 0) doubts.push_back({Cause::border});
     if (!surface_.filled.empty()) {
         level.filled_share = share_on_filled(level, surface_.filled, indenter, options_.sigma);

@@ -7,6 +7,7 @@
 #include "contact/answers.hpp"
 #include "elements/element_contact.hpp"
 #include "height_maps.hpp"
+#include "judged.hpp"
 #include "physics/indenter/shapes.hpp"
 #include "run/prepare.hpp"
 #include "surface/defects.hpp"
@@ -27,8 +28,9 @@ Case polished(double sigma, const char* model) {
 }
 
 Level at(const Case& c, const SurfaceModel& model, double Z0) {
-    return make_contact(model, indenter_of(c, model.domain), solver_of(c, model.domain))
-        ->at_separation(Z0);
+    const SolverOptions options = solver_of(c, model.domain);
+    const auto contact = make_contact(model, indenter_of(c, model.domain), options);
+    return judged(contact->at_separation(Z0), *contact, options);
 }
 
 // The map as a surface that was measured.
@@ -152,8 +154,8 @@ TEST(summits_of_maps) {
         c.asperities.law = LawKind::hertz;
         const SurfaceModel points = make_surface_model(c, 1, 1);
         CHECK(at(c, points, top - 1e-6).force == 0 &&
-              at(c, points, top - 1e-6).status == LevelStatus::out_of_validity);
-        CHECK(at(c, points, top + 1e-3).status == LevelStatus::converged);
+              at(c, points, top - 1e-6).doubts == bit(Cause::missed_contact));
+        CHECK(at(c, points, top + 1e-3).doubts == 0);
     }
 
     // Pits, grooves and a step beside summits: none is found above the points around it, and the
