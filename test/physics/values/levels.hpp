@@ -2,10 +2,6 @@
 #pragma once
 
 #include "asperities/law.hpp"
-<<<<<<< HEAD
-=======
-#include "contact/spots.hpp"
->>>>>>> wB
 #include "base/version.h"
 #include "case/read_case.hpp"
 #include "contact/spots.hpp"
