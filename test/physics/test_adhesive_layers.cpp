@@ -10,7 +10,6 @@ using namespace rsc;
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kSide = 40;
 constexpr double kStep = 0.025, kWork = 0.01, kRange = 0.06;
 
