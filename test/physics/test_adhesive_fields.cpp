@@ -200,7 +200,7 @@ TEST(test_element_fields) {
             const Level level = contact->at_separation(Z);
             CHECK(level.converged);
             const Fields f = fields_of(map, tip, Interaction::point, {{0, &level, {}}},
-                                       {true, true, true, false, {{0, 1, 0, 1}}});
+                                       {true, true, true, false, false, {{0, 1, 0, 1}}});
             double force = 0, cohesive = 0;
             for (std::size_t k = 0; k < f.pressure.size(); ++k) {
                 const double p = f.pressure[k], g = f.gap[k], area = step * step;
