@@ -258,6 +258,7 @@ RSC_API int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surfa
 /* The asperities for surface%source, as in the program: the summits of the surface of rsc_surface_synthesize, or the list in
  * surface%file. A synthetic surface is not stored, which is faster, takes half the memory and allows any grid for every
  * asperities%law. With solver%model = 'elements': the points of the surface on the grid of elements%points_per_wave.
+ * 'auto' means asperities here, as the levels, on which the choice of a run depends, are not known.
  * asperities (out): the handle; a_case: the case, null for the defaults; realization: any number, without effect on files.
  * Errors: -1 null; -2 invalid keys of &surface, &asperities or &run, or an unusable file; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case,

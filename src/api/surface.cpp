@@ -9,6 +9,15 @@
 namespace rsc::api {
 namespace {
 
+// The choice of solver%model = 'auto' for synthetic surfaces depends on the levels. A caller asks
+// for these one by one, so that asperities remain what they are.
+rsc::Case with_model(rsc::Case settings) {
+    if (settings.solver.model == rsc::Model::automatic &&
+        settings.surface.source != rsc::Source::heights)
+        settings.solver.model = rsc::Model::asperities;
+    return settings;
+}
+
 constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
 
 void copy_to(double* output, const std::vector<double>& values) {
@@ -150,7 +159,8 @@ int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surf
     return constructed(2, asperities, "asperities", [&] {
         require(surface, 2, "surface");
         const rsc::Case& settings = settings_of(a_case);
-        return share(rsc::make_surface_model(surface->surface, settings, threads_of(settings)));
+        return share(
+            rsc::make_surface_model(surface->surface, with_model(settings), threads_of(settings)));
     });
 }
 
@@ -159,7 +169,8 @@ int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case,
     return constructed(2, asperities, "asperities", [&] {
         const rsc::Case& settings = settings_of(a_case);
         rsc::require_valid(settings, {"surface", "run", "asperities%curvature", "asperities%law"});
-        return share(rsc::make_surface_model(settings, realization, threads_of(settings)));
+        return share(
+            rsc::make_surface_model(with_model(settings), realization, threads_of(settings)));
     });
 }
 
