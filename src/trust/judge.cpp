@@ -47,6 +47,26 @@ bool calibrated(const Level& level, const Contact& contact, const SolverOptions&
            yielded <= level.plastic_contacts;  // otherwise some are unloaded
 }
 
+// A list of asperities is all that is known of its surface, so that there are no elements to
+// compare with, and no error is stated. Its laws take the indenter for flat: where its curvature c
+// is not small beside that of an asperity of radius r, forces are too large by sqrt(1 + c r).
+std::vector<Doubt> of_list(const Level& level, const Contact& contact) {
+    const Indenter& indenter = contact.indenter();
+    const auto asperities = contact.asperities();
+    double all = 0, more = 0;
+    for (std::size_t k = 0; k < level.asperity.size(); ++k) {
+        const double r = asperities->radius[at(level.asperity[k])];
+        const Vec2 d = indenter.from_tip(level.x[k], level.y[k]);
+        const Tensor c = indenter.shape->curvature(d.x, d.y);
+        const double f = std::abs(level.f[k]);
+        all += f;
+        more += f * (std::sqrt(1 + std::max(0.0, 0.5 * (c.xx + c.yy) * r)) - 1);
+    }
+    std::vector<Doubt> doubts = {{Cause::outside_calibration, kNotComputed, kNotComputed, false}};
+    if (more > kMuchError * all) doubts.push_back({Cause::beyond_law});
+    return doubts;
+}
+
 Doubt edges_of_adhesion(const Level& level, const Indenter& indenter, const HeightMap& map,
                         bool read, const SolverOptions& options) {
     Doubt doubt{Cause::grid};
@@ -102,6 +122,11 @@ std::vector<Doubt> Judge::of_asperities(Level& level, const Contact& contact) co
     if (level.contacts == 0 && level.force == 0) {
         doubt(may_touch_beside(*contact.asperities(), indenter, options_, level.separation),
               Cause::missed_contact);
+        return doubts;
+    }
+    if (!(options_.gentlest_slope > 0)) {
+        doubts = of_list(level, contact);
+        doubt(level.wide_contacts > 0, Cause::layer);
         return doubts;
     }
     doubt(level.slope_ratio > kSteepest, Cause::slope_ratio);
