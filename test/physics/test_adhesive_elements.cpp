@@ -71,9 +71,9 @@ std::pair<double, double> pull_off_error(double lambda, double resolution) {
                  widest = 1.05 * truth.pressed(0).c + 3 * truth.range() / resolution;
     const int n = 2 * static_cast<int>(std::ceil(widest / h));
     const HeightMap map = paraboloid(n * h, n);
+    const SolverOptions options = attracting(truth.w, truth.range());
     const auto contact =
-        make_element_contact(map, {1.0, kFlat, 0.5 * (n - 1) * h, 0.5 * (n - 1) * h},
-                             attracting(truth.w, truth.range()));
+        make_element_contact(map, {1.0, kFlat, 0.5 * (n - 1) * h, 0.5 * (n - 1) * h}, options);
     const double unit = pi * truth.w, reach = truth.range();
     Level level;
     for (double Z = 1.05 * reach; Z > 0; Z -= 0.25 * reach) level = contact->at_separation(Z);
@@ -84,7 +84,7 @@ std::pair<double, double> pull_off_error(double lambda, double resolution) {
     int jumps = 0, inside = 0, inside_area = 0, compared = 0;
     for (int k = 0; k <= steps; ++k) {
         const double u = 1.15 * end * k / steps;
-        level = contact->at_separation(-u);
+        level = judged(contact->at_separation(-u), *contact, options, &map);
         CHECK(level.converged);
         least = level.least_force;
         jumps += level.jumps;

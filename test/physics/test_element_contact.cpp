@@ -7,6 +7,7 @@
 #include "judged.hpp"
 #include "physics/indenter/shapes.hpp"
 #include "surface/synthesis.hpp"
+#include "trust/grid_error.hpp"
 
 using namespace rsc;
 
@@ -126,8 +127,8 @@ TEST(tolerances) {
 }  // namespace
 
 // A sphere whose top lies between points, on the surface or above it, and a cone with its tip
-// there, touch above the highest point: there N = 0 is not converged. Farther above than a third of
-// that height it is.
+// there, touch above the highest point: there N = 0 is in doubt. Above the upper bound of where they
+// touch between points it is not.
 TEST(between_points) {
     const double R = 10, h = 0.01;
     const int n = 40;
@@ -137,7 +138,8 @@ TEST(between_points) {
         o.sigma = h * h / R;
         const auto contact = make_element_contact(map, tip, o);
         CHECK(contact->first_touch() < 0);  // the top is at 0
-        const double above = -0.4 * contact->first_touch();
+        const double above = touch_between_points(map, tip);
+        CHECK(above > 0);
         CHECK(judged(contact->at_separation(above), *contact, o, &map).doubts == 0);
         for (const double deep : {0.1, 0.9}) {
             const Level level =

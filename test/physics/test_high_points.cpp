@@ -17,8 +17,10 @@ Case pressed() {
 }
 
 TEST(test_levels) {
+    long compared = 0;
     for (const double points : {8.0, 4.0}) {  // the grid that checks them is coarser, or finer
         Case c = pressed();
+        c.solids.R[1] = 1;  // few contacts at the border
         c.elements.points_per_wave = points;
         c.indentation.centre[0] = 0.3, c.indentation.centre[1] = 0.65;
         CHECK(reads_high_points(c));
@@ -32,13 +34,18 @@ TEST(test_levels) {
                 const Level &a = some.levels[k], &b = kept.levels[k];
                 CHECK(a.contacts > 0 && a.force == b.force && a.area == b.area &&
                       a.energy == b.energy && a.pixels.index == b.pixels.index);
-                CHECK(a.force_error_expected == b.force_error_expected && a.status == b.status &&
-                      a.stiffness == b.stiffness);
+                // Missing in both where contacts lie at the border.
+                CHECK((a.force_error_expected == b.force_error_expected ||
+                       (std::isnan(a.force_error_expected) &&
+                        std::isnan(b.force_error_expected))) &&
+                      a.doubts == b.doubts && a.status == b.status && a.stiffness == b.stiffness);
+                compared += !std::isnan(a.force_error_expected);
             }
             CHECK(some.statistics.m2_grid == kept.statistics.m2_grid &&
                   some.statistics.m4_grid == kept.statistics.m4_grid);
         }
     }
+    CHECK(compared > 0);
 }
 
 TEST(test_heights) {

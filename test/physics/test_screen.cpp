@@ -91,7 +91,7 @@ TEST(levels) {
         seen += screen.text;
     }
     for (const char* words : {"A title", "[um]", "sphere R = ", "two flats",
-                              "separation below -3 sigma", "out of validity", "asperities ("})
+                              "grid - a finer grid may change N", "model error - ", "asperities ("})
         CHECK(seen.find(words) != std::string::npos);
     // Levels that do not converge are told, on the screen and on standard error.
     const Screen few =
