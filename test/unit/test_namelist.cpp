@@ -204,17 +204,18 @@ TEST(test_set) {
     CHECK(c.solver.model == Model::elements && c.surface.file == "a b.nc" &&
           c.surface.detrend == Detrend::none && c.surface.L == 2 && c.output.fields.size() == 2 &&
           c.compare.what == CompareWhat::none);
-    const Case back = with({"surface%n=", "solids%E(1)=", "run%title=", "surface%L=",
+    const Case back = with({"surface%n=", "solids%E=", "run%title=", "surface%L=",
                             "surface%twins=", "indentation%levels=", "compare%levels="},
                            "&run title='t' / &solids E=1.0, 2.0 nu=0.3,0.3 /\n"
                            "&surface n=64 L=3 / &indentation levels=3.0 / &compare levels=2.0 /");
     CHECK(back.surface.n == Case().surface.n && back.solids.E[0] == Case().solids.E[0] &&
-          back.solids.E[1] == 2 && back.run.title.empty() && !back.surface.L &&
+          back.solids.E[1] == Case().solids.E[1] && back.run.title.empty() && !back.surface.L &&
           back.indentation.levels.empty() && !back.compare.listed());
     const std::string study = "&study surface%sigma = 0.01, 0.02 solids%E(1) = 1.0, 2.0 /";
     REFUSED(with({"surface%sigma=0.03"}, study), "&study varies surface%sigma");
     REFUSED(with({"solids%E=1.0,2.0"}, study), "&study varies solids%E(1)");
     CHECK(with({"solids%E(2)=5.0"}, study).solids.E[1] == 5);
+    REFUSED(with({"solids%E(1)="}), "no default of its own");
     REFUSED(with({"solver%model=element"}), "solver%model=element");
 }
 
