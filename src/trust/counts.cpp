@@ -32,7 +32,8 @@ double nominal_area(const Level& level, const Indenter& indenter, const Rectangl
 std::int32_t border_contacts(const Level& level, const Indenter& indenter, const MapMarks& marks) {
     std::vector<Vec2> touching;
     std::int32_t count = 0;
-    for (const auto& [x, y, z] : marks.border) {
+    for (const std::array<double, 3>& point : marks.border) {
+        const double x = point[0], y = point[1], z = point[2];
         double gap = indenter.clearance(x, y, z) - level.separation;
         for (std::size_t k = 0; k < level.x.size() && gap > 0; ++k) {
             const double distance =

@@ -35,10 +35,10 @@ TEST(test_levels) {
                 CHECK(a.contacts > 0 && a.force == b.force && a.area == b.area &&
                       a.energy == b.energy && a.pixels.index == b.pixels.index);
                 // Missing in both where contacts lie at the border.
-                CHECK((a.force_error_expected == b.force_error_expected ||
-                       (std::isnan(a.force_error_expected) &&
-                        std::isnan(b.force_error_expected))) &&
-                      a.doubts == b.doubts && a.status == b.status && a.stiffness == b.stiffness);
+                CHECK(
+                    (a.force_error_expected == b.force_error_expected ||
+                     (std::isnan(a.force_error_expected) && std::isnan(b.force_error_expected))) &&
+                    a.doubts == b.doubts && a.status == b.status && a.stiffness == b.stiffness);
                 compared += !std::isnan(a.force_error_expected);
             }
             CHECK(some.statistics.m2_grid == kept.statistics.m2_grid &&

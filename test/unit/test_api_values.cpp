@@ -40,54 +40,6 @@ double rms(const Values& z) {
     return std::sqrt(square);
 }
 
-std::int32_t level_at(const rsc_surface* surface, const rsc_case* a_case, double separation) {
-    AsperitiesHandle on;
-    ContactHandle contact;
-    std::int32_t status = -1;
-    OK(rsc_asperities_find(&on, surface, nullptr));
-    OK(rsc_contact_create(&contact, on, 1e3, kInfinity, 0, 0, a_case));
-    OK(rsc_contact_indent(contact, separation, nullptr));
-    OK(rsc_contact_level(contact, &status, nullptr, nullptr, nullptr, nullptr));
-    return status;
-}
-
-// The rms height that a contact goes by (below -3 of it a level is out of validity) is that of the
-// heights as they are now: given, with a form subtracted, or filtered; or surface%sigma. One thin
-// spike on a wave, periodic, is all that touches.
-TEST(rms_height) {
-    const Map map{32, 20, 0.03125, 0.0625, 0, 0};
-    const Values z = map.heights([&](int i, int j) {
-        const double wave =
-            0.01 * (std::cos(2 * kPi * (i - 16) / map.nx) + std::cos(2 * kPi * (j - 10) / map.ny));
-        return 0.004 + 0.01 * map.x(i) + wave + (i == 16 && j == 10 ? 0.03 : 0);
-    });
-    CaseHandle a_case = case_of(
-        "&indentation boundary='periodic' / &solids R=Infinity, Infinity / &solver "
-        "interaction='none' /");
-    const SurfaceHandle surface = map.take(z, true);
-    SurfaceHandle copy;
-    const auto goes_by = [&](const rsc_surface* s, double sigma) {
-        CHECK(level_at(s, a_case, -2.99 * sigma) == RSC_LEVEL_CONVERGED);
-        CHECK(level_at(s, a_case, -3.01 * sigma) == RSC_LEVEL_OUT_OF_VALIDITY);
-    };
-    goes_by(surface, rms(z));
-    double left = 0;
-    OK(rsc_surface_detrend(surface, "plane", &left));
-    const Values level = map.heights_of(surface);
-    CHECK_RELATIVE(left, rms(level), 1e-12);
-    CHECK(std::abs(left / rms(z) - 1) > 0.02);
-    goes_by(surface, left);
-    OK(rsc_surface_copy(&copy, surface));
-    goes_by(copy, left);
-    OK(rsc_surface_filter(surface, 0.25));
-    const double filtered = rms(map.heights_of(surface));
-    CHECK(std::abs(filtered / left - 1) > 0.02);
-    goes_by(surface, filtered);
-    goes_by(copy, left);
-    OK(rsc_case_set(a_case, "surface%sigma", "0.0125"));
-    goes_by(copy, 0.0125);
-}
-
 // A copy lies where its original lies, and has the same heights.
 TEST(copy_of_a_surface) {
     const Map map;

@@ -297,7 +297,7 @@ void test_steep(const std::string& memory) {
     const double stiffness = value(there.contact, "stiffness");
     CHECK(stiffness < 0);
     const std::int32_t status = rsc_contact_move_tip(moved.contact, 0.47, 0.52);
-    CHECK(status == (memory.empty() ? RSC_SUCCESS : -2));
+    CHECK(status == (memory.find("adhesion") == std::string::npos ? RSC_SUCCESS : -2));
     CHECK_RELATIVE(value(moved.contact, "stiffness"), stiffness, 1e-3);
     OK(rsc_contact_rollback(moved.contact));
     double x0 = 0;

@@ -204,8 +204,8 @@ TEST(test_set) {
     CHECK(c.solver.model == Model::elements && c.surface.file == "a b.nc" &&
           c.surface.detrend == Detrend::none && c.surface.L == 2 && c.output.fields.size() == 2 &&
           c.compare.what == CompareWhat::none);
-    const Case back = with({"surface%n=", "solids%E=", "run%title=", "surface%L=",
-                            "surface%twins=", "indentation%levels=", "compare%levels="},
+    const Case back = with({"surface%n=", "solids%E=", "run%title=", "surface%L=", "surface%twins=",
+                            "indentation%levels=", "compare%levels="},
                            "&run title='t' / &solids E=1.0, 2.0 nu=0.3,0.3 /\n"
                            "&surface n=64 L=3 / &indentation levels=3.0 / &compare levels=2.0 /");
     CHECK(back.surface.n == Case().surface.n && back.solids.E[0] == Case().solids.E[0] &&
