@@ -252,11 +252,10 @@ inline void levels(CheckedFile& f, const Truth& t) {
         return n;
     });
     f.same("overlapping_pairs", pairs);
-    const bool bare = t.elements && t.periodic;  // elements between flats: nothing is judged
     const Vector large = t.rows([&](std::size_t k, std::size_t s) {
         double n = 0;
         for (const Spot2& p : spots(k, s))
-            n += !bare && t.spacing > 0 && p.radius() > t.spacing / 4;
+            n += t.spacing > 0 && p.radius() > t.spacing / 4;
         return n;
     });
     f.same("large_contacts", large);
