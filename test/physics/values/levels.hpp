@@ -254,8 +254,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
     f.same("overlapping_pairs", pairs);
     const Vector large = t.rows([&](std::size_t k, std::size_t s) {
         double n = 0;
-        for (const Spot2& p : spots(k, s))
-            n += t.spacing > 0 && p.radius() > t.spacing / 4;
+        for (const Spot2& p : spots(k, s)) n += t.spacing > 0 && p.radius() > t.spacing / 4;
         return n;
     });
     f.same("large_contacts", large);
