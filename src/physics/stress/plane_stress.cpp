@@ -74,25 +74,28 @@ int fast_size(int least) {
     }
 }
 
-// The smallest window that holds all pixels under pressure.
+// The smallest window that holds all pixels under pressure or cohesive tension.
 GridWindow loaded(const LevelPixels& pixels) {
-    if (pixels.index.empty()) return {};
-    int left = pixels.columns, right = -1;
-    for (const std::int32_t k : pixels.index) {
-        left = std::min(left, k % pixels.columns);
-        right = std::max(right, k % pixels.columns);
-    }
-    const int top = pixels.index.front() / pixels.columns;  // row by row
-    const int bottom = pixels.index.back() / pixels.columns;
+    if (pixels.index.empty() && pixels.cohesive.empty()) return {};
+    int left = pixels.columns, right = -1, top = std::numeric_limits<int>::max(), bottom = -1;
+    for (const auto* list : {&pixels.index, &pixels.cohesive})
+        for (const std::int32_t k : *list) {
+            left = std::min(left, k % pixels.columns);
+            right = std::max(right, k % pixels.columns);
+            top = std::min(top, k / pixels.columns);
+            bottom = std::max(bottom, k / pixels.columns);
+        }
     return {left, top, right - left + 1, bottom - top + 1};
 }
 
 void load(Planes& planes, const LevelPixels& pixels, const GridWindow& where, double factor) {
-    for (std::size_t k = 0; k < pixels.index.size(); ++k) {
-        const int i = pixels.index[k] % pixels.columns - where.first_column;
-        const int j = pixels.index[k] / pixels.columns - where.first_row;
-        planes.pressure.row(j)[i] = factor * pixels.pressure[k];
-    }
+    const auto put = [&](std::int32_t pixel, double pressure) {
+        const int i = pixel % pixels.columns - where.first_column;
+        const int j = pixel / pixels.columns - where.first_row;
+        planes.pressure.row(j)[i] = factor * pressure;
+    };
+    for (std::size_t k = 0; k < pixels.index.size(); ++k) put(pixels.index[k], pixels.pressure[k]);
+    for (const std::int32_t k : pixels.cohesive) put(k, pixels.tension);
     planes.to_modes(planes.pressure);
 }
 
