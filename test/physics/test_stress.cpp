@@ -1,9 +1,13 @@
 // Stresses below the surface: sums of point forces, Hertz's sphere and line, sliding, equilibrium.
+#include "case/read_case.hpp"
 #include "check.hpp"
 #include "physics/stress/pixel_stress.hpp"
 #include "physics/stress/plane_stress.hpp"
 #include "physics/stress/spot_stress.hpp"
+#include "result_reader.hpp"
+#include "run/run.hpp"
 #include "truth/stress.hpp"
+#include "unit/temporary_folder.hpp"
 
 using namespace rsc;
 
@@ -280,4 +284,120 @@ TEST(spots_of_asperities) {
         CHECK_CLOSE(spots.mises.value / elements.mises.value, 1, 0.02);
         CHECK_CLOSE(spots.shear.value / elements.shear.value, 1, 0.02);
     }
+}
+
+namespace {
+
+std::vector<double> values_of(const std::string& text, const std::string& path,
+                              const std::vector<std::string>& names) {
+    Case c = read_case_text(text, "case.nml").settings;
+    c.output.file = path;
+    CHECK(run_case(c, {.command = "rsc", .inputs = {}, .report = {}}) == 0);
+    const Reader file(path);
+    std::vector<double> all;
+    for (const std::string& name : names)
+        for (const double value : file.values(name)) all.push_back(value);
+    return all;
+}
+
+}  // namespace
+
+TEST(a_file_holds_the_stresses_of_its_pressures) {
+    const Folder folder;
+    const std::string path = folder / "stress.nc";
+    const std::string text =
+        "&solids E = 200, 200  nu = 0.25, 0.3  R = Infinity, 50  friction = 0.2 /\n"
+        "&surface L = 1, L_lambda_l = 2, L_lambda_s = 8, sigma = 1e-3 /\n"
+        "&indentation control = 'force', levels = 0.02, 0.1 /\n"
+        "&solver model = 'elements' /\n"
+        "&output stress_depths = 0.02, 0.1, sliding_direction = 120,"
+        " fields = 'pressure', 'mises', 'shear', 'tension' /\n";
+    const auto pressure = values_of(text, path, {"field_pressure"});
+    const Reader file(path);
+    const auto x = file.values("field_x"), y = file.values("field_y");
+    const double half = 0.5 * (x[1] - x[0]), qx = 0.2 * std::cos(2 * pi / 3),
+                 qy = 0.2 * std::sin(2 * pi / 3);
+    const std::array<const char*, 3> names{"mises", "shear", "tension"};
+    const std::size_t points = x.size() * y.size();
+    for (std::size_t q = 0; q < 3; ++q) {
+        const auto most = file.values(names[q] + std::string("_max")),
+                   at_x = file.values(names[q] + std::string("_max_x")),
+                   at_y = file.values(names[q] + std::string("_max_y")),
+                   field = file.values(std::string("field_") + names[q]);
+        CHECK(most.size() == 4 && field.size() == 2 * points);
+        for (std::size_t d = 0; d < 2; ++d) {
+            const double z = d == 0 ? 0.02 : 0.1;
+            truth::Tensor sum{};
+            for (std::size_t k = 0; k < points; ++k) {
+                if (!(pressure[k] > 0)) continue;
+                const double dx = at_x[2 + d] - x[k % x.size()], dy = at_y[2 + d] - y[k / x.size()];
+                const int n = std::hypot(dx, dy) < 4 * half ? 40 : 8;
+                const truth::Tensor t =
+                    truth::rectangle(dx, dy, z, half, half, 0.25, {qx, qy, 1}, n);
+                for (std::size_t c = 0; c < 6; ++c) sum[c] += pressure[k] * t[c];
+            }
+            const StressMeasures m = measures_of({sum[0], sum[1], sum[2], sum[3], sum[4], sum[5]});
+            const std::array<double, 3> there{m.mises, m.shear, m.tension};
+            CHECK_CLOSE(most[2 + d], there[q], 2e-4 * m.mises);
+            const auto plane = field.begin() + static_cast<std::ptrdiff_t>(d * points);
+            CHECK_CLOSE(*std::max_element(plane, plane + static_cast<std::ptrdiff_t>(points)),
+                        most[2 + d], 1e-9 * m.mises);
+        }
+    }
+}
+
+TEST(stresses_of_threads_and_campaigns_are_the_same_bits) {
+    const Folder folder;
+    const std::vector<std::string> names{"mises_max", "mises_max_x", "shear_max", "tension_max",
+                                         "tension_max_y"};
+    for (const std::string model :
+         {"&solids R = Infinity, 50 / &solver model = 'elements' / &indentation levels = 1, 0 /\n",
+          "&solids R = Infinity, Infinity / &solver model = 'elements' /\n"
+          "&indentation boundary = 'periodic', control = 'pressure', unit = 'pressure', levels = 50, 100 /\n",
+          "&solids R = Infinity, 50 / &solver model = 'asperities' / &indentation levels = 1, 0 "
+          "/\n"}) {
+        const std::string text =
+            "&surface n = 64, L = 1, L_lambda_l = 2, L_lambda_s = 8, sigma = "
+            "1e-3 / &output stress_depths = 0, 0.1 /\n" +
+            model;
+        const auto run = [&](const std::string& keys) {
+            return values_of("&run " + keys + " /\n" + text, folder / "one.nc", names);
+        };
+        const auto one = run("threads = 1"), three = run("threads = 3"),
+                   second = run("first_realization = 2");
+        CHECK(one == three);
+        const auto both = run("realizations = 2");
+        CHECK(both.size() == 2 * one.size());
+        const std::size_t each = one.size() / names.size();
+        bool same = true;
+        for (std::size_t v = 0; v < names.size(); ++v)
+            for (std::size_t k = 0; k < each; ++k)
+                same = same && both[2 * v * each + k] == one[v * each + k] &&
+                       both[(2 * v + 1) * each + k] == second[v * each + k];
+        CHECK(same);
+    }
+}
+
+TEST(one_summit_by_asperities_and_by_elements) {
+    // A list with one asperity, and the same sphere as a smooth surface of elements under a ball of
+    // its radius: within 2 %.
+    const Folder folder;
+    std::ofstream(folder / "one.txt") << "0.5 0.5 0 20\n";
+    const std::string keys =
+        "&solids E = 200, 200  nu = 0.3, 0.3  R = Infinity, Infinity /\n"
+        "&indentation control = 'force', levels = 0.02 /\n"
+        "&output stress_depths = 0.01, 0.05, 0.1 /\n";
+    const std::vector<std::string> names{"mises_max", "shear_max"};
+    const auto spot = values_of(keys + "&surface source = 'asperities', file = '" +
+                                    (folder / "one.txt") + "', L = 1, sigma = 1e-3 /\n",
+                                folder / "a.nc", names);
+    const auto elements = values_of(
+        "&solids E = 200, 200  nu = 0.3, 0.3  R = Infinity, 20 /\n"
+        "&indentation control = 'force', levels = 0.02 /\n"
+        "&output stress_depths = 0.01, 0.05, 0.1 /\n"
+        "&surface L = 1, L_lambda_l = 2, L_lambda_s = 12, sigma = 1e-9 /\n"
+        "&solver model = 'elements' /\n",
+        folder / "e.nc", names);
+    CHECK(spot.size() == 6 && elements.size() == 6);
+    for (std::size_t k = 0; k < 6; ++k) CHECK_CLOSE(elements[k] / spot[k], 1, 0.02);
 }
