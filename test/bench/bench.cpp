@@ -7,7 +7,7 @@
 
 #include <random>
 
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "base/parallel.hpp"
 #include "interaction/pairs.hpp"
 #include "surface/detection.hpp"

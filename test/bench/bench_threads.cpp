@@ -5,11 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "base/parallel.hpp"
 #include "bench.hpp"
 #include "case/read_case.hpp"
-#include "elements/element_contact.hpp"
 #include "run/job.hpp"
 #include "run/team.hpp"
 #include "surface/synthesis.hpp"

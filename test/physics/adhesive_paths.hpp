@@ -7,7 +7,7 @@
 #pragma once
 
 #include "check.hpp"
-#include "contact/contact.hpp"
+#include "contact/path.hpp"
 #include "physics/elimination.hpp"
 
 // Asperities on the unit square at distances of at least `apart`, and a work of adhesion.
@@ -70,7 +70,7 @@ inline void set_clearances(rsc::Asperities& under, const rsc::Asperities& asperi
 // Checks that int N dZ0 from `top`, where nothing is attached, to `bottom` and back is the energy
 // lost. Jumps are found by going back to the memory and halving the way; between them the integral
 // is refined until Simpson's rule and the one with end slopes agree.
-inline void check_work_of_cycle(rsc::Contact& contact, double top, double bottom) {
+inline void check_work_of_cycle(rsc::Path& contact, double top, double bottom) {
     rsc::Level level = contact.at_separation(top);
     double work = 0;
     constexpr double

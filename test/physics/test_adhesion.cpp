@@ -1,7 +1,7 @@
 // Asperities that stick (physics/adhesion/adhesive_contact.hpp), against closed forms, scalar
 // equations, and a slow minimiser of the energy.
 #include "adhesive_paths.hpp"
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
 

@@ -3,7 +3,7 @@
 #include "adhesive_paths.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
-#include "elements/element_contact.hpp"
+#include "contact/make.hpp"
 #include "height_maps.hpp"
 #include "judged.hpp"
 #include "physics/indenter/shapes.hpp"

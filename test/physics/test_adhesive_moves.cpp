@@ -1,7 +1,7 @@
 // A tip that moves sideways over attached asperities that interact: its work over a closed cycle is
 // the energy lost.
 #include "adhesive_paths.hpp"
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "check.hpp"
 #include "contact/answers.hpp"
 
@@ -12,7 +12,7 @@ namespace {
 // Moves the tip along x at the separation Z, and returns the work of the lateral force. Where no
 // asperity attaches or detaches, the work of a step is also the change of the energy. Jumps are
 // found by going back to the memory and halving the way.
-double work_of_move(Contact& contact, double Z, double end, int& jumps) {
+double work_of_move(Path& contact, double Z, double end, int& jumps) {
     double work = 0;
     constexpr double longest = 4e-3, least = 1e-9, precise = 1e-10;
     const auto force_at = [&](double x, Level& level) {

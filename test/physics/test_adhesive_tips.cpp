@@ -3,7 +3,7 @@
 #include "base/error.hpp"
 #include "check.hpp"
 #include "contact/answers.hpp"
-#include "elements/element_contact.hpp"
+#include "contact/make.hpp"
 #include "height_maps.hpp"
 #include "physics/indenter/shapes.hpp"
 
@@ -38,7 +38,7 @@ struct Moved {
 };
 
 // The tip goes to x in steps, at the separation Z.
-Moved move(Contact& contact, double Z, double x, int steps) {
+Moved move(Path& contact, double Z, double x, int steps) {
     Moved moved{contact.at_separation(Z), 0, 0};
     const double from = contact.indenter().x0;
     double force = lateral_force(contact.indenter(), moved.level).x;
@@ -85,7 +85,7 @@ TEST(test_border) {
     const HeightMap map = waves(36, 2, 0.02), other = waves(36, 2, 0.02, 18);
     const auto one = make_element_contact(map, sphere(1.9, 2), sticky(kWork, 0.1)),
                two = make_element_contact(other, sphere(1.9, 2), sticky(kWork, 0.1));
-    for (Contact* contact : {one.get(), two.get()}) {
+    for (Path* contact : {one.get(), two.get()}) {
         contact->move_tip(1.8, 1.0);
         (void)contact->at_separation(0);
     }
@@ -121,7 +121,7 @@ TEST(test_memory) {
         other->recall(contact->memory(), nullptr);
         CHECK(other->indenter().x0 == contact->indenter().x0 && other->indenter().y0 == 1.1);
         CHECK_RELATIVE(other->energy(), contact->energy(), 1e-8);
-        for (Contact* one : {contact.get(), other.get()}) one->move_tip(kPlace + 0.1, 0.9);
+        for (Path* one : {contact.get(), other.get()}) one->move_tip(kPlace + 0.1, 0.9);
         const Level a = contact->at_separation(Z), b = other->at_separation(Z);
         CHECK(a.force != 0 && contact->indenter().x0 == kPlace + 0.1);
         CHECK_RELATIVE(a.force, b.force, 1e-8);

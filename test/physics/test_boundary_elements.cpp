@@ -5,10 +5,9 @@
 // The reference: the very same surface, paper's gold (E* = 94706 N/mm2, sigma = 0.01 mm, L/lambda_l
 // = 24, H = 0.8, R = 2.5 mm), grid 4096, areas corrected by their perimeter. Its own error, from
 // the grid twice as coarse: 0.1 % in N, 1 % in A.
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "check.hpp"
 #include "contact/equivalent.hpp"
-#include "elements/element_contact.hpp"
 #include "surface/detection.hpp"
 #include "surface/synthesis.hpp"
 

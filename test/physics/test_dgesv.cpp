@@ -3,7 +3,7 @@
 // what it was solved with.
 #include "asperities/dgesv.hpp"
 
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "check.hpp"
 #include "physics/random_asperities.hpp"
 

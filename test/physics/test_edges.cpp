@@ -1,6 +1,6 @@
 // The edges of the problem: whatever is asked, the answer is finite and right, or its status says
 // what is wrong with it, or it is refused with a reason.
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "asperities/newton.hpp"
 #include "asperities/ranking.hpp"
 #include "base/error.hpp"

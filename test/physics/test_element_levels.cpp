@@ -6,7 +6,7 @@
 #include "check.hpp"
 #include "contact/answers.hpp"
 #include "contact/deflection.hpp"
-#include "elements/element_contact.hpp"
+#include "contact/make.hpp"
 #include "height_maps.hpp"
 #include "interaction/lattice.hpp"
 #include "interaction/pixel_kernels.hpp"

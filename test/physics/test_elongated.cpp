@@ -1,7 +1,6 @@
 // Single elongated summits, up to 1:20 in curvature, against elements on the same points.
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "check.hpp"
-#include "elements/element_contact.hpp"
 #include "height_maps.hpp"
 #include "run/prepare.hpp"
 #include "surface/detection.hpp"
@@ -51,7 +50,7 @@ TEST(mirrored) {
         const auto force = [&](bool mirrored) {
             Case c;
             c.solids.R[1] = 5, c.asperities.law = LawKind::fourth_order,
-            c.solver.model = Model::asperities;
+            c.solver.model = ModelKind::asperities;
             Surface surface;
             surface.map = height_map(97, 99, 0.01, 0.01,
                                      [&](int i, int j) { return z(mirrored ? 96 - i : i, j); });

@@ -1,6 +1,6 @@
 // Friction, conductance and lateral force of asperities in contact against problems solved on their
 // own.
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "check.hpp"
 #include "contact/answers.hpp"
 #include "physics/adhesion/adhesive_contact.hpp"

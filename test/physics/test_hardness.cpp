@@ -1,6 +1,6 @@
 // Asperities that yield (physics/hardness/hardness.hpp), against closed forms, against the work
 // they take, and against a slow solver of its own.
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "check.hpp"
 #include "physics/hardness/hardness.hpp"
 #include "physics/random_asperities.hpp"

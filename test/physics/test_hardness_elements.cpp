@@ -1,10 +1,9 @@
 // Elements that yield (elements/element_contact.hpp): the elastic and the plastic limit, work and
 // energy along a path. Against a slow solver: test_element_levels.
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "asperities/ranking.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
-#include "elements/element_contact.hpp"
 #include "height_maps.hpp"
 #include "interaction/pixel_kernels.hpp"
 #include "surface/synthesis.hpp"

@@ -1,5 +1,5 @@
 // Hundreds of random systems against the independent slow solver (independent.hpp).
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "check.hpp"
 #include "physics/independent.hpp"
 #include "physics/random_asperities.hpp"

@@ -6,10 +6,9 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/special_functions/bessel.hpp>
 
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "check.hpp"
 #include "contact/equivalent.hpp"
-#include "elements/element_contact.hpp"
 #include "height_maps.hpp"
 #include "interaction/lattice.hpp"
 #include "judged.hpp"
@@ -237,7 +236,7 @@ TEST(sphere_on_a_layer) {
 }
 
 // Numbers of a level that two bodies which are the same must share.
-void same(Contact& one, const Level& a, Contact& other, const Level& b, double tolerance) {
+void same(Path& one, const Level& a, Path& other, const Level& b, double tolerance) {
     CHECK(a.status == b.status && a.contacts == b.contacts && a.force > 0);
     CHECK_RELATIVE(a.force, b.force, tolerance);
     CHECK_RELATIVE(a.area, b.area, tolerance);
@@ -274,7 +273,7 @@ TEST(limits) {
     // Shifted by its bulge, a soft layer's kernel is negative nowhere.
     const auto kernel = make_kernel(Interaction::point, substrate_of(layered(bulging, 3, 0, 0)));
     for (double d = 1e-3; d < 1e3; d *= 1.1) CHECK(kernel->at(d, 0) >= 0);
-    const auto contact = [&](const LayeredBody& body, int model) -> std::unique_ptr<Contact> {
+    const auto contact = [&](const LayeredBody& body, int model) -> std::unique_ptr<Path> {
         Indenter tip = layered(body, model == 2 ? kInfinity : 3.0, 0.5, 0.5);
         if (model == 2) tip.period = {map.Lx(), map.Ly()};
         if (model == 0) return std::make_unique<AsperityContact>(asperities, tip, options);

@@ -1,7 +1,7 @@
 // A level gives the same answer alone as in a series, also where the energy has several minima;
 // which of these is the answer; which method 'auto' takes. That all methods give one answer:
 // test_independent, test_edges.
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "check.hpp"
 #include "physics/random_asperities.hpp"
 

@@ -1,6 +1,6 @@
 // Two flats that repeat: asperities and their images against scalar equations, a large period
 // against none, methods against each other, conservation and symmetry.
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "check.hpp"
 #include "physics/random_asperities.hpp"
 

@@ -1,11 +1,10 @@
 // Contacts of a body that relaxes, asperities and elements, free and between flats, against the
 // elastic contact: the correspondence principle while contacts grow, the two elastic answers in the
 // limits, conservation of energy, convergence.
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
 #include "contact/deflection.hpp"
-#include "elements/element_contact.hpp"
 #include "height_maps.hpp"
 #include "physics/random_asperities.hpp"
 
@@ -38,7 +37,7 @@ constexpr Kind kModels[] = {{"asperities", false, false},
                             {"elements", true, false},
                             {"elements between flats", true, true, LawKind::hertz, 0.008}};
 
-std::unique_ptr<Contact> make(const Kind& model, const Relaxation& body) {
+std::unique_ptr<Path> make(const Kind& model, const Relaxation& body) {
     static const HeightMap map = waves();
     static const Asperities asperities = [] {
         Asperities a;

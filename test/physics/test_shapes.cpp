@@ -1,9 +1,8 @@
 // Indenters of every shape: smooth ones by elements against closed forms, each with its order in
 // the pixel; lateral forces against the energy.
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "check.hpp"
 #include "contact/answers.hpp"
-#include "elements/element_contact.hpp"
 #include "height_maps.hpp"
 #include "physics/friction/contact_curve.hpp"
 #include "physics/friction/friction.hpp"
@@ -62,7 +61,7 @@ void lateral(const char* name, const ShapeKeys& keys, double depth, double step,
     const auto at = [&](double dx, double dy, Level& level) {
         Indenter there = tip;
         there.x0 += dx, there.y0 += dy;
-        const std::unique_ptr<Contact> contact = make(there);
+        const std::unique_ptr<Path> contact = make(there);
         level = contact->at_separation(-depth);
         return contact->energy();
     };

@@ -1,5 +1,5 @@
 // Friction through the C interface: what it does is that of the core.
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "check.hpp"
 #include "physics/friction/contact_curve.hpp"
 #include "physics/random_asperities.hpp"

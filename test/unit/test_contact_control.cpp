@@ -1,9 +1,8 @@
 // What every contact does around its model's solutions: force control and separations between
 // planes count all their work, accept one level and no trial, and none that failed; the curve of
 // two contacts counts its levels; forgetting is starting anew, bit by bit.
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "check.hpp"
-#include "elements/element_contact.hpp"
 #include "physics/friction/contact_curve.hpp"
 #include "physics/random_asperities.hpp"
 

@@ -2,9 +2,8 @@
 // levels compared with elements.
 #pragma once
 
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "asperities/law.hpp"
-#include "elements/element_contact.hpp"
 #include "physics/values/truth.hpp"
 
 namespace values {
@@ -272,7 +271,7 @@ inline void compared(CheckedFile& f, const Truth& t, const std::vector<Vector>& 
     const auto& keys = t.c.compare.levels;
     if (keys.empty()) return CHECK(!f.has("compare_step"));
     Surface surface;
-    std::unique_ptr<Contact> elements;
+    std::unique_ptr<Path> elements;
     double finer = 1;  // the grid of a made surface is refined on the way
     const auto refine = [&] {
         Case c = t.c;
