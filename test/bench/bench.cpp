@@ -7,9 +7,9 @@
 
 #include <random>
 
-#include "contact/make.hpp"
 #include "base/parallel.hpp"
 #include "interaction/pairs.hpp"
+#include "paths.hpp"
 #include "surface/detection.hpp"
 
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
@@ -51,7 +51,7 @@ Asperities surface(double sigma, std::int64_t realization) {
 std::vector<Level> indent(const Asperities& asperities, double sigma, Method method, int steps,
                           LawKind law = LawKind::hertz) {
     SolverOptions options{.method = method, .law = law, .sigma = sigma};
-    AsperityContact contact(asperities, kGold, options);
+    Path contact = asperity_path(asperities, kGold, options);
     std::vector<Level> levels;
     for (int k = 0; k < steps; ++k)
         levels.push_back(contact.at_separation(sigma * (4 - 3.0 * k / (steps - 1))));

@@ -118,7 +118,7 @@ TEST(test_memory) {
                    other = make_element_contact(map, tip, sticky(kWork, 0.12));
         (void)contact->at_separation(Z);
         contact->move_tip(kPlace + 0.25, 1.1);
-        other->recall(contact->memory(), nullptr);
+        other->restore(contact->state());
         CHECK(other->indenter().x0 == contact->indenter().x0 && other->indenter().y0 == 1.1);
         CHECK_RELATIVE(other->energy(), contact->energy(), 1e-8);
         for (Path* one : {contact.get(), other.get()}) one->move_tip(kPlace + 0.1, 0.9);
@@ -137,9 +137,9 @@ TEST(test_edge) {
     const auto contact = make_element_contact(
         map, {1.0, make_shape(shape_number("punch"), keys), 1.0, 1.0}, sticky(kWork, 0.12));
     const Level before = contact->at_separation(0.03);
-    const std::vector<double> memory = contact->memory();
+    const std::vector<double> history = contact->state().history;
     CHECK_THROWS(contact->move_tip(1.2, 1.0), Error);
-    CHECK(contact->indenter().x0 == 1.0 && contact->memory() == memory);
+    CHECK(contact->indenter().x0 == 1.0 && contact->state().history == history);
     CHECK_RELATIVE(contact->at_separation(0.03).force, before.force, 1e-9);
     (void)contact->at_separation(0.5);  // pulled off
     contact->move_tip(1.2, 1.0);

@@ -170,7 +170,7 @@ TEST(maps) {
                                           {0.500001, 0.25, false},
                                           {0.5, 0.250001, false}}) {
         map_file("p2.txt", 11, -5, dx, dy);
-        for (const Model model : {ModelKind::elements, ModelKind::asperities}) {
+        for (const ModelKind model : {ModelKind::elements, ModelKind::asperities}) {
             c.solver.model = model;
             CHECK(accepted([&] { realize(prepare(c), 2, 1); }) == allowed);
         }

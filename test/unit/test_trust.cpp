@@ -1,7 +1,7 @@
 // What a level is worth: status, expected errors, grids of elements, borders, filled points.
-#include "contact/make.hpp"
 #include "case/registry.hpp"
 #include "check.hpp"
+#include "contact/make.hpp"
 #include "contact/spots.hpp"
 #include "elements/pixel_spots.hpp"
 #include "height_maps.hpp"
@@ -220,7 +220,7 @@ TEST(finer) {
     CHECK(levels > 5 && 10 * force >= 9 * levels && 10 * area >= 9 * levels);
 }
 
-std::vector<Level> pressed(Case c, Model model) {
+std::vector<Level> pressed(Case c, ModelKind model) {
     c.solver.model = model;
     return realize(prepare(c), 1, 1).levels;
 }

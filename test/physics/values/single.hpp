@@ -2,8 +2,8 @@
 // levels compared with elements.
 #pragma once
 
-#include "contact/make.hpp"
 #include "asperities/law.hpp"
+#include "paths.hpp"
 #include "physics/values/truth.hpp"
 
 namespace values {
@@ -120,7 +120,7 @@ inline void friction(CheckedFile& f, const Truth& t) {
     const Asperities& a = t.r[0].asperities;
     for (std::size_t i = 0; i < a.size(); ++i)
         touch = std::max(touch, a.z[i] + t.top(a.x[i], a.y[i]));
-    AsperityContact contact(a, t.job.indenter, t.job.solver);
+    Path contact = asperity_path(a, t.job.indenter, t.job.solver);
     Vector xi, Q, stiffness, work;
     for (std::size_t s = 0; s < t.steps; ++s) {
         const double Z = t.r[0].levels[s].separation, N = f.values("force")[s];
