@@ -5,10 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "../paths.hpp"
 #include "base/parallel.hpp"
 #include "bench.hpp"
 #include "case/read_case.hpp"
-#include "paths.hpp"
 #include "run/job.hpp"
 #include "run/team.hpp"
 #include "surface/synthesis.hpp"
