@@ -111,7 +111,7 @@ struct Case {
         int max_iterations = 100;
         double delta0 = 0.01;
         Interaction interaction = Interaction::point;
-        Model model = Model::automatic;
+        ModelKind model = ModelKind::automatic;
     } solver;
     struct Elements {
         double points_per_wave = 8;
@@ -151,7 +151,7 @@ Spectrum self_affine_spectrum(const Case& settings);
 // The model that solves this case: solver%model, or the choice of 'auto' with its reason
 // (model_choice.cpp).
 struct ModelChoice {
-    Model model;           // asperities or elements
+    ModelKind model;           // asperities or elements
     const char* why = "";  // of `auto`, for the screen
 };
 ModelChoice model_of(const Case& settings);
@@ -161,7 +161,7 @@ bool relaxes(const Case& settings);
 // and the only rough body.
 bool has_closed_forms(const Case& settings);
 inline bool by_elements(const Case& settings) {
-    return model_of(settings).model == Model::elements;
+    return model_of(settings).model == ModelKind::elements;
 }
 
 }  // namespace rsc

@@ -1,13 +1,12 @@
 #include "run/job.hpp"
 
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "asperities/ranking.hpp"
 #include "base/error.hpp"
 #include "base/format.hpp"
 #include "case/registry.hpp"
 #include "contact/answers.hpp"
 #include "contact/equivalent.hpp"
-#include "elements/element_contact.hpp"
 #include "io/inputs.hpp"
 #include "physics/adhesion/adhesive_elements.hpp"
 #include "physics/friction/contact_curve.hpp"
@@ -285,7 +284,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
                     const std::function<bool(std::size_t, const Level&)>& on_level) {
     Realization r;
     const auto& settings = job.settings;
-    std::unique_ptr<Contact> contact;
+    std::unique_ptr<Path> contact;
     JudgedSurface judged;
     const HeightMap* map = nullptr;  // of elements
     std::shared_ptr<const Measured> measured = job.given ? job.measured : nullptr;
@@ -325,11 +324,10 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         solver.gentlest_slope = model.domain.gentlest_slope;
         contact = make_asperity_contact(r.asperities, job.indenter, solver);
     }
-    std::unique_ptr<Contact> slid[2];  // with friction
+    std::unique_ptr<Path> slid[2];  // with friction
     std::optional<ContactCurve> curve;
     if (settings.solids.friction > 0) {
-        for (auto& copy : slid)
-            copy = std::make_unique<AsperityContact>(r.asperities, job.indenter, solver);
+        for (auto& copy : slid) copy = make_asperity_contact(r.asperities, job.indenter, solver);
         curve.emplace(*slid[0], *slid[1]);
     }
     r.levels.reserve(job.levels.size());

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "case/case.hpp"
-#include "contact/contact.hpp"
+#include "contact/path.hpp"
 #include "io/result.hpp"
 #include "observe/record.hpp"
 #include "run/prepare.hpp"
