@@ -3,7 +3,7 @@
 
 #include "trust/judge.hpp"
 
-inline rsc::Level judged(rsc::Level level, rsc::Contact& contact, const rsc::SolverOptions& options,
+inline rsc::Level judged(rsc::Level level, rsc::Path& contact, const rsc::SolverOptions& options,
                          const rsc::HeightMap* map = nullptr) {
     rsc::Judge(options, {map, map != nullptr}).judge(level, contact, false);
     return level;

@@ -29,8 +29,8 @@ void require_contact_keys(const Case& settings) {
 // Asperities, and points for elements, are made for one solver%model: a case with the other model
 // is refused. 'auto' accepts both.
 void require_model(const SurfaceModel& on, const Case& settings, int argument) {
-    if (settings.solver.model == Model::automatic) return;
-    const bool elements = settings.solver.model == Model::elements;
+    if (settings.solver.model == ModelKind::automatic) return;
+    const bool elements = settings.solver.model == ModelKind::elements;
     if (elements && !on.points)
         refuse(argument, "a_case",
                "has solver%model = 'elements', but the asperities were made without it");
@@ -45,11 +45,11 @@ const char kNoState[] = "the solver found no state: there are no results";
 // The last level, also one for which the solver found no state, whose values are not-a-number.
 const Level& last_level_of(const rsc_contact* contact) {
     require(contact, 1, "contact");
-    if (!contact->known.level)
+    if (!contact->path.level())
         throw Outcome{
             RSC_NO_RESULT,
             "the contact has no result yet: call rsc_contact_indent or rsc_contact_press first"};
-    return *contact->known.level;
+    return *contact->path.level();
 }
 
 const Level& level_of(const rsc_contact* contact) {
@@ -58,20 +58,12 @@ const Level& level_of(const rsc_contact* contact) {
     return level;
 }
 
-// Computes a level. After an exception the contact has no result; a level that did not converge is
-// kept with that status.
-template <class Compute>
-void compute(rsc_contact& contact, bool by_force, Compute&& level) {
-    auto& known = contact.known;
-    known.level.reset();
-    Level computed = level();
-    contact.judge.judge(computed, contact.contact, by_force);
-    const Indenter& indenter = contact.contact.indenter();
-    known.x0 = indenter.x0, known.y0 = indenter.y0;
-    known.energy = contact.contact.energy();
-    known.lateral = {kNotComputed, kNotComputed};
-    known.level = std::move(computed);
-    contact.recalled = true;
+// Reaches a level by `go`. After an exception the contact has no result; a level that did not
+// converge is kept with that status.
+template <class Go>
+void reach(rsc_contact& contact, bool by_force, Go&& go) {
+    (void)go(contact.path);
+    contact.judge.judge(*contact.path.level(), contact.path, by_force);
 }
 
 void put_finite(double* to, double value) {
@@ -82,34 +74,33 @@ void put_finite(double* to, double value) {
 }
 
 void tell_convergence(const rsc_contact& contact) {
-    if (!contact.known.level->converged) {
-        if (contact.known.level->fallback == rsc::Fallback::held)
-            throw Outcome{RSC_NOT_CONVERGED,
-                          "no state has this force: the result is the level of smallest force"};
-        if (contact.known.level->fallback == rsc::Fallback::jump)
-            throw Outcome{
-                RSC_NOT_CONVERGED,
-                "the force jumps over this one: the result is a state at one side of the jump"};
-        if (std::isnan(contact.known.level->force)) throw Outcome{RSC_NOT_CONVERGED, kNoState};
+    const Level& level = *contact.path.level();
+    if (level.converged) return;
+    if (level.fallback == rsc::Fallback::held)
+        throw Outcome{RSC_NOT_CONVERGED,
+                      "no state has this force: the result is the level of smallest force"};
+    if (level.fallback == rsc::Fallback::jump)
         throw Outcome{
             RSC_NOT_CONVERGED,
-            "the solver did not reach its tolerance; the results are those of its last iterate"};
-    }
+            "the force jumps over this one: the result is a state at one side of the jump"};
+    if (std::isnan(level.force)) throw Outcome{RSC_NOT_CONVERGED, kNoState};
+    throw Outcome{
+        RSC_NOT_CONVERGED,
+        "the solver did not reach its tolerance; the results are those of its last iterate"};
 }
 
 double stiffness_of(rsc_contact& contact) {
-    double& known = contact.known.level->stiffness;
-    if (!contact.recalled) contact.recall();
-    if (std::isnan(known)) known = contact.contact.stiffness();
+    double& known = contact.path.level()->stiffness;
+    if (std::isnan(known)) known = contact.path.stiffness();
     return known;
 }
 
 double conductance_length_of(rsc_contact& contact) {
-    if (contact.contact.indenter().layers.count > 0)
+    if (contact.path.indenter().layers.count > 0)
         throw Outcome{RSC_NO_RESULT, "conductance is not available for a body with layers"};
-    double& known = contact.known.level->conductance_length;
+    double& known = contact.path.level()->conductance_length;
     const double stiffness = stiffness_of(contact);
-    if (std::isnan(known)) known = conductance_length(contact.contact, stiffness);
+    if (std::isnan(known)) known = conductance_length(contact.path, stiffness);
     return known;
 }
 
@@ -119,21 +110,20 @@ double resistance_of(rsc_contact& contact) {
         throw Outcome{
             RSC_NO_RESULT,
             "there is no resistance: solids%resistivity is 0 in the case of this contact"};
-    if (contact.known.level->contacts == 0)
+    if (contact.path.level()->contacts == 0)
         throw Outcome{RSC_NO_RESULT, "there is no contact: the resistance is infinite"};
     return constriction_resistance(conductance_length_of(contact), resistivity);
 }
 
 // The level with its gap, and with its permeability if `with_flow`.
 const Level& gap_of(rsc_contact& contact, bool with_flow) {
-    Level& level = *contact.known.level;
-    if (!contact.on->points || !contact.contact.indenter().period.finite())
+    Level& level = *contact.path.level();
+    if (!contact.on->points || !contact.path.indenter().period.finite())
         throw Outcome{RSC_NO_RESULT, "only two flats solved by elements have a gap"};
     if (with_flow && !has_permeability())
         throw Outcome{RSC_NO_RESULT, "this rsc was built without CHOLMOD"};
     const double known = with_flow ? level.permeability_xx : level.gap_mean;
-    if (!contact.recalled) contact.recall();
-    if (std::isnan(known)) measure_gap(*contact.on->points, contact.contact, level, with_flow);
+    if (std::isnan(known)) measure_gap(*contact.on->points, contact.path, level, with_flow);
     return level;
 }
 
@@ -149,15 +139,15 @@ struct Derived {
     double (*of)(rsc_contact&);
 };
 constexpr Derived kDerived[] = {
-    {"separation", [](rsc_contact& c) { return c.known.level->separation; }},
+    {"separation", [](rsc_contact& c) { return c.path.level()->separation; }},
     {"stiffness", stiffness_of},
-    {"energy", [](rsc_contact& c) { return c.known.energy; }},
+    {"energy", [](rsc_contact& c) { return c.path.level()->energy; }},
     {"conductance_length", conductance_length_of},
     {"resistance", resistance_of},
-    {"lateral_force_x", [](rsc_contact& c) { return c.answer().lateral.x; }},
-    {"lateral_force_y", [](rsc_contact& c) { return c.answer().lateral.y; }},
-    {"moment_x", [](rsc_contact& c) { return c.answer().moment.x; }},
-    {"moment_y", [](rsc_contact& c) { return c.answer().moment.y; }},
+    {"lateral_force_x", [](rsc_contact& c) { return lateral_force_of(c).x; }},
+    {"lateral_force_y", [](rsc_contact& c) { return lateral_force_of(c).y; }},
+    {"moment_x", [](rsc_contact& c) { return moment_of(c).x; }},
+    {"moment_y", [](rsc_contact& c) { return moment_of(c).y; }},
     {"gap_mean", of_gap<&LevelValues::gap_mean>},
     {"gap_mean_open", of_gap<&LevelValues::gap_mean_open>},
     {"percolates_x", of_gap<&LevelValues::percolates_x>},
@@ -243,28 +233,27 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
         require_finite(x0, 2, "x0");
         require_finite(y0, 3, "y0");
         const rsc::Vec2 place = place_of(*contact, x0, y0);
-        const rsc::Indenter& now = contact->contact.indenter();
+        const rsc::Indenter& now = contact->path.indenter();
         if (place.x == now.x0 && place.y == now.y0) return;
         // Contacts with a memory follow the tip at once: what can be asked of the last level is
         // kept.
-        const bool remembers = contact->contact.pulls() || contact->contact.path_dependent();
-        if (remembers && contact->known.level)
+        if (contact->path.path_dependent() && contact->path.level())
             (void)(now.layers.count > 0 ? stiffness_of(*contact) : conductance_length_of(*contact));
-        contact->contact.move_tip(place.x, place.y);
+        contact->path.move_tip(place.x, place.y);
     });
 }
 
 int32_t rsc_contact_tip(const rsc_contact* contact, double* x0, double* y0) {
     return on(contact, "contact", 0, [&] {
-        put(x0, contact->contact.indenter().x0);
-        put(y0, contact->contact.indenter().y0);
+        put(x0, contact->path.indenter().x0);
+        put(y0, contact->path.indenter().y0);
     });
 }
 
 int32_t rsc_contact_first_touch(const rsc_contact* contact, double* separation) {
     return on(contact, "contact", 0, [&] {
         require(separation, 2, "separation");
-        const double touch = contact->contact.first_touch();
+        const double touch = contact->path.first_touch();
         if (!std::isfinite(touch)) refuse(1, "contact", "has no asperity under its sphere");
         put(separation, touch);
     });
@@ -275,15 +264,14 @@ int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* forc
         require_finite(separation, 2, "separation");
         // The present level is not computed again, unless the state may have changed on a way of
         // the tip there and back.
-        const rsc::Indenter& tip = contact->contact.indenter();
-        const auto& known = contact->known;
-        const bool same =
-            known.level && known.level->separation == separation && known.x0 == tip.x0 &&
-            known.y0 == tip.y0 && !contact->contact.pulls() &&
-            (!contact->contact.relaxes() || known.level->time == contact->contact.time());
-        if (!same)
-            compute(*contact, false, [&] { return contact->contact.at_separation(separation); });
-        put(force, contact->known.level->force);
+        rsc::Path& path = contact->path;
+        const rsc::Indenter& tip = path.indenter();
+        const rsc::Vec2 place = path.place_of_level();
+        const bool same = path.level() && path.level()->separation == separation &&
+                          place.x == tip.x0 && place.y == tip.y0 && !path.pulls() &&
+                          (!path.relaxes() || path.level()->time == path.time());
+        if (!same) reach(*contact, false, [&](rsc::Path& p) { return p.at_separation(separation); });
+        put(force, path.level()->force);
         tell_convergence(*contact);
     });
 }
@@ -291,23 +279,23 @@ int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* forc
 int32_t rsc_contact_set_time(rsc_contact* contact, double time) {
     return on(contact, "contact", 2, [&] {
         require_finite(time, 2, "time");
-        contact->contact.set_time(time);
+        contact->path.set_time(time);
     });
 }
 
 int32_t rsc_contact_press(rsc_contact* contact, double force, double* separation) {
     return on(contact, "contact", 2, [&] {
-        const bool pulls = contact->contact.pulls();
+        const bool pulls = contact->path.pulls();
         if (!(force >= 0 || pulls) || !std::isfinite(force))
             refuse(2, "force", "must be positive or zero, and finite");
-        const double touch = contact->contact.first_touch();
+        const double touch = contact->path.first_touch();
         if (!std::isfinite(touch))
             refuse(1, "contact", "has no asperity under its sphere, so its force is always 0");
-        compute(*contact, force > 0 || pulls, [&] {
-            return force > 0 || pulls ? contact->contact.at_force(force)
-                                      : contact->contact.at_separation(touch);
+        const bool by_force = force > 0 || pulls;
+        reach(*contact, by_force, [&](rsc::Path& path) {
+            return by_force ? path.at_force(force) : path.at_separation(touch);
         });
-        put(separation, contact->known.level->separation);
+        put(separation, contact->path.level()->separation);
         tell_convergence(*contact);
     });
 }
@@ -347,7 +335,7 @@ int32_t rsc_contact_energy(const rsc_contact* contact, double* energy) {
     return guarded(0, [&] {
         (void)level_of(contact);
         require(energy, 2, "energy");
-        put_finite(energy, contact->known.energy);
+        put_finite(energy, contact->path.level()->energy);
     });
 }
 
@@ -360,15 +348,15 @@ int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* for
         const rsc::Level& level = level_of(contact);
         double dN_dZ0 = 0, W = 0;  // nothing is written until all values are known to be finite
         if (stiffness) put_finite(&dN_dZ0, stiffness_of(*contact));
-        if (energy) put_finite(&W, contact->known.energy);
-        if (lateral_x || lateral_y) contact->answer();
+        if (energy) put_finite(&W, level.energy);
+        const rsc::Vec2 lateral = lateral_x || lateral_y ? lateral_force_of(*contact) : rsc::Vec2{};
         put(separation, level.separation);
         put(force, level.force);
         put(stiffness, dN_dZ0);
         put(area, level.area);
         put(energy, W);
-        put(lateral_x, contact->known.lateral.x);
-        put(lateral_y, contact->known.lateral.y);
+        put(lateral_x, lateral.x);
+        put(lateral_y, lateral.y);
         put(level_status, level.status);
         put(contacts, level.contacts);
         put(overlapping_pairs, level.overlapping_pairs);
@@ -419,7 +407,7 @@ int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* 
         const rsc::Level& level = level_of(contact);
         if (contact->on->points)
             refuse(1, "contact", "has no asperities: it is solved by boundary elements");
-        if (n != static_cast<int64_t>(contact->contact.asperities()->size()))
+        if (n != static_cast<int64_t>(contact->path.asperities()->size()))
             refuse(2, "n",
                    "must be the number of the contact's asperities (rsc_contact_asperities)");
         const auto spread = [&](double* output, const std::vector<double>& values) {
@@ -436,7 +424,7 @@ int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* 
 int32_t rsc_contact_asperities(rsc_asperities** asperities, const rsc_contact* contact) {
     return constructed(0, asperities, "asperities", [&] {
         require(contact, 2, "contact");
-        const auto touched = contact->contact.asperities();
+        const auto touched = contact->path.asperities();
         if (!touched) refuse(2, "contact", "has no asperities: it is solved by boundary elements");
         rsc::SurfaceModel model;
         model.asperities = *touched;
@@ -458,11 +446,10 @@ int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const doub
         require_finite(x, n, 3, "x");
         require_finite(y, n, 4, "y");
         require(deflection, 5, "deflection");
-        rsc::Indenter indenter = contact->contact.indenter();
-        indenter.x0 = contact->known.x0, indenter.y0 = contact->known.y0;
+        const rsc::Indenter indenter = contact->indenter_at_level();
         const auto kernel =
             rsc::make_kernel(rsc::Interaction::point, rsc::substrate_of(indenter), indenter.period);
-        const std::optional<rsc::Level> lasting = contact->contact.lasting_loads(last);
+        const std::optional<rsc::Level> lasting = contact->path.lasting_loads(last);
         const rsc::Level& level = lasting ? *lasting : last;
         for (int64_t i = 0; i < n; ++i) {
             const rsc::Vec2 at = indenter.image(x[i], y[i]);

@@ -24,7 +24,7 @@ double onto(double v, double first, double length) {
 }  // namespace
 
 Vec2 place_of(const rsc_contact& contact, double x0, double y0) {
-    const Indenter& indenter = contact.contact.indenter();
+    const Indenter& indenter = contact.path.indenter();
     SurfaceDomain domain = contact.on->domain;
     if (indenter.period.finite() || indenter.repeats.finite())
         return {onto(x0, domain.x0, domain.Lx), onto(y0, domain.y0, domain.Ly)};
@@ -36,6 +36,14 @@ Vec2 place_of(const rsc_contact& contact, double x0, double y0) {
     return {x0, y0};
 }
 
+Vec2 lateral_force_of(const rsc_contact& contact) {
+    return lateral_force(contact.indenter_at_level(), *contact.path.level());
+}
+
+Vec2 moment_of(const rsc_contact& contact) {
+    return tip_moment(contact.indenter_at_level(), *contact.path.level());
+}
+
 Indenter surrounded(Indenter indenter, const SurfaceDomain& domain) {
     if (!domain.repeats || indenter.period.finite()) return indenter;
     indenter.repeats = {domain.Lx, domain.Ly};
@@ -44,15 +52,6 @@ Indenter surrounded(Indenter indenter, const SurfaceDomain& domain) {
     return indenter;
 }
 
-namespace {
-
-// If the tip stays, earlier levels are kept as better initial guesses.
-void put_tip(rsc_contact& contact, double x0, double y0) {
-    const Indenter& now = contact.contact.indenter();
-    if (now.x0 != x0 || now.y0 != y0) contact.contact.move_tip(x0, y0);
-}
-
-}  // namespace
 }  // namespace rsc::api
 
 rsc_contact::rsc_contact(std::shared_ptr<const rsc::SurfaceModel> on_,
@@ -60,74 +59,38 @@ rsc_contact::rsc_contact(std::shared_ptr<const rsc::SurfaceModel> on_,
     : on(std::move(on_)),
       keys(std::move(keys_)),
       options(rsc::solver_of(*keys, domain_of(*keys, *on))),
-      model(rsc::make_contact(*on, indenter, options)),
-      contact(*model),
+      owned(rsc::make_contact(*on, indenter, options)),
+      path(*owned),
       judge(options, rsc::JudgedSurface{on->points.get()}),
-      committed(state()) {}
+      committed(path.state()) {}
 
 rsc_contact::rsc_contact(const rsc_contact& like)
-    : rsc_contact(like.on, like.keys, like.contact.indenter()) {
+    : rsc_contact(like.on, like.keys, like.path.indenter()) {
     given = like.given;
 }
 
-const rsc_contact::Known& rsc_contact::answer() {
-    if (!known.level || !std::isnan(known.lateral.x)) return known;
-    rsc::Indenter tip = contact.indenter();
-    tip.x0 = known.x0, tip.y0 = known.y0;
-    known.lateral = rsc::lateral_force(tip, *known.level);
-    known.moment = rsc::tip_moment(tip, *known.level);
-    return known;
-}
-
-rsc_contact::State rsc_contact::state() const {
-    return {contact.indenter().x0, contact.indenter().y0, contact.memory(), known};
-}
-
-void rsc_contact::go_back(const State& state) {
-    const bool path = contact.path_dependent();
-    const bool moves = contact.indenter().x0 != state.x0 || contact.indenter().y0 != state.y0;
-    if (contact.pulls() || (path && moves))
-        contact.forget();  // what is replaced below would follow the tip
-    put_tip(*this, state.x0, state.y0);
-    known = state.known;
-    if (path)
-        recall(state.memory);
-    else
-        recalled =
-            !known
-                 .level;  // an elastic contact restores its level only when more results are needed
-}
-
-void rsc_contact::recall(const std::vector<double>& memory) {
-    const double x0 = contact.indenter().x0, y0 = contact.indenter().y0;
-    if (known.level && !contact.pulls()) {  // with adhesion the memory has the tip
-        if (contact.path_dependent() && (known.x0 != x0 || known.y0 != y0))
-            contact.forget();  // what it holds would follow the tip
-        put_tip(*this, known.x0, known.y0);
-    }
-    contact.recall(memory, known.level ? &*known.level : nullptr);
-    const bool moves = contact.indenter().x0 != x0 || contact.indenter().y0 != y0;
-    if (known.level && moves && std::isnan(known.level->stiffness))
-        known.level->stiffness = contact.stiffness();  // lost by the move
-    put_tip(*this, x0, y0);
-    recalled = true;
+rsc::Indenter rsc_contact::indenter_at_level() const {
+    rsc::Indenter tip = path.indenter();
+    tip.x0 = path.place_of_level().x;
+    tip.y0 = path.place_of_level().y;
+    return tip;
 }
 
 int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* original) {
     return constructed(0, contact, "contact", [&] {
         require(original, 2, "original");
         auto made = std::make_unique<rsc_contact>(*original);
-        made->go_back(original->state());
-        made->contact.set_time(original->contact.time());
+        made->path.restore(original->path.state());
+        made->path.set_time(original->path.time());
         made->committed = original->committed;
         return made.release();
     });
 }
 
 int32_t rsc_contact_commit(rsc_contact* contact) {
-    return on(contact, "contact", 0, [&] { contact->committed = contact->state(); });
+    return on(contact, "contact", 0, [&] { contact->committed = contact->path.state(); });
 }
 
 int32_t rsc_contact_rollback(rsc_contact* contact) {
-    return on(contact, "contact", 0, [&] { contact->go_back(contact->committed); });
+    return on(contact, "contact", 0, [&] { contact->path.restore(contact->committed); });
 }

@@ -28,19 +28,19 @@ const FrictionHistory& contact_of(const rsc_friction* friction) {
 }
 
 void require_elastic(const rsc_contact& contact) {
-    if (contact.contact.path_dependent())
+    if (contact.path.path_dependent())
         refuse(2, "contact",
                "must be elastic: friction is not available with hardness or adhesion");
-    if (contact.contact.indenter().layers.count > 0)
+    if (contact.path.indenter().layers.count > 0)
         refuse(2, "contact", "has layers: friction is not available for them yet");
 }
 
 // Moves the tip of both contacts of the load curve.
 void put_tip(rsc_friction& friction, const Vec2& tip) {
-    const Indenter& now = friction.outer.contact.indenter();
+    const Indenter& now = friction.outer.path.indenter();
     if (now.x0 == tip.x && now.y0 == tip.y) return;
-    friction.outer.contact.move_tip(tip.x, tip.y);
-    friction.inner.contact.move_tip(tip.x, tip.y);
+    friction.outer.path.move_tip(tip.x, tip.y);
+    friction.inner.path.move_tip(tip.x, tip.y);
     friction.curve.forget();
 }
 
@@ -148,7 +148,7 @@ int32_t rsc_friction_move_tip(rsc_friction* friction, double x0, double y0) {
         require_finite(x0, 2, "x0");
         require_finite(y0, 3, "y0");
         const rsc::Vec2 to = place_of(friction->outer, x0, y0);
-        const rsc::Indenter& indenter = friction->outer.contact.indenter();
+        const rsc::Indenter& indenter = friction->outer.path.indenter();
         const rsc::Vec2 before{indenter.x0, indenter.y0};
         if (before.x == to.x && before.y == to.y) return;
         with_levels(*friction, [&] {
@@ -204,7 +204,7 @@ int32_t rsc_friction_state(const rsc_friction* friction, double* separation, dou
 
 int32_t rsc_friction_commit(rsc_friction* friction) {
     return on(friction, "friction", 0, [&] {
-        const rsc::Indenter& tip = friction->outer.contact.indenter();
+        const rsc::Indenter& tip = friction->outer.path.indenter();
         friction->committed_tip = {tip.x0, tip.y0};
         friction->history.commit();
     });

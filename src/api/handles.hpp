@@ -53,32 +53,12 @@ struct rsc_contact {
     std::optional<std::array<double, 2>>
         given;  // E* and R of rsc_contact_create; none: those of the case
     rsc::SolverOptions options;
-    std::unique_ptr<rsc::Contact> model;
-    rsc::Contact& contact;
+    std::unique_ptr<rsc::Path> owned;
+    rsc::Path& path;
     rsc::Judge judge;  // elements have no second grid here
-    // The last level and its derived results.
-    struct Known {
-        std::optional<rsc::Level> level;
-        double x0 = 0, y0 = 0;  // tip of that level; it may have moved since
-        double energy = 0;
-        rsc::Vec2 lateral{rsc::kNotComputed, rsc::kNotComputed},
-            moment{};  // NaN until they are asked for
-    };
-    Known known;
-    // Adds the lateral force and the moment to the last level.
-    const Known& answer();
-    bool recalled = true;  // false: `contact` is not at that level, recall() must be called first
-
-    // The last level and everything that the next level depends on.
-    struct State {
-        double x0 = 0, y0 = 0;       // the tip
-        std::vector<double> memory;  // Contact::memory()
-        Known known;
-    };
-    State state() const;
-    void go_back(const State& state);
-    void recall(const std::vector<double>& memory = {});
-    State committed;  // initially the new contact
+    rsc::Path::State committed;  // initially the new contact
+    // The indenter where it was at the last level; it may have moved since.
+    rsc::Indenter indenter_at_level() const;
 };
 
 struct rsc_friction {
@@ -86,9 +66,9 @@ struct rsc_friction {
     rsc_friction(const rsc_contact& like, const rsc::Friction& friction)
         : outer(like),
           inner(like),
-          curve(outer.contact, inner.contact),
+          curve(outer.path, inner.path),
           history(friction),
-          committed_tip{like.contact.indenter().x0, like.contact.indenter().y0} {}
+          committed_tip{like.path.indenter().x0, like.path.indenter().y0} {}
     rsc_contact outer, inner;  // the outer and inner end of the memory of the path
     rsc::ContactCurve curve;
     rsc::FrictionHistory history;
@@ -96,6 +76,10 @@ struct rsc_friction {
 };
 
 namespace rsc::api {
+
+// Lateral force and moment of the last level (contact/answers.hpp).
+Vec2 lateral_force_of(const rsc_contact& contact);
+Vec2 moment_of(const rsc_contact& contact);
 
 // The settings of a case, or the defaults for null.
 const Case& settings_of(const rsc_case* a_case);

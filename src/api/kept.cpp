@@ -19,7 +19,7 @@ namespace {
 
 using Numbers = std::vector<double>;
 constexpr const char* kBroken = "the file is damaged";
-constexpr double kFormat = 1;  // increased when earlier versions would misread the entries
+constexpr double kFormat = 2;  // increased when earlier versions would misread the entries
 
 std::uint64_t mix(std::uint64_t hash, const void* data, std::size_t n) {  // FNV-1a
     const auto* bytes = static_cast<const unsigned char*>(data);
@@ -119,7 +119,7 @@ void require_path(const char* path, int argument) {
 // --- definition of a contact
 
 void put_making(Entries& to, const rsc_contact& contact) {
-    const Indenter& indenter = contact.contact.indenter();
+    const Indenter& indenter = contact.path.indenter();
     to.numbers["ground"] = {digest(*contact.on)};
     to.numbers["tip"] = {indenter.x0, indenter.y0};
     to.numbers["moved"] = {double(indenter.around.finite())};
@@ -149,7 +149,6 @@ std::unique_ptr<rsc_contact> get_making(const Entries& from, const rsc_asperitie
 }
 
 // --- states
-// -----------------------------------------------------------------------------------------------------------------------------
 
 // Visits the arrays of a level with their names.
 template <class Visit>
@@ -166,14 +165,13 @@ void visit_arrays(Level& level, Visit&& visit) {
         visit("pixel_cohesive", level.pixels.cohesive);
 }
 
-void put_state(Entries& to, const std::string& prefix, const rsc_contact::State& state) {
+void put_state(Entries& to, const std::string& prefix, const Path::State& state) {
     to.numbers[prefix + "tip"] = {state.x0, state.y0};
-    to.numbers[prefix + "memory"] = state.memory;
-    if (!state.known.level) return;
-    Level level = *state.known.level;
-    const auto& k = state.known;
-    to.numbers[prefix + "level"] = {level.separation, k.x0,        k.y0,       k.energy,
-                                    k.lateral.x,      k.lateral.y, k.moment.x, k.moment.y};
+    to.numbers[prefix + "accepted"] = {state.time, state.separation, state.force};
+    to.numbers[prefix + "history"] = state.history;
+    if (!state.level) return;
+    Level level = *state.level;
+    to.numbers[prefix + "level"] = {level.separation, state.level_x0, state.level_y0};
     for (const LevelQuantity& q : level_quantities()) {
         to.numbers[prefix + "level." + q.name] = {q.of(level)};
         if (q.y) to.numbers[prefix + "level." + q.name + ".y"] = {level.*q.y};
@@ -186,20 +184,38 @@ void put_state(Entries& to, const std::string& prefix, const rsc_contact::State&
     to.numbers[prefix + "level.pixels"] = {double(p.columns), p.x0, p.y0, p.dx, p.dy, p.tension};
 }
 
-rsc_contact::State get_state(const Entries& from, const std::string& prefix,
-                             const rsc_contact& contact) {
-    rsc_contact::State state;
+// Files of version 0.3 have one array in place of "accepted" and "history".
+void get_history(const Entries& from, const std::string& prefix, bool relaxes,
+                 Path::State& state) {
+    const bool old = from.numbers.contains(prefix + "memory");
+    Numbers accepted(3, kNotComputed);
+    state.history = from.of(prefix + (old ? "memory" : "history"));
+    if (!old) {
+        accepted = from.of(prefix + "accepted");
+    } else if (relaxes && state.history.size() >= 3) {
+        const auto rest = state.history.begin() + 3;
+        accepted.assign(state.history.begin(), rest);
+        state.history.erase(state.history.begin(), rest);
+    }
+    if (accepted.size() != 3) bad_input(kBroken);
+    state.time = accepted[0];
+    state.separation = accepted[1];
+    state.force = accepted[2];
+}
+
+Path::State get_state(const Entries& from, const std::string& prefix, const rsc_contact& contact) {
+    Path::State state;
     const Numbers& tip = from.of(prefix + "tip");
-    state.memory = from.of(prefix + "memory");
     if (tip.size() != 2) bad_input(kBroken);
     state.x0 = tip[0], state.y0 = tip[1];
+    get_history(from, prefix, contact.path.relaxes(), state);
     if (!from.numbers.contains(prefix + "level")) return state;
     const Numbers& known = from.of(prefix + "level");
     const Numbers& pixels = from.of(prefix + "level.pixels");
-    if (known.size() != 8 || (pixels.size() != 5 && pixels.size() != 6)) bad_input(kBroken);
+    if ((known.size() != 3 && known.size() != 8) || (pixels.size() != 5 && pixels.size() != 6)) bad_input(kBroken);
     Level level;
     level.separation = known[0];
-    state.known = {{}, known[1], known[2], known[3], {known[4], known[5]}, {known[6], known[7]}};
+    state.level_x0 = known[1], state.level_y0 = known[2];
     for (const LevelQuantity& q :
          level_quantities()) {  // entries missing in files of earlier versions keep their defaults
         const std::string name = prefix + "level." + q.name;
@@ -219,7 +235,7 @@ rsc_contact::State get_state(const Entries& from, const std::string& prefix,
     if (pixels.size() == 6) level.pixels.tension = pixels[5];
     const auto& points = contact.on->points;
     const int places =
-        points ? points->nx * points->ny : static_cast<int>(contact.contact.asperities()->size());
+        points ? points->nx * points->ny : static_cast<int>(contact.path.asperities()->size());
     const auto outside = [&](int k) { return k < 0 || k >= places; };
     const std::size_t n = level.asperity.size();
     const LevelTractions& t = level.tractions;
@@ -231,7 +247,8 @@ rsc_contact::State get_state(const Entries& from, const std::string& prefix,
         level.x.size() != n || level.y.size() != n || level.f.size() != n || level.a.size() != n ||
         level.u.size() != n)
         bad_input(kBroken);
-    state.known.level = std::move(level);
+    if (known.size() == 8) level.energy = known[3];  // version 0.3
+    state.level = std::move(level);
     return state;
 }
 
@@ -262,15 +279,15 @@ using namespace rsc::api;
 int32_t rsc_contact_save(rsc_contact* contact, const char* path) {
     return on(contact, "contact", 2, [&] {
         require_path(path, 2);
-        const rsc_contact::State now = contact->state();
+        const rsc::Path::State now = contact->path.state();
         Entries entries;
         put_making(entries, *contact);
         put_state(entries, "", now);
         put_state(entries, "committed.", contact->committed);
         write(path, kContact, entries);
-        contact->contact
-            .forget();  // so that the saved and the restored contact start from the same state
-        contact->recall(now.memory);
+        // So that the saved and the restored contact start from the same state.
+        contact->path.forget();
+        contact->path.restore(now);
     });
 }
 
@@ -281,8 +298,7 @@ int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperit
         require_path(path, 3);
         const Entries entries = read(path, kContact);
         auto made = get_making(entries, *asperities);
-        made->go_back(get_state(entries, "", *made));
-        if (!made->recalled) made->recall();
+        made->path.restore(get_state(entries, "", *made));
         made->committed = get_state(entries, "committed.", *made);
         return made.release();
     });
@@ -299,8 +315,8 @@ int32_t rsc_friction_save(rsc_friction* friction, const char* path) {
         put_path(entries, "committed", friction->history.committed());
         entries.numbers["committed_tip"] = {friction->committed_tip.x, friction->committed_tip.y};
         write(path, kFriction, entries);
-        friction->outer.contact.forget();
-        friction->inner.contact.forget();
+        friction->outer.path.forget();
+        friction->inner.path.forget();
         friction->curve.forget();
     });
 }

@@ -85,16 +85,20 @@ int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0, c
         if (stiffness)
             if (const int32_t found = rsc_contact_stiffness(contact, &slope); found != RSC_SUCCESS)
                 return found;
-        const auto& known =
-            lateral_x || lateral_y || moment_x || moment_y ? contact->answer() : contact->known;
+        const rsc::Level& level = *contact->path.level();
+        const rsc::Vec2 lateral = lateral_x || lateral_y ? lateral_force_of(*contact) : rsc::Vec2{};
+        const rsc::Vec2 moment = moment_x || moment_y ? moment_of(*contact) : rsc::Vec2{};
         const auto to = [&](auto* output, auto of) {
             if (output) output[k] = static_cast<std::decay_t<decltype(*output)>>(of);
         };
-        to(separation, known.level->separation), to(force, known.level->force),
-            to(stiffness, slope);
-        to(lateral_x, known.lateral.x), to(lateral_y, known.lateral.y),
-            to(moment_x, known.moment.x), to(moment_y, known.moment.y);
-        to(level_status, known.level->status);
+        to(separation, level.separation);
+        to(force, level.force);
+        to(stiffness, slope);
+        to(lateral_x, lateral.x);
+        to(lateral_y, lateral.y);
+        to(moment_x, moment.x);
+        to(moment_y, moment.y);
+        to(level_status, level.status);
         return reached;
     });
 }

@@ -12,9 +12,9 @@ namespace {
 // The choice of solver%model = 'auto' for synthetic surfaces depends on the levels. A caller asks
 // for these one by one, so that asperities remain what they are.
 rsc::Case with_model(rsc::Case settings) {
-    if (settings.solver.model == rsc::Model::automatic &&
+    if (settings.solver.model == rsc::ModelKind::automatic &&
         settings.surface.source != rsc::Source::heights)
-        settings.solver.model = rsc::Model::asperities;
+        settings.solver.model = rsc::ModelKind::asperities;
     return settings;
 }
 

@@ -1,8 +1,8 @@
-// State of an AsperityContact, for the files that implement it.
+// State of an AsperityModel, for the files that implement it.
 #pragma once
 
-#include "asperities/asperity_contact.hpp"
 #include "asperities/asperity_level.hpp"
+#include "asperities/asperity_model.hpp"
 #include "asperities/candidates.hpp"
 #include "asperities/ranking.hpp"
 #include "asperities/start.hpp"
@@ -12,7 +12,7 @@
 
 namespace rsc {
 
-struct AsperityContact::Impl : ContactBodies {
+struct AsperityModel::Impl : ContactBodies {
     std::optional<RelaxingAsperities> relaxing;
     std::unique_ptr<Law> law;
     Ranking ranking;
@@ -21,12 +21,15 @@ struct AsperityContact::Impl : ContactBodies {
     Candidates candidates;
     Solution solution;
     Method method = Method::direct;
-    NewtonOutcome outcome;  // outcome of pass() and settle()
-    bool passed = false;    // the solution is that of pass() and has not been settled
     struct {
         double separation = 0;
         bool unique = true;  // the solution is proved to be unique
     } solved;                // last result of solve()
+    struct Tried {
+        double separation;
+        NewtonOutcome outcome;
+    };
+    std::optional<Tried> tried;  // the solution is that of a trial, not examined yet
 
     EarlierLevels earlier;
     std::unique_ptr<Products> direct, mesh;  // mesh: created on first use
@@ -57,6 +60,7 @@ struct AsperityContact::Impl : ContactBodies {
     double force_slope(
         double tolerance);  // dN/dZ0; the next level is predicted with what this takes
     Level level(double Z0, const NewtonOutcome& outcome, bool unique) const;
+    std::optional<Level> solve_trial(double Z0);
     NewtonOutcome solve_by_paper(Fallback& why_not);
     bool one_solution() {
         const auto& [v, force, slope] = solution;

@@ -34,6 +34,9 @@ inline constexpr std::array kContactsNames = {"auto", "none", "last", "all"};
 // Words allowed for compare%levels instead of a list.
 enum class CompareWhat { automatic, none };
 inline constexpr std::array kCompareNames = {"auto", "none"};
+// Words allowed for output%stress_depths instead of a list.
+enum class StressDepths { none, automatic };
+inline constexpr std::array kStressDepthsNames = {"none", "auto"};
 enum class StudyMode { product, zip };
 
 struct Case {
@@ -108,7 +111,7 @@ struct Case {
         int max_iterations = 100;
         double delta0 = 0.01;
         Interaction interaction = Interaction::point;
-        Model model = Model::automatic;
+        ModelKind model = ModelKind::automatic;
     } solver;
     struct Elements {
         double points_per_wave = 8;
@@ -130,6 +133,12 @@ struct Case {
         std::vector<double> fields;        // numbers of kFieldNames; empty: none
         std::vector<double> field_levels;  // in `unit` of the indentation; empty: the last level
         std::optional<double> field_window[4];  // x0, x1, y0, y1; default: about the contact
+        StressDepths automatic_depths = StressDepths::none;
+        std::vector<double> stress_depths;        // empty: `automatic_depths` applies
+        std::optional<double> sliding_direction;  // [degree]; default: the bodies do not slide
+        bool stresses() const {
+            return !stress_depths.empty() || automatic_depths == StressDepths::automatic;
+        }
     } output;
 
     static constexpr double kInfinity = __builtin_huge_val();
@@ -142,7 +151,7 @@ Spectrum self_affine_spectrum(const Case& settings);
 // The model that solves this case: solver%model, or the choice of 'auto' with its reason
 // (model_choice.cpp).
 struct ModelChoice {
-    Model model;           // asperities or elements
+    ModelKind model;           // asperities or elements
     const char* why = "";  // of `auto`, for the screen
 };
 ModelChoice model_of(const Case& settings);
@@ -152,7 +161,7 @@ bool relaxes(const Case& settings);
 // and the only rough body.
 bool has_closed_forms(const Case& settings);
 inline bool by_elements(const Case& settings) {
-    return model_of(settings).model == Model::elements;
+    return model_of(settings).model == ModelKind::elements;
 }
 
 }  // namespace rsc

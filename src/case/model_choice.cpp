@@ -147,17 +147,17 @@ Spectrum self_affine_spectrum(const Case& settings) {
 }
 
 ModelChoice model_of(const Case& c) {
-    if (c.solver.model != Model::automatic) return {c.solver.model};
-    if (const char* why = why_asperities(c); *why) return {Model::asperities, why};
+    if (c.solver.model != ModelKind::automatic) return {c.solver.model};
+    if (const char* why = why_asperities(c); *why) return {ModelKind::asperities, why};
     if (c.surface.source == Source::heights)
-        return {Model::elements, "the heights are read from a file"};
-    if (c.output.flow) return {Model::elements, "output%flow needs them"};
+        return {ModelKind::elements, "the heights are read from a file"};
+    if (c.output.flow) return {ModelKind::elements, "output%flow needs them"};
     try {
-        if (const char* why = why_elements(c); *why) return {Model::elements, why};
+        if (const char* why = why_elements(c); *why) return {ModelKind::elements, why};
     } catch (const Error&) {
         // The case contradicts itself; the checks of its keys say where.
     }
-    return {Model::asperities, "the surface is synthetic, and its asperities hold"};
+    return {ModelKind::asperities, "the surface is synthetic, and its asperities hold"};
 }
 
 }  // namespace rsc

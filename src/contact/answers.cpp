@@ -48,7 +48,7 @@ Vec2 tip_moment(const Indenter& indenter, const Level& level) {
     return sum;
 }
 
-double conductance_length(Contact& contact, double stiffness) {
+double conductance_length(Path& contact, double stiffness) {
     const Indenter& indenter = contact.indenter();
     if (indenter.layers.count > 0) return kNotComputed;
     return 2 * (contact.pulls() ? contact.clamped_stiffness() : 0 - stiffness) / indenter.E_star;
@@ -59,11 +59,10 @@ double constriction_resistance(double conductance_length, const double (&resisti
     return sum > 0 && conductance_length > 0 ? sum / conductance_length : kNotComputed;
 }
 
-void add_answers(Contact& contact, Level& level, const double (&resistivity)[2]) {
+void add_answers(Path& contact, Level& level, const double (&resistivity)[2]) {
     if (std::isnan(level.force)) return;  // there is no valid state
     const Indenter& indenter = contact.indenter();
     level.stiffness = contact.stiffness();
-    level.energy = contact.energy();
     const Vec2 force = lateral_force(indenter, level), moment = tip_moment(indenter, level);
     level.lateral_x = force.x, level.lateral_y = force.y;
     level.moment_x = moment.x, level.moment_y = moment.y;

@@ -2,7 +2,7 @@
 // conductance.
 #pragma once
 
-#include "contact/contact.hpp"
+#include "contact/path.hpp"
 
 namespace rsc {
 
@@ -11,14 +11,14 @@ namespace rsc {
 // is this length over (rho_1 + rho_2) (Barber, Proc. R. Soc. A 459, 2003): 4 a/(rho_1 + rho_2) for
 // one spot (Holm), and Greenwood's (1966) result for many spots with point interaction.
 // `stiffness`: that of the level, negative.
-double conductance_length(Contact& contact, double stiffness);
+double conductance_length(Path& contact, double stiffness);
 
 // Constriction resistance (rho_1 + rho_2)/conductance_length [resistivity/length]; NaN without
 // contact or if both resistivities are 0.
 double constriction_resistance(double conductance_length, const double (&resistivity)[2]);
 
 // Adds these results to the last level of a contact. The stiffness requires one more linear solve.
-void add_answers(Contact& contact, Level& level, const double (&resistivity)[2]);
+void add_answers(Path& contact, Level& level, const double (&resistivity)[2]);
 
 // Lateral force on the indenter at fixed Z0 [force]: F = -dW/d(x0, y0), where W is the elastic
 // energy. At a solution dW = sum f_i dg0_i, so F = -sum f_i grad s(x_i - x0, y_i - y0) with the

@@ -12,9 +12,9 @@ namespace rsc {
 // Enumerations and their names in namelists and result files, in the same order.
 enum class Method : std::int32_t { automatic, dgesv, direct, mesh };
 inline constexpr std::array kMethodNames = {"auto", "dgesv", "direct", "mesh"};
-// asperity_contact.hpp, element_contact.hpp; automatic: boundary elements for heights read from
+// asperity_model.hpp, element_model.hpp; automatic: boundary elements for heights read from
 // files, asperities for synthetic surfaces.
-enum class Model : std::int32_t { asperities, elements, automatic };
+enum class ModelKind : std::int32_t { asperities, elements, automatic };
 inline constexpr std::array kModelNames = {"asperities", "elements", "auto"};
 enum class Selection { overlap, paper };
 inline constexpr std::array kSelectionNames = {"overlap", "paper"};

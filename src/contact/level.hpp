@@ -175,7 +175,8 @@ struct Level : LevelValues {
     // the spot of another one is the other's.
     // Empty: circles of radius a.
     std::vector<Spot> spots;
-    std::vector<int> yields;  // nonzero if the contact yields (hardness); empty or one per contact
+    std::vector<int> yields;   // nonzero if the contact yields (hardness); empty or one per contact
+    bool provisional = false;  // a trial of force control (contact/model.hpp), without contacts
 
     void add_contact(int index, double x_, double y_, double force_, double radius,
                      double penetration) {

@@ -2,7 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/format.hpp"
-#include "elements/element_contact.hpp"
+#include "contact/make.hpp"
 #include "run/memory.hpp"
 #include "run/screen.hpp"
 #include "trust/judge.hpp"
@@ -109,7 +109,7 @@ public:
         judge_.emplace(job.solver, judged());
     }
 
-    Contact& contact() { return *contact_; }
+    Path& contact() { return *contact_; }
     const HeightMap& map() const { return *map_; }
 
     // The level at a separation, or under the force of `level`, with its own expected errors.
@@ -151,7 +151,7 @@ private:
             !within(element_size(job_, level.separation, finer), kRefine))
             return false;
         std::unique_ptr<HeightMap> map = make(finer);
-        std::unique_ptr<Contact> contact = make_element_contact(*map, job_.indenter, job_.solver);
+        std::unique_ptr<Path> contact = make_element_contact(*map, job_.indenter, job_.solver);
         judge_.reset();
         contact_ = std::move(contact);
         map_ = std::move(map);
@@ -166,7 +166,7 @@ private:
     int threads_;
     double points_per_wave_;
     std::unique_ptr<HeightMap> map_;  // on which the contact stands
-    std::unique_ptr<Contact> contact_;
+    std::unique_ptr<Path> contact_;
     std::optional<Judge> judge_;
 };
 

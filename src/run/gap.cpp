@@ -27,7 +27,7 @@ void require_flow_memory(const Case& settings, double points) {
                points, 1e-9 * needed, 1e-9 * memory, side, side));
 }
 
-void measure_gap(const HeightMap& map, const Contact& contact, Level& level, bool with_flow,
+void measure_gap(const HeightMap& map, const Path& contact, Level& level, bool with_flow,
                  std::vector<double>* flow) {
     if (std::isnan(level.force)) return;  // there is no state
     FieldsAsked asked;

@@ -1,7 +1,7 @@
 // The gap of a level of two flats by elements, and what fluid does in it.
 #pragma once
 
-#include "contact/contact.hpp"
+#include "contact/path.hpp"
 #include "observe/record.hpp"
 #include "run/job.hpp"
 
@@ -16,7 +16,7 @@ void require_flow_memory(const Case& settings, double points);
 
 // Sets gap_mean, gap_mean_open and percolates of the last level of a contact with this map, and its
 // permeability if `with_flow`; `flow` as in permeability().
-void measure_gap(const HeightMap& map, const Contact& contact, Level& level, bool with_flow,
+void measure_gap(const HeightMap& map, const Path& contact, Level& level, bool with_flow,
                  std::vector<double>* flow = nullptr);
 
 // Says up to which levels the gap is open across the cell, and how a leak follows from K.

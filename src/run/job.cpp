@@ -1,17 +1,17 @@
 #include "run/job.hpp"
 
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "asperities/ranking.hpp"
 #include "base/error.hpp"
 #include "base/format.hpp"
 #include "case/registry.hpp"
 #include "contact/answers.hpp"
 #include "contact/equivalent.hpp"
-#include "elements/element_contact.hpp"
 #include "io/inputs.hpp"
 #include "physics/adhesion/adhesive_elements.hpp"
 #include "physics/friction/contact_curve.hpp"
 #include "run/gap.hpp"
+#include "run/stress.hpp"
 #include "surface/synthesis.hpp"
 #include "trust/judge.hpp"
 
@@ -133,14 +133,20 @@ std::vector<std::int32_t> steps_of_fields(const Job& job) {
     return steps;
 }
 
-FieldsAsked fields_asked(const Case& settings) {
+FieldsAsked fields_asked(const Job& job) {
+    const Case& settings = job.settings;
     const auto& w = settings.output.field_window;
     const auto has = [&](Field f) {
         const auto& all = settings.output.fields;
         return std::find(all.begin(), all.end(), static_cast<double>(f)) != all.end();
     };
-    FieldsAsked asked{has(Field::pressure), has(Field::gap),  has(Field::contact),
-                      has(Field::heights),  has(Field::flow), {}};
+    FieldsAsked asked{has(Field::pressure), has(Field::gap), has(Field::contact),
+                      has(Field::heights), has(Field::flow)};
+    asked.mises = has(Field::mises);
+    asked.shear = has(Field::shear);
+    asked.tension = has(Field::tension);
+    asked.depths = job.observe.stress_depths;
+    asked.body = stressed_body(settings);
     if (w[0]) asked.window = {*w[0], *w[1], *w[2], *w[3]};
     return asked;
 }
@@ -269,6 +275,7 @@ Job prepare(const Case& settings) {
                                 ? static_cast<double>(job.given_heights->nx) * job.given_heights->ny
                                 : std::pow(element_points(settings, *job.spectrum), 2.0));
     job.observe = observe_options(settings, job.domain, job.indenter, job.sigma, sqrt_m4);
+    job.observe.stress_depths = stress_depths(job);
     return job;
 }
 
@@ -276,8 +283,9 @@ Realization realize(const Job& job, std::int64_t number, int threads,
                     const std::function<bool(std::size_t, const Level&)>& on_level) {
     Realization r;
     const auto& settings = job.settings;
-    std::unique_ptr<Contact> contact;
+    std::unique_ptr<Path> contact;
     JudgedSurface judged;
+    const HeightMap* map = nullptr;  // of elements
     std::shared_ptr<const Measured> measured = job.given ? job.measured : nullptr;
     SolverOptions solver = job.solver;
     if (by_elements(settings)) {
@@ -291,9 +299,9 @@ Realization realize(const Job& job, std::int64_t number, int threads,
             measured = surface.measured;
             r.heights = std::move(surface.map);
         }
-        const HeightMap& map = job.given ? *job.given_heights : *r.heights;
-        contact = make_element_contact(map, job.indenter, job.solver);
-        judged.map = &map;
+        map = job.given ? &*job.given_heights : &*r.heights;
+        contact = make_element_contact(*map, job.indenter, job.solver);
+        judged.map = map;
         judged.second_grid = true;
         if (job.theory) judged.curvature = curvature_at_unit_height(*job.theory);
     } else {
@@ -315,11 +323,10 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         solver.gentlest_slope = model.domain.gentlest_slope;
         contact = make_asperity_contact(r.asperities, job.indenter, solver);
     }
-    std::unique_ptr<Contact> slid[2];  // with friction
+    std::unique_ptr<Path> slid[2];  // with friction
     std::optional<ContactCurve> curve;
     if (settings.solids.friction > 0) {
-        for (auto& copy : slid)
-            copy = std::make_unique<AsperityContact>(r.asperities, job.indenter, solver);
+        for (auto& copy : slid) copy = make_asperity_contact(r.asperities, job.indenter, solver);
         curve.emplace(*slid[0], *slid[1]);
     }
     r.levels.reserve(job.levels.size());
@@ -363,8 +370,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         std::vector<double> flow;
         if (has_gap(settings))
             measure_gap(job.given_heights ? *job.given_heights : *r.heights, *contact, level,
-                        settings.output.flow,
-                        field && fields_asked(settings).flow ? &flow : nullptr);
+                        settings.output.flow, field && fields_asked(job).flow ? &flow : nullptr);
         if (field && !std::isnan(level.force)) {  // a level without a state has none
             const auto yielding = contact->asperities();
             fields.push_back(
@@ -375,13 +381,14 @@ Realization realize(const Job& job, std::int64_t number, int threads,
                           : contact->residual_profile(),
                  contact->lasting_loads(level), std::move(flow)});
         }
+        add_stresses(r.stresses, job, map, level);
         if (on_level && !on_level(k, r.levels.back())) break;
     }
     r.residual_depth = contact->residual_depths();
     r.residual_profile = contact->residual_profile();
     if (!fields.empty())
         r.fields = fields_of(job.given_heights ? *job.given_heights : *r.heights, job.indenter,
-                             job.solver.interaction, fields, fields_asked(settings));
+                             job.solver.interaction, fields, fields_asked(job));
     if (const auto touched = contact->asperities(); touched && touched.get() != &r.asperities) {
         Asperities used = *touched;
         curve.reset(), contact.reset();

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "case/case.hpp"
-#include "contact/contact.hpp"
+#include "contact/path.hpp"
 #include "io/result.hpp"
 #include "observe/record.hpp"
 #include "run/prepare.hpp"
@@ -41,6 +41,7 @@ struct Realization {
     SurfaceStatistics statistics;
     Asperities asperities;
     std::vector<Level> levels;
+    std::vector<LargestStress> stresses;  // [step][depth]
     FrictionLoops friction;
     std::vector<double>
         // residual depth of the asperities after the last level; empty without hardness

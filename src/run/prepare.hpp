@@ -3,7 +3,7 @@
 #pragma once
 
 #include "case/case.hpp"
-#include "contact/contact.hpp"
+#include "contact/path.hpp"
 #include "io/result.hpp"
 #include "surface/synthesis.hpp"
 
@@ -145,7 +145,7 @@ Period period_of(const Case& settings, const SurfaceDomain& domain);
 double sigma_of(const Case& settings, const SurfaceDomain& domain);
 
 // The contact of an indenter with a surface; the model must outlive it.
-std::unique_ptr<Contact> make_contact(const SurfaceModel& model, const Indenter& indenter,
+std::unique_ptr<Path> make_contact(const SurfaceModel& model, const Indenter& indenter,
                                       const SolverOptions& options);
 
 // The keys of &solver, &asperities and &indentation that a solver needs. Throws Error(bad_input) if

@@ -1,10 +1,9 @@
 // The contact of a case: indenter, tip and solver of &indenter, &solids, &indentation and &solver.
 
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "base/error.hpp"
 #include "base/format.hpp"
 #include "contact/equivalent.hpp"
-#include "elements/element_contact.hpp"
 #include "run/prepare.hpp"
 
 namespace rsc {
@@ -64,7 +63,7 @@ Period period_of(const Case& settings, const SurfaceDomain& domain) {
                                                                : Period{};
 }
 
-std::unique_ptr<Contact> make_contact(const SurfaceModel& model, const Indenter& indenter,
+std::unique_ptr<Path> make_contact(const SurfaceModel& model, const Indenter& indenter,
                                       const SolverOptions& options) {
     if (model.points) return make_element_contact(*model.points, indenter, options);
     return make_asperity_contact(model.asperities, indenter, options);

@@ -128,7 +128,7 @@ void print_case(std::ostream& out, const Job& job) {
                     ? "gold against a rigid sphere of 2.5 mm (defaults of &solids)\n"
                     : format("&solids by default: E(1) = %g %s/%s2, body 2 is rigid\n", solids.E[0],
                              f, l));
-    if (job.settings.solver.model == Model::automatic) {
+    if (job.settings.solver.model == ModelKind::automatic) {
         const ModelChoice choice = model_of(job.settings);
         out << format("by %s: %s (solver%%model = 'auto')\n",
                       kModelNames[static_cast<std::size_t>(choice.model)], choice.why);

@@ -1,7 +1,7 @@
 #include "trust/grid_error.hpp"
 
 #include "base/error.hpp"
-#include "elements/element_contact.hpp"
+#include "contact/make.hpp"
 #include "surface/summits.hpp"
 
 namespace rsc {
@@ -127,7 +127,7 @@ SecondGrid::SecondGrid(const HeightMap& map, const Indenter& indenter, const Sol
     contact_ = make_element_contact(map_, indenter, coarse);
 }
 
-std::optional<GridError> SecondGrid::error(const LevelValues& level, Contact& contact,
+std::optional<GridError> SecondGrid::error(const LevelValues& level, Path& contact,
                                            bool by_force) {
     const Indenter &here = contact.indenter(), &there = contact_->indenter();
     if (here.x0 != there.x0 || here.y0 != there.y0) contact_->move_tip(here.x0, here.y0);

@@ -10,7 +10,7 @@
 // between the points have errors of their own, because both grids may miss them by the same height.
 #pragma once
 
-#include "contact/contact.hpp"
+#include "contact/path.hpp"
 #include "surface/surface.hpp"
 
 namespace rsc {
@@ -44,12 +44,12 @@ public:
     // Expected errors of a level of `contact` from the coarser grid, at the same separation or
     // under the same force; those of the force as an error of N at the separation. None if the
     // solver does not converge on that grid.
-    std::optional<GridError> error(const LevelValues& level, Contact& contact, bool by_force);
+    std::optional<GridError> error(const LevelValues& level, Path& contact, bool by_force);
 
 private:
     HeightMap map_;
     bool read_;
-    std::unique_ptr<Contact> contact_;
+    std::unique_ptr<Path> contact_;
 };
 
 // The part of the errors of N and A that contacts of few pixels, of the given side [length], have,

@@ -34,7 +34,7 @@ bool known_shape(const Indenter& indenter) {
 }
 
 // What the study of asperities against elements (input/trust) contains.
-bool calibrated(const Level& level, const Contact& contact, const SolverOptions& options) {
+bool calibrated(const Level& level, const Path& contact, const SolverOptions& options) {
     const bool yields = std::isfinite(options.hardness.H0);
     const std::vector<double> depths = contact.residual_depths();
     const auto yielded =
@@ -50,7 +50,7 @@ bool calibrated(const Level& level, const Contact& contact, const SolverOptions&
 // A list of asperities is all that is known of its surface, so that there are no elements to
 // compare with, and no error is stated. Its laws take the indenter for flat: where its curvature c
 // is not small beside that of an asperity of radius r, forces are too large by sqrt(1 + c r).
-std::vector<Doubt> of_list(const Level& level, const Contact& contact) {
+std::vector<Doubt> of_list(const Level& level, const Path& contact) {
     const Indenter& indenter = contact.indenter();
     const auto asperities = contact.asperities();
     double all = 0, more = 0;
@@ -98,7 +98,7 @@ Tensor curvature_at_unit_height(const Moments& m) {
 Judge::Judge(const SolverOptions& options, JudgedSurface surface)
     : options_(options), surface_(std::move(surface)) {}
 
-void Judge::judge(Level& level, Contact& contact, bool by_force) {
+void Judge::judge(Level& level, Path& contact, bool by_force) {
     const bool elements = !contact.asperities();
     const Indenter& indenter = contact.indenter();
     count_contacts(level, indenter, options_);
@@ -113,7 +113,7 @@ void Judge::judge(Level& level, Contact& contact, bool by_force) {
     conclude(level, doubts, by_force);
 }
 
-std::vector<Doubt> Judge::of_asperities(Level& level, const Contact& contact) const {
+std::vector<Doubt> Judge::of_asperities(Level& level, const Path& contact) const {
     const Indenter& indenter = contact.indenter();
     std::vector<Doubt> doubts;
     const auto doubt = [&](bool is, Cause cause) {
@@ -143,7 +143,7 @@ std::vector<Doubt> Judge::of_asperities(Level& level, const Contact& contact) co
     return doubts;
 }
 
-std::vector<Doubt> Judge::of_elements(Level& level, Contact& contact, bool by_force) {
+std::vector<Doubt> Judge::of_elements(Level& level, Path& contact, bool by_force) {
     std::vector<Doubt> doubts;
     const bool attracts = level.cohesive_area > 0;
     if (level.contacts == 0 && !attracts) {
@@ -165,7 +165,7 @@ std::vector<Doubt> Judge::of_elements(Level& level, Contact& contact, bool by_fo
 
 // Upper bound of the Z0 at which the bodies touch, between the points of elements, too; -Infinity
 // if the surface is lower than its map.
-double Judge::touch_between(const Contact& contact) {
+double Judge::touch_between(const Path& contact) {
     const Indenter& indenter = contact.indenter();
     const PlaceOfTip tip{indenter.x0, indenter.y0};
     if (!surface_.map || contact.relaxes() || !contact.residual_profile().x.empty())
@@ -182,7 +182,7 @@ double Judge::touch_between(const Contact& contact) {
 }
 
 // The error by the grid, with adhesion by the resolution of the edges, too.
-Doubt Judge::grid(const Level& level, Contact& contact, bool by_force) {
+Doubt Judge::grid(const Level& level, Path& contact, bool by_force) {
     const Indenter& indenter = contact.indenter();
     const HeightMap& map = *surface_.map;
     const bool read = !surface_.curvature;

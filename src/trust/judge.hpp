@@ -3,7 +3,7 @@
 // the options, not on other levels, except where the bodies themselves remember them.
 #pragma once
 
-#include "contact/contact.hpp"
+#include "contact/path.hpp"
 #include "trust/doubts.hpp"
 #include "trust/filled_points.hpp"
 #include "trust/grid_error.hpp"
@@ -34,13 +34,13 @@ public:
 
     // Judges a level of `contact`, which must be at that level. `by_force`: the level was found for
     // a prescribed force.
-    void judge(Level& level, Contact& contact, bool by_force);
+    void judge(Level& level, Path& contact, bool by_force);
 
 private:
-    std::vector<Doubt> of_asperities(Level& level, const Contact& contact) const;
-    std::vector<Doubt> of_elements(Level& level, Contact& contact, bool by_force);
-    double touch_between(const Contact& contact);
-    Doubt grid(const Level& level, Contact& contact, bool by_force);
+    std::vector<Doubt> of_asperities(Level& level, const Path& contact) const;
+    std::vector<Doubt> of_elements(Level& level, Path& contact, bool by_force);
+    double touch_between(const Path& contact);
+    Doubt grid(const Level& level, Path& contact, bool by_force);
 
     SolverOptions options_;
     JudgedSurface surface_;

@@ -7,7 +7,7 @@
 
 #include <random>
 
-#include "asperities/asperity_contact.hpp"
+#include "../paths.hpp"
 #include "base/parallel.hpp"
 #include "interaction/pairs.hpp"
 #include "surface/detection.hpp"
@@ -51,7 +51,7 @@ Asperities surface(double sigma, std::int64_t realization) {
 std::vector<Level> indent(const Asperities& asperities, double sigma, Method method, int steps,
                           LawKind law = LawKind::hertz) {
     SolverOptions options{.method = method, .law = law, .sigma = sigma};
-    AsperityContact contact(asperities, kGold, options);
+    Path contact = asperity_path(asperities, kGold, options);
     std::vector<Level> levels;
     for (int k = 0; k < steps; ++k)
         levels.push_back(contact.at_separation(sigma * (4 - 3.0 * k / (steps - 1))));

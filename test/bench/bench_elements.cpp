@@ -1,6 +1,6 @@
 // What elements cost: a level cold, a series of levels, between flats.
 #include "bench.hpp"
-#include "elements/element_contact.hpp"
+#include "contact/make.hpp"
 #include "surface/synthesis.hpp"
 
 using namespace rsc;

@@ -5,11 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "asperities/asperity_contact.hpp"
+#include "../paths.hpp"
 #include "base/parallel.hpp"
 #include "bench.hpp"
 #include "case/read_case.hpp"
-#include "elements/element_contact.hpp"
 #include "run/job.hpp"
 #include "run/team.hpp"
 #include "surface/synthesis.hpp"
@@ -89,7 +88,7 @@ void threads() {
     const Asperities a = lattice(100000);
     SolverOptions options{.method = Method::mesh, .sigma = 0.05 / std::sqrt(1e5)};
     compare("asperities by mesh, 1e5, a third in contact", [&] {
-        AsperityContact(a, {1.0, 1e4, 0.5, 0.5}, options).at_separation(-11.3 * options.sigma);
+        asperity_path(a, {1.0, 1e4, 0.5, 0.5}, options).at_separation(-11.3 * options.sigma);
     });
     const Case settings = read_case_text(
                               "&run realizations = 16 / &surface n = 1024, L_lambda_s = 256 / "

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "check.hpp"
-#include "contact/contact.hpp"
+#include "contact/path.hpp"
 #include "physics/elimination.hpp"
 
 // Asperities on the unit square at distances of at least `apart`, and a work of adhesion.
@@ -68,9 +68,9 @@ inline void set_clearances(rsc::Asperities& under, const rsc::Asperities& asperi
 }
 
 // Checks that int N dZ0 from `top`, where nothing is attached, to `bottom` and back is the energy
-// lost. Jumps are found by going back to the memory and halving the way; between them the integral
+// lost. Jumps are found by going back to the state and halving the way; between them the integral
 // is refined until Simpson's rule and the one with end slopes agree.
-inline void check_work_of_cycle(rsc::Contact& contact, double top, double bottom) {
+inline void check_work_of_cycle(rsc::Path& contact, double top, double bottom) {
     rsc::Level level = contact.at_separation(top);
     double work = 0;
     constexpr double
@@ -78,19 +78,19 @@ inline void check_work_of_cycle(rsc::Contact& contact, double top, double bottom
         step = 2e-4,
         precise = 1e-12;  // shortest steps, longest steps, and the error of the work in a step
     const std::function<void(double, int)> go = [&](double Z, int depth) {
-        const std::vector<double> memory = contact.memory();
+        const rsc::Path::State memory = contact.state();
         const rsc::Level before = level;
         const double slope = contact.stiffness(), width = before.separation - Z;
         const rsc::Level end = contact.at_separation(Z);
         const double mean = 0.5 * (before.force + end.force);
         const double whole = width * mean + width * width / 12 * (slope - contact.stiffness());
-        contact.recall(memory, &before);
+        contact.restore(memory);
         level = contact.at_separation(before.separation - 0.5 * width);
         const double better = width * (before.force + 4 * level.force + end.force) / 6;
         const bool jumps = end.energy_lost != before.energy_lost;
         if ((jumps && std::abs(width) > least) ||
             (!jumps && std::abs(whole - better) > precise && depth < 40)) {
-            contact.recall(memory, &before);
+            contact.restore(memory);
             level = before;
             go(before.separation - 0.5 * width, depth + 1);
             go(Z, depth + 1);

@@ -1,9 +1,9 @@
 // Asperities that stick (physics/adhesion/adhesive_contact.hpp), against closed forms, scalar
 // equations, and a slow minimiser of the energy.
 #include "adhesive_paths.hpp"
-#include "asperities/asperity_contact.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
+#include "contact/make.hpp"
 
 using namespace rsc;
 using std::numbers::pi;
@@ -228,12 +228,14 @@ TEST(test_moves_cut) {
     // A memory belongs to its own position of the tip.
     const auto first = make_asperity_contact(system.asperities, tip, sticky(system.w)),
                second = make_asperity_contact(system.asperities, tip, sticky(system.w));
-    const Level begin = first->at_separation(-0.005);
+    (void)first->at_separation(-0.005);
     first->move_tip(0.8, 0.3);
-    second->recall(first->memory(), &begin);
+    second->restore(first->state());
     CHECK(second->indenter().x0 == 0.8);
     CHECK_RELATIVE(second->at_separation(-0.005).force, whole.force, 1e-8);
-    CHECK_THROWS(second->recall({1.0, 2.0}, nullptr), Error);
+    Path::State other_bodies = second->state();
+    other_bodies.history = {1.0, 2.0};
+    CHECK_THROWS(second->restore(other_bodies), Error);
     const Asperities two{{0.3, 0.7}, {0.5, 0.5}, {0.0, 0.001}, {0.5, 0.5}, {}, {}, {}, {}};
     SolverOptions alone = sticky(1e-3);
     alone.interaction = Interaction::none;
@@ -320,13 +322,13 @@ TEST(test_interrupted) {
     const auto whole = make();
     for (int k = 0; k <= 24; ++k) {
         const auto other = make();
-        if (k > 0) other->recall(whole->memory(), nullptr);
+        if (k > 0) other->restore(whole->state());
         const double Z = 0.03 - 0.0015 * std::min(k, 24 - k);
         const Level level = whole->at_separation(Z), again = other->at_separation(Z);
         CHECK(level.force == again.force && level.energy_lost == again.energy_lost &&
               level.jumps == again.jumps);
         CHECK(whole->stiffness() == other->stiffness() && whole->energy() == other->energy() &&
-              whole->memory() == other->memory());
+              whole->state().history == other->state().history);
     }
 }
 

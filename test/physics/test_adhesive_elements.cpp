@@ -3,7 +3,7 @@
 #include "adhesive_paths.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
-#include "elements/element_contact.hpp"
+#include "contact/make.hpp"
 #include "height_maps.hpp"
 #include "judged.hpp"
 #include "physics/indenter/shapes.hpp"
@@ -163,7 +163,9 @@ TEST(test_refused) {
                  Error);  // less than half a pixel
     const auto contact = make_element_contact(map, tip, attracting(0.01, 0.2));
     (void)contact->at_separation(0);
-    CHECK_THROWS(contact->recall({1.0, 2.0}, nullptr), Error);
+    Path::State other_bodies = contact->state();
+    other_bodies.history = {1.0, 2.0};
+    CHECK_THROWS(contact->restore(other_bodies), Error);
 }
 
 // Under a force, and held where nothing carries it.

@@ -2,7 +2,7 @@
 // interaction/layers.hpp), free and between flats.
 #include "adhesive_paths.hpp"
 #include "check.hpp"
-#include "elements/element_contact.hpp"
+#include "contact/make.hpp"
 #include "height_maps.hpp"
 #include "interaction/kernel.hpp"
 

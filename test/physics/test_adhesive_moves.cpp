@@ -1,9 +1,9 @@
 // A tip that moves sideways over attached asperities that interact: its work over a closed cycle is
 // the energy lost.
 #include "adhesive_paths.hpp"
-#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
 #include "contact/answers.hpp"
+#include "contact/make.hpp"
 
 using namespace rsc;
 
@@ -12,7 +12,7 @@ namespace {
 // Moves the tip along x at the separation Z, and returns the work of the lateral force. Where no
 // asperity attaches or detaches, the work of a step is also the change of the energy. Jumps are
 // found by going back to the memory and halving the way.
-double work_of_move(Contact& contact, double Z, double end, int& jumps) {
+double work_of_move(Path& contact, double Z, double end, int& jumps) {
     double work = 0;
     constexpr double longest = 4e-3, least = 1e-9, precise = 1e-10;
     const auto force_at = [&](double x, Level& level) {
@@ -22,12 +22,12 @@ double work_of_move(Contact& contact, double Z, double end, int& jumps) {
     };
     const std::function<void(double, int)> go = [&](double to, int depth) {
         const double from = contact.indenter().x0, middle = 0.5 * (from + to), width = to - from;
-        const std::vector<double> memory = contact.memory();
+        const Path::State memory = contact.state();
         Level begin, half, last;
         const double f = force_at(from, begin), energy = contact.energy(), g = force_at(to, last),
                      change = contact.energy() - energy;
         const bool jump = last.energy_lost != begin.energy_lost;
-        contact.recall(memory, &begin);
+        contact.restore(memory);
         if (jump && std::abs(width) < least) {
             work += 0.5 * width * (f + g);
             (void)force_at(to, last);
@@ -36,7 +36,7 @@ double work_of_move(Contact& contact, double Z, double end, int& jumps) {
         }
         const double m = force_at(middle, half), simpson = width * (f + 4 * m + g) / 6;
         if (jump || (std::abs(simpson - 0.5 * width * (f + g)) > precise && depth < 30)) {
-            contact.recall(memory, &begin);
+            contact.restore(memory);
             go(middle, depth + 1);
             go(to, depth + 1);
             return;

@@ -3,7 +3,7 @@
 #include "base/error.hpp"
 #include "check.hpp"
 #include "contact/answers.hpp"
-#include "elements/element_contact.hpp"
+#include "contact/make.hpp"
 #include "height_maps.hpp"
 #include "physics/indenter/shapes.hpp"
 
@@ -38,7 +38,7 @@ struct Moved {
 };
 
 // The tip goes to x in steps, at the separation Z.
-Moved move(Contact& contact, double Z, double x, int steps) {
+Moved move(Path& contact, double Z, double x, int steps) {
     Moved moved{contact.at_separation(Z), 0, 0};
     const double from = contact.indenter().x0;
     double force = lateral_force(contact.indenter(), moved.level).x;
@@ -85,7 +85,7 @@ TEST(test_border) {
     const HeightMap map = waves(36, 2, 0.02), other = waves(36, 2, 0.02, 18);
     const auto one = make_element_contact(map, sphere(1.9, 2), sticky(kWork, 0.1)),
                two = make_element_contact(other, sphere(1.9, 2), sticky(kWork, 0.1));
-    for (Contact* contact : {one.get(), two.get()}) {
+    for (Path* contact : {one.get(), two.get()}) {
         contact->move_tip(1.8, 1.0);
         (void)contact->at_separation(0);
     }
@@ -118,10 +118,10 @@ TEST(test_memory) {
                    other = make_element_contact(map, tip, sticky(kWork, 0.12));
         (void)contact->at_separation(Z);
         contact->move_tip(kPlace + 0.25, 1.1);
-        other->recall(contact->memory(), nullptr);
+        other->restore(contact->state());
         CHECK(other->indenter().x0 == contact->indenter().x0 && other->indenter().y0 == 1.1);
         CHECK_RELATIVE(other->energy(), contact->energy(), 1e-8);
-        for (Contact* one : {contact.get(), other.get()}) one->move_tip(kPlace + 0.1, 0.9);
+        for (Path* one : {contact.get(), other.get()}) one->move_tip(kPlace + 0.1, 0.9);
         const Level a = contact->at_separation(Z), b = other->at_separation(Z);
         CHECK(a.force != 0 && contact->indenter().x0 == kPlace + 0.1);
         CHECK_RELATIVE(a.force, b.force, 1e-8);
@@ -137,9 +137,9 @@ TEST(test_edge) {
     const auto contact = make_element_contact(
         map, {1.0, make_shape(shape_number("punch"), keys), 1.0, 1.0}, sticky(kWork, 0.12));
     const Level before = contact->at_separation(0.03);
-    const std::vector<double> memory = contact->memory();
+    const std::vector<double> history = contact->state().history;
     CHECK_THROWS(contact->move_tip(1.2, 1.0), Error);
-    CHECK(contact->indenter().x0 == 1.0 && contact->memory() == memory);
+    CHECK(contact->indenter().x0 == 1.0 && contact->state().history == history);
     CHECK_RELATIVE(contact->at_separation(0.03).force, before.force, 1e-9);
     (void)contact->at_separation(0.5);  // pulled off
     contact->move_tip(1.2, 1.0);

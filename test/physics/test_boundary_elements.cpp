@@ -5,10 +5,9 @@
 // The reference: the very same surface, paper's gold (E* = 94706 N/mm2, sigma = 0.01 mm, L/lambda_l
 // = 24, H = 0.8, R = 2.5 mm), grid 4096, areas corrected by their perimeter. Its own error, from
 // the grid twice as coarse: 0.1 % in N, 1 % in A.
-#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
 #include "contact/equivalent.hpp"
-#include "elements/element_contact.hpp"
+#include "paths.hpp"
 #include "surface/detection.hpp"
 #include "surface/synthesis.hpp"
 
@@ -79,8 +78,8 @@ TEST(all_boundary_elements) {
         const Asperities a =
             make_asperities(spectrum, 2048, Normalise::sample, seed, 1, Curvature::geometric,
                             nullptr, nullptr, 1, Detail::subgrid);
-        AsperityContact contact(a, {E_star, 2.5, 0.5, 0.5},
-                                {.law = LawKind::fourth_order, .sigma = spectrum.sigma});
+        Path contact = asperity_path(a, {E_star, 2.5, 0.5, 0.5},
+                                     {.law = LawKind::fourth_order, .sigma = spectrum.sigma});
         CHECK(levels.size() == 5);
         for (const Row& row : levels) {
             const Level level = contact.at_separation(row.separation * spectrum.sigma);

@@ -3,8 +3,8 @@
 // what it was solved with.
 #include "asperities/dgesv.hpp"
 
-#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
+#include "paths.hpp"
 #include "physics/random_asperities.hpp"
 
 using namespace rsc;
@@ -102,7 +102,7 @@ TEST(says_what_it_did) {
     const Asperities a = random_asperities(300, 0.02, 0.01, 5e-4, 0.5, 300);
     const Indenter indenter{1.0, 2.5, 0.5, 0.5};
     SolverOptions options{.method = Method::dgesv, .sigma = 0.01, .tolerance = kResidual};
-    const Level paper = AsperityContact(a, indenter, options).at_separation(0.0);
+    const Level paper = asperity_path(a, indenter, options).at_separation(0.0);
     CHECK(paper.method == Method::dgesv && paper.fallback == Fallback::none);
     CHECK(paper.iterations <= kMostSolves && paper.products == paper.iterations);
     // Delta never cut: the iteration cannot converge on the unregularised equation, and the level
@@ -110,14 +110,14 @@ TEST(says_what_it_did) {
     options.delta_cut = 1;
     options.delta0 = 1;
     options.max_iterations = 30;
-    const Level uncut = AsperityContact(a, indenter, options).at_separation(0.0);
+    const Level uncut = asperity_path(a, indenter, options).at_separation(0.0);
     CHECK(uncut.method == Method::direct && uncut.fallback == Fallback::dgesv_not_converged);
     CHECK_CLOSE(uncut.force, paper.force, 1e-6 * paper.force);
     // Its counts are those of both: the solves in vain, and what the direct method took, with a
     // product more: of what dgesv left.
     SolverOptions direct = options;
     direct.method = Method::direct;
-    const Level plain = AsperityContact(a, indenter, direct).at_separation(0.0);
+    const Level plain = asperity_path(a, indenter, direct).at_separation(0.0);
     CHECK(plain.iterations > 0 && uncut.iterations == 30 + plain.iterations &&
           uncut.products == plain.products + 1);
     // Two asperities so close that the solution the iteration finds is a saddle of the energy.
@@ -125,11 +125,11 @@ TEST(says_what_it_did) {
     pair.x = {0.499, 0.501}, pair.y = {0.5, 0.5}, pair.z = {0.01, 0.01}, pair.radius = {1e-2, 1e-2};
     options.delta_cut = 5;
     options.delta0 = 0.01;
-    const Level saddle = AsperityContact(pair, {1.0, 1e9, 0.5, 0.5}, options).at_separation(0.0);
+    const Level saddle = asperity_path(pair, {1.0, 1e9, 0.5, 0.5}, options).at_separation(0.0);
     CHECK(saddle.method == Method::direct && saddle.fallback == Fallback::not_unique);
     options.interaction = Interaction::none;
     options.method = Method::mesh;
-    const Level alone = AsperityContact(a, indenter, options).at_separation(0.0);
+    const Level alone = asperity_path(a, indenter, options).at_separation(0.0);
     CHECK(alone.method == Method::direct && alone.fallback == Fallback::no_interaction);
 }
 
@@ -139,7 +139,7 @@ TEST(regularisation_leaves_no_trace) {
     const auto force = [&](double delta0, double cut, double tolerance) {
         SolverOptions options{.method = Method::dgesv, .sigma = 0.01, .tolerance = tolerance};
         options.delta0 = delta0, options.delta_cut = cut;
-        return AsperityContact(a, {1.0, 2.5, 0.5, 0.5}, options).at_separation(0.005).force;
+        return asperity_path(a, {1.0, 2.5, 0.5, 0.5}, options).at_separation(0.005).force;
     };
     const double reference = force(0.01, 5, 1e-11);
     for (const double delta0 : {0.1, 0.01, 0.001})

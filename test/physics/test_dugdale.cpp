@@ -1,7 +1,7 @@
 // Asperities that attract within a range (law/sticking.hpp): against Maugis's equations, and JKR as
 // its limit.
 #include "adhesive_paths.hpp"
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
 

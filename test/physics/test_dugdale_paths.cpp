@@ -1,7 +1,7 @@
 // Several asperities that attract within a range: the path against a slow minimiser of the energy,
 // and the work of cycles.
 #include "adhesive_paths.hpp"
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "check.hpp"
 
 using namespace rsc;

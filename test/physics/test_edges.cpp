@@ -1,10 +1,10 @@
 // The edges of the problem: whatever is asked, the answer is finite and right, or its status says
 // what is wrong with it, or it is refused with a reason.
-#include "asperities/asperity_contact.hpp"
 #include "asperities/newton.hpp"
 #include "asperities/ranking.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
+#include "paths.hpp"
 #include "physics/random_asperities.hpp"
 #include "unit/refused.hpp"
 
@@ -78,7 +78,7 @@ double residual(const Asperities& a, const Indenter& indenter, double Z0, const 
 
 void check_answer(const Asperities& a, const Indenter& indenter, double Z0, Method method,
                   const char* what, double tolerance = 1e-10) {
-    const Level level = AsperityContact(a, indenter, options(method, tolerance)).at_separation(Z0);
+    const Level level = asperity_path(a, indenter, options(method, tolerance)).at_separation(Z0);
     sane(level, what);
     const double left = residual(a, indenter, Z0, level);
     const bool told = !level.converged, right = left <= 2 * tolerance;
@@ -99,7 +99,7 @@ TEST(coincident) {
     CHECK_THROWS(validate(a, [](std::size_t i) { return "asperity " + std::to_string(i); }), Error);
     for (Method method : kMethods)
         refusal([&] {
-            sane(AsperityContact(a, {kE, 2.5, 0.5, 0.5}, options(method)).at_separation(0.0),
+            sane(asperity_path(a, {kE, 2.5, 0.5, 0.5}, options(method)).at_separation(0.0),
                  "coincident");
         });
     // Nearly so: only one of the two can carry, whichever, and the level says that the other might
@@ -110,7 +110,7 @@ TEST(coincident) {
             set_of({0.5, 0.5 + gap, 0.6}, {0.5, 0.5, 0.5}, {0.01, 0.012, 0.01}, 1e-3);
         for (Method method : kMethods) {
             const Level level =
-                AsperityContact(near, {kE, 2.5, 0.5, 0.5}, options(method)).at_separation(0.0);
+                asperity_path(near, {kE, 2.5, 0.5, 0.5}, options(method)).at_separation(0.0);
             sane(level, "nearly coincident");
             if (gap < 1e-9) {
                 CHECK((!level.unique || !level.converged));
@@ -132,7 +132,7 @@ TEST(overlapping) {
         const Asperities a = set_of({0.5 - d / 2, 0.5 + d / 2}, {0.5, 0.5}, {g, g}, r);
         for (Method method : kMethods) {
             const Level level =
-                AsperityContact(a, {kE, kFlat, 0.5, 0.5}, options(method)).at_separation(0.0);
+                asperity_path(a, {kE, kFlat, 0.5, 0.5}, options(method)).at_separation(0.0);
             sane(level, "overlapping");
             CHECK(residual(a, {kE, kFlat, 0.5, 0.5}, 0.0, level) <= 2e-10);
             bool overlap = level.f.size() == 2 && d < level.a[0] + level.a[1];
@@ -162,7 +162,7 @@ TEST(depths) {
                              ("depth " + std::to_string(Z0)).c_str());
             for (const double loose : {1e-6, 1e-7})
                 check_answer(a, {kE, R, 0.5, 0.5}, Z0, Method::direct, "loose", loose);
-            const double N = AsperityContact(a, {kE, R, 0.5, 0.5}, options(Method::direct))
+            const double N = asperity_path(a, {kE, R, 0.5, 0.5}, options(Method::direct))
                                  .at_separation(Z0)
                                  .force;
             CHECK(N >= last);
@@ -172,10 +172,10 @@ TEST(depths) {
         CHECK(last > 0);
     }
     // The flat gives what a very large sphere gives.
-    const double flat = AsperityContact(a, {kE, kFlat, 0.5, 0.5}, options(Method::direct, 1e-12))
+    const double flat = asperity_path(a, {kE, kFlat, 0.5, 0.5}, options(Method::direct, 1e-12))
                             .at_separation(0.0)
                             .force;
-    CHECK_RELATIVE(AsperityContact(a, {kE, 1e12, 0.5, 0.5}, options(Method::direct, 1e-12))
+    CHECK_RELATIVE(asperity_path(a, {kE, 1e12, 0.5, 0.5}, options(Method::direct, 1e-12))
                        .at_separation(0.0)
                        .force,
                    flat, 1e-9);
@@ -185,7 +185,7 @@ TEST(depths) {
 TEST(forces) {
     const Asperities a = random_asperities(200, 0.03, 0.01, 1e-3, 0.5, 15);
     for (double N : {1e-9, 1e-3, 1.0, 1e3, 1e6, 1e9}) {
-        AsperityContact contact(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
+        Path contact = asperity_path(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
         const Level level = contact.at_force(N);
         sane(level, "force");
         // Z0 has neighbours only so near, and the force with it: the last term is what one summit
@@ -197,14 +197,14 @@ TEST(forces) {
                     1e-10 * N + 4 * ulp * std::abs(contact.stiffness()) +
                         kE * 0.1 * std::pow(4 * ulp, 1.5));
     }
-    AsperityContact contact(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
+    Path contact = asperity_path(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
     for (double N : {0.0, -1.0, 1e-20, std::nan(""), kFlat})
         CHECK_THROWS(contact.at_force(N), Error);
     for (double Z0 : {std::nan(""), kFlat, -kFlat}) CHECK_THROWS(contact.at_separation(Z0), Error);
     for (double E : {0.0, -1.0, std::nan(""), kFlat})
-        CHECK_THROWS(AsperityContact(a, {E, 2.5, 0.5, 0.5}, options(Method::direct)), Error);
+        CHECK_THROWS(asperity_path(a, {E, 2.5, 0.5, 0.5}, options(Method::direct)), Error);
     for (double R : {0.0, -1.0, std::nan("")})
-        CHECK_THROWS(AsperityContact(a, {kE, R, 0.5, 0.5}, options(Method::direct)), Error);
+        CHECK_THROWS(asperity_path(a, {kE, R, 0.5, 0.5}, options(Method::direct)), Error);
 }
 
 // Residuals of numbers whose squares are none.
@@ -216,7 +216,7 @@ TEST(beyond_squares) {
     CHECK(relative_residual({1, 0}, {__builtin_huge_val(), 0}) == 1);
     const Asperities a = set_of({0, 1e-3, 0}, {0, 0, 1e-3}, {0, 0, 0}, 0.5e-3);
     for (Method method : {Method::direct, Method::dgesv}) {
-        const Level level = AsperityContact(a, {kE, kFlat, 0, 0}, options(method))
+        const Level level = asperity_path(a, {kE, kFlat, 0, 0}, options(method))
                                 .at_separation(-1e170);  // forces of some 1e258
         CHECK(std::isfinite(level.residual));
         CHECK(level.residual < 1

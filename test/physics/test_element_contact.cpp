@@ -2,7 +2,7 @@
 // tolerances, on pixels of other shapes).
 
 #include "check.hpp"
-#include "elements/element_contact.hpp"
+#include "contact/make.hpp"
 #include "height_maps.hpp"
 #include "judged.hpp"
 #include "physics/indenter/shapes.hpp"

@@ -5,7 +5,7 @@
 
 #include "base/parallel.hpp"
 #include "check.hpp"
-#include "elements/element_contact.hpp"
+#include "contact/make.hpp"
 #include "surface/synthesis.hpp"
 
 using namespace rsc;
@@ -32,11 +32,11 @@ void compare(double R, const std::vector<double>& forces) {
     Spectrum s{.L = 1, .L_lambda_l = 4, .L_lambda_s = 16, .sigma = 1e-3};
     const HeightMap map = synthesize(s, 128, Normalise::sample, 1, 1);
     const Indenter tip{1e5, R, 0.5, 0.5};
-    const auto under_force = [](Contact& contact, double N) { return contact.at_force(N); };
+    const auto under_force = [](Path& contact, double N) { return contact.at_force(N); };
     const Run by_force = run(map, tip, forces, under_force);
     std::vector<double> separations;
     for (const Level& level : by_force.levels) separations.push_back(level.separation);
-    const Run by_separation = run(map, tip, separations, [](Contact& contact, double Z0) {
+    const Run by_separation = run(map, tip, separations, [](Path& contact, double Z0) {
         return contact.at_separation(Z0);
     });
     for (std::size_t k = 0; k < forces.size(); ++k) {

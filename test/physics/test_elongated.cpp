@@ -1,8 +1,7 @@
 // Single elongated summits, up to 1:20 in curvature, against elements on the same points.
-#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
-#include "elements/element_contact.hpp"
 #include "height_maps.hpp"
+#include "paths.hpp"
 #include "run/prepare.hpp"
 #include "surface/detection.hpp"
 #include "surface/synthesis.hpp"
@@ -26,7 +25,7 @@ TEST(all_elongated) {
         CHECK_RELATIVE(summit.kappa1[0] / summit.kappa2[0], ratio, 1e-3);
         SolverOptions options{.law = LawKind::fourth_order, .max_iterations = 500};
         const Indenter ball{E, Shape(1000), 0, 0};
-        AsperityContact one(summit, ball, options);
+        Path one = asperity_path(summit, ball, options);
         const auto points = make_element_contact(map, ball, options);
         for (const double Z0 : {0.9 * height, 0.6 * height}) {
             const Level model = one.at_separation(Z0), truth = points->at_separation(Z0);
@@ -52,7 +51,7 @@ TEST(mirrored) {
         const auto force = [&](bool mirrored) {
             Case c;
             c.solver.tolerance = 1e-12, c.solids.R[1] = 5;
-            c.asperities.law = LawKind::fourth_order, c.solver.model = Model::asperities;
+            c.asperities.law = LawKind::fourth_order, c.solver.model = ModelKind::asperities;
             Surface surface;
             surface.map = height_map(97, 99, 0.01, 0.01,
                                      [&](int i, int j) { return z(mirrored ? 96 - i : i, j); });

@@ -1,7 +1,7 @@
 // The stiffness of two flats by elements, against K q = 1 on the pixels under pressure solved by
 // plain conjugate gradients in double precision.
 #include "check.hpp"
-#include "elements/element_contact.hpp"
+#include "contact/make.hpp"
 #include "elements/periodic_pixels.hpp"
 #include "surface/synthesis.hpp"
 

@@ -1,8 +1,8 @@
 // Friction, conductance and lateral force of asperities in contact against problems solved on their
 // own.
-#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
 #include "contact/answers.hpp"
+#include "paths.hpp"
 #include "physics/adhesion/adhesive_contact.hpp"
 #include "physics/elimination.hpp"
 #include "physics/friction/contact_curve.hpp"
@@ -19,10 +19,10 @@ using Real = long double;
 SolverOptions tight() { return {.tolerance = 1e-13}; }
 
 struct Slid {
-    AsperityContact one, other;
+    Path one, other;
     ContactCurve curve{one, other};
     Slid(const Asperities& a, const Indenter& indenter, const SolverOptions& options)
-        : one(a, indenter, options), other(a, indenter, options) {}
+        : one(asperity_path(a, indenter, options)), other(asperity_path(a, indenter, options)) {}
 };
 
 // The slip problem of spots solved directly. Pressed by the forces f_i with penetrations u_i, spot
@@ -60,7 +60,7 @@ TEST(spots_against_slip_problem) {
     for (const Asperities& a : {two, five}) {
         Slid slid(a, {kE, 2.5, 0.4, 0.5}, tight());
         const double delta = 0.0;
-        const Level level = AsperityContact(a, {kE, 2.5, 0.4, 0.5}, tight()).at_separation(-delta);
+        const Level level = asperity_path(a, {kE, 2.5, 0.4, 0.5}, tight()).at_separation(-delta);
         CHECK(level.asperity.size() == a.size());
         const double full = full_slip(slid.curve, kFriction, delta);
         for (double part : {0.05, 0.3, 0.6, 0.9, 0.99}) {
@@ -115,11 +115,11 @@ double conductance_of_spots(const Asperities& a, const Level& level) {
 TEST(conductance) {
     Asperities lone;
     lone.x = {0.5}, lone.y = {0.5}, lone.z = {0.01}, lone.radius = {3e-4};
-    AsperityContact holm(lone, {kE, kFlat, 0.5, 0.5}, tight());
+    Path holm = asperity_path(lone, {kE, kFlat, 0.5, 0.5}, tight());
     const Level spot = holm.at_separation(0.004);
     CHECK_RELATIVE(-2 * holm.stiffness() / kE, 4 * spot.a[0], 1e-12);
     const Asperities a = random_asperities(400, 0.02, 0.01, 5e-4, 0.3, 3);
-    AsperityContact contact(a, {kE, 2.5, 0.5, 0.5}, tight());
+    Path contact = asperity_path(a, {kE, 2.5, 0.5, 0.5}, tight());
     for (double Z0 : {0.005, 0.0, -0.01}) {
         const Level level = contact.at_separation(Z0);
         CHECK(level.asperity.size() > 5);
@@ -132,7 +132,7 @@ TEST(conductance) {
         SolverOptions options = tight();
         options.tolerance = 1e-9;
         options.adhesion = {2.0, range};
-        const auto sticking = make_adhesive_contact(a, {kE, 2.5, 0.5, 0.5}, options);
+        const auto sticking = make_asperity_contact(a, {kE, 2.5, 0.5, 0.5}, options);
         for (double Z0 : {0.012, 0.006, 0.003, 0.008, 0.011}) {
             const Level level = sticking->at_separation(Z0);
             CHECK(level.asperity.size() > 1);

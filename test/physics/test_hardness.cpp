@@ -1,7 +1,7 @@
 // Asperities that yield (physics/hardness/hardness.hpp), against closed forms, against the work
 // they take, and against a slow solver of its own.
-#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
+#include "paths.hpp"
 #include "physics/hardness/hardness.hpp"
 #include "physics/random_asperities.hpp"
 #include "surface/detection.hpp"
@@ -108,7 +108,7 @@ TEST(test_sinking) {
     a.kappa1 = a.kappa2 = {1 / r}, a.angle = {0}, a.biharmonic = {0};
     SolverOptions options = options_with(H);
     options.law = LawKind::fourth_order;
-    AsperityContact contact(a, {kE, kFlat, 0.5, 0.5}, options);
+    Path contact = asperity_path(a, {kE, kFlat, 0.5, 0.5}, options);
     const double uc = std::pow(3 * pi * H / (4 * kE), 2) * r, ac = std::sqrt(r * uc),
                  b = r * 4 * H / (pi * kE);
     for (const double times : {1.001, 1.5, 4.0, 30.0}) {
@@ -210,7 +210,7 @@ TEST(test_independent) {
         SolverOptions options = options_with(H0, length);
         options.sigma = 0.01, options.method = method;
         if (method == Method::mesh) options.tolerance = 1e-11;
-        AsperityContact contact(a, {kE, kFlat, 0.5, 0.5}, options);
+        Path contact = asperity_path(a, {kE, kFlat, 0.5, 0.5}, options);
         std::vector<Yielding> laws;
         for (double r : a.radius)
             laws.push_back({r, H0 * std::sqrt(1 + static_cast<long double>(length) / r)});
@@ -246,7 +246,7 @@ TEST(test_path) {
     const Asperities a = few(random, 30);
     const Indenter flat{kE, kFlat, 0.5, 0.5};
     const double top = 0.011, bottom = 0.002;
-    AsperityContact contact(a, flat, options_with(2000));
+    Path contact = asperity_path(a, flat, options_with(2000));
     // Composite Simpson over each half of the cycle; kinks where asperities touch and yield leave
     // some 1e-4 of the work at this step.
     const int steps = 800;
@@ -271,7 +271,7 @@ TEST(test_path) {
 
     // The same end by 10, 100 and 1000 levels, and by one.
     const auto end = [&](int levels) {
-        AsperityContact c(a, flat, options_with(2000));
+        Path c = asperity_path(a, flat, options_with(2000));
         Level last;
         for (int k = 1; k <= levels; ++k) last = c.at_separation(top + (bottom - top) * k / levels);
         return last;
@@ -284,7 +284,8 @@ TEST(test_path) {
     }
     // Pressing with a force visits many separations; the state afterwards is that of the last
     // alone.
-    AsperityContact pressed(a, flat, options_with(2000)), indented(a, flat, options_with(2000));
+    Path pressed = asperity_path(a, flat, options_with(2000)),
+         indented = asperity_path(a, flat, options_with(2000));
     const Level by_force = pressed.at_force(0.7 * fine.force);
     indented.at_separation(by_force.separation);
     const double back = by_force.separation + 2e-4;
@@ -295,8 +296,9 @@ TEST(test_limits) {
     std::mt19937 random(5);
     const Asperities a = few(random, 40);
     const Indenter tip{kE, 3.0, 0.5, 0.5};
-    AsperityContact elastic(a, tip, options_with(kFlat)), hard(a, tip, options_with(1e30)),
-        soft(a, tip, options_with(1e-3));
+    Path elastic = asperity_path(a, tip, options_with(kFlat)),
+         hard = asperity_path(a, tip, options_with(1e30)),
+         soft = asperity_path(a, tip, options_with(1e-3));
     for (const double Z0 : {0.008, 0.004, 0.006, 0.0}) {
         const Level e = elastic.at_separation(Z0), h = hard.at_separation(Z0),
                     s = soft.at_separation(Z0);

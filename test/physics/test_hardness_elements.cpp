@@ -1,12 +1,11 @@
 // Elements that yield (elements/element_contact.hpp): the elastic and the plastic limit, work and
 // energy along a path. Against a slow solver: test_element_levels.
-#include "asperities/asperity_contact.hpp"
 #include "asperities/ranking.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
-#include "elements/element_contact.hpp"
 #include "height_maps.hpp"
 #include "interaction/pixel_kernels.hpp"
+#include "paths.hpp"
 #include "surface/synthesis.hpp"
 
 using namespace rsc;
@@ -96,7 +95,7 @@ TEST(test_sphere) {
     one.kappa1 = one.kappa2 = {1 / R}, one.angle = one.biharmonic = {0.0};
     SolverOptions law = options(H);
     law.law = LawKind::fourth_order;
-    AsperityContact asperity(one, {kE, kInfinity, 0.5 * n * h, 0.5 * n * h}, law);
+    Path asperity = asperity_path(one, {kE, kInfinity, 0.5 * n * h, 0.5 * n * h}, law);
     const struct {
         double times, off;  // of u_c
     } bounds[] = {{0.44, 0.005}, {1, 0.06}, {2, 0.03}, {5, 0.015}};

@@ -11,7 +11,7 @@ namespace {
 Case pressed() {
     Case c;
     c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 32;
-    c.solver.model = Model::elements;
+    c.solver.model = ModelKind::elements;
     c.indentation.levels = {1.5, 0.5, 1.0};
     return c;
 }

@@ -1,6 +1,6 @@
 // Hundreds of random systems against the independent slow solver (independent.hpp).
-#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
+#include "paths.hpp"
 #include "physics/independent.hpp"
 #include "physics/random_asperities.hpp"
 
@@ -93,7 +93,7 @@ TEST(against_slow_solver) {
             for (Method method : {Method::direct, Method::dgesv, Method::mesh, Method::automatic}) {
                 if (method != Method::direct && !all_methods) continue;
                 const Level level =
-                    AsperityContact(a, {kE, family.R, 0.5, 0.5}, options(method, family.law))
+                    asperity_path(a, {kE, family.R, 0.5, 0.5}, options(method, family.law))
                         .at_separation(Z0);
                 CHECK(level.converged);
                 if ((!level.unique || !level.converged)) continue;  // the two may find two minima

@@ -6,13 +6,12 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/special_functions/bessel.hpp>
 
-#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
 #include "contact/equivalent.hpp"
-#include "elements/element_contact.hpp"
 #include "height_maps.hpp"
 #include "interaction/lattice.hpp"
 #include "judged.hpp"
+#include "paths.hpp"
 #include "physics/elimination.hpp"
 #include "random_asperities.hpp"
 
@@ -237,7 +236,7 @@ TEST(sphere_on_a_layer) {
 }
 
 // Numbers of a level that two bodies which are the same must share.
-void same(Contact& one, const Level& a, Contact& other, const Level& b, double tolerance) {
+void same(Path& one, const Level& a, Path& other, const Level& b, double tolerance) {
     CHECK(a.status == b.status && a.contacts == b.contacts && a.force > 0);
     CHECK_RELATIVE(a.force, b.force, tolerance);
     CHECK_RELATIVE(a.area, b.area, tolerance);
@@ -274,10 +273,10 @@ TEST(limits) {
     // Shifted by its bulge, a soft layer's kernel is negative nowhere.
     const auto kernel = make_kernel(Interaction::point, substrate_of(layered(bulging, 3, 0, 0)));
     for (double d = 1e-3; d < 1e3; d *= 1.1) CHECK(kernel->at(d, 0) >= 0);
-    const auto contact = [&](const LayeredBody& body, int model) -> std::unique_ptr<Contact> {
+    const auto contact = [&](const LayeredBody& body, int model) -> std::unique_ptr<Path> {
         Indenter tip = layered(body, model == 2 ? kInfinity : 3.0, 0.5, 0.5);
         if (model == 2) tip.period = {map.Lx(), map.Ly()};
-        if (model == 0) return std::make_unique<AsperityContact>(asperities, tip, options);
+        if (model == 0) return make_asperity_contact(asperities, tip, options);
         return make_element_contact(map, tip, options);
     };
     for (int model = 0; model < 3; ++model) {
@@ -307,24 +306,24 @@ TEST(methods) {
     const Asperities asperities = random_asperities(1200, 0.005, 0.01, 2e-3, 0.5, 3);
     const Indenter tip = layered(body_of({{0.1, 3, 0.4}, {0.1, 9, 0.2}}, 1, 0.3), 100.0, 0.5, 0.5);
     SolverOptions options{.method = Method::direct, .sigma = 0.01, .tolerance = 1e-9};
-    AsperityContact direct(asperities, tip, options);
+    Path direct = asperity_path(asperities, tip, options);
     const Level truth = judged(direct.at_separation(0.012), direct, options);
     CHECK(truth.contacts > 50 && truth.wide_contacts == 0);
     for (const Method method : {Method::mesh, Method::dgesv}) {
         options.method = method;
-        AsperityContact contact(asperities, tip, options);
+        Path contact = asperity_path(asperities, tip, options);
         const Level level = judged(contact.at_separation(0.012), contact, options);
         CHECK(level.method == method);
         same(contact, level, direct, truth, 1e-8);
     }
     options.method = Method::direct;
-    AsperityContact wide(asperities, layered(body_of({{0.01, 3, 0.4}}, 1, 0.3), 100.0, 0.5, 0.5),
-                         options);
+    Path wide = asperity_path(asperities,
+                              layered(body_of({{0.01, 3, 0.4}}, 1, 0.3), 100.0, 0.5, 0.5), options);
     const Level deep = judged(wide.at_separation(0.012), wide, options);
     CHECK(deep.wide_contacts > 0 && deep.wide_contacts <= 1 && (deep.doubts & bit(Cause::layer)));
     // The hardness is that of what lies on top: no contact bears more.
     options.hardness.H0 = 1e-2 * truth.force / truth.area;
-    const Level yields = AsperityContact(asperities, tip, options).at_separation(0.012);
+    const Level yields = asperity_path(asperities, tip, options).at_separation(0.012);
     CHECK(yields.force > 0 && yields.force < truth.force &&
           yields.force <= options.hardness.H0 * yields.area * (1 + 1e-9));
     // The same table for the same body, as long as it is in use.
@@ -356,7 +355,7 @@ TEST(repeating) {
         Indenter tip = layered(of, kInfinity, 0.5, 0.5);
         tip.period = {1, 1};
         options.method = method;
-        return std::make_unique<AsperityContact>(asperities, tip, options);
+        return make_asperity_contact(asperities, tip, options);
     };
     const auto direct = between_flats(body, Method::direct);
     const Level truth = direct->at_separation(0.012);

@@ -1,8 +1,8 @@
 // A level gives the same answer alone as in a series, also where the energy has several minima;
 // which of these is the answer; which method 'auto' takes. That all methods give one answer:
 // test_independent, test_edges.
-#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
+#include "paths.hpp"
 #include "physics/random_asperities.hpp"
 
 using namespace rsc;
@@ -25,15 +25,15 @@ TEST(levels_do_not_remember) {
         const Indenter indenter{kE, 2.5, 0.5, 0.5};
         constexpr int levels = 30;
         const auto separation = [](int k) { return 0.03 - 0.001 * k; };
-        AsperityContact down(a, indenter, options(Method::direct)),
-            up(a, indenter, options(Method::direct));
+        Path down = asperity_path(a, indenter, options(Method::direct)),
+             up = asperity_path(a, indenter, options(Method::direct));
         std::vector<double> forward(levels), backward(levels);
         for (int k = 0; k < levels; ++k)
             forward[static_cast<std::size_t>(k)] = down.at_separation(separation(k)).force;
         for (int k = levels - 1; k >= 0; --k)
             backward[static_cast<std::size_t>(k)] = up.at_separation(separation(k)).force;
         for (int k = 0; k < levels; ++k) {
-            const double alone = AsperityContact(a, indenter, options(Method::direct))
+            const double alone = asperity_path(a, indenter, options(Method::direct))
                                      .at_separation(separation(k))
                                      .force;
             CHECK_CLOSE(forward[static_cast<std::size_t>(k)], alone, kTolerance * alone);
@@ -49,10 +49,10 @@ TEST(pressed_levels_do_not_remember) {
         const Asperities a = random_asperities(400, 0.003, 0.01, 0.1, 0.7, seed);
         const Indenter indenter{kE, 1e4, 0.5, 0.5};
         const auto fresh = [&](double Z0) {
-            return AsperityContact(a, indenter, options(Method::direct)).at_separation(Z0);
+            return asperity_path(a, indenter, options(Method::direct)).at_separation(Z0);
         };
         const double first = fresh(0.02).force;
-        AsperityContact pressed(a, indenter, options(Method::direct));
+        Path pressed = asperity_path(a, indenter, options(Method::direct));
         for (int k = 0; k < 12 && first > 0; ++k) {
             const double N = first * std::pow(1.5, k);
             const Level level = pressed.at_force(N), alone = fresh(level.separation);
@@ -74,7 +74,7 @@ TEST(of_two_the_first_met_carries) {
             a.x = {0.5, 0.5005}, a.y = {0.5, 0.5}, a.z = {lower * g, g}, a.radius = {larger * r, r};
             for (Method method : {Method::direct, Method::dgesv, Method::mesh}) {
                 const Level level =
-                    AsperityContact(a, {kE, HUGE_VAL, 0.5, 0.5}, options(method)).at_separation(0);
+                    asperity_path(a, {kE, HUGE_VAL, 0.5, 0.5}, options(method)).at_separation(0);
                 CHECK(!level.unique);
                 CHECK(level.asperity == std::vector<int>{1});
                 CHECK_RELATIVE(level.force, 4.0 / 3.0 * kE * std::sqrt(r) * std::pow(g, 1.5), 1e-9);
@@ -96,8 +96,7 @@ TEST(auto_chooses) {
         }
         SolverOptions o = options(method);
         o.tolerance = 1e-4, o.interaction = interaction;
-        const Level level =
-            AsperityContact(a, {kE, HUGE_VAL, 0.5, 0.5, period}, o).at_separation(0);
+        const Level level = asperity_path(a, {kE, HUGE_VAL, 0.5, 0.5, period}, o).at_separation(0);
         CHECK(level.candidates == side * side && level.converged);
         CHECK(level.fallback == (method == Method::mesh && level.method != method
                                      ? Fallback::no_interaction

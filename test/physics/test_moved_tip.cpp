@@ -1,6 +1,6 @@
 // A tip that moves: each level starts from those of the last places, and must be the one of a
 // contact without a past.
-#include "asperities/asperity_contact.hpp"
+#include "contact/make.hpp"
 #include "check.hpp"
 #include "physics/random_asperities.hpp"
 
@@ -91,7 +91,7 @@ TEST(one_of_two) {
     Asperities pair;
     pair.x = {0.5 - 0.5 * between, 0.5 + 0.5 * between}, pair.y = {0.5, 0.5}, pair.z = {0, 0},
     pair.radius = {1, 1};
-    const auto at = [&](Contact& contact, double x, bool force, double value) {
+    const auto at = [&](Path& contact, double x, bool force, double value) {
         contact.move_tip(x, 0.5);
         return force ? contact.at_force(value) : contact.at_separation(value);
     };

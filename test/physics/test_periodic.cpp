@@ -1,7 +1,7 @@
 // Two flats that repeat: asperities and their images against scalar equations, a large period
 // against none, methods against each other, conservation and symmetry.
-#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
+#include "paths.hpp"
 #include "physics/random_asperities.hpp"
 
 using namespace rsc;
@@ -45,13 +45,13 @@ TEST(asperities_and_images) {
         const Asperities two{{0.1, 0.5}, {0.2, 0.6}, {0.01, 0.01}, {radius, radius},
                              {},         {},         {},           {}};
         for (Method method : {Method::direct, Method::dgesv}) {
-            AsperityContact single(one, flats(L), options(method, 1e-14));
+            Path single = asperity_path(one, flats(L), options(method, 1e-14));
             const double u = pressed(kSelf / (pi * kE * L), depth, radius);
             const Level level = single.at_separation(Z0);
             CHECK_RELATIVE(level.force, 4.0 / 3 * kE * std::sqrt(radius) * u * std::sqrt(u),
                            kScalar);
             CHECK_RELATIVE(level.u[0], u, kScalar);
-            AsperityContact both(two, flats(L), options(method, 1e-14));
+            Path both = asperity_path(two, flats(L), options(method, 1e-14));
             const double v = pressed(kSelf * std::sqrt(2.0) / (pi * kE * L), depth, radius);
             CHECK_RELATIVE(both.at_separation(Z0).force,
                            2 * 4.0 / 3 * kE * std::sqrt(radius) * v * std::sqrt(v), kScalar);
@@ -64,11 +64,11 @@ TEST(asperities_and_images) {
 TEST(controls_and_derivatives) {
     constexpr double kInverse = 1e-9, kDifference = 1e-6;
     const Asperities a = on_square(400, 31);
-    AsperityContact contact(a, flats(1), options(Method::direct, 1e-12));
+    Path contact = asperity_path(a, flats(1), options(Method::direct, 1e-12));
     for (double Z0 : {0.02, 0.01, 0.0}) {
         const Level level = contact.at_separation(Z0);
         CHECK(level.separation == Z0 && level.contacts > 2);
-        AsperityContact other(a, flats(1), options(Method::direct, 1e-12));
+        Path other = asperity_path(a, flats(1), options(Method::direct, 1e-12));
         const Level pressed = other.at_force(level.force);
         CHECK_CLOSE(pressed.separation, Z0, kInverse * 0.01);
         CHECK_RELATIVE(pressed.force, level.force, 1e-11);

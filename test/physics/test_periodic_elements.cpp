@@ -2,7 +2,7 @@
 // shape.
 #include "base/error.hpp"
 #include "check.hpp"
-#include "elements/element_contact.hpp"
+#include "contact/make.hpp"
 #include "height_maps.hpp"
 #include "surface/synthesis.hpp"
 
@@ -35,7 +35,7 @@ HeightMap rough(int n, double L_lambda_s, double* slope = nullptr) {
 }
 
 // The pressure that closes the gap, as the message tells a larger force.
-double closing(Contact& contact, double force) {
+double closing(Path& contact, double force) {
     const std::string said = refusal([&] { contact.at_force(force); });
     CHECK(said == refusal([&] { contact.require_gap(force); }));
     CHECK(said.find("full contact") != std::string::npos &&

@@ -1,11 +1,10 @@
 // Contacts of a body that relaxes, asperities and elements, free and between flats, against the
 // elastic contact: the correspondence principle while contacts grow, the two elastic answers in the
 // limits, conservation of energy, convergence.
-#include "asperities/asperity_contact.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
 #include "contact/deflection.hpp"
-#include "elements/element_contact.hpp"
+#include "contact/make.hpp"
 #include "height_maps.hpp"
 #include "physics/random_asperities.hpp"
 
@@ -38,7 +37,7 @@ constexpr Kind kModels[] = {{"asperities", false, false},
                             {"elements", true, false},
                             {"elements between flats", true, true, LawKind::hertz, 0.008}};
 
-std::unique_ptr<Contact> make(const Kind& model, const Relaxation& body) {
+std::unique_ptr<Path> make(const Kind& model, const Relaxation& body) {
     static const HeightMap map = waves();
     static const Asperities asperities = [] {
         Asperities a;
@@ -53,7 +52,7 @@ std::unique_ptr<Contact> make(const Kind& model, const Relaxation& body) {
     Indenter indenter{kE, model.periodic ? kFlat : 4.0, 0.5, 0.5,
                       model.periodic ? Period{1, 1} : Period{}};
     if (model.elements) return make_element_contact(map, indenter, options);
-    return std::make_unique<AsperityContact>(asperities, indenter, options);
+    return make_asperity_contact(asperities, indenter, options);
 }
 
 // Pressed in at a constant rate, the contact is the elastic one of its separation, and N = int
@@ -197,11 +196,14 @@ void test_refused(const Kind& model) {
     const auto soft = make(model, kBody);
     const double touch = soft->first_touch();
     (void)soft->at_separation(touch - model.depth);
-    const std::vector<double> before = soft->memory();
+    const Path::State before = soft->state();
     soft->set_time(5);
     CHECK_THROWS((void)soft->at_separation(touch - 1e3 * model.depth), Error);
-    CHECK(soft->memory() == before);
-    CHECK_THROWS(soft->recall({0.0, 3.0}, nullptr), Error);
+    const Path::State after = soft->state();
+    CHECK(after.history == before.history && after.time == before.time);
+    Path::State other_bodies = soft->state();
+    other_bodies.history = {0.0, 3.0};
+    CHECK_THROWS(soft->restore(other_bodies), Error);
     // A load that the body carries with a gap at first closes it later: no state then, and a
     // smaller load has one again.
     const double nearly = make(model, {})->at_separation(5e-4).force;

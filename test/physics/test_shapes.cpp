@@ -1,10 +1,9 @@
 // Indenters of every shape: smooth ones by elements against closed forms, each with its order in
 // the pixel; lateral forces against the energy.
-#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
 #include "contact/answers.hpp"
-#include "elements/element_contact.hpp"
 #include "height_maps.hpp"
+#include "paths.hpp"
 #include "physics/friction/contact_curve.hpp"
 #include "physics/friction/friction.hpp"
 #include "physics/indenter/shapes.hpp"
@@ -62,7 +61,7 @@ void lateral(const char* name, const ShapeKeys& keys, double depth, double step,
     const auto at = [&](double dx, double dy, Level& level) {
         Indenter there = tip;
         there.x0 += dx, there.y0 += dy;
-        const std::unique_ptr<Contact> contact = make(there);
+        const std::unique_ptr<Path> contact = make(there);
         level = contact->at_separation(-depth);
         return contact->energy();
     };
@@ -83,7 +82,7 @@ void turned(const Asperities& asperities, const ShapeKeys& keys) {
     SolverOptions precise{.tolerance = 1e-12};
     const double depth = 0.002;
     const auto force = [&](const Asperities& a, const char* name, const ShapeKeys& of, double Z0) {
-        return AsperityContact(a, {kE, shape(name, of), 0, 0}, precise).at_separation(Z0).force;
+        return asperity_path(a, {kE, shape(name, of), 0, 0}, precise).at_separation(Z0).force;
     };
     for (const double angle : {0.3, 1.1, 2.0, -1.4}) {
         Asperities there = asperities;
@@ -224,7 +223,7 @@ TEST(all_shapes) {
     for (const ShapeRow& row : kShapes) {
         SolverOptions precise{.tolerance = 1e-12};
         lateral(row.name, keys, -0.002, 1e-6, 1e-6, [&](const Indenter& tip) {
-            return std::make_unique<AsperityContact>(asperities, tip, precise);
+            return make_asperity_contact(asperities, tip, precise);
         });
         lateral(row.name, keys, 4e-3, 1e-6, 1e-6, [&](const Indenter& tip) {
             return make_element_contact(rough, tip, elements(1e-11));

@@ -1,13 +1,12 @@
 // Summits where bodies touch: the second-order shift against a search, levels that do not depend on
 // the way of the tip, the lateral force as gradient of the energy; and summits of maps with pits
 // and steps and of rounded maps against elements on the same points.
-#include "asperities/asperity_contact.hpp"
 #include "asperities/shifted_summits.hpp"
 #include "check.hpp"
 #include "contact/answers.hpp"
-#include "elements/element_contact.hpp"
 #include "height_maps.hpp"
 #include "judged.hpp"
+#include "paths.hpp"
 #include "physics/indenter/shapes.hpp"
 #include "run/prepare.hpp"
 #include "surface/defects.hpp"
@@ -23,7 +22,7 @@ Case polished(double sigma, const char* model) {
     c.run.threads = 1;
     c.surface.n = 256, c.surface.L_lambda_l = 8, c.surface.L_lambda_s = 32, c.surface.sigma = sigma;
     c.asperities.law = LawKind::fourth_order;
-    c.solver.model = model[0] == 'e' ? Model::elements : Model::asperities;
+    c.solver.model = model[0] == 'e' ? ModelKind::elements : ModelKind::asperities;
     return c;
 }
 
@@ -114,12 +113,12 @@ TEST(no_history) {
             const SolverOptions options = solver_of(c, model.domain);
             Indenter there = tip;
             there.x0 += 0.031, there.y0 -= 0.017;
-            AsperityContact fresh(model.asperities, there, options);
+            Path fresh = asperity_path(model.asperities, there, options);
             const double touch = fresh.first_touch(), Z0 = touch - 4e-4;
             const Level truth = fresh.at_separation(Z0);
             CHECK(truth.contacts > 0);
             for (int way = 0; way < 3; ++way) {
-                AsperityContact moving(model.asperities, tip, options);
+                Path moving = asperity_path(model.asperities, tip, options);
                 const int steps = way == 0 ? 1 : 12;
                 for (int k = 1; k <= steps; ++k) {
                     const double t = way == 2 && k < steps ? 1.5 * k / steps : double(k) / steps;
@@ -170,9 +169,9 @@ TEST(summits_of_maps) {
     const auto forces = [&](const HeightMap& map, LawKind law, double& model, double& truth) {
         const Surface surface = measured(map);
         c.asperities.law = law;
-        c.solver.model = Model::asperities;
+        c.solver.model = ModelKind::asperities;
         model = at(c, make_surface_model(surface, c, 1), 1e-3).force;
-        c.solver.model = Model::elements;
+        c.solver.model = ModelKind::elements;
         truth = at(c, make_surface_model(surface, c, 1), 1e-3).force;
     };
     double sound, model, truth;
@@ -217,7 +216,8 @@ TEST(summits_of_maps) {
             kBump = 50,
             kDeep = 1e-6,
             kHertz = 1e-3;  // deeper is wider than the paraboloids of the ball and of the map
-        c.solids.R[1] = 1, c.asperities.law = LawKind::elliptic, c.solver.model = Model::asperities;
+        c.solids.R[1] = 1, c.asperities.law = LawKind::elliptic,
+        c.solver.model = ModelKind::asperities;
         const SurfaceModel bump = make_surface_model(
             measured(height_map(64, 64, 1.0 / 64, 1.0 / 64,
                                 [](int i, int j) {

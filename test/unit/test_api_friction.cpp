@@ -1,6 +1,6 @@
 // Friction through the C interface: what it does is that of the core.
-#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
+#include "paths.hpp"
 #include "physics/friction/contact_curve.hpp"
 #include "physics/random_asperities.hpp"
 #include "unit/library.hpp"
@@ -14,8 +14,8 @@ TEST(same_as_core) {
     OK(rsc_contact_create(&contact, take(list), 94e3, 2.5, 0.5, 0.5,
                           case_of("&solver tolerance=1e-12 /")));
     rsc::SolverOptions tight{.tolerance = 1e-12};
-    rsc::AsperityContact one(list, {94e3, 2.5, 0.5, 0.5}, tight),
-        other(list, {94e3, 2.5, 0.5, 0.5}, tight);
+    rsc::Path one = asperity_path(list, {94e3, 2.5, 0.5, 0.5}, tight),
+              other = asperity_path(list, {94e3, 2.5, 0.5, 0.5}, tight);
     rsc::ContactCurve curve(one, other);
     rsc::FrictionHistory path({0.3, 0.8});
     FrictionHandle friction;

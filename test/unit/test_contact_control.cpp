@@ -1,9 +1,8 @@
-// What every contact does around its model's solutions: force control and separations between
+// What a path does around its model's solutions: force control and separations between
 // planes count all their work, accept one level and no trial, and none that failed; the curve of
 // two contacts counts its levels; forgetting is starting anew, bit by bit.
-#include "asperities/asperity_contact.hpp"
 #include "check.hpp"
-#include "elements/element_contact.hpp"
+#include "contact/path.hpp"
 #include "physics/friction/contact_curve.hpp"
 #include "physics/random_asperities.hpp"
 
@@ -14,83 +13,85 @@ namespace {
 constexpr double kTop = 1.5;
 
 // N = (1.5 - z)^(3/2) of the separation z as the model counts it, and `jump` more below 0.3;
-// solutions that are passed are wrong by `passed` of the load until settled.
-class Known final : public Contact {
+// trials are wrong by `wrong` of the load.
+class Known final : public Model, private History {
 public:
-    explicit Known(double shift = 0, double passed = 0) : shift_(shift), passed_(passed) {}
+    explicit Known(double shift = 0, double wrong = 0) : shift_(shift), wrong_(wrong) {}
 
-    double stiffness() override { return slope_ / (1 + shift_ * slope_); }
-    double energy() const override { return 0.4 * std::pow(std::max(kTop - z_, 0.0), 2.5); }
-    void move_tip(double, double) override {}
-    void recall(const std::vector<double>&, const Level*) override {}
-    double first_touch() const override { return kTop; }
-    const Indenter& indenter() const override { return indenter_; }
-
-    long solves = 0, passes = 0, settled = 0, accepted = 0;
+    long solves = 0, trials = 0, accepted = 0;
     bool fails = false;
     double jump = 0;
-    long iterations() const { return 3 * solves + 2 * passes + 7 * settled; }
-    long products() const { return 30 * solves + 50 * passes + 11 * settled; }
+    long iterations() const { return 3 * solves + 2 * trials; }
+    long products() const { return 30 * solves + 50 * trials; }
     void put_period(const Period& period) { indenter_.period = period; }
 
-protected:
-    void forget_levels() override {}
-    Level at(double z, double factor) {
+    const Indenter& indenter() const override { return indenter_; }
+    History* history() override { return this; }
+    double tolerance() const override { return 1e-9; }
+    void move_tip(double, double) override {}
+    double first_touch() const override { return kTop; }
+    double shift() const override { return shift_; }
+    Level solve(double z, bool trial) override {
+        const bool wrong = trial && wrong_ != 0;
+        ++(wrong ? trials : solves);
         z_ = z;
+        const double factor = wrong ? 1 + wrong_ : 1;
         Level level;
+        level.provisional = wrong;
         level.separation = z;
         level.force = factor * std::pow(std::max(kTop - z, 0.0), 1.5) + (z < 0.3 ? jump : 0);
         level.area = 2 * level.force;
+        level.iterations = wrong ? 2 : 3;
+        level.products = wrong ? 50 : 30;
+        level.converged = !fails;
         slope_ = z < kTop ? -1.5 * factor * std::sqrt(kTop - z) : 0;
-        if (fails) level.converged = false;
         return level;
     }
-    Level solve(double z) override {
-        ++solves;
-        Level level = at(z, 1);
-        level.iterations = 3, level.products = 30;
-        return level;
+    void solve_again(double z, const Level&) override { (void)solve(z, false); }
+    void forget() override {}
+    double stiffness(double) override { return slope_; }
+    double energy() const override {
+        const double N = std::pow(std::max(kTop - z_, 0.0), 1.5);
+        return 0.4 * std::pow(std::max(kTop - z_, 0.0), 2.5) + 0.5 * shift_ * N * N;
     }
-    Level pass(double z) override {
-        if (passed_ == 0) return solve(z);
-        ++passes;
-        Level level = at(z, 1 + passed_);
-        level.iterations = 2, level.products = 50;
-        return level;
-    }
-    Level settle(const Level& passed) override {
-        if (passed_ == 0) return Contact::settle(passed);
-        ++settled;
-        Level level = at(passed.separation, 1);
-        level.iterations = 7, level.products = 11;
-        return level;
-    }
-    double slope() override { return slope_; }
-    void accept(Level& level) override { ++accepted, level.plastic_work = 42; }
-    double shift() const override { return shift_; }
-    double tolerance() const override { return 1e-9; }
     double force_at_most(double depth) override { return std::pow(depth, 1.5); }
-    std::optional<double> likely_separation() const override { return {}; }
     std::size_t levels_since_move() const override { return 2; }
 
 private:
-    double shift_, passed_, z_ = kTop, slope_ = 0;
+    void accept(Level& level) override {
+        ++accepted;
+        level.plastic_work = 42;
+    }
+    std::vector<double> write() const override { return {}; }
+    void read(const std::vector<double>&) override {}
+
+    double shift_, wrong_, z_ = kTop, slope_ = 0;
     Indenter indenter_{1, 1, 0, 0, {}};
+};
+
+// A path of a known model, which stays accessible.
+struct KnownPath {
+    explicit KnownPath(double shift = 0, double wrong = 0)
+        : model(new Known(shift, wrong)), path(std::unique_ptr<Model>(model)) {}
+    Known* model;
+    Path path;
 };
 
 TEST(control) {
     for (const double shift : {0.0, 0.3})
-        for (const double passed : {0.0, 0.02}) {
-            Known contact(shift, passed);
-            if (shift > 0) contact.put_period({2, 4});
+        for (const double wrong : {0.0, 0.02}) {
+            KnownPath known(shift, wrong);
+            Known& model = *known.model;
+            Path& contact = known.path;
+            if (shift > 0) model.put_period({2, 4});
             long levels = 0, iterations = 0, products = 0;
             const auto check = [&](const Level& level, double z, double N) {
                 CHECK_CLOSE(level.separation, z + shift * N, 1e-8 * std::max(1.0, N));
                 CHECK_RELATIVE(level.force, N, 1e-8);
-                CHECK(level.converged && contact.accepted == ++levels && level.plastic_work == 42);
-                CHECK(level.iterations == contact.iterations() - iterations &&
-                      level.products == contact.products() - products);
-                iterations = contact.iterations(), products = contact.products();
+                CHECK(level.converged && model.accepted == ++levels && level.plastic_work == 42);
+                CHECK(level.iterations == model.iterations() - iterations &&
+                      level.products == model.products() - products);
+                iterations = model.iterations(), products = model.products();
                 CHECK((shift > 0) == std::isfinite(level.pressure) &&
                       (shift > 0) == std::isfinite(level.area_fraction));
                 if (shift > 0) CHECK_RELATIVE(level.pressure, level.force / 8, 1e-15);
@@ -103,19 +104,20 @@ TEST(control) {
                 if (shift == 0 || N < 5) check(contact.at_separation(z + shift * N), z, N);
             }
             const Level none = contact.at_separation(kTop);
-            CHECK(none.force == 0 && none.separation == kTop && contact.accepted == ++levels);
+            CHECK(none.force == 0 && none.separation == kTop && model.accepted == ++levels);
             CHECK(none.iterations == 3 && none.products == 30);
             // What failed is told and not accepted.
-            contact.fails = true;
-            CHECK(!contact.at_force(2.0).converged && contact.accepted == levels);
-            CHECK(!contact.at_separation(0.5).converged && contact.accepted == levels);
+            model.fails = true;
+            CHECK(!contact.at_force(2.0).converged && model.accepted == levels);
+            CHECK(!contact.at_separation(0.5).converged && model.accepted == levels);
         }
 }
 
 // A force that no separation carries is told; those on both sides of the jump are found.
 TEST(jumps) {
-    Known contact;
-    contact.jump = 5;
+    KnownPath known;
+    Path& contact = known.path;
+    known.model->jump = 5;
     const double below = std::pow(1.2, 1.5);
     for (const double N : {0.5, below - 1e-3, below + 5.001, 8.0}) {
         const Level level = contact.at_force(N);
@@ -131,8 +133,9 @@ TEST(jumps) {
 
 // Two contacts take turns; a level that one of them holds is not computed again.
 TEST(curves) {
-    Known one, other;
-    ContactCurve curve(one, other);
+    KnownPath first, second;
+    Known &one = *first.model, &other = *second.model;
+    ContactCurve curve(first.path, second.path);
     const auto N = [](double delta) { return std::pow(kTop + delta, 1.5); };
     CHECK(curve.first_touch() == -kTop && curve.levels() == 0 && curve.failed() == 0);
     CHECK(curve.load(-kTop).force == 0 && curve.load(-2).energy == 0 &&

@@ -78,7 +78,7 @@ void test_stopping() {
         rsc::Case c;
         c.surface.n = 256, c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 32;
         if (kind == 1) c.solver.method = rsc::Method::dgesv;
-        if (kind == 2) c.solver.model = rsc::Model::elements;
+        if (kind == 2) c.solver.model = rsc::ModelKind::elements;
         if (kind == 3) c.solids.adhesion = 0.01;
         const auto model = rsc::make_surface_model(c, 1, 1);
         const auto contact = rsc::make_contact(model, rsc::indenter_of(c, model.domain),

@@ -54,7 +54,7 @@ Case of_map(const std::string& file) {
     c.surface.source = Source::heights;
     c.surface.file = file;
     c.output.pdf_levels = {2};
-    c.solver.model = Model::asperities;
+    c.solver.model = ModelKind::asperities;
     return c;
 }
 
@@ -170,7 +170,7 @@ TEST(maps) {
                                           {0.500001, 0.25, false},
                                           {0.5, 0.250001, false}}) {
         map_file("p2.txt", 11, -5, dx, dy);
-        for (const Model model : {Model::elements, Model::asperities}) {
+        for (const ModelKind model : {ModelKind::elements, ModelKind::asperities}) {
             c.solver.model = model;
             CHECK(accepted([&] { realize(prepare(c), 2, 1); }) == allowed);
         }
@@ -178,7 +178,7 @@ TEST(maps) {
     // Elements stand on the points themselves: as read, copied, or made on a grid of their own.
     map_file("p4.txt", 4, -9);
     Case elements = of_map(folder / "p4.txt");
-    elements.solver.model = Model::elements;
+    elements.solver.model = ModelKind::elements;
     const Surface read = make_surface(elements, 1, 1);
     const SurfaceModel copied = make_surface_model(read, elements, 1),
                        direct = make_surface_model(elements, 1, 1);
@@ -196,7 +196,7 @@ TEST(maps) {
         CHECK(same == 600);
     }
     Case made = synthetic();
-    made.solver.model = Model::elements, made.elements.points_per_wave = 6.1;
+    made.solver.model = ModelKind::elements, made.elements.points_per_wave = 6.1;
     CHECK(make_surface_model(made, 1, 1).points->nx == 98 &&
           make_surface_model(made, 1, 1).points->ny == 98);
     // Of two sizes the message names both.
@@ -250,7 +250,7 @@ TEST(pressures) {
 // are solved.
 TEST(closed_flats) {
     Case c = synthetic();
-    c.solids.R[0] = c.solids.R[1] = HUGE_VAL, c.solver.model = Model::elements;
+    c.solids.R[0] = c.solids.R[1] = HUGE_VAL, c.solver.model = ModelKind::elements;
     c.indentation.boundary = Boundary::periodic, c.indentation.levels = {2, 1, 0.1};
     CHECK(accepted([&] { prepare(c); }));
     c.indentation.levels = {2, 1, 0};
@@ -274,7 +274,7 @@ TEST(punch_on_plane) {
         for (int i = 0; i < n; ++i) text += (i * 7 + j * 3) % 5 == 0 ? " 1e-12" : " 0";
     Case c = of_map(write("plane.txt", text));
     c.surface.L = 0.4, c.surface.detrend = Detrend::none, c.output.pdf_levels = {},
-    c.solver.model = Model::elements;
+    c.solver.model = ModelKind::elements;
     c.indenter.shape = shape_number("punch");
     c.indentation.control = Control::force, c.indentation.levels = {1};
     for (const double a : {0.05, 0.1}) {
@@ -307,7 +307,7 @@ TEST(exchanged_maps) {
                                               std::cos(9 * x - 7 * y + 2)));
         }
     const std::string files[] = {write("smooth.txt", smooth), write("rough.txt", rough)};
-    for (const Model model : {Model::elements, Model::asperities}) {
+    for (const ModelKind model : {ModelKind::elements, ModelKind::asperities}) {
         Level level[2];
         for (const int first : {0, 1}) {
             Case c = of_map(files[first]);
@@ -319,7 +319,7 @@ TEST(exchanged_maps) {
             c.indentation.unit = LevelUnit::relative, c.indentation.levels = {0.005};
             level[first] = realize(prepare(c), 1, 1).levels[0];
         }
-        if (model == Model::elements) {
+        if (model == ModelKind::elements) {
             CHECK_RELATIVE(level[0].area, level[1].area, 1e-9);
             CHECK_RELATIVE(level[0].separation, level[1].separation, 1e-8);
         } else

@@ -10,7 +10,7 @@ using namespace rsc;
 
 namespace {
 
-bool elements(const Case& settings) { return model_of(settings).model == Model::elements; }
+bool elements(const Case& settings) { return model_of(settings).model == ModelKind::elements; }
 
 // A steel ball of 10 mm on steel; rms heights of 0.1 um are too smooth for summits under it.
 Case ball(double sigma, double force) {

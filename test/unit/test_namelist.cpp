@@ -201,7 +201,7 @@ TEST(test_set) {
     const Case c = with({"solver%model=elements", "surface%source=heights", "surface%file=a b.nc",
                          "output%fields=pressure,gap", "compare%levels=none",
                          "surface%detrend='none'", "surface%L=2"});
-    CHECK(c.solver.model == Model::elements && c.surface.file == "a b.nc" &&
+    CHECK(c.solver.model == ModelKind::elements && c.surface.file == "a b.nc" &&
           c.surface.detrend == Detrend::none && c.surface.L == 2 && c.output.fields.size() == 2 &&
           c.compare.what == CompareWhat::none);
     const Case back = with({"surface%n=", "solids%E=", "run%title=", "surface%L=", "surface%twins=",

@@ -20,7 +20,7 @@ TEST(lay) {
     c.surface.L_lambda_l = 2, c.surface.L_lambda_s = 6, c.surface.aspect = 30,
     c.surface.sigma = 1e-3;
     c.solids.R[1] = 10;
-    c.solver.model = Model::elements;
+    c.solver.model = ModelKind::elements;
     for (int k = 0; k < 20; ++k) c.indentation.levels.push_back(2.9 - 0.1 * k);
     int levels = 0, force = 0, area = 0;
     for (const bool campaign : {false, true}) {

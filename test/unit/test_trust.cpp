@@ -1,9 +1,8 @@
 // What a level is worth: status, expected errors, grids of elements, borders, filled points.
-#include "asperities/asperity_contact.hpp"
 #include "case/registry.hpp"
 #include "check.hpp"
+#include "contact/make.hpp"
 #include "contact/spots.hpp"
-#include "elements/element_contact.hpp"
 #include "elements/pixel_spots.hpp"
 #include "height_maps.hpp"
 #include "observe/map.hpp"
@@ -199,7 +198,7 @@ TEST(finer) {
     c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16, c.surface.hurst = 1,
     c.surface.sigma = 2.4e-3;
     c.solids.R[1] = 31;
-    c.solver.model = Model::elements;
+    c.solver.model = ModelKind::elements;
     c.indentation.levels = {2, 1.5, 1, 0.5, 0};
     int levels = 0, force = 0, area = 0;
     for (const int seed : {1, 2, 3}) {
@@ -221,7 +220,7 @@ TEST(finer) {
     CHECK(levels >= 7 && 10 * force >= 9 * levels && 10 * area >= 9 * levels);
 }
 
-std::vector<Level> pressed(Case c, Model model) {
+std::vector<Level> pressed(Case c, ModelKind model) {
     c.solver.model = model;
     return realize(prepare(c), 1, 1).levels;
 }
@@ -358,10 +357,10 @@ TEST(alike_in_every_order) {
     c.surface.L_lambda_l = 2, c.surface.L_lambda_s = 8, c.surface.sigma = 1e-3, c.surface.n = 64;
     c.solids.R[1] = 10;
     c.indentation.levels = {1.5, 1, 0.5, 0};
-    const std::vector<Level> down = pressed(c, Model::elements);
+    const std::vector<Level> down = pressed(c, ModelKind::elements);
     std::ranges::reverse(c.indentation.levels);
     c.run.realizations = 2;
-    const std::vector<Level> up = pressed(c, Model::elements);
+    const std::vector<Level> up = pressed(c, ModelKind::elements);
     for (std::size_t k = 0; k < 4; ++k) {
         const Level &a = down[k], &b = up[3 - k];
         CHECK(a.status == b.status && a.doubts == b.doubts);
@@ -384,7 +383,7 @@ TEST(alike_in_every_order) {
             if (flats) m.indentation.boundary = Boundary::periodic;
             m.solids.R[1] = flats ? HUGE_VAL : 3;
             m.indentation.unit = LevelUnit::length, m.indentation.levels = {flats ? 2e-4 : -2e-3};
-            const Level level = pressed(m, Model::elements).front();
+            const Level level = pressed(m, ModelKind::elements).front();
             CHECK(level.force > 0 && level.force_error_expected > 0);
         }
 }
@@ -396,9 +395,9 @@ TEST(under_a_force) {
     c.solids.R[1] = 10;
     c.asperities.law = LawKind::fourth_order;
     c.indentation.levels = {0.5};
-    const Level at_separation = pressed(c, Model::asperities).front();
+    const Level at_separation = pressed(c, ModelKind::asperities).front();
     c.indentation.control = Control::force, c.indentation.levels = {at_separation.force};
-    const Level level = pressed(c, Model::asperities).front();
+    const Level level = pressed(c, ModelKind::asperities).front();
     CHECK(level.doubts == at_separation.doubts && std::isnan(level.force_error_expected));
     if (at_separation.force_error_expected > 0)
         CHECK_RELATIVE(level.separation_error_expected,

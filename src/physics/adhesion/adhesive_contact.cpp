@@ -1,26 +1,25 @@
 #include "physics/adhesion/adhesive_contact.hpp"
 
 #include "base/error.hpp"
-#include "contact/answers.hpp"
 #include "physics/adhesion/adhesive_path.hpp"
 
 namespace rsc {
 namespace {
 
-constexpr std::size_t kBefore = 7;  // numbers in memory() before the pairs
+constexpr std::size_t kBefore = 7;  // numbers of write() before the pairs
 
-class AdhesiveContact final : public Contact {
+class AdhesiveAsperities final : public Model, private History {
 public:
-    AdhesiveContact(const Asperities& asperities, const Indenter& indenter,
-                    const SolverOptions& options)
+    AdhesiveAsperities(const Asperities& asperities, const Indenter& indenter,
+                       const SolverOptions& options)
         : path_(std::make_unique<AdhesivePath>(asperities, indenter, options)) {}
 
-    double stiffness() override {
+    double stiffness(double) override {
         if (std::exchange(fresh_, false)) slope_ = path_->solver.slope(path_->here.states);
         return slope_;
     }
     double clamped_stiffness() override {
-        return std::isnan(stiffness()) || path_->active.empty()
+        return std::isnan(stiffness(kExact)) || path_->active.empty()
                    ? slope_
                    : path_->solver.clamped_stiffness(path_->here.states);
     }
@@ -31,28 +30,34 @@ public:
     std::shared_ptr<const Asperities> asperities() const override {
         return {std::shared_ptr<void>(), &path_->asperities};
     }
-    bool path_dependent() const override { return true; }
-    bool pulls() const override { return true; }
-    // Position of the tip, separation, dissipated energy, smallest force, jumps, margin, and pairs
-    // of an attached asperity and its state.
-    std::vector<double> memory() const override;
-    void recall(const std::vector<double>& memory, const Level* level) override;
-
-protected:
-    void forget_levels() override {
+    History* history() override { return this; }
+    double tolerance() const override { return path_->options.tolerance; }
+    void forget() override {
         path_ = path_at(path_->indenter.x0, path_->indenter.y0);
         slope_ = energy_ = 0, fresh_ = false;
     }
-    Level solve(double Z0) override;
+    Level solve(double Z0, bool trial) override;
+    void solve_again(double z, const Level&) override {
+        const double last = path_->accepted.separation;
+        (void)solve(last < kInfinity ? last : z, false);
+    }
     // Follows the path to the first state with the force, towards the surface if it is larger than
     // the present force, otherwise away. If no state has the force, the level is that of the
     // smallest force, with Fallback::held.
     std::optional<Level> solve_under(double N) override;
-    void accept(Level&) override { path_->accepted = path_->now, path_->accepted.jumps = 0; }
-    double tolerance() const override { return path_->options.tolerance; }
     double force_at_most(double) override { return 0; }
 
 private:
+    bool attracts() const override { return true; }
+    void accept(Level&) override {
+        path_->accepted = path_->now;
+        path_->accepted.jumps = 0;
+    }
+    // Position of the tip, separation, dissipated energy, smallest force, jumps, margin, and pairs
+    // of an attached asperity and its state.
+    std::vector<double> write() const override;
+    void read(const std::vector<double>& numbers) override;
+
     Level report();
     // A path without loads at another place, with the summits there.
     std::unique_ptr<AdhesivePath> path_at(double x0, double y0) const {
@@ -67,11 +72,11 @@ private:
     bool fresh_ = false;             // slope_ is still to be computed, from the state of the path
 };
 
-Level AdhesiveContact::report() {
+Level AdhesiveAsperities::report() {
     AdhesivePath& my = *path_;
     Level l;
     l.separation = my.here.Z;
-    // there is no state to report: the values become not-a-number (Contact::finish)
+    // there is no state to report: the values become not-a-number (Path::finish)
     if (my.lost_way) {
         my.now = my.accepted;
         l.converged = false;
@@ -114,7 +119,7 @@ Level AdhesiveContact::report() {
     return l;
 }
 
-Level AdhesiveContact::solve(double Z0) {
+Level AdhesiveAsperities::solve(double Z0, bool) {
     AdhesivePath& my = *path_;
     fresh_ = false;
     for (my.thin = true;; my.thin = false) {
@@ -125,7 +130,7 @@ Level AdhesiveContact::solve(double Z0) {
     return report();
 }
 
-std::optional<Level> AdhesiveContact::solve_under(double N) {
+std::optional<Level> AdhesiveAsperities::solve_under(double N) {
     AdhesivePath& my = *path_;
     fresh_ = false;
     my.thin = false;
@@ -171,12 +176,10 @@ void require_gentle(const AdhesivePath& path, double x0, double y0) {
     }
 }
 
-void AdhesiveContact::move_tip(double x0, double y0) {
-    if (!std::isfinite(x0) || !std::isfinite(y0))
-        throw Error(Failure::bad_input, "the tip's position must be finite");
+void AdhesiveAsperities::move_tip(double x0, double y0) {
     AdhesivePath& my = *path_;
     if (x0 == my.indenter.x0 && y0 == my.indenter.y0) return;
-    (void)stiffness();
+    (void)stiffness(kExact);
     if (!my.accepted.asperity.empty()) {
         require_gentle(my, x0, y0);
         // with the summits of the difference at the new place
@@ -204,7 +207,7 @@ void AdhesiveContact::move_tip(double x0, double y0) {
     slope_ = energy_ = 0, fresh_ = false;
 }
 
-std::vector<double> AdhesiveContact::memory() const {
+std::vector<double> AdhesiveAsperities::write() const {
     const AdhesivePath::Past& past = path_->accepted;
     if (past.separation == kInfinity) return {};
     const Indenter& tip = path_->indenter;
@@ -216,40 +219,38 @@ std::vector<double> AdhesiveContact::memory() const {
     return numbers;
 }
 
-void AdhesiveContact::recall(const std::vector<double>& memory, const Level* last) {
-    bool sound = memory.size() >= kBefore && (memory.size() - kBefore) % 2 == 0;
-    for (double value : memory) sound = sound && std::isfinite(value);
+void AdhesiveAsperities::read(const std::vector<double>& numbers) {
+    bool sound = numbers.size() >= kBefore && (numbers.size() - kBefore) % 2 == 0;
+    for (double value : numbers) sound = sound && std::isfinite(value);
     // The state belongs to the stored position of the tip, which may differ from that of the last
     // level.
-    if (sound && (memory[0] != path_->indenter.x0 || memory[1] != path_->indenter.y0))
-        path_ = path_at(memory[0], memory[1]);
+    if (sound && (numbers[0] != path_->indenter.x0 || numbers[1] != path_->indenter.y0))
+        path_ = path_at(numbers[0], numbers[1]);
     AdhesivePath& my = *path_;
     my.accepted = {};
-    if (!memory.empty()) {
+    if (!numbers.empty()) {
         AdhesivePath::Past& past = my.accepted;
         if (sound)
-            past.separation = memory[2], past.lost = memory[3], past.least_force = memory[4],
-            past.jumps = static_cast<int>(memory[5]), past.margin = memory[6];
-        for (std::size_t k = kBefore; sound && k + 1 < memory.size(); k += 2) {
-            sound = memory[k] >= 0 && memory[k] < static_cast<double>(my.asperities.size()) &&
-                    memory[k + 1] > 0;
+            past.separation = numbers[2], past.lost = numbers[3], past.least_force = numbers[4],
+            past.jumps = static_cast<int>(numbers[5]), past.margin = numbers[6];
+        for (std::size_t k = kBefore; sound && k + 1 < numbers.size(); k += 2) {
+            sound = numbers[k] >= 0 && numbers[k] < static_cast<double>(my.asperities.size()) &&
+                    numbers[k + 1] > 0;
             if (!sound) break;
-            past.asperity.push_back(static_cast<int>(memory[k])), past.s.push_back(memory[k + 1]);
+            past.asperity.push_back(static_cast<int>(numbers[k])), past.s.push_back(numbers[k + 1]);
         }
         if (!sound)
             throw Error(Failure::bad_input, "the state does not belong to these asperities");
         my.sticking.prepare(past.asperity);
     }
-    if (last)
-        (void)solve(my.accepted.separation < kInfinity ? my.accepted.separation : last->separation);
 }
 
 }  // namespace
 
-std::unique_ptr<Contact> make_adhesive_contact(const Asperities& asperities,
-                                               const Indenter& indenter,
-                                               const SolverOptions& options) {
-    return std::make_unique<AdhesiveContact>(asperities, indenter, options);
+std::unique_ptr<Model> make_adhesive_asperities(const Asperities& asperities,
+                                                const Indenter& indenter,
+                                                const SolverOptions& options) {
+    return std::make_unique<AdhesiveAsperities>(asperities, indenter, options);
 }
 
 }  // namespace rsc

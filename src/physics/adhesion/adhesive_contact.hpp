@@ -9,12 +9,12 @@
 // states before and after it.
 #pragma once
 
-#include "contact/contact.hpp"
+#include "contact/model.hpp"
 #include "surface/asperities.hpp"
 
 namespace rsc {
 
-// Asperities and indenter as for AsperityContact; options.adhesion.work is positive. Throws
+// Asperities and indenter as for AsperityModel; options.adhesion.work is positive. Throws
 // Error(bad_input) for options that are not available with adhesion.
 //
 // energy() is the elastic energy minus w A, with dW/dZ0 = -N; 0 if nothing is attached. If
@@ -24,8 +24,8 @@ namespace rsc {
 // lost; the tip then stays where it was. If none is attached, the next level is approached from
 // above. The summits of the difference are those of the new place: attached ones come to the
 // equilibrium there at the end of the way.
-std::unique_ptr<Contact> make_adhesive_contact(const Asperities& asperities,
-                                               const Indenter& indenter,
-                                               const SolverOptions& options);
+std::unique_ptr<Model> make_adhesive_asperities(const Asperities& asperities,
+                                                const Indenter& indenter,
+                                                const SolverOptions& options);
 
 }  // namespace rsc

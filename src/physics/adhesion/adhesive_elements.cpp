@@ -9,15 +9,15 @@
 namespace rsc {
 namespace {
 
-constexpr std::size_t kKept = 8;  // numbers before the points in memory()
+constexpr std::size_t kKept = 8;  // numbers of write() before the points
 
-class AdhesiveElements final : public Contact {
+class AdhesiveElements final : public Model, private History {
 public:
     AdhesiveElements(const HeightMap& heights, const Indenter& indenter,
                      const SolverOptions& options)
         : state_(heights, indenter, options) {}
 
-    double stiffness() override {
+    double stiffness(double) override {
         if (std::none_of(state_.q.begin(), state_.q.end(), [](double q) { return q > 0; }))
             return 0;
         return state_.flats
@@ -27,16 +27,24 @@ public:
     double energy() const override { return state_.energy; }
     double first_touch() const override { return state_.top; }
     const Indenter& indenter() const override { return state_.indenter; }
-    bool path_dependent() const override { return true; }
-    bool pulls() const override { return true; }
+    History* history() override { return this; }
+    double tolerance() const override { return state_.options.tolerance; }
+    void move_tip(double x0, double y0) override { state_.move(x0, y0); }
+    void forget() override { state_.forget(); }
+    Level solve(double Z0, bool) override { return state_.solve(Z0); }
+    void solve_again(double, const Level&) override {}  // read() has
+    double closed() const override { return state_.flats ? state_.flats->closed() : -kInfinity; }
+    double force_at_most(double) override { return 0; }
+    std::optional<Level> solve_under(double N) override;
 
-    void move_tip(double x0, double y0) override {
-        if (!std::isfinite(x0) || !std::isfinite(y0))
-            throw Error(Failure::bad_input, "the tip's position must be finite");
-        state_.move(x0, y0);
+private:
+    bool attracts() const override { return true; }
+    void accept(Level&) override {
+        state_.accepted = state_.now;
+        state_.accepted.jumps = 0;
+        state_.keep();
     }
-
-    std::vector<double> memory() const override {
+    std::vector<double> write() const override {
         const AdhesivePixels::Past& past = state_.accepted;
         if (past.separation == kInfinity) return {};
         const Indenter& tip = state_.indenter;
@@ -47,128 +55,110 @@ public:
         return numbers;
     }
 
-    void recall(const std::vector<double>& memory, const Level* level) override {
+    void read(const std::vector<double>& numbers) override {
         AdhesivePixels::Past past;
-        bool sound = memory.empty() || memory.size() >= kKept;
-        for (std::size_t k = 0; k < memory.size() && sound; ++k)
-            sound = std::isfinite(memory[k]) &&
-                    (k < kKept ||
-                     (memory[k] >= 0 && memory[k] < static_cast<double>(state_.clearance.size())));
+        bool sound = numbers.empty() || numbers.size() >= kKept;
+        for (std::size_t k = 0; k < numbers.size() && sound; ++k)
+            sound = std::isfinite(numbers[k]) &&
+                    (k < kKept || (numbers[k] >= 0 &&
+                                   numbers[k] < static_cast<double>(state_.clearance.size())));
         sound =
-            sound && (memory.empty() ||
-                      (memory[5] >= 0 && memory[5] <= std::numeric_limits<std::int32_t>::max()));
+            sound && (numbers.empty() ||
+                      (numbers[5] >= 0 && numbers[5] <= std::numeric_limits<std::int32_t>::max()));
         if (!sound)
             throw Error(Failure::bad_input, "this is not the state of a contact of this surface");
-        if (!memory.empty())
-            past = {memory[0], memory[1], memory[2],
-                    memory[3], memory[4], static_cast<std::int32_t>(memory[5]),
+        if (!numbers.empty())
+            past = {numbers[0], numbers[1], numbers[2],
+                    numbers[3], numbers[4], static_cast<std::int32_t>(numbers[5]),
                     {}};
-        for (std::size_t k = kKept; k < memory.size(); ++k)
-            past.attracting.push_back(static_cast<std::int32_t>(memory[k]));
-        forget_levels();
-        if (!memory.empty() &&
-            (memory[6] != state_.indenter.x0 || memory[7] != state_.indenter.y0)) {
-            state_.indenter.move(memory[6], memory[7]);
+        for (std::size_t k = kKept; k < numbers.size(); ++k)
+            past.attracting.push_back(static_cast<std::int32_t>(numbers[k]));
+        forget();
+        if (!numbers.empty() &&
+            (numbers[6] != state_.indenter.x0 || numbers[7] != state_.indenter.y0)) {
+            state_.indenter.move(numbers[6], numbers[7]);
             state_.set_clearances();
         }
         state_.accepted = std::move(past);
-        if ((level || state_.accepted.separation < kInfinity) &&
-            !solve(state_.accepted.separation < kInfinity ? state_.accepted.separation
-                                                          : level->separation)
-                 .converged)
+        if (state_.accepted.separation < kInfinity &&
+            !state_.solve(state_.accepted.separation).converged)
             throw Error(
                 Failure::bad_input,
                 "the state of the contact cannot be reached again: the solver does not converge");
         state_.keep();
     }
 
-protected:
-    void forget_levels() override { state_.forget(); }
-    Level solve(double Z0) override { return state_.solve(Z0); }
-    std::optional<Level> solve_under(double N) override {
-        std::int32_t iterations = 0;
-        std::int64_t products = 0;
-        Level level;
-        const auto look = [&](double Z) {
-            level = state_.step(Z);
-            iterations += level.iterations, products += level.products;
-            return !level.converged ? std::numeric_limits<double>::quiet_NaN() : level.force - N;
-        };
-        // Near N = 0 the force is the difference of pressure and attraction, and no more exact than
-        // these.
-        const auto precise = [&](double miss) {
-            return std::abs(miss) <=
-                   tolerance() *
-                       std::max(std::abs(N), state_.s0 * (level.area + level.cohesive_area));
-        };
-        double Z = state_.accepted.separation < kInfinity ? state_.accepted.separation
-                                                          : state_.top + state_.z0,
-               miss = look(Z);
-        const double way = miss < 0 ? -1 : 1;
-        double before = Z, before_miss = miss, least = level.force, least_at = Z,
-               step = 0.25 * state_.z0;
-        constexpr int most = 400;
-        const double lowest = closed() + 1e-6 * state_.z0;  // nearly full contact
-        bool found = precise(miss);
-        for (int i = 0; i < most && !found && miss * before_miss > 0; ++i) {
-            if (way > 0 && state_.now.attracting.empty()) break;  // no attraction is left
-            before = Z, before_miss = miss;
-            Z = std::max(Z + way * step, lowest);
-            step *= 1.4;
-            miss = look(Z);
-            if (Z == lowest && miss < 0) {
-                const double area = state_.heights.Lx() * state_.heights.Ly();
-                throw Error(Failure::bad_input, format("a nominal pressure of %.9g is above that "
-                                                       "of full contact on this surface, %.4g",
-                                                       N / area, level.force / area));
-            }
-            if (level.converged && level.force < least) least = level.force, least_at = Z;
-            found = precise(miss);
-        }
-        if (!found && miss * before_miss < 0) {
-            std::uintmax_t steps = 100;
-            const auto exact =
-                [&](double
-                        // ends at the first level that is precise: a second one from another start
-                        // may not be
-                        z) {
-                    if (!found) miss = look(z), found = precise(miss);
-                    return found ? 0.0 : miss;
-                };
-            const bool rising = Z > before;
-            const auto [low, high] = boost::math::tools::toms748_solve(
-                exact, rising ? before : Z, rising ? Z : before, rising ? before_miss : miss,
-                rising ? miss : before_miss, boost::math::tools::eps_tolerance<double>(50), steps);
-            if (!found) found = precise(look(0.5 * (low + high)));
-        }
-        if (!found) {
-            (void)look(least_at);
-            if (level.converged) level.fallback = Fallback::held;
-            level.converged = false;
-        }
-        level.iterations = iterations, level.products = products;
-        return level;
-    }
-    void accept(Level&) override {
-        state_.accepted = state_.now, state_.accepted.jumps = 0;
-        state_.keep();
-    }
-    double tolerance() const override { return state_.options.tolerance; }
-
-    double closed() const override { return state_.flats ? state_.flats->closed() : -kInfinity; }
-
-    double force_at_most(double) override { return 0; }
-    std::optional<double> likely_separation() const override { return std::nullopt; }
-    std::size_t levels_since_move() const override { return 0; }
-
-private:
     AdhesivePixels state_;
 };
 
+std::optional<Level> AdhesiveElements::solve_under(double N) {
+    std::int32_t iterations = 0;
+    std::int64_t products = 0;
+    Level level;
+    const auto look = [&](double Z) {
+        level = state_.step(Z);
+        iterations += level.iterations, products += level.products;
+        return !level.converged ? std::numeric_limits<double>::quiet_NaN() : level.force - N;
+    };
+    // Near N = 0 the force is the difference of pressure and attraction, and no more exact than
+    // these.
+    const auto precise = [&](double miss) {
+        return std::abs(miss) <=
+               tolerance() * std::max(std::abs(N), state_.s0 * (level.area + level.cohesive_area));
+    };
+    double Z = state_.accepted.separation < kInfinity ? state_.accepted.separation
+                                                      : state_.top + state_.z0,
+           miss = look(Z);
+    const double way = miss < 0 ? -1 : 1;
+    double before = Z, before_miss = miss, least = level.force, least_at = Z,
+           step = 0.25 * state_.z0;
+    constexpr int most = 400;
+    const double lowest = closed() + 1e-6 * state_.z0;  // nearly full contact
+    bool found = precise(miss);
+    for (int i = 0; i < most && !found && miss * before_miss > 0; ++i) {
+        if (way > 0 && state_.now.attracting.empty()) break;  // no attraction is left
+        before = Z, before_miss = miss;
+        Z = std::max(Z + way * step, lowest);
+        step *= 1.4;
+        miss = look(Z);
+        if (Z == lowest && miss < 0) {
+            const double area = state_.heights.Lx() * state_.heights.Ly();
+            throw Error(Failure::bad_input, format("a nominal pressure of %.9g is above that "
+                                                   "of full contact on this surface, %.4g",
+                                                   N / area, level.force / area));
+        }
+        if (level.converged && level.force < least) least = level.force, least_at = Z;
+        found = precise(miss);
+    }
+    if (!found && miss * before_miss < 0) {
+        std::uintmax_t steps = 100;
+        const auto exact =
+            [&](double
+                    // ends at the first level that is precise: a second one from another start
+                    // may not be
+                    z) {
+                if (!found) miss = look(z), found = precise(miss);
+                return found ? 0.0 : miss;
+            };
+        const bool rising = Z > before;
+        const auto [low, high] = boost::math::tools::toms748_solve(
+            exact, rising ? before : Z, rising ? Z : before, rising ? before_miss : miss,
+            rising ? miss : before_miss, boost::math::tools::eps_tolerance<double>(50), steps);
+        if (!found) found = precise(look(0.5 * (low + high)));
+    }
+    if (!found) {
+        (void)look(least_at);
+        if (level.converged) level.fallback = Fallback::held;
+        level.converged = false;
+    }
+    level.iterations = iterations, level.products = products;
+    return level;
+}
+
 }  // namespace
 
-std::unique_ptr<Contact> make_adhesive_elements(const HeightMap& heights, const Indenter& indenter,
-                                                const SolverOptions& options) {
+std::unique_ptr<Model> make_adhesive_elements(const HeightMap& heights, const Indenter& indenter,
+                                              const SolverOptions& options) {
     return std::make_unique<AdhesiveElements>(heights, indenter, options);
 }
 

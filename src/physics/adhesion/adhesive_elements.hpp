@@ -13,7 +13,7 @@
 // range below two pixels causes a warning, below half a pixel an error.
 #pragma once
 
-#include "contact/contact.hpp"
+#include "contact/model.hpp"
 #include "surface/surface.hpp"
 
 namespace rsc {
@@ -24,7 +24,7 @@ void require_resolved(double range, double step);
 // The heights, as require_elements() returns them, must outlive the contact. The options used are
 // the tolerance, the number of iterations and the adhesion with a positive range. Throws
 // Error(bad_input) for options that are not available with adhesion, and for a range below half a
-// pixel. Of the functions of Contact:
+// pixel. Of the functions of Model:
 //   energy()      elastic energy minus s0 (z0 - w) integrated over the attracting points;
 //   energy_lost of a level is the work done since the
 //                 first level minus the change of the energy. The work is trapezoidal; steps
@@ -48,7 +48,7 @@ void require_resolved(double range, double step);
 //                 before
 //   memory()      separation, force, work done, smallest force, dissipated energy, jumps since the
 //   last level, tip, then the attracting points
-std::unique_ptr<Contact> make_adhesive_elements(const HeightMap& heights, const Indenter& indenter,
-                                                const SolverOptions& options);
+std::unique_ptr<Model> make_adhesive_elements(const HeightMap& heights, const Indenter& indenter,
+                                              const SolverOptions& options);
 
 }  // namespace rsc

@@ -4,7 +4,7 @@
 
 #include "asperities/asperity_level.hpp"
 #include "asperities/ranking.hpp"
-#include "contact/contact.hpp"
+#include "contact/path.hpp"
 #include "interaction/products.hpp"
 #include "physics/adhesion/attached.hpp"
 #include "physics/adhesion/sticking.hpp"

@@ -1,7 +1,7 @@
 // Load curve of a contact, computed level by level for approaches in any order.
 #pragma once
 
-#include "contact/contact.hpp"
+#include "contact/path.hpp"
 #include "physics/friction/friction.hpp"
 
 namespace rsc {
@@ -11,7 +11,7 @@ namespace rsc {
 // choice depends only on the requested approaches.
 class ContactCurve : public LoadCurve {
 public:
-    ContactCurve(Contact& one, Contact& other) : contact_{&one, &other} {}
+    ContactCurve(Path& one, Path& other) : contact_{&one, &other} {}
 
     double first_touch() const override { return -contact_[0]->first_touch(); }
     Load load(double delta) override;
@@ -30,7 +30,7 @@ public:
 private:
     int lane(double delta) const;
 
-    Contact* contact_[2];
+    Path* contact_[2];
     std::unique_ptr<Level> last_[2];
     long levels_ = 0, failed_ = 0;
 };

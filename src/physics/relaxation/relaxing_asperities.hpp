@@ -34,7 +34,7 @@ public:
     double stored() const { return law_.stored() + stored_; }
     double lost() const { return law_.lost() + lost_; }
 
-    // Contact::lasting_loads(): on the spots of the level, and where it has no contact on circles
+    // Path::lasting_loads(): on the spots of the level, and where it has no contact on circles
     // of the largest area so far.
     Level lasting(const Level& level) const;
 

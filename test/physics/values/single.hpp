@@ -2,9 +2,8 @@
 // levels compared with elements.
 #pragma once
 
-#include "asperities/asperity_contact.hpp"
 #include "asperities/law.hpp"
-#include "elements/element_contact.hpp"
+#include "paths.hpp"
 #include "physics/values/truth.hpp"
 
 namespace values {
@@ -121,7 +120,7 @@ inline void friction(CheckedFile& f, const Truth& t) {
     const Asperities& a = t.r[0].asperities;
     for (std::size_t i = 0; i < a.size(); ++i)
         touch = std::max(touch, a.z[i] + t.top(a.x[i], a.y[i]));
-    AsperityContact contact(a, t.job.indenter, t.job.solver);
+    Path contact = asperity_path(a, t.job.indenter, t.job.solver);
     Vector xi, Q, stiffness, work;
     for (std::size_t s = 0; s < t.steps; ++s) {
         const double Z = t.r[0].levels[s].separation, N = f.values("force")[s];
@@ -272,7 +271,7 @@ inline void compared(CheckedFile& f, const Truth& t, const std::vector<Vector>& 
     const auto& keys = t.c.compare.levels;
     if (keys.empty()) return CHECK(!f.has("compare_step"));
     Surface surface;
-    std::unique_ptr<Contact> elements;
+    std::unique_ptr<Path> elements;
     double finer = 1;  // the grid of a made surface is refined on the way
     const auto refine = [&] {
         Case c = t.c;

@@ -1,40 +1,37 @@
-// Common part of the boundary-element contacts of element_contact.hpp: what accepted levels leave
-// behind, a plastic residual or the loads on a relaxing body.
+// Common part of the boundary-element models of element_model.hpp: what accepted levels leave behind,
+// a plastic residual or the loads on a relaxing body.
 #pragma once
 
-#include "contact/contact.hpp"
+#include "contact/model.hpp"
 #include "elements/bounded.hpp"
 #include "elements/cut_map.hpp"
 #include "physics/relaxation/load_memory.hpp"
 
 namespace rsc {
 
-class PixelContact : public Contact, protected CutMap {
+class PixelModel : public Model, private History, protected CutMap {
 public:
     double first_touch() const final { return top_; }
     const Indenter& indenter() const final { return indenter_; }
-    bool relaxes() const final { return loads_.has_value(); }
-    double shortest_time() const final { return options_.relaxation.shortest(); }
-    bool path_dependent() const final { return relaxes() || std::isfinite(options_.hardness.H0); }
-    // Triples of column, row and residual depth of a yielded point; for relaxing bodies the time,
-    // followed by the loads.
-    std::vector<double> memory() const final;
-    void recall(const std::vector<double>& memory, const Level* level) final;
-    ResidualProfile residual_profile() const final;
-    std::optional<Level> lasting_loads(const Level& level) const final;
+    History* history() final { return loads_ || yields() ? this : nullptr; }
+    double tolerance() const final { return options_.tolerance; }
+    void solve_again(double z, const Level& level) final;
+    void forget() final;
 
 protected:
-    PixelContact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options);
-    void accept(Level& level) final;
-    double tolerance() const final { return options_.tolerance; }
+    PixelModel(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options);
 
+    bool yields() const { return std::isfinite(options_.hardness.H0); }
     // Pixels that penetrate at the hardness, and their penetration, by which they are lowered; the
     // same pressures then cause none.
     virtual std::vector<std::pair<Pixel, double>> press_out() = 0;
     // Called when the residual has changed.
     virtual void residual_changed() = 0;
+    // The duration of the step of time has changed.
+    virtual void step_changed() = 0;
     // The solution at this level is the starting point of the next.
-    virtual void start_from(const Level& level) { (void)level; }
+    virtual void start_from(double z, const Level& level) { (void)z, (void)level; }
+    virtual void forget_solutions() = 0;
     // K q at some pixels, for pressures q on the points of the load memory.
     virtual std::vector<double> deflections(const std::vector<Pixel>& where,
                                             const std::vector<double>& q) = 0;
@@ -64,6 +61,18 @@ protected:
     std::optional<LoadMemory> loads_;  // relaxing bodies
 
 private:
+    void accept(Level& level) final;
+    // Triples of column, row and residual depth of a yielded point; or the loads on a relaxing body.
+    std::vector<double> write() const final;
+    void read(const std::vector<double>& numbers) final;
+    double shortest_time() const final { return options_.relaxation.shortest(); }
+    void step(double dt) final {
+        loads_->step(dt);
+        step_changed();
+    }
+    std::optional<Level> lasting_loads(const Level& level) const final;
+    ResidualProfile residual_profile() const final;
+
     std::vector<std::pair<std::int32_t, double>> residual() const;  // row by row
 
     using Depths = std::unordered_map<std::int32_t, double>;
@@ -75,7 +84,7 @@ private:
 };
 
 // Two rough flats: contact with periodic boundaries.
-std::unique_ptr<Contact> make_periodic_elements(const HeightMap& heights, const Indenter& indenter,
-                                                const SolverOptions& options);
+std::unique_ptr<Model> make_periodic_elements(const HeightMap& heights, const Indenter& indenter,
+                                              const SolverOptions& options);
 
 }  // namespace rsc

@@ -1,12 +1,12 @@
-#include "elements/pixel_contact.hpp"
+#include "elements/pixel_model.hpp"
 
 #include "base/error.hpp"
 #include "elements/pixel_spots.hpp"
 
 namespace rsc {
 
-PixelContact::PixelContact(const HeightMap& heights, const Indenter& indenter,
-                           const SolverOptions& options)
+PixelModel::PixelModel(const HeightMap& heights, const Indenter& indenter,
+                       const SolverOptions& options)
     : CutMap(require_elements(heights, indenter, options)),
       heights_(heights),
       indenter_(indenter),
@@ -14,13 +14,13 @@ PixelContact::PixelContact(const HeightMap& heights, const Indenter& indenter,
     if (!options.relaxation.none()) loads_.emplace(Creep(options.relaxation));
 }
 
-std::vector<std::pair<std::int32_t, double>> PixelContact::residual() const {
+std::vector<std::pair<std::int32_t, double>> PixelModel::residual() const {
     std::vector<std::pair<std::int32_t, double>> points(residual_.begin(), residual_.end());
     std::sort(points.begin(), points.end());
     return points;
 }
 
-void PixelContact::set_residual(Depths depths) {
+void PixelModel::set_residual(Depths depths) {
     residual_ = std::move(depths);
     lowered_.assign(residual_.empty() ? 0
                                       : static_cast<std::size_t>(heights_.nx) *
@@ -30,10 +30,19 @@ void PixelContact::set_residual(Depths depths) {
     residual_changed();
 }
 
-std::vector<double> PixelContact::memory() const {
+void PixelModel::forget() {
+    forget_solutions();
+    if (loads_) {
+        loads_->forget();
+        step_changed();
+    } else if (yields()) {
+        set_residual({});
+    }
+}
+
+std::vector<double> PixelModel::write() const {
     std::vector<double> numbers;
-    if (relaxes()) {
-        numbers = last_accepted();
+    if (loads_) {
         loads_->write(numbers);
         return numbers;
     }
@@ -42,18 +51,17 @@ std::vector<double> PixelContact::memory() const {
     return numbers;
 }
 
-void PixelContact::recall(const std::vector<double>& memory, const Level* level) {
-    if (relaxes()) {
+void PixelModel::read(const std::vector<double>& numbers) {
+    if (loads_) {
         const auto& places = loads_->places();
-        const std::span<const double> rest = recall_accepted(memory);
-        if (loads_->read(rest) != rest.size() ||
+        if (loads_->read(numbers) != numbers.size() ||
             (!places.empty() && places.back() / heights_.nx >= heights_.ny))
             throw Error(Failure::bad_input, "the state of the loads does not belong to this map");
         step(0);
     } else {
         Depths depths;
-        for (std::size_t k = 0; k + 2 < memory.size(); k += 3) {
-            const double column = memory[k], row = memory[k + 1], depth = memory[k + 2];
+        for (std::size_t k = 0; k + 2 < numbers.size(); k += 3) {
+            const double column = numbers[k], row = numbers[k + 1], depth = numbers[k + 2];
             if (!(column >= 0 && column < heights_.nx && row >= 0 && row < heights_.ny &&
                   depth > 0 && depth < 1e50))
                 throw Error(Failure::bad_input,
@@ -63,14 +71,16 @@ void PixelContact::recall(const std::vector<double>& memory, const Level* level)
         }
         set_residual(std::move(depths));
     }
-    forget_levels();
-    if (!level) return;
-    start_from(*level);
-    (void)solve(level->separation);
+    forget_solutions();
+}
+
+void PixelModel::solve_again(double z, const Level& level) {
+    start_from(z, level);
+    (void)solve(z, false);
     accepted_ = true;
 }
 
-ResidualProfile PixelContact::residual_profile() const {
+ResidualProfile PixelModel::residual_profile() const {
     ResidualProfile profile{{}, {}, {}, heights_.dx, heights_.dy};
     for (const auto& [k, depth] : residual()) {
         const Pixel pixel = pixel_at(k);
@@ -80,7 +90,7 @@ ResidualProfile PixelContact::residual_profile() const {
     return profile;
 }
 
-std::optional<Level> PixelContact::lasting_loads(const Level& level) const {
+std::optional<Level> PixelModel::lasting_loads(const Level& level) const {
     if (!loads_) return {};
     Level lasting = level;
     lasting.pixels.index.clear();
@@ -90,15 +100,15 @@ std::optional<Level> PixelContact::lasting_loads(const Level& level) const {
     return lasting;
 }
 
-std::vector<Pixel> PixelContact::loaded_pixels() const {
+std::vector<Pixel> PixelModel::loaded_pixels() const {
     std::vector<Pixel> pixels;
     for (const std::int32_t i : loads_->places()) pixels.push_back(pixel_at(i));
     return pixels;
 }
 
-void PixelContact::accept(Level& level) {
+void PixelModel::accept(Level& level) {
     accepted_ = true;
-    if (relaxes()) {
+    if (loads_) {
         std::vector<std::pair<std::int32_t, double>> loaded;
         const LevelPixels& pixels = level.pixels;
         for (std::size_t k = 0; k < pixels.index.size(); ++k)
@@ -113,7 +123,7 @@ void PixelContact::accept(Level& level) {
             return deflections(loaded_pixels(), q);
         });
         level.energy_lost = pixel_area() * loads_->lost();
-    } else if (path_dependent()) {
+    } else {
         if (!level.pixels.index.empty()) {
             Depths depths = residual_;
             for (const auto& [pixel, depth] : press_out()) depths[place(pixel)] += depth;
@@ -125,8 +135,8 @@ void PixelContact::accept(Level& level) {
     }
 }
 
-Level PixelContact::report(double Z0, const ElementsOutcome& outcome, std::size_t candidates,
-                           const std::vector<Pixel>& touching, std::vector<double> pressure) {
+Level PixelModel::report(double Z0, const ElementsOutcome& outcome, std::size_t candidates,
+                         const std::vector<Pixel>& touching, std::vector<double> pressure) {
     Level level;
     level.separation = Z0;
     level.candidates = static_cast<std::int32_t>(candidates);

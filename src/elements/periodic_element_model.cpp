@@ -1,24 +1,26 @@
 #include "base/error.hpp"
 #include "base/format.hpp"
 #include "elements/periodic_elements.hpp"
-#include "elements/pixel_contact.hpp"
+#include "elements/pixel_model.hpp"
 
 namespace rsc {
 namespace {
 
-class PeriodicElementContact final : public PixelContact {
+class PeriodicElementModel final : public PixelModel {
 public:
-    PeriodicElementContact(const HeightMap& heights, const Indenter& indenter,
-                           const SolverOptions& options)
-        : PixelContact(heights, indenter, options),
-          changed_(path_dependent() || !indenter.shape->flat() ? less_face() : HeightMap{}),
+    PeriodicElementModel(const HeightMap& heights, const Indenter& indenter,
+                         const SolverOptions& options)
+        : PixelModel(heights, indenter, options),
+          changed_(history() || !indenter.shape->flat() ? less_face() : HeightMap{}),
           solver_({heights.nx, heights.ny, heights.dx, heights.dy, present().data.get(),
                    present().stride},
                   substrate_of(indenter), options.hardness.H0) {
         set_heights();
     }
 
-    double stiffness() override { return touches_ ? 0 - area() * solver_.stiffness(accepted_) : 0; }
+    double stiffness(double) override {
+        return touches_ ? 0 - area() * solver_.stiffness(accepted_) : 0;
+    }
     double energy() const override {
         if (loads_) return pixel_area() * loads_->stored();
         return touches_ ? area() * solver_.energy() : 0;
@@ -27,15 +29,11 @@ public:
         if (!std::isfinite(options_.hardness.H0)) solver_.require_gap(N / area());
     }
     void move_tip(double x0, double y0) override {
-        if (!std::isfinite(x0) || !std::isfinite(y0))
-            throw Error(Failure::bad_input, "the tip's position must be finite");
         indenter_.x0 = x0, indenter_.y0 = y0;
         if (!indenter_.shape->flat()) set_heights();
     }
 
-protected:
-    void forget_levels() override { touches_ = false; }  // levels do not depend on each other
-    Level solve(double Z0) override {
+    Level solve(double Z0, bool) override {
         ElementsOutcome outcome;
         outcome.converged = true;
         if (Z0 < top_) outcome = solver_.approach(Z0, options_.tolerance, options_.max_iterations);
@@ -58,18 +56,19 @@ protected:
         }
         return report(solver_.separation(), outcome);
     }
-    void step(double dt) override {
-        loads_->step(dt);
-        lowered_ = loads_->places().empty() ? std::vector<double>()
-                                            : solver_.deflections(loaded_pixels(), loads_->rest());
-        set_heights();
-    }
     double closed() const override { return solver_.closed(); }
     // Force of a flat punch as wide as the period, an upper bound also for yielding surfaces.
     double force_at_most(double depth) override {
         return indenter_.E_star * std::max(heights_.Lx(), heights_.Ly()) * depth;
     }
 
+protected:
+    void forget_solutions() override { touches_ = false; }  // solutions do not start from others
+    void step_changed() override {
+        lowered_ = loads_->places().empty() ? std::vector<double>()
+                                            : solver_.deflections(loaded_pixels(), loads_->rest());
+        set_heights();
+    }
     std::vector<std::pair<Pixel, double>> press_out() override { return solver_.press_out(); }
     void residual_changed() override { set_heights(); }
     std::vector<double> deflections(const std::vector<Pixel>& where,
@@ -115,8 +114,8 @@ private:
         touches_ = Z0 < top_, accepted_ = false;
         const auto candidates =
             static_cast<std::size_t>(heights_.nx) * static_cast<std::size_t>(heights_.ny);
-        if (!touches_) return PixelContact::report(Z0, outcome, candidates, {}, {});
-        return PixelContact::report(Z0, outcome, candidates, solver_.pixels(), solver_.pressures());
+        if (!touches_) return PixelModel::report(Z0, outcome, candidates, {}, {});
+        return PixelModel::report(Z0, outcome, candidates, solver_.pixels(), solver_.pressures());
     }
 
     // Deflection of each point by earlier loads at the end of the step; empty: none. It is declared
@@ -129,9 +128,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Contact> make_periodic_elements(const HeightMap& heights, const Indenter& indenter,
-                                                const SolverOptions& options) {
-    return std::make_unique<PeriodicElementContact>(heights, indenter, options);
+std::unique_ptr<Model> make_periodic_elements(const HeightMap& heights, const Indenter& indenter,
+                                              const SolverOptions& options) {
+    return std::make_unique<PeriodicElementModel>(heights, indenter, options);
 }
 
 }  // namespace rsc

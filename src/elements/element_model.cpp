@@ -1,11 +1,10 @@
-#include "elements/element_contact.hpp"
+#include "elements/element_model.hpp"
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "elements/elements.hpp"
-#include "elements/pixel_contact.hpp"
+#include "elements/pixel_model.hpp"
 #include "elements/pixel_spots.hpp"
-#include "physics/adhesion/adhesive_elements.hpp"
 
 namespace rsc {
 namespace {
@@ -22,10 +21,10 @@ constexpr std::size_t kThreads = 16384;  // pixels from which on threads are use
 
 bool before(const Pixel& a, const Pixel& b) { return a.y < b.y || (a.y == b.y && a.x < b.x); }
 
-class ElementContact final : public PixelContact {
+class ElementModel final : public PixelModel {
 public:
-    ElementContact(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options)
-        : PixelContact(heights, indenter, options),
+    ElementModel(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options)
+        : PixelModel(heights, indenter, options),
           body_(substrate_of(indenter)),
           products_(make_tree_products(body_, heights.dx, heights.dy, kInnerError,
                                        0.1 * options.tolerance)),
@@ -43,23 +42,18 @@ public:
         find_top();
     }
 
-    double stiffness() override {
-        const double slope = 0.0 - pixel_area() * solver_.stiffness(1e-9, accepted_);
-        return slope / (1 + shift() * slope);
+    double stiffness(double) override {
+        const double slope = solver_.stiffness(1e-9, accepted_);
+        // that of the end of a step, or of a sudden change after it
+        return 0.0 - pixel_area() * slope / (accepted_ ? 1.0 : scale());
     }
 
-    // p'Kp/2 is evaluated as g0'p - p'Kp/2, which is equal at the solution. The part due to the
-    // shift is not part of the energy of the bodies.
+    // p'Kp/2 is evaluated as g0'p - p'Kp/2, which is equal at the solution.
     double energy() const override {
-        if (loads_) return pixel_area() * loads_->stored();
-        double N = 0;
-        for (double p : p_) N += pixel_area() * p;
-        return pixel_area() * solver_.energy() - 0.5 * shift() * N * N;
+        return pixel_area() * (loads_ ? loads_->stored() : solver_.energy());
     }
 
     void move_tip(double x0, double y0) override {
-        if (!std::isfinite(x0) || !std::isfinite(y0))
-            throw Error(Failure::bad_input, "the tip's position must be finite");
         indenter_.move(x0, y0);
         if (past_.size() > 1) past_.resize(1);
         since_move_ = 0;
@@ -69,12 +63,8 @@ public:
         find_top();
     }
 
-protected:
-    void forget_levels() override { past_.clear(), since_move_ = 0; }
-    Level solve(double Z0) override;
+    Level solve(double Z0, bool trial) override;
     std::optional<Level> solve_under(double N) override;
-    void step(double dt) override { loads_->step(dt), lowered_at_ = kUnknown; }
-    double slope() override { return Contact::slope() / scale(); }
     // Bound by the smooth indenter, if known, and by a flat punch as wide as the surface; rough
     // surfaces need at least this depth.
     double force_at_most(double depth) override {
@@ -91,10 +81,16 @@ protected:
     double shift() const override { return body_.bulge(); }
     std::size_t levels_since_move() const override { return since_move_; }
 
+protected:
+    void forget_solutions() override {
+        past_.clear();
+        since_move_ = 0;
+    }
+    void step_changed() override { lowered_at_ = kUnknown; }
     std::vector<std::pair<Pixel, double>> press_out() override { return solver_.press_out(); }
     void residual_changed() override { find_top(); }
-    void start_from(const Level& level) override {
-        Past past{level.separation, {}, level.pixels.pressure};
+    void start_from(double z, const Level& level) override {
+        Past past{z, {}, level.pixels.pressure};
         for (const std::int32_t index : level.pixels.index)
             past.pixels.push_back({index % heights_.nx, index / heights_.nx});
         past_.push_front(std::move(past));
@@ -155,7 +151,7 @@ private:
     std::vector<double> lowered_;
 };
 
-void ElementContact::find_top() {
+void ElementModel::find_top() {
     bound_.resize(block_top_.size());
     parallel_for(blocks_y_, 4, 0, [&](int bj) {
         for (int bi = 0; bi < blocks_x_; ++bi) {
@@ -182,7 +178,7 @@ void ElementContact::find_top() {
 }
 
 // Selects the pixels with g0 > 0; no others can touch, because K > 0 only lowers the surface.
-void ElementContact::select(double Z0) {
+void ElementModel::select(double Z0) {
     struct Found {
         std::vector<Pixel> pixels;
         std::vector<double> g0;
@@ -223,8 +219,8 @@ void ElementContact::select(double Z0) {
     });
 }
 
-std::vector<double> ElementContact::deflections(const std::vector<Pixel>& where,
-                                                const std::vector<double>& q) {
+std::vector<double> ElementModel::deflections(const std::vector<Pixel>& where,
+                                              const std::vector<double>& q) {
     if (!loads_products_)
         loads_products_ = make_tree_products(body_, heights_.dx, heights_.dy, kInnerError,
                                              0.1 * options_.tolerance);
@@ -247,7 +243,7 @@ std::vector<double> ElementContact::deflections(const std::vector<Pixel>& where,
 }
 
 // Subtracts the deflection by earlier loads.
-void ElementContact::take_off_rest(double Z0) {
+void ElementModel::take_off_rest(double Z0) {
     if (loads_->places().empty()) return;
     if (!(Z0 >= lowered_at_)) {
         lowered_at_ = Z0;
@@ -264,7 +260,7 @@ void ElementContact::take_off_rest(double Z0) {
 
 // Predicts the pressures from the last level, or by extrapolation through the last two if they are
 // close; zero without earlier levels.
-void ElementContact::predict(double Z0) {
+void ElementModel::predict(double Z0) {
     p_.assign(pixels_.size(), 0.0);
     double weight[2] = {1, 0};
     if (past_.size() > 1) {
@@ -292,11 +288,11 @@ void ElementContact::predict(double Z0) {
 }
 
 // Level of the last solution, which has been remembered.
-Level ElementContact::report(double Z0, const ElementsOutcome& outcome) {
-    return PixelContact::report(Z0, outcome, pixels_.size(), past_[0].pixels, past_[0].p);
+Level ElementModel::report(double Z0, const ElementsOutcome& outcome) {
+    return PixelModel::report(Z0, outcome, pixels_.size(), past_[0].pixels, past_[0].p);
 }
 
-Level ElementContact::solve(double Z0) {
+Level ElementModel::solve(double Z0, bool) {
     select(Z0);
     if (loads_) take_off_rest(Z0);
     predict(Z0);
@@ -310,8 +306,8 @@ Level ElementContact::solve(double Z0) {
 // Pixels are selected at a Z0 below the expected one, which follows from a power law of N with the
 // exponent of the last two levels. Without earlier levels rough solutions at separations come
 // first.
-std::optional<Level> ElementContact::solve_under(double N) {
-    if (path_dependent() || shift() > 0) return std::nullopt;
+std::optional<Level> ElementModel::solve_under(double N) {
+    if (history() || shift() > 0) return std::nullopt;
     const double pixel = pixel_area();
     const auto force = [pixel](const Past& level) {
         return pixel * std::accumulate(level.p.begin(), level.p.end(), 0.0);
@@ -323,7 +319,7 @@ std::optional<Level> ElementContact::solve_under(double N) {
                !(last < N * kMostTimes);
     };
     struct Levels {  // trials are no levels: restored at the end, also after an exception
-        ElementContact& my;
+        ElementModel& my;
         decltype(my.past_) past = my.past_;
         std::size_t since_move = my.since_move_;
         bool restored = false;
@@ -405,7 +401,7 @@ std::optional<Level> ElementContact::solve_under(double N) {
 }
 
 // Stores the last solution as a starting point for later levels.
-void ElementContact::remember(double Z0) {
+void ElementModel::remember(double Z0) {
     std::vector<int> pressed;
     find_all(
         p_.size(), kPiece, p_.size() > kThreads ? 0 : 1, [&](std::size_t k) { return p_[k] > 0; },
@@ -421,13 +417,10 @@ void ElementContact::remember(double Z0) {
 
 }  // namespace
 
-std::unique_ptr<Contact> make_element_contact(const HeightMap& heights, const Indenter& indenter,
-                                              const SolverOptions& options) {
-    if (options.adhesion.work > 0)
-        return make_adhesive_elements(require_elements(heights, indenter, options), indenter,
-                                      options);
+std::unique_ptr<Model> make_elements(const HeightMap& heights, const Indenter& indenter,
+                                     const SolverOptions& options) {
     if (indenter.period.finite()) return make_periodic_elements(heights, indenter, options);
-    return std::make_unique<ElementContact>(heights, indenter, options);
+    return std::make_unique<ElementModel>(heights, indenter, options);
 }
 
 }  // namespace rsc

@@ -21,16 +21,16 @@
 // Error(bad_input).
 #pragma once
 
-#include "contact/contact.hpp"
+#include "contact/model.hpp"
 #include "surface/surface.hpp"
 
 namespace rsc {
 
-// The heights must outlive the contact and are not changed; with periodic boundaries the map is the
+// The heights must outlive the model and are not changed; with periodic boundaries the map is the
 // period. The options used are the tolerance, the number of iterations, the hardness (without size
-// effect, because pixels have no radius), relaxation and adhesion (adhesive_elements.hpp). Throws
-// Error(bad_input) for moduli, radii, heights or options out of range.
-std::unique_ptr<Contact> make_element_contact(const HeightMap& heights, const Indenter& indenter,
-                                              const SolverOptions& options);
+// effect, because pixels have no radius) and relaxation. Throws Error(bad_input) for moduli, radii,
+// heights or options out of range.
+std::unique_ptr<Model> make_elements(const HeightMap& heights, const Indenter& indenter,
+                                     const SolverOptions& options);
 
 }  // namespace rsc

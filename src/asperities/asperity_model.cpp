@@ -1,9 +1,8 @@
-#include "asperities/asperity_contact.hpp"
+#include "asperities/asperity_model.hpp"
 
 #include "asperities/asperity_impl.hpp"
 #include "asperities/dgesv.hpp"
 #include "base/error.hpp"
-#include "physics/adhesion/adhesive_contact.hpp"
 #include "physics/hardness/hardness.hpp"
 
 namespace rsc {
@@ -26,8 +25,8 @@ std::unique_ptr<Law> law_of(ContactBodies& bodies, std::optional<RelaxingAsperit
 
 }  // namespace
 
-AsperityContact::Impl::Impl(const Asperities& asperities_, const Indenter& indenter_,
-                            const SolverOptions& options_)
+AsperityModel::Impl::Impl(const Asperities& asperities_, const Indenter& indenter_,
+                          const SolverOptions& options_)
     : ContactBodies(asperities_, indenter_, options_),
       law(law_of(*this, relaxing)),
       direct(make_direct_products(kernel)),
@@ -39,7 +38,7 @@ AsperityContact::Impl::Impl(const Asperities& asperities_, const Indenter& inden
     ranking.assign(of_surface, indenter);
 }
 
-void AsperityContact::Impl::use(Method how) {
+void AsperityModel::Impl::use(Method how) {
     method = how;
     if (how == Method::mesh && !mesh) {
         // Full products determine the residual and must be more accurate than the tolerance; inner
@@ -50,19 +49,19 @@ void AsperityContact::Impl::use(Method how) {
     newton.use(*products);
 }
 
-void AsperityContact::Impl::select(double Z0) {
+void AsperityModel::Impl::select(double Z0) {
     select_candidates(contenders(), options, Z0 - raised(), candidates);
     use(choose_method(options, *kernel, candidates.set));
     if (relaxing) relaxing->lower(candidates, *products);
 }
 
-NewtonOutcome AsperityContact::Impl::solve_from(const Vector& start, bool rough_start) {
+NewtonOutcome AsperityModel::Impl::solve_from(const Vector& start, bool rough_start) {
     return solve_candidates(candidates.set, newton, *products,
                             {options.tolerance, options.max_iterations, rough_start}, start,
                             solution);
 }
 
-NewtonOutcome AsperityContact::Impl::solve_by_paper(Fallback& why_not) {
+NewtonOutcome AsperityModel::Impl::solve_by_paper(Fallback& why_not) {
     auto& [v, force, slope] = solution;
     const PaperMethod paper{options.delta0 * options.sigma, options.delta_cut, options.tolerance,
                             options.max_iterations};
@@ -73,7 +72,7 @@ NewtonOutcome AsperityContact::Impl::solve_by_paper(Fallback& why_not) {
     return result;
 }
 
-Level AsperityContact::Impl::report(double Z0) const {
+Level AsperityModel::Impl::report(double Z0) const {
     const WorkingSet& set = candidates.set;
     const auto& [v, force, slope] = solution;
     Level level;
@@ -109,7 +108,7 @@ Level AsperityContact::Impl::report(double Z0) const {
 }
 
 // Where there is no contact the surface sinks as the contacts do on the average.
-double AsperityContact::Impl::force_slope(double tolerance) {
+double AsperityModel::Impl::force_slope(double tolerance) {
     const double slope = newton.stiffness(tolerance);
     const Vector sinking = newton.sinking();
     if (follows() || sinking.empty()) return slope / scale();
@@ -122,7 +121,7 @@ double AsperityContact::Impl::force_slope(double tolerance) {
     return slope / scale();
 }
 
-Level AsperityContact::Impl::level(double Z0, const NewtonOutcome& outcome, bool unique) const {
+Level AsperityModel::Impl::level(double Z0, const NewtonOutcome& outcome, bool unique) const {
     Level level = report(Z0);
     level.residual = outcome.residual;
     level.method = method;
@@ -133,16 +132,39 @@ Level AsperityContact::Impl::level(double Z0, const NewtonOutcome& outcome, bool
     return level;
 }
 
-AsperityContact::AsperityContact(const Asperities& asperities, const Indenter& indenter,
-                                 const SolverOptions& options)
+AsperityModel::AsperityModel(const Asperities& asperities, const Indenter& indenter,
+                             const SolverOptions& options)
     : impl_(std::make_unique<Impl>(asperities, indenter, options)) {}
-AsperityContact::~AsperityContact() = default;
-AsperityContact::AsperityContact(AsperityContact&&) noexcept = default;
+AsperityModel::~AsperityModel() = default;
 
-Level AsperityContact::solve(double Z0) {
+// A trial only continues from earlier levels.
+std::optional<Level> AsperityModel::Impl::solve_trial(double Z0) {
+    Vector start;
+    if (follows() || candidates.size() == 0 || method == Method::dgesv ||
+        !earlier.predict(Z0, candidates, start))
+        return std::nullopt;
+    const long products_before = products_taken();
+    const NewtonOutcome outcome = solve_from(start, false);
+    if (!outcome.converged) return std::nullopt;
+    tried = {Z0, outcome};
+    earlier.remember(Z0, candidates, solution.v, earlier.unique());
+    Level level;
+    level.separation = Z0;
+    level.force = std::accumulate(solution.force.begin(), solution.force.end(), 0.0);
+    level.iterations = outcome.iterations;
+    level.products = products_taken() - products_before;
+    level.residual = outcome.residual;
+    level.provisional = true;
+    return level;
+}
+
+Level AsperityModel::solve(double Z0, bool trial) {
     Impl& my = *impl_;
-    my.passed = false;
-    my.select(Z0);
+    const std::optional<Impl::Tried> tried = std::exchange(my.tried, std::nullopt);
+    const bool completes = !trial && tried && tried->separation == Z0;
+    if (!completes) my.select(Z0);
+    if (trial)
+        if (std::optional<Level> level = my.solve_trial(Z0)) return std::move(*level);
     if (my.candidates.size() == 0) {
         my.solution.clear();
         my.solved = {Z0, true};
@@ -165,9 +187,12 @@ Level AsperityContact::solve(double Z0) {
         my.newton.take(my.candidates.set, my.solution.v);
     }
     const bool by_dgesv = dense && unique;
-    if (Vector start; !unique && (my.follows() || !dense) &&
-                      my.earlier.predict(Z0, my.candidates, start) &&
-                      (my.follows() || my.earlier.unique())) {
+    if (completes) {
+        outcome = tried->outcome;
+        unique = my.one_solution();
+    } else if (Vector start; !unique && (my.follows() || !dense) &&
+                             my.earlier.predict(Z0, my.candidates, start) &&
+                             (my.follows() || my.earlier.unique())) {
         outcome = my.solve_from(start, false);
         iterations += outcome.iterations;
         followed = outcome.converged && my.follows();
@@ -189,45 +214,7 @@ Level AsperityContact::solve(double Z0) {
     return level;
 }
 
-Level AsperityContact::pass(double Z0) {
-    Impl& my = *impl_;
-    my.select(Z0);
-    Vector start;
-    if (my.follows() || my.candidates.size() == 0 || my.method == Method::dgesv ||
-        !my.earlier.predict(Z0, my.candidates, start))
-        return solve(Z0);
-    const long products_before = my.products_taken();
-    my.outcome = my.solve_from(start, false);
-    if (!my.outcome.converged) return solve(Z0);
-    my.passed = true;
-    my.earlier.remember(Z0, my.candidates, my.solution.v, false);
-    Level level;
-    level.separation = Z0;
-    for (double f : my.solution.force) level.force += f / my.scale();
-    level.iterations = my.outcome.iterations;
-    level.products = my.products_taken() - products_before;
-    return level;
-}
-
-Level AsperityContact::settle(const Level& passed) {
-    Impl& my = *impl_;
-    if (!my.passed) return Contact::settle(passed);
-    my.passed = false;
-    const long products_before = my.products_taken();
-    const bool unique = my.one_solution();
-    int iterations = 0;
-    if (!unique) {  // the solution of pass() is not proved to be unique
-        my.outcome = my.solve_cold();
-        iterations = my.outcome.iterations;
-    }
-    my.earlier.remember(passed.separation, my.candidates, my.solution.v, unique);
-    Level level = my.level(passed.separation, my.outcome, unique);
-    level.iterations = iterations;
-    level.products = my.products_taken() - products_before;
-    return level;
-}
-
-void AsperityContact::accept(Level& level) {
+void AsperityModel::accept(Level& level) {
     Impl& my = *impl_;
     if (!my.law->path_dependent()) return;
     const WorkingSet& set = my.candidates.set;
@@ -245,38 +232,37 @@ void AsperityContact::accept(Level& level) {
     my.newton.take(set, my.solution.v);
 }
 
-bool AsperityContact::relaxes() const { return impl_->relaxing.has_value(); }
+History* AsperityModel::history() { return impl_->law->path_dependent() ? this : nullptr; }
 
-double AsperityContact::shortest_time() const { return impl_->options.relaxation.shortest(); }
+double AsperityModel::shortest_time() const { return impl_->options.relaxation.shortest(); }
 
-void AsperityContact::step(double dt) { impl_->relaxing->step(dt); }
+void AsperityModel::step(double dt) { impl_->relaxing->step(dt); }
 
-void AsperityContact::forget_levels() {
+void AsperityModel::forget() {
     const Impl& my = *impl_;
     if (my.law->path_dependent()) {
         impl_ = std::make_unique<Impl>(my.of_surface, my.indenter, my.options);
         return;
     }
     impl_->earlier = {};
+    impl_->tried.reset();
     impl_->candidates = {};
     impl_->solution.clear();
 }
 
-bool AsperityContact::path_dependent() const { return impl_->law->path_dependent(); }
+double AsperityModel::tolerance() const { return impl_->options.tolerance; }
 
-double AsperityContact::tolerance() const { return impl_->options.tolerance; }
-
-std::optional<double> AsperityContact::likely_separation() const {
+std::optional<double> AsperityModel::likely_separation() const {
     if (impl_->solution.force.empty()) return std::nullopt;
     return impl_->earlier.likely_separation(first_touch());
 }
 
-std::size_t AsperityContact::levels_since_move() const { return impl_->earlier.size(); }
+std::size_t AsperityModel::levels_since_move() const { return impl_->earlier.size(); }
 
-double AsperityContact::shift() const { return impl_->kernel->shift() * impl_->scale(); }
+double AsperityModel::shift() const { return impl_->kernel->shift() * impl_->scale(); }
 
 // The force without interaction, which is an upper bound.
-double AsperityContact::force_at_most(double depth) {
+double AsperityModel::force_at_most(double depth) {
     Impl& my = *impl_;
     const double Z0 = first_touch() - depth;
     Candidates there;
@@ -288,29 +274,21 @@ double AsperityContact::force_at_most(double depth) {
     return sum / my.scale();
 }
 
-// With Z0 = Z0' + c N, c the kernel's shift: dZ0/dN = 1/(dN/dZ0') + c.
-double AsperityContact::slope() { return impl_->solution.v.empty() ? 0 : impl_->force_slope(1e-3); }
-
-double AsperityContact::stiffness() {
+double AsperityModel::stiffness(double accuracy) {
     if (impl_->solution.v.empty()) return 0;
-    const double slope = impl_->newton.stiffness(1e-12) / impl_->scale();
-    return slope / (1 + shift() * slope);
+    if (accuracy >= kForNewton) return impl_->force_slope(accuracy);
+    return impl_->newton.stiffness(accuracy) / impl_->scale();
 }
 
-// The shift c adds c N^2/2 to F'BF/2, which is not part of the energy of the bodies.
-double AsperityContact::energy() const {
-    if (relaxes()) return impl_->relaxing->stored();
-    if (impl_->solution.v.empty()) return 0;
-    double N = 0;
-    for (double f : impl_->solution.force) N += f;
-    return 0.0 - impl_->newton.energy() - 0.5 * shift() * N * N;
+double AsperityModel::energy() const {
+    if (impl_->relaxing) return impl_->relaxing->stored();
+    return impl_->solution.v.empty() ? 0 : 0.0 - impl_->newton.energy();
 }
 
-void AsperityContact::move_tip(double x0, double y0) {
-    if (!std::isfinite(x0) || !std::isfinite(y0))
-        throw Error(Failure::bad_input, "the tip's position must be finite");
+void AsperityModel::move_tip(double x0, double y0) {
     Impl& my = *impl_;
-    if (my.of_difference && my.law->path_dependent()) return move_with_memory(x0, y0);
+    my.tried.reset();
+    if (my.of_difference && my.law->path_dependent()) return move_with_history(x0, y0);
     my.earlier.carry(my.candidates, my.solution.v, my.asperities.size(),
                      {my.indenter.x0, my.indenter.y0}, {x0, y0});
     my.indenter.move(x0, y0);
@@ -318,25 +296,18 @@ void AsperityContact::move_tip(double x0, double y0) {
     if (my.of_difference) my.of_difference->forget();
 }
 
-double AsperityContact::first_touch() const {
+double AsperityModel::first_touch() const {
     return impl_->contenders().highest() + impl_->raised();
 }
 
-const Indenter& AsperityContact::indenter() const { return impl_->indenter; }
+const Indenter& AsperityModel::indenter() const { return impl_->indenter; }
 
-std::shared_ptr<const Asperities> AsperityContact::asperities() const {
+std::shared_ptr<const Asperities> AsperityModel::asperities() const {
     const std::shared_ptr<const Asperities> present(std::shared_ptr<void>(), &impl_->asperities);
     if (!impl_->of_difference) return present;
     const auto all = std::make_shared<ShiftedSummits>(*impl_->of_difference);
     for (std::size_t i = 0; i < present->size(); ++i) all->shift(i);
     return {all, &all->summits()};
-}
-
-std::unique_ptr<Contact> make_asperity_contact(const Asperities& asperities,
-                                               const Indenter& indenter,
-                                               const SolverOptions& options) {
-    if (options.adhesion.work > 0) return make_adhesive_contact(asperities, indenter, options);
-    return std::make_unique<AsperityContact>(asperities, indenter, options);
 }
 
 }  // namespace rsc

@@ -1,0 +1,26 @@
+#include "contact/make.hpp"
+
+#include "asperities/asperity_model.hpp"
+#include "elements/element_model.hpp"
+#include "elements/pixel_spots.hpp"
+#include "physics/adhesion/adhesive_contact.hpp"
+#include "physics/adhesion/adhesive_elements.hpp"
+
+namespace rsc {
+
+std::unique_ptr<Path> make_asperity_contact(const Asperities& asperities, const Indenter& indenter,
+                                            const SolverOptions& options) {
+    if (options.adhesion.work > 0)
+        return std::make_unique<Path>(make_adhesive_asperities(asperities, indenter, options));
+    return std::make_unique<Path>(std::make_unique<AsperityModel>(asperities, indenter, options));
+}
+
+std::unique_ptr<Path> make_element_contact(const HeightMap& heights, const Indenter& indenter,
+                                           const SolverOptions& options) {
+    if (options.adhesion.work > 0)
+        return std::make_unique<Path>(make_adhesive_elements(
+            require_elements(heights, indenter, options), indenter, options));
+    return std::make_unique<Path>(make_elements(heights, indenter, options));
+}
+
+}  // namespace rsc

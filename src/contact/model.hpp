@@ -1,0 +1,106 @@
+// Model: the contact of a rough surface with an indenter at one separation. Asperities
+// (asperities/asperity_model.hpp), boundary elements (elements/element_model.hpp), and those that
+// attract. A Path (path.hpp) leads a model from level to level.
+#pragma once
+
+#include "contact/level.hpp"
+
+namespace rsc {
+
+// What accepted levels leave in bodies whose levels depend on earlier ones: flattened asperities,
+// loads that relax, points that stick. Only a Path changes it.
+class History {
+public:
+    virtual ~History() = default;
+
+    // Accepts the last solution of the model, and adds the dissipated work to its level.
+    virtual void accept(Level& level) = 0;
+    // The history as numbers that only an identically made model can interpret; empty: none. read()
+    // restores it and throws Error(bad_input) for numbers that do not belong to these bodies.
+    virtual std::vector<double> write() const = 0;
+    virtual void read(const std::vector<double>& numbers) = 0;
+
+    // True if forces may be negative (adhesion).
+    virtual bool attracts() const { return false; }
+    // The shortest relaxation time; Infinity: levels do not depend on time.
+    virtual double shortest_time() const { return kInfinity; }
+    // Relaxing bodies: following solutions end a time step dt that begins at the last accepted one.
+    virtual void step(double dt) { (void)dt; }
+
+    // Relaxing bodies: the loads under which the instantaneous body has the present deflections,
+    // where earlier loads last; empty for others. Their pixels, or their contacts, are those that
+    // ever carried load. `level` is the last level.
+    virtual std::optional<Level> lasting_loads(const Level& level) const {
+        return (void)level, std::nullopt;
+    }
+    // Residual depth of each asperity after unloading [length]; empty if none yielded.
+    virtual std::vector<double> residual_depths() const { return {}; }
+    // Boundary elements: the points that yielded and their residual depths.
+    virtual ResidualProfile residual_profile() const { return {}; }
+};
+
+// Results depend on the bodies and their history, the place of the tip and the separation. Earlier
+// solutions are starting points and change them within the tolerance only.
+class Model {
+public:
+    virtual ~Model() = default;
+
+    virtual const Indenter& indenter() const = 0;
+    // Asperities used at present (positions, heights, curvatures); null for boundary elements.
+    virtual std::shared_ptr<const Asperities> asperities() const { return nullptr; }
+    // Null if levels do not depend on earlier ones.
+    virtual History* history() { return nullptr; }
+    virtual double tolerance() const = 0;  // relative, of the force
+
+    // Moves the tip to (x0, y0); what it must follow on the way, it follows.
+    virtual void move_tip(double x0, double y0) = 0;
+    // Separation at which the indenter touches the surface [length]; -Infinity if nothing lies
+    // under it.
+    virtual double first_touch() const = 0;
+    // Separation of full contact, at and below which there is no solution.
+    virtual double closed() const { return -kInfinity; }
+    // Throws Error(bad_input) if the surfaces are in full contact under the force N, where this is
+    // known in advance.
+    virtual void require_gap(double N) { (void)N; }
+
+    // The model's separations z are measured from a plane that each unit force raises by this
+    // [length/force], so that forces only lower the surface: Z0 = z + shift() N (Kernel::shift()).
+    virtual double shift() const { return 0; }
+
+    // Solves at the separation z. Failure to converge is reported by the level. The result of a
+    // `trial` of force control may be another one, if there are several: Level::provisional is
+    // then set.
+    virtual Level solve(double z, bool trial = false) = 0;
+    // Solves for the force N directly, if the model can.
+    virtual std::optional<Level> solve_under(double N) {
+        (void)N;
+        return std::nullopt;
+    }
+    // Solves at the separation z of a level accepted earlier, at the history after it; later
+    // solutions then start from there.
+    virtual void solve_again(double z, const Level& level) = 0;
+    // Earlier solutions are no longer starting points, and there is no history.
+    virtual void forget() = 0;
+
+    // Of the last solution, or with adhesion of the state after move_tip(): dN/dz (negative; 0
+    // without contact) [force/length], to a relative accuracy; for unloading if it is accepted.
+    virtual double stiffness(double accuracy) = 0;
+    // Force that a unit approach adds at fixed contact areas [force/length], positive: -stiffness()
+    // except with adhesion, where areas change with the separation.
+    virtual double clamped_stiffness() { return -stiffness(kExact); }
+    // Elastic energy, dW/dz = -N [force length]: of path-dependent bodies the recoverable energy.
+    // The error is of the order of the square of the residual.
+    virtual double energy() const = 0;
+
+    // For force control: an upper bound of the force at a depth below first touch, exact for one
+    // asperity; a first guess of the separation, absent: near first touch; and the number of
+    // solutions since the tip was moved, at most a few.
+    virtual double force_at_most(double depth) = 0;
+    virtual std::optional<double> likely_separation() const { return {}; }
+    virtual std::size_t levels_since_move() const { return 0; }
+
+    // Accuracy of results, and sufficient accuracy of stiffness() for Newton's method.
+    static constexpr double kExact = 1e-12, kForNewton = 1e-3;
+};
+
+}  // namespace rsc

@@ -1,0 +1,401 @@
+#include "contact/path.hpp"
+
+#include "base/error.hpp"
+#include "base/format.hpp"
+
+namespace rsc {
+namespace {
+
+// accepted relative error of the force due to rounding of the separation
+constexpr double kUnresolved = 1e-6;
+constexpr double kFarAbove = 100;  // relative to the requested force
+constexpr int kTrials = 2;         // number of failures after which no trials are used
+
+// Evaluation of a level at z: it is the solution (or failed), or lies above it; `next` is the next
+// separation by Newton's method, -Infinity: none.
+struct Verdict {
+    bool found, above;
+    double next;
+};
+
+// Bracketed Newton's method with the slopes of levels; a root finder without slopes takes about
+// twice as many levels. Trials come first, the last of which is solved again completely; if that
+// has another result kTrials times, only complete solutions are used. `judge` evaluates a level.
+// While no lower bound is known, reach(next, z, high, i) limits the next separation. `stuck`: no
+// separation is left between the bounds.
+template <class Judge, class Reach>
+Level search(Model& model, double begin, double below, double above, int most, Judge&& judge,
+             Reach&& reach, bool& stuck) {
+    Level level;
+    std::int32_t iterations = 0;
+    std::int64_t products = 0;
+    double z = begin, low = below, high = above;
+    int trials = kTrials, i = 0;
+    const auto solve = [&](bool trial) {
+        level = model.solve(z, trial);
+        iterations += level.iterations;
+        products += level.products;
+        return judge(level, z);
+    };
+    const auto begin_without_trials = [&] {
+        trials = 0;
+        i = -1;
+        z = begin;
+        low = below;
+        high = above;
+    };
+    stuck = false;
+    for (;; ++i) {
+        Verdict verdict = solve(trials > 0);
+        if (verdict.found && level.provisional) {
+            verdict = solve(false);
+            if (!verdict.found) {  // there is another solution; continues from it
+                if (--trials == 0) {
+                    begin_without_trials();
+                    continue;
+                }
+                low = below;
+                high = above;
+            }
+        }
+        if (verdict.found) break;
+        (verdict.above ? high : low) = z;
+        double next = verdict.next;
+        if (std::isinf(low)) next = reach(next, z, high, i);
+        if (!(next < high) || !(next > low)) next = 0.5 * (low + high);
+        if (i + 1 >= most || next == z || !(next > low) || !(next < high)) {
+            if (trials > 0) {
+                begin_without_trials();
+                continue;
+            }
+            stuck = i + 1 < most;
+            if (!stuck) level.converged = false;
+            break;
+        }
+        z = next;
+    }
+    level.iterations = iterations;
+    level.products = products;
+    return level;
+}
+
+}  // namespace
+
+Level Path::at_separation(double Z0) {
+    if (!std::isfinite(Z0)) throw Error(Failure::bad_input, "the separation must be finite");
+    return in_steps(separation_, Z0, &Path::to_separation);
+}
+
+Level Path::at_force(double N) {
+    if (!(N > 0 || pulls()) || !std::isfinite(N))
+        throw Error(Failure::bad_input,
+                    pulls() ? "the force must be finite" : "the force must be positive and finite");
+    return in_steps(force_, N, &Path::to_force);
+}
+
+Level Path::in_steps(double from, double to, Level (Path::*reach)(double)) {
+    const double start = accepted_.value_or(time_), end = time_;
+    const double steps = std::isfinite(from) ? steps_of_time(end - start, shortest_time()) : 1.0;
+    std::optional<State> before;
+    if (steps > 1) before = state();
+    level_.reset();
+    solved_ = true;
+    std::int32_t iterations = 0;
+    std::int64_t products = 0;
+    Level level;
+    // A level that is not reached leaves the history before it.
+    const auto take_back = [&] {
+        if (before) restore_history(*before);
+        time_ = end;
+    };
+    try {
+        for (double k = 1; k <= steps; ++k) {
+            time_ = k < steps ? start + k / steps * (end - start) : end;
+            level = (this->*reach)(k < steps ? from + k / steps * (to - from) : to);
+            iterations += level.iterations;
+            products += level.products;
+            if (!level.converged) break;
+        }
+    } catch (...) {
+        take_back();
+        throw;
+    }
+    level.iterations = iterations;
+    level.products = products;
+    if (before && !level.converged) {
+        take_back();
+        level.time = end;
+    }
+    level_ = level;
+    level_place_ = {indenter().x0, indenter().y0};
+    return level;
+}
+
+void Path::begin_step() {
+    if (relaxes()) history()->step(accepted_ ? time_ - *accepted_ : 0.0);
+}
+
+Level Path::to_separation(double Z0) {
+    begin_step();
+    rise_ = 0;  // that of a force may be one far from Z0
+    Level level = model_->shift() > 0 ? solve_between_planes(Z0) : model_->solve(Z0);
+    finish(level);
+    return level;
+}
+
+void Path::finish(Level& level) {
+    const bool converged = level.converged;
+    const bool state = converged || level.fallback == Fallback::held;
+    solved_force_ = level.force;
+    last_force_ = converged ? level.force : 0.0;
+    if (state) {
+        if (history()) history()->accept(level);
+        accepted_ = time_;
+        separation_ = level.separation;
+        force_ = level.force;
+    }
+    // With a residual above a tenth of the forces not even a first digit is known: there is no
+    // state, and no values are returned.
+    constexpr double kNoDigit = 0.1;
+    if (!state && !(level.residual < kNoDigit)) {
+        Level nothing;
+        nothing.separation = level.separation;
+        nothing.force = nothing.area = kNotComputed;
+        nothing.residual =
+            std::isfinite(level.residual) ? level.residual : std::numeric_limits<double>::max();
+        nothing.candidates = level.candidates;
+        nothing.iterations = level.iterations;
+        nothing.products = level.products;
+        nothing.converged = level.converged;
+        nothing.method = level.method;
+        nothing.fallback = level.fallback;
+        level = std::move(nothing);
+    } else {
+        level.energy = energy();
+    }
+    if (relaxes()) level.time = time_;
+    if (const Period& period = indenter().period; period.finite()) {
+        level.pressure = level.force / period.area();
+        level.area_fraction = level.area / period.area();
+    }
+}
+
+void Path::set_time(double time) {
+    if (!std::isfinite(time)) throw Error(Failure::bad_input, "the time must be finite");
+    if (relaxes() && accepted_ && time < *accepted_)
+        throw Error(Failure::bad_input,
+                    format("a time of %.9g is earlier than that of the last level, %.9g", time,
+                           *accepted_));
+    time_ = time;
+}
+
+double Path::stiffness() {
+    solve_level_again();
+    const double S = model_->stiffness(Model::kExact);
+    return S / (1 + model_->shift() * S);
+}
+
+double Path::clamped_stiffness() {
+    if (!pulls()) return 0 - stiffness();
+    solve_level_again();
+    return model_->clamped_stiffness();
+}
+
+// The shift c adds c N^2/2, which is not part of the energy of the bodies.
+double Path::energy() {
+    solve_level_again();
+    const double c = relaxes() ? 0.0 : model_->shift();
+    return model_->energy() - 0.5 * c * solved_force_ * solved_force_;
+}
+
+void Path::move_tip(double x0, double y0) {
+    if (!std::isfinite(x0) || !std::isfinite(y0))
+        throw Error(Failure::bad_input, "the tip's position must be finite");
+    model_->move_tip(x0, y0);
+}
+
+void Path::put_tip(double x0, double y0) {
+    if (indenter().x0 != x0 || indenter().y0 != y0) model_->move_tip(x0, y0);
+}
+
+void Path::forget() {
+    last_.reset();
+    last_force_ = rise_ = 0;
+    accepted_.reset();
+    separation_ = force_ = kNotComputed;
+    model_->forget();
+}
+
+Path::State Path::state() const {
+    State now;
+    now.x0 = indenter().x0;
+    now.y0 = indenter().y0;
+    if (accepted_) now.time = *accepted_;
+    now.separation = separation_;
+    now.force = force_;
+    if (history()) now.history = history()->write();
+    now.level = level_;
+    now.level_x0 = level_place_.x;
+    now.level_y0 = level_place_.y;
+    return now;
+}
+
+void Path::restore_history(const State& state) {
+    accepted_.reset();
+    if (std::isfinite(state.time)) accepted_ = state.time;
+    time_ = accepted_.value_or(0.0);
+    separation_ = state.separation;
+    force_ = state.force;
+    if (history()) history()->read(state.history);
+}
+
+void Path::restore(const State& state) {
+    if (history()) forget();  // what is replaced below would follow the tip
+    const bool at_level = history() && state.level && !pulls();
+    level_.reset();
+    put_tip(at_level ? state.level_x0 : state.x0, at_level ? state.level_y0 : state.y0);
+    restore_history(state);
+    level_ = state.level;
+    level_place_ = {state.level_x0, state.level_y0};
+    solved_ = !level_;
+    // Without a history this is left until it is needed.
+    if (history()) solve_level_again();
+    if (at_level && (state.x0 != state.level_x0 || state.y0 != state.level_y0)) {
+        if (std::isnan(level_->stiffness)) level_->stiffness = stiffness();  // lost by the move
+        put_tip(state.x0, state.y0);
+    }
+}
+
+// Solves again at a level that was restored, where the tip was then.
+void Path::solve_level_again() {
+    if (solved_) return;
+    solved_ = true;
+    const Vec2 now{indenter().x0, indenter().y0};
+    if (!pulls()) put_tip(level_place_.x, level_place_.y);
+    model_->solve_again(level_->separation - model_->shift() * level_->force, *level_);
+    solved_force_ = level_->force;
+    if (!pulls()) put_tip(now.x, now.y);
+}
+
+// Solves z + shift() N(z) = Z0, where z is the separation of the model. The left side increases with
+// z and is convex as long as N is a function of Z0.
+Level Path::solve_between_planes(double Z0) {
+    const double c = model_->shift(), touch = first_touch();
+    if (Z0 >= touch) return model_->solve(Z0);
+    double begin = Z0;
+    if (last_) {
+        begin = last_->z + (Z0 - last_->z - c * last_->force) / (1 + c * last_->slope);
+        if (!(begin < Z0) || !(1 + c * last_->slope > 0)) begin = Z0;
+    }
+    double miss = 0;
+    const auto judge = [&](const Level& level, double z) {
+        const double slope = model_->stiffness(Model::kForNewton), steep = 1 + c * slope;
+        miss = z + c * level.force - Z0;
+        last_ = {z, level.force, slope};
+        // An error of Z0 corresponds to an error of the force of -slope/steep times as much.
+        const double rounding =
+            4 * std::numeric_limits<double>::epsilon() * (std::abs(Z0) + std::abs(z));
+        const bool found = !level.converged || std::abs(miss) <= rounding ||
+                           (steep > 0 && std::abs(miss * slope) <=
+                                             0.1 * model_->tolerance() * level.force * steep);
+        return Verdict{found, miss > 0, steep > 0 ? z - miss / steep : -kInfinity};
+    };
+    const auto reach = [&](double next, double z, double above, int) {
+        return std::isfinite(next) && next < above ? next : z - 2 * (std::abs(miss) + (Z0 - z));
+    };
+    constexpr int most = 60;
+    bool stuck;
+    Level level = search(*model_, begin, -kInfinity, Z0, most, judge, reach, stuck);
+    if (stuck) level.converged = false;
+    // Without a solution the search goes on to forces without bounds: a level far from Z0 is no
+    // state of it.
+    if (!level.converged) level.residual = std::max(level.residual, std::abs(miss) / (touch - Z0));
+    level.separation = Z0;
+    return level;
+}
+
+// The separation at which the search for the force N begins: that of the last level unless it
+// failed, had no contact, or is so much deeper that a start from first touch takes fewer steps. At
+// `depth` below first touch the force is at most of the order of N.
+double Path::first_guess(double N, double above, double depth) const {
+    const double touching = above - 0.25 * depth;
+    double z = touching;
+    if (last_force_ > 0 && last_force_ < kFarAbove * N) {
+        z = model_->likely_separation().value_or(touching);
+        if (last_ && last_->force > 0)
+            z = last_->z + std::log(N / last_->force) * last_->force / last_->slope;
+        else if (rise_ < 0 && model_->levels_since_move() > 0)
+            // otherwise it is extrapolated to the new place, with the change of the force
+            z += std::log(N / last_force_) / rise_;
+        if (!(z < above)) z = touching;
+    }
+    const double below = model_->closed();
+    return z > below ? z : 0.5 * (above + below);
+}
+
+// The separation of a level is exact to its last bit, and its force is not N: either the force
+// jumps there, or it is too small for the resolution of the separation.
+void Path::require_resolved(Level& level, double N) {
+    const double z = level.separation;
+    const double ulp = std::nextafter(std::abs(z), kInfinity) - std::abs(z);
+    const double slope = model_->stiffness(Model::kForNewton);
+    const double resolved = 2 * ulp * std::abs(slope) + model_->force_at_most(2 * ulp);
+    if (std::abs(level.force - N) > resolved) {  // no separation has the force N
+        level.converged = false;
+        level.fallback = Fallback::jump;
+    } else if (std::abs(level.force / N - 1) > kUnresolved) {  // N is proportional to depth^(3/2)
+        throw Error(Failure::bad_input,
+                    format("a force of %.9g is too small for the resolution of the separation: "
+                           "near %.9g the smallest possible force is %.9g",
+                           N, z, model_->force_at_most(1.5 * ulp / kUnresolved)));
+    }
+}
+
+// Solves ln N(z) = ln N with the slope from the stiffness.
+Level Path::to_force(double N) {
+    begin_step();
+    const double above = first_touch();  // upper bound of the separation
+    if (!std::isfinite(above))
+        throw Error(Failure::bad_input,
+                    "no asperity lies under the indenter, so that it cannot carry a force");
+    if (std::optional<Level> level = model_->solve_under(N)) {
+        finish(*level);
+        return std::move(*level);
+    }
+    // Initial depth: the force cannot be reached before half of it.
+    double depth = std::numeric_limits<double>::epsilon() *
+                   std::max(std::abs(above), std::numeric_limits<double>::min());
+    const std::optional<double> likely =
+        last_force_ > 0.5 * N && last_force_ < 2 * N ? model_->likely_separation() : std::nullopt;
+    if (likely && *likely < above)
+        depth = above - *likely;
+    else
+        while (model_->force_at_most(depth) < N) depth *= 2;
+    const auto judge = [&](const Level& level, double z) {
+        const double miss = level.force / N - 1;
+        const bool found = std::abs(miss) <= model_->tolerance() || !level.converged;
+        if (found) return Verdict{true, false, z};
+        if (!(level.force > 0)) return Verdict{false, true, -kInfinity};
+        rise_ = model_->stiffness(Model::kForNewton) / level.force;
+        return Verdict{false, miss < 0, z - std::log1p(miss) / rise_};
+    };
+    const auto reach = [&](double next, double z, double highest, int i) {
+        const double furthest = highest -
+                                2 * (model_->levels_since_move() > 1 ? highest - z : 0.0) -
+                                std::ldexp(depth, i);
+        return std::isfinite(next) && next < highest ? std::max(next, furthest) : furthest;
+    };
+    constexpr int most = 200;
+    bool stuck;
+    Level level = search(*model_, first_guess(N, above, depth), model_->closed(), above, most,
+                         judge, reach, stuck);
+    if (stuck) require_resolved(level, N);
+    if (const double c = model_->shift(); c > 0) {
+        last_ = {level.separation, level.force, model_->stiffness(Model::kForNewton)};
+        level.separation += c * level.force;
+    }
+    finish(level);
+    return level;
+}
+
+}  // namespace rsc

@@ -1,0 +1,140 @@
+// Path: a model led from level to level, at given separations or forces, in time, and back to
+// earlier states.
+#pragma once
+
+#include "contact/model.hpp"
+
+namespace rsc {
+
+// Number of steps in which a level of a relaxing body is reached after `duration`. A step is of
+// second order: with 16 in the shortest relaxation time or more, or 16 in all, N of bodies with one
+// and four times, pressed, held and withdrawn, is within 1.1 %, mostly 0.4 %.
+inline double steps_of_time(double duration, double shortest_time) {
+    return std::max(1.0, std::ceil(16 * std::min(1.0, duration / shortest_time)));
+}
+
+class Path final {
+public:
+    explicit Path(std::unique_ptr<Model> model) : model_(std::move(model)) {}
+
+    // Solves at the separation Z0 [length] and accepts the level; if path_dependent(), later levels
+    // depend on it. Failure to converge is reported by Level::converged. Throws Error(bad_input) if
+    // Z0 is not finite.
+    Level at_separation(double Z0);
+
+    // Finds the separation at which the indenter carries the force N [force] (N > 0 unless it
+    // pulls()), to the tolerance or the floating-point resolution of Z0, and accepts the level.
+    // Trial separations have no effect on later levels.
+    Level at_force(double N);
+
+    // Throws Error(bad_input) if the surfaces are in full contact under the force N, as at_force()
+    // would; where this is known in advance.
+    void require_gap(double N) { model_->require_gap(N); }
+
+    // The last level with its energy, from at_separation(), at_force() or restore(); the caller may
+    // complete it. Empty: there is none.
+    std::optional<Level>& level() { return level_; }
+    const std::optional<Level>& level() const { return level_; }
+    // The tip of that level.
+    Vec2 place_of_level() const { return level_place_; }
+
+    // Sets the time of the following levels, used only if relaxes(). The separation, or under force
+    // control the force, changes linearly from the last accepted level, in up to 16 steps; a tip
+    // that was moved is at its new place from the beginning of the first step. The first level is
+    // applied instantaneously. Throws Error(bad_input) if the time is not finite or earlier than
+    // that of the last level.
+    void set_time(double time);
+    double time() const { return time_; }
+
+    // True if a level depends on earlier ones. energy() is then the recoverable energy and
+    // stiffness() the unloading stiffness; for relaxing bodies, the energy stored in their springs
+    // and the instantaneous stiffness.
+    bool path_dependent() const { return history() != nullptr; }
+    bool relaxes() const { return shortest_time() < kInfinity; }
+    // True if forces may be negative (adhesion).
+    bool pulls() const { return history() && history()->attracts(); }
+
+    // Of the last level; with adhesion, after move_tip(), of the state at the new place:
+    // dN/dZ0 (negative; 0 without contact) [force/length].
+    double stiffness();
+    // Force that a unit approach adds at fixed contact areas [force/length], positive.
+    double clamped_stiffness();
+    // Elastic energy W, with dW/dZ0 = -N [force length].
+    double energy();
+
+    // Moves the tip to (x0, y0). Throws Error(bad_input) if not finite.
+    void move_tip(double x0, double y0);
+    // Z0 at which the indenter touches the surface [length]; -Infinity if nothing lies under it.
+    double first_touch() const { return model_->first_touch(); }
+    const Indenter& indenter() const { return model_->indenter(); }
+    // Asperities used at present; null for boundary elements.
+    std::shared_ptr<const Asperities> asperities() const { return model_->asperities(); }
+
+    // As History. lasting_loads() is that of the level.
+    std::optional<Level> lasting_loads(const Level& level) const {
+        return history() ? history()->lasting_loads(level) : std::nullopt;
+    }
+    std::vector<double> residual_depths() const {
+        return history() ? history()->residual_depths() : std::vector<double>();
+    }
+    ResidualProfile residual_profile() const {
+        return history() ? history()->residual_profile() : ResidualProfile();
+    }
+
+    // Resets to the state of a new contact at this position of the tip.
+    void forget();
+
+    // All that later levels depend on, and the last level: for trials that are taken back, copies,
+    // and files.
+    struct State {
+        double x0 = 0, y0 = 0;  // the tip
+        // Of the last accepted level; NaN: there is none.
+        double time = kNotComputed, separation = kNotComputed, force = kNotComputed;
+        std::vector<double> history;  // History::write()
+        std::optional<Level> level;
+        double level_x0 = 0, level_y0 = 0;  // tip of the level
+    };
+    State state() const;
+    // Throws Error(bad_input) if the state does not belong to these bodies.
+    void restore(const State& state);
+
+private:
+    History* history() const { return model_->history(); }
+    double shortest_time() const { return history() ? history()->shortest_time() : kInfinity; }
+    void put_tip(double x0, double y0);
+    void restore_history(const State& state);
+    void solve_level_again();
+
+    // Reaches a level in steps of time, on which its separation, or its force, changes linearly
+    // `from` that of the last accepted level.
+    Level in_steps(double from, double to, Level (Path::*reach)(double));
+    Level to_separation(double Z0);  // as at_separation and at_force, in one step of time
+    Level to_force(double N);
+    // Solves at the separation Z0 of the mean planes if shift() > 0.
+    Level solve_between_planes(double Z0);
+    double first_guess(double N, double above, double depth) const;
+    void require_resolved(Level& level, double N);
+    // Accepts a level if it converged, and adds the quantities that depend on the nominal area.
+    void finish(Level& level);
+    void begin_step();
+
+    std::unique_ptr<Model> model_;
+    std::optional<Level> level_;
+    Vec2 level_place_;
+    bool solved_ = true;  // the model's last solution is that of the level
+    double solved_force_ = 0;
+
+    double time_ = 0;
+    std::optional<double> accepted_;  // time of the last accepted level, and its values:
+    double separation_ = kNotComputed, force_ = kNotComputed;
+
+    // Starting points of force control: the force of the last level, 0 if it did not converge;
+    // d ln N/dz where it was last needed, 0: unknown; and the last level if shift() > 0.
+    double last_force_ = 0, rise_ = 0;
+    struct Trial {
+        double z, force, slope;
+    };
+    std::optional<Trial> last_;
+};
+
+}  // namespace rsc
