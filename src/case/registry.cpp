@@ -230,8 +230,8 @@ std::vector<Key> make_registry() {
                "contact law of asperities: hertz: a sphere at a grid point (the paper's); "
                "elliptic: an elliptic paraboloid at the summit between the "
                "points; fourth_order: the paraboloid corrected by the fourth derivatives at the "
-               "summit, under a steep indenter the most loaded ellipse; the latter two count "
-               "overlapping areas once"),
+               "summit; the latter two are at the summits of the difference between surface and "
+               "indenter, and count overlapping areas once"),
 
         choice({"indenter", "shape", 0, [](Case& c) { return choice_slot(c.indenter.shape); }},
                shape_names(),

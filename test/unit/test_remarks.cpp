@@ -48,6 +48,12 @@ TEST(thresholds) {
     job.points_touch = -3.5;
     CHECK(remarks([](V&) {}).find("-3.5") != std::string::npos);
     CHECK(remarks([](V& v) { v.force = 1; }).find("-3.5") == std::string::npos);
+    // A list of asperities has no heights that elements could solve.
+    const auto all_wrong = [](V& v) { v.doubts = ~0, v.stiffness = kNotComputed; };
+    CHECK(said("'elements'", all_wrong));
+    job.settings.surface.source = Source::asperities;
+    CHECK(!said("'elements'", all_wrong));
+    job.settings.surface.source = Source::synthetic;
     job.settings.solids.hardness = 100;
     CHECK(said("1 of 7 contacts yield",
                [](V& v) { v.plastic_contacts = 1, v.plastic_work = 0.5, v.contacts = 7; }));
