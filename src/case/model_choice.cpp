@@ -93,6 +93,8 @@ const char* why_elements(const Case& c) {
     const std::optional<double> R = radius_of(c);
     if (!R) return "asperities hold under spheres, paraboloids and flats only";
     const Spectrum spectrum = self_affine_spectrum(c);
+    if (spectrum.directional() || !spectrum.gaussian())
+        return "the asperities of a surface that has a lay, or is not Gaussian, are no spheres";
     const Moments moments = theoretical_moments(spectrum);
     const double density = moments.summit_density();
     // A contact of asperities may be as wide as a quarter of their mean spacing, and a fifth of the

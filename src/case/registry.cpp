@@ -307,10 +307,10 @@ std::vector<Key> make_registry() {
         choice(RSC_KEY(solver, model), kModelNames,
                "asperities: the summits of the surface; elements: boundary elements on every point "
                "of the surface (slower, more accurate). "
-               "auto: elements for height maps, asperities for random surfaces where they hold "
-               "(slope of "
-               "the indenter at the contacts at most 0.2 of the rms slope of the surface, or two "
-               "flats), elsewhere elements, unless another key needs asperities"),
+               "auto: elements for height maps, asperities for isotropic Gaussian surfaces where "
+               "they hold (slope of the indenter at the contacts at most 0.2 of the rms slope of "
+               "the surface, or two flats), elsewhere elements, unless another key needs "
+               "asperities"),
 
         number(RSC_KEY(elements, points_per_wave), "1", between(4, 64),
                "grid steps in the shortest wavelength for model = 'elements'; &compare starts with "

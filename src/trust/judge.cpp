@@ -33,7 +33,8 @@ bool known_shape(const Indenter& indenter) {
     return name == "sphere" || name == "paraboloid" || indenter.shape->flat();
 }
 
-// What the study of asperities against elements (input/trust) contains.
+// What the study of asperities against elements (input/trust) contains: no flats other than isotropic
+// Gaussian ones.
 bool calibrated(const Level& level, const Path& contact, const SolverOptions& options) {
     const bool yields = std::isfinite(options.hardness.H0);
     const std::vector<double> depths = contact.residual_depths();
@@ -42,7 +43,7 @@ bool calibrated(const Level& level, const Path& contact, const SolverOptions& op
     return options.interaction == Interaction::point && options.selection == Selection::overlap &&
            options.adhesion.work == 0 && options.relaxation.none() &&
            known_shape(contact.indenter()) && options.mean_spacing > 0 &&
-           options.gentlest_slope > 0 &&
+           !(options.measured && contact.indenter().shape->flat()) && options.gentlest_slope > 0 &&
            !(yields && (options.hardness.length > 0 || contact.indenter().layers.count > 0)) &&
            yielded <= level.plastic_contacts;  // otherwise some are unloaded
 }
