@@ -133,7 +133,7 @@ const Level& gap_of(rsc_contact& contact, bool with_flow) {
         throw Outcome{RSC_NO_RESULT, "this rsc was built without CHOLMOD"};
     const double known = with_flow ? level.permeability_xx : level.gap_mean;
     if (!contact.recalled) contact.recall();
-    if (std::isnan(known)) measure_gap(*contact.on->points, contact.contact, level, with_flow);
+    if (std::isnan(known)) measure_gap(*contact.on->points, contact.contact, level, {}, with_flow);
     return level;
 }
 

@@ -123,6 +123,14 @@ void ResultTable::distributions() {
     density("spot_area_pdf", "spot_area_bin", unit(-2),
             "probability density of the area of a contact, pi a^2", &Shown::spot_area_pdf,
             &Shown::spot_area_moments, {}, "");
+    if (bins.gap_max > 0) {
+        bin_axis("gap_bin", unit(1), "middle of the bins of gap_pdf", bins.gap_width());
+        histogram("gap_count", "gap_bin", "1", "points by the gap, all realizations",
+                  &Distributions::gap, "points where the bodies do not touch; overflow: points");
+        density("gap_pdf", "gap_bin", unit(-1),
+                "probability density of the gap where the bodies do not touch", &Shown::gap_pdf,
+                &Shown::gap_moments, {}, "");
+    }
     if (o_.realizations == 1) return;
     std::vector<double> sums;
     for (const DistributionSums& level : o_.distribution_sums)

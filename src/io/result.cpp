@@ -40,6 +40,8 @@ ObserveOptions observe_options(const Case& c, const Domain& domain, const Indent
     const double hardest =
         c.solids.hardness * std::sqrt(1 + sharpest * c.solids.size_effect * sqrt_m4);
     options.pdf = make_pdf_bins(c.output.pdf_bins, indenter.E_star, sigma, sqrt_m4, 1.1 * hardest);
+    // Two rough flats are at most some four rms heights apart on either side of the mean.
+    if (by_elements(c) && indenter.period.finite()) options.pdf.gap_max = 8 * sigma;
     return options;
 }
 

@@ -308,7 +308,8 @@ void transfer(Archive& a, T& x) {
         a(x.weight), a(x.overflow), a(x.total), a(x.squares), a(x.power);
     } else if constexpr (std::is_same_v<Type, Distributions>) {
         a(x.separation), a(x.levels), a(x.step);
-        transfer(a, x.mean_pressure), transfer(a, x.pressure), transfer(a, x.spot_area);
+        transfer(a, x.mean_pressure), transfer(a, x.pressure), transfer(a, x.spot_area),
+            transfer(a, x.gap);
     } else if constexpr (std::is_same_v<Type, MapLevel>) {
         a(x.cell), a(x.area), a(x.force), a(x.outside);
     } else if constexpr (std::is_same_v<Type, DistributionSums>) {

@@ -7,7 +7,9 @@
 #ifdef RSC_CHOLMOD
 #include <cholmod.h>
 
-// OpenMP's, which only CHOLMOD uses here.
+// OpenBLAS's, whose sums depend on its number of threads, and OpenMP's, which only CHOLMOD uses.
+extern "C" int openblas_get_num_threads() __attribute__((weak));
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 extern "C" int omp_get_max_active_levels() __attribute__((weak));
 extern "C" void omp_set_max_active_levels(int) __attribute__((weak));
 #endif
@@ -114,22 +116,32 @@ std::vector<std::uint8_t> carrying(const GapMap& map, const Conductances& conduc
     return used;
 }
 
-// While it exists this thread's loops of CHOLMOD are not shared among threads: they are so short
-// that four threads take a quarter longer than one.
+// While one exists OpenBLAS has one thread, so that results do not depend on their number, and this
+// thread's loops of CHOLMOD are not shared among threads: they are so short that four take a
+// quarter longer than one.
 class OneThread {
 public:
     OneThread() {
+        const std::lock_guard lock(mutex_);
+        if (users_++ == 0 && openblas_get_num_threads && openblas_set_num_threads) {
+            blas_threads_ = openblas_get_num_threads();
+            openblas_set_num_threads(1);
+        }
         if (!omp_get_max_active_levels || !omp_set_max_active_levels) return;
         levels_ = omp_get_max_active_levels();
         omp_set_max_active_levels(0);
     }
     ~OneThread() {
+        const std::lock_guard lock(mutex_);
         if (levels_) omp_set_max_active_levels(*levels_);
+        if (--users_ == 0 && blas_threads_ > 0) openblas_set_num_threads(blas_threads_);
     }
     OneThread(const OneThread&) = delete;
     OneThread& operator=(const OneThread&) = delete;
 
 private:
+    inline static std::mutex mutex_;
+    inline static int users_ = 0, blas_threads_ = 0;
     std::optional<int> levels_;
 };
 
