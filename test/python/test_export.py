@@ -128,7 +128,7 @@ class Tables(InFolder):
         K = np.random.default_rng(4).uniform(1, 9, (5, 4, 3))
         K[:, :, :2] *= [[[1, 1], [1, 0], [1, 1], [0, 0]]] * 5
         K[3, 2, 0] = 0
-        path = result(self.folder, "seal", np.zeros((5, 4)))
+        path = result(self.folder, "seal", np.zeros((5, 4)), area=np.ones((5, 4)))
         with netCDF4.Dataset(path, "a") as file:
             file.createDimension("tensor_component", 3)
             names = "realization", "step", "tensor_component"
