@@ -241,14 +241,14 @@ Accumulators read_sums(const std::string& path, const ObserveOptions& options, s
     require_same_axes(file, options);
     read_levels(file, sums);
     read_surfaces(file, sums);
-    const auto map = [&](const std::string& name) {
-        const MapGrid& g = options.map;
-        const std::vector<std::size_t> lengths{steps, static_cast<std::size_t>(g.ny),
-                                               static_cast<std::size_t>(g.nx)};
-        return map_sums(g, sums.converged(), file.values(name, lengths));
-    };
-    sums.map_area = map("map_area_fraction");
-    sums.map_force = map("map_pressure");
+    const std::vector<std::size_t> lengths{steps, static_cast<std::size_t>(options.map.ny),
+                                           static_cast<std::size_t>(options.map.nx)};
+    const std::vector<double> area = file.values("map_area_fraction", lengths);
+    const std::vector<double> pressure = file.values("map_pressure", lengths);
+    const auto cells = static_cast<std::size_t>(options.map.cells());
+    for (std::size_t s = 0; s < steps; ++s)
+        sums.restore_map(s, std::span(area).subspan(s * cells, cells),
+                         std::span(pressure).subspan(s * cells, cells));
     read_distributions(file, sums);
     return sums;
 }

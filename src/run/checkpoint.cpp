@@ -317,9 +317,12 @@ void transfer(Archive& a, T& x) {
     } else if constexpr (std::is_same_v<Type, RealizationRecord>) {
         a(x.realization), a(x.surface), a(x.levels);
         transfer_each(a, x.maps), transfer_each(a, x.distributions);
+    } else if constexpr (std::is_same_v<Type, std::vector<CellSums>>) {
+        a(x);
     } else {
         static_assert(std::is_same_v<Type, Accumulators>);
-        a(x.realization), a(x.surface), a(x.rows), a(x.map_area), a(x.map_force);
+        a(x.realization), a(x.surface), a(x.rows);
+        transfer_each(a, x.maps);
         transfer_each(a, x.distributions);
     }
 }
@@ -334,8 +337,7 @@ std::string to_bytes(const RealizationRecord& record) {
 
 std::string to_bytes(const Accumulators& sums) {
     ArchiveWriter writer;
-    writer.bytes.reserve(32 * sums.map_area.size() + sizeof(LevelValues) * sums.rows.size() +
-                         65536);
+    writer.bytes.reserve(sizeof(LevelValues) * sums.rows.size() + 65536);
     transfer(writer, sums);
     return std::move(writer.bytes);
 }
@@ -353,8 +355,7 @@ void sums_from_bytes(std::string_view bytes, Accumulators& sums) {
     ArchiveReader reader = reader_of(bytes);
     transfer(reader, read);
     reader.end();
-    if (read.map_area.size() != sums.map_area.size() ||
-        read.map_force.size() != sums.map_force.size() ||
+    if (read.maps.size() != sums.maps.size() ||
         read.distributions.size() != sums.distributions.size() ||
         read.rows.size() != read.realization.size() * sums.steps ||
         read.surface.size() != read.realization.size())
@@ -373,7 +374,7 @@ std::string archive_layout() {
     const std::uint32_t order = 0x01020304;
     char first = 0;
     std::memcpy(&first, &order, 1);
-    return "4," + std::to_string(first) + "," + std::to_string(sizeof(SurfaceStatistics)) + "," +
+    return "5," + std::to_string(first) + "," + std::to_string(sizeof(SurfaceStatistics)) + "," +
            std::to_string(sizeof(LevelValues));
 }
 
