@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The fields of a result (&output fields) for other programs.
 
-    python3 output/export/fields.py RESULT.nc                    RESULT_fields_3.vti: VTK image data of level 3, for ParaView and PyVista
+    python3 output/export/fields.py RESULT.nc                    RESULT_fields_3.vti: VTK image data of level 3, for ParaView and PyVista;
+                                                                  stresses also as RESULT_stresses_3.vtr, a volume
     python3 output/export/fields.py RESULT.nc --format csv       a table x, y, pressure, ... of each level
     python3 output/export/fields.py RESULT.nc --format png       a picture of each level
 
@@ -33,7 +34,9 @@ NAMES = {
     "field_gap": "gap",
     "field_contact": "contact",
     "field_height": "height",
+    "field_flow": "flow",
 }
+STRESSES = ("mises", "shear", "tension")
 
 
 def read(path):
@@ -53,6 +56,13 @@ def read(path):
             int(step): {NAMES[name]: (np.asarray(at(name, k)), file[name].units) for name in there}
             for k, step in enumerate(file["field_step"][:])
         }
+        for name in STRESSES:
+            if "field_" + name not in file.variables:
+                continue
+            stress = file["field_" + name]
+            for k, fields in enumerate(levels.values()):
+                for d, depth in enumerate(file["depth"][:]):
+                    fields[f"{name} at depth {depth:.6g}"] = np.asarray(stress[k, d]), stress.units
         return (
             np.asarray(file["field_x"][:]),
             np.asarray(file["field_y"][:]),
@@ -76,6 +86,41 @@ def write_vti(path, x, y, fields):
         out.write(
             f'<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<ImageData WholeExtent="{extent}" '
             f'Origin="{float(x[0])!r} {float(y[0])!r} 0" Spacing="{step(x)!r} {step(y)!r} 1">\n<Piece Extent="{extent}">\n<PointData>\n{arrays}</PointData>\n</Piece>\n</ImageData>\n</VTKFile>\n'
+        )
+
+
+def read_volume(path):
+    """(depth, {number of the level: {name: (stresses [depth][y][x], unit)}}), empty if there are none."""
+    with open_result(path) as file:
+        there = [name for name in STRESSES if "field_" + name in file.variables]
+        if not there:
+            return None, {}
+        return np.asarray(file["depth"][:]), {
+            int(step): {
+                name: (np.asarray(file["field_" + name][k]), file["field_" + name].units)
+                for name in there
+            }
+            for k, step in enumerate(file["field_step"][:])
+        }
+
+
+def write_vtr(path, x, y, depth, fields):
+    """VTK's XML rectilinear grid, for depths at uneven distances: z is minus the depth, from the deepest plane up."""
+    encoded = lambda values: base64.b64encode(
+        np.uint64(8 * values.size).tobytes() + np.ascontiguousarray(values, "<f8").tobytes()
+    ).decode()
+    array = (
+        lambda name, values: f'<DataArray type="Float64" Name="{name}" format="binary">{encoded(values)}</DataArray>\n'
+    )
+    extent = f"0 {x.size - 1} 0 {y.size - 1} 0 {depth.size - 1}"
+    coordinates = array("x", x) + array("y", y) + array("z", -depth[::-1])
+    arrays = "".join(
+        array(f"{name} [{unit}]", values[::-1]) for name, (values, unit) in fields.items()
+    )
+    with open(path, "w", encoding="ascii") as out:
+        out.write(
+            f'<VTKFile type="RectilinearGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<RectilinearGrid WholeExtent="{extent}">\n'
+            f'<Piece Extent="{extent}">\n<Coordinates>\n{coordinates}</Coordinates>\n<PointData>\n{arrays}</PointData>\n</Piece>\n</RectilinearGrid>\n</VTKFile>\n'
         )
 
 
@@ -188,6 +233,12 @@ def main(words=None):
             else:
                 write_png(path, x, y, fields, length, f"Fields of level {step}")
             print(path)
+        if arguments.format == "vti":
+            depth, volumes = read_volume(arguments.result)
+            for step, fields in volumes.items():
+                path = os.path.join(folder, f"{stem}_stresses_{step}.vtr")
+                write_vtr(path, x, y, depth, fields)
+                print(path)
     except Refused as reason:
         sys.exit(f"fields.py: {reason}")
     except OSError as error:

@@ -31,6 +31,7 @@ import plot_map
 import plot_radial
 import plot_seal
 import plot_spots
+import plot_stress
 import plot_study
 import plot_surface
 import plot_texture
@@ -59,6 +60,8 @@ PICTURES = {
     "stick": plot_friction.stick,
     "time": plot_time.time,
     "pull": plot_adhesion.pull,
+    "stress": plot_stress.stress,
+    "section": plot_stress.section,
 }
 
 Options = namedtuple(

@@ -34,6 +34,9 @@ inline constexpr std::array kContactsNames = {"auto", "none", "last", "all"};
 // Words allowed for compare%levels instead of a list.
 enum class CompareWhat { automatic, none };
 inline constexpr std::array kCompareNames = {"auto", "none"};
+// Words allowed for output%stress_depths instead of a list.
+enum class StressDepths { none, automatic };
+inline constexpr std::array kStressDepthsNames = {"none", "auto"};
 enum class StudyMode { product, zip };
 
 struct Case {
@@ -130,6 +133,12 @@ struct Case {
         std::vector<double> fields;        // numbers of kFieldNames; empty: none
         std::vector<double> field_levels;  // in `unit` of the indentation; empty: the last level
         std::optional<double> field_window[4];  // x0, x1, y0, y1; default: about the contact
+        StressDepths automatic_depths = StressDepths::none;
+        std::vector<double> stress_depths;        // empty: `automatic_depths` applies
+        std::optional<double> sliding_direction;  // [degree]; default: the bodies do not slide
+        bool stresses() const {
+            return !stress_depths.empty() || automatic_depths == StressDepths::automatic;
+        }
     } output;
 
     static constexpr double kInfinity = __builtin_huge_val();

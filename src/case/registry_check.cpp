@@ -41,6 +41,7 @@ public:
         check_levels();
         check_boundary();
         check_flow();
+        check_stresses();
         check_sizes();
         return std::move(problems_);
     }
@@ -167,7 +168,8 @@ private:
              "it needs the radius of asperities"},
             {size_effect && compare, "solids%size_effect", "compare%levels",
              "it needs the radius of asperities"},
-            {friction && elements_, "solids%friction", "solver%model", "it is for asperities"},
+            {friction && elements_ && !c_.output.sliding_direction, "solids%friction",
+             "solver%model", "it is for asperities"},
             {friction && layers, "solids%friction", "solids%layer_thickness",
              "it is not for layers"},
             {resistivity && layers, "solids%resistivity", "solids%layer_thickness",
@@ -415,6 +417,30 @@ private:
         require(has_permeability(), {"output%flow"},
                 "this rsc was built without CHOLMOD (Debian: libsuitesparse-dev), which solves for "
                 "the flow");
+    }
+
+    void check_stresses() {
+        const Case::Output& o = c_.output;
+        const bool field = std::ranges::any_of(
+            o.fields, [](double f) { return is_stress(static_cast<Field>(f)); });
+        require(!field || o.stresses(), {"output%fields", "output%stress_depths"},
+                "stresses are computed at the depths of output%stress_depths; give some");
+        require(!o.sliding_direction || o.stresses(),
+                {"output%sliding_direction", "output%stress_depths"},
+                "it is for the stresses at output%stress_depths; give some");
+        if (!o.stresses()) return;
+        require(std::ranges::is_sorted(o.stress_depths, std::less_equal<>()),
+                {"output%stress_depths"}, "must increase");
+        require(c_.solids.layer_thickness.empty(),
+                {"output%stress_depths", "solids%layer_thickness"},
+                "stresses below the surface are not available in layers");
+        require(elements_ || !(c_.solids.adhesion > 0), {"output%stress_depths", "solids%adhesion"},
+                "with adhesion stresses are available for model = 'elements'");
+        if (!o.sliding_direction) return;
+        require(c_.solids.friction > 0, {"output%sliding_direction", "solids%friction"},
+                "needs solids%friction > 0");
+        require(elements_, {"output%sliding_direction", "solver%model"},
+                "the stresses of sliding asperities are not available; use model = 'elements'");
     }
 
     void check_sizes() {

@@ -329,6 +329,29 @@ void ResultTable::heights() {
                     false});
 }
 
+// The largest stresses at each depth, and where.
+void ResultTable::stresses() {
+    const std::vector<double>& depths = o_.options.stress_depths;
+    if (depths.empty()) return;
+    file_.dimension("depth", depths.size());
+    add("depth", {"depth"}, unit(1), "depth below the surface of body 1", depths);
+    const Names dims{"realization", "step", "depth"};
+    for (const StressQuantity& q : kStressQuantities) {
+        const auto values = [&](double LargestStress::Value::*part) {
+            std::vector<double> all;
+            for (const LargestStress& s : o_.stresses) all.push_back((s.*q.of).*part);
+            return all;
+        };
+        const std::string name = q.name;
+        add_absent(name + "_max", dims, unit(-2, 1), std::string("largest ") + q.meaning,
+                   values(&LargestStress::Value::value), "below the contact and around it");
+        for (const auto& [axis, part] :
+             {std::pair{"x", &LargestStress::Value::x}, std::pair{"y", &LargestStress::Value::y}})
+            add_absent(name + "_max_" + axis, dims, unit(1),
+                       std::string(axis) + " of " + name + "_max", values(part));
+    }
+}
+
 void ResultTable::fields() {
     const Fields& f = r_.fields;
     if (f.step.empty()) return;
@@ -352,6 +375,10 @@ void ResultTable::fields() {
                      "magnitude of the flux per width times the viscosity, for a mean pressure "
                      "gradient of 1 along x",
                      f.flow);
+    const Names planes{"field_step", "depth", "field_y", "field_x"};
+    for (const StressQuantity& q : kStressQuantities)
+        if (const std::vector<double>& values = f.*q.field; !values.empty())
+            add_disorder(std::string("field_") + q.name, planes, unit(-2, 1), q.meaning, values);
     if (!f.heights.empty())
         add_disorder("field_height", {"field_y", "field_x"}, unit(1),
                      "height of the surface without load", f.heights);

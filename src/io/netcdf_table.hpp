@@ -88,6 +88,7 @@ public:
         maps();
         radial();
         distributions();
+        stresses();
         asperities();
         contacts();
         residual_profile();
@@ -135,6 +136,7 @@ private:
                  DistributionMoments ShownDistributions::*moments, NetcdfAttributes more,
                  const std::string& note);
     void pressure();
+    void stresses();
     void asperities();
     void contacts();
     void residual_profile();

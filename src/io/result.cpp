@@ -214,6 +214,21 @@ void read_surfaces(const Columns& file, Accumulators& sums) {
             "saddles", [](S & s) -> auto& { return s.saddles; });
 }
 
+void read_stresses(const Columns& file, Accumulators& sums) {
+    const std::size_t depths = sums.options.stress_depths.size();
+    if (depths == 0) return;
+    const std::vector<std::size_t> lengths{sums.realization.size(), sums.steps, depths};
+    sums.stresses.resize(sums.rows.size() * depths);
+    using Value = LargestStress::Value;
+    for (const StressQuantity& q : kStressQuantities)
+        for (const auto& [suffix, part] :
+             {std::pair{"_max", &Value::value}, {"_max_x", &Value::x}, {"_max_y", &Value::y}}) {
+            const std::vector<double> values = file.values(std::string(q.name) + suffix, lengths);
+            for (std::size_t k = 0; k < values.size(); ++k)
+                (sums.stresses[k].*q.of).*part = values[k];
+        }
+}
+
 void read_distributions(const Columns& file, Accumulators& sums) {
     const std::size_t levels = sums.distributions.size();
     if (levels == 0) return;
@@ -239,6 +254,7 @@ Accumulators read_sums(const std::string& path, const ObserveOptions& options, s
     require_same_axes(file, options);
     read_levels(file, sums);
     read_surfaces(file, sums);
+    read_stresses(file, sums);
     const auto map = [&](const std::string& name) {
         const MapGrid& g = options.map;
         const std::vector<std::size_t> lengths{steps, static_cast<std::size_t>(g.ny),

@@ -186,6 +186,28 @@ void about_contact(const HeightMap& map, const std::vector<Pressures>& levels, R
     rows = widened(rows, map.ny, margin / map.dy);
 }
 
+// Adds the stresses under the pressures to the requested fields.
+void add_stresses(Fields& f, const HeightMap& map, const Pressures& pressures, Range columns,
+                  Range rows, const FieldsAsked& asked) {
+    LevelPixels pixels;
+    pixels.columns = map.nx;
+    for (const auto& [point, load] : pressures) {
+        pixels.index.push_back(static_cast<std::int32_t>(point));
+        pixels.pressure.push_back(load.pressure);
+    }
+    for (const double depth : asked.depths) {
+        StressPlane plane;
+        stress_below(map, pixels, asked.body, depth,
+                     {columns.first, rows.first, columns.size(), rows.size()}, &plane);
+        const auto append = [](std::vector<double>& to, const std::vector<double>& values) {
+            to.insert(to.end(), values.begin(), values.end());
+        };
+        if (asked.mises) append(f.mises, plane.mises);
+        if (asked.shear) append(f.shear, plane.shear);
+        if (asked.tension) append(f.tension, plane.tension);
+    }
+}
+
 }  // namespace
 
 ResidualProfile lowered_summits(const HeightMap& map, bool repeats, const Asperities& asperities,
@@ -237,6 +259,7 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
     for (int i = columns.first; i <= columns.last; ++i) f.x.push_back(map.x(i));
     for (int j = rows.first; j <= rows.last; ++j) f.y.push_back(map.y(j));
     const std::size_t points = f.x.size() * f.y.size();
+    if (asked.stresses()) f.depth = asked.depths;
     if (asked.heights)
         for (int j = rows.first; j <= rows.last; ++j)
             f.heights.insert(f.heights.end(), map.row(j) + columns.first,
@@ -283,6 +306,7 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
             f.gap.insert(f.gap.end(), gap.begin(), gap.end());
         }
         if (asked.pressure) f.pressure.insert(f.pressure.end(), p.begin(), p.end());
+        if (asked.stresses()) add_stresses(f, map, pressures[s], columns, rows, asked);
         for (int j = rows.first; j <= rows.last && asked.flow; ++j) {
             const auto row = levels[s].flow.begin() + std::ptrdiff_t{j} * map.nx;
             f.flow.insert(f.flow.end(), row + columns.first, row + columns.last + 1);

@@ -4,17 +4,26 @@
 
 #include "contact/indentation.hpp"
 #include "contact/level.hpp"
+#include "physics/stress/plane_stress.hpp"
 #include "surface/surface.hpp"
 
 namespace rsc {
 
 // In the order of the names for output%fields.
-enum class Field { pressure, gap, contact, heights, flow };
-inline constexpr std::array kFieldNames = {"pressure", "gap", "contact", "heights", "flow"};
+enum class Field { pressure, gap, contact, heights, flow, mises, shear, tension };
+inline constexpr std::array kFieldNames = {"pressure", "gap",   "contact", "heights",
+                                           "flow",     "mises", "shear",   "tension"};
+constexpr bool is_stress(Field f) {
+    return f == Field::mises || f == Field::shear || f == Field::tension;
+}
 
 struct FieldsAsked {
     bool pressure = false, gap = false, contact = false, heights = false, flow = false;
-    bool any() const { return pressure || gap || contact || heights || flow; }
+    bool mises = false, shear = false, tension = false;
+    bool stresses() const { return mises || shear || tension; }
+    bool any() const { return pressure || gap || contact || heights || flow || stresses(); }
+    std::vector<double> depths;  // of the stresses [length]
+    StressedBody body;           // in which they are
     std::optional<std::array<double, 4>>
         window;  // x0, x1, y0, y1 [length]; absent: around the contact
 };
@@ -28,8 +37,23 @@ struct Fields {
     std::vector<std::int32_t> contact;  // [step][y][x] 1 in contact, otherwise 0
     std::vector<double> heights;        // [y][x] of the undeformed surface [length]
     // [step][y][x] magnitude of the flux times viscosity for a mean pressure gradient 1 along x
-    std::vector<double> flow;  // [length^3]
+    std::vector<double> flow;                   // [length^3]
+    std::vector<double> depth;                  // of the stresses [length]
+    std::vector<double> mises, shear, tension;  // [step][depth][y][x] [force/length^2]
 };
+
+// The stresses in files, one row each.
+struct StressQuantity {
+    const char *name, *meaning;
+    LargestStress::Value LargestStress::*of;
+    std::vector<double> Fields::*field;
+};
+inline constexpr StressQuantity kStressQuantities[] = {
+    {"mises", "equivalent stress of von Mises", &LargestStress::mises, &Fields::mises},
+    {"shear", "shear stress, half the difference of the principal stresses", &LargestStress::shear,
+     &Fields::shear},
+    {"tension", "principal stress, negative where all are compressive", &LargestStress::tension,
+     &Fields::tension}};
 
 // The points that yielded asperities have lost: those around a summit that are above it less its
 // residual depth [length]. `repeats`: the surface is periodic.

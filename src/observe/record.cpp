@@ -35,9 +35,11 @@ std::int32_t nearest_level(const std::vector<double>& levels, double wanted) {
 }
 
 RealizationRecord observe(const ObserveOptions& options, std::int64_t realization,
-                          const SurfaceStatistics& surface, const std::vector<Level>& levels) {
+                          const SurfaceStatistics& surface, const std::vector<Level>& levels,
+                          std::vector<LargestStress> stresses) {
     RealizationRecord record;
     record.realization = realization;
+    record.stresses = std::move(stresses);
     record.surface = surface;
     for (std::size_t s = 0; s < levels.size(); ++s) {
         require_finite(levels[s], s);
@@ -93,7 +95,7 @@ LevelStatistics Observations::statistics(
 }
 
 Accumulators::Accumulators(const ObserveOptions& options_, std::size_t steps_)
-    : Realizations{options_, steps_, {}, {}, {}} {
+    : Realizations{options_, steps_, {}, {}, {}, {}} {
     map_area.assign(steps * static_cast<std::size_t>(options.map.cells()), ExactSum{});
     map_force = map_area;
     distributions.resize(steps > 0 ? options.pdf_levels.size() : 0);
@@ -101,6 +103,7 @@ Accumulators::Accumulators(const ObserveOptions& options_, std::size_t steps_)
 
 void Accumulators::add(const RealizationRecord& record) {
     if (record.levels.size() != steps || record.maps.size() != steps ||
+        record.stresses.size() != steps * options.stress_depths.size() ||
         record.distributions.size() != distributions.size())
         throw Error(Failure::internal, "realization " + std::to_string(record.realization) +
                                            " has " + std::to_string(record.levels.size()) +
@@ -112,6 +115,7 @@ void Accumulators::add(const RealizationRecord& record) {
     realization.push_back(record.realization);
     surface.push_back(record.surface);
     rows.insert(rows.end(), record.levels.begin(), record.levels.end());
+    stresses.insert(stresses.end(), record.stresses.begin(), record.stresses.end());
     const auto cells = static_cast<std::size_t>(options.map.cells());
     constexpr int kBits = 64;  // a full cell is 2^64 quanta, 11 bits more than a double has
     const double cell_area = options.map.side * options.map.side,
@@ -139,6 +143,7 @@ void Accumulators::append(const Accumulators& later) {
     realization.insert(realization.end(), later.realization.begin(), later.realization.end());
     surface.insert(surface.end(), later.surface.begin(), later.surface.end());
     rows.insert(rows.end(), later.rows.begin(), later.rows.end());
+    stresses.insert(stresses.end(), later.stresses.begin(), later.stresses.end());
     for (std::size_t k = 0; k < map_area.size(); ++k) map_area[k].add(later.map_area[k]);
     for (std::size_t k = 0; k < map_force.size(); ++k) map_force[k].add(later.map_force[k]);
     for (std::size_t d = 0; d < distributions.size(); ++d)

@@ -10,6 +10,7 @@
 #include "contact/level.hpp"
 #include "observe/distributions.hpp"
 #include "observe/map.hpp"
+#include "physics/stress/stress.hpp"
 #include "surface/spectrum.hpp"
 
 namespace rsc {
@@ -21,6 +22,7 @@ struct ObserveOptions {
     std::vector<double>
         pdf_levels;  // separations at whose nearest levels distributions are computed [length]
     PdfBins pdf;
+    std::vector<double> stress_depths;  // [length]; empty: no stresses
 };
 
 // Surface of a realization. NaN means absent (for example m2 of asperities read from a file).
@@ -54,12 +56,14 @@ struct RealizationRecord {
     std::vector<MapLevel>
         maps;  // one per level; empty if it did not converge, as are distributions
     std::vector<Distributions> distributions;  // one per pdf level
+    std::vector<LargestStress> stresses;       // [step][depth]; empty: none are asked for
 };
 
 // Reduces the levels of one realization to a record. Throws Error(internal) if a level holds a
 // value that is not finite.
 RealizationRecord observe(const ObserveOptions& options, std::int64_t realization,
-                          const SurfaceStatistics& surface, const std::vector<Level>& levels);
+                          const SurfaceStatistics& surface, const std::vector<Level>& levels,
+                          std::vector<LargestStress> stresses = {});
 
 // Index of the level (its separation, force or pressure) nearest to the wanted one, the first of
 // those that are equally near but for rounding;
@@ -75,6 +79,7 @@ struct Realizations {
     std::vector<std::int64_t> realization;
     std::vector<SurfaceStatistics> surface;  // [realization]
     std::vector<LevelValues> rows;           // [realization][step]
+    std::vector<LargestStress> stresses;     // [realization][step][depth]
 };
 
 // Sums over realizations, written to the checkpoint of a campaign.

@@ -314,11 +314,11 @@ void transfer(Archive& a, T& x) {
     } else if constexpr (std::is_same_v<Type, DistributionSums>) {
         a(x.step), a(x.numbers);
     } else if constexpr (std::is_same_v<Type, RealizationRecord>) {
-        a(x.realization), a(x.surface), a(x.levels);
+        a(x.realization), a(x.surface), a(x.levels), a(x.stresses);
         transfer_each(a, x.maps), transfer_each(a, x.distributions);
     } else {
         static_assert(std::is_same_v<Type, Accumulators>);
-        a(x.realization), a(x.surface), a(x.rows), a(x.map_area), a(x.map_force);
+        a(x.realization), a(x.surface), a(x.rows), a(x.stresses), a(x.map_area), a(x.map_force);
         transfer_each(a, x.distributions);
     }
 }
@@ -356,7 +356,8 @@ void sums_from_bytes(std::string_view bytes, Accumulators& sums) {
         read.map_force.size() != sums.map_force.size() ||
         read.distributions.size() != sums.distributions.size() ||
         read.rows.size() != read.realization.size() * sums.steps ||
-        read.surface.size() != read.realization.size())
+        read.surface.size() != read.realization.size() ||
+        read.stresses.size() != read.rows.size() * sums.options.stress_depths.size())
         throw Error(Failure::internal, "the sums of a campaign do not match its case");
     sums = std::move(read);
 }
@@ -372,7 +373,7 @@ std::string archive_layout() {
     const std::uint32_t order = 0x01020304;
     char first = 0;
     std::memcpy(&first, &order, 1);
-    return "4," + std::to_string(first) + "," + std::to_string(sizeof(SurfaceStatistics)) + "," +
+    return "5," + std::to_string(first) + "," + std::to_string(sizeof(SurfaceStatistics)) + "," +
            std::to_string(sizeof(LevelValues));
 }
 

@@ -11,6 +11,7 @@
 #include "physics/adhesion/adhesive_elements.hpp"
 #include "physics/friction/contact_curve.hpp"
 #include "run/gap.hpp"
+#include "run/stress.hpp"
 #include "surface/synthesis.hpp"
 #include "trust/judge.hpp"
 
@@ -56,8 +57,7 @@ void require_maps(const Case& settings, const Domain& first) {
 // synthetic surface, or the expectation over the modes of several surfaces; of two rough bodies the
 // sum. Negative or NaN: not known.
 double m2_of_pressures(const Job& job) {
-    const auto& second = job.indenter.shape->keys().map;
-    const double other = second ? grid_moments(*second).m2 : 0.0;
+    const double other = job.indenter.shape->keys().m2;
     if (!job.spectrum) return job.given ? job.given->statistics.m2 + other : kAbsent;
     const Case& c = job.settings;
     if (c.run.realizations > 1) return discrete_moments(*job.spectrum).m2 + other;
@@ -133,14 +133,20 @@ std::vector<std::int32_t> steps_of_fields(const Job& job) {
     return steps;
 }
 
-FieldsAsked fields_asked(const Case& settings) {
+FieldsAsked fields_asked(const Job& job) {
+    const Case& settings = job.settings;
     const auto& w = settings.output.field_window;
     const auto has = [&](Field f) {
         const auto& all = settings.output.fields;
         return std::find(all.begin(), all.end(), static_cast<double>(f)) != all.end();
     };
-    FieldsAsked asked{has(Field::pressure), has(Field::gap),  has(Field::contact),
-                      has(Field::heights),  has(Field::flow), {}};
+    FieldsAsked asked{has(Field::pressure), has(Field::gap), has(Field::contact),
+                      has(Field::heights), has(Field::flow)};
+    asked.mises = has(Field::mises);
+    asked.shear = has(Field::shear);
+    asked.tension = has(Field::tension);
+    asked.depths = job.observe.stress_depths;
+    asked.body = stressed_body(settings);
     if (w[0]) asked.window = {*w[0], *w[1], *w[2], *w[3]};
     return asked;
 }
@@ -269,6 +275,7 @@ Job prepare(const Case& settings) {
                                 ? static_cast<double>(job.given_heights->nx) * job.given_heights->ny
                                 : std::pow(element_points(settings, *job.spectrum), 2.0));
     job.observe = observe_options(settings, job.domain, job.indenter, job.sigma, sqrt_m4);
+    job.observe.stress_depths = stress_depths(job);
     return job;
 }
 
@@ -278,6 +285,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     const auto& settings = job.settings;
     std::unique_ptr<Path> contact;
     JudgedSurface judged;
+    const HeightMap* map = nullptr;  // of elements
     std::shared_ptr<const Measured> measured = job.given ? job.measured : nullptr;
     SolverOptions solver = job.solver;
     if (by_elements(settings)) {
@@ -291,9 +299,9 @@ Realization realize(const Job& job, std::int64_t number, int threads,
             measured = surface.measured;
             r.heights = std::move(surface.map);
         }
-        const HeightMap& map = job.given ? *job.given_heights : *r.heights;
-        contact = make_element_contact(map, job.indenter, job.solver);
-        judged.map = &map;
+        map = job.given ? &*job.given_heights : &*r.heights;
+        contact = make_element_contact(*map, job.indenter, job.solver);
+        judged.map = map;
         judged.second_grid = true;
         if (job.theory) judged.curvature = curvature_at_unit_height(*job.theory);
     } else {
@@ -362,8 +370,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         std::vector<double> flow;
         if (has_gap(settings))
             measure_gap(job.given_heights ? *job.given_heights : *r.heights, *contact, level,
-                        settings.output.flow,
-                        field && fields_asked(settings).flow ? &flow : nullptr);
+                        settings.output.flow, field && fields_asked(job).flow ? &flow : nullptr);
         if (field && !std::isnan(level.force)) {  // a level without a state has none
             const auto yielding = contact->asperities();
             fields.push_back(
@@ -374,13 +381,14 @@ Realization realize(const Job& job, std::int64_t number, int threads,
                           : contact->residual_profile(),
                  contact->lasting_loads(level), std::move(flow)});
         }
+        add_stresses(r.stresses, job, map, level);
         if (on_level && !on_level(k, r.levels.back())) break;
     }
     r.residual_depth = contact->residual_depths();
     r.residual_profile = contact->residual_profile();
     if (!fields.empty())
         r.fields = fields_of(job.given_heights ? *job.given_heights : *r.heights, job.indenter,
-                             job.solver.interaction, fields, fields_asked(settings));
+                             job.solver.interaction, fields, fields_asked(job));
     if (const auto touched = contact->asperities(); touched && touched.get() != &r.asperities) {
         Asperities used = *touched;
         curve.reset(), contact.reset();

@@ -41,6 +41,7 @@ struct Realization {
     SurfaceStatistics statistics;
     Asperities asperities;
     std::vector<Level> levels;
+    std::vector<LargestStress> stresses;  // [step][depth]
     FrictionLoops friction;
     std::vector<double>
         // residual depth of the asperities after the last level; empty without hardness

@@ -14,6 +14,7 @@
 #include "run/gap.hpp"
 #include "run/screen.hpp"
 #include "run/signals.hpp"
+#include "run/stress.hpp"
 #include "run/team.hpp"
 
 namespace rsc {
@@ -46,8 +47,8 @@ void tell_failed(const RunOptions& options, const RunSummary& summary) {
 namespace {
 
 void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s,
-               std::span<const LevelValues> levels, double seconds, const std::string& file,
-               bool replaces, const std::string& twins) {
+               std::span<const LevelValues> levels, std::span<const LargestStress> stresses,
+               double seconds, const std::string& file, bool replaces, const std::string& twins) {
     out << '\n';
     if (by_elements(job.settings))
         out << "elements, ";
@@ -60,6 +61,7 @@ void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s,
     tell_unreached_heights(out, {&s, 1}, job);
     print_remarks(out, levels, job);
     print_gap(out, levels, job);
+    print_stresses(out, stresses, job);
     if (!twins.empty()) out << twins << '\n';
     print_result(out, file, replaces);
 }
@@ -238,8 +240,8 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
                     });
     }
     Accumulators sums(job.observe, job.levels.size());
-    const RealizationRecord record =
-        observe(job.observe, settings.run.first_realization, r.statistics, r.levels);
+    const RealizationRecord record = observe(job.observe, settings.run.first_realization,
+                                             r.statistics, r.levels, std::move(r.stresses));
     sums.add(record);
     ComparedLevels compared;
     if (compares(job, options.compare_automatically))
@@ -267,8 +269,8 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (table)
-        summarise(*table, job, statistics, record.levels, seconds, settings.output.file, replaces,
-                  twins);
+        summarise(*table, job, statistics, record.levels, record.stresses, seconds,
+                  settings.output.file, replaces, twins);
     const LevelValues& last = record.levels.back();
     const auto failed = [](const LevelValues& level) {
         return level.status == LevelStatus::not_converged;

@@ -1,0 +1,127 @@
+"""Stresses below the surface (output%stress_depths): the largest at each depth, and a vertical section through the worst point."""
+
+import numpy as np
+
+from plot_style import Page, STYLES, amount, colour_bar, label
+
+KINDS = (
+    ("mises", "von Mises"),
+    ("shear", "shear"),
+    ("tension", "tension"),
+)
+
+
+def _level(result, options):
+    """The level to draw: the requested one, otherwise the last with stresses; None if there is none."""
+    there = np.flatnonzero(np.isfinite(result["mises_max"]).any(axis=(0, 2)))
+    if options.step is not None:
+        return options.step - 1 if options.step - 1 in there else None
+    return int(there[-1]) if there.size else None
+
+
+def hertz_axis(z, N, R, E, nu):
+    """von Mises's stress under the centre of a smooth ball, twice the shear stress there (Johnson 1985, section 3.4)."""
+    a = (0.75 * N * R / E) ** (1 / 3)
+    p0 = 1.5 * N / (np.pi * a**2)
+    t = z / a
+    with np.errstate(divide="ignore"):
+        angle = np.where(t > 0, t * np.arctan(1 / np.where(t > 0, t, 1)), 0)
+    axial = -1 / (1 + t**2)
+    radial = -(1 + nu) * (1 - angle) + 0.5 / (1 + t**2)
+    return p0 * np.abs(radial - axial)
+
+
+def stress(results, options):
+    """The largest stresses at each depth at one level, beside those under a smooth ball of the same load."""
+    results = [r for r in results if "mises_max" in r]
+    if len(results) != 1:
+        return None
+    result = results[0]
+    step = _level(result, options)
+    if step is None:
+        return None
+    page = Page(options)
+    axis = page.axes[0]
+    z = result["depth"]
+    top = 0
+    for (name, text), (_, line, colour) in zip(KINDS, STYLES):
+        values = np.nanmean(result[name + "_max"][:, step], axis=0)
+        drawn = np.where(values > 0, values, np.nan)
+        axis.plot(drawn, z, line, color=colour, marker=".", label=text)
+        top = max(top, np.nanmax(drawn, initial=0))
+    R, N = float(result["r_star"]), result.mean("force")[step]
+    if np.isfinite(R) and R < 1e27 and N > 0:
+        nu = float(result.case["solids%nu"].split(",")[0])
+        fine = np.linspace(0, z[-1], 400)
+        smooth = hertz_axis(fine, N, R, float(result["e_star"]), nu)
+        _, line, colour = STYLES[0]
+        for values, name, c in ((smooth, "von Mises", colour), (smooth / 2, "shear", STYLES[1][2])):
+            axis.plot(values, fine, ":", color=c, label=f"{name}, axis of a smooth ball")
+    axis.set_yscale("symlog", linthresh=z[z > 0].min() if (z > 0).any() else 1, linscale=0.4)
+    axis.set_ylim(z[-1], 0)
+    axis.set_xlim(0, 1.05 * top)
+    label(axis, "x", "largest stress at the depth", result.dimension("mises_max"))
+    label(axis, "y", "depth", result.dimension("depth"))
+    return page.finish(result.heading(f"Stresses below the surface at {result.level_name(step)}"))
+
+
+def section(results, options):
+    """von Mises's stress (or the first stress there is) in the vertical plane along x through the worst point, and in the worst plane."""
+    name = next(
+        (k for k, _ in KINDS if len(results) == 1 and f"field_{k}" in results[0]),
+        None,
+    )
+    if name is None:
+        return None
+    result, text = results[0], dict(KINDS)[name]
+    depth = result["depth"]
+    if depth.size < 2:
+        return None
+    x, y = result["field_x"], result["field_y"]
+    steps = result["field_step"].astype(int) - 1
+    where = len(steps) - 1
+    if options.step is not None:
+        if options.step - 1 not in steps:
+            return None
+        where = int(np.flatnonzero(steps == options.step - 1)[0])
+    stresses = result[f"field_{name}"][where]
+    worst = np.unravel_index(np.nanargmax(stresses), stresses.shape)
+    page = Page(options, 2, aspect=0.9, columns=2)
+    side, plane = page.axes
+    dimension = result.dimension(f"field_{name}")
+    half = [(v[-1] - v[0]) / (v.size - 1) / 2 for v in (x, y)]
+    most = stresses.max()
+    # The depths are not evenly spaced: between their planes the picture is interpolated.
+    z = np.linspace(0, min(depth[-1], x[-1] - x[0]), 300)
+    cut = stresses[:, worst[1], :]
+    smooth = np.array([np.interp(z, depth, column) for column in cut.T]).T
+    image = side.imshow(
+        smooth,
+        extent=[x[0] - half[0], x[-1] + half[0], z[-1], z[0]],
+        origin="upper",
+        cmap="inferno",
+        vmin=0,
+        vmax=most,
+    )
+    side.plot(x[worst[2]], depth[worst[0]], "o", ms=9, mfc="none", mec="c")
+    label(side, "x", "$x$", result.dimension("field_x"))
+    label(side, "y", "depth", result.dimension("depth"))
+    side.set_title(f"$y$ = {amount(y[worst[1]], result.dimension('field_y'))}")
+    plane.imshow(
+        stresses[worst[0]],
+        extent=[x[0] - half[0], x[-1] + half[0], y[0] - half[1], y[-1] + half[1]],
+        origin="lower",
+        cmap="inferno",
+        vmin=0,
+        vmax=most,
+    )
+    plane.plot(x[worst[2]], y[worst[1]], "o", ms=9, mfc="none", mec="c")
+    plane.axhline(y[worst[1]], color="c", lw=0.6)
+    label(plane, "x", "$x$", result.dimension("field_x"))
+    label(plane, "y", "$y$", result.dimension("field_y"))
+    plane.set_title(f"depth {amount(depth[worst[0]], result.dimension('depth'))}")
+    colour_bar(page.figure, image, page.axes, f"{text} stress", dimension, shrink=0.8)
+    page.entry("largest", ls="none", marker="o", ms=6, mfc="none", mec="c")
+    return page.finish(
+        result.heading(f"{text} stress below the surface at {result.level_name(steps[where])}")
+    )

@@ -1,0 +1,258 @@
+#include "physics/stress/plane_stress.hpp"
+
+#include "base/error.hpp"
+#include "base/library_lock.hpp"
+#include "base/parallel.hpp"
+#include "physics/stress/pixel_stress.hpp"
+
+namespace rsc {
+namespace {
+
+using Complex = std::complex<double>;
+constexpr int kRows = 8;  // that a thread takes at a time
+
+// Real numbers on a plane, and in the same memory their modes exp(i(kx x + ky y)), kx >= 0.
+class Plane {
+public:
+    Plane(int nx, int ny)
+        : stride_(2 * (at(nx) / 2 + 1)),
+          values_(allocate_doubles(stride_ * at(ny), "the stresses on a plane", true)) {}
+    double* row(int j) { return values_.get() + at(j) * stride_; }
+    Complex* modes(int j) { return reinterpret_cast<Complex*>(row(j)); }
+    double* values() { return values_.get(); }
+    fftw_complex* fftw() { return reinterpret_cast<fftw_complex*>(values_.get()); }
+
+private:
+    std::size_t stride_;
+    std::unique_ptr<double[], HeightMap::Free> values_;
+};
+
+// The pressures, and the six components of the stress in the order of StressTensor.
+class Planes {
+public:
+    Planes(int nx_, int ny_) : nx(nx_), ny(ny_), pressure(nx, ny) {
+        for (int c = 0; c < 6; ++c) components.emplace_back(nx, ny);
+        const auto lock = fftw_planning();
+        forward_.reset(fftw_plan_dft_r2c_2d(ny, nx, pressure.values(), pressure.fftw(),
+                                            FFTW_ESTIMATE | FFTW_UNALIGNED));
+        backward_.reset(fftw_plan_dft_c2r_2d(ny, nx, pressure.fftw(), pressure.values(),
+                                             FFTW_ESTIMATE | FFTW_UNALIGNED));
+        if (!forward_ || !backward_)
+            throw Error(Failure::internal, "FFTW made no plan for " + std::to_string(nx) + " x " +
+                                               std::to_string(ny) + " points");
+    }
+    void to_modes(Plane& plane) {
+        fftw_execute_dft_r2c(forward_.get(), plane.values(), plane.fftw());
+    }
+    void to_values(Plane& plane) {
+        fftw_execute_dft_c2r(backward_.get(), plane.fftw(), plane.values());
+    }
+    void set(int i, int j, const StressTensor& s) {
+        const std::array<double, 6> values{s.xx, s.yy, s.zz, s.xy, s.xz, s.yz};
+        for (std::size_t c = 0; c < 6; ++c) components[c].row(j)[i] = values[c];
+    }
+    StressTensor stress(int i, int j) {
+        const auto value = [&](std::size_t c) { return components[c].row(j)[i]; };
+        return {value(0), value(1), value(2), value(3), value(4), value(5)};
+    }
+
+    int nx, ny;
+    Plane pressure;
+    std::vector<Plane> components;
+
+private:
+    FftwPlan forward_, backward_;
+};
+
+// The smallest number of points, at least `least`, for which transforms are fast.
+int fast_size(int least) {
+    for (int n = least;; ++n) {
+        int rest = n;
+        for (const int factor : {2, 3, 5, 7})
+            while (rest % factor == 0) rest /= factor;
+        if (rest == 1) return n;
+    }
+}
+
+// The smallest window that holds all pixels under pressure or cohesive tension.
+GridWindow loaded(const LevelPixels& pixels) {
+    if (pixels.index.empty() && pixels.cohesive.empty()) return {};
+    int left = pixels.columns, right = -1, top = std::numeric_limits<int>::max(), bottom = -1;
+    for (const auto* list : {&pixels.index, &pixels.cohesive})
+        for (const std::int32_t k : *list) {
+            left = std::min(left, k % pixels.columns);
+            right = std::max(right, k % pixels.columns);
+            top = std::min(top, k / pixels.columns);
+            bottom = std::max(bottom, k / pixels.columns);
+        }
+    return {left, top, right - left + 1, bottom - top + 1};
+}
+
+void load(Planes& planes, const LevelPixels& pixels, const GridWindow& where, double factor) {
+    const auto put = [&](std::int32_t pixel, double pressure) {
+        const int i = pixel % pixels.columns - where.first_column;
+        const int j = pixel / pixels.columns - where.first_row;
+        planes.pressure.row(j)[i] = factor * pressure;
+    };
+    for (std::size_t k = 0; k < pixels.index.size(); ++k) put(pixels.index[k], pixels.pressure[k]);
+    for (const std::int32_t k : pixels.cohesive) put(k, pixels.tension);
+    planes.to_modes(planes.pressure);
+}
+
+// Stress of a mode of pressure exp(i k x) and the traction that accompanies it, k = (kx, ky), in the
+// half-space: plane strain along k (Airy's function (A + B z) exp(-k z)), and shear across k.
+std::array<Complex, 6> mode_stress(double kx, double ky, double z, const StressedBody& body) {
+    const double k = std::hypot(kx, ky);
+    if (k == 0) {
+        const double side = -body.nu / (1 - body.nu);
+        return {side, side, -1.0, 0.0, -body.sliding.x, -body.sliding.y};
+    }
+    const double c = kx / k, s = ky / k, kz = k * z, decay = std::exp(-kz);
+    const double along = body.sliding.x * c + body.sliding.y * s;
+    const double across = body.sliding.y * c - body.sliding.x * s;
+    const Complex i(0, 1);
+    const Complex nn = (-(1 - kz) + i * along * (2 - kz)) * decay;
+    const Complex zz = (-(1 + kz) + i * along * kz) * decay;
+    const Complex tt = body.nu * (nn + zz);
+    const Complex nz = (i * kz - along * (1 - kz)) * decay;
+    const Complex nt = i * across * decay;
+    const Complex tz = -across * decay;
+    return {c * c * nn - 2 * c * s * nt + s * s * tt,
+            s * s * nn + 2 * c * s * nt + c * c * tt,
+            zz,
+            c * s * (nn - tt) + (c * c - s * s) * nt,
+            c * nz - s * tz,
+            s * nz + c * tz};
+}
+
+void solve_periodic(Planes& planes, const PointGrid& grid, const StressedBody& body, double depth) {
+    const double unit_x = 2 * std::numbers::pi / grid.Lx(),
+                 unit_y = 2 * std::numbers::pi / grid.Ly();
+    parallel_for(planes.ny, kRows, 0, [&](int j) {
+        const int row = 2 * j <= planes.ny ? j : j - planes.ny;
+        for (int i = 0; i <= planes.nx / 2; ++i) {
+            // An odd part of the highest mode of an even number of points has no value at them.
+            const bool x_alone = 2 * i == planes.nx, y_alone = 2 * j == planes.ny;
+            std::array<Complex, 6> stress = mode_stress(unit_x * i, unit_y * row, depth, body);
+            if (x_alone || y_alone) {
+                const std::array<Complex, 6> mirrored =
+                    mode_stress(x_alone ? -unit_x * i : unit_x * i,
+                                y_alone ? -unit_y * row : unit_y * row, depth, body);
+                for (std::size_t c = 0; c < 6; ++c) stress[c] = 0.5 * (stress[c] + mirrored[c]);
+            }
+            for (std::size_t c = 0; c < 6; ++c)
+                planes.components[c].modes(j)[i] = stress[c] * planes.pressure.modes(j)[i];
+        }
+    });
+    parallel_pieces(6, 0,
+                    [&](std::size_t c, std::size_t) { planes.to_values(planes.components[c]); });
+}
+
+// Fills the components with the stress under one pixel at the offsets (first_x + i, first_y + j).
+void fill_kernel(Planes& planes, int first_x, int first_y, int columns, int rows,
+                 const PointGrid& grid, const StressedBody& body, double depth) {
+    parallel_for((rows + kRows - 1) / kRows, 1, 0, [&](int block) {
+        const auto corners = [&](int j) {
+            std::vector<StressTensor> row(at(columns) + 1);
+            for (int i = 0; i <= columns; ++i)
+                row[at(i)] =
+                    corner_stress((first_x + i - 0.5) * grid.dx, (first_y + j - 0.5) * grid.dy,
+                                  depth, body.nu, body.sliding);
+            return row;
+        };
+        std::vector<StressTensor> above = corners(block * kRows), below;
+        for (int j = block * kRows; j < std::min(rows, (block + 1) * kRows); ++j) {
+            below = corners(j + 1);
+            for (int i = 0; i < columns; ++i) {
+                StressTensor s = below[at(i) + 1];
+                s += below[at(i)] * -1;
+                s += above[at(i) + 1] * -1;
+                s += above[at(i)];
+                planes.set(i, j, s);
+            }
+            above.swap(below);
+        }
+    });
+}
+
+void convolve(Planes& planes) {
+    parallel_pieces(6, 0, [&](std::size_t c, std::size_t) {
+        Plane& plane = planes.components[c];
+        planes.to_modes(plane);
+        for (int j = 0; j < planes.ny; ++j)
+            for (int i = 0; i <= planes.nx / 2; ++i)
+                plane.modes(j)[i] *= planes.pressure.modes(j)[i];
+        planes.to_values(plane);
+    });
+}
+
+// Measures of the stresses at the points (left + i, top + j) of the planes.
+LargestStress measure(Planes& planes, int left, int top, const PointGrid& grid,
+                      const GridWindow& window, StressPlane* plane) {
+    if (plane)
+        for (auto* values : {&plane->mises, &plane->shear, &plane->tension})
+            values->assign(window.points(), 0.0);
+    std::vector<LargestStress> rows(at(window.rows));
+    parallel_for(window.rows, kRows, 0, [&](int j) {
+        for (int i = 0; i < window.columns; ++i) {
+            const StressMeasures m = measures_of(planes.stress(left + i, top + j));
+            rows[at(j)].take(m, grid.x(window.first_column + i), grid.y(window.first_row + j));
+            if (!plane) continue;
+            const std::size_t k = at(j) * at(window.columns) + at(i);
+            plane->mises[k] = m.mises;
+            plane->shear[k] = m.shear;
+            plane->tension[k] = m.tension;
+        }
+    });
+    LargestStress all;
+    for (const LargestStress& row : rows) all.take(row);
+    return all;
+}
+
+}  // namespace
+
+LargestStress stress_below(const PointGrid& grid, const LevelPixels& pixels,
+                           const StressedBody& body, double depth, const GridWindow& window,
+                           StressPlane* plane) {
+    if (body.periodic) {
+        Planes planes(grid.nx, grid.ny);
+        load(planes, pixels, {}, 1 / static_cast<double>(grid.points()));
+        solve_periodic(planes, grid, body, depth);
+        return measure(planes, window.first_column, window.first_row, grid, window, plane);
+    }
+    const GridWindow from = loaded(pixels);
+    if (from.columns == 0) {
+        if (plane)
+            *plane = {std::vector(window.points(), 0.0), std::vector(window.points(), 0.0),
+                      std::vector(window.points(), 0.0)};
+        return {};
+    }
+    const int columns = window.columns + from.columns - 1, rows = window.rows + from.rows - 1;
+    Planes planes(fast_size(columns), fast_size(rows));
+    load(planes, pixels, from, 1 / (static_cast<double>(planes.nx) * planes.ny));
+    fill_kernel(planes, window.first_column - from.first_column - from.columns + 1,
+                window.first_row - from.first_row - from.rows + 1, columns, rows, grid, body,
+                depth);
+    convolve(planes);
+    return measure(planes, from.columns - 1, from.rows - 1, grid, window, plane);
+}
+
+GridWindow stressed_window(const PointGrid& grid, const LevelPixels& pixels, bool periodic,
+                           double depth) {
+    const GridWindow contact = loaded(pixels);
+    if (contact.columns == 0) return {};
+    if (periodic) return {0, 0, grid.nx, grid.ny};
+    const auto widened = [&](int first, int count, double step, int n, int& begin, int& size) {
+        const int margin =
+            std::max(4, static_cast<int>(std::ceil(std::min(2 * depth / step, 1.0 * n))));
+        begin = std::max(0, first - margin);
+        size = std::min(n, first + count + margin) - begin;
+    };
+    GridWindow window;
+    widened(contact.first_column, contact.columns, grid.dx, grid.nx, window.first_column,
+            window.columns);
+    widened(contact.first_row, contact.rows, grid.dy, grid.ny, window.first_row, window.rows);
+    return window;
+}
+
+}  // namespace rsc

@@ -1,0 +1,45 @@
+// Stresses on a plane below the pressures of boundary elements, by Fourier transforms.
+#pragma once
+
+#include "contact/level.hpp"
+#include "physics/stress/stress.hpp"
+#include "surface/surface.hpp"
+
+namespace rsc {
+
+// Columns and rows first ... first + count - 1 of a grid.
+struct GridWindow {
+    int first_column = 0, first_row = 0, columns = 0, rows = 0;
+    std::size_t points() const {
+        return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+    }
+};
+
+// The half-space that is loaded, and how.
+struct StressedBody {
+    double nu = 0;                 // Poisson ratio of body 1
+    SlidingTraction sliding = {};  // traction for a pressure of 1
+    bool periodic = false;         // the pressures repeat with the grid in both directions
+};
+
+// Measures of the stress at each point of a window, row by row [force/length^2].
+struct StressPlane {
+    std::vector<double> mises, shear, tension;
+};
+
+// Stresses at `depth` [length] below the points of `window` under the pressures of a level on
+// `grid`. If they repeat, the pressures are taken as band-limited, each mode has its closed form,
+// and the mean pressure acts on a body that cannot expand sideways. Otherwise Love's and Cerruti's
+// fields of the pixels are added up. `plane`, if given, is set to all values. Returns the largest
+// ones. Throws Error(no_memory). Results do not depend on the number of threads.
+LargestStress stress_below(const PointGrid& grid, const LevelPixels& pixels,
+                           const StressedBody& body, double depth, const GridWindow& window,
+                           StressPlane* plane = nullptr);
+
+// The points at and around the contact where the largest stresses at this depth are sought: those
+// within 2 depths of a pixel under pressure along either axis, and the nearest 4 at least; all if
+// the pressures repeat. Empty if there is no contact.
+GridWindow stressed_window(const PointGrid& grid, const LevelPixels& pixels, bool periodic,
+                           double depth);
+
+}  // namespace rsc
