@@ -127,8 +127,7 @@ SecondGrid::SecondGrid(const HeightMap& map, const Indenter& indenter, const Sol
     contact_ = make_element_contact(map_, indenter, coarse);
 }
 
-std::optional<GridError> SecondGrid::error(const LevelValues& level, Path& contact,
-                                           bool by_force) {
+std::optional<GridError> SecondGrid::error(const LevelValues& level, Path& contact, bool by_force) {
     const Indenter &here = contact.indenter(), &there = contact_->indenter();
     if (here.x0 != there.x0 || here.y0 != there.y0) contact_->move_tip(here.x0, here.y0);
     if (contact_->relaxes()) contact_->set_time(level.time);
@@ -145,8 +144,8 @@ std::optional<GridError> SecondGrid::error(const LevelValues& level, Path& conta
     const double change_of_N = by_force
                                    ? contact.stiffness() * (level.separation - other.separation)
                                    : level.force - other.force;
-    const double force = 0.5 * std::abs(change_of_N / level.force),
-                 area = 0.5 * std::abs(1 - other.area / level.area);
+    const double part = read_ ? 0.5 : 1.0, force = part * std::abs(change_of_N / level.force),
+                 area = part * std::abs(1 - other.area / level.area);
     const GridError few =
         error_of_pixels(level, contact.indenter(), 0.5 * std::max(map_.dx, map_.dy), read_);
     // Fitted to maps solved on a grid of half the step (test/README, elements on maps): nine of ten
