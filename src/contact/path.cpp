@@ -177,6 +177,8 @@ void Path::finish(Level& level) {
     if (const Period& period = indenter().period; period.finite()) {
         level.pressure = level.force / period.area();
         level.area_fraction = level.area / period.area();
+    } else if (period.line()) {
+        level.force_per_length = level.force / period.length();
     }
 }
 
@@ -359,6 +361,7 @@ Level Path::to_force(double N) {
         throw Error(Failure::bad_input,
                     "no asperity lies under the indenter, so that it cannot carry a force");
     if (std::optional<Level> level = model_->solve_under(N)) {
+        level->separation += model_->shift() * level->force;
         finish(*level);
         return std::move(*level);
     }

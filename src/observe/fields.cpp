@@ -146,7 +146,7 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
         return u;
     }
     constexpr double kError = 1e-6;
-    const auto products = make_tree_products(body, map.dx, map.dy, kError, kError, false);
+    const auto products = make_products(body, indenter.period, map, kError, kError, false);
     std::vector<Pixel> pixels;  // of the window, then others under pressure
     std::vector<double> p(u.size(), 0.0);
     for (int j = rows.first; j <= rows.last; ++j)

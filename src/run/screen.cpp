@@ -115,6 +115,13 @@ void print_case(std::ostream& out, const Job& job) {
             "two flats, a rough half-space that repeats every %g x %g %s, E* = %g %s/%s2, sigma = "
             "%g %s\n",
             period.x, period.y, l, job.indenter.E_star, f, l, job.sigma, l);
+    else if (period.line())
+        out << job.indenter.shape->text(l)
+            << format(
+                   " on a rough half-space that repeats every %g %s along %s, E* = %g %s/%s2, "
+                   "sigma = %g %s\n",
+                   period.length(), l, period.along_x() ? "x" : "y", job.indenter.E_star, f, l,
+                   job.sigma, l);
     else
         out << job.indenter.shape->text(l)
             << format(" on a rough half-space, E* = %g %s/%s2, sigma = %g %s\n",
