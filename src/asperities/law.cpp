@@ -95,7 +95,7 @@ public:
             }
             const Summit& s = summit(asperity[k]);
             const double smooth = std::min(u[k], s.last), past = u[k] - smooth;
-            const auto shape = profile_.at(s.t * smooth);
+            const auto shape = profile_.at(argument(s, u[k]));
             const double paraboloid = s.e * std::sqrt(s.r * smooth),
                          stiffness = 2 * paraboloid * shape.radius;
             const double P = 4.0 / 3 * paraboloid * smooth * shape.load;
@@ -109,7 +109,7 @@ public:
     double area(int asperity, double u) const override {
         if (!(u > 0)) return 0;
         const Summit& s = summit(asperity);
-        const double smooth = std::min(u, s.last), radius = profile_.at(s.t * smooth).radius;
+        const double smooth = std::min(u, s.last), radius = profile_.at(argument(s, u)).radius;
         return s.spot * s.r * smooth * radius * radius;
     }
 
@@ -182,6 +182,12 @@ private:
         double spot = 0;  // pi F1^2, the ratio of the area to a^2
         double axes = 1;
     };
+
+    // The argument of the profile. It is exactly 1 where the contact has reached the trough, as the
+    // radius has an infinite slope there, which would turn a rounding error into one of 1e-8.
+    static double argument(const Summit& s, double u) {
+        return u < s.last ? s.t * u : s.t > 0 ? 1.0 : s.t * s.last;
+    }
 
     const Summit& summit(int asperity) const { return summits_[at(place_[at(asperity)])]; }
 

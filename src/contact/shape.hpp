@@ -46,9 +46,9 @@ struct ShapeKeys {
            rim_radius = 0;  // punch: radii of its flat end and of its rounded rim [length]
     std::shared_ptr<const HeightMap>
         map;  // map: heights of body 2, positive upwards like those of body 1
-    double spacing = 0,
-           // map: mean distance of its summits, its shortest wave [length]; 0: unknown
-        shortest_wave = 0;
+    // map: mean distance of its summits, its shortest wave [length]; 0: unknown
+    double spacing = 0, shortest_wave = 0;
+    double m2 = 0;  // map: Moments::m2 of its differences, without those across its border
     std::vector<std::uint8_t>
         filled;  // map: 1 at j*nx + i where a point was missing; empty if none was
     std::vector<std::string> told;  // map: report of its processing for the screen

@@ -224,7 +224,9 @@ void ResultTable::surfaces() {
     const bool directional =
         r_.theory && (r_.theory->tensor.m20 != r_.theory->tensor.m02 || r_.theory->tensor.m11 != 0);
     const std::string origin =
-        r_.theory ? "exact sum over the modes drawn" : "finite differences on the grid of heights";
+        r_.theory ? "exact sum over the modes drawn"
+                  : "finite differences on the grid of heights, without those across its border, "
+                    "which is none of the surface even where the heights repeat";
     add_absent("sigma", dims, unit(1), "rms height of the surface",
                of_surfaces([](const auto& s) { return s.sigma; }));
     add_absent("m2", dims, "1", "second profile moment: half the mean square gradient",

@@ -57,8 +57,7 @@ void require_maps(const Case& settings, const Domain& first) {
 // synthetic surface, or the expectation over the modes of several surfaces; of two rough bodies the
 // sum. Negative or NaN: not known.
 double m2_of_pressures(const Job& job) {
-    const auto& second = job.indenter.shape->keys().map;
-    const double other = second ? grid_moments(*second).m2 : 0.0;
+    const double other = job.indenter.shape->keys().m2;
     if (!job.spectrum) return job.given ? job.given->statistics.m2 + other : kAbsent;
     const Case& c = job.settings;
     if (c.run.realizations > 1) return discrete_moments(*job.spectrum).m2 + other;

@@ -451,6 +451,7 @@ Shape shape_of(const Case& settings) {
         Surface second = read_map(settings, keys.file, std::nullopt, keys.channel);
         made.told = report(*second.measured, settings.run.length_unit);
         made.filled = second.measured->filled;
+        made.m2 = second.measured->moments.m2;
         SummitCount count;
         if (!by_elements(settings))
             (void)find_asperities(second.map, settings.asperities.curvature, &count, 1);

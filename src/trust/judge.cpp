@@ -99,7 +99,7 @@ Judge::Judge(const SolverOptions& options, JudgedSurface surface)
     : options_(options), surface_(std::move(surface)) {}
 
 void Judge::judge(Level& level, Path& contact, bool by_force) {
-    const bool elements = !contact.asperities();
+    const bool elements = surface_.map;
     const Indenter& indenter = contact.indenter();
     count_contacts(level, indenter, options_);
     if (!level.converged) return conclude(level, {}, by_force);

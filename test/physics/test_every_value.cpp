@@ -211,6 +211,13 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
              on_map,
          {},
          &map});
+    all.push_back({"map_flats",
+                   of_map + "detrend = 'plane' /\n" + flats + " /\n" +
+                       "&indentation boundary = 'periodic', control = 'pressure', unit = "
+                       "'relative', levels = 0.005 " +
+                       on_map,
+                   {},
+                   &map});
     // A short length for sigma makes short ranges: values beyond the last bin, and in it.
     all.push_back(
         {"list",

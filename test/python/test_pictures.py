@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
 import unittest.mock
 
@@ -21,6 +22,7 @@ PLOT = sys.argv.pop(1)
 sys.path.insert(0, PLOT)
 import plot  # noqa: E402
 import plot_compare  # noqa: E402
+import plot_curves  # noqa: E402
 import plot_python  # noqa: E402
 import plot_style  # noqa: E402
 from plot_results import Looks, Result, names  # noqa: E402
@@ -389,6 +391,24 @@ class Numbers(Drawn):
                 [f(np.percentile(v["force"], q, axis=0)) for f, q in ((np.min, 16), (np.max, 84))],
             )
         )
+
+    def test_errors(self):
+        """Where the abscissa turns back, errors are bars. An error of many times the value goes out of the picture."""
+        page = types.SimpleNamespace(entry=lambda *words, **looks: None)
+        x, y = np.array([0.0, -1.0, 2.0, 3.0]), np.array([1.0, 2.0, 4.0, 5.0])
+        figure, (back, large) = plt.subplots(1, 2)
+        self.addCleanup(plt.close, figure)
+        plot_curves.error_band(page, back, x, y, np.full(4, 0.5), "error", color="r")
+        self.assertTrue(
+            np.allclose(
+                back.collections[0].get_segments(),
+                [[[x[k], 0.5 * y[k]], [x[k], 1.5 * y[k]]] for k in range(4)],
+            )
+        )
+        large.plot(np.sort(x), y)
+        plot_curves.error_band(page, large, np.sort(x), y, np.full(4, 5.0), "error", color="r")
+        end = large.collections[0].get_paths()[0].vertices[:, 1].max()
+        self.assertTrue(y.max() < large.get_ylim()[1] < 2.2 * y.max() < end)
 
     def test_maps(self):
         v, _ = raw("one")

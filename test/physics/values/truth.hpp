@@ -36,6 +36,7 @@ struct Grid {
     long nx = 0, ny = 0;
     double dx = 0, dy = 0, x0 = 0, y0 = 0;
     bool periodic = false;
+    bool joined = false;  // differences across the border are those of the surface
     Vector z;
     double at_point(long i, long j) const { return z[at((j + ny) % ny * nx + (i + nx) % nx)]; }
     double x(long i) const { return x0 + dx * static_cast<double>(i); }
@@ -48,7 +49,8 @@ struct Grid {
           dy(map.dy),
           x0(map.x0),
           y0(map.y0),
-          periodic(map.periodic) {
+          periodic(map.periodic),
+          joined(map.periodic) {
         for (int j = 0; j < map.ny; ++j)
             for (int i = 0; i < map.nx; ++i) z.push_back(map(i, j));
     }
@@ -72,8 +74,8 @@ struct Grid {
     // <z_x^2 + z_y^2>/2 and (<z_xx^2> + <z_yy^2> + 3 <z_xy^2>)/3 of forward and second differences.
     Moments4 differences() const {
         double m2 = 0, m4 = 0, n = 0;
-        for (long j = periodic ? 0 : 1; j < ny - (periodic ? 0 : 1); ++j)
-            for (long i = periodic ? 0 : 1; i < nx - (periodic ? 0 : 1); ++i, ++n) {
+        for (long j = joined ? 0 : 1; j < ny - (joined ? 0 : 1); ++j)
+            for (long i = joined ? 0 : 1; i < nx - (joined ? 0 : 1); ++i, ++n) {
                 const double zx = (at_point(i + 1, j) - at_point(i, j)) / dx,
                              zy = (at_point(i, j + 1) - at_point(i, j)) / dy;
                 const Second s = second(i, j);
@@ -275,10 +277,12 @@ struct Truth {
         elements = by_elements(c);
         periodic = c.indentation.boundary == Boundary::periodic;
         hertz = !elements && c.asperities.law == LawKind::hertz;
-        for (int k = 0; k < c.run.realizations && !list; ++k)
+        for (int k = 0; k < c.run.realizations && !list; ++k) {
             heights.emplace_back((elements ? make_element_surface(c, c.run.first_realization + k, 1)
                                            : make_surface(c, c.run.first_realization + k, 1))
                                      .map);
+            heights.back().joined = synthetic;
+        }
         Lx = Ly = c.surface.L.value_or(1.0);
         if (c.surface.source == Source::heights) {
             const Grid& g = heights[0];
