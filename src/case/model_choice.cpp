@@ -120,7 +120,6 @@ const char* why_asperities(const Case& c) {
         {c.compare.listed(), "compare%levels compares them with elements"},
         {c.solids.adhesion > 0 && !(c.solids.adhesion_range > 0),
          "solids%adhesion without adhesion_range needs them"},
-        {c.solids.friction > 0, "solids%friction needs them"},
         {c.solids.hardness < Case::kInfinity && c.solids.size_effect > 0,
          "solids%size_effect needs them"},
         {c.asperities.law != LawKind::hertz || c.asperities.curvature != Curvature::geometric,

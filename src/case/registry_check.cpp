@@ -42,6 +42,7 @@ public:
         check_boundary();
         check_flow();
         check_stresses();
+        check_tractions();
         check_sizes();
         return std::move(problems_);
     }
@@ -168,8 +169,6 @@ private:
              "it needs the radius of asperities"},
             {size_effect && compare, "solids%size_effect", "compare%levels",
              "it needs the radius of asperities"},
-            {friction && elements_ && !c_.output.sliding_direction, "solids%friction",
-             "solver%model", "it is for asperities"},
             {friction && layers, "solids%friction", "solids%layer_thickness",
              "it is not for layers"},
             {resistivity && layers, "solids%resistivity", "solids%layer_thickness",
@@ -476,6 +475,15 @@ private:
                 "needs solids%friction > 0");
         require(elements_, {"output%sliding_direction", "solver%model"},
                 "the stresses of sliding asperities are not available; use model = 'elements'");
+    }
+
+    void check_tractions() {
+        const Case::Output& o = c_.output;
+        if (std::ranges::count(o.fields, static_cast<double>(Field::traction)) == 0) return;
+        require(c_.solids.friction > 0, {"output%fields", "solids%friction"},
+                "'traction' needs solids%friction > 0");
+        require(elements_, {"output%fields", "solver%model"},
+                "'traction' is for elements; of asperities the picture `stick` shows the spots");
     }
 
     void check_sizes() {

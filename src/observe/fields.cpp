@@ -186,6 +186,23 @@ void about_contact(const HeightMap& map, const std::vector<Pressures>& levels, R
     rows = widened(rows, map.ny, margin / map.dy);
 }
 
+// Adds mu times what the pressures of a level are above those of the pixels that stick.
+void add_tractions(Fields& f, const HeightMap& map, const FieldLevel& level, Range columns,
+                   Range rows, double friction) {
+    const std::size_t begin = f.traction.size();
+    f.traction.resize(begin + at(columns.size()) * at(rows.size()), 0.0);
+    const auto add = [&](const LevelPixels& pixels, double factor) {
+        for (std::size_t k = 0; k < pixels.index.size(); ++k) {
+            const int i = pixels.index[k] % map.nx - columns.first,
+                      j = pixels.index[k] / map.nx - rows.first;
+            if (i < 0 || i >= columns.size() || j < 0 || j >= rows.size()) continue;
+            f.traction[begin + at(j) * at(columns.size()) + at(i)] += factor * pixels.pressure[k];
+        }
+    };
+    add(level.level->pixels, friction);
+    add(level.stuck, -friction);
+}
+
 // Adds the stresses under the pressures to the requested fields.
 void add_stresses(Fields& f, const HeightMap& map, const Pressures& pressures, Range columns,
                   Range rows, const FieldsAsked& asked) {
@@ -306,6 +323,7 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
             f.gap.insert(f.gap.end(), gap.begin(), gap.end());
         }
         if (asked.pressure) f.pressure.insert(f.pressure.end(), p.begin(), p.end());
+        if (asked.traction) add_tractions(f, map, levels[s], columns, rows, asked.friction);
         if (asked.stresses()) add_stresses(f, map, pressures[s], columns, rows, asked);
         for (int j = rows.first; j <= rows.last && asked.flow; ++j) {
             const auto row = levels[s].flow.begin() + std::ptrdiff_t{j} * map.nx;

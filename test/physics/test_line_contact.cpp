@@ -1,5 +1,5 @@
 // Line contact: surfaces that repeat along one axis. Hertz's line, Lekner's sum, a long free strip.
-#include "case/read_case.hpp"
+#include "base/error.hpp"
 #include "check.hpp"
 #include "contact/make.hpp"
 #include "interaction/line_kernel.hpp"
@@ -28,7 +28,7 @@ Indenter roller(double R, double E_star, double period, bool along_x = false) {
     ShapeKeys keys;
     keys.radii[0] = along_x ? kInfinity : R;
     keys.radii[1] = along_x ? R : kInfinity;
-    Indenter indenter{E_star, make_shape("paraboloid", keys), 0, 0};
+    Indenter indenter{E_star, make_shape(shape_number("paraboloid"), keys), 0, 0};
     if (std::isfinite(period)) indenter.period = {kInfinity, period};
     if (along_x) std::swap(indenter.period.x, indenter.period.y);
     return indenter;
@@ -86,10 +86,8 @@ TEST(hertz_line) {
         const Level level = contact->at_force(P * period);
         CHECK(level.converged);
         CHECK_RELATIVE(level.force_per_length, P, 1e-7);
-        const auto [least, most] =
-            std::minmax_element(level.pixels.pressure.begin(), level.pixels.pressure.end());
-        (void)least;
-        errors.push_back(std::abs(*most / p0 - 1));
+        const double most = *std::ranges::max_element(level.pixels.pressure);
+        errors.push_back(std::abs(most / p0 - 1));
         // Equal along the axis.
         const std::size_t each = level.pixels.index.size() / static_cast<std::size_t>(along);
         CHECK(each * static_cast<std::size_t>(along) == level.pixels.index.size());
@@ -101,10 +99,9 @@ TEST(hertz_line) {
         // The same at this separation.
         const Level again = contact->at_separation(level.separation);
         CHECK_RELATIVE(again.force, level.force, 1e-6);
-        CHECK_RELATIVE(again.stiffness, contact->stiffness(), 1);
     }
-    CHECK(errors[0] < 0.01 && errors[1] < 0.005 && errors[2] < 0.001);
-    std::printf("p0 off by %g %g %g\n", errors[0], errors[1], errors[2]);
+    // of second order in the step: 0.36, 0.089 and 0.022 %
+    CHECK(errors[0] < 0.005 && errors[0] > 3 * errors[1] && errors[1] > 3 * errors[2]);
 }
 
 TEST(energy_and_stiffness_of_a_line) {
@@ -120,7 +117,8 @@ TEST(energy_and_stiffness_of_a_line) {
 
 TEST(a_line_along_x_is_one_along_y_turned) {
     const double step = 1.0 / 48, E = 100;
-    const auto one = make_element_contact(map_of(40, 48, step, rough), roller(3, E, 1), exact());
+    const HeightMap map = map_of(40, 48, step, rough);
+    const auto one = make_element_contact(map, roller(3, E, 1), exact());
     const HeightMap turned = map_of(48, 40, step, [](double x, double y) { return rough(y, x); });
     const auto other = make_element_contact(turned, roller(3, E, 1, true), exact());
     for (const double N : {0.02, 0.2, 1.0}) {
@@ -135,7 +133,8 @@ TEST(a_line_along_x_is_one_along_y_turned) {
 
 TEST(a_shift_along_the_axis_changes_nothing) {
     const double step = 1.0 / 48, E = 100;
-    const auto one = make_element_contact(map_of(40, 48, step, rough), roller(3, E, 1), exact());
+    const HeightMap map = map_of(40, 48, step, rough);
+    const auto one = make_element_contact(map, roller(3, E, 1), exact());
     const HeightMap moved =
         map_of(40, 48, step, [&](double x, double y) { return rough(x, y + 17 * step); });
     const auto other = make_element_contact(moved, roller(3, E, 1), exact());
@@ -152,7 +151,8 @@ TEST(the_middle_of_a_long_free_strip) {
     // period, it has its area within 2 %.
     const int n = 48;
     const double step = 1.0 / n, E = 100, N = 0.5;
-    const auto line = make_element_contact(map_of(40, n, step, rough), roller(3, E, 1), exact());
+    const HeightMap map = map_of(40, n, step, rough);
+    const auto line = make_element_contact(map, roller(3, E, 1), exact());
     const Level period = line->at_force(N);
     // The middle of the middle third is that of the period.
     const HeightMap strip = map_of(40, 3 * n, step, [](double x, double y) { return rough(x, y); });

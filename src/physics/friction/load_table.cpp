@@ -39,8 +39,7 @@ void LoadTable::prepare(double delta) {
         if (!wide && from > touch) {
             const Node &a = nodes_.at(from), &b = next->second;
             const double h = b.delta - a.delta;
-            const double cubic =
-                0.5 * (a.load + b.load) + h / 8 * (a.stiffness - b.stiffness);
+            const double cubic = 0.5 * (a.load + b.load) + h / 8 * (a.stiffness - b.stiffness);
             const double quintic = between(a, b, 0.5 * (a.delta + b.delta))[1];
             const double highest = nodes_.at(delta).load;
             wide = std::abs(cubic - quintic) > kCoarse * highest && high - low > 0.1 * widest;
