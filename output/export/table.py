@@ -7,7 +7,8 @@
     python3 output/export/table.py STUDY_manifest.nc --at 1      a row for every member and load
 
 Values are means over the realizations that converged; *_stderr is the standard error of the mean, the standard deviation over sqrt(number);
-*_expected_error is the expected relative error of the model, if the file has it. Needs numpy and netCDF4 (Debian:
+*_expected_error is the expected relative error of the model, if the file has it. Over several realizations permeability and hydraulic_gap are
+geometric means, exp(mean of ln), of those whose gap is open, percolates is the share of these, and *_ln_stderr the standard error of the mean of ln. Needs numpy and netCDF4 (Debian:
 python3-numpy python3-netcdf4).
 """
 
@@ -42,7 +43,8 @@ COLUMNS = [
     "permeability",
     "hydraulic_gap",
 ]
-OPEN = "percolates", "permeability", "hydraulic_gap"
+GEOMETRIC = "permeability", "hydraulic_gap"
+OPEN = "percolates", *GEOMETRIC
 AXES = "_x", "_y"  # of the columns of a vector, or of the first two components of a tensor
 EXPECTED = {"force": "force_error_expected", "contact_area": "area_error_expected"}
 
@@ -77,10 +79,16 @@ class Table:
                     values, many = self._values(every[..., part] if vector else every, good)
                     if not np.isfinite(values).any():
                         continue
+                    unit = getattr(variables[name], "units", "1")
+                    if many and name in GEOMETRIC:
+                        mean, stderr = _mean(np.log(np.where(values > 0, values, np.nan)))
+                        self._add(name + axis, np.where(np.isfinite(mean), np.exp(mean), 0), unit)
+                        self._add(name + axis + "_ln_stderr", stderr, "1")
+                        continue
                     mean, stderr = _mean(values)
-                    self._add(name + axis, mean, getattr(variables[name], "units", "1"))
+                    self._add(name + axis, mean, unit)
                     if many:
-                        self._add(name + axis + "_stderr", stderr, self.units[name + axis])
+                        self._add(name + axis + "_stderr", stderr, unit)
                 if EXPECTED.get(name) in variables:
                     self._add(
                         name + "_expected_error",

@@ -11,6 +11,14 @@ CLOSED = 0.42  # A/A0 where gaps of isotropic surfaces close (Persson; Dapp and 
 LEAST = 0.1  # smallest flux that is drawn, over its mean
 
 
+def geometric_mean(gaps):
+    """Over the realizations whose gap is open, 0 where none is."""
+    is_open = gaps > 0
+    logs = np.log(np.where(is_open, gaps, 1.0)).sum(axis=0)
+    count = is_open.sum(axis=0)
+    return np.where(count, np.exp(logs / np.maximum(count, 1)), 0.0)
+
+
 def seal(results, options):
     """The hydraulic gap along x and y and the mean gap against the nominal pressure."""
     results = [r for r in results if "hydraulic_gap" in r and r.loaded().size and r.load_varies()]
@@ -21,7 +29,7 @@ def seal(results, options):
     alone = len(results) == 1
     for result, look in zip(results, looks):
         pressure, hydraulic = result.mean("pressure"), result["hydraulic_gap"]
-        gaps = [np.nanmean(hydraulic[..., k], axis=0) for k in (0, 1)]
+        gaps = [geometric_mean(hydraulic[..., k]) for k in (0, 1)]
         curve(page, axis, result, look, pressure, gaps[0], alone=alone)
         if not alone:
             continue

@@ -123,7 +123,7 @@ const Level& gap_of(rsc_contact& contact, bool with_flow) {
     if (with_flow && !has_permeability())
         throw Outcome{RSC_NO_RESULT, "this rsc was built without CHOLMOD"};
     const double known = with_flow ? level.permeability_xx : level.gap_mean;
-    if (std::isnan(known)) measure_gap(*contact.on->points, contact.path, level, with_flow);
+    if (std::isnan(known)) measure_gap(*contact.on->points, contact.path, level, {}, with_flow);
     return level;
 }
 

@@ -250,14 +250,10 @@ void AsperityModel::forget() {
     impl_->solution.clear();
 }
 
-double AsperityModel::tolerance() const { return impl_->options.tolerance; }
-
 std::optional<double> AsperityModel::likely_separation() const {
     if (impl_->solution.force.empty()) return std::nullopt;
     return impl_->earlier.likely_separation(first_touch());
 }
-
-std::size_t AsperityModel::levels_since_move() const { return impl_->earlier.size(); }
 
 double AsperityModel::shift() const { return impl_->kernel->shift() * impl_->scale(); }
 

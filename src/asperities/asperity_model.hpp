@@ -20,7 +20,6 @@ public:
     const Indenter& indenter() const override;
     std::shared_ptr<const Asperities> asperities() const override;
     History* history() override;
-    double tolerance() const override;
 
     // The last level is a starting point for the next if its solution is proved unique. Summits of
     // the difference are those of a new contact at this place.
@@ -41,7 +40,6 @@ public:
     double energy() const override;
     double force_at_most(double depth) override;
     std::optional<double> likely_separation() const override;
-    std::size_t levels_since_move() const override;
 
 private:
     void accept(Level& level) override;

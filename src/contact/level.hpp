@@ -154,6 +154,14 @@ struct LevelTractions {
     std::vector<double> x, y, a, c, pressed, pulled;
 };
 
+// Two flats by elements: the points where the bodies do not touch, by their gap, in bins of equal
+// width from 0. Empty where it was not asked for.
+struct GapCounts {
+    std::vector<std::int32_t> of_bin;
+    std::int32_t beyond = 0;        // the last bin
+    std::array<double, 4> power{};  // sums of the powers 1 to 4 of the gap
+};
+
 // A level with its contacts, by increasing index: spots of asperities, or connected sets of pixels.
 struct Level : LevelValues {
     std::vector<int>
@@ -168,6 +176,7 @@ struct Level : LevelValues {
     std::vector<double> u;  // penetration with interaction [length]
     LevelPixels pixels;
     LevelTractions tractions;
+    GapCounts gaps;
     std::vector<double>
         // area of an elliptic spot not covered by earlier spots; the sum is the area of the union;
         // empty: pi a^2

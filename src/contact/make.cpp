@@ -11,16 +11,19 @@ namespace rsc {
 std::unique_ptr<Path> make_asperity_contact(const Asperities& asperities, const Indenter& indenter,
                                             const SolverOptions& options) {
     if (options.adhesion.work > 0)
-        return std::make_unique<Path>(make_adhesive_asperities(asperities, indenter, options));
-    return std::make_unique<Path>(std::make_unique<AsperityModel>(asperities, indenter, options));
+        return std::make_unique<Path>(make_adhesive_asperities(asperities, indenter, options),
+                                      options.tolerance);
+    return std::make_unique<Path>(std::make_unique<AsperityModel>(asperities, indenter, options),
+                                  options.tolerance);
 }
 
 std::unique_ptr<Path> make_element_contact(const HeightMap& heights, const Indenter& indenter,
                                            const SolverOptions& options) {
     if (options.adhesion.work > 0)
-        return std::make_unique<Path>(make_adhesive_elements(
-            require_elements(heights, indenter, options), indenter, options));
-    return std::make_unique<Path>(make_elements(heights, indenter, options));
+        return std::make_unique<Path>(
+            make_adhesive_elements(require_elements(heights, indenter, options), indenter, options),
+            options.tolerance);
+    return std::make_unique<Path>(make_elements(heights, indenter, options), options.tolerance);
 }
 
 }  // namespace rsc

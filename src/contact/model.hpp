@@ -20,8 +20,9 @@ public:
     virtual std::vector<double> write() const = 0;
     virtual void read(const std::vector<double>& numbers) = 0;
 
-    // True if forces may be negative (adhesion).
-    virtual bool attracts() const { return false; }
+    // Range of the attraction of the bodies [length], 0: of contacts only; negative: they do not
+    // attract.
+    virtual double attraction() const { return -1; }
     // The shortest relaxation time; Infinity: levels do not depend on time.
     virtual double shortest_time() const { return kInfinity; }
     // Relaxing bodies: following solutions end a time step dt that begins at the last accepted one.
@@ -50,7 +51,6 @@ public:
     virtual std::shared_ptr<const Asperities> asperities() const { return nullptr; }
     // Null if levels do not depend on earlier ones.
     virtual History* history() { return nullptr; }
-    virtual double tolerance() const = 0;  // relative, of the force
 
     // Moves the tip to (x0, y0); what it must follow on the way, it follows.
     virtual void move_tip(double x0, double y0) = 0;
@@ -85,19 +85,17 @@ public:
     // Of the last solution, or with adhesion of the state after move_tip(): dN/dz (negative; 0
     // without contact) [force/length], to a relative accuracy; for unloading if it is accepted.
     virtual double stiffness(double accuracy) = 0;
-    // Force that a unit approach adds at fixed contact areas [force/length], positive: -stiffness()
-    // except with adhesion, where areas change with the separation.
+    // Of bodies that attract: the force that a unit approach adds at fixed contact areas
+    // [force/length], positive. Without attraction, this is -stiffness().
     virtual double clamped_stiffness() { return -stiffness(kExact); }
     // Elastic energy, dW/dz = -N [force length]: of path-dependent bodies the recoverable energy.
     // The error is of the order of the square of the residual.
     virtual double energy() const = 0;
 
     // For force control: an upper bound of the force at a depth below first touch, exact for one
-    // asperity; a first guess of the separation, absent: near first touch; and the number of
-    // solutions since the tip was moved, at most a few.
+    // asperity; and a first guess of the separation, absent: near first touch.
     virtual double force_at_most(double depth) = 0;
     virtual std::optional<double> likely_separation() const { return {}; }
-    virtual std::size_t levels_since_move() const { return 0; }
 
     // Accuracy of results, and sufficient accuracy of stiffness() for Newton's method.
     static constexpr double kExact = 1e-12, kForNewton = 1e-3;

@@ -8,14 +8,66 @@ namespace {
 
 // accepted relative error of the force due to rounding of the separation
 constexpr double kUnresolved = 1e-6;
-constexpr double kFarAbove = 100;  // relative to the requested force
-constexpr int kTrials = 2;         // number of failures after which no trials are used
+constexpr double kFarAbove = 100;   // relative to the requested force
+constexpr double kReleased = 1e-3;  // resolution of pulling off, relative to the range
+constexpr int kTrials = 2;          // number of failures after which no trials are used
 
 // Evaluation of a level at z: it is the solution (or failed), or lies above it; `next` is the next
 // separation by Newton's method, -Infinity: none.
 struct Verdict {
     bool found, above;
     double next;
+};
+
+// Near N = 0 the force of bodies that attract is the difference of pressure and attraction, and no
+// more exact than these.
+bool has_force(const Level& level, double N, double tolerance) {
+    const double pulled = std::abs(level.pixels.tension) * (level.area + level.cohesive_area);
+    return std::abs(level.force - N) <= tolerance * std::max(std::abs(N), pulled);
+}
+
+// The separations that bodies that attract try for a force N, away from the first level or towards
+// the surface: in growing steps until the force is beyond N or nothing attracts any more, then
+// between, by the secant through the last two levels.
+struct Approach {
+    double N;
+    bool down;
+    double range, lowest;  // no separation is below
+    double step = 0.25 * range, z = 0, force = 0, beyond = kNotComputed, secant = kNotComputed;
+    bool free = false, released = false;  // nothing attracts at z, or beyond
+    int secants = 0;
+
+    static bool is_free(const Level& l) { return l.contacts == 0 && l.cohesive_area == 0; }
+    void begin(const Level& level) {
+        z = level.separation;
+        force = level.force;
+        free = is_free(level);
+    }
+    bool nearer(const Level& level) const {
+        return (down || !is_free(level)) && (level.force < N) == down;
+    }
+    // Absent: there is none left.
+    std::optional<double> next() {
+        if (!down && free) return std::nullopt;
+        if (std::isnan(beyond)) return down ? std::max(z - step, lowest) : z + step;
+        const double width = beyond - z, share = (secant - z) / width;
+        if (released && std::abs(width) < kReleased * range) return std::nullopt;
+        const bool inside = !released && ++secants % 4 != 0 && share > 1e-3 && share < 1 - 1e-3;
+        const double middle = z + (inside ? share : 0.5) * width;
+        if (middle == z || middle == beyond) return std::nullopt;
+        return middle;
+    }
+    void note(const Level& level) {
+        secant =
+            level.separation + (N - level.force) * (level.separation - z) / (level.force - force);
+        if (nearer(level)) {
+            begin(level);
+            step *= 1.4;
+        } else {
+            beyond = level.separation;
+            released = !down && is_free(level);
+        }
+    }
 };
 
 // Bracketed Newton's method with the slopes of levels; a root finder without slopes takes about
@@ -122,6 +174,7 @@ Level Path::in_steps(double from, double to, Level (Path::*reach)(double)) {
     }
     level.iterations = iterations;
     level.products = products;
+    ++levels_since_move_;
     if (before && !level.converged) {
         take_back();
         level.time = end;
@@ -214,15 +267,17 @@ void Path::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0))
         throw Error(Failure::bad_input, "the tip's position must be finite");
     model_->move_tip(x0, y0);
+    levels_since_move_ = 0;
 }
 
 void Path::put_tip(double x0, double y0) {
-    if (indenter().x0 != x0 || indenter().y0 != y0) model_->move_tip(x0, y0);
+    if (indenter().x0 != x0 || indenter().y0 != y0) move_tip(x0, y0);
 }
 
 void Path::forget() {
     last_.reset();
     last_force_ = rise_ = 0;
+    levels_since_move_ = 0;
     accepted_.reset();
     separation_ = force_ = kNotComputed;
     model_->forget();
@@ -297,9 +352,9 @@ Level Path::solve_between_planes(double Z0) {
         // An error of Z0 corresponds to an error of the force of -slope/steep times as much.
         const double rounding =
             4 * std::numeric_limits<double>::epsilon() * (std::abs(Z0) + std::abs(z));
-        const bool found = !level.converged || std::abs(miss) <= rounding ||
-                           (steep > 0 && std::abs(miss * slope) <=
-                                             0.1 * model_->tolerance() * level.force * steep);
+        const bool found =
+            !level.converged || std::abs(miss) <= rounding ||
+            (steep > 0 && std::abs(miss * slope) <= 0.1 * tolerance_ * level.force * steep);
         return Verdict{found, miss > 0, steep > 0 ? z - miss / steep : -kInfinity};
     };
     const auto reach = [&](double next, double z, double above, int) {
@@ -316,6 +371,14 @@ Level Path::solve_between_planes(double Z0) {
     return level;
 }
 
+void Path::refuse_closing(double N, const Level& closing) const {
+    const double area = indenter().period.area();
+    throw Error(Failure::bad_input,
+                format("a nominal pressure of %.9g is above that of full contact "
+                       "on this surface, %.4g",
+                       N / area, closing.force / area));
+}
+
 // The separation at which the search for the force N begins: that of the last level unless it
 // failed, had no contact, or is so much deeper that a start from first touch takes fewer steps. At
 // `depth` below first touch the force is at most of the order of N.
@@ -323,10 +386,11 @@ double Path::first_guess(double N, double above, double depth) const {
     const double touching = above - 0.25 * depth;
     double z = touching;
     if (last_force_ > 0 && last_force_ < kFarAbove * N) {
-        z = model_->likely_separation().value_or(touching);
+        const std::optional<double> likely = model_->likely_separation();
+        z = likely.value_or(touching);
         if (last_ && last_->force > 0)
             z = last_->z + std::log(N / last_->force) * last_->force / last_->slope;
-        else if (rise_ < 0 && model_->levels_since_move() > 0)
+        else if (likely && rise_ < 0 && levels_since_move_ > 0)
             // otherwise it is extrapolated to the new place, with the change of the force
             z += std::log(N / last_force_) / rise_;
         if (!(z < above)) z = touching;
@@ -353,18 +417,23 @@ void Path::require_resolved(Level& level, double N) {
     }
 }
 
-// Solves ln N(z) = ln N with the slope from the stiffness.
 Level Path::to_force(double N) {
     begin_step();
-    const double above = first_touch();  // upper bound of the separation
-    if (!std::isfinite(above))
+    if (!std::isfinite(first_touch()))
         throw Error(Failure::bad_input,
                     "no asperity lies under the indenter, so that it cannot carry a force");
-    if (std::optional<Level> level = model_->solve_under(N)) {
+    std::optional<Level> level = model_->solve_under(N);
+    if (level)
         level->separation += model_->shift() * level->force;
-        finish(*level);
-        return std::move(*level);
-    }
+    else
+        level = pulls() ? follow_to_force(N) : search_force(N);
+    finish(*level);
+    return std::move(*level);
+}
+
+// Solves ln N(z) = ln N with the slope from the stiffness.
+Level Path::search_force(double N) {
+    const double above = first_touch();  // upper bound of the separation
     // Initial depth: the force cannot be reached before half of it.
     double depth = std::numeric_limits<double>::epsilon() *
                    std::max(std::abs(above), std::numeric_limits<double>::min());
@@ -376,16 +445,15 @@ Level Path::to_force(double N) {
         while (model_->force_at_most(depth) < N) depth *= 2;
     const auto judge = [&](const Level& level, double z) {
         const double miss = level.force / N - 1;
-        const bool found = std::abs(miss) <= model_->tolerance() || !level.converged;
+        const bool found = std::abs(miss) <= tolerance_ || !level.converged;
         if (found) return Verdict{true, false, z};
         if (!(level.force > 0)) return Verdict{false, true, -kInfinity};
         rise_ = model_->stiffness(Model::kForNewton) / level.force;
         return Verdict{false, miss < 0, z - std::log1p(miss) / rise_};
     };
     const auto reach = [&](double next, double z, double highest, int i) {
-        const double furthest = highest -
-                                2 * (model_->levels_since_move() > 1 ? highest - z : 0.0) -
-                                std::ldexp(depth, i);
+        const double furthest =
+            highest - 2 * (levels_since_move_ > 1 ? highest - z : 0.0) - std::ldexp(depth, i);
         return std::isfinite(next) && next < highest ? std::max(next, furthest) : furthest;
     };
     constexpr int most = 200;
@@ -397,8 +465,72 @@ Level Path::to_force(double N) {
         last_ = {level.separation, level.force, model_->stiffness(Model::kForNewton)};
         level.separation += c * level.force;
     }
-    finish(level);
     return level;
+}
+
+// Bodies that attract follow their path to the first level with the force N: towards the surface if
+// N is larger than the present force, otherwise away. If no level has it, the result is that of the
+// smallest force, with Fallback::held.
+Level Path::follow_to_force(double N) {
+    const State before = state();
+    const auto take_back = [&] { restore_history(before); };
+    try {
+        Level level = approach_force(N);
+        if (!level.converged && level.fallback != Fallback::held) take_back();
+        return level;
+    } catch (...) {
+        take_back();
+        throw;
+    }
+}
+
+// Accepts the levels on the way but the last one.
+Level Path::approach_force(double N) {
+    const double range = history()->attraction();
+    std::int32_t iterations = 0, jumps = 0;
+    std::int64_t products = 0;
+    const auto solve = [&](double z, bool trial) {
+        Level there = model_->solve(z, trial);
+        there.iterations = iterations += there.iterations;
+        there.products = products += there.products;
+        there.jumps += jumps;
+        return there;
+    };
+    const auto ends = [&](const Level& there) {
+        return !there.converged || has_force(there, N, tolerance_);
+    };
+    Level level = solve(std::isfinite(separation_) ? separation_ : first_touch() + range, false);
+    if (ends(level)) return level;
+    Approach way{N, level.force < N, range, model_->closed() + 1e-6 * range};
+    way.begin(level);
+    history()->accept(level);
+    jumps = level.jumps;
+    double least = level.force, separation_of_least = level.separation;
+    std::vector<double> history_of_least = history()->write();
+    for (;;) {
+        const std::optional<double> z = way.next();
+        if (!z) {
+            history()->read(history_of_least);
+            level = solve(separation_of_least, false);
+            level.fallback = Fallback::held;
+            level.converged = false;
+            return level;
+        }
+        level = solve(*z, true);
+        const bool nearer = way.nearer(level);
+        if (level.provisional && (nearer || ends(level))) level = solve(*z, false);
+        if (ends(level)) return level;
+        if (nearer && *z == way.lowest) refuse_closing(N, level);
+        way.note(level);
+        if (!nearer) continue;
+        history()->accept(level);
+        jumps = level.jumps;
+        if (level.force < least) {
+            least = level.force;
+            separation_of_least = level.separation;
+            history_of_least = history()->write();
+        }
+    }
 }
 
 }  // namespace rsc

@@ -15,7 +15,9 @@ inline double steps_of_time(double duration, double shortest_time) {
 
 class Path final {
 public:
-    explicit Path(std::unique_ptr<Model> model) : model_(std::move(model)) {}
+    // The forces have the relative tolerance `tolerance`.
+    Path(std::unique_ptr<Model> model, double tolerance)
+        : model_(std::move(model)), tolerance_(tolerance) {}
 
     // Solves at the separation Z0 [length] and accepts the level; if path_dependent(), later levels
     // depend on it. Failure to converge is reported by Level::converged. Throws Error(bad_input) if
@@ -52,7 +54,7 @@ public:
     bool path_dependent() const { return history() != nullptr; }
     bool relaxes() const { return shortest_time() < kInfinity; }
     // True if forces may be negative (adhesion).
-    bool pulls() const { return history() && history()->attracts(); }
+    bool pulls() const { return history() && history()->attraction() >= 0; }
 
     // Of the last level; with adhesion, after move_tip(), of the state at the new place:
     // dN/dZ0 (negative; 0 without contact) [force/length].
@@ -110,15 +112,20 @@ private:
     Level in_steps(double from, double to, Level (Path::*reach)(double));
     Level to_separation(double Z0);  // as at_separation and at_force, in one step of time
     Level to_force(double N);
+    Level search_force(double N);
+    Level follow_to_force(double N);
+    Level approach_force(double N);
     // Solves at the separation Z0 of the mean planes if shift() > 0.
     Level solve_between_planes(double Z0);
     double first_guess(double N, double above, double depth) const;
     void require_resolved(Level& level, double N);
+    [[noreturn]] void refuse_closing(double N, const Level& closing) const;
     // Accepts a level if it converged, and adds the quantities that depend on the nominal area.
     void finish(Level& level);
     void begin_step();
 
     std::unique_ptr<Model> model_;
+    double tolerance_;
     std::optional<Level> level_;
     Vec2 level_place_;
     bool solved_ = true;  // the model's last solution is that of the level
@@ -129,8 +136,10 @@ private:
     double separation_ = kNotComputed, force_ = kNotComputed;
 
     // Starting points of force control: the force of the last level, 0 if it did not converge;
-    // d ln N/dz where it was last needed, 0: unknown; and the last level if shift() > 0.
+    // d ln N/dz where it was last needed, 0: unknown; the number of levels since the tip was moved;
+    // and the last level if shift() > 0.
     double last_force_ = 0, rise_ = 0;
+    int levels_since_move_ = 0;
     struct Trial {
         double z, force, slope;
     };

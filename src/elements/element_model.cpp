@@ -56,7 +56,6 @@ public:
     void move_tip(double x0, double y0) override {
         indenter_.move(x0, y0);
         if (past_.size() > 1) past_.resize(1);
-        since_move_ = 0;
         const int before_x = turn_x, before_y = turn_y;
         cut_open(indenter_, kBlock);
         if (turn_x != before_x || turn_y != before_y) past_.clear(), lowered_at_ = kUnknown;
@@ -79,13 +78,9 @@ public:
         return past_[0].separation;
     }
     double shift() const override { return products_->shift(); }
-    std::size_t levels_since_move() const override { return since_move_; }
 
 protected:
-    void forget_solutions() override {
-        past_.clear();
-        since_move_ = 0;
-    }
+    void forget_solutions() override { past_.clear(); }
     void step_changed() override { lowered_at_ = kUnknown; }
     std::vector<std::pair<Pixel, double>> press_out() override { return solver_.press_out(); }
     void residual_changed() override { find_top(); }
@@ -139,7 +134,6 @@ private:
     std::vector<Pixel> pixels_;
     std::vector<double> g0_, p_;
     std::deque<Past> past_;
-    std::size_t since_move_ = 0;
 
     // Relaxing bodies:
     std::unique_ptr<PixelProducts>
@@ -321,11 +315,9 @@ std::optional<Level> ElementModel::solve_under(double N) {
     struct Levels {  // trials are no levels: restored at the end, also after an exception
         ElementModel& my;
         decltype(my.past_) past = my.past_;
-        std::size_t since_move = my.since_move_;
         bool restored = false;
         void restore() {
-            if (!std::exchange(restored, true))
-                my.past_ = std::move(past), my.since_move_ = since_move;
+            if (!std::exchange(restored, true)) my.past_ = std::move(past);
         }
         ~Levels() { restore(); }
     } levels{*this};
@@ -411,7 +403,6 @@ void ElementModel::remember(double Z0) {
         now.pixels[l] = pixels_[at(pressed[l])], now.p[l] = p_[at(pressed[l])];
     past_.push_front(std::move(now));
     if (past_.size() > 2) past_.pop_back();
-    since_move_ = std::min<std::size_t>(since_move_ + 1, 2);
     accepted_ = false;
 }
 

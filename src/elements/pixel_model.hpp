@@ -14,7 +14,6 @@ public:
     double first_touch() const final { return top_; }
     const Indenter& indenter() const final { return indenter_; }
     History* history() final { return loads_ || yields() ? this : nullptr; }
-    double tolerance() const final { return options_.tolerance; }
     void solve_again(double z, const Level& level) final;
     void forget() final;
 

@@ -145,6 +145,16 @@ std::size_t values_of(const std::vector<std::size_t>& shape) {
     return n;
 }
 
+template <class Action>
+void for_each_row(const RowFiller& fill, const std::vector<std::size_t>& shape,
+                  const Action& action) {
+    std::vector<double> row(values_of({shape.begin() + 1, shape.end()}));
+    for (std::size_t j = 0; j < shape[0]; ++j) {
+        fill(j, row);
+        action(j, row);
+    }
+}
+
 // Chunk size: maps are read a few levels at a time, heights a band of rows.
 std::vector<std::size_t> chunks(const std::vector<std::size_t>& shape) {
     constexpr std::size_t target = 1u << 17;  // values, 1 MiB
@@ -160,10 +170,15 @@ std::vector<std::size_t> chunks(const std::vector<std::size_t>& shape) {
 
 // Bytes of nearly empty maps are deflated in less time, and to less, if they are not shuffled
 // first.
-bool mostly_zero(const NetcdfVariable& v) {
-    const auto* values = std::get_if<std::vector<double>>(&v.values);
-    return values && 2 * static_cast<std::size_t>(std::count(values->begin(), values->end(), 0.0)) >
-                         values->size();
+bool mostly_zero(const NetcdfVariable& v, const std::vector<std::size_t>& shape) {
+    std::size_t zeros = 0;
+    const auto count = [&](std::span<const double> values) {
+        zeros += static_cast<std::size_t>(std::ranges::count(values, 0.0));
+    };
+    if (const auto* values = std::get_if<std::vector<double>>(&v.values)) count(*values);
+    if (const auto* rows = std::get_if<RowFiller>(&v.values))
+        for_each_row(*rows, shape, [&](std::size_t, std::span<const double> row) { count(row); });
+    return 2 * zeros > values_of(shape);
 }
 
 void put_values(int ncid, int varid, const NetcdfVariable& v, const std::vector<std::size_t>& shape,
@@ -180,13 +195,13 @@ void put_values(int ncid, int varid, const NetcdfVariable& v, const std::vector<
                 if (std::isnan(x)) x = NC_FILL_DOUBLE;
         }
         check(nc_put_var_double(ncid, varid, absent ? filled.data() : doubles->data()), path);
-    } else if (const auto* rows = std::get_if<StridedRows>(&v.values)) {
-        for (std::size_t j = 0; j < shape[0]; ++j) {
-            const std::size_t start[2] = {j, 0}, count[2] = {1, shape[1]};
-            check(nc_put_vara_double(ncid, varid, start, count,
-                                     rows->data + static_cast<std::ptrdiff_t>(j) * rows->stride),
-                  path);
-        }
+    } else if (const auto* rows = std::get_if<RowFiller>(&v.values)) {
+        std::vector<std::size_t> start(shape.size(), 0), count = shape;
+        count[0] = 1;
+        for_each_row(*rows, shape, [&](std::size_t j, std::span<const double> row) {
+            start[0] = j;
+            check(nc_put_vara_double(ncid, varid, start.data(), count.data(), row.data()), path);
+        });
     } else if (const auto* texts = std::get_if<std::vector<std::string>>(&v.values)) {
         std::string padded;
         for (const std::string& text : *texts)
@@ -234,12 +249,10 @@ void NetcdfFile::check_values(const NetcdfVariable& v) const {
         finite = std::none_of(doubles->begin(), doubles->end(), bad);
     } else if (const auto* integers = std::get_if<std::vector<std::int32_t>>(&v.values)) {
         fits = integers->size() == size;
-    } else if (const auto* rows = std::get_if<StridedRows>(&v.values)) {
-        fits = lengths.size() == 2;
-        for (std::size_t j = 0; fits && finite && j < lengths[0]; ++j) {
-            const double* row = rows->data + static_cast<std::ptrdiff_t>(j) * rows->stride;
-            finite = std::none_of(row, row + lengths[1], bad);
-        }
+    } else if (const auto* rows = std::get_if<RowFiller>(&v.values)) {
+        for_each_row(*rows, lengths, [&](std::size_t, std::span<const double> row) {
+            finite = finite && std::ranges::none_of(row, bad);
+        });
     } else if (const auto* texts = std::get_if<std::vector<std::string>>(&v.values)) {
         fits = lengths.size() == 2 && texts->size() == lengths[0] &&
                std::none_of(texts->begin(), texts->end(),
@@ -279,7 +292,8 @@ void NetcdfFile::define_and_put(int ncid, Format format, int compression,
         if (format == Format::netcdf4 && !ids.empty() && values_of(shape(v)) >= kChunked) {
             check(nc_def_var_chunking(ncid, varid, NC_CHUNKED, chunks(shape(v)).data()), path);
             if (compression > 0 && !v.disorder)
-                check(nc_def_var_deflate(ncid, varid, mostly_zero(v) ? 0 : 1, 1, compression),
+                check(nc_def_var_deflate(ncid, varid, mostly_zero(v, shape(v)) ? 0 : 1, 1,
+                                         compression),
                       path);
         }
         put_attribute(ncid, varid, "long_name", v.long_name, path);

@@ -9,26 +9,22 @@ namespace rsc {
 using NetcdfAttribute = std::variant<std::string, std::vector<double>, std::vector<std::int32_t>>;
 using NetcdfAttributes = std::vector<std::pair<std::string, NetcdfAttribute>>;
 
-// Rows of doubles with gaps between them: row j begins at data + j*stride.
-struct StridedRows {
-    const double* data = nullptr;
-    std::ptrdiff_t stride = 0;
-};
+// Fills in the values at one index of the first dimension; they need not be in memory all at once.
+using RowFiller = std::function<void(std::size_t index, std::span<double> values)>;
 
 struct NetcdfVariable {
     std::string name;
     std::vector<std::string> dimensions;  // slowest first; none for a scalar
     std::string units, long_name;
-    // StridedRows: two dimensions; texts: two, the last one their longest length in bytes (shorter
-    // ones end in zeros)
-    std::variant<std::vector<double>, std::vector<std::int32_t>, StridedRows,
+    // Texts: two dimensions, the last one their longest length in bytes (shorter ones end in zeros).
+    std::variant<std::vector<double>, std::vector<std::int32_t>, RowFiller,
                  std::vector<std::string>>
         values;
     NetcdfAttributes attributes;
-    // NaN is a missing value, written as _FillValue; elsewhere it is an internal error
-    // incompressible numbers: deflate saves a quarter at most and takes ten times as long as
-    // writing
+    // NaN is a missing value, written as _FillValue; elsewhere it is an internal error.
     bool may_be_absent = false;
+    // Incompressible numbers: deflate saves a quarter at most and takes ten times as long as
+    // writing.
     bool disorder = false;
 };
 

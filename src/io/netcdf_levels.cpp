@@ -141,16 +141,12 @@ bool ResultTable::computed(const std::vector<double>& values) {
 }
 
 // The components of a vector as the last dimension, which is declared on the first call.
-std::vector<double> ResultTable::pairs(const std::vector<double>& x, const std::vector<double>& y) {
-    if (!components_) {
-        components_ = true;
-        file_.dimension("component", 2);
-        add("component", {"component"}, "1", "component of a vector", one_to(2),
-            {{"flag_values", one_to(2)}, {"flag_meanings", "x y"}});
-    }
-    std::vector<double> both;
-    for (std::size_t k = 0; k < x.size(); ++k) both.push_back(x[k]), both.push_back(y[k]);
-    return both;
+void ResultTable::component() {
+    if (components_) return;
+    components_ = true;
+    file_.dimension("component", 2);
+    add("component", {"component"}, "1", "component of a vector", one_to(2),
+        {{"flag_values", one_to(2)}, {"flag_meanings", "x y"}});
 }
 
 // The components xx, yy, xy of a symmetric tensor as the last dimension.
@@ -195,14 +191,15 @@ void ResultTable::means() {
                                q.plain + " over realizations",
                           unit_of_mean = q.logarithm ? "1" : units(q);
         Names dims{"step"};
+        bool fewer = s.count != o_.force.count;
         if (q.y) {
             const LevelStatistics y =
                 o_.statistics([&](const LevelValues& l) { return seen(l.*q.y); });
+            fewer = fewer || y.count != o_.force.count;
             s = {pairs(s.mean, y.mean), pairs(s.deviation, y.deviation), pairs(s.error, y.error),
-                 s.count};
+                 pairs(s.count, y.count)};
             dims.push_back("component");
         }
-        const bool fewer = s.count != o_.force.count;
         // A prescribed force scatters as little as the solver leaves of it.
         if (r_.force_control() && name == "force")
             for (std::size_t step = 0; step < s.mean.size(); ++step)
@@ -214,7 +211,7 @@ void ResultTable::means() {
         add_absent(name + "_stderr", dims, unit_of_mean, "standard error of " + name + "_mean",
                    s.error, name + "_std/sqrt(M)");
         if (fewer)
-            add(name + "_count", {"step"}, "1",
+            add(name + "_count", dims, "1",
                 "number of realizations with a value of the " + std::string(q.plain), s.count);
     }
 }

@@ -41,14 +41,20 @@ void ResultTable::maps() {
     add("map_cell_side", {}, unit(1), "side of the square cells of the map, w",
         std::vector<double>{g.side});
     const Names dims{"step", "y", "x"};
-    add("map_area_fraction", dims, "1", "contact area over cell area, mean over realizations",
-        o_.map_area_fraction,
-        comment("A' = sum of pi a^2/w^2 over the asperities in the cell; above 1 where a spot is "
-                "larger than the cell of its centre"));
-    add("map_pressure", dims, unit(-2, 1), "force over cell area, mean over realizations",
-        o_.map_pressure,
-        comment("p = sum of f/w^2 over the asperities in the cell, also of those that attract "
-                "without contact"));
+    const auto add_map = [&](const char* name, const std::string& units, const char* meaning,
+                             const SparseMaps& map, const char* note) {
+        file_.variable({name, dims, units, meaning,
+                        RowFiller([&map](std::size_t s, auto cells) { map.fill(s, cells); }),
+                        comment(note), false});
+    };
+    add_map("map_area_fraction", "1", "contact area over cell area, mean over realizations",
+            o_.map_area_fraction,
+            "A' = sum of pi a^2/w^2 over the asperities in the cell; above 1 where a spot is "
+            "larger than the cell of its centre");
+    add_map("map_pressure", unit(-2, 1), "force over cell area, mean over realizations",
+            o_.map_pressure,
+            "p = sum of f/w^2 over the asperities in the cell, also of those that attract without "
+            "contact");
 }
 
 void ResultTable::radial() {
@@ -123,6 +129,14 @@ void ResultTable::distributions() {
     density("spot_area_pdf", "spot_area_bin", unit(-2),
             "probability density of the area of a contact, pi a^2", &Shown::spot_area_pdf,
             &Shown::spot_area_moments, {}, "");
+    if (bins.gap_max > 0) {
+        bin_axis("gap_bin", unit(1), "middle of the bins of gap_pdf", bins.gap_width());
+        histogram("gap_count", "gap_bin", "1", "points by the gap, all realizations",
+                  &Distributions::gap, "points where the bodies do not touch; overflow: points");
+        density("gap_pdf", "gap_bin", unit(-1),
+                "probability density of the gap where the bodies do not touch", &Shown::gap_pdf,
+                &Shown::gap_moments, {}, "");
+    }
     if (o_.realizations == 1) return;
     std::vector<double> sums;
     for (const DistributionSums& level : o_.distribution_sums)
@@ -324,7 +338,10 @@ void ResultTable::heights() {
                     {"height_y", "height_x"},
                     unit(1),
                     "height of the surface",
-                    StridedRows{h.data.get(), h.stride},
+                    RowFiller([&h](std::size_t j, std::span<double> row) {
+                        std::copy_n(h.data.get() + static_cast<std::ptrdiff_t>(j) * h.stride,
+                                    row.size(), row.begin());
+                    }),
                     comment(h.periodic ? "periodic in x and y" : ""),
                     false});
 }

@@ -106,7 +106,17 @@ private:
     void axes();
     void levels();
     static bool computed(const std::vector<double>& values);
-    std::vector<double> pairs(const std::vector<double>& x, const std::vector<double>& y);
+    void component();  // the dimension of vectors, once
+    template <class T>
+    std::vector<T> pairs(const std::vector<T>& x, const std::vector<T>& y) {
+        component();
+        std::vector<T> both;
+        for (std::size_t k = 0; k < x.size(); ++k) {
+            both.push_back(x[k]);
+            both.push_back(y[k]);
+        }
+        return both;
+    }
     std::vector<double> tensors(const LevelQuantity& q);
     bool components_ = false;  // the dimension of vectors is declared
     std::string units(const LevelQuantity& q) const {

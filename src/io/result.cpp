@@ -40,6 +40,8 @@ ObserveOptions observe_options(const Case& c, const Domain& domain, const Indent
     const double hardest =
         c.solids.hardness * std::sqrt(1 + sharpest * c.solids.size_effect * sqrt_m4);
     options.pdf = make_pdf_bins(c.output.pdf_bins, indenter.E_star, sigma, sqrt_m4, 1.1 * hardest);
+    // Two rough flats are at most some four rms heights apart on either side of the mean.
+    if (by_elements(c) && indenter.period.finite()) options.pdf.gap_max = 8 * sigma;
     return options;
 }
 
@@ -255,14 +257,14 @@ Accumulators read_sums(const std::string& path, const ObserveOptions& options, s
     read_levels(file, sums);
     read_surfaces(file, sums);
     read_stresses(file, sums);
-    const auto map = [&](const std::string& name) {
-        const MapGrid& g = options.map;
-        const std::vector<std::size_t> lengths{steps, static_cast<std::size_t>(g.ny),
-                                               static_cast<std::size_t>(g.nx)};
-        return map_sums(g, sums.converged(), file.values(name, lengths));
-    };
-    sums.map_area = map("map_area_fraction");
-    sums.map_force = map("map_pressure");
+    const std::vector<std::size_t> lengths{steps, static_cast<std::size_t>(options.map.ny),
+                                           static_cast<std::size_t>(options.map.nx)};
+    const std::vector<double> area = file.values("map_area_fraction", lengths);
+    const std::vector<double> pressure = file.values("map_pressure", lengths);
+    const auto cells = static_cast<std::size_t>(options.map.cells());
+    for (std::size_t s = 0; s < steps; ++s)
+        sums.restore_map(s, std::span(area).subspan(s * cells, cells),
+                         std::span(pressure).subspan(s * cells, cells));
     read_distributions(file, sums);
     return sums;
 }

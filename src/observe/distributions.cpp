@@ -52,6 +52,7 @@ Distributions no_contacts(const PdfBins& bins) {
     const auto n = static_cast<std::size_t>(bins.bins);
     Distributions d;
     for (Histogram* h : {&d.mean_pressure, &d.pressure, &d.spot_area}) h->weight.assign(n, 0.0);
+    if (bins.gap_max > 0) d.gap.weight.assign(n, 0.0);
     return d;
 }
 
@@ -103,6 +104,10 @@ Distributions distributions_of(const PdfBins& bins, const Level& level, std::int
         }
     }
     if (std::isnan(level.least_force)) add_pixels(d.pressure, level, bins.pressure_width());
+    const auto counts = std::min(d.gap.weight.size(), level.gaps.of_bin.size());
+    std::copy_n(level.gaps.of_bin.begin(), counts, d.gap.weight.begin());
+    d.gap.overflow = level.gaps.beyond;
+    d.gap.power = level.gaps.power;
     return d;
 }
 
@@ -164,6 +169,8 @@ ShownDistributions shown_distributions(const PdfBins& bins, const Distributions&
     out.spot_area_moments = moments_of(all_weights(sum.spot_area), sum.spot_area.power);
     out.pressure_pdf = density(sum.pressure, bins.pressure_width());
     out.pressure_moments = moments_of(sum.pressure.total, sum.pressure.power);
+    out.gap_pdf = density(sum.gap, bins.gap_width());
+    out.gap_moments = moments_of(all_weights(sum.gap), sum.gap.power);
     return out;
 }
 

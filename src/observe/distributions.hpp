@@ -44,14 +44,16 @@ inline ExactSum exact_term(double value, double quantum) {
 
 // Bins of equal width from 0: the mean pressure of a contact to `pressure_max`, the pressure at a
 // point to 1.5 pressure_max (the peak of a Hertz contact is 1.5 times its mean), the area of a spot
-// to `area_max`. Larger values count as overflow.
+// to `area_max`, the gap to `gap_max`. Larger values count as overflow.
 struct PdfBins {
     int bins = 60;
     double pressure_max = 0;  // [force/length^2]
     double area_max = 0;      // [length^2]
+    double gap_max = 0;       // [length]; 0: there are no gaps
     double mean_pressure_width() const { return pressure_max / bins; }
     double pressure_width() const { return 1.5 * pressure_max / bins; }
     double area_width() const { return area_max / bins; }
+    double gap_width() const { return gap_max / bins; }
 };
 
 // Bins that contain nearly all values at separations above about one sigma. A summit of curvature k
@@ -67,20 +69,20 @@ PdfBins make_pdf_bins(int bins, double E_star, double sigma, double sqrt_m4, dou
 struct Histogram {
     std::vector<double> weight;  // of each bin
     double overflow = 0;         // weight beyond the last bin
-    double total = 0,
-           // of the pressure: sums of pi a^2 and (pi a^2)^2; total^2/squares is the effective
-        // number of contacts
-        squares = 0;
+    // Of the pressure: sums of pi a^2 and (pi a^2)^2; total^2/squares is the effective number of
+    // contacts.
+    double total = 0, squares = 0;
     std::array<double, 4> power{};  // sums of weight times the powers 1 to 4 of the value
 };
 
-// Three distributions of one level, of one realization or summed over realizations.
+// The distributions of one level, of one realization or summed over realizations.
 struct Distributions {
     double separation = 0;               // Z0 of the level, summed over realizations [length]
     std::int64_t levels = 0;             // number of realizations
     std::int32_t step = 0;               // index of the level, from 0; -1 if realizations differ
     Histogram mean_pressure, spot_area;  // one count per contact
     Histogram pressure;                  // at a random point of the contact area
+    Histogram gap;                       // at the open points between two flats; empty: no gaps
 };
 
 // Distributions of one level. The mean pressure of a contact is f/(pi a^2). Each contact
@@ -111,6 +113,14 @@ void for_each_number(D& d, const PdfBins& bins, Visit visit) {
         visit(d.pressure.power[k], area * p_power);
         visit(d.spot_area.power[k], area_power);
     }
+    if (!(bins.gap_max > 0)) return;
+    for (auto& count : d.gap.weight) visit(count, 0.0);
+    visit(d.gap.overflow, 0.0);
+    double gap_power = 1;
+    for (auto& sum : d.gap.power) {
+        gap_power *= bins.gap_max;
+        visit(sum, gap_power);
+    }
 }
 
 // Exact sums of the distributions of a level over realizations.
@@ -135,8 +145,8 @@ DistributionMoments moments_of(double count, const std::array<double, 4>& power)
 // Results for the file: probability densities (integral 1 including the overflow) and moments.
 struct ShownDistributions {
     Distributions sum;
-    std::vector<double> mean_pressure_pdf, pressure_pdf, spot_area_pdf;
-    DistributionMoments mean_pressure_moments, pressure_moments, spot_area_moments;
+    std::vector<double> mean_pressure_pdf, pressure_pdf, spot_area_pdf, gap_pdf;
+    DistributionMoments mean_pressure_moments, pressure_moments, spot_area_moments, gap_moments;
 };
 ShownDistributions shown_distributions(const PdfBins& bins, const Distributions& sum);
 

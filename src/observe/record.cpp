@@ -22,6 +22,25 @@ double map_divisor(const MapGrid& grid, std::int32_t converged) {
     return grid.side * grid.side * std::max(1, converged);
 }
 
+// Both by increasing number of the cell.
+void add_cells(std::vector<CellSums>& sums, std::vector<CellSums> terms) {
+    if (sums.empty()) return void(sums = std::move(terms));
+    std::vector<CellSums> all;
+    all.reserve(sums.size() + terms.size());
+    auto term = terms.begin();
+    for (CellSums& sum : sums) {
+        for (; term != terms.end() && term->cell < sum.cell; ++term) all.push_back(*term);
+        if (term != terms.end() && term->cell == sum.cell) {
+            sum.area.add(term->area);
+            sum.force.add(term->force);
+            ++term;
+        }
+        all.push_back(sum);
+    }
+    all.insert(all.end(), term, terms.end());
+    sums = std::move(all);
+}
+
 }  // namespace
 
 std::int32_t nearest_level(const std::vector<double>& levels, double wanted) {
@@ -96,8 +115,7 @@ LevelStatistics Observations::statistics(
 
 Accumulators::Accumulators(const ObserveOptions& options_, std::size_t steps_)
     : Realizations{options_, steps_, {}, {}, {}, {}} {
-    map_area.assign(steps * static_cast<std::size_t>(options.map.cells()), ExactSum{});
-    map_force = map_area;
+    maps.resize(steps);
     distributions.resize(steps > 0 ? options.pdf_levels.size() : 0);
 }
 
@@ -116,26 +134,24 @@ void Accumulators::add(const RealizationRecord& record) {
     surface.push_back(record.surface);
     rows.insert(rows.end(), record.levels.begin(), record.levels.end());
     stresses.insert(stresses.end(), record.stresses.begin(), record.stresses.end());
-    const auto cells = static_cast<std::size_t>(options.map.cells());
     constexpr int kBits = 64;  // a full cell is 2^64 quanta, 11 bits more than a double has
     const double cell_area = options.map.side * options.map.side,
                  area_quantum = quantum_of(cell_area, kBits),
                  force_quantum = quantum_of(options.pdf.pressure_max * cell_area, kBits);
     for (std::size_t s = 0; s < steps; ++s) {
         const MapLevel& map = record.maps[s];
-        for (std::size_t k = 0; k < map.cell.size(); ++k) {
-            map_area[s * cells + static_cast<std::size_t>(map.cell[k])].add(
-                exact_term(map.area[k], area_quantum));
-            map_force[s * cells + static_cast<std::size_t>(map.cell[k])].add(
-                exact_term(map.force[k], force_quantum));
-        }
+        std::vector<CellSums> terms;
+        for (std::size_t k = 0; k < map.cell.size(); ++k)
+            terms.push_back({map.cell[k], exact_term(map.area[k], area_quantum),
+                             exact_term(map.force[k], force_quantum)});
+        add_cells(maps[s], std::move(terms));
     }
     for (std::size_t d = 0; d < distributions.size(); ++d)
         rsc::add(distributions[d], options.pdf, record.distributions[d]);
 }
 
 void Accumulators::append(const Accumulators& later) {
-    if (later.steps != steps || later.map_area.size() != map_area.size() ||
+    if (later.steps != steps || later.maps.size() != maps.size() ||
         later.distributions.size() != distributions.size() ||
         (!realization.empty() && !later.realization.empty() &&
          later.realization.front() <= realization.back()))
@@ -144,8 +160,7 @@ void Accumulators::append(const Accumulators& later) {
     surface.insert(surface.end(), later.surface.begin(), later.surface.end());
     rows.insert(rows.end(), later.rows.begin(), later.rows.end());
     stresses.insert(stresses.end(), later.stresses.begin(), later.stresses.end());
-    for (std::size_t k = 0; k < map_area.size(); ++k) map_area[k].add(later.map_area[k]);
-    for (std::size_t k = 0; k < map_force.size(); ++k) map_force[k].add(later.map_force[k]);
+    for (std::size_t s = 0; s < steps; ++s) add_cells(maps[s], later.maps[s]);
     for (std::size_t d = 0; d < distributions.size(); ++d)
         rsc::add(distributions[d], later.distributions[d]);
 }
@@ -159,21 +174,25 @@ Observations Accumulators::finish() const {
 
     const std::vector<std::int32_t> counts = converged();
     const auto cells = static_cast<std::size_t>(options.map.cells());
-    const auto divide = [&](const std::vector<ExactSum>& sums, std::vector<double>& means) {
-        means.reserve(sums.size());
-        for (const ExactSum& sum : sums)
-            means.push_back(sum.high / map_divisor(options.map, counts[means.size() / cells]));
-    };
-    divide(map_area, o.map_area_fraction);
-    divide(map_force, o.map_pressure);
-
     const RadialMean mean(options.map, options.tip_x, options.tip_y, options.radial_bins);
     o.radii = mean.radii();
-    for (std::size_t s = 0; s < steps && !o.radii.empty(); ++s) {
-        for (double v : mean(o.map_area_fraction.data() + s * cells))
-            o.radial_area_fraction.push_back(v);
-        for (double v : mean(o.map_pressure.data() + s * cells)) o.radial_pressure.push_back(v);
-    }
+    std::vector<double> row(cells);
+    const auto means_of = [&](ExactSum CellSums::*member, SparseMaps& out,
+                              std::vector<double>& radial) {
+        out.cells = cells;
+        for (std::size_t s = 0; s < steps; ++s) {
+            for (const CellSums& c : maps[s]) {
+                out.cell.push_back(static_cast<std::int32_t>(c.cell));
+                out.value.push_back((c.*member).high / map_divisor(options.map, counts[s]));
+            }
+            out.end.push_back(out.cell.size());
+            if (o.radii.empty()) continue;
+            out.fill(s, row);
+            for (const double v : mean(row.data())) radial.push_back(v);
+        }
+    };
+    means_of(&CellSums::area, o.map_area_fraction, o.radial_area_fraction);
+    means_of(&CellSums::force, o.map_pressure, o.radial_pressure);
     for (const DistributionSums& d : distributions)
         o.distributions.push_back(shown_distributions(
             options.pdf, rounded(d, options.pdf, static_cast<std::int64_t>(o.realizations))));
@@ -188,13 +207,21 @@ std::vector<std::int32_t> Accumulators::converged() const {
     return counts;
 }
 
-std::vector<ExactSum> map_sums(const MapGrid& grid, const std::vector<std::int32_t>& converged,
-                               const std::vector<double>& means) {
-    std::vector<ExactSum> sums(means.size());
-    const auto cells = static_cast<std::size_t>(grid.cells());
-    for (std::size_t k = 0; k < sums.size(); ++k)
-        sums[k].high = means[k] * map_divisor(grid, converged[k / cells]);
-    return sums;
+void Accumulators::restore_map(std::size_t step, std::span<const double> area_fraction,
+                               std::span<const double> pressure) {
+    const double divisor = map_divisor(options.map, converged()[step]);
+    maps[step].clear();
+    for (std::size_t k = 0; k < area_fraction.size(); ++k)
+        if (area_fraction[k] != 0 || pressure[k] != 0)
+            maps[step].push_back({static_cast<std::int64_t>(k),
+                                  {area_fraction[k] * divisor, 0},
+                                  {pressure[k] * divisor, 0}});
+}
+
+void SparseMaps::fill(std::size_t step, std::span<double> map) const {
+    std::ranges::fill(map, 0.0);
+    for (std::size_t k = step > 0 ? end[step - 1] : 0; k < end[step]; ++k)
+        map[static_cast<std::size_t>(cell[k])] = value[k];
 }
 
 }  // namespace rsc

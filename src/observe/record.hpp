@@ -82,10 +82,15 @@ struct Realizations {
     std::vector<LargestStress> stresses;     // [realization][step][depth]
 };
 
+// Sums over realizations of a cell of the coarse map.
+struct CellSums {
+    std::int64_t cell = 0;
+    ExactSum area, force;  // [length^2], [force]
+};
+
 // Sums over realizations, written to the checkpoint of a campaign.
 struct Accumulators : Realizations {
-    std::vector<ExactSum> map_area,
-        map_force;  // [step][cell], sums over realizations [length^2], [force]
+    std::vector<std::vector<CellSums>> maps;  // [step], cells with contacts by increasing number
     std::vector<DistributionSums> distributions;  // [pdf level]
 
     Accumulators() = default;
@@ -99,6 +104,10 @@ struct Accumulators : Realizations {
     std::vector<std::int32_t> converged()
         const;  // number of realizations that converged, for each step
     Observations finish() const;
+    // Sets the sums of the maps of a step, within their rounding, from the means (of all cells)
+    // that finish() computes.
+    void restore_map(std::size_t step, std::span<const double> area_fraction,
+                     std::span<const double> pressure);
 };
 
 // Statistics of a quantity over the M realizations that converged and have it, for each step: mean
@@ -109,11 +118,23 @@ struct LevelStatistics {
     std::vector<std::int32_t> count;  // M
 };
 
+// Maps of a quantity at all levels, of which only the cells with contacts are stored.
+struct SparseMaps {
+    std::size_t cells = 0;           // of a map
+    std::vector<std::size_t> end;    // [step], where its cells end in the next two
+    std::vector<std::int32_t> cell;  // by increasing number
+    std::vector<double> value;
+
+    // All cells of a step, those without contacts 0.
+    void fill(std::size_t step, std::span<double> map) const;
+    bool operator==(const SparseMaps&) const = default;
+};
+
 // Means and statistics over the realizations added.
 struct Observations : Realizations {
     std::size_t realizations = 0;  // their number
     LevelStatistics separation, force, area;
-    std::vector<double> map_area_fraction, map_pressure;        // [step][j][i]
+    SparseMaps map_area_fraction, map_pressure;                 // [step][j][i]
     std::vector<double> radii;                                  // middle of the rings [length]
     std::vector<double> radial_area_fraction, radial_pressure;  // [step][radius]
     std::vector<ShownDistributions> distributions;              // [pdf level]
@@ -121,9 +142,5 @@ struct Observations : Realizations {
     const LevelValues& row(std::size_t k, std::size_t step) const { return rows[k * steps + step]; }
     LevelStatistics statistics(const std::function<double(const LevelValues&)>& of) const;
 };
-
-// The sums of a map over realizations from the means computed by finish(), within their rounding.
-std::vector<ExactSum> map_sums(const MapGrid& grid, const std::vector<std::int32_t>& converged,
-                               const std::vector<double>& means);
 
 }  // namespace rsc

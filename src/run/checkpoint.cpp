@@ -308,7 +308,8 @@ void transfer(Archive& a, T& x) {
         a(x.weight), a(x.overflow), a(x.total), a(x.squares), a(x.power);
     } else if constexpr (std::is_same_v<Type, Distributions>) {
         a(x.separation), a(x.levels), a(x.step);
-        transfer(a, x.mean_pressure), transfer(a, x.pressure), transfer(a, x.spot_area);
+        transfer(a, x.mean_pressure), transfer(a, x.pressure), transfer(a, x.spot_area),
+            transfer(a, x.gap);
     } else if constexpr (std::is_same_v<Type, MapLevel>) {
         a(x.cell), a(x.area), a(x.force), a(x.outside);
     } else if constexpr (std::is_same_v<Type, DistributionSums>) {
@@ -316,9 +317,12 @@ void transfer(Archive& a, T& x) {
     } else if constexpr (std::is_same_v<Type, RealizationRecord>) {
         a(x.realization), a(x.surface), a(x.levels), a(x.stresses);
         transfer_each(a, x.maps), transfer_each(a, x.distributions);
+    } else if constexpr (std::is_same_v<Type, std::vector<CellSums>>) {
+        a(x);
     } else {
         static_assert(std::is_same_v<Type, Accumulators>);
-        a(x.realization), a(x.surface), a(x.rows), a(x.stresses), a(x.map_area), a(x.map_force);
+        a(x.realization), a(x.surface), a(x.rows), a(x.stresses);
+        transfer_each(a, x.maps);
         transfer_each(a, x.distributions);
     }
 }
@@ -333,8 +337,7 @@ std::string to_bytes(const RealizationRecord& record) {
 
 std::string to_bytes(const Accumulators& sums) {
     ArchiveWriter writer;
-    writer.bytes.reserve(32 * sums.map_area.size() + sizeof(LevelValues) * sums.rows.size() +
-                         65536);
+    writer.bytes.reserve(sizeof(LevelValues) * sums.rows.size() + 65536);
     transfer(writer, sums);
     return std::move(writer.bytes);
 }
@@ -352,8 +355,7 @@ void sums_from_bytes(std::string_view bytes, Accumulators& sums) {
     ArchiveReader reader = reader_of(bytes);
     transfer(reader, read);
     reader.end();
-    if (read.map_area.size() != sums.map_area.size() ||
-        read.map_force.size() != sums.map_force.size() ||
+    if (read.maps.size() != sums.maps.size() ||
         read.distributions.size() != sums.distributions.size() ||
         read.rows.size() != read.realization.size() * sums.steps ||
         read.surface.size() != read.realization.size() ||

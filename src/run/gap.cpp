@@ -27,8 +27,8 @@ void require_flow_memory(const Case& settings, double points) {
                points, 1e-9 * needed, 1e-9 * memory, side, side));
 }
 
-void measure_gap(const HeightMap& map, const Path& contact, Level& level, bool with_flow,
-                 std::vector<double>* flow) {
+void measure_gap(const HeightMap& map, const Path& contact, Level& level, const PdfBins& bins,
+                 bool with_flow, std::vector<double>* flow) {
     if (std::isnan(level.force)) return;  // there is no state
     FieldsAsked asked;
     asked.gap = true;
@@ -37,6 +37,7 @@ void measure_gap(const HeightMap& map, const Path& contact, Level& level, bool w
                   {{0, &level, contact.residual_profile(), contact.lasting_loads(level)}}, asked);
     const GapMap gap{map.nx, map.ny, map.dx, map.dy, fields.gap};
     add_gap(level, gap);
+    if (bins.gap_max > 0) level.gaps = count_gaps(gap, bins.bins, bins.gap_width());
     if (with_flow) add_permeability(level, gap, flow);
 }
 

@@ -14,10 +14,11 @@ bool has_gap(const Case& settings);
 // telling the size that it bears.
 void require_flow_memory(const Case& settings, double points);
 
-// Sets gap_mean, gap_mean_open and percolates of the last level of a contact with this map, and its
-// permeability if `with_flow`; `flow` as in permeability().
-void measure_gap(const HeightMap& map, const Path& contact, Level& level, bool with_flow,
-                 std::vector<double>* flow = nullptr);
+// Sets gap_mean, gap_mean_open and percolates of the last level of a contact with this map, the
+// counts of its gaps if the bins have a range of gaps, and its permeability if `with_flow`; `flow`
+// as in permeability().
+void measure_gap(const HeightMap& map, const Path& contact, Level& level, const PdfBins& bins,
+                 bool with_flow, std::vector<double>* flow = nullptr);
 
 // Says up to which levels the gap is open across the cell, and how a leak follows from K.
 void print_gap(std::ostream& out, std::span<const LevelValues> levels, const Job& job);

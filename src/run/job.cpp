@@ -348,7 +348,8 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         std::vector<double> flow;
         if (has_gap(settings))
             measure_gap(job.given_heights ? *job.given_heights : *r.heights, *contact, level,
-                        settings.output.flow, field && fields_asked(job).flow ? &flow : nullptr);
+                        job.observe.pdf, settings.output.flow,
+                        field && fields_asked(job).flow ? &flow : nullptr);
         if (field && !std::isnan(level.force)) {  // a level without a state has none
             const auto yielding = contact->asperities();
             fields.push_back(

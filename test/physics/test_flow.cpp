@@ -4,9 +4,12 @@
 #include "check.hpp"
 #include "physics/flow/dissection.hpp"
 #include "physics/flow/flow.hpp"
+#include "result_reader.hpp"
 #include "run/job.hpp"
+#include "run/run.hpp"
 #include "truth/flow.hpp"
 #include "unit/library.hpp"
+#include "unit/temporary_folder.hpp"
 
 using namespace rsc;
 
@@ -265,4 +268,46 @@ TEST(the_gap_of_a_level) {
     CHECK_RELATIVE(value(library.contact, "permeability_xx"), r.levels[1].permeability_xx, 1e-9);
     CHECK_RELATIVE(value(library.contact, "hydraulic_gap_y"), r.levels[1].hydraulic_gap_y, 1e-9);
     CHECK(value(library.contact, "percolates_x") == 1);
+}
+
+// The distribution at the level nearest to 1 sigma of each of three surfaces, from the stored gaps
+// of the first, and its sums over all.
+TEST(the_distribution_of_gaps) {
+    const Folder folder;
+    const auto solved = [&](int realizations, const char* fields) {
+        const std::string path = folder / (std::to_string(realizations) + ".nc");
+        const Case settings =
+            read_case_text(std::string(kFlats).substr(0, std::string(kFlats).find("&output")) +
+                               "&run realizations = " + std::to_string(realizations) +
+                               " /\n&output " + fields +
+                               " pdf_levels = 1.0, pdf_bins = 25, file = '" + path + "' /\n",
+                           "case")
+                .settings;
+        CHECK(run_case(settings, {.command = "rsc", .inputs = {}, .report = {}}) == 0);
+        return path;
+    };
+    const Reader one(solved(1, "fields = 'gap' field_levels = 0.01, 0.02, 0.3"));
+    const auto gap = one.values("field_gap");
+    const std::size_t points = gap.size() / 3;
+    const auto step = static_cast<std::size_t>(one.values("pdf_step")[0]) - 1;
+    const double width = 2 * one.values("gap_bin")[0];
+    std::vector<double> counts(26, 0.0);
+    for (std::size_t k = step * points; k < (step + 1) * points; ++k)
+        if (gap[k] > 0)
+            ++counts[std::min<std::size_t>(25, static_cast<std::size_t>(gap[k] / width))];
+    const double open = std::accumulate(counts.begin(), counts.end(), 0.0);
+    CHECK(one.numbers("gap_count", "overflow")[0] == counts.back());
+    counts.pop_back();
+    CHECK(one.values("gap_count") == counts);
+    for (std::size_t b = 0; b < counts.size(); ++b)
+        CHECK_RELATIVE(one.values("gap_pdf")[b], counts[b] / (open * width), 1e-12);
+    CHECK_RELATIVE(one.numbers("gap_pdf", "mean")[0], one.values("gap_mean_open")[step], 1e-12);
+
+    const Reader three(solved(3, ""));
+    double all = 0, sum = 0;
+    for (const double n : three.values("gap_count")) all += n;
+    for (std::size_t k = 0; k < 3; ++k)
+        sum += three.values("gap_mean")[k * 3 + step] * static_cast<double>(points);
+    all += three.numbers("gap_count", "overflow")[0];
+    CHECK_RELATIVE(three.numbers("gap_pdf", "mean")[0] * all, sum, 1e-12);
 }

@@ -124,6 +124,26 @@ class Tables(InFolder):
             rtol=1e-12,
         )
 
+    def test_geometric_means_of_open_gaps(self):
+        K = np.random.default_rng(4).uniform(1, 9, (5, 4, 3))
+        K[:, :, :2] *= [[[1, 1], [1, 0], [1, 1], [0, 0]]] * 5
+        K[3, 2, 0] = 0
+        path = result(self.folder, "seal", np.zeros((5, 4)), area=np.ones((5, 4)))
+        with netCDF4.Dataset(path, "a") as file:
+            file.createDimension("tensor_component", 3)
+            names = "realization", "step", "tensor_component"
+            file.createVariable("permeability", "f8", names)[:] = K
+        columns = table.Table(path).columns
+        x, y = columns["permeability_x"], columns["permeability_y"]
+        np.testing.assert_allclose(x[0], np.prod(K[:, 0, 0]) ** 0.2, rtol=1e-12)
+        np.testing.assert_allclose(x[2], np.prod(K[[0, 1, 2, 4], 2, 0]) ** 0.25, rtol=1e-12)
+        self.assertEqual([x[3], y[1]], [0, 0])
+        np.testing.assert_allclose(
+            columns["permeability_x_ln_stderr"][0],
+            np.log(K[:, 0, 0]).std(ddof=1) / np.sqrt(5),
+            rtol=1e-12,
+        )
+
     def test_what_is_printed(self):
         said = io.StringIO()
         with contextlib.redirect_stdout(said):

@@ -27,7 +27,6 @@ public:
 
     const Indenter& indenter() const override { return indenter_; }
     History* history() override { return this; }
-    double tolerance() const override { return 1e-9; }
     void move_tip(double, double) override {}
     double first_touch() const override { return kTop; }
     double shift() const override { return shift_; }
@@ -55,7 +54,6 @@ public:
         return 0.4 * std::pow(std::max(kTop - z_, 0.0), 2.5) + 0.5 * shift_ * N * N;
     }
     double force_at_most(double depth) override { return std::pow(depth, 1.5); }
-    std::size_t levels_since_move() const override { return 2; }
 
 private:
     void accept(Level& level) override {
@@ -72,7 +70,7 @@ private:
 // A path of a known model, which stays accessible.
 struct KnownPath {
     explicit KnownPath(double shift = 0, double wrong = 0)
-        : model(new Known(shift, wrong)), path(std::unique_ptr<Model>(model)) {}
+        : model(new Known(shift, wrong)), path(std::unique_ptr<Model>(model), 1e-9) {}
     Known* model;
     Path path;
 };

@@ -47,7 +47,7 @@ TEST(observed) {
           a.radial_pressure == b.radial_pressure);
     CHECK(a.distributions[0].pressure_pdf == b.distributions[0].pressure_pdf &&
           both.converged()[0] == 1);
-    CHECK(*std::max_element(b.map_pressure.begin(), b.map_pressure.end()) > 0);
+    CHECK(std::ranges::max(b.map_pressure.value) > 0);
 }
 
 // What each spot has for itself adds up to the union; of two in one place one has all.

@@ -31,7 +31,6 @@ public:
         return {std::shared_ptr<void>(), &path_->asperities};
     }
     History* history() override { return this; }
-    double tolerance() const override { return path_->options.tolerance; }
     void forget() override {
         path_ = path_at(path_->indenter.x0, path_->indenter.y0);
         slope_ = energy_ = 0, fresh_ = false;
@@ -48,7 +47,7 @@ public:
     double force_at_most(double) override { return 0; }
 
 private:
-    bool attracts() const override { return true; }
+    double attraction() const override { return path_->options.adhesion.range; }
     void accept(Level&) override {
         path_->accepted = path_->now;
         path_->accepted.jumps = 0;
@@ -136,7 +135,7 @@ std::optional<Level> AdhesiveAsperities::solve_under(double N) {
     my.thin = false;
     const bool anything = my.begin(-kInfinity);
     if (my.lost_way) return report();
-    if (anything && std::abs(my.here.force - N) > 0.1 * tolerance() * std::abs(N)) {
+    if (anything && std::abs(my.here.force - N) > 0.1 * my.options.tolerance * std::abs(N)) {
         const bool down = my.here.force < N && !(my.active.empty() && N < 0);
         if (!my.go(down ? -1e300 : 1e300, N) || my.lost_way) {
             if (my.lost_way) return report();

@@ -1,9 +1,6 @@
 #include "physics/adhesion/adhesive_elements.hpp"
 
-#include <boost/math/tools/toms748_solve.hpp>
-
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "physics/adhesion/adhesive_pixels.hpp"
 
 namespace rsc {
@@ -28,17 +25,15 @@ public:
     double first_touch() const override { return state_.top; }
     const Indenter& indenter() const override { return state_.indenter; }
     History* history() override { return this; }
-    double tolerance() const override { return state_.options.tolerance; }
     void move_tip(double x0, double y0) override { state_.move(x0, y0); }
     void forget() override { state_.forget(); }
-    Level solve(double Z0, bool) override { return state_.solve(Z0); }
+    Level solve(double Z0, bool trial) override { return state_.solve(Z0, trial); }
     void solve_again(double, const Level&) override {}  // read() has
     double closed() const override { return state_.flats ? state_.flats->closed() : -kInfinity; }
     double force_at_most(double) override { return 0; }
-    std::optional<Level> solve_under(double N) override;
 
 private:
-    bool attracts() const override { return true; }
+    double attraction() const override { return state_.z0; }
     void accept(Level&) override {
         state_.accepted = state_.now;
         state_.accepted.jumps = 0;
@@ -81,7 +76,7 @@ private:
         }
         state_.accepted = std::move(past);
         if (state_.accepted.separation < kInfinity &&
-            !state_.solve(state_.accepted.separation).converged)
+            !state_.solve(state_.accepted.separation, false).converged)
             throw Error(
                 Failure::bad_input,
                 "the state of the contact cannot be reached again: the solver does not converge");
@@ -90,70 +85,6 @@ private:
 
     AdhesivePixels state_;
 };
-
-std::optional<Level> AdhesiveElements::solve_under(double N) {
-    std::int32_t iterations = 0;
-    std::int64_t products = 0;
-    Level level;
-    const auto look = [&](double Z) {
-        level = state_.step(Z);
-        iterations += level.iterations, products += level.products;
-        return !level.converged ? std::numeric_limits<double>::quiet_NaN() : level.force - N;
-    };
-    // Near N = 0 the force is the difference of pressure and attraction, and no more exact than
-    // these.
-    const auto precise = [&](double miss) {
-        return std::abs(miss) <=
-               tolerance() * std::max(std::abs(N), state_.s0 * (level.area + level.cohesive_area));
-    };
-    double Z = state_.accepted.separation < kInfinity ? state_.accepted.separation
-                                                      : state_.top + state_.z0,
-           miss = look(Z);
-    const double way = miss < 0 ? -1 : 1;
-    double before = Z, before_miss = miss, least = level.force, least_at = Z,
-           step = 0.25 * state_.z0;
-    constexpr int most = 400;
-    const double lowest = closed() + 1e-6 * state_.z0;  // nearly full contact
-    bool found = precise(miss);
-    for (int i = 0; i < most && !found && miss * before_miss > 0; ++i) {
-        if (way > 0 && state_.now.attracting.empty()) break;  // no attraction is left
-        before = Z, before_miss = miss;
-        Z = std::max(Z + way * step, lowest);
-        step *= 1.4;
-        miss = look(Z);
-        if (Z == lowest && miss < 0) {
-            const double area = state_.heights.Lx() * state_.heights.Ly();
-            throw Error(Failure::bad_input, format("a nominal pressure of %.9g is above that "
-                                                   "of full contact on this surface, %.4g",
-                                                   N / area, level.force / area));
-        }
-        if (level.converged && level.force < least) least = level.force, least_at = Z;
-        found = precise(miss);
-    }
-    if (!found && miss * before_miss < 0) {
-        std::uintmax_t steps = 100;
-        const auto exact =
-            [&](double
-                    // ends at the first level that is precise: a second one from another start
-                    // may not be
-                    z) {
-                if (!found) miss = look(z), found = precise(miss);
-                return found ? 0.0 : miss;
-            };
-        const bool rising = Z > before;
-        const auto [low, high] = boost::math::tools::toms748_solve(
-            exact, rising ? before : Z, rising ? Z : before, rising ? before_miss : miss,
-            rising ? miss : before_miss, boost::math::tools::eps_tolerance<double>(50), steps);
-        if (!found) found = precise(look(0.5 * (low + high)));
-    }
-    if (!found) {
-        (void)look(least_at);
-        if (level.converged) level.fallback = Fallback::held;
-        level.converged = false;
-    }
-    level.iterations = iterations, level.products = products;
-    return level;
-}
 
 }  // namespace
 

@@ -32,10 +32,6 @@ void require_resolved(double range, double step);
 //                 uncertain, mostly by a jump (stiffness() does not help: sets of attracting points
 //                 change within the step)
 //   stiffness()   dN/dZ0 for fixed attracting points
-//   at_force(N)   searches a separation with the force, towards the surface if it is larger than
-//   the present force, otherwise away. If there
-//                 is none, the level is that of the smallest force found, with Fallback::held.
-//                 These steps are not divided
 //   move_tip()    follows the state along the straight (on a surface that repeats, the shortest)
 //   way of the tip at the last separation, in
 //                 pieces of at most a quarter of a pixel; the work of a piece is that of the mean

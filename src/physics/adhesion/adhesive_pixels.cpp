@@ -87,6 +87,7 @@ void AdhesivePixels::set_clearances() {
 // No level, and no point attracts.
 void AdhesivePixels::forget() {
     accepted = {};
+    tried.reset();
     margin = bulged = 0;
     for (std::vector<double>* values : {&q, &gap_before, &p_before})
         values->assign(clearance.size(), 0.0);
@@ -264,8 +265,16 @@ double AdhesivePixels::work_error() const {
 
 // In as many steps as the work needs. The error of a step falls with the third power of its length,
 // but in proportion to it if there is a jump.
-Level AdhesivePixels::solve(double Z) {
-    Level level = step(Z);
+Level AdhesivePixels::solve(double Z, bool trial) {
+    std::optional<Level> done = std::exchange(tried, std::nullopt);
+    const bool completes = !trial && done && done->separation == Z;
+    Level level = completes ? std::move(*done) : step(Z);
+    if (completes) level.iterations = 0, level.products = 0;
+    if (trial) {
+        tried = level;
+        level.provisional = true;
+        return level;
+    }
     const double shortest = kShortest * std::abs(Z - accepted.separation);
     const auto pieces = [&] {
         const double most =
@@ -341,6 +350,7 @@ std::int32_t AdhesivePixels::count_jumps() const {
 
 // Stores gaps and pressures of the last level, the accepted one.
 void AdhesivePixels::keep() {
+    tried.reset();
     gap_before = gap;
     p_before.resize(gap.size());
     for (std::size_t i = 0; i < gap.size(); ++i) p_before[i] = pressure(i);
@@ -394,7 +404,7 @@ void AdhesivePixels::move(double x0, double y0) {
     } catch (...) {
         indenter = from, accepted = before, gap_before = gaps, p_before = pressures;
         set_clearances();
-        if (before.separation < kInfinity) (void)solve(before.separation);
+        if (before.separation < kInfinity) (void)solve(before.separation, false);
         throw;
     }
 }
@@ -415,7 +425,7 @@ void AdhesivePixels::follow() {
             throw Error(Failure::bad_input,
                         "a body with an edge cannot be moved while points attract near its edge: "
                         "pull it off first");
-    const Level level = solve(accepted.separation);
+    const Level level = solve(accepted.separation, false);
     if (!level.converged)
         throw Error(Failure::not_converged,
                     "the path of the attracting points to the new position of the tip is lost; the "

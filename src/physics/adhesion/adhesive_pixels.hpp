@@ -61,7 +61,8 @@ struct AdhesivePixels : CutMap {
     Level step(double Z);
     double dissipated(std::size_t i) const;
     double work_error() const;
-    Level solve(double Z);
+    Level solve(double Z, bool trial);
+    std::optional<Level> tried;  // the present state is that of a trial from the accepted one
 };
 
 }  // namespace rsc

@@ -24,6 +24,19 @@ void add_gap(LevelValues& level, const GapMap& map) {
     level.percolates_y = openings.any_winds_y() ? 1 : 0;
 }
 
+GapCounts count_gaps(const GapMap& map, int bins, double width) {
+    GapCounts counts;
+    counts.of_bin.assign(static_cast<std::size_t>(bins), 0);
+    for (const double g : map.gap) {
+        if (!(g > 0)) continue;
+        const double position = g / width;
+        ++(position < bins ? counts.of_bin[static_cast<std::size_t>(position)] : counts.beyond);
+        double power = 1;
+        for (double& sum : counts.power) sum += power *= g;
+    }
+    return counts;
+}
+
 void add_permeability(LevelValues& level, const GapMap& map, std::vector<double>* flow) {
     const Permeability k = permeability(map, flow);
     level.permeability_xx = k.xx;

@@ -6,6 +6,12 @@
 
 #ifdef RSC_CHOLMOD
 #include <cholmod.h>
+
+// OpenBLAS's, whose sums depend on its number of threads, and OpenMP's, which only CHOLMOD uses.
+extern "C" int openblas_get_num_threads() __attribute__((weak));
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+extern "C" int omp_get_max_active_levels() __attribute__((weak));
+extern "C" void omp_set_max_active_levels(int) __attribute__((weak));
 #endif
 
 namespace rsc {
@@ -110,16 +116,42 @@ std::vector<std::uint8_t> carrying(const GapMap& map, const Conductances& conduc
     return used;
 }
 
+// While one exists OpenBLAS has one thread, so that results do not depend on their number, and this
+// thread's loops of CHOLMOD are not shared among threads: they are so short that four take a
+// quarter longer than one.
+class OneThread {
+public:
+    OneThread() {
+        const std::lock_guard lock(mutex_);
+        if (users_++ == 0 && openblas_get_num_threads && openblas_set_num_threads) {
+            blas_threads_ = openblas_get_num_threads();
+            openblas_set_num_threads(1);
+        }
+        if (!omp_get_max_active_levels || !omp_set_max_active_levels) return;
+        levels_ = omp_get_max_active_levels();
+        omp_set_max_active_levels(0);
+    }
+    ~OneThread() {
+        const std::lock_guard lock(mutex_);
+        if (levels_) omp_set_max_active_levels(*levels_);
+        if (--users_ == 0 && blas_threads_ > 0) openblas_set_num_threads(blas_threads_);
+    }
+    OneThread(const OneThread&) = delete;
+    OneThread& operator=(const OneThread&) = delete;
+
+private:
+    inline static std::mutex mutex_;
+    inline static int users_ = 0, blas_threads_ = 0;
+    std::optional<int> levels_;
+};
+
 // CHOLMOD's settings and memory.
 struct Cholmod {
     Cholmod() {
         cholmod_l_start(&common);
         common.print = 0;
-        // The order with fewer numbers in the factor: that of the matrix, which is the order of
-        // dissection and good for open gaps, or that of minimum degree, for gaps full of contacts.
-        common.nmethods = 2;
+        common.nmethods = 1;  // the matrix has the order of dissection()
         common.method[0].ordering = CHOLMOD_NATURAL;
-        common.method[1].ordering = CHOLMOD_AMD;
         common.supernodal = CHOLMOD_SUPERNODAL;
         common.try_catch = 1;
     }
@@ -134,6 +166,7 @@ struct Cholmod {
         if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE)
             throw Error(Failure::no_memory, "out of memory for the permeability of the gap");
     }
+    OneThread one_thread;
     cholmod_common common{};
     cholmod_sparse* matrix = nullptr;
     cholmod_factor* factor = nullptr;
@@ -252,8 +285,12 @@ private:
         return error;
     }
 
-    // Lower triangle by columns. One point of each set is tied to 0: its equation gets its diagonal
-    // a second time, and as the right sides of a set add up to 0 its pressure is 0.
+    struct Tie {
+        SuiteSparse_long entry = 0;
+        double diagonal = 0;
+    };
+    // Lower triangle by columns. The widest point of each set is tied to 0: its equation gets its
+    // diagonal a second time, and as the right sides of a set add up to 0 its pressure is 0.
     void assemble(Openings& openings) {
         const std::size_t n = order_.size();
         cholmod_common& common = cholmod_.common;
@@ -263,9 +300,7 @@ private:
         auto* start = static_cast<SuiteSparse_long*>(cholmod_.matrix->p);
         auto* row = static_cast<SuiteSparse_long*>(cholmod_.matrix->i);
         auto* value = static_cast<double*>(cholmod_.matrix->x);
-        std::vector<std::uint32_t> last(map_.points(), kNone);  // of each set
-        for (std::size_t p = 0; p < n; ++p)
-            last[openings.root(order_[p])] = static_cast<std::uint32_t>(p);
+        std::map<std::size_t, Tie> ties;  // of each set
         SuiteSparse_long at = 0;
         for (std::size_t p = 0; p < n; ++p) {
             start[p] = at;
@@ -276,11 +311,14 @@ private:
             const double diagonal = c[0] + c[1] + c[2] + c[3];
             const SuiteSparse_long own = at++;
             row[own] = static_cast<SuiteSparse_long>(p);
-            value[own] = last[openings.root(k)] == p ? 2 * diagonal : diagonal;
+            value[own] = diagonal;
+            Tie& tie = ties[openings.root(k)];
+            if (diagonal > tie.diagonal) tie = {own, diagonal};
             for (std::size_t side = 0; side < 4; ++side)
                 add_link(p, place_[near[side]], c[side], own, at);
         }
         start[n] = at;
+        for (const auto& [root, tie] : ties) value[tie.entry] += tie.diagonal;
         cholmod_l_sort(cholmod_.matrix, &common);
         cholmod_.require_memory();
     }
