@@ -482,7 +482,7 @@ private:
         if (std::ranges::count(o.fields, static_cast<double>(Field::traction)) == 0) return;
         require(c_.solids.friction > 0, {"output%fields", "solids%friction"},
                 "'traction' needs solids%friction > 0");
-        require(elements_, {"output%fields", "solver%model"},
+        require(elements_ || !(c_.solids.friction > 0), {"output%fields", "solver%model"},
                 "'traction' is for elements; of asperities the picture `stick` shows the spots");
     }
 

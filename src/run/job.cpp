@@ -151,7 +151,7 @@ FieldsAsked fields_asked(const Job& job) {
     asked.traction = has(Field::traction);
     asked.friction = settings.solids.friction;
     asked.depths = job.observe.stress_depths;
-    asked.body = stressed_body(settings);
+    asked.body = stressed_body(job);
     if (w[0]) asked.window = {*w[0], *w[1], *w[2], *w[3]};
     return asked;
 }

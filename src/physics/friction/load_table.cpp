@@ -23,7 +23,7 @@ void LoadTable::compute(double delta) {
 void LoadTable::prepare(double delta) {
     const double touch = first_touch();
     if (!(delta > touch)) return;
-    constexpr int parts = 8;
+    constexpr int parts = 6;
     constexpr int most = 64;  // levels of a refinement
     if (!nodes_.contains(delta)) compute(delta);
     const double widest = std::sqrt(delta - touch) / parts;

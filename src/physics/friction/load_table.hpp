@@ -9,8 +9,8 @@ namespace rsc {
 
 // The energy W(delta) is interpolated by polynomials of degree 5 that have the energies, loads N =
 // dW/ddelta and stiffnesses dN/ddelta of the levels. Levels are about evenly spaced in the root of
-// the depth below first touch, eight or more to the deepest; for a Hertz contact the load between
-// them is then exact to 3e-5 of the largest. Where loads interpolated by degree 3 differ from those
+// the depth below first touch, six or more to the deepest; for a Hertz contact the load between
+// them is then exact to 7e-5 of the largest. Where loads interpolated by degree 3 differ from those
 // of degree 5 by more than kCoarse of the largest load, for example where contacts begin, further
 // levels are computed.
 class LoadTable final : public LoadCurve {
