@@ -22,6 +22,8 @@ constexpr LevelQuantity kQuantities[] = {
      .always = false, .statistics = true, .plain = "pressure", .heading = "p", .width = 14, .digits = 6},
     {.name = "area_fraction", .member = &V::area_fraction, .meaning = "ratio of true to nominal contact area of two flats, A/A0",
      .always = false, .statistics = true, .plain = "area fraction", .heading = "A/A0", .width = 10, .digits = 6},
+    {.name = "force_per_length", .member = &V::force_per_length, .length_power = -1, .force_power = 1, .meaning = "force per length of a line contact, N/L",
+     .always = false, .statistics = true, .plain = "force per length", .heading = "N/L", .width = 14, .digits = 6},
     {.name = "gap_mean", .member = &V::gap_mean, .length_power = 1, .meaning = "mean gap between two flats",
      .comment = "boundary elements, over the whole cell; 0 where the bodies touch", .always = false, .statistics = true, .of_flow = true,
      .plain = "mean gap", .heading = "gap", .width = 11, .digits = 5},
