@@ -21,12 +21,12 @@ constexpr double kMuchFilled = 0.01;
 // N of elements was 1 to 3.4 % too low.
 constexpr double kScattered = 0.15;
 
-// Elements with adhesion. Smallest ratio of the range to the side of a pixel. Error of N, relative
-// to the force of the traction s0 on all points that attract, times z0/h: edges are resolved to a
-// pixel only, and errors of separate contacts cancel on average (measured: test/README). Error of
-// A: of w on the area, times h over the length E* z0^2/w in which the traction acts, and of edges,
+// Elements with adhesion. Smallest cohesive resolution. Error of N, relative to the force of the
+// attraction, times this resolution: edges are resolved to a pixel only, and errors of separate
+// contacts cancel on average (measured on smooth spheres, Maugis's lambda 1 and 2, resolution 1 to
+// 8: 0.15 to 0.45; test/README). Error of A: of w on the area, times the inverse of this resolution, and of edges,
 // times h over the radius.
-constexpr double kResolved = 2, kEdgeError = 0.13, kWorkError = 1.0, kRadiusError = 0.8;
+constexpr double kResolved = 4, kEdgeError = 0.45, kWorkError = 0.8, kRadiusError = 0.8;
 
 bool known_shape(const Indenter& indenter) {
     const std::string_view name = indenter.shape->name();
@@ -71,16 +71,22 @@ Doubt edges_of_adhesion(const Level& level, const Indenter& indenter, const Heig
                         bool read, const SolverOptions& options) {
     Doubt doubt{Cause::grid};
     if (level.force == 0) return doubt;
-    const double traction = options.adhesion.work / options.adhesion.range,
-                 pulled = traction * (level.area + level.cohesive_area),
+    const double w = options.adhesion.work,
+                 pulled = w / options.adhesion.range * (level.area + level.cohesive_area),
                  contacts = std::max(level.contacts, 1);
-    double dN = kEdgeError / level.cohesive_resolution * pulled / std::sqrt(contacts);
+    // The force of the attraction is that of the traction on all points that attract, or that of
+    // separate contacts in the limit of JKR, sqrt(8 pi w E* a^3), if that is less.
+    double limit = 0;
+    for (const double a : level.a)
+        limit += std::sqrt(8 * std::numbers::pi * w * indenter.E_star * a * a * a);
+    const double attraction = level.contacts > 0 ? std::min(pulled, limit) : pulled;
+    double dN = kEdgeError / level.cohesive_resolution * attraction / std::sqrt(contacts);
     if (level.contacts > 0) {
         const GridError few = error_of_pixels(level, indenter, std::max(map.dx, map.dy), read);
         dN += few.force * std::max(level.force + pulled, 0.0);
         doubt.area =
             few.area +
-            (kWorkError * traction / (indenter.E_star * level.cohesive_resolution) +
+            (kWorkError / level.cohesive_resolution +
              kRadiusError * std::sqrt(std::numbers::pi * map.dx * map.dy * contacts / level.area)) /
                 std::sqrt(contacts);
     }
