@@ -21,12 +21,12 @@ constexpr double kMuchFilled = 0.01;
 // N of elements was 1 to 3.4 % too low.
 constexpr double kScattered = 0.15;
 
-// Elements with adhesion. Smallest cohesive resolution. Error of N, relative to the force of the
-// attraction, times this resolution: edges are resolved to a pixel only, and errors of separate
-// contacts cancel on average (measured on smooth spheres, Maugis's lambda 1 and 2, resolution 1 to
-// 8: 0.15 to 0.45; test/README). Error of A: of w on the area, times the inverse of this resolution, and of edges,
-// times h over the radius.
-constexpr double kResolved = 4, kEdgeError = 0.45, kWorkError = 0.8, kRadiusError = 0.8;
+// Elements with adhesion. Smallest cohesive resolution. Error of N over the force of the traction s0
+// on a strip of one pixel along the edge of what attracts: edges are resolved to a pixel only, and
+// errors of separate contacts cancel on average (measured on smooth spheres: 0.25 to 1.05 for
+// Maugis's lambda from 0.3 to 4; test/README). Error of A: of w on the area, times the inverse of
+// the resolution, and of edges, times h over the radius.
+constexpr double kResolved = 4, kEdgeError = 1.1, kWorkError = 0.8, kRadiusError = 0.8;
 
 bool known_shape(const Indenter& indenter) {
     const std::string_view name = indenter.shape->name();
@@ -71,16 +71,12 @@ Doubt edges_of_adhesion(const Level& level, const Indenter& indenter, const Heig
                         bool read, const SolverOptions& options) {
     Doubt doubt{Cause::grid};
     if (level.force == 0) return doubt;
-    const double w = options.adhesion.work,
-                 pulled = w / options.adhesion.range * (level.area + level.cohesive_area),
+    const double traction = options.adhesion.work / options.adhesion.range,
+                 attracting = level.area + level.cohesive_area, pulled = traction * attracting,
                  contacts = std::max(level.contacts, 1);
-    // The force of the attraction is that of the traction on all points that attract, or that of
-    // separate contacts in the limit of JKR, sqrt(8 pi w E* a^3), if that is less.
-    double limit = 0;
-    for (const double a : level.a)
-        limit += std::sqrt(8 * std::numbers::pi * w * indenter.E_star * a * a * a);
-    const double attraction = level.contacts > 0 ? std::min(pulled, limit) : pulled;
-    double dN = kEdgeError / level.cohesive_resolution * attraction / std::sqrt(contacts);
+    // Of n equal contacts the edges are longer by sqrt(n), and their errors cancel as much.
+    double dN = kEdgeError * traction * std::max(map.dx, map.dy) * 2 *
+                std::sqrt(std::numbers::pi * attracting);
     if (level.contacts > 0) {
         const GridError few = error_of_pixels(level, indenter, std::max(map.dx, map.dy), read);
         dN += few.force * std::max(level.force + pulled, 0.0);
