@@ -91,7 +91,7 @@ struct LevelValues {
     // area of the points that attract without contact [length^2]
     double cohesive_area = kNotComputed;
     double cohesive_resolution =
-        kNotComputed;  // boundary elements: ratio of z0 to the side of a pixel
+        kNotComputed;  // boundary elements: cohesive length over the side of a pixel
     // Two flats by elements: the gap (physics/flow/flow.hpp).
     double gap_mean = kNotComputed;       // over the whole cell [length]
     double gap_mean_open = kNotComputed;  // where the bodies do not touch [length]

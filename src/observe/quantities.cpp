@@ -119,8 +119,8 @@ constexpr LevelQuantity kQuantities[] = {
     {.name = "cohesive_area", .member = &V::cohesive_area, .length_power = 2,
      .meaning = "area that attracts without touching",
      .comment = "adhesion with a range: gaps above 0 and below adhesion_range", .always = false},
-    {.name = "cohesive_resolution", .member = &V::cohesive_resolution, .meaning = "ratio of adhesion_range to the side of a pixel",
-     .comment = "boundary elements: the error of the pull-off force is of first order in its inverse; 2 or more is wanted", .always = false},
+    {.name = "cohesive_resolution", .member = &V::cohesive_resolution, .meaning = "length over which the attraction acts at edges of contact, (pi/4) E* adhesion_range^2/adhesion, over the side of a pixel",
+     .comment = "boundary elements: the error of the pull-off force is of first order in its inverse; 4 or more is wanted", .always = false},
     {.name = "extreme_area_fraction", .member = &V::extreme_area_fraction,
      .meaning = "share of the contact area with a mean pressure above E*/10",
      .comment = "of contacts; boundary elements: of pixels. No metal is elastic at such pressures: solids%hardness "

@@ -252,7 +252,7 @@ Job prepare(const Case& settings) {
             job.given_heights ? std::max(job.given_heights->dx, job.given_heights->dy)
             : job.spectrum    ? job.spectrum->L / element_points(settings, *job.spectrum)
                               : 0.0;
-        require_resolved(settings.solids.adhesion_range, side);
+        require_resolved(job.indenter.E_star, job.solver.adhesion, side);
     }
     if (settings.output.flow)
         require_flow_memory(settings,

@@ -217,22 +217,7 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
             "  adhesion: the smallest force is %.4g %s; jumps: %ld, energy lost: %.4g %s %s%s. "
             "Levels depend on the levels before.\n",
             least, f, jumps, lost, f, l, how.c_str());
-    if (const double fine = levels.back().cohesive_resolution; fine < 2)
-        out << format(
-            "  adhesion_range is %.2g pixel sides (cohesive_resolution): below 2 the pull-off "
-            "force is about 5 to 10 %% too high.\n",
-            fine);
-    // The length in which the traction acts at an edge of a contact, E* z0^2/w, in pixel sides
-    // (measured: test/README).
-    if (const double zone = levels.back().cohesive_resolution * job.indenter.E_star *
-                            c.solids.adhesion_range / c.solids.adhesion;
-        zone < 8)
-        out << format(
-            "  adhesion acts across %.2g pixel sides at edges of contact, E* "
-            "adhesion_range^2/adhesion: below 8 the pull-off force may be more "
-            "than 10 %% too high, and edges that advance lag behind.\n",
-            zone);
-    // Tabor's parameter is this length over the range of the attraction; JKR holds from 5 on.
+    // JKR holds from a Tabor parameter of 5 on.
     const auto reach = [&](double radius) {
         return std::cbrt(radius * std::pow(c.solids.adhesion / job.indenter.E_star, 2));
     };

@@ -22,8 +22,9 @@ std::string sentence(Cause cause, bool elements) {
         case Cause::layer:
             return "contacts with a > h/5, where h is the thickness of the top layer";
         case Cause::adhesion_range:
-            return "the range of the attraction is less than two pixels (cohesive_resolution): "
-                   "the pull-off force is too high";
+            return "the attraction at edges of contact acts across less than four pixels "
+                   "(cohesive_resolution): the pull-off force is too high; use more points or a "
+                   "larger adhesion_range";
         case Cause::outside_calibration:
             return "nothing of this kind was compared with elements, so that no error is stated";
         case Cause::missed_contact:
