@@ -58,7 +58,9 @@ RESOLVED = 0.02  # change of N with the grid of elements
 FITTED_SHARE = (
     0.94  # share of fitted levels within the bound, so that nine of ten of the others are
 )
-READ = ("anisotropic", "skewed", "ground", "stepped", "pitted", "measured")
+# kinds of heights from files: with a lay, skewed, with steps or pits, measured
+KINDS = (("anisotropic", "ground"), ("skewed",), ("stepped", "pitted"), ("measured",))
+READ = sum(KINDS, ())
 # from this number on ground surfaces: with a lay and skewed; fitted up to the second
 GROUND, GROUND_FITTED = 2200, 2250
 E_STAR = 1.0e5
@@ -559,7 +561,7 @@ def fitted(r):
 
 class Table:
     """Bounds of the errors of N and A of a law: quantiles of the fitted levels by contact radius, on isotropic Gaussian surfaces without
-    yielding, and one factor each for other heights and for yielding contacts."""
+    yielding, and one factor each for other heights, the largest of their kinds, and for yielding contacts."""
 
     def __init__(self, levels, edges):
         self.edges = edges
@@ -580,7 +582,11 @@ class Table:
                     )
                 ),
             )
-            self.of_files[what] = ratio([r for r in levels if file(r) and not yields(r)])
+            self.of_files[what] = max(
+                ratio(some)
+                for kind in KINDS
+                if (some := [r for r in levels if r["group"] in kind and not yields(r)])
+            )
             self.of_yielding[what] = ratio([r for r in levels if yields(r) and not file(r)])
 
     def bin(self, r):

@@ -6,9 +6,9 @@
 namespace rsc {
 namespace {
 
-// A larger expected error of N of asperities, or with adhesion, is a doubt. Under a prescribed force
-// N of elements is not in doubt; the error of the separation is, above kUnresolved times the rms
-// height, and this one of the area.
+// A larger expected error of N of asperities, or with adhesion, is a doubt. Under a prescribed
+// force N of elements is not in doubt; the error of the separation is, above kUnresolved times the
+// rms height, and this one of the area.
 constexpr double kMuchError = 0.1;
 
 // Asperities: largest slope_ratio. Above, the bodies touch beside the summits.
@@ -21,8 +21,8 @@ constexpr double kMuchFilled = 0.01;
 // N of elements was 1 to 3.4 % too low.
 constexpr double kScattered = 0.15;
 
-// Elements with adhesion. Smallest cohesive resolution. Error of N over the force of the traction s0
-// on a strip of one pixel along the edge of what attracts: edges are resolved to a pixel only, and
+// Elements with adhesion. Smallest cohesive resolution. Error of N over the force of the traction
+// s0 on a strip of one pixel along the edge of what attracts: edges are resolved to a pixel only, and
 // errors of separate contacts cancel on average (measured on smooth spheres: 0.25 to 1.05 for
 // Maugis's lambda from 0.3 to 4; test/README). Error of A: of w on the area, times the inverse of
 // the resolution, and of edges, times h over the radius.
@@ -33,8 +33,8 @@ bool known_shape(const Indenter& indenter) {
     return name == "sphere" || name == "paraboloid" || indenter.shape->flat();
 }
 
-// What the study of asperities against elements (input/trust) contains: no flats other than isotropic
-// Gaussian ones.
+// What the study of asperities against elements (input/trust) contains: no flats other than
+// isotropic Gaussian ones.
 bool calibrated(const Level& level, const Path& contact, const SolverOptions& options) {
     const bool yields = std::isfinite(options.hardness.H0);
     const std::vector<double> depths = contact.residual_depths();

@@ -100,9 +100,9 @@ TEST(auto_model) {
     CHECK(elements(layered));
 
     // What only asperities have keeps them.
-    Case rubbing = ball(1e-4, 10);
-    rubbing.solids.friction = 0.2;
-    CHECK(!elements(rubbing));
+    Case yielding = ball(1e-4, 10);
+    yielding.solids.hardness = 3e3, yielding.solids.size_effect = 1e-3;
+    CHECK(!elements(yielding));
 }
 
 }  // namespace
