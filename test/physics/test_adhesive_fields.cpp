@@ -1,9 +1,9 @@
 // Deflections and fields of contacts with adhesion, and fields of elliptic spots
 // (contact/deflection.hpp, observe/fields.hpp).
 #include "adhesive_paths.hpp"
-#include "contact/make.hpp"
 #include "check.hpp"
 #include "contact/deflection.hpp"
+#include "contact/make.hpp"
 #include "height_maps.hpp"
 #include "observe/fields.hpp"
 
@@ -198,8 +198,9 @@ TEST(test_element_fields) {
         for (const double Z : {0.11, 0.09, 0.1}) {
             const Level level = contact->at_separation(Z);
             CHECK(level.converged);
-            const Fields f = fields_of(map, tip, Interaction::point, {{0, &level, {}}},
-                                       {true, true, true, false, false, {{0, 1, 0, 1}}});
+            const Fields f = fields_of(
+                map, tip, Interaction::point, {{0, &level, {}}},
+                {.pressure = true, .gap = true, .contact = true, .window = {{0, 1, 0, 1}}});
             double force = 0, cohesive = 0;
             for (std::size_t k = 0; k < f.pressure.size(); ++k) {
                 const double p = f.pressure[k], g = f.gap[k], area = step * step;
