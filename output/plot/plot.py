@@ -27,6 +27,7 @@ import plot_curves
 import plot_distributions
 import plot_flats
 import plot_friction
+import plot_line
 import plot_map
 import plot_radial
 import plot_seal
@@ -49,6 +50,7 @@ PICTURES = {
     "study": plot_study.study,
     "map": plot_map.maps,
     "radial": plot_radial.radial,
+    "line": plot_line.line,
     "spots": plot_spots.spots,
     "compare": plot_compare.compare,
     "distributions": plot_distributions.distributions,

@@ -19,8 +19,9 @@ enum class TwinHeights { gaussian, measured };
 inline constexpr std::array kTwinHeightsNames = {"gaussian", "measured"};
 enum class Source { synthetic, heights, asperities, spectrum };
 inline constexpr std::array kSourceNames = {"synthetic", "heights", "asperities", "spectrum"};
-enum class Boundary { free, periodic };
-inline constexpr std::array kBoundaryNames = {"free", "periodic"};
+// periodic_x, periodic_y: line contact; the surface repeats along this axis only.
+enum class Boundary { free, periodic, periodic_x, periodic_y };
+inline constexpr std::array kBoundaryNames = {"free", "periodic", "periodic_x", "periodic_y"};
 enum class Control { separation, force, pressure };
 inline constexpr std::array kControlNames = {"separation", "force", "pressure"};
 enum class LevelUnit { sigma, length, relative, pressure };
@@ -93,6 +94,9 @@ struct Case {
     } indenter;
     struct Indentation {
         Boundary boundary = Boundary::free;
+        bool line() const {
+            return boundary == Boundary::periodic_x || boundary == Boundary::periodic_y;
+        }
         Control control = Control::separation;
         double start = 4.0, stop = 1.0;
         int steps = 100;
@@ -151,7 +155,7 @@ Spectrum self_affine_spectrum(const Case& settings);
 // The model that solves this case: solver%model, or the choice of 'auto' with its reason
 // (model_choice.cpp).
 struct ModelChoice {
-    ModelKind model;           // asperities or elements
+    ModelKind model;       // asperities or elements
     const char* why = "";  // of `auto`, for the screen
 };
 ModelChoice model_of(const Case& settings);

@@ -93,6 +93,8 @@ const char* why_elements(const Case& c) {
     const std::optional<double> R = radius_of(c);
     if (!R) return "asperities hold under spheres, paraboloids and flats only";
     const Spectrum spectrum = self_affine_spectrum(c);
+    if (spectrum.directional() || !spectrum.gaussian())
+        return "the asperities of a surface that has a lay, or is not Gaussian, are no spheres";
     const Moments moments = theoretical_moments(spectrum);
     const double density = moments.summit_density();
     // A contact of asperities may be as wide as a quarter of their mean spacing, and a fifth of the
@@ -120,7 +122,6 @@ const char* why_asperities(const Case& c) {
         {c.compare.listed(), "compare%levels compares them with elements"},
         {c.solids.adhesion > 0 && !(c.solids.adhesion_range > 0),
          "solids%adhesion without adhesion_range needs them"},
-        {c.solids.friction > 0, "solids%friction needs them"},
         {c.solids.hardness < Case::kInfinity && c.solids.size_effect > 0,
          "solids%size_effect needs them"},
         {c.asperities.law != LawKind::hertz || c.asperities.curvature != Curvature::geometric,
@@ -148,6 +149,7 @@ Spectrum self_affine_spectrum(const Case& settings) {
 
 ModelChoice model_of(const Case& c) {
     if (c.solver.model != ModelKind::automatic) return {c.solver.model};
+    if (c.indentation.line()) return {ModelKind::elements, "line contact needs them"};
     if (const char* why = why_asperities(c); *why) return {ModelKind::asperities, why};
     if (c.surface.source == Source::heights)
         return {ModelKind::elements, "the heights are read from a file"};

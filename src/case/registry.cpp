@@ -230,8 +230,8 @@ std::vector<Key> make_registry() {
                "contact law of asperities: hertz: a sphere at a grid point (the paper's); "
                "elliptic: an elliptic paraboloid at the summit between the "
                "points; fourth_order: the paraboloid corrected by the fourth derivatives at the "
-               "summit, under a steep indenter the most loaded ellipse; the latter two count "
-               "overlapping areas once"),
+               "summit; the latter two are at the summits of the difference between surface and "
+               "indenter, and count overlapping areas once"),
 
         choice({"indenter", "shape", 0, [](Case& c) { return choice_slot(c.indenter.shape); }},
                shape_names(),
@@ -307,10 +307,10 @@ std::vector<Key> make_registry() {
         choice(RSC_KEY(solver, model), kModelNames,
                "asperities: the summits of the surface; elements: boundary elements on every point "
                "of the surface (slower, more accurate). "
-               "auto: elements for height maps, asperities for random surfaces where they hold "
-               "(slope of "
-               "the indenter at the contacts at most 0.2 of the rms slope of the surface, or two "
-               "flats), elsewhere elements, unless another key needs asperities"),
+               "auto: elements for height maps, asperities for isotropic Gaussian surfaces where "
+               "they hold (slope of the indenter at the contacts at most 0.2 of the rms slope of "
+               "the surface, or two flats), elsewhere elements, unless another key needs "
+               "asperities"),
 
         number(RSC_KEY(elements, points_per_wave), "1", between(4, 64),
                "grid steps in the shortest wavelength for model = 'elements'; &compare starts with "

@@ -42,6 +42,7 @@ public:
         check_boundary();
         check_flow();
         check_stresses();
+        check_tractions();
         check_sizes();
         return std::move(problems_);
     }
@@ -168,8 +169,6 @@ private:
              "it needs the radius of asperities"},
             {size_effect && compare, "solids%size_effect", "compare%levels",
              "it needs the radius of asperities"},
-            {friction && elements_ && !c_.output.sliding_direction, "solids%friction",
-             "solver%model", "it is for asperities"},
             {friction && layers, "solids%friction", "solids%layer_thickness",
              "it is not for layers"},
             {resistivity && layers, "solids%resistivity", "solids%layer_thickness",
@@ -363,6 +362,40 @@ private:
         require(i.stop > 0, {"indentation%stop", "indentation%spacing"}, text);
     }
 
+    void check_line() {
+        const Case::Indentation& i = c_.indentation;
+        const Case::IndenterKeys& body = c_.indenter;
+        const std::string boundary = get_key(c_, "indentation%boundary");
+        const char axis = i.boundary == Boundary::periodic_x ? 'x' : 'y';
+        require(elements_, {"indentation%boundary", "solver%model"},
+                "line contact is solved by model = 'elements'");
+        require(c_.solids.layer_thickness.empty(),
+                {"indentation%boundary", "solids%layer_thickness"},
+                boundary + " is not available for bodies with layers");
+        require(!relaxes(c_), {"indentation%boundary", "solids%relaxation_share"},
+                boundary + " is not available for relaxing bodies");
+        require(!(c_.solids.adhesion > 0), {"indentation%boundary", "solids%adhesion"},
+                boundary + " is not available with adhesion");
+        const std::string repeats = std::string("body 2 must repeat along ") + axis;
+        if (shape() == "sphere")
+            require(std::isinf(c_.solids.R[0]) && std::isinf(c_.solids.R[1]),
+                    {"indentation%boundary", "solids%R"},
+                    repeats +
+                        ", and a ball does not; give a cylinder, &indenter shape = "
+                        "'paraboloid' with one of radii Infinity, or R = Infinity, Infinity");
+        require(shape() != "cone" && shape() != "punch", {"indentation%boundary", "indenter%shape"},
+                repeats + ", and shape = " + get_key(c_, "indenter%shape") + " does not");
+        if (shape() != "paraboloid") return;
+        const double R = body.radii[0].value_or(0), other = body.radii[1].value_or(0);
+        const double turned = std::remainder(body.angle - (axis == 'x' ? 90 : 0), 180.0);
+        const bool first = std::isfinite(R) && std::isinf(other) && turned == 0;
+        const bool second = std::isfinite(other) && std::isinf(R) && std::abs(turned) == 90;
+        require(first || second || (std::isinf(R) && std::isinf(other)),
+                {"indenter%radii", "indentation%boundary"},
+                repeats + ": a cylinder with this axis has radii = R, Infinity and angle = " +
+                    (axis == 'x' ? "90" : "0"));
+    }
+
     void check_boundary() {
         const Case::Indentation& i = c_.indentation;
         const bool periodic = i.boundary == Boundary::periodic,
@@ -384,6 +417,7 @@ private:
                     {"surface%L", "indentation%boundary"},
                     "give the period of the list of asperities");
         }
+        if (i.line()) check_line();
         const bool pressure = i.control == Control::pressure,
                    of_pressure = relative || i.unit == LevelUnit::pressure;
         require(!pressure || periodic, {"indentation%control", "indentation%boundary"},
@@ -441,6 +475,15 @@ private:
                 "needs solids%friction > 0");
         require(elements_, {"output%sliding_direction", "solver%model"},
                 "the stresses of sliding asperities are not available; use model = 'elements'");
+    }
+
+    void check_tractions() {
+        const Case::Output& o = c_.output;
+        if (std::ranges::count(o.fields, static_cast<double>(Field::traction)) == 0) return;
+        require(c_.solids.friction > 0, {"output%fields", "solids%friction"},
+                "'traction' needs solids%friction > 0");
+        require(elements_ || !(c_.solids.friction > 0), {"output%fields", "solver%model"},
+                "'traction' is for elements; of asperities the picture `stick` shows the spots");
     }
 
     void check_sizes() {

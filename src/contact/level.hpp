@@ -54,8 +54,9 @@ struct LevelValues {
     // elements: all pixels under pressure, without border correction [length^2]
     double area = 0;
     double area_pixels = kNotComputed;
-    double pressure = kNotComputed;       // two flats: nominal pressure N/A0 [force/length^2]
-    double area_fraction = kNotComputed;  // two flats: A/A0
+    double pressure = kNotComputed;          // two flats: nominal pressure N/A0 [force/length^2]
+    double area_fraction = kNotComputed;     // two flats: A/A0
+    double force_per_length = kNotComputed;  // line contact: N/L [force/length]
     double residual = 0;  // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
     // boundary elements: median pixels per contact, weighted by area
     double pixels_per_contact = kNotComputed;
@@ -90,7 +91,7 @@ struct LevelValues {
     // area of the points that attract without contact [length^2]
     double cohesive_area = kNotComputed;
     double cohesive_resolution =
-        kNotComputed;  // boundary elements: ratio of z0 to the side of a pixel
+        kNotComputed;  // boundary elements: cohesive length over the side of a pixel
     // Two flats by elements: the gap (physics/flow/flow.hpp).
     double gap_mean = kNotComputed;       // over the whole cell [length]
     double gap_mean_open = kNotComputed;  // where the bodies do not touch [length]

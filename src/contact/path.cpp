@@ -230,6 +230,8 @@ void Path::finish(Level& level) {
     if (const Period& period = indenter().period; period.finite()) {
         level.pressure = level.force / period.area();
         level.area_fraction = level.area / period.area();
+    } else if (period.line()) {
+        level.force_per_length = level.force / period.length();
     }
 }
 
@@ -421,7 +423,10 @@ Level Path::to_force(double N) {
         throw Error(Failure::bad_input,
                     "no asperity lies under the indenter, so that it cannot carry a force");
     std::optional<Level> level = model_->solve_under(N);
-    if (!level) level = pulls() ? follow_to_force(N) : search_force(N);
+    if (level)
+        level->separation += model_->shift() * level->force;
+    else
+        level = pulls() ? follow_to_force(N) : search_force(N);
     finish(*level);
     return std::move(*level);
 }

@@ -96,7 +96,8 @@ public:
     virtual bool round() const { return false; }
     // Radius R of a sphere; Infinity for a flat; NaN for any other shape.
     virtual double hertz_radius() const { return std::numeric_limits<double>::quiet_NaN(); }
-    // True if the shape has the periods (x, y), so that it can be one of two periodic flats.
+    // True if the shape has the periods (x, y), so that it can be one of two periodic flats, or of
+    // the one that is finite, for line contact.
     virtual bool repeats(double x, double y) const { return (void)x, (void)y, false; }
 
     // Contact with a smooth half-space of modulus E*; empty if no closed form is known.

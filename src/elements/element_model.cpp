@@ -26,8 +26,8 @@ public:
     ElementModel(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options)
         : PixelModel(heights, indenter, options),
           body_(substrate_of(indenter)),
-          products_(make_tree_products(body_, heights.dx, heights.dy, kInnerError,
-                                       0.1 * options.tolerance)),
+          products_(
+              make_products(body_, indenter.period, heights, kInnerError, 0.1 * options.tolerance)),
           solver_(*products_, options.hardness.H0),
           blocks_x_((heights.nx + kBlock - 1) / kBlock),
           blocks_y_((heights.ny + kBlock - 1) / kBlock) {
@@ -77,7 +77,7 @@ public:
             return std::nullopt;
         return past_[0].separation;
     }
-    double shift() const override { return body_.bulge(); }
+    double shift() const override { return products_->shift(); }
 
 protected:
     void forget_solutions() override { past_.clear(); }
@@ -216,8 +216,8 @@ void ElementModel::select(double Z0) {
 std::vector<double> ElementModel::deflections(const std::vector<Pixel>& where,
                                               const std::vector<double>& q) {
     if (!loads_products_)
-        loads_products_ = make_tree_products(body_, heights_.dx, heights_.dy, kInnerError,
-                                             0.1 * options_.tolerance);
+        loads_products_ =
+            make_products(body_, indenter_.period, heights_, kInnerError, 0.1 * options_.tolerance);
     const std::vector<Pixel> loaded = loaded_pixels();
     std::vector<Pixel> all = where;
     all.insert(all.end(), loaded.begin(), loaded.end());
@@ -301,7 +301,7 @@ Level ElementModel::solve(double Z0, bool) {
 // exponent of the last two levels. Without earlier levels rough solutions at separations come
 // first.
 std::optional<Level> ElementModel::solve_under(double N) {
-    if (history() || shift() > 0) return std::nullopt;
+    if (history()) return std::nullopt;
     const double pixel = pixel_area();
     const auto force = [pixel](const Past& level) {
         return pixel * std::accumulate(level.p.begin(), level.p.end(), 0.0);

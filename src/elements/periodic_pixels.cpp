@@ -106,6 +106,48 @@ PeriodicPixels<Real>::PeriodicPixels(int nx, int ny, double dx, double dy,
       dy_(dy),
       threads_(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) >= kThreads),
       plans_(std::make_unique<Plans>()) {
+    make_plans();
+    if (!share) return;
+    const double pi = std::numbers::pi;
+    set_factors([&](int i, int j) {
+        const double k =
+            2 * pi *
+            std::hypot(static_cast<double>(i) / nx_ / dx_, static_cast<double>(j) / ny_ / dy_);
+        return k > 0 ? 1 + share(k) : 1.0;
+    });
+}
+
+template <class Real>
+PeriodicPixels<Real>::PeriodicPixels(int nx, int ny, const std::vector<double>& modes)
+    : nx_(nx),
+      ny_(ny),
+      dx_(1),
+      dy_(1),
+      threads_(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny) >= kThreads),
+      half_space_(false),
+      plans_(std::make_unique<Plans>()) {
+    make_plans();
+    const std::size_t row = static_cast<std::size_t>(nx / 2) + 1;
+    const double points = static_cast<double>(nx) * ny;
+    set_factors(
+        [&](int i, int j) { return 2 * i <= nx_ ? modes[at(j) * row + at(i)] / points : 0.0; });
+}
+
+template <class Real>
+template <class Factor>
+void PeriodicPixels<Real>::set_factors(Factor&& factor) {
+    const int columns = (nx_ / 2 + kColumns) / kColumns * kColumns, half = ny_ / 2 + 1;
+    layered_ = allocate(static_cast<std::size_t>(columns) * static_cast<std::size_t>(half));
+    parallel_for(half, kRows, static_cast<int>(plans_->buffers.size()), [&](int j) {
+        for (int i = 0; i < columns; ++i)
+            layered_[static_cast<std::size_t>(i) * static_cast<std::size_t>(half) +
+                     static_cast<std::size_t>(j)] = static_cast<Real>(factor(i, j));
+    });
+}
+
+template <class Real>
+void PeriodicPixels<Real>::make_plans() {
+    const int nx = nx_, ny = ny_;
     // Rows hold whole blocks of columns and are an odd number of cache lines apart, so that the
     // elements of a column do not share cache sets.
     constexpr std::size_t line = kLine / sizeof(Real);
@@ -133,19 +175,6 @@ PeriodicPixels<Real>::PeriodicPixels(int nx, int ny, double dx, double dy,
         !plans_->column_backward)
         throw Error(Failure::internal, "FFTW made no plan for " + std::to_string(nx) + " x " +
                                            std::to_string(ny) + " pixels");
-    if (!share) return;
-    const int columns = (nx / 2 + kColumns) / kColumns * kColumns, half = ny / 2 + 1;
-    layered_ = allocate(static_cast<std::size_t>(columns) * static_cast<std::size_t>(half));
-    const double pi = std::numbers::pi;
-    parallel_for(half, kRows, threads, [&](int j) {
-        for (int i = 0; i < columns; ++i) {
-            const double k =
-                2 * pi *
-                std::hypot(static_cast<double>(i) / nx / dx, static_cast<double>(j) / ny / dy);
-            layered_[static_cast<std::size_t>(i) * static_cast<std::size_t>(half) +
-                     static_cast<std::size_t>(j)] = static_cast<Real>(k > 0 ? 1 + share(k) : 1.0);
-        }
-    });
 }
 
 template <class Real>
@@ -215,8 +244,9 @@ void PeriodicPixels<Real>::columns(Answer answer) {
                 Real* const column = block + static_cast<std::size_t>(c) * stride;
                 Fftw<Real>::execute(plans_->column_forward, as_complex(column), as_complex(modes));
                 const double kx = 2 * pi * i / nx_;  // times dx
-                scale(modes, rows, static_cast<Real>(kx * kx), ky2.data(),
-                      static_cast<Real>(points), answer == Answer::pressure, k);
+                if (half_space_)
+                    scale(modes, rows, static_cast<Real>(kx * kx), ky2.data(),
+                          static_cast<Real>(points), answer == Answer::pressure, k);
                 if (layered_) {
                     const std::size_t half = rows / 2 + 1;
                     const Real* const layered = layered_.get() + static_cast<std::size_t>(i) * half;
@@ -226,7 +256,7 @@ void PeriodicPixels<Real>::columns(Answer answer) {
                         modes[2 * j] *= factor, modes[2 * j + 1] *= factor;
                     }
                 }
-                if (i == 0) modes[0] = modes[1] = 0;
+                if (i == 0 && half_space_) modes[0] = modes[1] = 0;
                 Fftw<Real>::execute(plans_->column_backward, as_complex(modes), as_complex(column));
             }
             to_rows(rows, block, stride, plane, stride_);

@@ -19,6 +19,9 @@ public:
     // Error(no_memory), or Error(bad_input) if the grid is too large.
     PeriodicPixels(int nx, int ny, double dx, double dy,
                    const std::function<double(double)>& share = {});
+    // Any kernel that is even in both directions: modes[j (nx/2 + 1) + i], i <= nx/2, j <= ny/2, is
+    // the factor of the modes of wavenumbers 2 pi i/(nx dx) and 2 pi j/(ny dy), of k = 0, too.
+    PeriodicPixels(int nx, int ny, const std::vector<double>& modes);
     ~PeriodicPixels();
     PeriodicPixels(const PeriodicPixels&) = delete;
     PeriodicPixels& operator=(const PeriodicPixels&) = delete;
@@ -43,6 +46,9 @@ public:
 
 private:
     void columns(Answer answer);
+    void make_plans();
+    template <class Factor>
+    void set_factors(Factor&& factor);
 
     struct Free {
         void operator()(Real* p) const noexcept;
@@ -56,8 +62,9 @@ private:
     std::size_t stride_;
     bool threads_;
     Memory plane_;
+    bool half_space_ = true;  // modes are multiplied by 2/|k|, too
     Memory
-        // 1 + share of the modes with ky >= 0, [column block][row][column]; none for a homogeneous
+        // factors of the modes with ky >= 0, [column][row]: 1 + share; none for a homogeneous
         // half-space
         layered_;
     std::unique_ptr<Plans> plans_;

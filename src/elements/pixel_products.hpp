@@ -3,6 +3,7 @@
 #pragma once
 
 #include "interaction/kernel.hpp"
+#include "surface/surface.hpp"
 
 namespace rsc {
 
@@ -34,6 +35,10 @@ public:
     // K between two pixels dx columns and dy rows apart [length/pressure].
     virtual double coefficient(int dx, int dy) const = 0;
 
+    // Constant by which K was raised for each unit force, so that no force raises other points
+    // (Kernel::shift()) [length/force].
+    virtual double shift() const = 0;
+
     // Relative errors (2-norm) of the two kinds of products.
     virtual double error(Accuracy accuracy) const = 0;
     double inner_error() const { return error(Accuracy::inner); }
@@ -53,5 +58,17 @@ protected:
 std::unique_ptr<PixelProducts> make_tree_products(const Substrate& substrate, double dx, double dy,
                                                   double inner_error, double full_error,
                                                   bool shifted = true);
+
+// Products for a surface that repeats along one axis (Indenter::period.line(); line_kernel.hpp), on
+// a map of nx x ny pixels, the whole period along that axis, by Fourier transforms: padded across.
+// The half-space must be homogeneous.
+std::unique_ptr<PixelProducts> make_line_products(const Substrate& substrate, const Period& period,
+                                                  int nx, int ny, double dx, double dy,
+                                                  bool shifted = true);
+
+// Those for an indenter on a free surface, or one that repeats along one axis.
+std::unique_ptr<PixelProducts> make_products(const Substrate& substrate, const Period& period,
+                                             const PointGrid& map, double inner_error,
+                                             double full_error, bool shifted = true);
 
 }  // namespace rsc

@@ -46,15 +46,16 @@ const HeightMap& require_elements(const HeightMap& heights, const Indenter& inde
 
 void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, double H0,
                 const std::vector<Pixel>& touching, std::vector<double> pressure, double tension) {
-    const bool periodic = indenter.period.finite();
     std::vector<int> label;
-    const int period_x = periodic ? map.nx : 0, period_y = periodic ? map.ny : 0;
+    const int period_x = std::isfinite(indenter.period.x) ? map.nx : 0,
+              period_y = std::isfinite(indenter.period.y) ? map.ny : 0;
     const int contacts = connected_sets(touching, label, period_x, period_y);
     std::vector<int> open = open_sides(touching, period_x, period_y);  // the borders of contacts
-    if (!periodic)  // beyond the border of the map the contact may continue
-        for (std::size_t k = 0; k < open.size(); ++k)
-            open[k] -= (touching[k].x == 0) + (touching[k].x == map.nx - 1) + (touching[k].y == 0) +
-                       (touching[k].y == map.ny - 1);
+    // Beyond a border of the map that does not repeat the contact may continue.
+    for (std::size_t k = 0; k < open.size(); ++k) {
+        if (period_x == 0) open[k] -= (touching[k].x == 0) + (touching[k].x == map.nx - 1);
+        if (period_y == 0) open[k] -= (touching[k].y == 0) + (touching[k].y == map.ny - 1);
+    }
     struct Sum {
         double p = 0, weight = 0, px = 0, py = 0, highest = 0, own = 0;
         long pixels = 0, hard = 0,
@@ -76,16 +77,16 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
         if (weight > s.highest) s.highest = weight, s.peak = touching[k];
     }
     // Positions relative to the highest pressure, to the nearest image.
-    const auto nearest = [&](int offset, int n) {
-        if (!periodic) return offset;
+    const auto nearest = [](int offset, int n) {
+        if (n == 0) return offset;
         if (2 * offset > n) return offset - n;
         return 2 * offset < -n ? offset + n : offset;
     };
     const Substrate substrate = substrate_of(indenter);
     const auto from_peak = [&](std::size_t k) {
         const Pixel& peak = sums[at(label[k])].peak;
-        return Pixel{nearest(touching[k].x - peak.x, map.nx),
-                     nearest(touching[k].y - peak.y, map.ny)};
+        return Pixel{nearest(touching[k].x - peak.x, period_x),
+                     nearest(touching[k].y - peak.y, period_y)};
     };
     std::vector<double> at_peak(touching.size());  // deflection of the peak by a unit pressure
     parallel_for(touching.size(), 512, touching.size() > 1024 ? 0 : 1, [&](std::size_t k) {
@@ -100,8 +101,8 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
         s.own += pressure[k] * at_peak[k];
     }
     if (!touching.empty()) level.pixels_per_contact = median_by_area(sums);
-    const auto inside = [&](double column, int n) {
-        return periodic ? column - n * std::floor(column / n) : column;
+    const auto inside = [](double column, int n) {
+        return n > 0 ? column - n * std::floor(column / n) : column;
     };
     const double pixel = map.dx * map.dy;
     const double border = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
@@ -110,9 +111,9 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
         const double area = pixel * (static_cast<double>(s.pixels) -
                                      (1 + flat * flat) * border * static_cast<double>(s.border));
         level.add_contact(s.peak.y * map.nx + s.peak.x,
-                          map.x0 + map.dx * inside(s.peak.x + s.px / s.weight, map.nx),
-                          map.y0 + map.dy * inside(s.peak.y + s.py / s.weight, map.ny), s.p * pixel,
-                          std::sqrt(area / std::numbers::pi), s.own);
+                          map.x0 + map.dx * inside(s.peak.x + s.px / s.weight, period_x),
+                          map.y0 + map.dy * inside(s.peak.y + s.py / s.weight, period_y),
+                          s.p * pixel, std::sqrt(area / std::numbers::pi), s.own);
         level.force += s.p * pixel;
         level.area += area;
         if (std::isfinite(H0)) level.yields.push_back(s.hard > 0);

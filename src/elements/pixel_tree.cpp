@@ -205,6 +205,7 @@ public:
     Tree(const Substrate& substrate, double dx, double dy, double inner_error, double full_error,
          double shift)
         : answer_{substrate, dx, dy, shift},
+          shift_(shift),
           aspect_(dy / dx),
           rows_(rows_of(dy / dx)),
           inner_(inner_error, rows_, answer_),
@@ -254,6 +255,7 @@ public:
     }
 
     double error(Accuracy accuracy) const override { return of(accuracy).error(); }
+    double shift() const override { return shift_; }
 
 private:
     // Number of rows, a power of two, for which a tile is nearly square.
@@ -273,6 +275,7 @@ private:
                  double* w, const char* wanted);
 
     PixelAnswer answer_;
+    double shift_;
     double aspect_;
     int rows_;
     std::vector<double> near_;

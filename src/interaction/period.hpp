@@ -9,6 +9,11 @@ struct Period {
     double x = kInfinity, y = kInfinity;  // [length]; Infinity: not periodic
 
     bool finite() const { return std::isfinite(x) && std::isfinite(y); }
+    // One of them is finite: line contact.
+    bool along_x() const { return std::isfinite(x) && !std::isfinite(y); }
+    bool along_y() const { return std::isfinite(y) && !std::isfinite(x); }
+    bool line() const { return along_x() || along_y(); }
+    double length() const { return along_x() ? x : y; }  // of a line contact
     double area() const { return x * y; }
     // Difference of two coordinates, to the nearest image.
     double nearest_x(double dx) const { return 2 * std::abs(dx) <= x ? dx : std::remainder(dx, x); }

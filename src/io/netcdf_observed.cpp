@@ -387,6 +387,10 @@ void ResultTable::fields() {
                    "0 where they touch");
     if (!f.contact.empty())
         add("field_contact", dims, "1", "1 where the bodies touch, 0 elsewhere", f.contact);
+    if (!f.traction.empty())
+        add_disorder("field_traction", dims, unit(-2, 1),
+                     "tangential traction of friction after first sliding, half-way to full slip",
+                     f.traction);
     if (!f.flow.empty())
         add_disorder("field_flow", dims, unit(3),
                      "magnitude of the flux per width times the viscosity, for a mean pressure "

@@ -146,7 +146,7 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
         return u;
     }
     constexpr double kError = 1e-6;
-    const auto products = make_tree_products(body, map.dx, map.dy, kError, kError, false);
+    const auto products = make_products(body, indenter.period, map, kError, kError, false);
     std::vector<Pixel> pixels;  // of the window, then others under pressure
     std::vector<double> p(u.size(), 0.0);
     for (int j = rows.first; j <= rows.last; ++j)
@@ -184,6 +184,23 @@ void about_contact(const HeightMap& map, const std::vector<Pressures>& levels, R
     const double margin = 0.15 * std::max(columns.size() * map.dx, rows.size() * map.dy);
     columns = widened(columns, map.nx, margin / map.dx),
     rows = widened(rows, map.ny, margin / map.dy);
+}
+
+// Adds mu times what the pressures of a level are above those of the pixels that stick.
+void add_tractions(Fields& f, const HeightMap& map, const FieldLevel& level, Range columns,
+                   Range rows, double friction) {
+    const std::size_t begin = f.traction.size();
+    f.traction.resize(begin + at(columns.size()) * at(rows.size()), 0.0);
+    const auto add = [&](const LevelPixels& pixels, double factor) {
+        for (std::size_t k = 0; k < pixels.index.size(); ++k) {
+            const int i = pixels.index[k] % map.nx - columns.first,
+                      j = pixels.index[k] / map.nx - rows.first;
+            if (i < 0 || i >= columns.size() || j < 0 || j >= rows.size()) continue;
+            f.traction[begin + at(j) * at(columns.size()) + at(i)] += factor * pixels.pressure[k];
+        }
+    };
+    add(level.level->pixels, friction);
+    add(level.stuck, -friction);
 }
 
 // Adds the stresses under the pressures to the requested fields.
@@ -306,6 +323,7 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
             f.gap.insert(f.gap.end(), gap.begin(), gap.end());
         }
         if (asked.pressure) f.pressure.insert(f.pressure.end(), p.begin(), p.end());
+        if (asked.traction) add_tractions(f, map, levels[s], columns, rows, asked.friction);
         if (asked.stresses()) add_stresses(f, map, pressures[s], columns, rows, asked);
         for (int j = rows.first; j <= rows.last && asked.flow; ++j) {
             const auto row = levels[s].flow.begin() + std::ptrdiff_t{j} * map.nx;

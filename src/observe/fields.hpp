@@ -10,9 +10,9 @@
 namespace rsc {
 
 // In the order of the names for output%fields.
-enum class Field { pressure, gap, contact, heights, flow, mises, shear, tension };
-inline constexpr std::array kFieldNames = {"pressure", "gap",   "contact", "heights",
-                                           "flow",     "mises", "shear",   "tension"};
+enum class Field { pressure, gap, contact, heights, flow, mises, shear, tension, traction };
+inline constexpr std::array kFieldNames = {"pressure", "gap",   "contact", "heights", "flow",
+                                           "mises",    "shear", "tension", "traction"};
 constexpr bool is_stress(Field f) {
     return f == Field::mises || f == Field::shear || f == Field::tension;
 }
@@ -20,13 +20,20 @@ constexpr bool is_stress(Field f) {
 struct FieldsAsked {
     bool pressure = false, gap = false, contact = false, heights = false, flow = false;
     bool mises = false, shear = false, tension = false;
+    bool traction = false;
     bool stresses() const { return mises || shear || tension; }
-    bool any() const { return pressure || gap || contact || heights || flow || stresses(); }
+    bool any() const {
+        return pressure || gap || contact || heights || flow || traction || stresses();
+    }
+    double friction = 0;         // coefficient, for the tractions
     std::vector<double> depths;  // of the stresses [length]
     StressedBody body;           // in which they are
     std::optional<std::array<double, 4>>
         window;  // x0, x1, y0, y1 [length]; absent: around the contact
 };
+
+// Slide at which tractions are drawn, over that of full slip.
+inline constexpr double kTractionSlide = 0.5;
 
 // The requested fields; others are empty.
 struct Fields {
@@ -37,7 +44,9 @@ struct Fields {
     std::vector<std::int32_t> contact;  // [step][y][x] 1 in contact, otherwise 0
     std::vector<double> heights;        // [y][x] of the undeformed surface [length]
     // [step][y][x] magnitude of the flux times viscosity for a mean pressure gradient 1 along x
-    std::vector<double> flow;                   // [length^3]
+    std::vector<double> flow;  // [length^3]
+    // [step][y][x] of first sliding, kTractionSlide of the way to full slip [force/length^2]
+    std::vector<double> traction;
     std::vector<double> depth;                  // of the stresses [length]
     std::vector<double> mises, shear, tension;  // [step][depth][y][x] [force/length^2]
 };
@@ -68,6 +77,7 @@ struct FieldLevel {
     ResidualProfile lowered;
     std::optional<Level> lasting = {};
     std::vector<double> flow = {};  // of all points, row by row
+    LevelPixels stuck = {};         // FrictionLevels::stuck()
 };
 
 // Computes fields of levels of one contact. Pressures are those of boundary elements, or of

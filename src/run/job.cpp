@@ -1,15 +1,14 @@
 #include "run/job.hpp"
 
-#include "contact/make.hpp"
 #include "asperities/ranking.hpp"
 #include "base/error.hpp"
 #include "base/format.hpp"
 #include "case/registry.hpp"
 #include "contact/answers.hpp"
-#include "contact/equivalent.hpp"
+#include "contact/make.hpp"
 #include "io/inputs.hpp"
 #include "physics/adhesion/adhesive_elements.hpp"
-#include "physics/friction/contact_curve.hpp"
+#include "run/friction.hpp"
 #include "run/gap.hpp"
 #include "run/stress.hpp"
 #include "surface/synthesis.hpp"
@@ -140,35 +139,21 @@ FieldsAsked fields_asked(const Job& job) {
         const auto& all = settings.output.fields;
         return std::find(all.begin(), all.end(), static_cast<double>(f)) != all.end();
     };
-    FieldsAsked asked{has(Field::pressure), has(Field::gap), has(Field::contact),
-                      has(Field::heights), has(Field::flow)};
+    FieldsAsked asked;
+    asked.pressure = has(Field::pressure);
+    asked.gap = has(Field::gap);
+    asked.contact = has(Field::contact);
+    asked.heights = has(Field::heights);
+    asked.flow = has(Field::flow);
     asked.mises = has(Field::mises);
     asked.shear = has(Field::shear);
     asked.tension = has(Field::tension);
+    asked.traction = has(Field::traction);
+    asked.friction = settings.solids.friction;
     asked.depths = job.observe.stress_depths;
-    asked.body = stressed_body(settings);
+    asked.body = stressed_body(job);
     if (w[0]) asked.window = {*w[0], *w[1], *w[2], *w[3]};
     return asked;
-}
-
-// Adds the friction loop of a level. `curve`: of copies of the contact, whose path is not changed.
-void add_friction(ContactCurve& curve, const Friction& friction, const Level& level,
-                  FrictionLoops& loops) {
-    constexpr int steps = 40;  // of first loading
-    const double delta = -level.separation;
-    loops.points = slide_cycle_points(steps);
-    loops.first = steps + 1;
-    const bool touches = delta > curve.first_touch();
-    SlideCycle cycle;
-    if (touches)
-        cycle = slide_cycle(curve, friction, delta, steps);
-    else
-        cycle.displacement = cycle.force = std::vector<double>(loops.points, kNotComputed);
-    loops.stiffness.push_back(touches ? -friction.ratio * level.stiffness : kNotComputed);
-    loops.cycle_work.push_back(touches ? cycle.work : kNotComputed);
-    loops.displacement.insert(loops.displacement.end(), cycle.displacement.begin(),
-                              cycle.displacement.end());
-    loops.force.insert(loops.force.end(), cycle.force.begin(), cycle.force.end());
 }
 
 }  // namespace
@@ -267,7 +252,7 @@ Job prepare(const Case& settings) {
             job.given_heights ? std::max(job.given_heights->dx, job.given_heights->dy)
             : job.spectrum    ? job.spectrum->L / element_points(settings, *job.spectrum)
                               : 0.0;
-        require_resolved(settings.solids.adhesion_range, side);
+        require_resolved(job.indenter.E_star, job.solver.adhesion, side);
     }
     if (settings.output.flow)
         require_flow_memory(settings,
@@ -323,12 +308,12 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         solver.gentlest_slope = model.domain.gentlest_slope;
         contact = make_asperity_contact(r.asperities, job.indenter, solver);
     }
-    std::unique_ptr<Path> slid[2];  // with friction
-    std::optional<ContactCurve> curve;
-    if (settings.solids.friction > 0) {
-        for (auto& copy : slid) copy = make_asperity_contact(r.asperities, job.indenter, solver);
-        curve.emplace(*slid[0], *slid[1]);
-    }
+    std::optional<FrictionLevels> friction;
+    if (settings.solids.friction > 0)
+        friction.emplace(settings, [&] {
+            return map ? make_element_contact(*map, job.indenter, job.solver)
+                       : make_asperity_contact(r.asperities, job.indenter, solver);
+        });
     r.levels.reserve(job.levels.size());
     const std::vector<std::int32_t> field_steps = steps_of_fields(job);
     judged.filled = filled_points(measured.get(), job.domain.x0, job.domain.y0, job.indenter);
@@ -356,14 +341,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         Level& level = r.levels.back();
         if (!job.times.empty()) level.time = job.times[k];
         add_answers(*contact, level, settings.solids.resistivity);
-        if (curve) {
-            const long failed = curve->failed();
-            add_friction(
-                *curve,
-                {settings.solids.friction, tangential_ratio(settings.solids.E, settings.solids.nu)},
-                level, r.friction);
-            if (curve->failed() > failed) level.converged = false;
-        }
+        if (friction && !friction->add(level, r.friction)) level.converged = false;
         judge.judge(level, *contact, settings.indentation.control != Control::separation);
         const bool field = std::find(field_steps.begin(), field_steps.end(),
                                      static_cast<std::int32_t>(k)) != field_steps.end();
@@ -381,6 +359,8 @@ Realization realize(const Job& job, std::int64_t number, int threads,
                                             contact->residual_depths())
                           : contact->residual_profile(),
                  contact->lasting_loads(level), std::move(flow)});
+            if (fields_asked(job).traction)
+                fields.back().stuck = friction->stuck(level, kTractionSlide);
         }
         add_stresses(r.stresses, job, map, level);
         if (on_level && !on_level(k, r.levels.back())) break;
@@ -392,8 +372,8 @@ Realization realize(const Job& job, std::int64_t number, int threads,
                              job.solver.interaction, fields, fields_asked(job));
     if (const auto touched = contact->asperities(); touched && touched.get() != &r.asperities) {
         Asperities used = *touched;
-        curve.reset(), contact.reset();
-        for (auto& copy : slid) copy.reset();
+        friction.reset();
+        contact.reset();
         r.asperities = std::move(used);
     }
     contact.reset();

@@ -461,7 +461,7 @@ Shape shape_of(const Case& settings) {
         made.shortest_wave =
             second.measured->points_per_wave() * std::max(second.map.dx, second.map.dy);
         auto map = std::make_shared<HeightMap>(std::move(second.map));
-        map->periodic = settings.indentation.boundary == Boundary::periodic;
+        map->periodic = settings.indentation.boundary != Boundary::free;
         made.map = std::move(map);
     }
     return make_shape(keys.shape, made);

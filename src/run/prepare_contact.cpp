@@ -1,9 +1,9 @@
 // The contact of a case: indenter, tip and solver of &indenter, &solids, &indentation and &solver.
 
-#include "contact/make.hpp"
 #include "base/error.hpp"
 #include "base/format.hpp"
 #include "contact/equivalent.hpp"
+#include "contact/make.hpp"
 #include "run/prepare.hpp"
 
 namespace rsc {
@@ -59,12 +59,17 @@ Indenter indenter_of(const Case& settings, const SurfaceDomain& domain) {
 }
 
 Period period_of(const Case& settings, const SurfaceDomain& domain) {
-    return settings.indentation.boundary == Boundary::periodic ? Period{domain.Lx, domain.Ly}
-                                                               : Period{};
+    switch (settings.indentation.boundary) {
+        case Boundary::periodic: return {domain.Lx, domain.Ly};
+        case Boundary::periodic_x: return {domain.Lx, kInfinity};
+        case Boundary::periodic_y: return {kInfinity, domain.Ly};
+        case Boundary::free: break;
+    }
+    return {};
 }
 
 std::unique_ptr<Path> make_contact(const SurfaceModel& model, const Indenter& indenter,
-                                      const SolverOptions& options) {
+                                   const SolverOptions& options) {
     if (model.points) return make_element_contact(*model.points, indenter, options);
     return make_asperity_contact(model.asperities, indenter, options);
 }
@@ -96,7 +101,7 @@ SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     options.points_per_wave = domain.points_per_wave;
     options.grid_step = domain.step;
     options.gentlest_slope = domain.gentlest_slope;
-    const bool free = settings.indentation.boundary == Boundary::free;
+    const bool free = settings.indentation.boundary != Boundary::periodic;
     options.measured = domain.measured || !settings.indenter.file.empty();
     if (free) options.marks = domain.marks;
     if (!domain.guessed && free) options.surface = {domain.x0, domain.y0, domain.Lx, domain.Ly};

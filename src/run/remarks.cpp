@@ -47,15 +47,26 @@ std::string remedy_of_grid(const Job& job) {
                         : "; the map has too few points for its contacts";
 }
 
+// `advice` where the surface is known beyond a list of asperities, so that elements can solve it.
+std::string to_elements(const Job& job, const char* advice) {
+    return job.settings.surface.source == Source::asperities ? "" : advice;
+}
+
+std::string remedy_of(Cause cause, const Job& job, bool elements) {
+    if (elements)
+        return cause == Cause::grid || cause == Cause::missed_contact ? remedy_of_grid(job) : "";
+    if (cause == Cause::border || cause == Cause::filled_points) return "";
+    return to_elements(job, "; solver%model = 'elements' solves the surface itself");
+}
+
 void print_doubts(std::ostream& out, std::span<const LevelValues> levels, const Job& job,
                   bool elements) {
     const Sayings levels_with(out, levels);
     for (std::size_t k = 0; k < kCauseNames.size(); ++k) {
         const Cause cause{static_cast<int>(k)};
-        const bool of_grid = elements && (cause == Cause::grid || cause == Cause::missed_contact);
         levels_with.say([&](const LevelValues& l) { return (l.doubts & bit(cause)) != 0; },
                         words_of_doubts(bit(cause)) + " - " + sentence(cause, elements) +
-                            (of_grid ? remedy_of_grid(job) : ""));
+                            remedy_of(cause, job, elements));
     }
     if (std::isfinite(job.points_touch) &&
         std::all_of(levels.begin(), levels.end(), [](const auto& l) { return l.force == 0; }))
@@ -82,17 +93,20 @@ void print_failures(std::ostream& out, std::span<const LevelValues> levels, cons
                         "it. The level is a state at one side of the jump; prescribe separations "
                         "there, or another force" +
                         (elements ? ""
-                                  : "; solver%model = 'elements' has no such jumps between close "
-                                    "contacts"));
+                                  : to_elements(job,
+                                                "; solver%model = 'elements' has no such jumps "
+                                                "between close contacts")));
     const auto failed = [&](const LevelValues& l) { return !l.converged && !held(l) && !jump(l); };
     const bool flats = job.settings.indentation.boundary == Boundary::periodic;
     std::string remedy = "raise solver%max_iterations or the tolerance";
     if (!elements && solids.adhesion > 0)
-        remedy = "contacts overlap too much to follow their path; use solver%model = 'elements'";
+        remedy = "contacts overlap too much to follow their path" +
+                 to_elements(job, "; use solver%model = 'elements'");
     else if (!elements && (!solids.layer_thickness.empty() || flats))
         remedy =
             "with contacts wider than the top layer, or between flats pressed deep, the "
-            "asperity model may have no solution: use solver%model = 'elements'";
+            "asperity model may have no solution" +
+            to_elements(job, "; use solver%model = 'elements'");
     else if (elements && !solids.relaxation_share.empty() && flats)
         remedy = "bodies that relax may have closed the gap between flats; otherwise " + remedy;
     levels_with.say(
@@ -110,7 +124,8 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
         },
         std::string("stiffness, conductance and resistance are missing: ") +
             (elements ? "their iteration did not converge"
-                      : "contacts overlap too much for them; use solver%model = 'elements'"));
+                      : "contacts overlap too much for them" +
+                            to_elements(job, "; use solver%model = 'elements'")));
     levels_with.say([](const LevelValues& l) { return l.status == LevelStatus::overlapping; },
                     "overlapping - pairs of contact spots closer than the sum of their radii: "
                     "spots that would merge are counted as two");
@@ -202,22 +217,7 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
             "  adhesion: the smallest force is %.4g %s; jumps: %ld, energy lost: %.4g %s %s%s. "
             "Levels depend on the levels before.\n",
             least, f, jumps, lost, f, l, how.c_str());
-    if (const double fine = levels.back().cohesive_resolution; fine < 2)
-        out << format(
-            "  adhesion_range is %.2g pixel sides (cohesive_resolution): below 2 the pull-off "
-            "force is about 5 to 10 %% too high.\n",
-            fine);
-    // The length in which the traction acts at an edge of a contact, E* z0^2/w, in pixel sides
-    // (measured: test/README).
-    if (const double zone = levels.back().cohesive_resolution * job.indenter.E_star *
-                            c.solids.adhesion_range / c.solids.adhesion;
-        zone < 8)
-        out << format(
-            "  adhesion acts across %.2g pixel sides at edges of contact, E* "
-            "adhesion_range^2/adhesion: below 8 the pull-off force may be more "
-            "than 10 %% too high, and edges that advance lag behind.\n",
-            zone);
-    // Tabor's parameter is this length over the range of the attraction; JKR holds from 5 on.
+    // JKR holds from a Tabor parameter of 5 on.
     const auto reach = [&](double radius) {
         return std::cbrt(radius * std::pow(c.solids.adhesion / job.indenter.E_star, 2));
     };

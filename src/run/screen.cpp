@@ -29,11 +29,14 @@ std::string name_of(Method method) { return kMethodNames[static_cast<std::size_t
 
 namespace {
 
-// Columns that only two flats have are shown for two flats only.
+// Columns that only two flats, or line contacts, have are shown for these only.
 bool shown(const LevelQuantity& q, const Job& job) {
-    if (q.of_flow) return q.heading && job.settings.output.flow;
-    return q.heading &&
-           (q.always || (q.of_step ? !job.times.empty() : job.indenter.period.finite()));
+    if (!q.heading) return false;
+    if (q.always) return true;
+    if (q.of_flow) return job.settings.output.flow;
+    if (q.of_step) return !job.times.empty();
+    const bool line = q.member == LevelQuantity::Member(&LevelValues::force_per_length);
+    return line ? job.indenter.period.line() : job.indenter.period.finite();
 }
 
 }  // namespace
@@ -115,6 +118,13 @@ void print_case(std::ostream& out, const Job& job) {
             "two flats, a rough half-space that repeats every %g x %g %s, E* = %g %s/%s2, sigma = "
             "%g %s\n",
             period.x, period.y, l, job.indenter.E_star, f, l, job.sigma, l);
+    else if (period.line())
+        out << job.indenter.shape->text(l)
+            << format(
+                   " on a rough half-space that repeats every %g %s along %s, E* = %g %s/%s2, "
+                   "sigma = %g %s\n",
+                   period.length(), l, period.along_x() ? "x" : "y", job.indenter.E_star, f, l,
+                   job.sigma, l);
     else
         out << job.indenter.shape->text(l)
             << format(" on a rough half-space, E* = %g %s/%s2, sigma = %g %s\n",

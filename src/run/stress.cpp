@@ -26,10 +26,11 @@ std::vector<double> stress_depths(const Job& job) {
     return depths;
 }
 
-StressedBody stressed_body(const Case& settings) {
+StressedBody stressed_body(const Job& job) {
+    const Case& settings = job.settings;
     StressedBody body;
+    body.period = job.indenter.period;
     body.nu = settings.solids.nu[0];
-    body.periodic = settings.indentation.boundary == Boundary::periodic;
     if (settings.output.sliding_direction) {
         const double angle = *settings.output.sliding_direction * std::numbers::pi / 180;
         body.sliding = {settings.solids.friction * std::cos(angle),
@@ -40,13 +41,13 @@ StressedBody stressed_body(const Case& settings) {
 
 void add_stresses(std::vector<LargestStress>& all, const Job& job, const HeightMap* map,
                   const Level& level) {
-    const StressedBody body = stressed_body(job.settings);
+    const StressedBody body = stressed_body(job);
     for (const double depth : job.observe.stress_depths) {
         if (std::isnan(level.force))
             all.emplace_back();
         else if (map)
             all.push_back(stress_below(*map, level.pixels, body, depth,
-                                       stressed_window(*map, level.pixels, body.periodic, depth)));
+                                       stressed_window(*map, level.pixels, body.period, depth)));
         else
             all.push_back(stress_below(level, body.nu, depth));
     }

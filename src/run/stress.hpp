@@ -10,7 +10,7 @@ namespace rsc {
 // they are to be chosen and the surface has no points.
 std::vector<double> stress_depths(const Job& job);
 
-StressedBody stressed_body(const Case& settings);
+StressedBody stressed_body(const Job& job);
 
 // Appends the largest stresses of a level at each depth, missing if it has no contact. `map`: of
 // boundary elements, otherwise null.

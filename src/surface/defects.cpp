@@ -98,7 +98,7 @@ private:
     static std::optional<double> alone(const HeightMap& map, int i, int j) {
         if (i < kReach || j < kReach || i >= map.nx - kReach || j >= map.ny - kReach) return {};
         double sum = 0, high = -kInfinity, low = kInfinity, least = kInfinity, most = -kInfinity;
-        for (const auto [a, b] :
+        for (const auto& [a, b] :
              {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)}) {
             for (int d = 1; d <= kReach; ++d)
                 sum += 0.5 * kWeights[static_cast<std::size_t>(d - 1)] * map(i + d * a, j + d * b);

@@ -9,9 +9,11 @@ double inside(const Rectangle& r, double x, double y) {
 }
 
 // Area of the smallest disc about the tip that contains all spots (or all pixels, if any), at most
-// the area of the surface; for periodic flats the area of the period.
+// the area of the surface; for periodic flats the area of the period, for line contact that of the
+// narrowest strip about the axis.
 double nominal_area(const Level& level, const Indenter& indenter, const Rectangle& surface) {
-    if (indenter.period.finite()) return indenter.period.area();
+    const Period& period = indenter.period;
+    if (period.finite()) return period.area();
     double radius = 0;
     for (std::size_t k = 0; k < level.x.size() && level.pixels.index.empty(); ++k) {
         const double x = level.x[k] - indenter.x0, y = level.y[k] - indenter.y0;
@@ -19,11 +21,15 @@ double nominal_area(const Level& level, const Indenter& indenter, const Rectangl
     }
     const LevelPixels& pixels = level.pixels;
     for (std::size_t k = 0; k < pixels.index.size(); ++k) {
-        const double x = std::abs(pixels.x(k) - indenter.x0) + 0.5 * pixels.dx,
-                     y = std::abs(pixels.y(k) - indenter.y0) + 0.5 * pixels.dy;
+        // Of line contact half the width of a strip.
+        const double x = period.along_x() ? 0
+                                          : std::abs(pixels.x(k) - indenter.x0) + 0.5 * pixels.dx,
+                     y = period.along_y() ? 0
+                                          : std::abs(pixels.y(k) - indenter.y0) + 0.5 * pixels.dy;
         if (x * x + y * y > 0.99 * radius * radius) radius = std::max(radius, std::hypot(x, y));
     }
-    const double disc = std::numbers::pi * radius * radius;
+    const double disc =
+        period.line() ? 2 * radius * period.length() : std::numbers::pi * radius * radius;
     return surface.known() ? std::min(disc, surface.Lx * surface.Ly) : disc;
 }
 
@@ -59,7 +65,9 @@ void mark_border_pixels(const Level& level, const Indenter& indenter, double Ly,
     const auto rows = static_cast<std::int32_t>(std::lround(Ly / p.dy));
     const auto at_border = [&](std::int32_t pixel) {
         const std::int32_t column = pixel % p.columns, row = pixel / p.columns;
-        if (column == 0 || row == 0 || column + 1 == p.columns || row + 1 == rows) return true;
+        const Period& period = indenter.period;
+        if (!period.along_x() && (column == 0 || column + 1 == p.columns)) return true;
+        if (!period.along_y() && (row == 0 || row + 1 == rows)) return true;
         const double x = p.x_of(pixel) - indenter.x0, y = p.y_of(pixel) - indenter.y0;
         const auto beyond = [&](double dx, double dy) {
             return std::isinf(indenter.shape->height(x + dx, y + dy));
@@ -83,10 +91,20 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
         surface.x0 = points ? pixels.x0 : indenter.x0 - 0.5 * surface.Lx;
         surface.y0 = points ? pixels.y0 : indenter.y0 - 0.5 * surface.Ly;
     }
+    const double everywhere = std::numeric_limits<double>::max() / 4;
+    Rectangle within = surface;
+    if (indenter.period.along_x()) {
+        within.x0 = -everywhere;
+        within.Lx = 2 * everywhere;
+    }
+    if (indenter.period.along_y()) {
+        within.y0 = -everywhere;
+        within.Ly = 2 * everywhere;
+    }
     std::vector<bool> cut(level.x.size(), false);
     for (std::size_t k = 0; k < cut.size(); ++k)
         cut[k] =
-            inside(surface, level.x[k], level.y[k]) < std::max(options.mean_spacing, level.a[k]);
+            inside(within, level.x[k], level.y[k]) < std::max(options.mean_spacing, level.a[k]);
     bool attracts = false;
     if (pixels.dx > 0)
         mark_border_pixels(level, indenter, surface.Ly, [&](std::int32_t contact) {

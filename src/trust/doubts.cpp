@@ -3,8 +3,6 @@
 namespace rsc {
 
 std::string sentence(Cause cause, bool elements) {
-    const std::string by_elements =
-        elements ? "" : "; solver%model = 'elements' solves the surface itself";
     switch (cause) {
         case Cause::border:
             return "contacts, or their attraction, within <d> of the border of the surface: what "
@@ -15,29 +13,25 @@ std::string sentence(Cause cause, bool elements) {
         case Cause::grid: return "a finer grid may change N by more than 1 %, with adhesion 10 %";
         case Cause::slope_ratio:
             return "the indenter is too steep beside the surface (slope_ratio above 0.2), which "
-                   "it touches beside the summits" +
-                   by_elements;
+                   "it touches beside the summits";
         case Cause::beyond_law:
             return "contacts are larger than the contact law or the calibration of its errors "
-                   "reaches" +
-                   by_elements;
+                   "reaches";
         case Cause::few_points:
-            return "the summits have too few points, or are spikes one point wide" + by_elements;
+            return "the summits have too few points, or are spikes one point wide";
         case Cause::layer:
-            return "contacts with a > h/5, where h is the thickness of the top layer" + by_elements;
+            return "contacts with a > h/5, where h is the thickness of the top layer";
         case Cause::adhesion_range:
-            return "the range of the attraction is less than two pixels (cohesive_resolution): "
-                   "the pull-off force is too high";
+            return "the attraction at edges of contact acts across less than four pixels "
+                   "(cohesive_resolution): the pull-off force is too high; use more points or a "
+                   "larger adhesion_range";
         case Cause::outside_calibration:
-            return "nothing of this kind was compared with elements, so that no error is stated" +
-                   by_elements;
+            return "nothing of this kind was compared with elements, so that no error is stated";
         case Cause::missed_contact:
             return elements ? "the bodies may touch between the points of the grid, so that N "
                               "need not be 0"
-                            : "the bodies may touch beside the summits, so that N need not be 0" +
-                                  by_elements;
-        case Cause::model_error:
-            return "N may differ from that of elements by more than 10 %" + by_elements;
+                            : "the bodies may touch beside the summits, so that N need not be 0";
+        case Cause::model_error: return "N may differ from that of elements by more than 10 %";
     }
     return "";
 }

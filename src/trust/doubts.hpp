@@ -25,7 +25,7 @@ inline constexpr std::array kCauseNames = {
     "model_error"};
 constexpr std::int32_t bit(Cause cause) { return std::int32_t{1} << static_cast<int>(cause); }
 
-// Explanation for the screen, with the remedy. `elements`: the level was solved by elements.
+// Explanation for the screen, without the remedy. `elements`: the level was solved by elements.
 std::string sentence(Cause cause, bool elements);
 
 // The words of the doubts of a level: "border, layer".

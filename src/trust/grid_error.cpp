@@ -62,21 +62,38 @@ std::array<int, 2> highest_point(const HeightMap& map, const Indenter& indenter)
     return place;
 }
 
-HeightMap coarser_period(const HeightMap& map, std::array<int, 2> first) {
-    HeightMap coarse;
-    const int nx = (map.nx + 1) / 2, ny = (map.ny + 1) / 2;
-    coarse.allocate(nx, ny, nx);
-    coarse.dx = map.Lx() / nx;
-    coarse.dy = map.Ly() / ny;
-    coarse.x0 = map.x(first[0]);
-    coarse.y0 = map.y(first[1]);
-    coarse.periodic = map.periodic;
-    const auto at = [](int first_, int k, int n, int half) {
-        return wrapped(first_ + static_cast<int>(std::int64_t{k} * n / half), n);
+// Along an axis that repeats the points of the coarse map are evenly spaced over the period,
+// otherwise they are every second point.
+HeightMap coarser_period(const HeightMap& map, const Period& period, std::array<int, 2> first) {
+    struct Axis {
+        int points, first, n;
+        bool repeats;
+        double step;
+        Axis(int n_, int first_, double step_, bool repeats_)
+            : first(first_), n(n_), repeats(repeats_) {
+            points = (n + 1) / 2;
+            step = n * step_ / points;
+            if (repeats) return;
+            first %= 2;
+            points = (n - first + 1) / 2;
+            step = 2 * step_;
+        }
+        int at(int k) const {
+            return repeats ? wrapped(first + static_cast<int>(std::int64_t{k} * n / points), n)
+                           : first + 2 * k;
+        }
     };
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i)
-            coarse.row(j)[i] = map(at(first[0], i, map.nx, nx), at(first[1], j, map.ny, ny));
+    const Axis x(map.nx, first[0], map.dx, std::isfinite(period.x)),
+        y(map.ny, first[1], map.dy, std::isfinite(period.y));
+    HeightMap coarse;
+    coarse.allocate(x.points, y.points, x.points);
+    coarse.dx = x.step;
+    coarse.dy = y.step;
+    coarse.x0 = map.x(x.first);
+    coarse.y0 = map.y(y.first);
+    coarse.periodic = map.periodic;
+    for (int j = 0; j < y.points; ++j)
+        for (int i = 0; i < x.points; ++i) coarse.row(j)[i] = map(x.at(i), y.at(j));
     return coarse;
 }
 
@@ -84,12 +101,13 @@ HeightMap coarser_period(const HeightMap& map, std::array<int, 2> first) {
 // h^2/8 of the curvatures at a point.
 double crest_height(const HeightMap& map, const Indenter& indenter,
                     const std::optional<Tensor>& curvature, int column, int row) {
-    const bool repeats = indenter.period.finite();
+    const bool repeats_x = std::isfinite(indenter.period.x),
+               repeats_y = std::isfinite(indenter.period.y);
     double z[3][3];
     for (int b = 0; b < 3; ++b)
         for (int a = 0; a < 3; ++a) {
-            const int i = continued(column + a - 1, map.nx, repeats),
-                      j = continued(row + b - 1, map.ny, repeats);
+            const int i = continued(column + a - 1, map.nx, repeats_x),
+                      j = continued(row + b - 1, map.ny, repeats_y);
             z[b][a] = indenter.clearance(map.x(i), map.y(j), curvature ? 0.0 : map(i, j));
         }
     // Beyond the edge of the indenter, which lies somewhere between two points, the face is as
@@ -115,7 +133,8 @@ double crest_height(const HeightMap& map, const Indenter& indenter,
 HeightMap coarser_map(const HeightMap& map, const Indenter& indenter) {
     std::array<int, 2> first = highest_point(map, indenter);
     for (int& k : first) ++k;
-    if (indenter.period.finite()) return coarser_period(map, first);
+    if (indenter.period.finite() || indenter.period.line())
+        return coarser_period(map, indenter.period, first);
     return every_second_point_of(map, first[0] % 2, first[1] % 2);
 }
 
@@ -127,8 +146,7 @@ SecondGrid::SecondGrid(const HeightMap& map, const Indenter& indenter, const Sol
     contact_ = make_element_contact(map_, indenter, coarse);
 }
 
-std::optional<GridError> SecondGrid::error(const LevelValues& level, Path& contact,
-                                           bool by_force) {
+std::optional<GridError> SecondGrid::error(const LevelValues& level, Path& contact, bool by_force) {
     const Indenter &here = contact.indenter(), &there = contact_->indenter();
     if (here.x0 != there.x0 || here.y0 != there.y0) contact_->move_tip(here.x0, here.y0);
     if (contact_->relaxes()) contact_->set_time(level.time);
@@ -145,8 +163,8 @@ std::optional<GridError> SecondGrid::error(const LevelValues& level, Path& conta
     const double change_of_N = by_force
                                    ? contact.stiffness() * (level.separation - other.separation)
                                    : level.force - other.force;
-    const double force = 0.5 * std::abs(change_of_N / level.force),
-                 area = 0.5 * std::abs(1 - other.area / level.area);
+    const double part = read_ ? 0.5 : 1.0, force = part * std::abs(change_of_N / level.force),
+                 area = part * std::abs(1 - other.area / level.area);
     const GridError few =
         error_of_pixels(level, contact.indenter(), 0.5 * std::max(map_.dx, map_.dy), read_);
     // Fitted to maps solved on a grid of half the step (test/README, elements on maps): nine of ten
@@ -180,13 +198,14 @@ GridError error_of_crests(const Level& level, double stiffness, const HeightMap&
 }
 
 double touch_between_points(const HeightMap& map, const Indenter& indenter) {
-    const bool repeats = indenter.period.finite();
+    const bool repeats_x = std::isfinite(indenter.period.x),
+               repeats_y = std::isfinite(indenter.period.y);
     std::vector<double> below, here, above;
-    clearances(map, indenter, continued(-1, map.ny, repeats), below);
+    clearances(map, indenter, continued(-1, map.ny, repeats_y), below);
     clearances(map, indenter, 0, here);
     double highest = -kInfinity;
     for (int j = 0; j < map.ny; ++j) {
-        clearances(map, indenter, continued(j + 1, map.ny, repeats), above);
+        clearances(map, indenter, continued(j + 1, map.ny, repeats_y), above);
         for (int i = 0; i < map.nx; ++i) {
             const auto k = static_cast<std::size_t>(i);
             const double top = here[k];
@@ -195,7 +214,7 @@ double touch_between_points(const HeightMap& map, const Indenter& indenter) {
                 return std::isfinite(lower) ? 0.5 * (top - lower) : 0.0;
             };
             const auto beside = [&](int way) {
-                return here[static_cast<std::size_t>(continued(i + way, map.nx, repeats))];
+                return here[static_cast<std::size_t>(continued(i + way, map.nx, repeats_x))];
             };
             const double left = beside(-1), right = beside(1);
             if (std::isfinite(top) && top >= left && top >= right && top >= below[k] &&

@@ -98,7 +98,7 @@ std::pair<double, double> pull_off_error(double lambda, double resolution) {
             inside_area += std::abs(level.area / (pi * std::pow(truth.pressed(u).a, 2)) - 1) <=
                            level.area_error_expected;
             ++compared;
-            CHECK(level.force_error_expected * std::abs(level.force) < 0.5 / resolution * unit);
+            CHECK(level.force_error_expected * std::abs(level.force) < 1.6 / resolution * unit);
         }
     }
     CHECK(inside >= 0.9 * compared && inside_area >= 0.9 * compared);  // of the expected errors
@@ -159,8 +159,17 @@ TEST(test_refused) {
     const HeightMap map = paraboloid(1, 16);
     const Indenter tip{1.0, kFlat, 0.5, 0.5};
     CHECK_THROWS((void)make_element_contact(map, tip, attracting(0.01, 0)), Error);  // JKR
-    CHECK_THROWS((void)make_element_contact(map, tip, attracting(0.01, 0.4 / 16)),
-                 Error);  // less than half a pixel
+    // Its traction acts across 0.4 of a pixel at edges, and across 0.6; heights, pressures and the
+    // work of adhesion may be scaled by one number.
+    for (const double scale : {1.0, 1.0 / 16}) {
+        const auto range = [](double pixels) {
+            return std::sqrt(pixels / 16 * 0.01 / (0.25 * std::numbers::pi));
+        };
+        const double w = 0.01 * scale * scale;
+        CHECK_THROWS((void)make_element_contact(map, tip, attracting(w, scale * range(0.4))),
+                     Error);
+        (void)make_element_contact(map, tip, attracting(w, scale * range(0.6)));
+    }
     const auto contact = make_element_contact(map, tip, attracting(0.01, 0.2));
     (void)contact->at_separation(0);
     Path::State other_bodies = contact->state();

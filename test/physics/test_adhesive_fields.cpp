@@ -1,9 +1,9 @@
 // Deflections and fields of contacts with adhesion, and fields of elliptic spots
 // (contact/deflection.hpp, observe/fields.hpp).
 #include "adhesive_paths.hpp"
+#include "contact/make.hpp"
 #include "check.hpp"
 #include "contact/deflection.hpp"
-#include "contact/make.hpp"
 #include "height_maps.hpp"
 #include "observe/fields.hpp"
 
@@ -127,7 +127,12 @@ HeightMap map_of(int n, double step, double r) {
     return map;
 }
 
-constexpr FieldsAsked kAll{true, true, true, false, {}};
+FieldsAsked everything() {
+    FieldsAsked asked;
+    asked.pressure = asked.gap = asked.contact = true;
+    return asked;
+}
+const FieldsAsked kAll = everything();
 
 // On oblong pixels: a point that yielded is lower by its residual depth where nothing touches, and
 // pressures add up to the force.
@@ -198,9 +203,9 @@ TEST(test_element_fields) {
         for (const double Z : {0.11, 0.09, 0.1}) {
             const Level level = contact->at_separation(Z);
             CHECK(level.converged);
-            const Fields f = fields_of(
-                map, tip, Interaction::point, {{0, &level, {}}},
-                {.pressure = true, .gap = true, .contact = true, .window = {{0, 1, 0, 1}}});
+            FieldsAsked asked = kAll;
+            asked.window = {0, 1, 0, 1};
+            const Fields f = fields_of(map, tip, Interaction::point, {{0, &level, {}}}, asked);
             double force = 0, cohesive = 0;
             for (std::size_t k = 0; k < f.pressure.size(); ++k) {
                 const double p = f.pressure[k], g = f.gap[k], area = step * step;

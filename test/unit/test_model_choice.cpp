@@ -85,6 +85,11 @@ TEST(auto_model) {
     cone.indenter.slope = 0.1;
     CHECK(elements(cone));
 
+    // A lay and skewed heights need elements.
+    Case lay = flats(0.01), skewed = flats(0.01);
+    lay.surface.aspect = 3, skewed.surface.skewness = -0.5, skewed.surface.kurtosis = 3.4;
+    CHECK(elements(lay) && elements(skewed));
+
     // Layers: thick ones leave the choice as it is, thin ones need elements.
     Case layered;
     layered.solids.layer_E = {1e5};

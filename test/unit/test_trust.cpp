@@ -307,6 +307,9 @@ TEST(each_doubt) {
         s.indenter.layers.E = 1e3, s.indenter.layers.nu = 0.3;
     }));
     CHECK(raises(outside_calibration, [](Sound& s) { s.options.interaction = Interaction::none; }));
+    const auto flat = [](Sound& s) { s.indenter.shape = Shape(HUGE_VAL), s.Z0 = -1e-5; };
+    CHECK(!raises(outside_calibration, flat));
+    CHECK(raises(outside_calibration, [&](Sound& s) { flat(s), s.options.measured = true; }));
     // The tip is beside the summit. A paraboloid of curvature 1 touches the ball at Z0 = -0.1^2/2 *
     // 5/6 = -0.0042, farther from the summit than it is moved.
     CHECK(raises(missed_contact, [](Sound& s) {

@@ -18,8 +18,15 @@
 
 namespace rsc {
 
-// Throws Error(bad_input) if the range of the attraction is less than half of the grid step.
-void require_resolved(double range, double step);
+// Length over which the traction acts beside the edge of a contact: that of Dugdale's zone,
+// (pi/8) K^2/s0^2 with K^2 = 2 E* w and s0 = w/z0 [length]. Elements resolve it, not z0, which is a
+// height: heights and pressures may be multiplied by one number without a change of the problem.
+inline double cohesive_length(double E_star, const Adhesion& adhesion) {
+    return 0.25 * std::numbers::pi * E_star * adhesion.range * adhesion.range / adhesion.work;
+}
+
+// Throws Error(bad_input) if the cohesive length is less than half of the grid step.
+void require_resolved(double E_star, const Adhesion& adhesion, double step);
 
 // The heights, as require_elements() returns them, must outlive the contact. The options used are
 // the tolerance, the number of iterations and the adhesion with a positive range. Throws

@@ -9,7 +9,8 @@
 namespace rsc {
 namespace {
 
-constexpr double kCoarsest = 0.5;  // smallest ratio of z0 to the side of a pixel
+// Smallest ratio of the cohesive length to the side of a pixel, and that of accurate forces.
+constexpr double kCoarsest = 0.5, kFine = 4;
 // Largest error of the work of a step, relative to w times the area that attracts: beyond it the
 // step is divided, at once into this number of pieces at most, and never below this share of a
 // level's way.
@@ -26,12 +27,17 @@ constexpr double kPiece = 0.25, kPieceSides = 0.25;
 
 }  // namespace
 
-void require_resolved(double range, double step) {
-    if (range < kCoarsest * step)
-        throw Error(Failure::bad_input, format("solids%%adhesion_range = %.6g is %.2g of a pixel's "
-                                               "side; boundary elements require at least "
-                                               "0.5, and 2 is recommended",
-                                               range, range / step));
+void require_resolved(double E_star, const Adhesion& adhesion, double step) {
+    const double resolution = cohesive_length(E_star, adhesion) / step;
+    if (!(resolution < kCoarsest)) return;
+    const double wanted = std::sqrt(kFine / resolution);
+    throw Error(
+        Failure::bad_input,
+        format("solids%%adhesion_range = %.6g: the attraction at the edge of a contact acts "
+               "across %.2g of a pixel's side, (pi/4) E* adhesion_range^2/adhesion; "
+               "elements need 0.5 at least, and 4 for accurate forces: %.2g times as many "
+               "points a side, or adhesion_range = %.2g",
+               adhesion.range, resolution, kFine / resolution, wanted * adhesion.range));
 }
 
 AdhesivePixels::AdhesivePixels(const HeightMap& heights_, const Indenter& indenter_,
@@ -50,7 +56,7 @@ AdhesivePixels::AdhesivePixels(const HeightMap& heights_, const Indenter& indent
         refuse("boundary elements require solids%adhesion_range > 0 (JKR is the limit of 0)");
     if (std::isfinite(options.hardness.H0)) refuse("not available yet with solids%hardness");
     if (!options.relaxation.none()) refuse("not available yet with solids%relaxation_share");
-    require_resolved(z0, std::max(heights.dx, heights.dy));
+    require_resolved(indenter.E_star, options.adhesion, std::max(heights.dx, heights.dy));
     const Substrate body = substrate_of(indenter);
     if (indenter.period.finite()) {
         raised = heights.copy();

@@ -5,6 +5,7 @@
 #include "elements/cut_map.hpp"
 #include "elements/elements.hpp"
 #include "elements/periodic_elements.hpp"
+#include "physics/adhesion/adhesive_elements.hpp"
 
 namespace rsc {
 
@@ -46,7 +47,10 @@ struct AdhesivePixels : CutMap {
     AdhesivePixels(const HeightMap& heights_, const Indenter& indenter_,
                    const SolverOptions& options_);
 
-    double resolution() const { return z0 / std::max(heights.dx, heights.dy); }
+    double resolution() const {
+        return cohesive_length(indenter.E_star, options.adhesion) /
+               std::max(heights.dx, heights.dy);
+    }
     double pressure(std::size_t i) const { return q[i] - (on[i] ? s0 : 0.0); }
     void set_clearances();
     void forget();

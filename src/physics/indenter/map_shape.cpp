@@ -86,8 +86,10 @@ public:
     double reach() const override { return 0.5 * std::hypot(map_.Lx(), map_.Ly()); }
     bool repeats(double x, double y) const override {
         constexpr double same = 1e-9;
-        return map_.periodic && std::abs(map_.Lx() - x) <= same * x &&
-               std::abs(map_.Ly() - y) <= same * y;
+        const auto fits = [](double period, double length) {
+            return std::isinf(period) || std::abs(length - period) <= same * period;
+        };
+        return map_.periodic && fits(x, map_.Lx()) && fits(y, map_.Ly());
     }
 
 private:

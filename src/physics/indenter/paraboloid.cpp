@@ -56,6 +56,14 @@ public:
         return std::sqrt(2 * std::max(0.0, drop)) * m + 0.5 * m * m;
     }
     bool round() const override { return k1_ == k2_; }
+    // A cylinder repeats along its axis.
+    bool repeats(double x, double y) const override {
+        constexpr double rounding = 1e-12;
+        const Tensor k = curvature(0, 0);
+        const double small = rounding * std::max(k1_, k2_);
+        return std::abs(k.xy) <= small && (std::isinf(x) || std::abs(k.xx) <= small) &&
+               (std::isinf(y) || std::abs(k.yy) <= small);
+    }
     double hertz_radius() const override {
         return round() ? keys().radii[0] : std::numeric_limits<double>::quiet_NaN();
     }

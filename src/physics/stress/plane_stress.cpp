@@ -148,26 +148,104 @@ void solve_periodic(Planes& planes, const PointGrid& grid, const StressedBody& b
                     [&](std::size_t c, std::size_t) { planes.to_values(planes.components[c]); });
 }
 
-// Fills the components with the stress under one pixel at the offsets (first_x + i, first_y + j).
-void fill_kernel(Planes& planes, int first_x, int first_y, int columns, int rows,
-                 const PointGrid& grid, const StressedBody& body, double depth) {
-    parallel_for((rows + kRows - 1) / kRows, 1, 0, [&](int block) {
-        const auto corners = [&](int j) {
-            std::vector<StressTensor> row(at(columns) + 1);
-            for (int i = 0; i <= columns; ++i)
-                row[at(i)] =
-                    corner_stress((first_x + i - 0.5) * grid.dx, (first_y + j - 0.5) * grid.dy,
-                                  depth, body.nu, body.sliding);
-            return row;
-        };
+// One axis of a convolution: pressures on `sources` points from `from` on, stresses on `targets`
+// points from `first` on. Without a period the plane is padded, with one it is the whole period.
+struct Axis {
+    Axis(int from_, int sources, int first_, int targets, int period)
+        : offset(period > 0 ? -(period / 2) : first_ - from_ - sources + 1),
+          kernel(period > 0 ? period : targets + sources - 1),
+          size(period > 0 ? period : fast_size(kernel)),
+          from(period > 0 ? 0 : from_),
+          answer(period > 0 ? first_ + period / 2 : sources - 1),
+          repeats(period > 0) {}
+
+    int offset;  // of the first value of the kernel
+    int kernel;  // number of its values
+    int size;    // of the plane
+    int from;    // grid point of the first value of the pressures
+    int answer;  // place of the first target
+    bool repeats;
+    int place(int k) const { return (answer + k) % size; }
+};
+
+// The stress under one pixel and its images along y or x at multiples of a period L: those up to
+// kImages one by one, those farther away as a uniform strip, whose error falls with the third power
+// of kImages. Corner values are those of corner_stress().
+class LineImages {
+public:
+    static constexpr int kImages = 2;
+
+    LineImages(const Period& period, double step, double depth, const StressedBody& body)
+        : along_x_(period.along_x()),
+          L_(period.length()),
+          share_(step / L_),
+          depth_(depth),
+          body_(body) {}
+
+    // Sum of the corners at (x, y), one end of the pixel along the axis.
+    StressTensor near(double x, double y) const {
+        StressTensor sum;
+        for (int m = -kImages; m <= kImages; ++m)
+            sum += along_x_ ? corner(x + m * L_, y) : corner(x, y + m * L_);
+        return sum;
+    }
+    // Of the strip, at one of its sides: `across` is the corner's coordinate, `along` that of the
+    // pixel's middle.
+    StressTensor far(double across, double along) const {
+        const double near_end = (kImages + 0.5) * L_, far_end = 1e4 * L_;
+        StressTensor sum = ends(across, along, far_end);
+        sum += ends(across, along, near_end) * -1;
+        return sum * share_;
+    }
+
+private:
+    StressTensor corner(double x, double y) const {
+        return corner_stress(x, y, depth_, body_.nu, body_.sliding);
+    }
+    StressTensor ends(double across, double along, double half) const {
+        StressTensor sum = along_x_ ? corner(along + half, across) : corner(across, along + half);
+        sum += (along_x_ ? corner(along - half, across) : corner(across, along - half)) * -1;
+        return sum;
+    }
+
+    bool along_x_;
+    double L_, share_, depth_;
+    const StressedBody& body_;
+};
+
+// Fills the components with the stress under one pixel at all offsets of two axes.
+void fill_kernel(Planes& planes, const Axis& columns, const Axis& rows, const PointGrid& grid,
+                 const StressedBody& body, double depth) {
+    const bool along_x = columns.repeats, line = columns.repeats || rows.repeats;
+    const LineImages images(body.period, along_x ? grid.dx : grid.dy, depth, body);
+    const auto corners = [&](int j) {
+        const double y = (rows.offset + j - 0.5) * grid.dy;
+        std::vector<StressTensor> row(at(columns.kernel) + 1);
+        for (int i = 0; i <= columns.kernel; ++i) {
+            const double x = (columns.offset + i - 0.5) * grid.dx;
+            row[at(i)] =
+                line ? images.near(x, y) : corner_stress(x, y, depth, body.nu, body.sliding);
+        }
+        return row;
+    };
+    // Of the far images: both sides of the strip.
+    const auto add_strip = [&](StressTensor& s, int i, int j) {
+        const double x = (columns.offset + i) * grid.dx, y = (rows.offset + j) * grid.dy;
+        const double across = along_x ? y : x, along = along_x ? x : y,
+                     half = 0.5 * (along_x ? grid.dy : grid.dx);
+        s += images.far(across + half, along);
+        s += images.far(across - half, along) * -1;
+    };
+    parallel_for((rows.kernel + kRows - 1) / kRows, 1, 0, [&](int block) {
         std::vector<StressTensor> above = corners(block * kRows), below;
-        for (int j = block * kRows; j < std::min(rows, (block + 1) * kRows); ++j) {
+        for (int j = block * kRows; j < std::min(rows.kernel, (block + 1) * kRows); ++j) {
             below = corners(j + 1);
-            for (int i = 0; i < columns; ++i) {
+            for (int i = 0; i < columns.kernel; ++i) {
                 StressTensor s = below[at(i) + 1];
                 s += below[at(i)] * -1;
                 s += above[at(i) + 1] * -1;
                 s += above[at(i)];
+                if (line) add_strip(s, i, j);
                 planes.set(i, j, s);
             }
             above.swap(below);
@@ -186,8 +264,9 @@ void convolve(Planes& planes) {
     });
 }
 
-// Measures of the stresses at the points (left + i, top + j) of the planes.
-LargestStress measure(Planes& planes, int left, int top, const PointGrid& grid,
+// Measures of the stresses at the points of a window, which are at these places of the planes.
+template <class Column, class Row>
+LargestStress measure(Planes& planes, Column&& column, Row&& row, const PointGrid& grid,
                       const GridWindow& window, StressPlane* plane) {
     if (plane)
         for (auto* values : {&plane->mises, &plane->shear, &plane->tension})
@@ -195,7 +274,7 @@ LargestStress measure(Planes& planes, int left, int top, const PointGrid& grid,
     std::vector<LargestStress> rows(at(window.rows));
     parallel_for(window.rows, kRows, 0, [&](int j) {
         for (int i = 0; i < window.columns; ++i) {
-            const StressMeasures m = measures_of(planes.stress(left + i, top + j));
+            const StressMeasures m = measures_of(planes.stress(column(i), row(j)));
             rows[at(j)].take(m, grid.x(window.first_column + i), grid.y(window.first_row + j));
             if (!plane) continue;
             const std::size_t k = at(j) * at(window.columns) + at(i);
@@ -214,44 +293,50 @@ LargestStress measure(Planes& planes, int left, int top, const PointGrid& grid,
 LargestStress stress_below(const PointGrid& grid, const LevelPixels& pixels,
                            const StressedBody& body, double depth, const GridWindow& window,
                            StressPlane* plane) {
-    if (body.periodic) {
+    if (body.period.finite()) {
         Planes planes(grid.nx, grid.ny);
         load(planes, pixels, {}, 1 / static_cast<double>(grid.points()));
         solve_periodic(planes, grid, body, depth);
-        return measure(planes, window.first_column, window.first_row, grid, window, plane);
+        return measure(
+            planes, [&](int i) { return window.first_column + i; },
+            [&](int j) { return window.first_row + j; }, grid, window, plane);
     }
     const GridWindow from = loaded(pixels);
     if (from.columns == 0) {
-        if (plane)
-            *plane = {std::vector(window.points(), 0.0), std::vector(window.points(), 0.0),
-                      std::vector(window.points(), 0.0)};
+        const std::vector<double> none(window.points(), 0.0);
+        if (plane) *plane = {none, none, none};
         return {};
     }
-    const int columns = window.columns + from.columns - 1, rows = window.rows + from.rows - 1;
-    Planes planes(fast_size(columns), fast_size(rows));
-    load(planes, pixels, from, 1 / (static_cast<double>(planes.nx) * planes.ny));
-    fill_kernel(planes, window.first_column - from.first_column - from.columns + 1,
-                window.first_row - from.first_row - from.rows + 1, columns, rows, grid, body,
-                depth);
+    const Axis columns(from.first_column, from.columns, window.first_column, window.columns,
+                       body.period.along_x() ? grid.nx : 0);
+    const Axis rows(from.first_row, from.rows, window.first_row, window.rows,
+                    body.period.along_y() ? grid.ny : 0);
+    Planes planes(columns.size, rows.size);
+    load(planes, pixels, {columns.from, rows.from, 0, 0},
+         1 / (static_cast<double>(planes.nx) * planes.ny));
+    fill_kernel(planes, columns, rows, grid, body, depth);
     convolve(planes);
-    return measure(planes, from.columns - 1, from.rows - 1, grid, window, plane);
+    return measure(
+        planes, [&](int i) { return columns.place(i); }, [&](int j) { return rows.place(j); }, grid,
+        window, plane);
 }
 
-GridWindow stressed_window(const PointGrid& grid, const LevelPixels& pixels, bool periodic,
+GridWindow stressed_window(const PointGrid& grid, const LevelPixels& pixels, const Period& period,
                            double depth) {
     const GridWindow contact = loaded(pixels);
     if (contact.columns == 0) return {};
-    if (periodic) return {0, 0, grid.nx, grid.ny};
-    const auto widened = [&](int first, int count, double step, int n, int& begin, int& size) {
+    const auto widened = [&](int first, int count, double step, int n, double repeats, int& begin,
+                             int& size) {
         const int margin =
             std::max(4, static_cast<int>(std::ceil(std::min(2 * depth / step, 1.0 * n))));
-        begin = std::max(0, first - margin);
-        size = std::min(n, first + count + margin) - begin;
+        begin = std::isfinite(repeats) ? 0 : std::max(0, first - margin);
+        size = (std::isfinite(repeats) ? n : std::min(n, first + count + margin)) - begin;
     };
     GridWindow window;
-    widened(contact.first_column, contact.columns, grid.dx, grid.nx, window.first_column,
+    widened(contact.first_column, contact.columns, grid.dx, grid.nx, period.x, window.first_column,
             window.columns);
-    widened(contact.first_row, contact.rows, grid.dy, grid.ny, window.first_row, window.rows);
+    widened(contact.first_row, contact.rows, grid.dy, grid.ny, period.y, window.first_row,
+            window.rows);
     return window;
 }
 

@@ -19,7 +19,7 @@ struct GridWindow {
 struct StressedBody {
     double nu = 0;                 // Poisson ratio of body 1
     SlidingTraction sliding = {};  // traction for a pressure of 1
-    bool periodic = false;         // the pressures repeat with the grid in both directions
+    Period period = {};            // the pressures repeat with the grid along these axes
 };
 
 // Measures of the stress at each point of a window, row by row [force/length^2].
@@ -28,18 +28,19 @@ struct StressPlane {
 };
 
 // Stresses at `depth` [length] below the points of `window` under the pressures of a level on
-// `grid`. If they repeat, the pressures are taken as band-limited, each mode has its closed form,
-// and the mean pressure acts on a body that cannot expand sideways. Otherwise Love's and Cerruti's
-// fields of the pixels are added up. `plane`, if given, is set to all values. Returns the largest
+// `grid`. If they repeat in both directions, the pressures are taken as band-limited, each mode has
+// its closed form, and the mean pressure acts on a body that cannot expand sideways. Otherwise
+// Love's and Cerruti's fields of the pixels are added up, in line contact with those of their
+// images. `plane`, if given, is set to all values. Returns the largest
 // ones. Throws Error(no_memory). Results do not depend on the number of threads.
 LargestStress stress_below(const PointGrid& grid, const LevelPixels& pixels,
                            const StressedBody& body, double depth, const GridWindow& window,
                            StressPlane* plane = nullptr);
 
 // The points at and around the contact where the largest stresses at this depth are sought: those
-// within 2 depths of a pixel under pressure along either axis, and the nearest 4 at least; all if
-// the pressures repeat. Empty if there is no contact.
-GridWindow stressed_window(const PointGrid& grid, const LevelPixels& pixels, bool periodic,
+// within 2 depths of a pixel under pressure along either axis, and the nearest 4 at least; all along
+// an axis of the period. Empty if there is no contact.
+GridWindow stressed_window(const PointGrid& grid, const LevelPixels& pixels, const Period& period,
                            double depth);
 
 }  // namespace rsc
