@@ -6,49 +6,22 @@
 namespace rsc {
 
 std::vector<double> AsperityModel::residual_depths() const {
-    std::vector<double> depths;
-    if (impl_->relaxing) return depths;
-    for (std::size_t i = 0; i < impl_->asperities.size(); ++i)
-        depths.push_back(impl_->law->residual_depth(static_cast<int>(i)));
-    return depths;
+    return impl_->history->residual_depths();
 }
 
 std::optional<Level> AsperityModel::lasting_loads(const Level& level) const {
-    if (!impl_->relaxing) return {};
-    return impl_->relaxing->lasting(level);
+    return impl_->history->lasting(level);
 }
 
-// Pairs of the index of a yielded asperity and its largest penetration, or the state of a relaxing
-// body.
 std::vector<double> AsperityModel::write() const {
     std::vector<double> numbers;
-    if (impl_->relaxing) {
-        impl_->relaxing->write(numbers);
-        return numbers;
-    }
-    for (const int i : impl_->law->yielded())
-        numbers.insert(numbers.end(), {static_cast<double>(i), impl_->law->deepest(i)});
+    impl_->history->write(numbers);
     return numbers;
 }
 
 void AsperityModel::read(const std::vector<double>& numbers) {
     Impl& my = *impl_;
-    if (my.relaxing) {
-        my.relaxing->read(numbers);
-    } else {
-        std::vector<int> yielded;
-        std::vector<double> deepest;
-        for (std::size_t k = 0; k + 1 < numbers.size(); k += 2) {
-            if (!(numbers[k] >= 0 && numbers[k] < static_cast<double>(my.asperities.size()) &&
-                  std::isfinite(numbers[k + 1])))
-                throw Error(Failure::bad_input,
-                            "the state does not belong to a contact of these asperities");
-            yielded.push_back(static_cast<int>(numbers[k])), deepest.push_back(numbers[k + 1]);
-        }
-        my.law->forget();
-        my.law->prepare(yielded);
-        my.law->commit(static_cast<int>(yielded.size()), yielded.data(), deepest.data());
-    }
+    my.history->read(numbers);
     my.earlier = {};
     my.candidates = {};
     my.solution.clear();
@@ -81,10 +54,8 @@ void AsperityModel::move_with_history(double x0, double y0) {
     const std::vector<double> stored = write();
     Indenter there = my.indenter;
     there.move(x0, y0);
-    const bool nothing =
-        stored.empty() || (my.relaxing && my.relaxing->stored() == 0 && my.relaxing->lost() == 0);
-    impl_ = std::make_unique<Impl>(my.of_surface, there, my.options);
-    if (!nothing) read(stored);
+    impl_ = std::make_unique<Impl>(my.of_surface, there, my.options, my.make);
+    if (!stored.empty()) read(stored);
 }
 
 }  // namespace rsc

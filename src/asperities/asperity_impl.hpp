@@ -7,14 +7,14 @@
 #include "asperities/ranking.hpp"
 #include "asperities/start.hpp"
 #include "asperities/uniqueness.hpp"
-#include "interaction/products.hpp"
-#include "physics/relaxation/relaxing_asperities.hpp"
 
 namespace rsc {
 
 struct AsperityModel::Impl : ContactBodies {
-    std::optional<RelaxingAsperities> relaxing;
-    std::unique_ptr<Law> law;
+    MakeAsperityPhysics make;
+    AsperityPhysics physics;
+    Law* law;
+    AsperityHistory* history;
     Ranking ranking;
 
     // The current level and its solution.
@@ -36,14 +36,14 @@ struct AsperityModel::Impl : ContactBodies {
     Products* products = nullptr;            // the products in use
     Newton newton;
 
-    Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_);
+    Impl(const Asperities& asperities_, const Indenter& indenter_, const SolverOptions& options_,
+         MakeAsperityPhysics make);
 
-    double scale() const {
-        return relaxing ? relaxing->scale() : 1.0;
-    }  // ratio of the forces of the law to the true ones
+    // Ratio of the forces of the law to the true ones.
+    double scale() const { return history->scale(); }
     // Shift of the separation used by solve() due to earlier loads of a relaxing body (periodic
     // flats).
-    double raised() const { return relaxing ? kernel->shift() * relaxing->rest() : 0.0; }
+    double raised() const { return kernel->shift() * history->rest(); }
     long products_taken() const { return direct->count() + (mesh ? mesh->count() : 0); }
     Contenders contenders() { return {ranking, indenter, of_difference.get(), *law}; }
     void use(Method how);

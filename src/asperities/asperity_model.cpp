@@ -3,32 +3,21 @@
 #include "asperities/asperity_impl.hpp"
 #include "asperities/dgesv.hpp"
 #include "base/error.hpp"
-#include "physics/hardness/hardness.hpp"
 
 namespace rsc {
 namespace {
 
 using Vector = std::vector<double>;
 
-// The law of the asperities under the tip, without loads; of a relaxing body with what it remembers.
-std::unique_ptr<Law> law_of(ContactBodies& bodies, std::optional<RelaxingAsperities>& relaxing) {
-    const SolverOptions& options = bodies.options;
-    auto law = make_yielding(make_law(options.law, bodies.asperities, bodies.indenter.E_star,
-                                      bodies.of_difference.get()),
-                             bodies.asperities, options.hardness, traits(options.law).sinks);
-    if (options.relaxation.none()) return law;
-    const Creep creep(options.relaxation);
-    auto relaxes = make_relaxing(std::move(law), bodies.asperities.size(), creep);
-    relaxing.emplace(bodies.of_surface, bodies.indenter, *relaxes, creep, options.tolerance);
-    return relaxes;
-}
-
 }  // namespace
 
 AsperityModel::Impl::Impl(const Asperities& asperities_, const Indenter& indenter_,
-                          const SolverOptions& options_)
+                          const SolverOptions& options_, MakeAsperityPhysics make_)
     : ContactBodies(asperities_, indenter_, options_),
-      law(law_of(*this, relaxing)),
+      make(make_),
+      physics(make(*this)),
+      law(physics.law.get()),
+      history(physics.history.get()),
       direct(make_direct_products(kernel)),
       newton(*law) {
     use(Method::direct);
@@ -52,7 +41,7 @@ void AsperityModel::Impl::use(Method how) {
 void AsperityModel::Impl::select(double Z0) {
     select_candidates(contenders(), options, Z0 - raised(), candidates);
     use(choose_method(options, *kernel, candidates.set));
-    if (relaxing) relaxing->lower(candidates, *products);
+    history->lower(candidates, *products);
 }
 
 NewtonOutcome AsperityModel::Impl::solve_from(const Vector& start, bool rough_start) {
@@ -133,8 +122,8 @@ Level AsperityModel::Impl::level(double Z0, const NewtonOutcome& outcome, bool u
 }
 
 AsperityModel::AsperityModel(const Asperities& asperities, const Indenter& indenter,
-                             const SolverOptions& options)
-    : impl_(std::make_unique<Impl>(asperities, indenter, options)) {}
+                             const SolverOptions& options, MakeAsperityPhysics physics)
+    : impl_(std::make_unique<Impl>(asperities, indenter, options, physics)) {}
 AsperityModel::~AsperityModel() = default;
 
 // A trial only continues from earlier levels.
@@ -219,13 +208,7 @@ void AsperityModel::accept(Level& level) {
     if (!my.law->path_dependent()) return;
     const WorkingSet& set = my.candidates.set;
     my.earlier.remember(my.solved.separation, my.candidates, my.solution.v, my.solved.unique);
-    if (my.relaxing) {
-        my.relaxing->accept(set, my.solution, *my.products);
-        level.energy_lost = my.relaxing->lost();
-    } else {
-        my.law->commit(set.size(), set.asperity.data(), my.solution.v.data());
-        level.plastic_work = my.law->work_lost();
-    }
+    my.history->accept(set, my.solution, *my.products, level);
     if (my.solution.v.empty()) return;
     // Forces are unchanged; energy and stiffness now refer to unloading.
     my.products->set_points(set.size(), set.x.data(), set.y.data());
@@ -236,12 +219,12 @@ History* AsperityModel::history() { return impl_->law->path_dependent() ? this :
 
 double AsperityModel::shortest_time() const { return impl_->options.relaxation.shortest(); }
 
-void AsperityModel::step(double dt) { impl_->relaxing->step(dt); }
+void AsperityModel::step(double dt) { impl_->history->step(dt); }
 
 void AsperityModel::forget() {
     const Impl& my = *impl_;
     if (my.law->path_dependent()) {
-        impl_ = std::make_unique<Impl>(my.of_surface, my.indenter, my.options);
+        impl_ = std::make_unique<Impl>(my.of_surface, my.indenter, my.options, my.make);
         return;
     }
     impl_->earlier = {};
@@ -277,7 +260,7 @@ double AsperityModel::stiffness(double accuracy) {
 }
 
 double AsperityModel::energy() const {
-    if (impl_->relaxing) return impl_->relaxing->stored();
+    if (const std::optional<double> stored = impl_->history->stored()) return *stored;
     return impl_->solution.v.empty() ? 0 : 0.0 - impl_->newton.energy();
 }
 

@@ -2,6 +2,7 @@
 // model (paper, section 4).
 #pragma once
 
+#include "asperities/asperity_history.hpp"
 #include "contact/model.hpp"
 #include "surface/asperities.hpp"
 
@@ -14,7 +15,7 @@ public:
     // (shifted_summits.hpp), if options.gentlest_slope is known. Throws Error(bad_input) for moduli,
     // shapes or options out of range.
     AsperityModel(const Asperities& asperities, const Indenter& indenter,
-                  const SolverOptions& options);
+                  const SolverOptions& options, MakeAsperityPhysics physics);
     ~AsperityModel() override;
 
     const Indenter& indenter() const override;

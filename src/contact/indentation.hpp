@@ -4,7 +4,6 @@
 #include "contact/shape.hpp"
 #include "interaction/kernel.hpp"
 #include "interaction/layered_body.hpp"
-#include "physics/relaxation/relaxation.hpp"
 #include "surface/asperities.hpp"
 
 namespace rsc {
@@ -78,6 +77,23 @@ struct Hardness {
 struct Adhesion {
     double work = 0;   // work of adhesion w [force/length]; 0: no adhesion
     double range = 0;  // range z0 of the attraction [length]; 0: JKR
+};
+
+inline constexpr int kMostRelaxations = 16;
+
+// Relaxation of body 1 (physics/relaxation/relaxation.hpp): shares g_k > 0, whose sum is at most 1, and times tau_k > 0 [time]. Empty: the body is elastic.
+struct Relaxation {
+    std::vector<double> share = {}, time = {};
+    // share of this body in the compliance 1/E* of the pair; 1 if the other one is rigid
+    double soft = 1;
+    bool none() const { return share.empty(); }
+    // The shortest relaxation time with a share; Infinity: there is none.
+    double shortest() const {
+        double least = kInfinity;
+        for (std::size_t k = 0; k < share.size(); ++k)
+            if (share[k] > 0) least = std::min(least, time[k]);
+        return least;
+    }
 };
 
 // Points of a measured map that asperities do not represent.

@@ -73,4 +73,21 @@ TEST(test_cycle) {
     }
 }
 
+// A steep tip that moves away from the one asperity it holds lets go of it: nothing is left, and the
+// level is that of a new contact there.
+TEST(test_lets_go) {
+    const Asperities one{{0.5}, {0.5}, {0.0}, {0.05}, {20.0}, {20.0}, {0.0}, {0.0}};
+    SolverOptions options{.law = LawKind::elliptic, .adhesion = {1e-3, 0}, .gentlest_slope = 0.1};
+    const auto held = make_asperity_contact(one, {5.0, 0.1, 0.5, 0.5}, options);
+    const double Z = held->first_touch() + 1e-4;
+    (void)held->at_separation(Z - 1e-3);
+    CHECK(held->at_separation(Z).force < 0);
+    held->move_tip(0.56, 0.5);
+    const Level level = held->at_separation(Z);
+    CHECK(level.contacts == 0 && level.force == 0 && held->energy() == 0 && level.jumps == 1);
+    CHECK(level.energy_lost > 0);
+    const auto other = make_asperity_contact(one, {5.0, 0.1, 0.56, 0.5}, options);
+    CHECK_RELATIVE(held->first_touch(), other->first_touch(), 1e-9);
+}
+
 }  // namespace

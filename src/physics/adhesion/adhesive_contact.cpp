@@ -155,32 +155,11 @@ std::optional<Level> AdhesiveAsperities::solve_under(double N) {
     return report();
 }
 
-// Throws Error(bad_input) where attached asperities lie below a slope of the indenter at which
-// summits no longer represent the surface: their state cannot be followed there.
-void require_gentle(const AdhesivePath& path, double x0, double y0) {
-    constexpr double kSteepest = 0.2;  // of the surface's slope, the range of asperities
-    if (!path.of_difference) return;
-    Indenter there = path.indenter;
-    there.move(x0, y0);
-    for (const int i : path.accepted.asperity) {
-        const double x = path.asperities.x[at(i)], y = path.asperities.y[at(i)];
-        for (const Indenter* tip : {&path.indenter, &std::as_const(there)}) {
-            const Vec2 d = tip->from_tip(x, y), g = tip->shape->gradient(d.x, d.y);
-            if (std::hypot(g.x, g.y) > kSteepest * path.options.gentlest_slope)
-                throw Error(Failure::bad_input,
-                            "the tip cannot move while asperities are attached where the slope of "
-                            "the indenter is above 0.2 of that of the surface: pull it off first, "
-                            "or use solver%model = 'elements' or asperities%law = 'hertz'");
-        }
-    }
-}
-
 void AdhesiveAsperities::move_tip(double x0, double y0) {
     AdhesivePath& my = *path_;
     if (x0 == my.indenter.x0 && y0 == my.indenter.y0) return;
     (void)stiffness(kExact);
     if (!my.accepted.asperity.empty()) {
-        require_gentle(my, x0, y0);
         // with the summits of the difference at the new place
         std::unique_ptr<AdhesivePath> there = my.of_difference ? path_at(x0, y0) : nullptr;
         AdhesivePath::Past before = my.accepted;

@@ -81,10 +81,11 @@ bool AdhesivePath::move(double x0, double y0) {
 // The difference is of second order in the slope of the indenter; its energy does not count as
 // lost.
 bool AdhesivePath::stand() {
+    if (accepted.asperity.empty()) return true;
     sticking.prepare(accepted.asperity);
     begin(accepted.separation);
     free_before.resize(asperities.size());
-    if (!settle(here.Z, here.s)) return false;
+    if (!settle(accepted.separation, here.s)) return false;
     lost_way = false;
     accepted = now = past();
     return true;

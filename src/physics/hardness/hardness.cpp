@@ -211,6 +211,46 @@ private:
     std::vector<int> yielded_;  // increasing
 };
 
+class YieldingAsperities final : public AsperityHistory {
+public:
+    YieldingAsperities(Law& law, std::size_t asperities) : law_(law), asperities_(asperities) {}
+
+    void accept(const WorkingSet& set, const Solution& solution, Products&, Level& level) override {
+        law_.commit(set.size(), set.asperity.data(), solution.v.data());
+        level.plastic_work = law_.work_lost();
+    }
+    // Pairs of the index of a yielded asperity and its largest penetration.
+    void write(std::vector<double>& numbers) const override {
+        for (const int i : law_.yielded())
+            numbers.insert(numbers.end(), {static_cast<double>(i), law_.deepest(i)});
+    }
+    void read(std::span<const double> numbers) override {
+        std::vector<int> yielded;
+        std::vector<double> deepest;
+        for (std::size_t k = 0; k + 1 < numbers.size(); k += 2) {
+            if (!(numbers[k] >= 0 && numbers[k] < static_cast<double>(asperities_) &&
+                  std::isfinite(numbers[k + 1])))
+                throw Error(Failure::bad_input,
+                            "the state does not belong to a contact of these asperities");
+            yielded.push_back(static_cast<int>(numbers[k]));
+            deepest.push_back(numbers[k + 1]);
+        }
+        law_.forget();
+        law_.prepare(yielded);
+        law_.commit(static_cast<int>(yielded.size()), yielded.data(), deepest.data());
+    }
+    std::vector<double> residual_depths() const override {
+        std::vector<double> depths;
+        for (std::size_t i = 0; i < asperities_; ++i)
+            depths.push_back(law_.residual_depth(static_cast<int>(i)));
+        return depths;
+    }
+
+private:
+    Law& law_;
+    std::size_t asperities_;
+};
+
 }  // namespace
 
 std::unique_ptr<Law> make_yielding(std::unique_ptr<Law> elastic, const Asperities& asperities,
@@ -221,6 +261,16 @@ std::unique_ptr<Law> make_yielding(std::unique_ptr<Law> elastic, const Asperitie
         throw Error(Failure::bad_input, "solids%size_effect must not be negative");
     if (std::isinf(hardness.H0)) return elastic;
     return std::make_unique<Yielding>(std::move(elastic), asperities, hardness, sinks);
+}
+
+AsperityPhysics make_yielding_asperities(const ContactBodies& bodies,
+                                         std::unique_ptr<Law> elastic) {
+    const SolverOptions& options = bodies.options;
+    auto law = make_yielding(std::move(elastic), bodies.asperities, options.hardness,
+                             traits(options.law).sinks);
+    if (!law->path_dependent()) return {std::move(law), std::make_unique<AsperityHistory>()};
+    auto history = std::make_unique<YieldingAsperities>(*law, bodies.asperities.size());
+    return {std::move(law), std::move(history)};
 }
 
 }  // namespace rsc

@@ -26,13 +26,16 @@
 // Size effect (Swadener, George, Pharr 2002; paper, section 5): H_i = H0 sqrt(1 + l/r_i).
 #pragma once
 
-#include "asperities/law.hpp"
+#include "asperities/asperity_history.hpp"
 
 namespace rsc {
 
-// Wraps a law to limit its pressures. Throws Error(bad_input) unless H0 > 0 and length is finite
-// and not negative.
+// Wraps a law to limit its pressures. Throws Error(bad_input) unless H0 > 0 and length is finite and
+// not negative.
 std::unique_ptr<Law> make_yielding(std::unique_ptr<Law> elastic, const Asperities& asperities,
                                    const Hardness& hardness, bool sinks);
+
+// The law of the bodies with its history: the largest penetration of each asperity that yielded.
+AsperityPhysics make_yielding_asperities(const ContactBodies& bodies, std::unique_ptr<Law> elastic);
 
 }  // namespace rsc

@@ -90,7 +90,7 @@ void RelaxingAsperities::lower(Candidates& candidates, Products& products) {
 }
 
 void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& solution,
-                                Products& products) {
+                                Products& products, Level& level) {
     law_.commit(static_cast<int>(solution.v.size()), candidates.asperity.data(), solution.v.data());
     std::vector<double> x, y;
     add_places(x, y, law_.touched());
@@ -119,9 +119,10 @@ void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& so
     stored_ = stored, held_ = held;
     force_ = f, load_ = std::move(load);
     step(0);
+    level.energy_lost = law_.lost() + lost_;
 }
 
-Level RelaxingAsperities::lasting(const Level& level) const {
+std::optional<Level> RelaxingAsperities::lasting(const Level& level) const {
     Level all = level;
     const std::vector<double> widest = law_.widest();
     for (std::size_t i = 0; i < load_.size(); ++i) {
@@ -154,6 +155,15 @@ void RelaxingAsperities::read(std::span<const double> numbers) {
     for (const std::vector<double>& y : law_.retarded())
         for (std::size_t i = 0; i < y.size(); ++i) load_[i] += y[i];
     step(0);
+}
+
+AsperityPhysics make_relaxing_asperities(const ContactBodies& bodies,
+                                         std::unique_ptr<Law> elastic) {
+    const Creep creep(bodies.options.relaxation);
+    auto law = make_relaxing(std::move(elastic), bodies.asperities.size(), creep);
+    auto history = std::make_unique<RelaxingAsperities>(bodies.of_surface, bodies.indenter, *law,
+                                                        creep, bodies.options.tolerance);
+    return {std::move(law), std::move(history)};
 }
 
 }  // namespace rsc

@@ -2,44 +2,42 @@
 // (law/relaxing.hpp), and energies. Used by asperity_contact.
 #pragma once
 
-#include "asperities/candidates.hpp"
-#include "contact/level.hpp"
-#include "interaction/products.hpp"
+#include "asperities/asperity_history.hpp"
 #include "physics/relaxation/relaxing.hpp"
 
 namespace rsc {
 
-class RelaxingAsperities {
+class RelaxingAsperities final : public AsperityHistory {
 public:
     // The asperities, the indenter, whose tip may move, and the law must outlive this object.
     // Deflections are accurate to `tolerance`, that of the levels.
     RelaxingAsperities(const Asperities& asperities, const Indenter& indenter, RelaxingLaw& law,
                        const Creep& creep, double tolerance);
 
-    void step(double dt);
+    void step(double dt) override;
     // Ratio of the forces of the law to the true ones.
-    double scale() const { return 1 / law_.modulus(); }
+    double scale() const override { return 1 / law_.modulus(); }
     // Sum of all rests: for periodic flats the surface rises by the kernel's shift times this sum.
-    double rest() const { return rest_; }
+    double rest() const override { return rest_; }
 
     // Subtracts the deflection by earlier loads from g0 of the candidates, and drops those that can
     // no longer touch.
-    void lower(Candidates& candidates, Products& products);
+    void lower(Candidates& candidates, Products& products) override;
     // Accepts the solution over the candidates; the next step has zero duration until step() is
     // called.
-    void accept(const WorkingSet& candidates, const Solution& solution, Products& products);
+    void accept(const WorkingSet& candidates, const Solution& solution, Products& products,
+                Level& level) override;
 
     // Stored energy of the springs and of the interaction (f'Bf/2 and that of each retardation),
     // and dissipated energy [force length].
-    double stored() const { return law_.stored() + stored_; }
-    double lost() const { return law_.lost() + lost_; }
+    std::optional<double> stored() const override { return law_.stored() + stored_; }
 
-    // Path::lasting_loads(): on the spots of the level, and where it has no contact on circles
+    // As History::lasting_loads(): on the spots of the level, and where it has no contact on circles
     // of the largest area so far.
-    Level lasting(const Level& level) const;
+    std::optional<Level> lasting(const Level& level) const override;
 
-    void write(std::vector<double>& numbers) const;
-    void read(std::span<const double> numbers);
+    void write(std::vector<double>& numbers) const override;
+    void read(std::span<const double> numbers) override;
 
 private:
     void add_places(std::vector<double>& x, std::vector<double>& y,
@@ -60,5 +58,8 @@ private:
     std::vector<double> lowered_;
     std::vector<int> known_;
 };
+
+// The elastic law `law` of bodies that relax, and their history.
+AsperityPhysics make_relaxing_asperities(const ContactBodies& bodies, std::unique_ptr<Law> law);
 
 }  // namespace rsc
