@@ -217,7 +217,9 @@ def interface_type(a):
 
 def interface(functions, constants):
     lines = ["  !> Status codes of calls and levels."]
-    lines += [f"  integer, parameter, public :: {name.lower()} = {value}" for name, value in constants]
+    lines += [
+        f"  integer, parameter, public :: {name.lower()} = {value}" for name, value in constants
+    ]
     lines += [
         "",
         "  ! Outputs are intent(inout): they keep their value when the function fails.",
@@ -274,9 +276,7 @@ def wrapper(f):
             declared.append(
                 (f"class(rsc_{f.kind}), intent({'in' if a.const else 'inout'})", "self")
             )
-            call.append(
-                "handle" if f.makes else f"rsc_handle_of(self%number)"
-            )
+            call.append("handle" if f.makes else f"rsc_handle_of(self%number)")
             continue
         if a.role == "value" and a.name == "n":
             call.append(
@@ -296,9 +296,7 @@ def wrapper(f):
                 )
             )
             call.append(
-                "options_of(options)"
-                if a.kind == "case"
-                else f"rsc_handle_of({a.name}%number)"
+                "options_of(options)" if a.kind == "case" else f"rsc_handle_of({a.name}%number)"
             )
         elif a.role == "text":
             declared.append(("character(*), intent(in)", a.name))
@@ -400,7 +398,11 @@ def wrapper(f):
         before = refusal + before
         if room:
             local += [(LONG, "n")]
-            before = ["n = 0", "status = rsc_asperities_count(rsc_handle_of(self%number), n)", *before]
+            before = [
+                "n = 0",
+                "status = rsc_asperities_count(rsc_handle_of(self%number), n)",
+                *before,
+            ]
         if after:
             local.append((SHORT, "status"))
     called = f"{f.name}({', '.join(call)})"

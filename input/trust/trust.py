@@ -561,7 +561,8 @@ def fitted(r):
 
 class Table:
     """Bounds of the errors of N and A of a law: quantiles of the fitted levels by contact radius, on isotropic Gaussian surfaces without
-    yielding, and one factor each for other heights, the largest of their kinds, and for yielding contacts."""
+    yielding, and one factor each for other heights, the largest of their kinds, and for yielding contacts.
+    """
 
     def __init__(self, levels, edges):
         self.edges = edges

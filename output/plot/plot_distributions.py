@@ -21,7 +21,9 @@ def _gamma(result, k, p):
     fit = generalised_gamma(result, k)
     return (
         fit.factor * p**fit.alpha * np.exp(-((p / fit.delta) ** fit.beta)),
-        rf"; $\alpha$ = {fit.alpha:.2f}, $\beta$ = {fit.beta:.2f}" if np.isfinite(fit.alpha) else "",
+        rf"; $\alpha$ = {fit.alpha:.2f}, $\beta$ = {fit.beta:.2f}"
+        if np.isfinite(fit.alpha)
+        else "",
     )
 
 

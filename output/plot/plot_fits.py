@@ -6,7 +6,9 @@ from collections import namedtuple
 import numpy as np
 
 Scale = namedtuple("Scale", "scale error ks_distance")
-Gamma = namedtuple("Gamma", "alpha beta delta factor alpha_error beta_error delta_error ks_distance")
+Gamma = namedtuple(
+    "Gamma", "alpha beta delta factor alpha_error beta_error delta_error ks_distance"
+)
 
 
 def shares(result, k, weights, density):
@@ -43,7 +45,8 @@ def exponential(result, k):
 
 def generalised_gamma(result, k):
     """Density factor p^alpha exp(-(p/delta)^beta) of the pressure, with the probabilities of whole bins; standard errors for the
-    effective number of independent contacts. NaN for fewer than 5 bins with weight or 10 contacts, and without scipy."""
+    effective number of independent contacts. NaN for fewer than 5 bins with weight or 10 contacts, and without scipy.
+    """
     edges, share, _ = shares(result, k, "pressure_area", "pressure_pdf")
     return fit_gamma(
         edges,

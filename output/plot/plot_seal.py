@@ -145,6 +145,9 @@ def flow(results, options):
         label(axis, "y", "$y$", result.dimension("field_y"))
         axis.set_title(f"{result.level_name(steps[k])}\n{text}", fontsize=7)
     figure.suptitle(
-        result.heading("Flow along x through the gap (grey; black: contact; ring: critical constriction)"), fontsize=8
+        result.heading(
+            "Flow along x through the gap (grey; black: contact; ring: critical constriction)"
+        ),
+        fontsize=8,
     )
     return figure

@@ -270,7 +270,8 @@ int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* forc
         const bool same = path.level() && path.level()->separation == separation &&
                           place.x == tip.x0 && place.y == tip.y0 && !path.pulls() &&
                           (!path.relaxes() || path.level()->time == path.time());
-        if (!same) reach(*contact, false, [&](rsc::Path& p) { return p.at_separation(separation); });
+        if (!same)
+            reach(*contact, false, [&](rsc::Path& p) { return p.at_separation(separation); });
         put(force, path.level()->force);
         tell_convergence(*contact);
     });

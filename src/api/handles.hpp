@@ -55,7 +55,7 @@ struct rsc_contact {
     rsc::SolverOptions options;
     std::unique_ptr<rsc::Path> owned;
     rsc::Path& path;
-    rsc::Judge judge;  // elements have no second grid here
+    rsc::Judge judge;            // elements have no second grid here
     rsc::Path::State committed;  // initially the new contact
     // The indenter where it was at the last level; it may have moved since.
     rsc::Indenter indenter_at_level() const;

@@ -185,8 +185,7 @@ void put_state(Entries& to, const std::string& prefix, const Path::State& state)
 }
 
 // Files of version 0.3 have one array in place of "accepted" and "history".
-void get_history(const Entries& from, const std::string& prefix, bool relaxes,
-                 Path::State& state) {
+void get_history(const Entries& from, const std::string& prefix, bool relaxes, Path::State& state) {
     const bool old = from.numbers.contains(prefix + "memory");
     Numbers accepted(3, kNotComputed);
     state.history = from.of(prefix + (old ? "memory" : "history"));
@@ -212,7 +211,8 @@ Path::State get_state(const Entries& from, const std::string& prefix, const rsc_
     if (!from.numbers.contains(prefix + "level")) return state;
     const Numbers& known = from.of(prefix + "level");
     const Numbers& pixels = from.of(prefix + "level.pixels");
-    if ((known.size() != 3 && known.size() != 8) || (pixels.size() != 5 && pixels.size() != 6)) bad_input(kBroken);
+    if ((known.size() != 3 && known.size() != 8) || (pixels.size() != 5 && pixels.size() != 6))
+        bad_input(kBroken);
     Level level;
     level.separation = known[0];
     state.level_x0 = known[1], state.level_y0 = known[2];

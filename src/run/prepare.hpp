@@ -146,7 +146,7 @@ double sigma_of(const Case& settings, const SurfaceDomain& domain);
 
 // The contact of an indenter with a surface; the model must outlive it.
 std::unique_ptr<Path> make_contact(const SurfaceModel& model, const Indenter& indenter,
-                                      const SolverOptions& options);
+                                   const SolverOptions& options);
 
 // The keys of &solver, &asperities and &indentation that a solver needs. Throws Error(bad_input) if
 // it needs an rms height and there is none.

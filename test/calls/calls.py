@@ -845,7 +845,14 @@ def in_77(calls, arrays):
         head,
         arrays,
         used,
-        ["stat = 0", "h = 0", "i(:2) = [1, 2]", "call rscint(i, stat)", "r(:2) = [1, 2]", "call rscdbl(r, stat)"],
+        [
+            "stat = 0",
+            "h = 0",
+            "i(:2) = [1, 2]",
+            "call rscint(i, stat)",
+            "r(:2) = [1, 2]",
+            "call rscdbl(r, stat)",
+        ],
         body,
         told + TAIL,
     )

@@ -1,9 +1,9 @@
 // Deflections and fields of contacts with adhesion, and fields of elliptic spots
 // (contact/deflection.hpp, observe/fields.hpp).
 #include "adhesive_paths.hpp"
-#include "contact/make.hpp"
 #include "check.hpp"
 #include "contact/deflection.hpp"
+#include "contact/make.hpp"
 #include "height_maps.hpp"
 #include "observe/fields.hpp"
 

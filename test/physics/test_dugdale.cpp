@@ -1,9 +1,9 @@
 // Asperities that attract within a range (law/sticking.hpp): against Maugis's equations, and JKR as
 // its limit.
 #include "adhesive_paths.hpp"
-#include "contact/make.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
+#include "contact/make.hpp"
 
 using namespace rsc;
 using std::numbers::pi;

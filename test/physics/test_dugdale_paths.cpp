@@ -1,8 +1,8 @@
 // Several asperities that attract within a range: the path against a slow minimiser of the energy,
 // and the work of cycles.
 #include "adhesive_paths.hpp"
-#include "contact/make.hpp"
 #include "check.hpp"
+#include "contact/make.hpp"
 
 using namespace rsc;
 using std::numbers::pi;

@@ -36,9 +36,8 @@ void compare(double R, const std::vector<double>& forces) {
     const Run by_force = run(map, tip, forces, under_force);
     std::vector<double> separations;
     for (const Level& level : by_force.levels) separations.push_back(level.separation);
-    const Run by_separation = run(map, tip, separations, [](Path& contact, double Z0) {
-        return contact.at_separation(Z0);
-    });
+    const Run by_separation = run(
+        map, tip, separations, [](Path& contact, double Z0) { return contact.at_separation(Z0); });
     for (std::size_t k = 0; k < forces.size(); ++k) {
         CHECK(by_force.levels[k].converged);
         CHECK_RELATIVE(by_force.levels[k].force, forces[k], 1e-6);

@@ -1,7 +1,7 @@
 // A tip that moves: each level starts from those of the last places, and must be the one of a
 // contact without a past.
-#include "contact/make.hpp"
 #include "check.hpp"
+#include "contact/make.hpp"
 #include "physics/random_asperities.hpp"
 
 using namespace rsc;

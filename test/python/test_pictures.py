@@ -41,7 +41,8 @@ CASES = {
     "slid": SURFACE
     + BALL.replace("resistivity", "friction=0.3 resistivity")
     + "&indentation centre=500.0,680.0 start=3.0 stop=1.0 steps=41 /",
-    "back": SMALL + "&solver model='asperities' / &solids hardness=1.5e4 / &indentation levels=2.5,2,1.5,1,1.2,1.4,1.6,1.8 /",
+    "back": SMALL
+    + "&solver model='asperities' / &solids hardness=1.5e4 / &indentation levels=2.5,2,1.5,1,1.2,1.4,1.6,1.8 /",
     "compared": SMALL
     + "&asperities law='fourth_order' / &indentation levels=2.0,1.5,1.0 / &compare levels=2.0,1.0 /",
     "above": SMALL + "&indentation levels=9.0 / &compare levels=9.0 /",
