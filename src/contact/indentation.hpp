@@ -81,7 +81,8 @@ struct Adhesion {
 
 inline constexpr int kMostRelaxations = 16;
 
-// Relaxation of body 1 (physics/relaxation/relaxation.hpp): shares g_k > 0, whose sum is at most 1, and times tau_k > 0 [time]. Empty: the body is elastic.
+// Relaxation of body 1 (physics/relaxation/relaxation.hpp): shares g_k > 0, whose sum is at most 1,
+// and times tau_k > 0 [time]. Empty: the body is elastic.
 struct Relaxation {
     std::vector<double> share = {}, time = {};
     // share of this body in the compliance 1/E* of the pair; 1 if the other one is rigid

@@ -334,8 +334,8 @@ void Path::solve_level_again() {
     if (!pulls()) put_tip(now.x, now.y);
 }
 
-// Solves z + shift() N(z) = Z0, where z is the separation of the model. The left side increases with
-// z and is convex as long as N is a function of Z0.
+// Solves z + shift() N(z) = Z0, where z is the separation of the model. The left side increases
+// with z and is convex as long as N is a function of Z0.
 Level Path::solve_between_planes(double Z0) {
     const double c = model_->shift(), touch = first_touch();
     if (Z0 >= touch) return model_->solve(Z0);

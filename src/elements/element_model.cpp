@@ -108,6 +108,13 @@ private:
     void select(double Z0);
     void predict(double Z0);
     void remember(double Z0);
+    double force(const Past& level) const {
+        return pixel_area() * std::accumulate(level.p.begin(), level.p.end(), 0.0);
+    }
+    double power_of_depth(double otherwise) const;
+    void solve_more(double tolerance, int iterations, std::optional<double> sum,
+                    ElementsOutcome& all);
+    bool solve_roughly(double N, double& power, ElementsOutcome& all);
     void take_off_rest(double Z0);
     // Lowers candidate k by fall(k), and drops those that can then not touch.
     template <class F>
@@ -296,16 +303,56 @@ Level ElementModel::solve(double Z0, bool) {
     return report(Z0, outcome);
 }
 
+// The exponent of N as a power of the depth, from the last two levels; `otherwise`, if it is not
+// known.
+double ElementModel::power_of_depth(double otherwise) const {
+    if (past_.size() < 2) return otherwise;
+    const double grown = std::log(force(past_[1]) / force(past_[0])) /
+                         std::log((top_ - past_[1].separation) / (top_ - past_[0].separation));
+    return grown >= 1 ? grown : otherwise;
+}
+
+void ElementModel::solve_more(double tolerance, int iterations, std::optional<double> sum,
+                              ElementsOutcome& all) {
+    const ElementsOutcome now = solver_.solve(pixels_, g0_, tolerance, iterations, p_, sum);
+    all = {now.converged, all.iterations + now.iterations, all.products + now.products,
+           now.residual};
+}
+
+// Rough solutions at separations until one has a force near N; false if none has.
+bool ElementModel::solve_roughly(double N, double& power, ElementsOutcome& all) {
+    constexpr double rough = 0.1, most_above = 2, most_below = 3, widest = 3, steep = 4;
+    constexpr int rounds = 5, searches = 20;
+    double depth = std::numeric_limits<double>::epsilon() *
+                   std::max(std::abs(top_), std::numeric_limits<double>::min());
+    while (force_at_most(depth) < N) depth *= 2;
+    double shallow = 0, deep = kInfinity;
+    past_.clear();
+    for (int i = 0;; ++i) {
+        select(top_ - depth);
+        predict(top_ - depth);
+        solve_more(rough, rounds, std::nullopt, all);
+        remember(top_ - depth);
+        const double ratio = N / force(past_[0]);
+        // Candidates deeper than needed cost more than another trial.
+        power = power_of_depth(ratio > 1 ? steep : power);
+        if (ratio < most_below && ratio > 1 / most_above) break;
+        if (i == searches) return false;
+        (ratio > 1 ? shallow : deep) = depth;
+        depth *= std::clamp(std::pow(ratio, 1 / (ratio > 1 ? std::max(power, steep) : power)),
+                            1 / widest, widest);
+        if (!(depth > shallow && depth < deep)) depth = std::sqrt(shallow * deep);
+    }
+    past_.resize(1);
+    return true;
+}
+
 // Solves with the sum of the pressures given and Z0 as an additional unknown (Polonsky and Keer).
 // Pixels are selected at a Z0 below the expected one, which follows from a power law of N with the
 // exponent of the last two levels. Without earlier levels rough solutions at separations come
 // first.
 std::optional<Level> ElementModel::solve_under(double N) {
     if (history()) return std::nullopt;
-    const double pixel = pixel_area();
-    const auto force = [pixel](const Past& level) {
-        return pixel * std::accumulate(level.p.begin(), level.p.end(), 0.0);
-    };
     const auto far = [&] {
         if (past_.empty()) return true;
         const double last = force(past_[0]);
@@ -321,52 +368,13 @@ std::optional<Level> ElementModel::solve_under(double N) {
         }
         ~Levels() { restore(); }
     } levels{*this};
-    const bool cold = far();
-    if (cold) past_.clear();
     ElementsOutcome outcome;
-    const auto solved = [&](double tolerance, int iterations, std::optional<double> sum) {
-        const ElementsOutcome now = solver_.solve(pixels_, g0_, tolerance, iterations, p_, sum);
-        outcome = {now.converged, outcome.iterations + now.iterations,
-                   outcome.products + now.products, now.residual};
-    };
     double power = 1.5;  // of a sphere; larger for rough surfaces, 1 in full contact
-    if (cold) {          // a rough solution near N
-        constexpr double rough = 0.1, most_above = 2, most_below = 3, widest = 3, steep = 4;
-        constexpr int rounds = 5, searches = 20;
-        double depth = std::numeric_limits<double>::epsilon() *
-                       std::max(std::abs(top_), std::numeric_limits<double>::min());
-        while (force_at_most(depth) < N) depth *= 2;
-        double shallow = 0, deep = kInfinity;
-        for (int i = 0;; ++i) {
-            select(top_ - depth);
-            predict(top_ - depth);
-            solved(rough, rounds, std::nullopt);
-            remember(top_ - depth);
-            const double last = force(past_[0]), ratio = N / last;
-            if (ratio > 1)
-                power = steep;  // candidates deeper than needed cost more than another trial
-            if (past_.size() > 1) {
-                const double grown = std::log(last / force(past_[1])) /
-                                     std::log(depth / (top_ - past_[1].separation));
-                if (grown >= 1) power = grown;
-            }
-            if (ratio < most_below && ratio > 1 / most_above) break;
-            if (i == searches) return std::nullopt;
-            (ratio > 1 ? shallow : deep) = depth;
-            depth *= std::clamp(std::pow(ratio, 1 / (ratio > 1 ? std::max(power, steep) : power)),
-                                1 / widest, widest);
-            if (!(depth > shallow && depth < deep)) depth = std::sqrt(shallow * deep);
-        }
-        past_.resize(1);
-    }
-    if (far()) return std::nullopt;
-    const double N0 = force(past_[0]), depth = top_ - past_[0].separation;
-    if (past_.size() > 1) {
-        const double grown =
-            std::log(force(past_[1]) / N0) / std::log((top_ - past_[1].separation) / depth);
-        if (grown >= 1) power = grown;
-    }
-    double expected = top_ - depth * std::pow(N / N0, 1 / power),
+    const bool cold = far();
+    if (cold && (!solve_roughly(N, power, outcome) || far())) return std::nullopt;
+    power = power_of_depth(power);
+    const double depth = top_ - past_[0].separation;
+    double expected = top_ - depth * std::pow(N / force(past_[0]), 1 / power),
            lowest = expected - kMargin * std::abs(expected - past_[0].separation);
     if (cold) lowest -= kColdMargin * (top_ - expected);
     constexpr int trials = 4;
@@ -374,7 +382,7 @@ std::optional<Level> ElementModel::solve_under(double N) {
         select(lowest);
         predict(expected);
         if (std::none_of(p_.begin(), p_.end(), [](double p) { return p > 0; })) return std::nullopt;
-        solved(options_.tolerance, options_.max_iterations, N / pixel);
+        solve_more(options_.tolerance, options_.max_iterations, N / pixel_area(), outcome);
         if (!outcome.converged) return std::nullopt;
         const double rise = solver_.rise();
         if (rise < 0) {  // points are missing; the next trial starts from this one

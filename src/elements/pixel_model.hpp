@@ -1,5 +1,5 @@
-// Common part of the boundary-element models of element_model.hpp: what accepted levels leave behind,
-// a plastic residual or the loads on a relaxing body.
+// Common part of the boundary-element models of element_model.hpp: what accepted levels leave
+// behind, a plastic residual or the loads on a relaxing body.
 #pragma once
 
 #include "contact/model.hpp"
@@ -61,7 +61,7 @@ protected:
 
 private:
     void accept(Level& level) final;
-    // Triples of column, row and residual depth of a yielded point; or the loads on a relaxing body.
+    // Triples of column, row and residual depth of a yielded point, or loads on a relaxing body.
     std::vector<double> write() const final;
     void read(const std::vector<double>& numbers) final;
     double shortest_time() const final { return options_.relaxation.shortest(); }
