@@ -47,6 +47,9 @@ struct TextTable {
     bool matrix() const { return mention(UnitMention::width) != nullptr; }
 };
 
+// What helps with files of instruments that rsc does not read.
+std::string gwyddion_advice(const std::string& path);
+
 // Numbers in columns from a text file, separated by blanks or tabs, by a comma, or by a semicolon
 // (adjacent blanks are ignored); the same separator is required throughout. With semicolons the
 // decimal mark may be a comma, but then throughout. `#` starts a comment; empty lines are skipped;

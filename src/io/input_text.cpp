@@ -268,6 +268,46 @@ static void add_empty_column(TextTable& table) {
     ++table.columns;
 }
 
+// True for a line that begins with a word: a heading, a name with a value.
+static bool begins_with_word(std::string_view text) {
+    text = text.substr(std::min(text.find_first_not_of(" \t\""), text.size()));
+    const std::string_view word = text.substr(0, text.find_first_of(" \t,;=:\r\""));
+    return !word.empty() &&
+           (std::isalpha(static_cast<unsigned char>(word[0])) || word[0] == '\\') &&
+           !number_in_file(word);
+}
+
+// Refuses a file whose first line of text is not a comment, telling what to do about it.
+static void refuse_heading(const std::string& path, std::istream& file, std::string_view first,
+                           long line) {
+    if (!begins_with_word(first)) return;
+    long last = line;
+    std::string text;
+    bool binary = false;
+    while (std::getline(file, text)) {
+        binary = binary || text.find('\0') != std::string::npos;
+        if (!begins_with_word(text)) break;
+        ++last;
+    }
+    if (first.substr(0, 2) == "\\*" || binary)
+        refuse(path, line, "the head of an instrument's file. " + gwyddion_advice(path));
+    std::string lower(first.substr(0, 5));
+    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string lines =
+        last > line ? "lines " + std::to_string(line) + " to " + std::to_string(last) + " begin"
+                    : "line " + std::to_string(line) + " begins";
+    refuse(path, line,
+           lines + " with a word, not a number: put '#' before each line of text" +
+               (lower == "ncols" ? ", and give an ESRI grid's cellsize as surface%pixel and its "
+                                   "NODATA_value as surface%missing_value"
+                                 : "; a unit there is read"));
+}
+
+std::string gwyddion_advice(const std::string& path) {
+    return "Gwyddion reads the files of most instruments: gwyddion --convert-to-gwy=map.gwy '" +
+           path + "' makes one that rsc reads";
+}
+
 TextTable read_table(const std::string& path, std::size_t columns, bool missing) {
     std::ifstream file(path, std::ios::binary);
     if (!file) bad_input(path + ": cannot be read");
@@ -283,11 +323,13 @@ TextTable read_table(const std::string& path, std::size_t columns, bool missing)
         if (line == 1 && view.substr(0, 3) == "\xef\xbb\xbf")
             view.remove_prefix(3);  // UTF-8 byte order mark
         if (line == 1 && (view.substr(0, 2) == "\xff\xfe" || view.substr(0, 2) == "\xfe\xff"))
-            bad_input(path + ": is text in UTF-16; save it as UTF-8 or plain ASCII");
+            bad_input(path + ": is text in UTF-16: iconv -f UTF-16 -t UTF-8 '" + path +
+                      "' > map.txt makes one that rsc reads");
         if (view.find('\0') != std::string_view::npos)
             refuse(path, line, "neither text nor a NetCDF file (there is a zero byte)");
         if (const std::size_t mark = view.find('#'); mark != std::string_view::npos)
             find_units(view.substr(mark + 1), line, table.units);
+        if (table.line.empty()) refuse_heading(path, file, view, line);
         Row row = parse(view, path, line, style, missing, table.values);
         if (row.count == 0) continue;
         if (table.columns == 0) table.columns = row.count;

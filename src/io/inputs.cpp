@@ -456,10 +456,7 @@ void refuse_unknown(const std::string& path, const std::string& start) {
     for (const InstrumentFormat& format : kInstrumentFormats)
         names +=
             std::string(format.name) + (&format == std::end(kInstrumentFormats) - 1 ? " " : ", ");
-    bad_input(path + names +
-              "nor text. Gwyddion reads the files of most instruments: gwyddion "
-              "--convert-to-gwy=map.gwy '" +
-              path + "' makes one that rsc reads");
+    bad_input(path + names + "nor text. " + gwyddion_advice(path));
 }
 
 Asperities read_netcdf_asperities(const std::string& path, const std::string& length_unit) {

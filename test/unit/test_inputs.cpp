@@ -131,7 +131,17 @@ TEST(heights_from_text) {
             "gwyddion --convert-to-gwy=map.gwy '" +
                 folder / "t" + "' makes one that rsc reads");
     REFUSED(read_heights(write("t", std::string("\xff\xfe") + "1"), 1.0),
-            "t: is text in UTF-16; save it as UTF-8 or plain ASCII");
+            "t: is text in UTF-16: iconv -f UTF-16 -t UTF-8 '");
+    // Heads of files: named with their lines, and what to do about them.
+    REFUSED(read_heights(write("t", "x,y (um)\n1,2\n3,4\n"), 1.0),
+            "t:1: line 1 begins with a word, not a number: put '#'");
+    REFUSED(read_heights(write("t", "# a\nNCOLS 3\nnrows 3\ncellsize 50\n1 2 3\n"), 1.0),
+            "t:2: lines 2 to 4 begin with a word, not a number: put '#' before each line of text, "
+            "and give an ESRI grid's cellsize as surface%pixel");
+    REFUSED(read_heights(write("t", "\\*File list\r\n\\Version: 7\r\n"), 1.0),
+            "t:1: the head of an instrument's file. Gwyddion reads");
+    CHECK(read_heights(write("t", "nan 2 3 4 5\n4 5 6 7 8\n7 8 9 1 2\n"), 1.0, "um", "",
+                       Missing::fill)(2, 2) == 9);
     REFUSED(read_heights(write("t", "1 2 3 1\n4 5 6 1\n7 8 9 1\n"), 1.0),
             "four columns are a list of asperities x y z");
     // The header of Gwyddion's text exports: the unit of the heights.

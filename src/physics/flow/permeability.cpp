@@ -21,8 +21,8 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 // Bytes of an open gap of n points, n (kBytes + kLog log2 n): from the peaks of parallel gaps of
-// 256^2, 512^2 and 1024^2 points (976, 1012 and 1072 bytes a point); contact leaves less.
-constexpr double kBytes = 600, kLog = 25;
+// 256^2, 512^2 and 1024^2 points (768, 788 and 819 bytes a point); contact leaves less.
+constexpr double kBytes = 560, kLog = 13.5;
 
 }  // namespace
 
