@@ -34,6 +34,16 @@ inline std::unique_lock<LibraryLock> fftw_planning() {
     return lock;
 }
 
+// The smallest multiple of `even`, 1 or 2, of at least `least` points whose transforms are fast.
+inline int fast_size(int least, int even = 1) {
+    for (int n = least + least % even;; n += even) {
+        int rest = n;
+        for (const int factor : {2, 3, 5, 7})
+            while (rest % factor == 0) rest /= factor;
+        if (rest == 1) return n;
+    }
+}
+
 struct FftwDestroyer {
     void operator()(auto* plan) const noexcept {
         const std::lock_guard lock(library_lock());

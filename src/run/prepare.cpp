@@ -5,6 +5,7 @@
 #include "asperities/law.hpp"
 #include "base/error.hpp"
 #include "base/format.hpp"
+#include "base/library_lock.hpp"
 #include "base/parallel.hpp"
 #include "contact/equivalent.hpp"
 #include "io/inputs.hpp"
@@ -14,17 +15,6 @@
 
 namespace rsc {
 namespace {
-
-// The smallest even size >= least with a fast Fourier transform.
-int fast_size(double least) {
-    int n = static_cast<int>(std::ceil(least));
-    for (n += n % 2;; n += 2) {
-        int rest = n;
-        for (int factor : {2, 3, 5, 7})
-            while (rest % factor == 0) rest /= factor;
-        if (rest == 1) return n;
-    }
-}
 
 // Hertz asperities are at grid points, as in the paper; the other laws need the summits between the
 // points.
@@ -217,7 +207,9 @@ Surface make_surface(const Case& settings, std::int64_t number, int threads) {
 }
 
 int element_points(const Case& settings, const Spectrum& spectrum) {
-    return fast_size(settings.elements.points_per_wave * shortest_wave(spectrum));
+    return fast_size(
+        static_cast<int>(std::ceil(settings.elements.points_per_wave * shortest_wave(spectrum))),
+        2);
 }
 
 std::string too_large_for_elements(const Case& settings, const Spectrum& spectrum) {

@@ -30,6 +30,27 @@ double loop_area(const Values& x, const Values& Q, std::size_t first) {
     return std::abs(area);
 }
 
+// Of the fields of a level: the share of the contact that sticks, and Q over mu N. No traction is
+// beyond the limit of friction.
+struct Slip {
+    double sticks, force;
+    Slip(const Reader& file, double mu) {
+        const auto pressure = file.values("field_pressure"),
+                   traction = file.values("field_traction");
+        double stuck = 0, touches = 0, sum = 0, pressed = 0;
+        for (std::size_t k = 0; k < pressure.size(); ++k) {
+            CHECK(traction[k] >= -1e-9 * mu * pressure[k] &&
+                  traction[k] <= (1 + 1e-9) * mu * pressure[k]);
+            touches += pressure[k] > 0;
+            stuck += pressure[k] > 0 && traction[k] < mu * pressure[k] * (1 - 1e-9);
+            sum += traction[k];
+            pressed += pressure[k];
+        }
+        sticks = stuck / touches;
+        force = sum / (mu * pressed);
+    }
+};
+
 }  // namespace
 
 TEST(smooth_sphere_of_cattaneo_and_mindlin) {
@@ -62,18 +83,9 @@ TEST(smooth_sphere_of_cattaneo_and_mindlin) {
         CHECK_RELATIVE(loop_area(slide, force, first), work[k], 5e-3);
     }
     // After half of the slide of full slip the radius of stick is a/sqrt(2).
-    const auto pressure = file.values("field_pressure"), traction = file.values("field_traction");
-    double sticks = 0, touches = 0, sum = 0, pressed = 0;
-    for (std::size_t k = 0; k < pressure.size(); ++k) {
-        CHECK(traction[k] >= -1e-9 * mu * pressure[k] &&
-              traction[k] <= (1 + 1e-9) * mu * pressure[k]);
-        touches += pressure[k] > 0;
-        sticks += pressure[k] > 0 && traction[k] < mu * pressure[k] * (1 - 1e-9);
-        sum += traction[k];
-        pressed += pressure[k];
-    }
-    CHECK_CLOSE(std::sqrt(sticks / touches), std::sqrt(0.5), 0.02);
-    CHECK_CLOSE(sum / (mu * pressed), 1 - std::pow(0.5, 1.5), 2e-3);
+    const Slip slip(file, mu);
+    CHECK_CLOSE(std::sqrt(slip.sticks), std::sqrt(0.5), 0.02);
+    CHECK_CLOSE(slip.force, 1 - std::pow(0.5, 1.5), 2e-3);
 }
 
 TEST(line_of_cattaneo) {
@@ -86,18 +98,10 @@ TEST(line_of_cattaneo) {
         "&indentation boundary = 'periodic_y', control = 'force', levels = 4 /\n"
         "&output fields = 'pressure', 'traction' /\n",
         path);
-    const Reader file(path);
-    const auto pressure = file.values("field_pressure"), traction = file.values("field_traction");
-    double sticks = 0, touches = 0, sum = 0, pressed = 0;
-    for (std::size_t k = 0; k < pressure.size(); ++k) {
-        touches += pressure[k] > 0;
-        sticks += pressure[k] > 0 && traction[k] < 0.3 * pressure[k] * (1 - 1e-9);
-        sum += traction[k];
-        pressed += pressure[k];
-    }
-    const double c = sticks / touches;
+    const Slip slip(Reader(path), 0.3);
+    const double c = slip.sticks;
     CHECK(c > 0.5 && c < 0.9);
-    CHECK_CLOSE(sum / (0.3 * pressed), 1 - c * c, 0.03);  // one pixel of 22
+    CHECK_CLOSE(slip.force, 1 - c * c, 0.03);  // one pixel of 22
 }
 
 TEST(rough_surfaces_slide_as_their_asperities_do) {

@@ -64,16 +64,6 @@ private:
     FftwPlan forward_, backward_;
 };
 
-// The smallest number of points, at least `least`, for which transforms are fast.
-int fast_size(int least) {
-    for (int n = least;; ++n) {
-        int rest = n;
-        for (const int factor : {2, 3, 5, 7})
-            while (rest % factor == 0) rest /= factor;
-        if (rest == 1) return n;
-    }
-}
-
 // The smallest window that holds all pixels under pressure or cohesive tension.
 GridWindow loaded(const LevelPixels& pixels) {
     if (pixels.index.empty() && pixels.cohesive.empty()) return {};
