@@ -165,13 +165,13 @@ C_TYPES = {"double": REAL, "int64_t": LONG, "int32_t": SHORT}
 
 
 def wrapped(line, indent=2):
-    """A Fortran line, continued where it is longer than 120."""
-    if len(line) + indent <= 120:
+    """A Fortran line, continued where it is longer than 100."""
+    if len(line) + indent <= 100:
         return " " * indent + line
     return " &\n".join(
         textwrap.wrap(
             line,
-            116,
+            96,
             initial_indent=" " * indent,
             subsequent_indent=" " * (indent + 4),
             break_long_words=False,
@@ -181,7 +181,7 @@ def wrapped(line, indent=2):
 
 
 def comment(text):
-    return "\n".join(textwrap.wrap(text, 120, initial_indent="  !> ", subsequent_indent="  !> "))
+    return "\n".join(textwrap.wrap(text, 100, initial_indent="  !> ", subsequent_indent="  !> "))
 
 
 def declarations(pairs):
@@ -553,13 +553,13 @@ def subroutine_77(name, f, left_out):
         *[f"free(c_{t});" for t in texts],
         *after,
     ]
-    fill = lambda line: textwrap.wrap(line, 140, subsequent_indent=" " * 8, break_long_words=False)
+    fill = lambda line: textwrap.wrap(line, 100, subsequent_indent=" " * 8, break_long_words=False)
     return [
         *fill(head + " {"),
         *[
             part
             for line in body
-            for part in textwrap.wrap(line, 136, initial_indent=" " * 4, subsequent_indent=" " * 8)
+            for part in textwrap.wrap(line, 100, initial_indent=" " * 4, subsequent_indent=" " * 8)
         ],
         "}",
         "",
@@ -578,7 +578,9 @@ def names_77(functions, source):
 # ---- Python --------------------------------------------------------------------------------------------------------------------
 def python(functions, constants):
     lines = ['PROTOTYPES = """']
-    lines += [f"{f.name}({', '.join(a.c() for a in f.arguments)})" for f in functions]
+    for f in functions:
+        prototype = f"{f.name}({', '.join(a.c() for a in f.arguments)})"
+        lines += textwrap.wrap(prototype, 100, subsequent_indent="    ", break_long_words=False)
     lines += ['"""', ""]
     lines += [f"{name[4:]} = {value}" for name, value in constants]
     levels = ", ".join(

@@ -124,14 +124,13 @@ class NotConverged(Error):
 
 
 def _parse(prototypes):
-    """{function: [_Argument, ...]} of lines as above."""
+    """{function: [_Argument, ...]} of prototypes in C."""
     functions = {}
-    for line in prototypes.strip().splitlines():
-        name, arguments = re.fullmatch(r"(\w+)\((.*)\)", line.strip()).groups()
+    for name, arguments in re.findall(r"(\w+)\((.*?)\)", prototypes, flags=re.DOTALL):
         functions[name] = []
         for argument in filter(None, arguments.split(",")):
             const, kind, stars, word = re.fullmatch(
-                r"\s*(const )?(\w+)(\**) (\w+)", argument
+                r"\s*(const )?(\w+)(\**)\s+(\w+)", argument
             ).groups()
             functions[name].append(_Argument(bool(const), kind, len(stars), word))
     return functions
