@@ -9,9 +9,9 @@
     modules/generated/rsc77.inc       C: the generated subroutines of FORTRAN 77                        (included by rsc77.c)
     modules/_rsc_h.py                 Python: status codes and the arguments of all C functions     (imported by rsc.py)
 
-They are part of the source: building and installing rsc needs no Python. Procedures written by hand in rsc.f90 or rsc77.c are not
-generated. Optional arguments are those that the comments of rsc.h mark as "may be null".
-"""
+They are part of the source: building and installing rsc needs no Python. Procedures written by hand
+in rsc.f90 or rsc77.c are not generated. Optional arguments are those that the comments of rsc.h
+mark as "may be null"."""
 import os
 import re
 import sys
@@ -60,12 +60,12 @@ NAMES_77 = {
 # Inputs that are optional in Fortran, with their defaults.
 DEFAULTS = {"realization": "1"}
 # C functions that Fortran has under another name or within another procedure.
-ELSEWHERE = {"contact_result", "case_create", "case_set"}
+ELSEWHERE = {"contact_result", "case_create", "case_set", "case_resume"}
 
 
 class Argument:
-    """One argument of a C function. role: handle, new (address of a handle), handles (an array of them), text, buffer, value, callback,
-    in (array), out (scalar) or array (output)."""
+    """One argument of a C function. role: handle, new (address of a handle), handles (an array of
+    them), text, buffer, value, callback, in (array), out (scalar) or array (output)."""
 
     def __init__(self, function, words, optional, has_n, first):
         match = re.fullmatch(r"(const )?(\w+)(\**) (\w+)", " ".join(words.split()))
@@ -159,7 +159,7 @@ def read_header(*names):
     return functions, constants
 
 
-# ---- Fortran -------------------------------------------------------------------------------------------------------------------
+# ---- Fortran -------------------------------------------------------------------------------------
 REAL, LONG, SHORT = "real(c_double)", "integer(c_int64_t)", "integer(c_int32_t)"
 C_TYPES = {"double": REAL, "int64_t": LONG, "int32_t": SHORT}
 
@@ -195,7 +195,8 @@ def declarations(pairs):
 
 
 def interface_type(a):
-    """(declaration, variable) of an argument for the C interface. Outputs are intent(inout): after a failure they keep their value."""
+    """(declaration, variable) of an argument for the C interface. Outputs are intent(inout): after
+    a failure they keep their value."""
     optional = ", optional" if a.optional else ""
     if a.role == "callback":
         return "type(c_funptr), value", a.name
@@ -257,7 +258,8 @@ ERROR_ARGUMENTS = [
 
 
 def wrapper(f):
-    """A procedure of a derived type that only calls its C function; None if there is no rule for its arguments."""
+    """A procedure of a derived type that only calls its C function; None if there is no rule for
+    its arguments."""
     arguments = f.arguments
     result, single = None, [a for a in arguments if a.role == "out"]
     if (
@@ -498,9 +500,10 @@ def wrappers(functions, source):
     return lines[:-1], wanted
 
 
-# ---- FORTRAN 77 ----------------------------------------------------------------------------------------------------------------
+# ---- FORTRAN 77 ----------------------------------------------------------------------------------
 def subroutine_77(name, f, left_out):
-    """A subroutine of FORTRAN 77: arguments by address, handles as INTEGER, lengths of texts after all arguments."""
+    """A subroutine of FORTRAN 77: arguments by address, handles as INTEGER, lengths of texts after
+    all arguments."""
     parameters, lengths, find, before, call, after, position = [], [], [], [], [], [], 0
     for k, a in enumerate(f.arguments):
         if a.name in left_out:
@@ -575,7 +578,7 @@ def names_77(functions, source):
     return lines[:-1]
 
 
-# ---- Python --------------------------------------------------------------------------------------------------------------------
+# ---- Python --------------------------------------------------------------------------------------
 def python(functions, constants):
     lines = ['PROTOTYPES = """']
     for f in functions:
@@ -609,8 +612,8 @@ def main():
         ],
         "generated/wrappers.inc": [f"! {note}", *generated],
         "generated/rsc77.inc": ["/* clang-format off */", f"/* {note} */", *names_77(functions, c)],
-        "_rsc_h.py": [
-            '"""Functions and status codes of rsc.h, for rsc.py.',
+        "rsc/_h.py": [
+            '"""Functions and status codes of rsc.h.',
             "",
             note + '"""',
             "",

@@ -325,20 +325,29 @@ contains
     call finish(status, stat, errmsg)
   end subroutine
 
-  !> Runs the case and calls `watch` about ten times a second; stat is rsc_stopped if it stopped the run. data: for watch.
-  subroutine case_run_watched(self, watch, data, failed_levels, stat, errmsg)
+  !> Runs the case and calls `watch` about ten times a second; stat is rsc_stopped if it stopped the
+  !> run. data: for watch; resume: .true. continues an interrupted campaign (rsc_case_resume).
+  subroutine case_run_watched(self, watch, data, failed_levels, resume, stat, errmsg)
     class(rsc_case), intent(in) :: self
     procedure(rsc_watch) :: watch
     type(c_ptr), intent(in), optional :: data
     integer(c_int64_t), intent(inout), optional :: failed_levels
+    logical, intent(in), optional :: resume
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
     type(c_ptr) :: handle, defaults, given
+    logical :: continued
     given = c_null_ptr
     if (present(data)) given = data
+    continued = .false.
+    if (present(resume)) continued = resume
     call case_as_is(self, handle, defaults, status)
-    if (status == rsc_success) status = rsc_case_run_watched(handle, c_funloc(watch), given, failed_levels)
+    if (status == rsc_success .and. continued) then
+      status = rsc_case_resume(handle, c_funloc(watch), given, failed_levels)
+    else if (status == rsc_success) then
+      status = rsc_case_run_watched(handle, c_funloc(watch), given, failed_levels)
+    end if
     call finish(status, stat, errmsg)
     status = rsc_case_destroy(defaults)
   end subroutine

@@ -197,8 +197,8 @@ RSC_API int32_t rsc_key_name(int64_t key, char* buffer, int64_t size, int64_t* l
  *     failed_levels (out, may be null): number of levels that did not converge.
  * Errors: -1 null, an invalid case or an unusable input file; RSC_NOT_CONVERGED if failed_levels >
  *     0, in which case the result file is still written; RSC_FILE; RSC_NO_MEMORY. After any other
- *     failure there is no result file, but a campaign leaves its checkpoint for the program's
- *     --resume. */
+ *     failure there is no result file, but a campaign leaves its checkpoint for rsc_case_resume.
+ */
 RSC_API int32_t rsc_case_run(const rsc_case* a_case, int64_t* failed_levels);
 
 /* Callback during the run of a case.
@@ -216,9 +216,17 @@ typedef int32_t (*rsc_watch)(double done, double total, void* data);
  *     data: passed to it;
  *     failed_levels (out, may be null): number of levels that did not converge.
  * Errors: as rsc_case_run; RSC_STOPPED if watch stopped the run: then there is no result, but a
- *     campaign leaves its checkpoint for the program's --resume. */
+ *     campaign leaves its checkpoint for rsc_case_resume. */
 RSC_API int32_t rsc_case_run_watched(const rsc_case* a_case, rsc_watch watch, void* data,
                                      int64_t* failed_levels);
+
+/* Continues an interrupted campaign from its checkpoint, or adds realizations to a finished one, as
+ * the program does with --resume. A case without a checkpoint or result is run from its start.
+ *     a_case, watch, data, failed_levels (out, may be null): as in rsc_case_run_watched.
+ * Errors: as rsc_case_run_watched. The file is the one that an uninterrupted run would have
+ *     written. */
+RSC_API int32_t rsc_case_resume(const rsc_case* a_case, rsc_watch watch, void* data,
+                                int64_t* failed_levels);
 
 /* Takes the lock under which rsc calls NetCDF, HDF5 and the planner of FFTW, for programs in which
  * other threads call these libraries. Waits until no other thread holds it. A thread that holds the

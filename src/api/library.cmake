@@ -1,5 +1,5 @@
 # The libraries a program links, and what an installation holds: rsc.h, librsc shared and static, the Fortran module as source and compiled,
-# rsc.py, a CMake package (rsc::rsc, rsc::static, rsc::fortran) and pkg-config files.
+# the Python package, a CMake package (rsc::rsc, rsc::static, rsc::fortran) and pkg-config files.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -88,7 +88,7 @@ target_link_libraries(rsc_77 PUBLIC rsc_shared PRIVATE $<BUILD_INTERFACE:rsc_war
 add_library(rsc::rsc77 ALIAS rsc_77)
 install(TARGETS rsc_77 EXPORT rscTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 
-install(CODE "set(SOURCE [[${PROJECT_SOURCE_DIR}/modules/rsc.py;${PROJECT_SOURCE_DIR}/modules/_rsc_h.py;${PROJECT_SOURCE_DIR}/modules/_rsc_cube.py]])")
+install(CODE "set(SOURCE [[${PROJECT_SOURCE_DIR}/modules/rsc]])")
 install(SCRIPT ${PROJECT_SOURCE_DIR}/modules/install_python.cmake)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rscConfig.cmake.in ${PROJECT_BINARY_DIR}/rscConfig.cmake
