@@ -2,12 +2,13 @@
 """Writes the parts of the bindings that follow from the C interface, from src/rsc.h.
 
     python3 modules/generate.py            writes the files below
-    python3 modules/generate.py --check    writes nothing; exit status 1 if one of them is stale, or if rsc.f90 lacks a procedure
+    python3 modules/generate.py --check    writes nothing; exit status 1 if one of them is stale,
+                                           or if rsc.f90 lacks a procedure
 
-    modules/generated/interface.inc   Fortran: status codes and interfaces of all C functions       (included by rsc.f90)
-    modules/generated/wrappers.inc    Fortran: the generated procedures of the derived types            (included by rsc.f90)
-    modules/generated/rsc77.inc       C: the generated subroutines of FORTRAN 77                        (included by rsc77.c)
-    modules/_rsc_h.py                 Python: status codes and the arguments of all C functions     (imported by rsc.py)
+    modules/generated/interface.inc   status codes and interfaces of all C functions, for rsc.f90
+    modules/generated/wrappers.inc    the generated procedures of the derived types, for rsc.f90
+    modules/generated/rsc77.inc       the generated subroutines of FORTRAN 77, for rsc77.c
+    modules/rsc/_h.py                 status codes and arguments of all C functions, for Python
 
 They are part of the source: building and installing rsc needs no Python. Procedures written by hand
 in rsc.f90 or rsc77.c are not generated. Optional arguments are those that the comments of rsc.h
@@ -206,7 +207,8 @@ def interface_type(a):
         return "type(c_ptr), intent(inout)", a.name + ("(*)" if a.role == "handles" else "")
     if a.role in ("text", "buffer"):
         return (
-            f"character(kind=c_char), intent({'in' if a.const else 'inout'}){'' if a.role == 'buffer' else optional}",
+            f"character(kind=c_char), intent({'in' if a.const else 'inout'})"
+            + ("" if a.role == "buffer" else optional),
             a.name + "(*)",
         )
     if a.role == "value":
@@ -234,11 +236,9 @@ def interface(functions, constants):
         if f.name in own:
             continue
         body = declarations([interface_type(a) for a in f.arguments])
+        names = ", ".join(a.name for a in f.arguments)
         lines += [
-            wrapped(
-                f"integer(c_int32_t) function {f.name}({', '.join(a.name for a in f.arguments)}) bind(c)",
-                4,
-            ),
+            wrapped(f"integer(c_int32_t) function {f.name}({names}) bind(c)", 4),
             "      import :: "
             + ", ".join(
                 k
@@ -293,7 +293,8 @@ def wrapper(f):
         if a.role == "handle":
             declared.append(
                 (
-                    f"class(rsc_{a.kind}), intent({'in' if a.const else 'inout'}){', optional' if a.kind == 'case' else ''}",
+                    f"class(rsc_{a.kind}), intent({'in' if a.const else 'inout'})"
+                    + (", optional" if a.kind == "case" else ""),
                     dummy,
                 )
             )
@@ -368,7 +369,7 @@ def wrapper(f):
             )
         else:
             return None
-    refusal = []
+    refusal, verb = [], f.short.split("_", 1)[1]
     if inputs:
         first, *others = [a for a in arguments if a.role in ("in", "array")]
         required = " .and. ".join(
@@ -382,7 +383,8 @@ def wrapper(f):
         ]
         refusal += [
             "if (.not. same) then",
-            f"  call refuse('{f.kind}%{f.short.split('_', 1)[1]}: the arrays are not of one size', stat, errmsg)",
+            f"  call refuse('{f.kind}%{verb}: the arrays are not of one size', &",
+            "              stat, errmsg)",
             "  return",
             "end if",
         ]
@@ -418,12 +420,12 @@ def wrapper(f):
     else:
         body = [*before, f"call finish({called}, stat, errmsg)"]
     kind = "function" if result else "subroutine"
+    arguments = ", ".join([*dummies, "stat", "errmsg"])
+    returns = f" result({result.name})" if result else ""
     order = sorted(declared, key=lambda pair: result is not None and pair[1] == result.name)
     return [
         comment(f.brief()),
-        wrapped(
-            f"{kind} {f.short}({', '.join([*dummies, 'stat', 'errmsg'])}){f' result({result.name})' if result else ''}"
-        ),
+        wrapped(f"{kind} {f.short}({arguments}){returns}"),
         *declarations([pair for pair in order if not result or pair[1] != result.name]),
         *["    " + line for line in ERROR_ARGUMENTS],
         *declarations([pair for pair in order if result and pair[1] == result.name] + local),
@@ -435,7 +437,8 @@ def wrapper(f):
 
 def ownership(kind):
     """Copy and release of a derived type."""
-    return f"""  !> Its own copy of another object; what this one held is released, unless both are names of one object.
+    return f"""  !> Its own copy of another object; what this one held is released, unless both are
+  !> one object.
   subroutine {kind}_copy(self, original, stat, errmsg)
     class(rsc_{kind}), intent(inout) :: self
     class(rsc_{kind}), intent(in) :: original
@@ -484,14 +487,16 @@ def wrappers(functions, source):
                 continue
             if f"=> {f.short}\n" not in bound:
                 wanted.append(
-                    f"modules/rsc.f90, type rsc_{kind}: add  procedure :: {f.short.split('_', 1)[1]} => {f.short}"
+                    f"modules/rsc.f90, type rsc_{kind}: add  "
+                    f"procedure :: {f.short.split('_', 1)[1]} => {f.short}"
                 )
             if f.short in by_hand:
                 continue
             made = wrapper(f)
             if made is None:
                 wanted.append(
-                    f"modules/rsc.f90: write the procedure {f.short} by hand; there is no rule for its arguments"
+                    f"modules/rsc.f90: write the procedure {f.short} by hand; "
+                    "there is no rule for its arguments"
                 )
             else:
                 lines += made
@@ -591,7 +596,7 @@ def python(functions, constants):
     )
     lines += [
         "",
-        "#: Names of the statuses of a level, by number, as in the variable `status` of a result file.",
+        "#: Names of the statuses of a level, by number, as in `status` of a result file.",
         f"LEVELS = ({levels})",
     ]
     return lines
@@ -604,7 +609,7 @@ def main():
     with open(os.path.join(HERE, "rsc77.c"), encoding="utf-8") as file:
         c = file.read()
     generated, wanted = wrappers(functions, fortran)
-    note = "Generated by modules/generate.py from src/rsc.h. Do not edit: change rsc.h and run python3 modules/generate.py"
+    note = "Generated from src/rsc.h by python3 modules/generate.py. Do not edit."
     files = {
         "generated/interface.inc": [
             f"! {note}",

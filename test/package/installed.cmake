@@ -106,7 +106,7 @@ foreach(compiler ${FORTRAN_COMPILER} ${FLANG})
 endforeach()
 
 # The Python package from the installation, far from its source: it finds the library beside it.
-file(GLOB_RECURSE module ${prefix}/lib/python*/rsc/__init__.py)
+file(GLOB module ${prefix}/lib/python*/*/rsc/__init__.py)
 foreach(python python3 /usr/bin/python3)
   execute_process(COMMAND ${python} -c "import numpy" RESULT_VARIABLE status ERROR_QUIET)
   if(module AND status EQUAL 0 AND NOT DEFINED ENV{ASAN_OPTIONS})
