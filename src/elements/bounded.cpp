@@ -285,7 +285,9 @@ ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool e
         if (manner_.repeats || outcome.iterations > manner_.quick) before_p_ = p_, before_w_ = w_;
         prepare_constant(steps == 1);
         descend(steps, manner_.reduction);
-        if (outcome.residual > kUnsettled && many_beyond()) release(steps);
+        // Rough solutions, which are only starting points, are not worth it.
+        if (tolerance < kUnsettled && outcome.residual > kUnsettled && many_beyond())
+            release(steps);
         bound();
         exact = exactly && judge_exactly(exact, outcome.residual, outcome.iterations);
         evaluate(exact);
