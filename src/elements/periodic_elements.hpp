@@ -82,7 +82,6 @@ private:
         return (relief_.z[j * relief_.stride + i] - zero_) * scale_;
     }
     double closing_pressure();  // mean pressure of full contact: -min of K^-1 z
-    Share share() const;
     int threads() const;  // for loops over rows
     PeriodicPixels<double>& fine();
 
