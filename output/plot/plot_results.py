@@ -109,6 +109,14 @@ class Result:
         )
         return np.divide(worst, mean, out=np.zeros(self.steps), where=mean > 0)
 
+    def standard_error(self, values):
+        """Of the mean over realizations, the first axis of values; 0 for fewer than three."""
+        there = np.isfinite(values)
+        count = there.sum(axis=0)
+        mean = np.where(there, values, 0).sum(axis=0) / np.maximum(count, 1)
+        squares = np.where(there, (values - mean) ** 2, 0).sum(axis=0)
+        return np.where(count > 2, np.sqrt(squares / np.maximum(count * (count - 1), 1)), 0)
+
     def unit(self, name):
         """The unit in the file; empty for a pure number."""
         text = getattr(self.file.variables[name], "units", "1")
@@ -171,19 +179,30 @@ class Result:
         )
 
     def level_status(self):
-        """The worst status of each level over realizations, 0 without contact, and the names of the numbers."""
+        """The worst status of each level over realizations, 0 without contact."""
         if "status" not in self:
-            return np.zeros(self.steps, int), ["converged"]
-        grave = np.array([0, 3, 1, 2, 4])  # out of validity overrides overlapping and not unique
+            return np.zeros(self.steps, int)
+        grave = np.array([0, 3, 1, 2, 4])  # doubts override overlapping and not unique
         status = np.nan_to_num(self["status"].reshape(-1, self.steps)).astype(int)
-        return status[grave[status].argmax(axis=0), np.arange(self.steps)], [
-            name.replace("_", " ") for name in self.file.variables["status"].flag_meanings.split()
-        ]
+        return status[grave[status].argmax(axis=0), np.arange(self.steps)]
+
+    def causes(self, steps):
+        """What the status of these levels is, as a set of words: the doubts, or its name."""
+        words, status = set(), self.level_status()
+        for step in np.atleast_1d(steps):
+            value = status[step]
+            if value == 1 and "doubts" in self:
+                names = self.file.variables["doubts"].flag_meanings.split()
+                bits = np.bitwise_or.reduce(np.nan_to_num(self["doubts"][:, step]).astype(int))
+                words |= {name for k, name in enumerate(names) if bits >> k & 1}
+            elif value > 0:
+                words.add(self.file.variables["status"].flag_meanings.split()[value])
+        return {word.replace("_", " ") for word in words}
 
     def warning(self, step):
-        """Text of the status of a level, ' (overlapping)'; empty for a converged one."""
-        status, meanings = self.level_status()
-        return f" ({meanings[status[step]]})" if status[step] > 0 else ""
+        """The causes of a level, ' (few points)'; empty for a converged one."""
+        words = ", ".join(sorted(self.causes(step)))
+        return f" ({words})" if words else ""
 
     def loaded(self):
         """The levels with contact; with adhesion their forces may be negative."""
@@ -262,6 +281,14 @@ class Result:
         """True if the file has the contact of the smooth indenter."""
         return "area_hertz" in self and bool(np.isfinite(self["area_hertz"]).any())
 
+    def is_ball(self):
+        """True if the smooth indenter is a ball on a half-space (Hertz)."""
+        return self.has_sphere() and self.shape() == "sphere"
+
+    def hardness(self):
+        """The hardness in the unit of pressures; Infinity for elastic bodies."""
+        return float(self.case.get("solids%hardness", "Infinity")) * self.factor("map_pressure")
+
     def has_tip(self):
         """True for a round indenter, also on layers and bodies that relax, where its smooth contact has no closed form."""
         return self.has_sphere() or "r_star" in self and bool(np.isfinite(self["r_star"]))
@@ -275,11 +302,45 @@ class Result:
             " (Hertz)" if self.shape() in ("sphere", "paraboloid") else ""
         )
 
+    def half_width(self, step):
+        """Half the width of the contact of a smooth cylinder (Hertz); NaN for other contacts."""
+        if "force_per_length" not in self or self.shape() != "paraboloid":
+            return np.nan
+        radii = [float(radius) for radius in self.case["indenter%radii"].split(",")]
+        finite = [radius for radius in radii if np.isfinite(radius)]
+        if len(finite) != 1:
+            return np.nan
+        load = max(self.mean("force_per_length")[step], 0)
+        return 2 * np.sqrt(load * finite[0] * self.factor("separation") / np.pi / self["e_star"])
+
+    def along_y(self):
+        """True if the axis of a line contact is along y."""
+        return "periodic_y" in self.case.get("indentation%boundary", "")
+
+    def sides(self):
+        """The sides x0, x1, y0, y1 of the surface; None if the file has no map."""
+        return self.cells("map_area_fraction", 0)[1] if "map_area_fraction" in self else None
+
+    def pixels(self, step):
+        """(flags of contact_mask, extent) of a level by elements; None if the file has none."""
+        at = np.flatnonzero(self["mask_step"] == step + 1) if "mask_step" in self else []
+        if not len(at):
+            return None
+        mask = np.asarray(self.file.variables["contact_mask"][int(at[0])])
+        return mask, edges(self["mask_x"], self["mask_y"])
+
     def by_elements(self):
         model, source = (
             self.case.get(key, "").strip("'") for key in ("solver%model", "surface%source")
         )
         return "contact_x" in self or model == "elements" or model == "auto" and source == "heights"
+
+
+def edges(x, y):
+    """(x0, x1, y0, y1) of the pixels with these centres."""
+    dx, dy = ((v[-1] - v[0]) / max(v.size - 1, 1) / 2 for v in (x, y))
+    dx, dy = dx or dy, dy or dx  # a single column or row
+    return x[0] - dx, x[-1] + dx, y[0] - dy, y[-1] + dy
 
 
 def _keys(text):

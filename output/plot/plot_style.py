@@ -9,7 +9,14 @@ matplotlib.use("Agg")  # needs no display
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FuncFormatter, LogFormatterSciNotation, MaxNLocator
+from matplotlib.ticker import (
+    FixedLocator,
+    FuncFormatter,
+    LogFormatterSciNotation,
+    LogLocator,
+    MaxNLocator,
+    NullFormatter,
+)
 
 # Curves differ by line and marker as well as by colour, so that pictures are readable in grey.
 STYLES = [
@@ -27,6 +34,7 @@ FEW = 6  # maximum number of curves with individual colours
 GREY = "0.4"  # theories and laws drawn beside the results
 # The mark of a level by its status, from 1 on; larger ones are more serious.
 MARKS = ["", "o", "s", "^", "x"]
+STATUSES = ["", "with doubts", "with overlapping spots", "not unique", "not converged"]
 WIDTHS = {"single": 85.0, "onehalf": 130.0, "double": 175.0}  # columns of journals [mm]
 # Areas without contact are white.
 COLOURS = matplotlib.colormaps["viridis_r"].copy()
@@ -234,41 +242,26 @@ class Page:
         self.outer = self.figure.add_gridspec(2, 1, height_ratios=[1, 1e-3])
         grid = self.outer[0].subgridspec(self.rows, columns)
         self.axes = [self.figure.add_subplot(grid[k // columns, k % columns]) for k in range(count)]
-        self.columns, self.entries, self.met, self.meanings = columns, {}, set(), []
+        self.columns, self.entries, self.causes = columns, {}, set()
 
     def entry(self, text, **looks):
         """A line of the legend."""
         self.entries.setdefault(text, Line2D([], [], **looks))
 
-    def status(self, axis, x, y, status, meanings, colour):
-        """Marks levels by status, at most about 15 of a kind, but all that did not converge."""
-        for value in range(1, len(MARKS)):
-            at = np.flatnonzero((np.asarray(status) == value) & np.isfinite(x) & np.isfinite(y))
-            if at.size == 0:
+    def status(self, axis, x, y, result, colour):
+        """Marks the levels of a result by their status."""
+        status = result.level_status()
+        for value, text in enumerate(STATUSES):
+            at = np.flatnonzero((status == value) & np.isfinite(x) & np.isfinite(y))
+            if not value or at.size == 0:
                 continue
             last = value == len(MARKS) - 1
-            if not last:
-                at = at[:: -(-at.size // 15)]
-            axis.plot(
-                np.asarray(x)[at],
-                np.asarray(y)[at],
-                MARKS[value],
-                color="r" if last else colour,
-                mfc="w",
-                ms=5 if last else 3.5,
-                mew=0.8,
-                ls="none",
-                zorder=3,
-                gid="status",
-            )
-            self.entry(
-                "level " + meanings[value],
-                ls="none",
-                marker=MARKS[value],
-                mfc="w",
-                color="r" if last else "k",
-                ms=4,
-            )
+            looks = dict(ls="none", marker=MARKS[value], mfc="w", color="r" if last else colour)
+            size = 5 if last else 3.5
+            axis.plot(x[at], y[at], ms=size, mew=0.8, zorder=3, gid="status", **looks)
+            if value == 1:
+                self.causes |= result.causes(at)
+            self.entry("level " + text, **{**looks, "color": "r" if last else "k", "ms": 4})
 
     def scale(self, scale):
         """The colour scale of many results, (name of the key, texts of its values, colours), right of all panels."""
@@ -291,6 +284,9 @@ class Page:
         self.entries = dict(
             sorted(self.entries.items(), key=lambda entry: entry[0].startswith("level "))
         )
+        if self.causes:
+            doubts = self.entries.pop("level with doubts")
+            self.entries[f"level with doubts: {', '.join(sorted(self.causes))}"] = doubts
         self.figure.suptitle(wrapped(self.figure, title, self.width, "figure.titlesize"))
         strip, handles = 0.1, list(self.entries.values())
         if handles:
@@ -318,7 +314,7 @@ class Page:
             (self.body + strip + 4.2 * (1 + self.figure._suptitle.get_text().count("\n"))) / 25.4,
         )
         self.outer.set_height_ratios([self.body, strip])
-        wrap_titles(self.figure)
+        settle(self.figure)
         return self.figure
 
 
@@ -336,9 +332,10 @@ def wrapped(figure, text, width, size):
     return "\n".join(lines)
 
 
-def wrap_titles(figure):
-    """Wraps the titles of axes half way to the next axes or at the edge of the figure, and makes the figure higher by the lines that this adds."""
-    figure.draw_without_rendering()  # for the positions of the axes; the next drawing also uses the widths of the tick labels of this one
+def settle(figure):
+    """Wraps the titles of axes half way to the next axes or at the edge of the figure, makes the
+    figure higher by the lines that this adds, and takes ticks away until their labels are apart."""
+    figure.draw_without_rendering()  # for the positions of the axes
     centres = {
         axis: sum(axis.get_position().intervalx) / 2 for axis in figure.axes if axis.get_title()
     }
@@ -358,3 +355,21 @@ def wrap_titles(figure):
         added[row] = max(added.get(row, 0), text.count("\n") - axis.get_title().count("\n"))
         axis.title.set_text(text)
     figure.set_figheight(figure.get_figheight() + sum(added.values()) * 3.4 / 25.4)
+    figure.draw_without_rendering()  # with the widths of the tick labels
+    for axis in figure.axes:
+        for side in (axis.xaxis, axis.yaxis):
+            _space(side)
+
+
+def _space(side):
+    """Takes ticks of an axis away until their labels are apart."""
+    for bins in (5, 4, 3, 2, 1):
+        texts = [text for text in side.get_ticklabels(which="both") if text.get_text()]
+        boxes = [text.get_window_extent().padded(1.5) for text in texts if text.get_visible()]
+        if not any(a.overlaps(b) for k, a in enumerate(boxes) for b in boxes[:k]):
+            return
+        if side.get_scale() != "linear":
+            side.set_minor_formatter(NullFormatter())
+            side.set_major_locator(LogLocator(numticks=bins))
+        elif not isinstance(side.get_major_locator(), FixedLocator):
+            side.set_major_locator(MaxNLocator(bins))

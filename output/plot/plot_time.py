@@ -32,8 +32,7 @@ def time(results, options):
             axis.axhline(y[0], ls=":", color=colour, lw=1)
             if called:
                 page.entry(called, color=colour, ls=line)
-            status, meanings = result.level_status()
-            page.status(axis, t, np.where(t > 0, y, np.nan), status, meanings, colour)
+            page.status(axis, t, np.where(t > 0, y, np.nan), result, colour)
         page.entry("first level, applied at once", color="0.3", ls=":")
         axis.set_xscale("log")
         label(axis, "x", "time since the first level", results[0].dimension("time"))

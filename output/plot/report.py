@@ -31,7 +31,7 @@ import table  # noqa: E402
 
 STATUS = {
     "converged": "residual below the tolerance, at a locally unique minimum of the energy",
-    "out_of_validity": "N may be more than 10 % off (elements: more than 1 %), or contacts are at the border of the surface or on filled points of the map",
+    "with_doubts": "",
     "overlapping": "spots closer than the sum of their radii: spots that would merge count as two",
     "not_unique": "other solutions may exist; the solution is selected by a fixed rule",
     "not_converged": "not converged: do not use",
@@ -127,19 +127,21 @@ def percent(values):
 
 def trust(results):
     """(class of the verdict, sentences) from the status and the expected errors of all levels."""
-    levels = [(r, s, r.level_status()) for r in results for s in r.loaded()]
-    counts, meanings = {}, list(STATUS)
-    for _, step, (status, _) in levels:
-        name = meanings[status[step]]
+    levels = [(r, s, list(STATUS)[r.level_status()[s]]) for r in results for s in r.loaded()]
+    counts = {}
+    for _, _, name in levels:
         counts[name] = counts.get(name, 0) + 1
     if not counts:
         return "warn", ["No level has contact."]
+    doubts = [word for r, s, name in levels if name == "with_doubts" for word in r.causes(s)]
+    doubts = [f"{word} ({doubts.count(word)})" for word in sorted(set(doubts))]
+    meaning = {**STATUS, "with_doubts": ", ".join(doubts)}
     said = [
-        f"{counts[name]} of {len(levels)} levels {name.replace('_', ' ')}: {STATUS[name]}."
+        f"{counts[name]} of {len(levels)} levels {name.replace('_', ' ')}: {meaning[name]}."
         for name in STATUS
         if name in counts
     ]
-    worst = {"not_converged": "bad", "out_of_validity": "warn"}
+    worst = {"not_converged": "bad", "with_doubts": "warn"}
     kind = next((worst[name] for name in worst if name in counts), "")
     for name, what in (("force_error_expected", "force"), ("area_error_expected", "contact area")):
         known = [r.worst(name)[r.loaded()] for r in results if name in r and r.loaded().size]
