@@ -48,6 +48,7 @@ PICTURES = {
     "seal": plot_seal.seal,
     "flow": plot_seal.flow,
     "study": plot_study.study,
+    "pulloff": plot_study.pulloff,
     "map": plot_map.maps,
     "radial": plot_radial.radial,
     "line": plot_line.line,
@@ -68,8 +69,8 @@ PICTURES = {
 
 Options = namedtuple(
     "Options",
-    "width step say",
-    defaults=(180.0, None, lambda text: print(f"plot.py: {text}", file=sys.stderr)),
+    "width step say at",
+    defaults=(180.0, None, lambda text: print(f"plot.py: {text}", file=sys.stderr), None),
 )
 
 
@@ -116,6 +117,12 @@ def parse(words):
         type=int,
         metavar="N",
         help="draw maps, radial means, spots and friction of level N (from 1) only",
+    )
+    parser.add_argument(
+        "--at",
+        type=float,
+        metavar="LOAD",
+        help="draw the study at this force (of two flats: pressure), in the unit of the file",
     )
     parser.add_argument(
         "--format", choices=["png", "pdf", "svg"], default="png", help="png by default"
@@ -165,7 +172,7 @@ def open_results(paths):
 def main(words=None):
     arguments = parse(words)
     results, stem = open_results(arguments.result)
-    options = Options(arguments.width, arguments.step)
+    options = Options(arguments.width, arguments.step, at=arguments.at)
     if not results:
         sys.exit("plot.py: the study has no results yet")
     for result in results if arguments.step is not None else []:

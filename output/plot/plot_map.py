@@ -45,7 +45,8 @@ def _field(result, level, name):
 
 
 def _window(panels):
-    """The smallest square that contains the contact of all panels, within the surface."""
+    """The smallest square that contains the contact of all panels, of a line contact across its
+    axis, within the surface."""
     ends, sides = [], panels[0][0].sides()
     for result, level, _ in panels:
         field, side = result.cells("map_pressure", level)[0], float(result["map_cell_side"])
@@ -57,7 +58,10 @@ def _window(panels):
     if not ends:
         return sides
     low, high = np.min(ends, axis=0)[[0, 2]], np.max(ends, axis=0)[[1, 3]]
-    half = 0.62 * max(high - low)
+    extent = high - low
+    if "force_per_length" in panels[0][0]:  # a part of the length
+        extent[1 if panels[0][0].along_y() else 0] = 0
+    half = 0.62 * max(extent)
     centre = (low + high) / 2
     return (
         max(centre[0] - half, sides[0]),
@@ -111,7 +115,7 @@ def maps(results, options):
                 image = _image(axis, *fields[k], variable, [field for field, _ in fields])
             draw_smooth(page, axis, result, level)
             inside = window or _window([panels[k]])
-            axis.set(xlim=inside[:2], ylim=inside[2:], aspect="equal")
+            axis.set(xlim=inside[:2], ylim=inside[2:], aspect="equal", anchor="W")
             if q == 0:
                 axis.set_title(_heading(result, level, name), fontsize=5.5 if small else 7)
             lowest = q == len(quantities) - 1 and k + columns >= len(panels)

@@ -289,7 +289,12 @@ def spots(results, options):
             page.entry(text, marker="o", color=colour, ls="none", ms=5)
     page.axes[0].set_title(
         f"{x.size} spot{'s' if x.size > 1 else ''}"
-        + (f", {yields.sum()} yield" if yields.any() else "")
+        + (f", {yields.sum()} yield" if yields.any() and not pixels else "")
+        + (
+            f", {np.mean(mask[mask > 0] == 2):.0%} of the area yields"
+            if yields.any() and pixels
+            else ""
+        )
         + ("" if pixels else "; the smallest are drawn larger")
     )
     page.axes[1].set_title(f"{'at the rim of' if rim else 'around'} the largest")

@@ -4,23 +4,23 @@ import numpy as np
 
 from plot_curves import title
 from plot_results import names
-from plot_spots import heights
+from plot_spots import height_names, heights
 from plot_style import Page, STYLES, amount, colour_bar, label
 
 
 def surface(results, options):
     """Heights, spectrum and distribution of heights of the first result that has any of them; for comparison the heights of up to two further results
     beside them (a map and its twins), the spectra of all, and all rms slopes in the legend."""
-    first = next((r for r in results if "height" in r or "psd" in r), None)
+    first = next((r for r in results if height_names(r) or "psd" in r), None)
     if first is None:
         return None
     spectra = [r for r in results if "psd" in r and "wavenumber" in r]
-    maps = [(r, name) for r, name in zip(results, names(results)) if "height" in r][:3]
+    maps = [(r, name) for r, name in zip(results, names(results)) if height_names(r)][:3]
     drawn = ["map"] * len(maps) + [
         name
         for name, there in (
             ("spectrum", spectra),
-            ("distribution", "height_pdf" in first or "height" in first),
+            ("distribution", "height_pdf" in first or height_names(first)),
         )
         if there
     ]
@@ -44,7 +44,8 @@ def surface(results, options):
 
 
 def _map(page, axis, result, name):
-    image = heights(result, axis)
+    image, variable = heights(result, axis), height_names(result)[0]
+    dimension = result.dimension(variable)
     image.set_cmap("viridis")
     low, high = np.nanpercentile(np.ma.filled(image.get_array(), np.nan), [0.1, 99.9])
     image.set_clim(low, high)
@@ -53,7 +54,7 @@ def _map(page, axis, result, name):
         image,
         axis,
         "height",
-        result.dimension("height"),
+        dimension,
         fraction=0.06,
         pad=0.03,
         aspect=20,
@@ -61,16 +62,11 @@ def _map(page, axis, result, name):
     )
     axis.locator_params(nbins=5)
     for which in "xy":
-        label(
-            axis,
-            which,
-            f"${which}$",
-            result.dimension("height_" + which if "height_" + which in result else which),
-        )
-    sq = float(result["sq"]) if "sq" in result else float(np.nanstd(result["height"]))
+        label(axis, which, f"${which}$", dimension)
+    sq = float(result["sq"]) if "sq" in result else float(np.nanstd(result[variable]))
     filled = int(result["filled_points"]) if "filled_points" in result else 0
     axis.set_title(
-        f"{name}rms height {amount(sq, result.dimension('height'))}"
+        f"{name}rms height {amount(sq, dimension)}"
         + (f",\n{filled} points filled" if filled else "")
     )
 
@@ -133,7 +129,8 @@ def _distribution(page, axis, result, _):
         edges, sq = np.append(z, 2 * z[-1] - z[-2]) - (z[1] - z[0]) / 2, float(result["sq"])
         words = f"skewness {float(result['ssk']):.2f}, kurtosis {float(result['sku']):.2f}"
     else:
-        heights_ = result["height"][np.isfinite(result["height"])]
+        heights_ = result[height_names(result)[0]]
+        heights_ = heights_[np.isfinite(heights_)]
         heights_ = heights_ - heights_.mean()
         density, edges = np.histogram(heights_, 60, density=True)
         z, sq = (edges[1:] + edges[:-1]) / 2, heights_.std()
@@ -144,6 +141,6 @@ def _distribution(page, axis, result, _):
     page.entry("Gaussian of the same rms", color=STYLES[1][2])
     axis.set(ylim=(0, None), title=words)
     axis.locator_params(axis="x", nbins=5)
-    length = result.dimension("height_bin" if "height_bin" in result else "height")
+    length = result.dimension("height_bin" if "height_bin" in result else height_names(result)[0])
     label(axis, "x", "height about the mean", length)
     label(axis, "y", "probability density", length + "-1")
