@@ -3,7 +3,7 @@
 import numpy as np
 
 from plot_results import Looks
-from plot_style import GREY, Page, amount, label
+from plot_style import GREY, Page, STYLES, amount, label
 
 
 def jkr(result):
@@ -31,14 +31,16 @@ def pull(results, options):
         page.scale(looks.scale)
     axis = page.axes[0]
     axis.axhline(0, color="0.6", lw=0.6)
-    few = dict(marker=".", ms=3)
-    for result, (_, colour, name) in zip(found, looks.of):
+    markers = {line: marker for marker, line, _ in STYLES[3::-1]}
+    for result, (line, colour, name) in zip(found, looks.of):
+        # Lines tell loading from unloading, and markers the results.
+        few = dict(marker="." if len(found) == 1 else markers[line], ms=3)
         Z, N = result.mean("separation"), result.mean("force")
         turn = int(np.argmin(Z))
         axis.plot(Z[: turn + 1], N[: turn + 1], "-", color=colour, **few)
         axis.plot(Z[turn:], N[turn:], "--", color=colour, **few)
         if name:
-            page.entry(name, color=colour)
+            page.entry(name, color=colour, **few)
         page.status(axis, Z, N, result, colour)
         if len(found) == 1 and turn + 1 < len(Z):
             # An open loop is shaded where both branches exist.

@@ -66,9 +66,8 @@ def _theories(page, result):
             ("area_bgt", ":", "Bush, Gibson, Thomas"),
             ("area_gw", "-.", "Greenwood, Williamson"),
         ):
-            if (
-                name in result and np.isfinite(result.mean(name)[order]).any()
-            ):  # shares of the nominal area
+            if name in result and np.isfinite(result.mean(name)[order]).any():
+                # Shares of the nominal area.
                 nominal = result.mean("contact_area")[order] / result.mean("area_fraction")[order]
                 axis.plot(
                     force, nominal * result.mean(name)[order], line, color=GREY, lw=1.0, label=text

@@ -43,7 +43,8 @@ def curve(page, axis, result, look, x, y, name=None, over=None, alone=True):
         if result.realizations > 2 and not parting:
             values = _realizations(result, name, over, x, y, at)
             low, high = np.nanpercentile(values, [16, 84], axis=0)
-            band(page, axis, x[at], low, high, colour, 0.25 if alone else 0.12)
+            if page.results <= FEW:  # bands of more would cover each other
+                band(page, axis, x[at], low, high, colour, 0.25 if alone else 0.12)
             if not alone:
                 errors = result.standard_error(values)
         if alone:
@@ -66,31 +67,33 @@ def curve(page, axis, result, look, x, y, name=None, over=None, alone=True):
 
 def bars(page, axis, x, y, errors, result, colour):
     """Error bars, of at most the value itself where axes are logarithmic."""
-    log = axis.get_yscale() == "log"
-    below = np.minimum(errors, 0.95 * abs(y)) if log else errors
-    axis.errorbar(
-        x, y, [below, errors], fmt="none", ecolor=colour, elinewidth=0.8, capsize=1.5, gid="bars"
-    )
+    if axis.get_yscale() == "log":
+        errors = [np.minimum(errors, 0.9 * abs(y)), errors]
+    every = slice(None, None, -(-x.size // 15))
+    x, y, errors = x[every], y[every], np.atleast_2d(errors)[:, every]
+    looks = dict(ecolor=colour, elinewidth=0.8, capsize=1.5, gid="bars")
+    axis.errorbar(x, y, np.broadcast_to(errors, (2, x.size)), fmt="none", **looks)
     what = "standard error of the mean" if result.realizations > 2 else "expected error"
     page.entry("bars: " + what, marker="|", color=GREY, ls="none", ms=6)
 
 
 def _realizations(result, name, over, x, y, at):
     """The values of y of every realization at these levels; where x differs between realizations,
-    moved along the slope of the curve to the mean of x, in logarithms."""
+    moved to the mean of x along the tangent of the curve."""
     mean = result.mean(name)[at]
     values = result[name][:, at] * np.divide(y[at], mean, out=np.ones(at.size), where=mean != 0)
     if over and at.size > 1 and (x[at] > 0).all() and (y[at] > 0).all():
-        own = result[over][:, at]
         apart = np.gradient(np.log(x[at]))
-        slope = np.gradient(np.log(y[at])) / np.where(apart != 0, apart, np.inf)
-        values = values * (x[at] / np.where(own > 0, own, np.nan)) ** slope
+        slope = np.gradient(np.log(y[at])) / np.where(apart != 0, apart, np.inf) * y[at] / x[at]
+        values = values - slope * (result[over][:, at] - x[at])
     return np.where(np.isnan(values).all(axis=0), y[at], values)
 
 
 def band(page, axis, x, low, high, colour, alpha):
     """The scatter over realizations, if it is wide enough to be visible."""
     low = np.where(low != 0, low, np.nan)
+    if axis.get_yscale() == "log":
+        low = np.where(low > 0, low, np.nan)
     if (
         np.isfinite(low[1:] + low[:-1]).any()
         and np.nanmax((high - low) / abs(low), initial=0) > 0.06
@@ -103,7 +106,7 @@ def error_band(page, axis, x, y, off, text, **looks):
     """The band of the error `off` of y. It extends the axes by y at most, so that curves remain
     visible beside larger errors."""
     size = abs(y)
-    if (off > 0.03 * size).any():  # less is not visible
+    if (off > 0.06 * size).any():  # less is not visible
         limits = axis.dataLim.frozen()
         ends = np.maximum(y - off, -np.inf if (y < 0).any() else 0.02 * y), y + off
         _fill(axis, x, *ends, gid="error", **looks)
@@ -124,6 +127,7 @@ def _fill(axis, x, low, high, **looks):
 def begin(results, options, count=1, **how):
     """The page and the line styles of the results, with a colour scale for many results."""
     page, looks = Page(options, count, **how), Looks(results)
+    page.results = len(results)
     if looks.scale:
         page.scale(looks.scale)
     return page, looks.of
@@ -199,7 +203,8 @@ def load(results, options):
             axis.set_ylim(0, 1.1 * loads.max())
             axis.yaxis.get_major_locator().set_params(integer=True)
     smooth = {(float(r["e_star"]), float(r["r_star"])): r for r in results if r.is_ball()}
-    if len(smooth) == 1 and not any(r.pulls() for r in results):
+    deep = page.axes[0].dataLim.x1 > 0  # Hertz's force begins at the mean plane
+    if len(smooth) == 1 and deep and not any(r.pulls() for r in results):
         page.axes[0].autoscale_view()  # Hertz's force vanishes at the origin
         limits = page.axes[0].get_ylim()
         x = np.linspace(0, page.axes[0].dataLim.x1, 300)[1:]

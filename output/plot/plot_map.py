@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from plot_curves import title
 from plot_results import edges, names
 from plot_spots import draw_pixels, draw_smooth, heights
 from plot_style import COLOURS, Page, amount, colour_bar, label
@@ -19,28 +20,29 @@ def hertz_radius(result, step):
 
 
 def shown(results, options):
-    """(result, level, name) of the panels: three levels of one result, or one level of each of
-    several."""
+    """((result, level, name) of the panels, what is common to all names): three levels of one
+    result, or one level of each of several."""
     if len(results) == 1:
         count = 3 if options.width >= 120 else 2
-        return [
-            (results[0], level, results[0].level_name(level) + results[0].warning(level))
-            for level in results[0].chosen(count, options.step)
-        ]
+        levels = [(results[0], level) for level in results[0].chosen(count, options.step)]
+        named = [""] * len(levels)
+    else:
+        chosen = [(r, name, r.chosen(1, options.step)) for r, name in zip(results, names(results))]
+        levels = [(r, found[0]) for r, _, found in chosen if found]
+        named = [name for _, name, found in chosen if found]
+    texts = [r.level_name(level) + r.warning(level) for r, level in levels]
+    common = texts[0] if len(results) > 1 and len(set(texts)) == 1 else ""
     return [
-        (r, level, f"{name}, {r.level_name(level)}{r.warning(level)}")
-        for r, name in zip(results, names(results))
-        for level in r.chosen(1, options.step)
-    ]
+        (*panel, ", ".join(filter(None, (name, text if not common else ""))))
+        for panel, name, text in zip(levels, named, texts)
+    ], common
 
 
-def _field(result, level, name):
+def _field(result, level, name, fine):
     """(values, extent) of a quantity: on the points of the fields, or in the cells of the map."""
-    if name == "map_pressure" and "field_pressure" in result:
-        at = np.flatnonzero(result["field_step"] == level + 1)
-        if at.size:
-            field = result.window("field_pressure", int(at[0]))
-            return field, edges(result["field_x"], result["field_y"])
+    if name == "map_pressure" and fine:
+        at = int(np.flatnonzero(result["field_step"] == level + 1)[0])
+        return result.window("field_pressure", at), edges(result["field_x"], result["field_y"])
     return result.cells(name, level)[0], edges(result["x"], result["y"])
 
 
@@ -76,7 +78,7 @@ def maps(results, options):
     one colour scale, cropped to the contact. Dashed: the contact of the smooth indenter under the
     same force."""
     results = [r for r in results if "map_pressure" in r]
-    panels = shown(results, options)
+    panels, common = shown(results, options)
     if not panels:
         return None
     if len(panels) > MOST:
@@ -103,9 +105,12 @@ def maps(results, options):
         options, len(panels) * len(quantities), (0.8 * shape * size + title_room) / size, columns
     )
     grid = np.array(page.axes, dtype=object)
+    fine = all("field_pressure" in r and level + 1 in r["field_step"] for r, level, _ in panels)
     for q, variable in enumerate(quantities):
         axes = grid[q * len(panels) : (q + 1) * len(panels)]
-        fields = [_field(r, level, variable) for r, level, _ in panels if variable != "contact"]
+        fields = [
+            _field(r, level, variable, fine) for r, level, _ in panels if variable != "contact"
+        ]
         image = None
         for k, (axis, (result, level, name)) in enumerate(zip(axes, panels)):
             if variable == "contact":
@@ -115,7 +120,8 @@ def maps(results, options):
                 image = _image(axis, *fields[k], variable, [field for field, _ in fields])
             draw_smooth(page, axis, result, level)
             inside = window or _window([panels[k]])
-            axis.set(xlim=inside[:2], ylim=inside[2:], aspect="equal", anchor="W")
+            axis.set(xlim=inside[:2], ylim=inside[2:], aspect="equal")
+            axis.dataLim.set_points(np.reshape(inside, (2, 2)).T)  # for the unit of the labels
             if q == 0:
                 axis.set_title(_heading(result, level, name), fontsize=5.5 if small else 7)
             lowest = q == len(quantities) - 1 and k + columns >= len(panels)
@@ -124,10 +130,14 @@ def maps(results, options):
             text = "area fraction $A'$" if variable == "map_area_fraction" else "pressure $p$"
             dimension = panels[0][0].dimension(variable)
             how = dict(extend=image.extend, pad=0.01, aspect=16 if one else 30, fraction=0.08)
-            colour_bar(page.figure, image, list(axes), text, dimension, **how)
+            beside = list(axes)
+            if first == "contact":  # the bar of all rows, so that they remain one below the other
+                beside, how["shrink"], how["anchor"] = page.axes, 0.9 / page.rows, (0, 0)
+            colour_bar(page.figure, image, beside, text, dimension, **how)
     what = "Contact" if first == "contact" else "Area fraction"
     what = f"{what} and pressure" if one else "Pressure"
-    return page.finish(results[0].heading(what) if one else what)
+    what += f" at {common}" if common else ""
+    return page.finish(results[0].heading(what) if one else title(results, what))
 
 
 def _heading(result, level, name):

@@ -209,7 +209,7 @@ def pulloff(results, options):
     found = _keys(results)
     if not found:
         return None
-    values = np.array([-r["pull_off_force"].mean() for r in results])
+    values = -np.array([float(r.mean("pull_off_force")) for r in results])
     errors = np.array([float(r.standard_error(r["pull_off_force"])) for r in results])
     dimension = results[0].dimension("pull_off_force")
     panels = [Panel("pull_off_force", values, errors, 0 * values, dimension)]

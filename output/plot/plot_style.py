@@ -15,7 +15,6 @@ from matplotlib.ticker import (
     LogFormatterSciNotation,
     LogLocator,
     MaxNLocator,
-    NullFormatter,
 )
 
 # Curves differ by line and marker as well as by colour, so that pictures are readable in grey.
@@ -219,7 +218,7 @@ def colour_bar(figure, image, axes, text, dimension="", **how):
         image,
         ax=axes,
         label=text + (f" [{unit}]" if unit else ""),
-        format=FuncFormatter(lambda v, _: _number(v / size, high / size)),
+        format=FuncFormatter(lambda v, _: _number(v / size, max(abs(low), abs(high)) / size)),
         ticks=MaxNLocator(5),
         **how,
     )
@@ -293,7 +292,7 @@ class Page:
             below = self.figure.add_subplot(self.outer[1])
             below.axis("off")
             texts = [
-                wrapped(self.figure, text, self.width - 10, "legend.fontsize")
+                wrapped(self.figure, text, min(self.width - 10, 62), "legend.fontsize")
                 for text in self.entries
             ]
             for rows in range(1, len(texts) + 1):  # as few as fit the width
@@ -348,7 +347,7 @@ def settle(figure):
         text = wrapped(
             figure,
             axis.get_title(),
-            2 * half * 25.4 * figure.get_figwidth(),
+            1.88 * half * 25.4 * figure.get_figwidth(),
             axis.title.get_fontsize(),
         )
         row = axis.get_subplotspec().rowspan.start
@@ -363,13 +362,15 @@ def settle(figure):
 
 def _space(side):
     """Takes ticks of an axis away until their labels are apart."""
+    log = side.get_scale() == "log"
     for bins in (5, 4, 3, 2, 1):
         texts = [text for text in side.get_ticklabels(which="both") if text.get_text()]
-        boxes = [text.get_window_extent().padded(1.5) for text in texts if text.get_visible()]
+        boxes = [text.get_window_extent().padded(0 if log else 1.5) for text in texts]
         if not any(a.overlaps(b) for k, a in enumerate(boxes) for b in boxes[:k]):
             return
-        if side.get_scale() != "linear":
-            side.set_minor_formatter(NullFormatter())
-            side.set_major_locator(LogLocator(numticks=bins))
+        if log:
+            side.set_minor_locator(LogLocator(subs=(2.0, 5.0) if bins == 5 else ()))
+            if bins < 5:
+                side.set_major_locator(LogLocator(numticks=bins))
         elif not isinstance(side.get_major_locator(), FixedLocator):
             side.set_major_locator(MaxNLocator(bins))
