@@ -115,14 +115,16 @@ def _theories(page, result):
 
 
 def _elastic_until(page, axis, result):
-    """Onset of yielding: between the highest force without and the lowest force with a yielding contact."""
+    """Onset of yielding: between the highest force without and the lowest force with a yielding
+    contact."""
     if "plastic_contacts" not in result:
         return
     at, force, yields = result.loaded(), result.mean("force"), result.worst("plastic_contacts") > 0
     dimension, hardness = result.dimension("force"), result.case.get("solids%hardness", "")
     if not yields[at].any():
         page.entry(
-            f"elastic up to {amount(force[at].max(), dimension)}: pressures below the hardness {hardness}",
+            f"elastic up to {amount(force[at].max(), dimension)}: pressures below the "
+            f"hardness {hardness}",
             ls="none",
         )
         return

@@ -1,4 +1,5 @@
-"""Asperities against elements (&compare): contact spots of both models, pressures along a line, and the error at every compared level."""
+"""Asperities against elements (&compare): contact spots of both models, pressures along a line, and
+the error at every compared level."""
 
 import numpy as np
 from matplotlib.collections import EllipseCollection
@@ -10,7 +11,8 @@ from plot_style import Page, STYLES, amount, label
 
 
 def along_line(spots, y, x0, x1):
-    """Hertz's pressures of the spots along the line at y from x0 to x1; in yielding spots the pressure is constant."""
+    """Hertz's pressures of the spots along the line at y from x0 to x1; in yielding spots the
+    pressure is constant."""
     x = np.linspace(x0, x1, 2000)
     p = np.zeros_like(x)
     for sx, sy, a, b, t, f, yields in zip(*spots):
@@ -33,7 +35,8 @@ def compare(results, options):
     result = having[0]
     if len(having) > 1:
         options.say(
-            f"compare: {names(results)[results.index(result)]} is drawn; plot the other files one by one"
+            f"compare: {names(results)[results.index(result)]} is drawn; plot the other files "
+            "one by one"
         )
     steps = result["compare_step"].astype(int) - 1
     step, pixels, spots = (

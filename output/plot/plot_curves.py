@@ -117,7 +117,8 @@ def error_band(page, axis, x, y, off, text, **looks):
 
 
 def _fill(axis, x, low, high, **looks):
-    """Fills between low and high; where x turns back, draws bars, because bands of two branches would overlap."""
+    """Fills between low and high; where x turns back, draws bars, because bands of two branches
+    would overlap."""
     if {-1, 1} <= set(np.sign(np.round(np.diff(x) / (np.ptp(x) or 1), 3))):
         axis.vlines(x, low, high, lw=4, **looks)
     else:
@@ -134,9 +135,9 @@ def begin(results, options, count=1, **how):
 
 
 def panel_looks(page, results, names):
-    """(marker, line, colour) of each of several sets of points with the given results and names, with their entries in the legend or their
-    colour scale: along the keys that differ for many results, along the levels for many levels of one.
-    """
+    """(marker, line, colour) of each of several sets of points with the given results and names,
+    with their entries in the legend or their colour scale: along the keys that differ for many
+    results, along the levels for many levels of one."""
     if len(results) <= FEW:
         for (marker, line, colour), name in zip(STYLES, names):
             page.entry(name, color=colour, marker=marker, ls=line, lw=1.0, mfc="none", ms=3)

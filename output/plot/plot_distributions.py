@@ -65,7 +65,8 @@ def distributions(results, options):
     shown = []
     for result, name in zip(results, names(results) if results else []):
         counts = contacts_behind(result)
-        # Several pdf_levels may have the same nearest level; step 0: it differs between realizations.
+        # Several pdf_levels may have the same nearest level; step 0: it differs between
+        # realizations.
         steps = np.where(result["pdf_step"] < 1, -np.arange(counts.size), result["pdf_step"])
         distinct = np.unique(steps, return_index=True)[1]
         levels = np.sort(distinct[counts[distinct] >= ENOUGH])

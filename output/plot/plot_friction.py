@@ -30,7 +30,8 @@ def _slide_per_depth(result, step):
 
 
 def loop(results, options):
-    """The loop of friction of a level, beside Mindlin's for a smooth sphere of the same radius, moduli and load."""
+    """The loop of friction of a level, beside Mindlin's for a smooth sphere of the same radius,
+    moduli and load."""
     found = _level(results, options)
     if not found:
         return None

@@ -12,7 +12,8 @@ def _of_sphere(result, level):
 
 
 def radial(results, options):
-    """Radial mean of the pressure, linear and logarithmic, for a sphere with Hertz for the same force."""
+    """Radial mean of the pressure, linear and logarithmic, for a sphere with Hertz for the same
+    force."""
     results = [r for r in results if "radial_pressure" in r and r.has_tip()]
     panels, common = shown(results, options)
     if not panels:

@@ -1,5 +1,6 @@
-"""Style of the pictures: colours, suitable units, marks of levels, legends beside the data. Data are drawn in SI units; axes and colour bars
-use the unit with short numbers (nm, um, mm; mN, N, kN; MPa, GPa)."""
+"""Style of the pictures: colours, suitable units, marks of levels, legends beside the data. Data
+are drawn in SI units; axes and colour bars use the unit with short numbers (nm, um, mm; mN, N, kN;
+MPa, GPa)."""
 
 import re
 
@@ -102,8 +103,8 @@ _BASES |= {
 
 
 def si(text):
-    """(factor to SI, dimension) of a unit of result files: 'N mm-2' is (1e6, 'N m-2'). An unknown unit is its own
-    dimension, with factor 1."""
+    """(factor to SI, dimension) of a unit of result files: 'N mm-2' is (1e6, 'N m-2'). An unknown
+    unit is its own dimension, with factor 1."""
     factor, powers = 1.0, {}
     for word in text.split():
         name, power = re.fullmatch(r"(.*?)(-?\d*)", word).groups()
@@ -139,7 +140,8 @@ def fitting(dimension, values):
 
 
 def middle(dimension, ends):
-    """The same for a logarithmic axis over decades: of the units within its ends the one nearest to its middle."""
+    """The same for a logarithmic axis over decades: of the units within its ends the one nearest to
+    its middle."""
     within = [unit for unit in _SHOWN.get(dimension, []) if 0 < ends[0] <= unit[0] <= ends[1]]
     return (
         min(within, key=lambda unit: abs(np.log(unit[0] ** 2 / (ends[0] * ends[1]))))
@@ -155,7 +157,8 @@ def amount(value, dimension, digits=3):
 
 
 def short(value, digits=3):
-    """A number with the given number of digits, without a power of ten up to a million: 49600, not 4.96e+04."""
+    """A number with the given number of digits, without a power of ten up to a million: 49600, not
+    4.96e+04."""
     return f"{float(f'{value:.{digits}g}'):.6g}"
 
 
@@ -227,8 +230,9 @@ def colour_bar(figure, image, axes, text, dimension="", **how):
 
 
 class Page:
-    """A figure of `count` panels of one height with a title and one legend below all of them, outside the data. With one panel the page
-    is at most 130 mm wide. aspect: height over width of a panel; columns: number of columns."""
+    """A figure of `count` panels of one height with a title and one legend below all of them,
+    outside the data. With one panel the page is at most 130 mm wide. aspect: height over width of a
+    panel; columns: number of columns."""
 
     def __init__(self, options, count=1, aspect=0.72, columns=None, least=52.0):
         self.width = min(options.width, 130.0) if count == 1 else options.width
@@ -263,7 +267,8 @@ class Page:
             self.entry("level " + text, **{**looks, "color": "r" if last else "k", "ms": 4})
 
     def scale(self, scale):
-        """The colour scale of many results, (name of the key, texts of its values, colours), right of all panels."""
+        """The colour scale of many results, (name of the key, texts of its values, colours), right
+        of all panels."""
         name, texts, colours = scale
         colours = matplotlib.colors.ListedColormap(colours)
         image = matplotlib.cm.ScalarMappable(
@@ -318,7 +323,8 @@ class Page:
 
 
 def wrapped(figure, text, width, size):
-    """The text in lines of at most `width` millimetres; formulas are not broken. size: name of the font size in rcParams, or points."""
+    """The text in lines of at most `width` millimetres; formulas are not broken. size: name of the
+    font size in rcParams, or points."""
     probe = figure.text(0, 0, "", fontsize=plt.rcParams.get(size, size))
     lines = []
     for line in filter(None, text.split("\n")):

@@ -9,8 +9,9 @@ from plot_style import Page, STYLES, amount, colour_bar, label
 
 
 def surface(results, options):
-    """Heights, spectrum and distribution of heights of the first result that has any of them; for comparison the heights of up to two further results
-    beside them (a map and its twins), the spectra of all, and all rms slopes in the legend."""
+    """Heights, spectrum and distribution of heights of the first result that has any of them; for
+    comparison the heights of up to two further results beside them (a map and its twins), the
+    spectra of all, and all rms slopes in the legend."""
     first = next((r for r in results if height_names(r) or "psd" in r), None)
     if first is None:
         return None
@@ -36,11 +37,16 @@ def surface(results, options):
     )
     for name, slope in slopes:
         page.entry(
-            f"{name}: rms slope {np.mean(slope):.3g}"
-            + (f" ± {np.std(slope, ddof=1):.2g} ({slope.size} surfaces)" if slope.size > 1 else ""),
+            f"{name}: rms slope {np.mean(slope):.3g}" + _scatter(slope),
             ls="none",
         )
     return page.finish(first.title if len(results) == 1 else title(results, "Surfaces"))
+
+
+def _scatter(values):
+    if values.size < 2:
+        return ""
+    return f" ± {np.std(values, ddof=1):.2g} ({values.size} surfaces)"
 
 
 def _map(page, axis, result, name):
@@ -134,7 +140,8 @@ def _distribution(page, axis, result, _):
         heights_ = heights_ - heights_.mean()
         density, edges = np.histogram(heights_, 60, density=True)
         z, sq = (edges[1:] + edges[:-1]) / 2, heights_.std()
-        words = f"skewness {np.mean((heights_ / sq) ** 3):.2f}, kurtosis {np.mean((heights_ / sq) ** 4):.2f}"
+        third, fourth = (np.mean((heights_ / sq) ** power) for power in (3, 4))
+        words = f"skewness {third:.2f}, kurtosis {fourth:.2f}"
     axis.stairs(density, edges, fill=True, color=STYLES[0][2], alpha=0.4)
     axis.plot(z, np.exp(-(z**2) / (2 * sq**2)) / (np.sqrt(2 * np.pi) * sq), color=STYLES[1][2])
     page.entry("heights", color=STYLES[0][2], alpha=0.4, lw=5)

@@ -7,8 +7,9 @@ from plot_style import label
 
 
 def time(results, options):
-    """Force and contact area (of two flats nominal pressure and area fraction) against the time since the first level on a logarithmic axis, the first
-    level as a dotted line; under force control the separation instead of the force."""
+    """Force and contact area (of two flats nominal pressure and area fraction) against the time
+    since the first level on a logarithmic axis, the first level as a dotted line; under force
+    control the separation instead of the force."""
     results = [r for r in results if "time" in r and "energy_lost" in r and r.steps > 2]
     if not results:
         return None
