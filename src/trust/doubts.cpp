@@ -5,8 +5,8 @@ namespace rsc {
 std::string sentence(Cause cause, bool elements) {
     switch (cause) {
         case Cause::border:
-            return "contacts, or their attraction, within <d> of the border of the surface: what "
-                   "lies beyond it is missing, |N| is too small";
+            return "contacts, or their attraction, closer to the border of the surface than the "
+                   "mean distance of summits: what lies beyond it is missing";
         case Cause::filled_points:
             return "the contact may lie on missing points of the map, which are filled smoothly "
                    "(filled_share): N is too small";
