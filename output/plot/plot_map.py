@@ -1,6 +1,7 @@
 """Maps of the contact and of the pressure."""
 
 import numpy as np
+from matplotlib.colors import PowerNorm
 
 from plot_curves import title
 from plot_results import edges, names
@@ -168,12 +169,14 @@ def _image(axis, field, extent, variable, all_fields):
     else:
         end = np.percentile(values, 99) if values.size else 1.0
     pulls = min(f.min() for f in all_fields) < 0
+    tops = [f.max() for f in all_fields if f.max() > 0]
+    # Between panels of different magnitude colours follow the root.
+    gamma = 0.5 if tops and not pulls and max(tops) > 8 * min(tops) else 1.0
     image = axis.imshow(
         np.ma.masked_equal(field, 0),
         extent=extent,
         cmap="coolwarm" if pulls else COLOURS,
-        vmin=-end if pulls else 0,
-        vmax=end or 1.0,
+        norm=PowerNorm(gamma, -end if pulls else 0, end or 1.0),
         interpolation="nearest",
     )
     beyond = variable == "map_pressure" and values.max(initial=0) > end

@@ -297,7 +297,12 @@ class Page:
             below = self.figure.add_subplot(self.outer[1])
             below.axis("off")
             texts = [
-                wrapped(self.figure, text, min(self.width - 10, 62), "legend.fontsize")
+                wrapped(
+                    self.figure,
+                    text,
+                    self.width - 10 if len(self.entries) < 2 or ":" not in text[:20] else 62,
+                    "legend.fontsize",
+                )
                 for text in self.entries
             ]
             for rows in range(1, len(texts) + 1):  # as few as fit the width

@@ -571,6 +571,8 @@ class Numbers(Drawn):
         i, j = (np.searchsorted(v["field_" + a], v["mask_" + a] - 1e-12) for a in "xy")
         field = v["field_contact"][0]
         self.assertEqual(field.sum(), mask.sum())
+        pixel = np.prod([v["mask_" + a][1] - v["mask_" + a][0] for a in "xy"])
+        self.assertAlmostEqual(mask.sum() * pixel / v["contact_area_pixels"][0, 2], 1, 9)
         self.assertTrue((field[np.ix_(j, i)] == mask).all())
         yields = v["contact_mask"][2] == 2
         self.assertTrue(0 < yields.sum() < mask.sum())
