@@ -285,7 +285,7 @@ def pictures(results, width):
         drawn.append(
             (
                 name,
-                (draw.__doc__ or name).split("\n\n")[0].replace("\n", " ").strip(),
+                " ".join((draw.__doc__ or name).split("\n\n")[0].split()),
                 base64.b64encode(png.getvalue()).decode(),
             )
         )
