@@ -2,11 +2,10 @@
 the stick and slip regions."""
 
 import numpy as np
-from matplotlib.collections import EllipseCollection
 from matplotlib.colors import to_rgba
 
 from plot_results import edges
-from plot_spots import spots_of
+from plot_spots import ellipses, spots_of, square
 from plot_style import Page, STYLES, amount, label
 
 
@@ -93,29 +92,15 @@ def _sticking_spots(page, axis, result, step):
     if not 0 < slides[inner] < full or count[step] == 0 or count[inner] == 0:
         return None
     for level, colour, text in ((step, STYLES[1][2], "slips"), (inner, STYLES[0][2], "sticks")):
-        x, y, major, minor, angle = spots_of(result, level)[:5]
-        wide = 2 * major
-        axis.add_collection(
-            EllipseCollection(
-                wide,
-                2 * minor,
-                np.degrees(angle),
-                units="xy",
-                offsets=np.column_stack([x, y]),
-                transOffset=axis.transData,
-                facecolors=colour,
-                edgecolors="none",
-                gid=text,
-            )
-        )
+        x, y, major = spots_of(result, level)[:3]
+        looks = dict(facecolors=colour, edgecolors="none", gid=text)
+        ellipses(axis, *spots_of(result, level)[:5], **looks)
         page.entry(text, marker="o", color=colour, ls="none")
         if level == step:
-            half, cx, cy = (
-                0.55 * max(np.ptp(x) + wide.max(), np.ptp(y) + wide.max()),
-                (x.min() + x.max()) / 2,
-                (y.min() + y.max()) / 2,
-            )
-            axis.set(xlim=(cx - half, cx + half), ylim=(cy - half, cy + half), aspect="equal")
+            low = np.array([(x - major).min(), (y - major).min()])
+            high = np.array([(x + major).max(), (y + major).max()])
+            window = square(low, high, None)
+            axis.set(xlim=window[:2], ylim=window[2:], aspect="equal")
     return f"slide {slides[inner] / full:.0%} of full slip"
 
 

@@ -115,31 +115,27 @@ def spot_at(mask, wanted, row, column):
     return largest // nx, largest % nx
 
 
+def ellipses(axis, x, y, major, minor, angle, **looks):
+    """Draws ellipses of these semi-axes; none if there are none, which matplotlib 3.6 draws as one
+    big ellipse."""
+    if np.size(x):
+        wide, high, turn = 2 * major, 2 * minor, np.degrees(angle)
+        places = dict(units="xy", offsets=np.column_stack([x, y]), transOffset=axis.transData)
+        axis.add_collection(EllipseCollection(wide, high, turn, **places, **looks))
+
+
 def draw_spots(axis, spots, least=0.0, edge=0.0):
     """Spots as ellipses, elastic ones, those that yield and those under tension in different
     colours; least: the smallest semi-axis drawn."""
     x, y, major, minor, angle, f, yields = spots
+    major, minor = np.maximum(major, least), np.maximum(minor, least)
     for some, colour, name in (
         (~yields & (f >= 0), ELASTIC, "spots"),
         (yields, YIELDING, "yielding spots"),
         (~yields & (f < 0), PULLING, "pulling spots"),
     ):
-        if some.any():  # matplotlib 3.6 draws an empty EllipseCollection as one big ellipse
-            wide, high = (2 * np.maximum(axes[some], least) for axes in (major, minor))
-            axis.add_collection(
-                EllipseCollection(
-                    wide,
-                    high,
-                    np.degrees(angle[some]),
-                    units="xy",
-                    offsets=np.column_stack([x[some], y[some]]),
-                    transOffset=axis.transData,
-                    facecolors=colour,
-                    edgecolors="k",
-                    linewidths=edge,
-                    gid=name,
-                )
-            )
+        looks = dict(facecolors=colour, edgecolors="k", linewidths=edge, gid=name)
+        ellipses(axis, *(v[some] for v in (x, y, major, minor, angle)), **looks)
 
 
 def draw_pixels(page, axis, result, step):
