@@ -4,6 +4,7 @@ usage: test_cases.py PROJECT        (RSC_PROGRAM in the environment)
 """
 import functools
 import glob
+import io
 import os
 import re
 import subprocess
@@ -16,6 +17,11 @@ RSC = os.path.abspath(os.environ["RSC_PROGRAM"])
 sys.path[:0] = [os.path.join(PROJECT, "output", "plot"), os.path.join(PROJECT, "output", "export")]
 import law  # noqa: E402
 import plot  # noqa: E402
+
+try:
+    import docutils.core
+except ImportError:
+    docutils = None
 
 
 def read(*names):
@@ -90,14 +96,36 @@ class Readme(unittest.TestCase):
     def test_pictures(self):
         """output/README explains every picture of plot.py once, and no other."""
         text = read("output", "README")
-        block = text[text.index("    load  ") : text.index("A picture is drawn")]
+        block = text[text.index("\nload  ") : text.index("A picture is drawn")]
         named = [
             word
             for line in block.splitlines()
-            for name in re.findall(r"^    ([a-z]+(?:, [a-z]+)*)  ", line)
+            for name in re.findall(r"^([a-z]+(?:, [a-z]+)*)  ", line)
             for word in name.split(", ")
         ]
         self.assertEqual(sorted(named), sorted(plot.PICTURES))
+
+    def test_pages(self):
+        """Every page is reStructuredText without errors, no line longer than 80 columns."""
+        pages = glob.glob(os.path.join(PROJECT, "*", "README"))
+        for page in [*pages, *(os.path.join(PROJECT, p) for p in ("README", "CHANGELOG"))]:
+            text = read(page)
+            self.assertEqual([line for line in text.splitlines() if len(line) > 80], [], page)
+            if docutils:
+                told = io.StringIO()
+                settings = {"warning_stream": told, "report_level": 2}
+                docutils.core.publish_doctree(text, settings_overrides=settings)
+                self.assertEqual(told.getvalue(), "", page)
+
+    def test_files(self):
+        """Every file that src/README names exists."""
+        rooms = "|".join(d for d in os.listdir(os.path.join(PROJECT, "src")) if "." not in d)
+        names = re.findall(rf"(?<![\w/])((?:{rooms})/[a-z_0-9/]+)(?![\w/])", read("src", "README"))
+        self.assertGreater(len(names), 60)
+        gone = [
+            n for n in names if not glob.glob(os.path.join(PROJECT, "src", n.rstrip("/")) + "*")
+        ]
+        self.assertEqual(gone, [])
 
     def test_commands(self):
         """The commands of output/README are ones that plot.py and law.py take."""
