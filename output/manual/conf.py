@@ -14,6 +14,8 @@ html_theme_options = {
 }
 html_sidebars = {"**": ["about.html", "searchbox.html", "navigation.html"]}
 html_copy_source = False
+html_static_path = ["_static"]
+html_css_files = ["manual.css"]
 html_show_sphinx = False
 highlight_language = "none"
 smartquotes = False  # -- and quotes stand in commands

@@ -171,14 +171,14 @@ def c_interface():
             entry = re.match(r"    (\S[^:]*?)(?:: (.*)|( \[.*))$", line)
             if entry and not line.startswith("      "):
                 text = (entry[2] or entry[3]).strip().rstrip(";")
-                if not lines[-1].startswith(("   :", "      ")):
+                if not lines[-1].startswith(("   - ", "     ")):
                     lines.append("")
-                lines.append(f"   :{plain(entry[1])}: {plain(text)}")
+                lines.append(f"   - **{plain(entry[1])}**: {plain(text)}")
             elif line.startswith("Errors:"):
                 lines += ["", "   " + plain(line)]
             else:
-                deeper = "      " if line.startswith("      ") else "   "
-                if deeper == "   " and lines[-1].startswith(("   :", "      ")):
+                deeper = "     " if line.startswith("      ") else "   "
+                if deeper == "   " and lines[-1].startswith(("   - ", "     ")):
                     lines.append("")
                 lines.append(deeper + plain(line.strip().rstrip(";")))
     return lines
@@ -192,6 +192,12 @@ def docstring(thing, by):
         lines += ["::", ""] if code else []
         lines += [line if code else plain(line) for line in paragraph.split("\n")] + [""]
     return indented(lines, by)
+
+
+def signature(thing):
+    """The arguments of a function, without self and the quotes of its annotations."""
+    text = re.sub(r"(: |-> )'([^']*)'", r"\1\2", str(inspect.signature(thing)))
+    return re.sub(r"\(self(: \w+)?(, )?", "(", text).replace("_Same", "object")
 
 
 def python(library):
@@ -217,11 +223,10 @@ def python(library):
                 elif hasattr(BaseException, verb):
                     continue
                 else:
-                    given = str(inspect.signature(method)).replace("(self, ", "(")
-                    lines += [f"   .. py:method:: {verb}{given.replace('(self)', '()')}", ""]
+                    lines += [f"   .. py:method:: {verb}{signature(method)}", ""]
                 lines += docstring(method, 6)
         elif callable(thing):
-            lines += [f".. py:function:: {name}{inspect.signature(thing)}", ""]
+            lines += [f".. py:function:: {name}{signature(thing)}", ""]
             lines += docstring(thing, 3)
     return lines
 
@@ -233,7 +238,9 @@ def main():
     os.makedirs(source)
     os.makedirs(results, exist_ok=True)
     shutil.copy(os.path.join(HERE, "conf.py"), source)
-    shutil.copy(os.path.join(TOP, "input", "lay.png"), source)
+    os.makedirs(os.path.join(source, "_static"))
+    with open(os.path.join(source, "_static", "manual.css"), "w", encoding="utf-8") as out:
+        out.write("dl.key, dl.c, dl.py { margin-bottom: 1em; } dd > p { margin: 0.3em 0; }\n")
     pages = {name: readme(name) for name in READMES}
     pages["gallery"] = gallery(program, results, source)
     pages["keys"] = keys(program)
@@ -245,12 +252,15 @@ def main():
     del pages["src"][first:last]
     pages["c"] = c_interface()
     pages["python"] = python(os.path.join(os.path.dirname(program), "librsc.so"))
-    order = "README gallery input keys output equations python modules c src test CHANGELOG"
+    # README is the first page, with a picture above its first command.
+    order = "gallery input keys output equations python modules c src test CHANGELOG"
     order = [name for name in order.split() if pages[name]]
-    pages["index"] = heading("rsc: contact of rough surfaces", "=") + [
-        *(".. toctree::", "   :maxdepth: 1", "", *indented(order, 3), ""),
-        *("* :ref:`genindex`", "* :ref:`search`", ""),
-    ]
+    first = pages.pop("README")
+    picture = "first_spots.png"
+    if os.path.exists(os.path.join(source, picture)):
+        at = first.index("    sh input/first.sh") + 1
+        first[at:at] = ["", f".. image:: {picture}", "   :width: 70%"]
+    pages["index"] = first + ["", ".. toctree::", "   :hidden:", "", *indented(order, 3)]
     for name in [*order, "index"]:
         with open(os.path.join(source, name + ".rst"), "w", encoding="utf-8") as out:
             out.write("\n".join(pages[name]) + "\n")
