@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Writes the pages of the manual as reStructuredText, for Sphinx.
 
-    python3 output/manual/make_manual.py RSC FOLDER      (cmake --build build --target manual)
+    python3 output/manual/make_manual.py RSC FOLDER [--text]
 
 The pages are the READMEs, a gallery of the cases of input/ with their pictures, the keys from
 `rsc --describe`, and the calls of C from rsc.h and of Python from its docstrings. RSC is the
 program; results and pictures are kept in FOLDER/results, and computed again where a case is newer.
+With --text no case is run and there are no pictures.
 """
 
 import glob
@@ -77,6 +78,8 @@ def readme(name):
 # ---- gallery -------------------------------------------------------------------------------------
 def draw(program, case, name, results):
     """The pictures of a case, computed where they are missing or older than the case."""
+    if "--text" in sys.argv:
+        return []
     result = os.path.join(results, name + ".nc")
     made = [p for p in (result, result.replace(".nc", "_manifest.nc")) if os.path.exists(p)]
     if not made or os.path.getmtime(made[0]) < os.path.getmtime(case):
@@ -232,7 +235,7 @@ def python(library):
 
 
 def main():
-    program, folder = (os.path.abspath(word) for word in sys.argv[1:])
+    program, folder = (os.path.abspath(word) for word in sys.argv[1:3])
     source, results = os.path.join(folder, "source"), os.path.join(folder, "results")
     shutil.rmtree(source, ignore_errors=True)
     os.makedirs(source)
