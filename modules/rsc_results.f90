@@ -10,9 +10,9 @@
 !>     call r%close()
 !>
 !> A result file lists its dimensions slowest first, and Fortran sees them reversed:
-!> map_pressure(step,y,x) of ncdump is map_pressure(x,y,step) here. Indices count from 1 in the file,
-!> too. rsc_is_absent(value) finds what is missing. Attributes: nf90_get_att(r%id, ...). With stat a
-!> failure is reported in it and in errmsg; without stat it is an error stop.
+!> map_pressure(step,y,x) of ncdump is map_pressure(x,y,step) here. Indices count from 1 in the
+!> file, too. rsc_is_absent(value) finds what is missing. Attributes: nf90_get_att(r%id, ...). With
+!> stat a failure is reported in it and in errmsg; without stat it is an error stop.
 module rsc_results
   use, intrinsic :: iso_fortran_env, only: real64
   use netcdf
