@@ -1,7 +1,7 @@
-"""The cases of input/ set what the paper, their comments and the READMEs say; what the READMEs of input/ and output/ say of a run and of the pictures is so.
+"""The cases of input/ set what the paper, their comments and the READMEs say; what the READMEs of
+input/ and output/ say of a run and of the pictures is so.
 
-usage: test_cases.py PROJECT        (RSC_PROGRAM in the environment)
-"""
+usage: test_cases.py PROJECT        (RSC_PROGRAM in the environment)"""
 import functools
 import glob
 import io
@@ -50,7 +50,8 @@ class Cases(unittest.TestCase):
     maxDiff = None
 
     def test_paper(self):
-        """The numbers of the paper, in every case of input/paper that is of its gold surface, and the levels it has."""
+        """The numbers of the paper, in every case of input/paper that is of its gold surface, and
+        the levels it has."""
         gold = {
             "solids%E": "78000.0, Infinity",
             "solids%nu": "0.42, 0.0",
@@ -67,7 +68,8 @@ class Cases(unittest.TestCase):
             )
 
     def test_taken(self):
-        """Every case is one that rsc takes, and a study script shortens each of its own to fewer realizations."""
+        """Every case is one that rsc takes, and a study script shortens each of its own to fewer
+        realizations."""
         files = sorted(glob.glob(os.path.join(PROJECT, "input", "**", "*.nml"), recursive=True))
         self.assertGreater(len(files), 20)
         for file in files:

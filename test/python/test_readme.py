@@ -1,8 +1,8 @@
 """Runs every example of modules/README: the blocks indented by four spaces that begin as a Python,
 Fortran or C program does. Its table names every procedure of rsc.f90 and subroutine of rsc77.c.
 
-usage: test_readme.py README          in a folder of its own; RSC_FORTRAN, RSC_C in the environment: how to compile, with the flags
-"""
+usage: test_readme.py README          in a folder of its own; RSC_FORTRAN, RSC_C in the environment:
+how to compile, with the flags"""
 import os
 import re
 import shlex
@@ -73,7 +73,8 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             for command in commands(language, program, folder):
                 done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-                # An example shows something: it prints, nothing that is no number, and no messages of HDF5.
+                # An example shows something: it prints, nothing that is no number, and no messages
+                # of HDF5.
                 shown = done.stdout.strip() or command[0] != command[-1] and language != "python"
                 made = len(os.listdir(folder)) > 1
                 if (
@@ -83,7 +84,8 @@ def main():
                     or "HDF5" in done.stderr
                 ):
                     print(
-                        f"line {number}, {language}: status {done.returncode}\n{done.stdout}{done.stderr}"
+                        f"line {number}, {language}: status {done.returncode}\n"
+                        f"{done.stdout}{done.stderr}"
                     )
                     failed += 1
                     break
