@@ -7,8 +7,9 @@ from plot_style import label
 
 
 def time(results, options):
-    """Force and contact area (of two flats nominal pressure and area fraction) against the time since the first level on a logarithmic axis, the first
-    level as a dotted line; under force control the separation instead of the force."""
+    """Force and contact area (of two flats nominal pressure and area fraction) against the time
+    since the first level on a logarithmic axis, the first level as a dotted line; under force
+    control the separation instead of the force."""
     results = [r for r in results if "time" in r and "energy_lost" in r and r.steps > 2]
     if not results:
         return None
@@ -32,8 +33,7 @@ def time(results, options):
             axis.axhline(y[0], ls=":", color=colour, lw=1)
             if called:
                 page.entry(called, color=colour, ls=line)
-            status, meanings = result.level_status()
-            page.status(axis, t, np.where(t > 0, y, np.nan), status, meanings, colour)
+            page.status(axis, t, np.where(t > 0, y, np.nan), result, colour)
         page.entry("first level, applied at once", color="0.3", ls=":")
         axis.set_xscale("log")
         label(axis, "x", "time since the first level", results[0].dimension("time"))
