@@ -99,6 +99,10 @@ public:
     State state() const;
     // Throws Error(bad_input) if the state does not belong to these bodies.
     void restore(const State& state);
+    // Solves again at the restored level, from which later solutions then start.
+    void start_from_level() {
+        if (level_) solve_level_again();
+    }
 
 private:
     History* history() const { return model_->history(); }

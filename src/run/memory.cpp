@@ -167,6 +167,11 @@ double expected_megabytes(const Job& job, double workers) {
     constexpr double of_gap = 80;
     const double gap =
         of_gap * points + (job.settings.output.flow ? permeability_bytes(points) : 0);
+    // Groups of levels side by side (job.hpp): a contact and its second grid for each thread.
+    const double groups = static_cast<double>((job.levels.size() + kGroup - 1) / kGroup),
+                 beside = groups < kFewestGroups || job.settings.run.realizations > 1
+                              ? 0.0
+                              : std::min(workers, groups) - 1;
     double most = 0, kept = 0;
     for (const double level : job.levels) {
         if (job.indenter.period.finite()) {
@@ -181,7 +186,8 @@ double expected_megabytes(const Job& job, double workers) {
                  : heights * points;
         most = std::max(
             {most, high ? modes / job.settings.elements.points_per_wave * points : 0.0,
-             std::min(tables, table * below) + stored + (under + deep * below / points) * below});
+             std::min(tables, table * below) + stored + (under + deep * below / points) * below +
+                 (below > kFewPoints ? 0.0 : beside * ((1 + 0.25) * under * below + stored / 4))});
     }
     return 1e-6 * (program + record * static_cast<double>(job.levels.size()) + kept +
                    most * contacts_at_once);

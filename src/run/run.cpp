@@ -236,7 +236,6 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
                         done = static_cast<double>(k + 1);
                         progress.show(done, total);
                         go_on();
-                        return true;
                     });
     }
     Accumulators sums(job.observe, job.levels.size());

@@ -45,6 +45,7 @@ public:
     // under the same force; those of the force as an error of N at the separation. None if the
     // solver does not converge on that grid.
     std::optional<GridError> error(const LevelValues& level, Path& contact, bool by_force);
+    void forget() { contact_->forget(); }
 
 private:
     HeightMap map_;

@@ -35,6 +35,10 @@ public:
     // Judges a level of `contact`, which must be at that level. `by_force`: the level was found for
     // a prescribed force.
     void judge(Level& level, Path& contact, bool by_force);
+    // Following levels are judged as by a new judge.
+    void forget() {
+        if (second_) second_->forget();
+    }
 
 private:
     std::vector<Doubt> of_asperities(Level& level, const Path& contact) const;
