@@ -149,6 +149,7 @@ Spectrum self_affine_spectrum(const Case& settings) {
 
 ModelChoice model_of(const Case& c) {
     if (c.solver.model != ModelKind::automatic) return {c.solver.model};
+    if (wears(c)) return {ModelKind::elements, "solids%wear_coefficient needs them"};
     if (c.indentation.line()) return {ModelKind::elements, "line contact needs them"};
     if (const char* why = why_asperities(c); *why) return {ModelKind::asperities, why};
     if (c.surface.source == Source::heights)

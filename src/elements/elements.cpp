@@ -56,7 +56,8 @@ std::size_t ElementsSolver::guess(const std::vector<Pixel>& pixels, const std::v
         products_.set_pixels(some);
         products_.apply(q.data(), w.data(), Accuracy::inner);
         double a = 0, b = 0;
-        for (std::size_t k = 0; k < q.size(); ++k) a += q[k] * g[k], b += q[k] * w[k];
+        for (std::size_t k = 0; k < q.size(); ++k)
+            a += q[k] * g[k], b += q[k] * (w[k] + diagonal_ * q[k]);
         const double e = -0.5 * a * a / b;
         if (e < lowest) lowest = e, scale = a / b, best = s;
         return e;
@@ -190,7 +191,7 @@ void ElementsSolver::multiply_roughly(const std::vector<double>& x, std::vector<
     products_.apply(x.data(), Kx.data(), Accuracy::inner, free_.data());
 }
 
-void ElementsSolver::freed() { blocks_.assign(set_, free_list_, products_); }
+void ElementsSolver::freed() { blocks_.assign(set_, free_list_, products_, diagonal_); }
 
 void ElementsSolver::precondition(const std::vector<double>& r, std::vector<double>& y) {
     blocks_.apply(r, y);

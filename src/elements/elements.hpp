@@ -27,6 +27,10 @@ public:
                           std::optional<double> sum = std::nullopt);
     double rise() const { return Z0_; }
 
+    // Following solutions have this on the diagonal, added to K; settle() ends it.
+    void set_diagonal(double diagonal) { diagonal_ = diagonal; }
+    using BoundedSolver::settle;
+
     // Plastic residual of the last solution: the pixels at the highest pressure with w < 0, and -w,
     // row by row.
     std::vector<std::pair<Pixel, double>> press_out();

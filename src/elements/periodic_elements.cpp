@@ -76,13 +76,25 @@ PeriodicElements::PeriodicElements(const PeriodicElements& finer,
       aspect_(finer.aspect_),
       inner_(relief_.nx, relief_.ny, 1, aspect_, share()),
       plane_(relief_.nx, relief_.ny) {
+    diagonal_ = finer.diagonal_;
     prepare();
 }
 
 void PeriodicElements::prepare() {
-    const int nx = relief_.nx, ny = relief_.ny;
     const Share share = this->share();
-    rows_.assign(at(ny) + 1, 0);
+    rows_.assign(at(relief_.ny) + 1, 0);
+    prepare_inverse();
+    if (SplitPixels::suits(relief_.nx, relief_.ny, aspect_, share))
+        split_ = std::make_unique<SplitPixels>(relief_.nx, relief_.ny, aspect_, share);
+}
+
+void PeriodicElements::prepare_inverse() {
+    inverse_of_ = diagonal_;
+    Share share = this->share();
+    if (diagonal_ > 0)
+        share = [of_body = share, added = 0.5 * diagonal_ / unit_](double k) {
+            return (of_body ? of_body(k) : 0.0) + added * k;
+        };
     // K^-1 by offset: |k|/2/(1 + share), multiplied by a window with a non-negative transform, so
     // that the result is positive semidefinite as well.
     inverse_ = PixelStencil(
@@ -92,9 +104,12 @@ void PeriodicElements::prepare() {
             return 0.5 * k / (share ? 1 + share(k) : 1);
         },
         [](int a) { return 1 - std::abs(a) / (kReach + 1.0); });
-    far_ = std::make_unique<BlockCorrection>(nx, ny, aspect_, inverse_, share);
-    if (SplitPixels::suits(nx, ny, aspect_, share))
-        split_ = std::make_unique<SplitPixels>(nx, ny, aspect_, share);
+    far_ = std::make_unique<BlockCorrection>(relief_.nx, relief_.ny, aspect_, inverse_, share);
+}
+
+void PeriodicElements::set_diagonal(double diagonal) {
+    diagonal_ = diagonal / (rms_ / pressure_unit_);
+    closes_ = true;
 }
 
 int PeriodicElements::threads() const { return relief_.nx >= kThreads / relief_.ny ? 0 : 1; }
@@ -292,6 +307,7 @@ void PeriodicElements::correct(std::vector<double>& y) {
 }
 
 void PeriodicElements::freed() {
+    if (inverse_of_ != diagonal_) prepare_inverse();
     far_is_set_ = far_->exists();
     from_.assign(free_.begin(), free_.end()), ones_.resize(free_.size());
     plane_.convolve(inverse_, {rows_, column_}, from_.data(), ones_.data(), threads());
@@ -355,7 +371,7 @@ ElementsOutcome PeriodicElements::press(double mean_pressure, double tolerance,
                                         int most_iterations) {
     const ElementsOutcome outcome =
         solve({true, mean_pressure / pressure_unit_}, tolerance, most_iterations, true);
-    if (pixels_.size() == at(relief_.nx) * at(relief_.ny))
+    if (!closes_ && pixels_.size() == at(relief_.nx) * at(relief_.ny))
         refuse_closing(mean_pressure, closing_pressure());
     return outcome;
 }
@@ -374,7 +390,7 @@ ElementsOutcome PeriodicElements::approach(double Z0, double tolerance, int most
 }
 
 double PeriodicElements::closed() const {
-    return highest_ < kInfinity ? -kInfinity : mean_ + kRounding * rms_;
+    return highest_ < kInfinity || diagonal_ > 0 ? -kInfinity : mean_ + kRounding * rms_;
 }
 
 std::vector<double> PeriodicElements::deflections(const std::vector<Pixel>& pixels,

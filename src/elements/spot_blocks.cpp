@@ -116,7 +116,7 @@ int connected_sets(const std::vector<Pixel>& pixels, std::vector<int>& label, in
 }
 
 void SpotBlocks::assign(const std::vector<Pixel>& all, const std::vector<int>& which,
-                        const PixelProducts& products) {
+                        const PixelProducts& products, double diagonal) {
     std::vector<Pixel> pixels(which.size());
     for (std::size_t k = 0; k < which.size(); ++k) pixels[k] = all[at(which[k])];
     std::vector<int> label;
@@ -164,6 +164,7 @@ void SpotBlocks::assign(const std::vector<Pixel>& all, const std::vector<int>& w
     std::erase_if(known_, [](const auto& entry) {
         return entry.second.values.empty();
     });  // an exception ended their computation
+    if (std::exchange(diagonal_, diagonal) != diagonal) known_.clear();
     for (auto& [number, inverse] : known_) inverse.wanted = false;
     blocks_.clear();
     std::vector<Inverse*> fresh;
@@ -196,7 +197,8 @@ void SpotBlocks::assign(const std::vector<Pixel>& all, const std::vector<int>& w
         for (std::size_t i = 0; i < n; ++i)
             for (std::size_t j = 0; j <= i; ++j)
                 A[i * n + j] = A[j * n + i] =
-                    products.coefficient(shape[i].x - shape[j].x, shape[i].y - shape[j].y);
+                    products.coefficient(shape[i].x - shape[j].x, shape[i].y - shape[j].y) +
+                    (i == j ? diagonal : 0.0);
         const double unit = A[0];
         for (double& v : A) v /= unit;
         invert(n, A.data());

@@ -15,14 +15,15 @@ int connected_sets(const std::vector<Pixel>& pixels, std::vector<int>& label, in
 // Number of sides of each pixel without a neighbour, for pixels and a period as above.
 std::vector<int> open_sides(const std::vector<Pixel>& pixels, int period_x, int period_y);
 
-// Block Jacobi preconditioner: the inverse of K on each connected set of pixels; sets of more than
+// Block Jacobi preconditioner: the inverse of K, to which a number may be added on the diagonal, on
+// each connected set of pixels; sets of more than
 // kMostPixels are divided along a lattice of squares. Blocks of equal shape share their inverse,
 // also with earlier sets.
 class SpotBlocks {
 public:
     // Sets the pixels, row by row as for connected_sets(): those of `all` at the positions `which`.
     void assign(const std::vector<Pixel>& all, const std::vector<int>& which,
-                const PixelProducts& products);
+                const PixelProducts& products, double diagonal = 0);
     // z = M^-1 r over these pixels, at their positions in `all`; z is unchanged at others.
     void apply(const std::vector<double>& r, std::vector<double>& z) const;
 
@@ -42,6 +43,7 @@ private:
     };
     int threads() const { return members_.size() > 2000 ? 0 : 1; }
     std::unordered_map<std::uint64_t, Inverse> known_;  // by the numbers of their shapes
+    double diagonal_ = 0;                               // of these
     std::vector<Block> blocks_;
     std::vector<int> members_;  // positions in `all` of the pixels of the blocks
 };

@@ -32,6 +32,8 @@ std::string sentence(Cause cause, bool elements) {
                               "need not be 0"
                             : "the bodies may touch beside the summits, so that N need not be 0";
         case Cause::model_error: return "N may differ from that of elements by more than 10 %";
+        case Cause::sliding_steps:
+            return "the steps of sliding may change N by more than 1 %: give closer distances";
     }
     return "";
 }

@@ -17,12 +17,13 @@ enum class Cause {
     adhesion_range,
     outside_calibration,
     missed_contact,
-    model_error
+    model_error,
+    sliding_steps
 };
 inline constexpr std::array kCauseNames = {
-    "border",     "filled_points", "grid",           "slope_ratio",         "beyond_law",
-    "few_points", "layer",         "adhesion_range", "outside_calibration", "missed_contact",
-    "model_error"};
+    "border",      "filled_points", "grid",           "slope_ratio",         "beyond_law",
+    "few_points",  "layer",         "adhesion_range", "outside_calibration", "missed_contact",
+    "model_error", "sliding_steps"};
 constexpr std::int32_t bit(Cause cause) { return std::int32_t{1} << static_cast<int>(cause); }
 
 // Explanation for the screen, without the remedy. `elements`: the level was solved by elements.

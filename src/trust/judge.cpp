@@ -159,6 +159,12 @@ std::vector<Doubt> Judge::of_elements(Level& level, Path& contact, bool by_force
         doubts.push_back({Cause::adhesion_range});
     if (surface_.second_grid || options_.adhesion.work > 0)
         doubts.push_back(grid(level, contact, by_force));
+    // Steps of sliding are of first order in what they change.
+    if (const double error = level.sliding_error; !std::isnan(error)) {
+        const double depth = contact.first_touch() - level.separation;
+        const double force = by_force ? error * depth * -level.stiffness / level.force : error;
+        doubts.push_back({Cause::sliding_steps, force, force, error > kUnresolved});
+    }
     if (surface_.scattered > 0) {
         const double share = kScattered * surface_.scattered;
         doubts.push_back({Cause::filled_points, share, share, share > kUnresolved});
