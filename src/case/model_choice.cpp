@@ -149,11 +149,11 @@ Spectrum self_affine_spectrum(const Case& settings) {
 
 ModelChoice model_of(const Case& c) {
     if (c.solver.model != ModelKind::automatic) return {c.solver.model};
-    if (wears(c)) return {ModelKind::elements, "solids%wear_coefficient needs them"};
     if (c.indentation.line()) return {ModelKind::elements, "line contact needs them"};
     if (const char* why = why_asperities(c); *why) return {ModelKind::asperities, why};
     if (c.surface.source == Source::heights)
         return {ModelKind::elements, "the heights are read from a file"};
+    if (wears(c)) return {ModelKind::elements, "solids%wear_coefficient needs them"};
     if (c.output.flow) return {ModelKind::elements, "output%flow needs them"};
     try {
         if (const char* why = why_elements(c); *why) return {ModelKind::elements, why};

@@ -352,7 +352,8 @@ std::vector<Key> make_registry() {
                      "Elements: the pressure and gap of the solution. Asperities: "
                      "the pressure in their contact spots, and the gap that follows from it")),
         list(RSC_KEY(output, field_levels), 1000, "`unit` of the indentation", kAny,
-             "the last level", "levels whose fields are written, the nearest level to each"),
+             "the last level",
+             "levels whose fields are written, the nearest level to each; with sliding, distances"),
         number(RSC_KEY(output, field_window), "length", kAny,
                "x0, x1, y0, y1 of the region in which fields are written",
                "a region around the contact at these levels; two flats: the whole surface"),
