@@ -31,8 +31,14 @@ public:
     virtual PathClock clock() const {
         return shortest_time() < kInfinity ? PathClock::time : PathClock::none;
     }
-    // Bodies that wear: steps are halved until this share of N, or of the depth, changes less.
+    // Bodies that wear: steps are halved until N, or the depth, changes by less than this share.
     virtual double accuracy() const { return 0; }
+    // Removes the error of first order of the steps, for a history reached in steps half as long as
+    // those from `before` to `coarse`, both from write().
+    virtual void extrapolate(const std::vector<double>& before, const std::vector<double>& coarse) {
+        (void)before;
+        (void)coarse;
+    }
     // With a clock: following solutions end a step that begins at the last accepted one.
     virtual void step(double length) { (void)length; }
 

@@ -195,28 +195,43 @@ Level Path::in_equal_steps(int steps, double from, double to, Reach reach) {
     return level;
 }
 
-// Steps are of first order, so that the change by halving them is the error of the halved ones. As
-// N may vanish when the surface is worn off, its change is relative to the larger one of both ends.
+// Steps are of first order: the change by halving them is the error of the halved ones, and beyond
+// it the error of what is extrapolated from both is the change of that. As N may vanish when the
+// surface is worn off, its change is relative to the larger one of both ends.
 Level Path::in_halved_steps(double from, double to, Reach reach, const State& before) {
     const bool by_force = reach == &Path::to_force;
     const double end = time_;
-    Level level, last;
+    std::int32_t iterations = 0;
+    std::int64_t products = 0;
+    std::vector<double> coarse;
+    double last = kNotComputed, last_change = kNotComputed, error = kNotComputed;
+    const auto count = [&](Level& level) {
+        level.iterations = iterations += level.iterations;
+        level.products = products += level.products;
+    };
     for (int steps = 1;; steps *= 2) {
         if (steps > 1) restore_history(before);
         time_ = end;
-        level = in_equal_steps(steps, from, to, reach);
-        level.iterations += last.iterations;
-        level.products += last.products;
+        Level level = in_equal_steps(steps, from, to, reach);
+        count(level);
         if (!level.converged) return level;
-        if (steps > 1) {
-            level.sliding_error =
-                by_force ? (level.separation - last.separation) / (first_touch() - level.separation)
-                         : (level.force - last.force) / std::max(level.force, before.force);
-            level.sliding_error = std::abs(level.sliding_error);
-            if (!(level.sliding_error > history()->accuracy()) || steps == kMostSteps) return level;
+        const double value = by_force ? level.separation : level.force, change = value - last;
+        const double whole = by_force ? first_touch() - value : std::max(value, before.force);
+        error = std::fmin(std::abs(change), std::abs(2 * change - last_change)) / whole;
+        level.sliding_error = error;
+        if (steps > 1 && (!(error > history()->accuracy()) || steps == kMostSteps)) {
+            if (!by_force && !(to > model_->closed())) return level;
+            break;
         }
-        last = std::move(level);
+        coarse = history()->write();
+        last = value;
+        last_change = change;
     }
+    history()->extrapolate(before.history, coarse);
+    Level level = (this->*reach)(to);
+    count(level);
+    level.sliding_error = error;
+    return level;
 }
 
 void Path::begin_step() {

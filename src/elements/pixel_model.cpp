@@ -51,6 +51,20 @@ std::vector<double> PixelModel::write() const {
     return numbers;
 }
 
+std::vector<double> PixelModel::depths_of(const std::vector<double>& numbers) const {
+    std::vector<double> depths(at(heights_.nx) * at(heights_.ny), 0.0);
+    for (std::size_t k = 0; k + 2 < numbers.size(); k += 3) {
+        const double column = numbers[k], row = numbers[k + 1], depth = numbers[k + 2];
+        if (!(column >= 0 && column < heights_.nx && row >= 0 && row < heights_.ny && depth > 0 &&
+              depth < 1e50))
+            throw Error(Failure::bad_input,
+                        "the state does not belong to a contact of this surface");
+        depths[static_cast<std::size_t>(row) * at(heights_.nx) +
+               static_cast<std::size_t>(column)] += depth;
+    }
+    return depths;
+}
+
 void PixelModel::read(const std::vector<double>& numbers) {
     if (loads_) {
         const auto& places = loads_->places();
@@ -58,19 +72,27 @@ void PixelModel::read(const std::vector<double>& numbers) {
             (!places.empty() && places.back() / heights_.nx >= heights_.ny))
             throw Error(Failure::bad_input, "the state of the loads does not belong to this map");
     } else {
-        residual_.assign(numbers.empty() ? 0 : at(heights_.nx) * at(heights_.ny), 0.0);
-        for (std::size_t k = 0; k + 2 < numbers.size(); k += 3) {
-            const double column = numbers[k], row = numbers[k + 1], depth = numbers[k + 2];
-            if (!(column >= 0 && column < heights_.nx && row >= 0 && row < heights_.ny &&
-                  depth > 0 && depth < 1e50))
-                throw Error(Failure::bad_input,
-                            "the state does not belong to a contact of this surface");
-            residual_[static_cast<std::size_t>(row) * at(heights_.nx) +
-                      static_cast<std::size_t>(column)] += depth;
-        }
+        residual_ = numbers.empty() ? std::vector<double>() : depths_of(numbers);
         residual_changed();
     }
     step(0);
+}
+
+// The depths become twice the present ones less the coarse ones, nowhere less than before. Their sum
+// is exact for a force that changes linearly, and is kept.
+void PixelModel::extrapolate(const std::vector<double>& before, const std::vector<double>& coarse) {
+    const std::vector<double> first = depths_of(before), one = depths_of(coarse);
+    if (residual_.empty()) return;
+    double wanted = 0, sum = 0;
+    for (std::size_t k = 0; k < residual_.size(); ++k) {
+        residual_[k] = 2 * residual_[k] - one[k] - first[k];
+        wanted += residual_[k];
+        residual_[k] = std::max(residual_[k], 0.0);
+        sum += residual_[k];
+    }
+    for (std::size_t k = 0; k < residual_.size(); ++k)
+        residual_[k] = first[k] + (sum > 0 ? residual_[k] * (wanted / sum) : 0.0);
+    residual_changed();
 }
 
 void PixelModel::solve_again(double z, const Level& level) {

@@ -93,6 +93,8 @@ private:
         step_changed();
     }
     void accept_loads(Level& level);
+    void extrapolate(const std::vector<double>& before, const std::vector<double>& coarse) final;
+    std::vector<double> depths_of(const std::vector<double>& numbers) const;  // of write()
     std::optional<Level> lasting_loads(const Level& level) const final;
     ResidualProfile residual_profile() const final;
 
