@@ -195,43 +195,47 @@ Level Path::in_equal_steps(int steps, double from, double to, Reach reach) {
     return level;
 }
 
-// Steps are of first order: the change by halving them is the error of the halved ones, and beyond
-// it the error of what is extrapolated from both is the change of that. As N may vanish when the
-// surface is worn off, its change is relative to the larger one of both ends.
+// Steps of sliding are of first order. n steps and 2 n steps, over all of the way but a quarter of a
+// shorter one, are extrapolated to second order; what remains is one step more, whose pressures are
+// those of the level, and smooth. n is doubled, from a single step in all on, until the level does
+// not change any more. As N may vanish when the surface is worn off, its change is relative to the
+// larger one of both ends.
 Level Path::in_halved_steps(double from, double to, Reach reach, const State& before) {
     const bool by_force = reach == &Path::to_force;
-    const double end = time_;
+    const double start = *accepted_, end = time_;
     std::int32_t iterations = 0;
     std::int64_t products = 0;
-    std::vector<double> coarse;
-    double last = kNotComputed, last_change = kNotComputed, error = kNotComputed;
-    const auto count = [&](Level& level) {
-        level.iterations = iterations += level.iterations;
-        level.products = products += level.products;
-    };
-    for (int steps = 1;; steps *= 2) {
-        if (steps > 1) restore_history(before);
-        time_ = end;
-        Level level = in_equal_steps(steps, from, to, reach);
-        count(level);
-        if (!level.converged) return level;
-        const double value = by_force ? level.separation : level.force, change = value - last;
-        const double whole = by_force ? first_touch() - value : std::max(value, before.force);
-        error = std::fmin(std::abs(change), std::abs(2 * change - last_change)) / whole;
-        level.sliding_error = error;
-        if (steps > 1 && (!(error > history()->accuracy()) || steps == kMostSteps)) {
-            if (!by_force && !(to > model_->closed())) return level;
-            break;
+    double last = kNotComputed;
+    for (int n = 0;; n = std::max(2 * n, 1)) {
+        if (last == last) restore_history(before);
+        Level level;
+        level.converged = true;
+        const auto go = [&](int steps, double part) {
+            if (!level.converged) return;
+            const double now = *accepted_, begin = (now - start) / (end - start);
+            time_ = part < 1 ? start + part * (end - start) : end;
+            level =
+                in_equal_steps(steps, from + begin * (to - from), from + part * (to - from), reach);
+            level.iterations = iterations += level.iterations;
+            level.products = products += level.products;
+        };
+        if (n > 0) {
+            const double part = 1 - 0.125 / n;
+            go(n, part);
+            const std::vector<double> coarse = history()->write();
+            restore_history(before);
+            go(2 * n, part);
+            history()->extrapolate(before.history, coarse);
         }
-        coarse = history()->write();
+        go(1, 1);
+        if (!level.converged) return level;
+        const double value = by_force ? level.separation : level.force;
+        const double whole = by_force ? first_touch() - value : std::max(value, before.force);
+        level.sliding_error = std::abs(value - last) / whole;
+        if (n > 0 && (!(level.sliding_error > history()->accuracy()) || n == kMostSteps))
+            return level;
         last = value;
-        last_change = change;
     }
-    history()->extrapolate(before.history, coarse);
-    Level level = (this->*reach)(to);
-    count(level);
-    level.sliding_error = error;
-    return level;
 }
 
 void Path::begin_step() {
