@@ -10,7 +10,7 @@ namespace {
 constexpr double kUnresolved = 1e-6;
 constexpr double kFarAbove = 100;   // relative to the requested force
 constexpr double kReleased = 1e-3;  // resolution of pulling off, relative to the range
-constexpr int kMostSteps = 256;     // of sliding to a level
+constexpr int kMostSteps = 64;      // of sliding to a level, the longer ones
 constexpr int kTrials = 2;          // number of failures after which no trials are used
 
 // Evaluation of a level at z: it is the solution (or failed), or lies above it; `next` is the next
