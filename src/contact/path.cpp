@@ -205,7 +205,7 @@ Level Path::in_halved_steps(double from, double to, Reach reach, const State& be
     const double start = *accepted_, end = time_;
     std::int32_t iterations = 0;
     std::int64_t products = 0;
-    double last = kNotComputed;
+    double last = kNotComputed, last_area = kNotComputed;
     for (int n = 0;; n = std::max(2 * n, 1)) {
         if (last == last) restore_history(before);
         Level level;
@@ -232,9 +232,11 @@ Level Path::in_halved_steps(double from, double to, Reach reach, const State& be
         const double value = by_force ? level.separation : level.force;
         const double whole = by_force ? first_touch() - value : std::max(value, before.force);
         level.sliding_error = std::abs(value - last) / whole;
+        level.sliding_area_error = std::abs(1 - last_area / level.area);
         if (n > 0 && (!(level.sliding_error > history()->accuracy()) || n == kMostSteps))
             return level;
         last = value;
+        last_area = level.area;
     }
 }
 

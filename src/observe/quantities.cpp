@@ -65,6 +65,8 @@ constexpr LevelQuantity kQuantities[] = {
      .meaning = "matrix-vector products with the interaction matrix B (direct, mesh), or linear systems solved (dgesv)"},
     {.name = "overlapping_pairs", .member = &V::overlapping_pairs,
      .meaning = "pairs of contacts with d < a_i + a_j"},
+    {.name = "pressure_max", .member = &V::pressure_max, .length_power = -2, .force_power = 1, .meaning = "largest pressure at a point (boundary elements)",
+     .always = false, .statistics = true, .plain = "largest pressure"},
     {.name = "pixels_per_contact", .member = &V::pixels_per_contact, .unit = "1",
      .meaning = "number of pixels per contact (boundary elements), median weighted by area",
      .comment = "half of the contact area belongs to contacts with at most this number of pixels; contacts of few pixels are inaccurate",

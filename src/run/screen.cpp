@@ -36,6 +36,7 @@ bool shown(const LevelQuantity& q, const Job& job) {
     if (q.of_flow) return job.settings.output.flow;
     if (q.of_step)
         return !job.times.empty() && job.settings.indentation.slides() == (q.unit == nullptr);
+    if (q.member == LevelQuantity::Member(&LevelValues::worn_volume)) return wears(job.settings);
     const bool line = q.member == LevelQuantity::Member(&LevelValues::force_per_length);
     return line ? job.indenter.period.line() : job.indenter.period.finite();
 }

@@ -159,11 +159,10 @@ std::vector<Doubt> Judge::of_elements(Level& level, Path& contact, bool by_force
         doubts.push_back({Cause::adhesion_range});
     if (surface_.second_grid || options_.adhesion.work > 0)
         doubts.push_back(grid(level, contact, by_force));
-    // Steps of sliding are of first order in what they change.
     if (const double error = level.sliding_error; !std::isnan(error)) {
         const double depth = contact.first_touch() - level.separation;
-        const double force = by_force ? error * depth * -level.stiffness / level.force : error;
-        doubts.push_back({Cause::sliding_steps, force, force, error > kUnresolved});
+        doubts.push_back({Cause::sliding_steps, by_force ? 0.0 : error, level.sliding_area_error,
+                          error > kUnresolved, by_force ? error * depth : 0.0});
     }
     if (surface_.scattered > 0) {
         const double share = kScattered * surface_.scattered;
