@@ -22,7 +22,7 @@ if __name__ == "__main__":
 
 import netCDF4  # noqa: E402
 
-from _rsc_cube import cube  # noqa: E402
+from rsc._cube import cube  # noqa: E402
 
 
 def main(words=None):

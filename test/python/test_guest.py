@@ -34,7 +34,7 @@ class Guest(InFolder):
         self.assertEqual(os.listdir(self.folder), [])
 
         # Also while nothing else happens; the call of the library has ended then, not only the waiting for it.
-        ended, call = [], rsc._call
+        ended, call = [], rsc._case._call
 
         def noted(function, *values):
             try:
@@ -43,7 +43,7 @@ class Guest(InFolder):
                 ended.append(function)
 
         threading.Timer(1, os.kill, (os.getpid(), signal.SIGINT)).start()
-        with unittest.mock.patch("rsc._call", noted), self.assertRaises(KeyboardInterrupt):
+        with unittest.mock.patch("rsc._case._call", noted), self.assertRaises(KeyboardInterrupt):
             case.run(self.path("long.nc"))
         self.assertIn("rsc_case_run_watched", ended)
 
