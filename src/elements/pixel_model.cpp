@@ -44,6 +44,7 @@ std::vector<double> PixelModel::write() const {
         loads_->write(numbers);
         return numbers;
     }
+    if (lowering_) return residual_;
     const auto columns = at(heights_.nx);
     for (std::size_t k = 0; k < residual_.size(); ++k)
         if (residual_[k] > 0)
@@ -51,18 +52,26 @@ std::vector<double> PixelModel::write() const {
     return numbers;
 }
 
-std::vector<double> PixelModel::depths_of(const std::vector<double>& numbers) const {
-    std::vector<double> depths(at(heights_.nx) * at(heights_.ny), 0.0);
+void PixelModel::read_depths(const std::vector<double>& numbers) {
+    const auto refuse = [] {
+        throw Error(Failure::bad_input, "the state does not belong to a contact of this surface");
+    };
+    const std::size_t points = at(heights_.nx) * at(heights_.ny);
+    const auto sound = [](double depth) { return depth >= 0 && depth < 1e50; };
+    if (lowering_) {
+        if (!(numbers.empty() || numbers.size() == points) || !std::ranges::all_of(numbers, sound))
+            refuse();
+        residual_ = numbers;
+        return;
+    }
+    residual_.assign(numbers.empty() ? 0 : points, 0.0);
     for (std::size_t k = 0; k + 2 < numbers.size(); k += 3) {
         const double column = numbers[k], row = numbers[k + 1], depth = numbers[k + 2];
-        if (!(column >= 0 && column < heights_.nx && row >= 0 && row < heights_.ny && depth > 0 &&
-              depth < 1e50))
-            throw Error(Failure::bad_input,
-                        "the state does not belong to a contact of this surface");
-        depths[static_cast<std::size_t>(row) * at(heights_.nx) +
-               static_cast<std::size_t>(column)] += depth;
+        if (!(column >= 0 && column < heights_.nx && row >= 0 && row < heights_.ny && sound(depth)))
+            refuse();
+        residual_[static_cast<std::size_t>(row) * at(heights_.nx) +
+                  static_cast<std::size_t>(column)] += depth;
     }
-    return depths;
 }
 
 void PixelModel::read(const std::vector<double>& numbers) {
@@ -72,7 +81,7 @@ void PixelModel::read(const std::vector<double>& numbers) {
             (!places.empty() && places.back() / heights_.nx >= heights_.ny))
             throw Error(Failure::bad_input, "the state of the loads does not belong to this map");
     } else {
-        residual_ = numbers.empty() ? std::vector<double>() : depths_of(numbers);
+        read_depths(numbers);
         residual_changed();
     }
     step(0);
@@ -81,17 +90,18 @@ void PixelModel::read(const std::vector<double>& numbers) {
 // The depths become twice the present ones less the coarse ones, nowhere less than before. Their sum
 // is exact for a force that changes linearly, and is kept.
 void PixelModel::extrapolate(const std::vector<double>& before, const std::vector<double>& coarse) {
-    const std::vector<double> first = depths_of(before), one = depths_of(coarse);
-    if (residual_.empty()) return;
+    const auto of = [](const std::vector<double>& depths, std::size_t k) {
+        return depths.empty() ? 0.0 : depths[k];
+    };
     double wanted = 0, sum = 0;
     for (std::size_t k = 0; k < residual_.size(); ++k) {
-        residual_[k] = 2 * residual_[k] - one[k] - first[k];
+        residual_[k] = 2 * residual_[k] - of(coarse, k) - of(before, k);
         wanted += residual_[k];
         residual_[k] = std::max(residual_[k], 0.0);
         sum += residual_[k];
     }
     for (std::size_t k = 0; k < residual_.size(); ++k)
-        residual_[k] = first[k] + (sum > 0 ? residual_[k] * (wanted / sum) : 0.0);
+        residual_[k] = of(before, k) + (sum > 0 ? residual_[k] * (wanted / sum) : 0.0);
     residual_changed();
 }
 

@@ -81,7 +81,8 @@ protected:
 
 private:
     void accept(Level& level) final;
-    // Triples of column, row and residual depth of a lowered point, or loads on a relaxing body.
+    // Triples of column, row and residual depth of a yielded point, the worn depths of all points, or
+    // loads on a relaxing body.
     std::vector<double> write() const final;
     void read(const std::vector<double>& numbers) final;
     PathClock clock() const final { return lowering_ ? lowering_->clock() : History::clock(); }
@@ -94,7 +95,7 @@ private:
     }
     void accept_loads(Level& level);
     void extrapolate(const std::vector<double>& before, const std::vector<double>& coarse) final;
-    std::vector<double> depths_of(const std::vector<double>& numbers) const;  // of write()
+    void read_depths(const std::vector<double>& numbers);
     std::optional<Level> lasting_loads(const Level& level) const final;
     ResidualProfile residual_profile() const final;
 

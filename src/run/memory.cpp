@@ -82,6 +82,7 @@ double points_of_elements(const Job& job, double points_per_wave) {
 // is higher.
 double share_in_contact(const Job& job, double level, bool is_force) {
     const double area = job.domain.Lx * job.domain.Ly;
+    if (wears(job.settings)) return 1;
     if (!is_force) return std::min(1.0, 0.4 * area_under(job, level) / area);
     const double slope = job.theory ? job.theory->rms_slope() : job.solver.gentlest_slope;
     return slope > 0 ? std::erf(1.86 * level / area / (job.indenter.E_star * slope)) : 1.0;
@@ -151,7 +152,7 @@ double expected_megabytes(const Job& job, double workers) {
     // point under the indenter or in contact, from the peaks of some 40 runs; a single realization
     // keeps the pixels of all its levels, and the result some numbers a level.
     constexpr double program = 40e6, tables = 15e6, table = 1500, under = 170, adhesion = 49,
-                     lowered = 8, states = 24, flats = 28, touching = 150, pixel = 24,
+                     lowered = 8, states = 50, flats = 28, touching = 150, pixel = 24,
                      record = 0.3e6;
     const double sticking = job.settings.solids.adhesion > 0 ? adhesion : 0;
     // Depths of lowered points, and with wear those of the level before.
