@@ -20,7 +20,8 @@ def _area(flat):
 
 
 def _against(clock, text, results, options, panels, first, logarithmic=()):
-    """Panels of quantities against the clock since the first level on a logarithmic axis, the first level as a dotted line."""
+    """Panels of quantities against the clock since the first level on a logarithmic axis, the
+    first level as a dotted line."""
     page, looks = begin(results, options, len(panels), columns=2)
     for axis, (name, name_text) in zip(page.axes, panels):
         for result, (line, colour, called) in zip(results, looks):
@@ -29,8 +30,7 @@ def _against(clock, text, results, options, panels, first, logarithmic=()):
             axis.axhline(y[0], ls=":", color=colour, lw=1)
             if called:
                 page.entry(called, color=colour, ls=line)
-            status, meanings = result.level_status()
-            page.status(axis, t, np.where(t > 0, y, np.nan), status, meanings, colour)
+            page.status(axis, t, np.where(t > 0, y, np.nan), result, colour)
         page.entry(first, color="0.3", ls=":")
         axis.set_xscale("log")
         axis.set_yscale("log" if name in logarithmic else "linear")
@@ -40,8 +40,8 @@ def _against(clock, text, results, options, panels, first, logarithmic=()):
 
 
 def time(results, options):
-    """Force and contact area (of two flats nominal pressure and area fraction) against the time; under force control the separation instead of the
-    force."""
+    """Force and contact area (of two flats nominal pressure and area fraction) against the time;
+    under force control the separation instead of the force."""
     results = [r for r in results if "time" in r and "energy_lost" in r and r.steps > 2]
     if not results:
         return None
@@ -61,7 +61,8 @@ def time(results, options):
 
 
 def wear(results, options):
-    """Separation (or force), contact area, rms height and largest pressure against the distance of sliding."""
+    """Contact area, rms height, largest pressure and separation (or force) against the distance of
+    sliding."""
     results = [r for r in results if "distance" in r and "worn_volume" in r and r.steps > 2]
     if not results:
         return None

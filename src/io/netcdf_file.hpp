@@ -26,6 +26,7 @@ struct NetcdfVariable {
     // Incompressible numbers: deflate saves a quarter at most and takes ten times as long as
     // writing.
     bool disorder = false;
+    bool bytes = false;  // rows of flags, stored in one byte each
 };
 
 class NetcdfFile {

@@ -66,6 +66,7 @@ struct Result {
         residual_depth;                // of each asperity after the last level; empty: not written
     ResidualProfile residual_profile;  // of elements after the last level; empty: not written
     PackedContacts contacts;           // empty: not written
+    std::vector<LevelPixels> pixels;   // [step], elements; empty where they are not written
     FrictionLoops friction;
     std::optional<HeightMap> heights;          // none: not written
     Fields fields;                             // empty: not written
@@ -98,8 +99,8 @@ double typical_sqrt_m4(const Asperities& asperities);
 Result make_result(const Case& c, std::string case_text, const Indenter& indenter, double sigma,
                    std::optional<Moments> theory, Observations observations);
 
-// Packs the contacts of all levels, of the last one only, or of no level.
-void keep_contacts(Result& result, const std::vector<Level>& levels, Contacts keep);
+// Packs the contacts of all levels, of the last one only, or of no level, and takes their pixels.
+void keep_contacts(Result& result, std::vector<Level>& levels, Contacts keep);
 
 // The moments for drawing the regimes: the closed forms, otherwise the means of m2 and m4 over the
 // realizations; NaN if there are none.

@@ -5,12 +5,14 @@ namespace rsc {
 std::string sentence(Cause cause, bool elements) {
     switch (cause) {
         case Cause::border:
-            return "contacts, or their attraction, within <d> of the border of the surface: what "
-                   "lies beyond it is missing, |N| is too small";
+            return "contacts, or their attraction, closer to the border of the surface than the "
+                   "mean distance of summits: what lies beyond it is missing";
         case Cause::filled_points:
             return "the contact may lie on missing points of the map, which are filled smoothly "
                    "(filled_share): N is too small";
-        case Cause::grid: return "a finer grid may change N by more than 1 %, with adhesion 10 %";
+        case Cause::grid:
+            return "a finer grid may change N at this separation by more than 1 %, with adhesion "
+                   "10 %";
         case Cause::slope_ratio:
             return "the indenter is too steep beside the surface (slope_ratio above 0.2), which "
                    "it touches beside the summits";
@@ -31,7 +33,8 @@ std::string sentence(Cause cause, bool elements) {
             return elements ? "the bodies may touch between the points of the grid, so that N "
                               "need not be 0"
                             : "the bodies may touch beside the summits, so that N need not be 0";
-        case Cause::model_error: return "N may differ from that of elements by more than 10 %";
+        case Cause::model_error:
+            return "N may differ from that of elements at this separation by more than 10 %";
         case Cause::sliding_steps:
             return "the steps of sliding may change N by more than 1 %: give closer distances";
     }
