@@ -235,7 +235,8 @@ private:
     void check_steps(const char* key, const std::vector<double>& list, const char* whole_key,
                      const std::optional<double>& whole) {
         if (list.empty()) return;
-        require(!whole, {whole_key, key}, "a list is given as well; give only one of the two");
+        const std::string name = std::string(key).substr(std::string_view(key).find('%') + 1);
+        require(!whole, {whole_key, key}, name + " are given as well; give only one of the two");
         require(static_cast<double>(list.size()) == levels_, {key, by_},
                 std::to_string(list.size()) + " values for " + count(levels_) + " levels");
         require(std::ranges::adjacent_find(list, std::ranges::greater_equal()) == list.end(), {key},
