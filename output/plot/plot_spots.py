@@ -40,7 +40,8 @@ def heights(result, axis, window=None, bright=0.0, most=900):
     if i.size < 2 or j.size < 2:
         return None
     stride = max(1, max(i.size, j.size) // most)
-    z = result.window(name, slice(j[0], j[-1] + 1, stride), slice(i[0], i[-1] + 1, stride))
+    last = (-1,) * (result.file.variables[name].ndim - 2)  # of a surface that wears
+    z = result.window(name, *last, slice(j[0], j[-1] + 1, stride), slice(i[0], i[-1] + 1, stride))
     low, high = float(np.nanmin(z)), float(np.nanmax(z))
     return axis.imshow(
         z,

@@ -18,12 +18,13 @@
 namespace rsc {
 namespace {
 
-// The times of the levels; empty if the case has none.
+// The times, or distances of sliding, of the levels; empty if the case has none.
 std::vector<double> times_of(const Case::Indentation& keys, std::size_t levels) {
-    if (!keys.duration) return keys.times;
+    const std::optional<double>& whole = keys.slides() ? keys.sliding : keys.duration;
+    if (!whole) return keys.slides() ? keys.distances : keys.times;
     std::vector<double> times(levels, 0.0);
     for (std::size_t k = 1; k < levels; ++k)
-        times[k] = *keys.duration * static_cast<double>(k) / static_cast<double>(levels - 1);
+        times[k] = *whole * static_cast<double>(k) / static_cast<double>(levels - 1);
     return times;
 }
 
@@ -100,7 +101,7 @@ std::string key_of_largest(const Case::Indentation& keys) {
 // are in full contact, nor below it.
 void require_open(const Job& job) {
     if (!job.indenter.period.finite() || std::isfinite(job.settings.solids.hardness) ||
-        job.levels.empty())
+        wears(job.settings) || job.levels.empty())
         return;
     double mean = 0;  // that of a synthetic surface
     for (int j = 0; job.given && job.given_heights && j < job.given_heights->ny; ++j) {
@@ -127,8 +128,10 @@ std::vector<std::int32_t> steps_of_fields(const Job& job) {
     const auto& keys = job.settings.output;
     if (keys.fields.empty()) return {};
     std::vector<std::int32_t> steps;
+    const bool slides = job.settings.indentation.slides();
     for (const double wanted : keys.field_levels)
-        steps.push_back(nearest_level(job.levels, wanted * job.level_unit));
+        steps.push_back(slides ? nearest_level(job.times, wanted)
+                               : nearest_level(job.levels, wanted * job.level_unit));
     if (steps.empty()) steps.push_back(static_cast<std::int32_t>(job.levels.size()) - 1);
     return steps;
 }
@@ -150,6 +153,7 @@ FieldsAsked fields_asked(const Job& job) {
     asked.shear = has(Field::shear);
     asked.tension = has(Field::tension);
     asked.traction = has(Field::traction);
+    asked.worn = wears(settings);
     asked.friction = settings.solids.friction;
     asked.depths = job.observe.stress_depths;
     asked.body = stressed_body(job);
@@ -171,7 +175,8 @@ Level press(const Job& job, std::size_t k, Pressed& pressed,
     Path& contact = *pressed.contact;
     if (!job.times.empty()) contact.set_time(job.times[k]);
     Level level = by_force ? contact.at_force(job.levels[k]) : contact.at_separation(job.levels[k]);
-    if (!job.times.empty()) level.time = job.times[k];
+    if (!job.times.empty())
+        (job.settings.indentation.slides() ? level.distance : level.time) = job.times[k];
     add_answers(contact, level, job.settings.solids.resistivity);
     complete(level);
     pressed.judge.judge(level, contact, by_force);
@@ -314,6 +319,10 @@ Job prepare(const Case& settings) {
             "indentation%duration: solids%relaxation_share lets body 1 relax, and the levels have "
             "no times; give "
             "duration or times");
+    if (wears(settings) && !indentation.slides())
+        bad_input(
+            "indentation%sliding: body 1 wears (solids%wear_coefficient), and the levels have no "
+            "distances of sliding; give sliding or distances");
     if (indentation.control == Control::separation && indentation.unit == LevelUnit::sigma)
         job.level_unit = job.sigma;
     if (indentation.control == Control::pressure) {
@@ -422,7 +431,8 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     if (settings.indentation.control != Control::separation &&
         !job.levels.empty())  // before the levels below it are solved
         try {
-            contact->require_gap(*std::max_element(job.levels.begin(), job.levels.end()));
+            contact->require_gap(wears(settings) ? job.levels.front()
+                                                 : std::ranges::max(job.levels));
         } catch (const Error& error) {
             if (error.kind() != Failure::bad_input) throw;
             bad_input(key_of_largest(settings.indentation) + error.what() + "; give smaller ones");
@@ -471,6 +481,10 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     }
     contact.reset();
     if (!settings.output.heights) r.heights.reset();
+    if (wears(settings)) {
+        if (settings.output.heights) r.heights = lowered_map(*map, r.residual_profile);
+        r.residual_profile = {};
+    }
     return r;
 }
 

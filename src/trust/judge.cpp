@@ -159,6 +159,11 @@ std::vector<Doubt> Judge::of_elements(Level& level, Path& contact, bool by_force
         doubts.push_back({Cause::adhesion_range});
     if (surface_.second_grid || options_.adhesion.work > 0)
         doubts.push_back(grid(level, contact, by_force));
+    if (const double error = level.sliding_error; !std::isnan(error)) {
+        const double depth = contact.first_touch() - level.separation;
+        doubts.push_back({Cause::sliding_steps, by_force ? 0.0 : error, level.sliding_area_error,
+                          error > kUnresolved, by_force ? error * depth : 0.0});
+    }
     if (surface_.scattered > 0) {
         const double share = kScattered * surface_.scattered;
         doubts.push_back({Cause::filled_points, share, share, share > kUnresolved});
