@@ -205,7 +205,7 @@ public:
         for (std::size_t g = 0; g < groups_; ++g) {
             Level& level = levels_[g * kGroup].emplace(press(job_, g * kGroup, first_, none));
             points = std::max(points, level.candidates);
-            begin_[g] = first_.contact->state();
+            begin_[g] = {first_.contact->state(), first_.judge.state()};
         }
         if (points > kFewPoints) {
             for (std::size_t g = 0; g < groups_; ++g) press_group(g, first_), take_solved();
@@ -225,9 +225,9 @@ private:
 
     void press_group(std::size_t g, Pressed& pressed) {
         pressed.contact->forget();
-        pressed.judge.forget();
-        pressed.contact->restore(begin_[g]);
+        pressed.contact->restore(begin_[g].contact);
         pressed.contact->start_from_level();
+        pressed.judge.restore(begin_[g].judge, pressed.contact->indenter());
         for (std::size_t k = g * kGroup + 1; k < std::min(levels_.size(), (g + 1) * kGroup); ++k)
             levels_[k] = press(job_, k, pressed, none);
         const std::lock_guard lock(mutex_);
@@ -253,7 +253,11 @@ private:
     std::vector<std::optional<Level>> levels_ =
         std::vector<std::optional<Level>>(job_.levels.size());
     std::size_t groups_ = (levels_.size() + kGroup - 1) / kGroup, taken_ = 0;
-    std::vector<Path::State> begin_ = std::vector<Path::State>(groups_);
+    struct Begin {
+        Path::State contact;
+        std::optional<Path::State> judge;
+    };
+    std::vector<Begin> begin_ = std::vector<Begin>(groups_);
     std::vector<char> solved_ = std::vector<char>(groups_, 0);
     std::mutex mutex_;
 };

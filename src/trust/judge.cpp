@@ -189,6 +189,18 @@ double Judge::touch_between(const Path& contact) {
                                   (std::abs(c.xx) * dx * dx + std::abs(c.yy) * dy * dy);
 }
 
+SecondGrid& Judge::second_grid(const Indenter& indenter) {
+    if (!second_) second_.emplace(*surface_.map, indenter, options_, !surface_.curvature);
+    return *second_;
+}
+
+void Judge::restore(const std::optional<Path::State>& state, const Indenter& indenter) {
+    if (state)
+        second_grid(indenter).start_from(*state);
+    else if (second_)
+        second_->forget();
+}
+
 // The error by the grid, with adhesion by the resolution of the edges, too.
 Doubt Judge::grid(const Level& level, Path& contact, bool by_force) {
     const Indenter& indenter = contact.indenter();
@@ -197,8 +209,7 @@ Doubt Judge::grid(const Level& level, Path& contact, bool by_force) {
     if (options_.adhesion.work > 0) return edges_of_adhesion(level, indenter, map, read, options_);
     Doubt doubt{Cause::grid};
     if (std::min(map.nx, map.ny) < kFewestPoints) return doubt;
-    if (!second_) second_.emplace(map, indenter, options_, read);
-    const auto error = second_->error(level, contact, by_force);
+    const auto error = second_grid(indenter).error(level, contact, by_force);
     if (!error) return doubt;
     const double stiffness = std::isnan(level.stiffness) ? contact.stiffness() : level.stiffness;
     const GridError crests = error_of_crests(level, stiffness, map, indenter, surface_.curvature);
