@@ -207,7 +207,7 @@ Level Path::in_halved_steps(double from, double to, Reach reach, const State& be
     std::int64_t products = 0;
     double last = kNotComputed, last_area = kNotComputed;
     for (int n = 0;; n = std::max(2 * n, 1)) {
-        if (last == last) restore_history(before);
+        if (!std::isnan(last)) restore_history(before);
         Level level;
         level.converged = true;
         const auto go = [&](int steps, double part) {

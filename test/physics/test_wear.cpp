@@ -184,6 +184,7 @@ TEST(states) {
         const auto copy = path_of(body);
         copy->restore(state);
         CHECK_RELATIVE(copy->stiffness(), other->stiffness(), 1e-3);
+        CHECK_RELATIVE(copy->energy(), level.energy, 1e-4);  // of the body, without the wear
         CHECK(same(slid(*copy, 0.3, body.force), next));
     }
 }
