@@ -300,7 +300,7 @@ class Page:
                 wrapped(
                     self.figure,
                     text,
-                    self.width - 10 if len(self.entries) < 2 or ":" not in text[:20] else 62,
+                    62 if text.startswith("level ") and len(self.entries) > 1 else self.width - 10,
                     "legend.fontsize",
                 )
                 for text in self.entries
