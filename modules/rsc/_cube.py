@@ -1,5 +1,5 @@
 """A study as one cube: its manifest and its members become arrays along the keys that vary. For
-rsc.py and output/export/cube.py."""
+rsc.read and output/export/cube.py."""
 
 import os
 from collections import namedtuple

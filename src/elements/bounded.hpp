@@ -5,9 +5,9 @@
 // the bounds.
 //
 // Primal-dual active-set method: every round determines the free pixels (not held at a bound),
-// makes some steps of conjugate gradients on them and clips pressures at the bounds. If the sets do
-// not converge in some rounds, the energy is forced to decrease in every round, which excludes
-// cycles. Derived classes define K, the preconditioner and the set of pixels.
+// makes some steps of conjugate gradients on them, releases those beyond their bounds and makes
+// some steps on the others. If the sets do not converge in some rounds, the energy is forced to
+// decrease in every round, which excludes cycles. Derived classes define K, the preconditioner and the set of pixels.
 #pragma once
 
 #include "base/parallel.hpp"
@@ -34,11 +34,9 @@ protected:
         int steps;         // largest number of conjugate-gradient steps in a round
         double reduction;  // reduction of the preconditioned residual that ends a round earlier
         int quick;  // rounds after which the energy is monitored; most sets converge in fewer
-        bool
-            // periodic surface: the set is renewed in every round, errors outside it are included,
-            // and a constant pressure
-            repeats;
-        // is a separate step
+        // Periodic surface: the set is renewed in every round, errors outside it are included, and a
+        // constant pressure is a separate step.
+        bool repeats;
     };
     BoundedSolver(double highest, Manner manner) : highest_(highest), manner_(manner) {}
 
@@ -88,7 +86,8 @@ protected:
     // Returns the decrease of p'Kp - 2 (z - Z0)'p by its steps.
     double descend(int most_steps, double reduction);
     void prepare_constant(bool plain);
-    void descend_again(int most_steps);
+    void release(int most_steps);
+    bool many_beyond();
     bool bound();
     bool fell();
     static constexpr int kPixels = 4096;  // that a thread takes at a time

@@ -43,7 +43,9 @@ public:
     }
 
     double stiffness(double) override {
-        const double slope = solver_.stiffness(1e-9, accepted_);
+        // The error of the answer is of second order in the tolerance.
+        constexpr double tolerance = 1e-5;
+        const double slope = solver_.stiffness(tolerance, accepted_);
         // that of the end of a step, or of a sudden change after it
         return 0.0 - pixel_area() * slope / (accepted_ ? 1.0 : scale());
     }

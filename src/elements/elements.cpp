@@ -147,6 +147,7 @@ void ElementsSolver::draw(const std::vector<double>& p) {
     for (std::size_t k = part; k < size; k += part) rows_.push_back(k);
     rows_.push_back(size);
     if (!set_.empty()) products_.set_pixels(set_);
+    enclose();
 }
 
 // Pressures of all pixels.
@@ -190,10 +191,38 @@ void ElementsSolver::multiply_roughly(const std::vector<double>& x, std::vector<
     products_.apply(x.data(), Kx.data(), Accuracy::inner, free_.data());
 }
 
-void ElementsSolver::freed() { blocks_.assign(set_, free_list_, products_); }
+// Places the working set on a plane for the preconditioner. At opposite sides of the plane pixels
+// are farther apart than the stencil reaches.
+void ElementsSolver::enclose() {
+    plane_rows_.assign(1, 0);
+    column_.resize(set_.size());
+    if (set_.empty()) return;
+    int left = set_[0].x, right = left;
+    for (const Pixel& pixel : set_) {
+        left = std::min(left, pixel.x);
+        right = std::max(right, pixel.x);
+    }
+    const int reach = products_.inverse().reach(), low = set_.front().y,
+              rows = set_.back().y - low + 1 + reach;
+    plane_ = SparsePlane(right - left + 1 + reach, rows);
+    plane_rows_.resize(at(rows) + 1);
+    for (std::size_t k = 0; k < set_.size(); ++k) {
+        ++plane_rows_[at(set_[k].y - low) + 1];
+        column_[k] = set_[k].x - left;
+    }
+    std::partial_sum(plane_rows_.begin(), plane_rows_.end(), plane_rows_.begin());
+}
 
 void ElementsSolver::precondition(const std::vector<double>& r, std::vector<double>& y) {
-    blocks_.apply(r, y);
+    double unit = 0;  // for single precision
+    for (const double v : r) unit = std::max(unit, std::abs(v));
+    if (!(unit > 0)) return;
+    from_.resize(r.size());
+    to_.resize(r.size());
+    each([&](std::size_t k) { from_[k] = free_[k] ? static_cast<float>(r[k] / unit) : 0.0f; });
+    plane_.convolve(products_.inverse(), {plane_rows_, column_}, from_.data(), to_.data(),
+                    threads_for(r.size()));
+    each([&](std::size_t k) { y[k] = free_[k] ? unit * static_cast<double>(to_[k]) : 0.0; });
 }
 
 bool ElementsSolver::judge_exactly(bool, double residual, int rounds) {

@@ -1,11 +1,10 @@
 // Boundary-element contact on a free surface: BoundedSolver on the pixels that may touch, with Z0
 // included in their penetrations. Pixels far from pressure are outside a working set and checked at
-// the end. The preconditioner is the inverse of K on each contact spot.
+// the end. The preconditioner is the inverse of K between near pixels.
 #pragma once
 
 #include "elements/bounded.hpp"
 #include "elements/pixel_products.hpp"
-#include "elements/spot_blocks.hpp"
 
 namespace rsc {
 
@@ -45,7 +44,7 @@ private:
     void multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) override;
     void multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) override;
     void precondition(const std::vector<double>& r, std::vector<double>& y) override;
-    void freed() override;
+    void enclose();
     bool judge_exactly(bool exact, double residual, int rounds) override;
     bool complete(bool solved, double residual) override;
     bool join(const std::vector<double>& p);
@@ -67,7 +66,11 @@ private:
     std::vector<double> full_p_, full_w_,
         step_;                       // last full product with this set, and the step since
     std::vector<double> elsewhere_;  // deflections of all pixels
-    SpotBlocks blocks_;
+    // Preconditioner: the set on a plane that encloses it.
+    SparsePlane plane_{0, 0};
+    std::vector<std::size_t> plane_rows_;
+    std::vector<std::int32_t> column_;
+    std::vector<float> from_, to_;
 };
 
 }  // namespace rsc

@@ -83,7 +83,8 @@ public:
         : along_x_(period.along_x()),
           width_(along_x_ ? ny : nx),
           period_(along_x_ ? nx : ny),
-          half_(at(period_) / 2 + 1) {
+          half_(at(period_) / 2 + 1),
+          inverse_(inverse_stencil(dy / dx)) {
         if (substrate.smooth())
             throw Error(Failure::bad_input, "line contact is not available for bodies with layers");
         const double step = along_x_ ? dx : dy, across_step = along_x_ ? dy : dx,
@@ -126,6 +127,7 @@ public:
                    const char*) override {
         multiply(arrange(pixels), p, w, Accuracy::inner);
     }
+    const PixelStencil& inverse() const override { return inverse_; }
     double coefficient(int dx, int dy) const override {
         const int across = std::abs(along_x_ ? dy : dx), along = along_x_ ? dx : dy;
         const int folded = std::abs(along) % period_;
@@ -184,6 +186,7 @@ private:
     bool along_x_;
     int width_, period_;  // of the map across and along, in pixels
     std::size_t half_;
+    PixelStencil inverse_;
     double shift_ = 0;
     std::vector<double> coefficient_;  // [across][along], along at most half a period
     Set set_;

@@ -9,7 +9,6 @@ namespace {
 
 constexpr int kThreads = 400000;  // number of pixels above which threads are used
 constexpr int kRows = 8;          // that a thread takes at a time
-constexpr int kReach = 6;         // of the preconditioner in pixels
 constexpr std::size_t kFew = 8;   // products are split if one of this many pixels is in the set
 // Largest number of conjugate-gradient steps in a round, and the reduction of the preconditioned
 // residual that ends a round earlier.
@@ -49,7 +48,7 @@ PeriodicElements::PeriodicElements(const Relief& relief, const Substrate& substr
       substrate_(substrate),
       hardness_(highest),
       aspect_(relief.dy / relief.dx),
-      inner_(relief.nx, relief.ny, 1, aspect_, share()),
+      inner_(relief.nx, relief.ny, 1, aspect_, share_of_modes(substrate_, relief_.dx)),
       plane_(relief.nx, relief.ny) {
     mean_ = zero_ = mean_height();
     double largest = 0;
@@ -74,24 +73,16 @@ PeriodicElements::PeriodicElements(const PeriodicElements& finer,
       hardness_(finer.hardness_),
       unit_(2 * finer.unit_),
       aspect_(finer.aspect_),
-      inner_(relief_.nx, relief_.ny, 1, aspect_, share()),
+      inner_(relief_.nx, relief_.ny, 1, aspect_, share_of_modes(substrate_, relief_.dx)),
       plane_(relief_.nx, relief_.ny) {
     prepare();
 }
 
 void PeriodicElements::prepare() {
     const int nx = relief_.nx, ny = relief_.ny;
-    const Share share = this->share();
+    const Share share = share_of_modes(substrate_, relief_.dx);
     rows_.assign(at(ny) + 1, 0);
-    // K^-1 by offset: |k|/2/(1 + share), multiplied by a window with a non-negative transform, so
-    // that the result is positive semidefinite as well.
-    inverse_ = PixelStencil(
-        kReach,
-        [&](double kx, double ky) {
-            const double k = std::hypot(kx, ky / aspect_);
-            return 0.5 * k / (share ? 1 + share(k) : 1);
-        },
-        [](int a) { return 1 - std::abs(a) / (kReach + 1.0); });
+    inverse_ = inverse_stencil(aspect_, share);
     far_ = std::make_unique<BlockCorrection>(nx, ny, aspect_, inverse_, share);
     if (SplitPixels::suits(nx, ny, aspect_, share))
         split_ = std::make_unique<SplitPixels>(nx, ny, aspect_, share);
@@ -99,15 +90,10 @@ void PeriodicElements::prepare() {
 
 int PeriodicElements::threads() const { return relief_.nx >= kThreads / relief_.ny ? 0 : 1; }
 
-PeriodicElements::Share PeriodicElements::share() const {
-    if (!substrate_.smooth()) return {};
-    return [this](double k) { return substrate_.smooth()->share(k / relief_.dx); };
-}
-
 PeriodicPixels<double>& PeriodicElements::fine() {
     if (!fine_)
-        fine_ =
-            std::make_unique<PeriodicPixels<double>>(relief_.nx, relief_.ny, 1, aspect_, share());
+        fine_ = std::make_unique<PeriodicPixels<double>>(relief_.nx, relief_.ny, 1, aspect_,
+                                                         share_of_modes(substrate_, relief_.dx));
     return *fine_;
 }
 
@@ -260,7 +246,7 @@ void PeriodicElements::multiply_roughly(const std::vector<double>& x, std::vecto
     for (double& v : Kx) v *= unit_;
 }
 
-// y = K^-1, truncated to kReach pixels and with a correction for the farther ones, times r over the
+// y = K^-1, truncated to some pixels and with a correction for the farther ones, times r over the
 // free pixels.
 void PeriodicElements::precondition(const std::vector<double>& r, std::vector<double>& y) {
     from_.resize(r.size()), to_.resize(r.size());

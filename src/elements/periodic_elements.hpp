@@ -82,8 +82,7 @@ private:
         return (relief_.z[j * relief_.stride + i] - zero_) * scale_;
     }
     double closing_pressure();  // mean pressure of full contact: -min of K^-1 z
-    Share share() const;
-    int threads() const;  // for loops over rows
+    int threads() const;        // for loops over rows
     PeriodicPixels<double>& fine();
 
     // Sets starting pressures: uniform, or Hertz-like where z > Z0; or those of a coarser grid.

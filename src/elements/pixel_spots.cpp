@@ -3,7 +3,7 @@
 #include "base/error.hpp"
 #include "base/format.hpp"
 #include "base/parallel.hpp"
-#include "elements/spot_blocks.hpp"
+#include "elements/connected_pixels.hpp"
 #include "interaction/kernel.hpp"
 
 namespace rsc {

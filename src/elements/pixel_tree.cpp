@@ -210,7 +210,8 @@ public:
           rows_(rows_of(dy / dx)),
           inner_(inner_error, rows_, answer_),
           between_(std::sqrt(inner_error * full_error), rows_, answer_),
-          full_(full_error, rows_, answer_) {
+          full_(full_error, rows_, answer_),
+          inverse_(inverse_stencil(aspect_, share_of_modes(substrate, dx))) {
         table_.reach_x = 2 * kTileColumns;
         table_.reach_y = 2 * rows_;
         table_.stride = 2 * table_.reach_x + 1;
@@ -247,6 +248,7 @@ public:
         product(others_layout_, inner_, pixels.size(), p, w, wanted);
     }
 
+    const PixelStencil& inverse() const override { return inverse_; }
     double coefficient(int dx, int dy) const override {
         dx = std::abs(dx), dy = std::abs(dy);
         if (dx <= table_.reach_x && dy <= table_.reach_y)
@@ -281,6 +283,7 @@ private:
     std::vector<double> near_;
     NearTable table_{};
     Interpolation inner_, between_, full_;
+    PixelStencil inverse_;
     std::size_t size_ = 0;
     std::vector<Pixel> others_;
     Layout layout_, others_layout_;

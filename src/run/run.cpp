@@ -204,8 +204,8 @@ static std::string write_twins(const Job& job, const std::string& result) {
             ? ""
             : " and these heights; not kept: which waves carry the skewness: some 10 % of N, and a "
               "factor of several in A where few summits touch";
-    return "twins: " + path + " (surfaces with this spectrum" + kept + ": rsc < " + path + ")" +
-           other_slopes(*job.measured);
+    return "twins: " + path + " (surfaces with this spectrum" + kept + ": " + program_command() +
+           " " + shell_word(path) + ")" + other_slopes(*job.measured);
 }
 
 RunSummary run_realization(const Case& settings, const RunOptions& options) {

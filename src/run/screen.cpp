@@ -271,9 +271,29 @@ static std::string plot_script() {
     return here;
 }
 
+std::string shell_word(const std::string& path) {
+    const bool plain = std::ranges::all_of(path, [](unsigned char c) {
+        return std::isalnum(c) || c >= 0x80 || std::strchr("_-+=%@:,./", c) != nullptr;
+    });
+    if (plain && !path.empty()) return path;
+    std::string quoted = "'";
+    for (const char c : path) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+    return quoted + "'";
+}
+
+std::string program_command() {
+    std::error_code error;
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    if (!program.filename().string().starts_with("rsc")) return "rsc";
+    if (program.parent_path() == fs::current_path(error))
+        return "./" + shell_word(program.filename().string());
+    return shell_word(program.string());
+}
+
 void print_result(std::ostream& out, const std::string& file, bool replaces) {
     out << "result: " << file << (replaces ? " (replaces an earlier result)" : "")
-        << "\npicture: python3 " << plot_script() << ' ' << file << std::endl;
+        << "\npicture: python3 " << shell_word(plot_script()) << ' ' << shell_word(file)
+        << std::endl;
 }
 
 std::string duration(double seconds) {

@@ -1,4 +1,4 @@
-"""Makes the calls of calls.txt through the C interface, rsc.py, rsc.f90 and rsc77.c, and compares what comes back: every value to the
+"""Makes the calls of calls.txt through the C interface, Python, rsc.f90 and rsc77.c, and compares what comes back: every value to the
 last bit, every status, every message.
 
     calls.py generate fortran|77 FILE    writes the program that makes the calls in that language

@@ -20,7 +20,8 @@ class Guest(InFolder):
     def test_interrupt(self):
         # Levels of elements that would take minutes.
         case = rsc.Case(
-            "&surface L_lambda_l=2 L_lambda_s=16 / &solver model='elements' tolerance=1e-9 / &elements points_per_wave=8 / &indentation start=2 stop=-2 steps=20000 /"
+            "&surface L_lambda_l=2 L_lambda_s=16 / &solver model='elements' tolerance=1e-9 /"
+            "&elements points_per_wave=8 / &indentation start=2 stop=-2 steps=20000 /"
         )
         seen = []
 
@@ -33,7 +34,8 @@ class Guest(InFolder):
             case.run(self.path("long.nc"), progress)
         self.assertEqual(os.listdir(self.folder), [])
 
-        # Also while nothing else happens; the call of the library has ended then, not only the waiting for it.
+        # Also while nothing else happens; the call of the library has ended then, not only the
+        # waiting for it.
         ended, call = [], rsc._case._call
 
         def noted(function, *values):

@@ -1,4 +1,5 @@
-"""What the Python package has beyond the calls of the C interface (test/calls): arrays, curves, lifetimes, threads, studies, result files, documentation."""
+"""What the Python package has beyond the calls of the C interface (test/calls): arrays, curves,
+lifetimes, threads, studies, result files, documentation."""
 import gc
 import math
 import os
@@ -170,7 +171,8 @@ class Lifetimes(unittest.TestCase):
                 use()
 
     def test_garbage(self):
-        """What nobody holds is given back: the number of live handles, not the machine's memory, which other tests share."""
+        """What nobody holds is given back: the number of live handles, not the machine's memory,
+        which other tests share."""
         before = sum(isinstance(o, rsc.Asperities) for o in gc.get_objects())
         for _ in range(50):
             rsc.Contact.from_case(rsc.Asperities.take([0.0], [0.0], [0.0], [1.0])).indent(-0.1)
@@ -179,7 +181,8 @@ class Lifetimes(unittest.TestCase):
 
 class Threads(unittest.TestCase):
     def test_readers_and_writers(self):
-        """On one object, calls that read are in the library together, and one that changes it is there alone."""
+        """On one object, calls that read are in the library together, and one that changes it
+        is there alone."""
         contact, library = one_asperity(), rsc._library.library
         contact.indent(-U)
         meeting = threading.Barrier(2, timeout=30)
