@@ -267,11 +267,11 @@ int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* forc
         rsc::Path& path = contact->path;
         const rsc::Indenter& tip = path.indenter();
         const rsc::Vec2 place = path.place_of_level();
-        const bool same = path.level() && path.level()->separation == separation &&
-                          place.x == tip.x0 && place.y == tip.y0 && !path.pulls() &&
-                          (path.clock() == rsc::PathClock::none ||
-                           path.level()->time == path.time() ||
-                           path.level()->distance == path.time());
+        const bool same =
+            path.level() && path.level()->separation == separation && place.x == tip.x0 &&
+            place.y == tip.y0 && !path.pulls() &&
+            (path.clock() == rsc::PathClock::none || path.level()->time == path.time() ||
+             path.level()->distance == path.time());
         if (!same)
             reach(*contact, false, [&](rsc::Path& p) { return p.at_separation(separation); });
         put(force, path.level()->force);

@@ -105,9 +105,10 @@ struct LevelValues {
     std::int32_t jumps = 0;             // number of jumps since the previous level
     std::int32_t plastic_contacts = 0;  // yielding contacts at this level
     double time = kNotComputed;         // time of the level, relaxing bodies [time]
-    // Bodies that wear: sliding distance of the level; volume and largest depth that are worn off,
-    // rms height of the worn surface [length^3], [length]; error by the steps of the distance, of N,
-    // or under a force of the depth of the separation below first touch, relative to these.
+    // Bodies that wear: sliding distance of the level [length]; volume and largest depth that are
+    // worn off, rms height of the worn surface [length^3], [length]; error by the steps of the
+    // distance, of N, or under a force of the depth of the separation below first touch, relative
+    // to these.
     double distance = kNotComputed;
     double worn_volume = kNotComputed, wear_depth_max = kNotComputed, worn_rms = kNotComputed;
     double sliding_error = kNotComputed;

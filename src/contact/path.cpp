@@ -195,11 +195,11 @@ Level Path::in_equal_steps(int steps, double from, double to, Reach reach) {
     return level;
 }
 
-// Steps of sliding are of first order. n steps and 2 n steps, over all of the way but a quarter of a
-// shorter one, are extrapolated to second order; what remains is one step more, whose pressures are
-// those of the level, and smooth. n is doubled, from a single step in all on, until the level does
-// not change any more. As N may vanish when the surface is worn off, its change is relative to the
-// larger one of both ends.
+// Steps of sliding are of first order. n steps and 2 n steps, over all of the way but a quarter of
+// a shorter one, are extrapolated to second order. The quarter that remains is a step of its own,
+// because the pressures on extrapolated heights are not smooth at the edges of contacts. n is
+// doubled, from a single step in all on, until the level changes by less than the accuracy. As N
+// may vanish when the surface is worn off, its change is relative to the larger one of both ends.
 Level Path::in_halved_steps(double from, double to, Reach reach, const State& before) {
     const bool by_force = reach == &Path::to_force;
     const double start = *accepted_, end = time_;

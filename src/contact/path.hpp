@@ -44,8 +44,8 @@ public:
     // separation, or under force control the force, changes linearly from the last accepted level,
     // in up to 16 steps of time, or in as many of sliding as its accuracy needs; a tip that was
     // moved is at its new place from the beginning of the first step. The first level is applied
-    // instantaneously. Throws Error(bad_input) if the time is not finite or earlier than that of the
-    // last level.
+    // instantaneously. Throws Error(bad_input) if the time is not finite or earlier than that of
+    // the last level.
     void set_time(double time);
     double time() const { return time_; }
     PathClock clock() const { return history() ? history()->clock() : PathClock::none; }

@@ -10,7 +10,8 @@
 // Primal-dual active-set method: every round determines the free pixels (not held at a bound),
 // makes some steps of conjugate gradients on them, releases those beyond their bounds and makes
 // some steps on the others. If the sets do not converge in some rounds, the energy is forced to
-// decrease in every round, which excludes cycles. Derived classes define K, the preconditioner and the set of pixels.
+// decrease in every round, which excludes cycles. Derived classes define K, the preconditioner and
+// the set of pixels.
 #pragma once
 
 #include "base/parallel.hpp"
@@ -37,8 +38,8 @@ protected:
         int steps;         // largest number of conjugate-gradient steps in a round
         double reduction;  // reduction of the preconditioned residual that ends a round earlier
         int quick;  // rounds after which the energy is monitored; most sets converge in fewer
-        // Periodic surface: the set is renewed in every round, errors outside it are included, and a
-        // constant pressure is a separate step.
+        // Periodic surface: the set is renewed in every round, errors outside it are included, and
+        // a constant pressure is a separate step.
         bool repeats;
     };
     BoundedSolver(double highest, Manner manner) : highest_(highest), manner_(manner) {}

@@ -87,8 +87,8 @@ void PixelModel::read(const std::vector<double>& numbers) {
     step(0);
 }
 
-// The depths become twice the present ones less the coarse ones, nowhere less than before. Their sum
-// is exact for a force that changes linearly, and is kept.
+// The depths become twice the present ones less the coarse ones, nowhere less than before. Their
+// sum is exact for a force that changes linearly, and is kept.
 void PixelModel::extrapolate(const std::vector<double>& before, const std::vector<double>& coarse) {
     const auto of = [](const std::vector<double>& depths, std::size_t k) {
         return depths.empty() ? 0.0 : depths[k];

@@ -81,8 +81,8 @@ protected:
 
 private:
     void accept(Level& level) final;
-    // Triples of column, row and residual depth of a yielded point, the worn depths of all points, or
-    // loads on a relaxing body.
+    // Triples of column, row and residual depth of a yielded point, the worn depths of all points,
+    // or loads on a relaxing body.
     std::vector<double> write() const final;
     void read(const std::vector<double>& numbers) final;
     PathClock clock() const final { return lowering_ ? lowering_->clock() : History::clock(); }
@@ -99,7 +99,7 @@ private:
     std::optional<Level> lasting_loads(const Level& level) const final;
     ResidualProfile residual_profile() const final;
 
-    // Lowers points of the map, of the pixels that `visit` calls its argument with, by their depths.
+    // Lowers the pixels with which `visit` calls its argument, by the depths.
     template <class Visit>
     void lower_points(Visit&& visit);
 

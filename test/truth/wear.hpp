@@ -19,8 +19,8 @@ struct WornBall {
     double separation = 0, area = 0, largest_pressure = 0, depth = 0, volume = 0;
 };
 
-// A rigid ball of radius R under the force N after sliding the distance s, which wears k p ds: rings
-// of equal width up to the radius `most`, and implicit steps that grow from the beginning on.
+// A rigid ball of radius R under the force N after sliding the distance s, which wears k p ds:
+// rings of equal width up to the radius `most`, and implicit steps that grow from the beginning on.
 inline WornBall worn_ball(double E_star, double R, double N, double k, double s, double most,
                           int rings, int steps) {
     const auto n = static_cast<std::size_t>(rings);
