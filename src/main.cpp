@@ -49,7 +49,8 @@ std::unique_ptr<rsc::Team> make_team(Job& job, rsc::CampaignWork& work, const rs
 #ifdef RSC_MPI
     return job.team(std::ref(work), threads, rsc::effective_namelist(read));
 #else
-    (void)job, (void)read;
+    (void)job;
+    (void)read;
     return std::make_unique<rsc::ThreadTeam>(std::ref(work), static_cast<int>(threads));
 #endif
 }

@@ -41,7 +41,8 @@ void select_candidates(Contenders contenders, const SolverOptions& options, doub
     }
     WorkingSet& set = candidates.set;
     for (auto* list : {&set.x, &set.y, &set.g0}) list->resize(last);
-    candidates.rank.resize(last), set.asperity.resize(last);
+    candidates.rank.resize(last);
+    set.asperity.resize(last);
     std::size_t n = 0;
     for (std::size_t r = 0; r < last; ++r) {
         const double height = contenders.height(r);
@@ -49,11 +50,15 @@ void select_candidates(Contenders contenders, const SolverOptions& options, doub
         const auto [x, y] = ranking.place(r);
         const Vec2 d = indenter.from_tip(x, y), image = indenter.image(x, y);
         if (d.x * d.x + d.y * d.y > r0_squared) continue;
-        candidates.rank[n] = r, set.asperity[n] = ranking[r].asperity;
-        set.x[n] = image.x, set.y[n] = image.y, set.g0[n++] = height - Z0;
+        candidates.rank[n] = r;
+        set.asperity[n] = ranking[r].asperity;
+        set.x[n] = image.x;
+        set.y[n] = image.y;
+        set.g0[n++] = height - Z0;
     }
     for (auto* list : {&set.x, &set.y, &set.g0}) list->resize(n);
-    candidates.rank.resize(n), set.asperity.resize(n);
+    candidates.rank.resize(n);
+    set.asperity.resize(n);
     std::vector<int> fresh;
     for (const int i : set.asperity)
         if (shifts && !shifts->prepared(at(i))) fresh.push_back(i);

@@ -45,7 +45,11 @@ void select_candidates(Contenders contenders, const SolverOptions& options, doub
 // slopes of the law.
 struct Solution {
     std::vector<double> v, force, slope;
-    void clear() { v.clear(), force.clear(), slope.clear(); }
+    void clear() {
+        v.clear();
+        force.clear();
+        slope.clear();
+    }
 };
 
 struct WorkingSetOptions {

@@ -49,7 +49,9 @@ public:
     // Accepts a level with penetrations u[k] of asperity[k]; all other asperities are out of
     // contact.
     virtual void commit(int n, const int* asperity, const double* u) {
-        (void)n, (void)asperity, (void)u;
+        (void)n;
+        (void)asperity;
+        (void)u;
     }
 
     // Precomputes the data of these asperities; must be called before any other function for them,

@@ -27,8 +27,18 @@ struct WorkingSet {
     std::vector<int> asperity;
     std::vector<double> x, y, g0;
     int size() const { return static_cast<int>(asperity.size()); }
-    void reserve(std::size_t n) { asperity.reserve(n), x.reserve(n), y.reserve(n), g0.reserve(n); }
-    void clear() { asperity.clear(), x.clear(), y.clear(), g0.clear(); }
+    void reserve(std::size_t n) {
+        asperity.reserve(n);
+        x.reserve(n);
+        y.reserve(n);
+        g0.reserve(n);
+    }
+    void clear() {
+        asperity.clear();
+        x.clear();
+        y.clear();
+        g0.clear();
+    }
 };
 
 struct NewtonOutcome {

@@ -84,8 +84,9 @@ ResidualProfile PixelModel::residual_profile() const {
     ResidualProfile profile{{}, {}, {}, heights_.dx, heights_.dy};
     for (const auto& [k, depth] : residual()) {
         const Pixel pixel = pixel_at(k);
-        profile.x.push_back(x(pixel.x)), profile.y.push_back(y(pixel.y)),
-            profile.depth.push_back(depth);
+        profile.x.push_back(x(pixel.x));
+        profile.y.push_back(y(pixel.y));
+        profile.depth.push_back(depth);
     }
     return profile;
 }
@@ -118,7 +119,10 @@ void PixelModel::accept(Level& level) {
         std::sort(loaded.begin(), loaded.end());
         std::vector<std::int32_t> where;
         std::vector<double> p;
-        for (const auto& [point, pressure] : loaded) where.push_back(point), p.push_back(pressure);
+        for (const auto& [point, pressure] : loaded) {
+            where.push_back(point);
+            p.push_back(pressure);
+        }
         loads_->accept(where, p, [&](const std::vector<double>& q) {
             return deflections(loaded_pixels(), q);
         });

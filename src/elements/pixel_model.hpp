@@ -29,7 +29,10 @@ protected:
     // The duration of the step of time has changed.
     virtual void step_changed() = 0;
     // The solution at this level is the starting point of the next.
-    virtual void start_from(double z, const Level& level) { (void)z, (void)level; }
+    virtual void start_from(double z, const Level& level) {
+        (void)z;
+        (void)level;
+    }
     virtual void forget_solutions() = 0;
     // K q at some pixels, for pressures q on the points of the load memory.
     virtual std::vector<double> deflections(const std::vector<Pixel>& where,

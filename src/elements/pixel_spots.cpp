@@ -14,7 +14,10 @@ template <class Sums>
 double median_by_area(const Sums& sums) {
     std::vector<long> sizes;
     long all = 0;
-    for (const auto& s : sums) sizes.push_back(s.pixels), all += s.pixels;
+    for (const auto& s : sums) {
+        sizes.push_back(s.pixels);
+        all += s.pixels;
+    }
     std::sort(sizes.begin(), sizes.end());
     long so_far = 0;
     std::size_t k = 0;
@@ -68,13 +71,17 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
     for (std::size_t k = 0; k < touching.size(); ++k) {
         Sum& s = sums[at(label[k])];
         const double weight = pressure[k] + tension;
-        s.p += pressure[k], s.weight += weight;
+        s.p += pressure[k];
+        s.weight += weight;
         s.pixels += 1;
         const bool yields = pressure[k] >= H0;
         s.hard += yields;
         if (!yields) s.border += open[k];
         if (pressure[k] > kExtreme * indenter.E_star) extreme += 1;
-        if (weight > s.highest) s.highest = weight, s.peak = touching[k];
+        if (weight > s.highest) {
+            s.highest = weight;
+            s.peak = touching[k];
+        }
     }
     // Positions relative to the highest pressure, to the nearest image.
     const auto nearest = [](int offset, int n) {

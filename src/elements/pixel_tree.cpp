@@ -71,12 +71,16 @@ struct Layout {
 // then so once.
 void enclose(Generation& g, std::vector<Box>& boxes) {
     int x1 = boxes[0].x, y1 = boxes[0].y;
-    g.x0 = x1, g.y0 = y1;
+    g.x0 = x1;
+    g.y0 = y1;
     for (const Box& b : boxes) {
-        g.x0 = std::min(g.x0, b.x), g.y0 = std::min(g.y0, b.y);
-        x1 = std::max(x1, b.x), y1 = std::max(y1, b.y);
+        g.x0 = std::min(g.x0, b.x);
+        g.y0 = std::min(g.y0, b.y);
+        x1 = std::max(x1, b.x);
+        y1 = std::max(y1, b.y);
     }
-    g.nx = x1 - g.x0 + 1, g.ny = y1 - g.y0 + 1;
+    g.nx = x1 - g.x0 + 1;
+    g.ny = y1 - g.y0 + 1;
     g.index.assign(at(g.stride()) * at(g.ny + 2 * Generation::kMargin), -1);
     std::erase_if(boxes,
                   [&](const Box& b) { return std::exchange(g.index[g.place(b.x, b.y)], 0) == 0; });
@@ -107,9 +111,15 @@ int threads_for(std::size_t tiles) { return tiles > kThreads ? 0 : 1; }
 
 // Sets the layout of pixels; its memory is used again.
 void lay_out(Layout& layout, const std::vector<Pixel>& pixels, int rows) {
-    layout.strips.clear(), layout.begin.clear(), layout.chunks.clear();
+    layout.strips.clear();
+    layout.begin.clear();
+    layout.chunks.clear();
     auto& generations = layout.generations;
-    for (Generation& g : generations) g.boxes.clear(), g.parent.clear(), g.inside.clear();
+    for (Generation& g : generations) {
+        g.boxes.clear();
+        g.parent.clear();
+        g.inside.clear();
+    }
     layout.roots = layout.chunks_below = 0;
     if (pixels.empty()) return;
     const int shift = std::countr_zero(static_cast<unsigned>(rows));
@@ -171,7 +181,8 @@ void lay_out(Layout& layout, const std::vector<Pixel>& pixels, int rows) {
     std::size_t strips = 0;
     for_strips([&](const Found& f) {
         const std::size_t tile = at(leaf.find(f.tile.x, f.tile.y));
-        ++leaf.inside[tile + 1], ++strips;
+        ++leaf.inside[tile + 1];
+        ++strips;
         layout.begin[tile + 1] += f.strip.count;
     });
     for (auto* begin : {&leaf.inside, &layout.begin})
@@ -185,8 +196,10 @@ void lay_out(Layout& layout, const std::vector<Pixel>& pixels, int rows) {
         Generation& g = generations[l];
         g.pairs.resize((g.boxes.size() + kChunk - 1) / kChunk);
         for (std::size_t c = 0; c < g.pairs.size(); ++c) layout.chunks.push_back({l, c});
-        if (l == 0 || g.boxes.size() >= kFewest)
-            layout.roots = l, layout.chunks_below = layout.chunks.size();
+        if (l == 0 || g.boxes.size() >= kFewest) {
+            layout.roots = l;
+            layout.chunks_below = layout.chunks.size();
+        }
     }
     layout.around.resize(leaf.boxes.size());
     parallel_for(layout.chunks.size(), 1, threads_for(leaf.boxes.size()), [&](std::size_t chunk) {
@@ -250,7 +263,8 @@ public:
 
     const PixelStencil& inverse() const override { return inverse_; }
     double coefficient(int dx, int dy) const override {
-        dx = std::abs(dx), dy = std::abs(dy);
+        dx = std::abs(dx);
+        dy = std::abs(dy);
         if (dx <= table_.reach_x && dy <= table_.reach_y)
             return near_[at((dy + table_.reach_y) * table_.stride + dx + table_.reach_x)];
         return answer_(dx, dy * aspect_);
@@ -306,8 +320,9 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
     stopping_point();  // the caller may get no piece of the loops
     const auto& generations = layout.generations;
     const Generation& leaf = generations[0];
-    const std::size_t levels = generations.size(), roots = layout.roots,
-                      size = at(kTileColumns * rows_), points = at(interpolation.padded());
+    const std::size_t levels = generations.size(), roots = layout.roots;
+    const std::size_t size = at(kTileColumns * rows_);
+    const std::size_t points = at(interpolation.padded());
     const int q = interpolation.points(), threads = threads_for(leaf.boxes.size());
 
     up_.resize(std::max(up_.size(), levels));

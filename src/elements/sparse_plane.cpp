@@ -199,9 +199,14 @@ SplitPixels::SplitPixels(int nx, int ny, double aspect, const Share& share)
 void SplitPixels::multiply(SparsePlane& plane, const PixelSet& set, const std::vector<double>& x,
                            std::vector<double>& Kx, int threads) {
     const int mx = nx_ / kFactor, my = ny_ / kFactor;
-    x_.resize(x.size()), y_.resize(x.size()), Kx.resize(x.size());
+    x_.resize(x.size());
+    y_.resize(x.size());
+    Kx.resize(x.size());
     double total = 0;
-    for (std::size_t k = 0; k < x.size(); ++k) x_[k] = static_cast<float>(x[k]), total += x[k];
+    for (std::size_t k = 0; k < x.size(); ++k) {
+        x_[k] = static_cast<float>(x[k]);
+        total += x[k];
+    }
     plane.convolve(near_, set, x_.data(), y_.data(), threads);
     // The near part of a uniform pressure, which deflects nothing.
     const double uniform =
@@ -220,12 +225,17 @@ void SplitPixels::multiply(SparsePlane& plane, const PixelSet& set, const std::v
         };
         for (std::size_t k = set.rows[at(j)]; k < set.rows[at(j) + 1]; ++k) {
             const int q = set.column[k] / kFactor;
-            if (q != last) store(), last = q;
+            if (q != last) {
+                store();
+                last = q;
+            }
             const std::array<float, 4>& along_x = kSplines[at(set.column[k] % kFactor)];
             for (std::size_t u = 0; u < 4; ++u) sum[u] += x_[k] * along_x[u];
         }
         store();
-        line[at(mx)] += line[0], line[1] += line[at(mx) + 1], line[2] += line[at(mx) + 2];
+        line[at(mx)] += line[0];
+        line[1] += line[at(mx) + 1];
+        line[2] += line[at(mx) + 2];
     });
     const auto load = [&](int J, float* row) {
         std::fill_n(row, mx, 0.0f);
@@ -248,7 +258,9 @@ void SplitPixels::multiply(SparsePlane& plane, const PixelSet& set, const std::v
         for (int i = 0; i < mx; ++i)
             line[at(i) + 1] = along_y[0] * rows[0][i] + along_y[1] * rows[1][i] +
                               along_y[2] * rows[2][i] + along_y[3] * rows[3][i];
-        line[0] = line[at(mx)], line[at(mx) + 1] = line[1], line[at(mx) + 2] = line[2];
+        line[0] = line[at(mx)];
+        line[at(mx) + 1] = line[1];
+        line[at(mx) + 2] = line[2];
         for (std::size_t k = set.rows[at(j)]; k < set.rows[at(j) + 1]; ++k) {
             const std::array<float, 4>& along_x = kSplines[at(set.column[k] % kFactor)];
             const float* const from = line.data() + set.column[k] / kFactor;

@@ -79,7 +79,8 @@ void powers(double* values, std::size_t stride, int degree) {
         for (int m = 0; m <= degree; ++m)
             sum[m] += values[static_cast<std::size_t>(k) * stride] * t0[m];
         for (int m = 0; m <= degree; ++m) t2[m] = (m > 0 ? 2 * t1[m - 1] : 0) - t0[m];
-        std::copy_n(t1, kNodes, t0), std::copy_n(t2, kNodes, t1);
+        std::copy_n(t1, kNodes, t0);
+        std::copy_n(t2, kNodes, t1);
     }
     for (int m = 0; m <= degree; ++m) values[static_cast<std::size_t>(m) * stride] = sum[m];
 }
@@ -111,7 +112,8 @@ RSC_ALWAYS_INLINE void lattice_body(const Task& task) {
         dy = std::abs(dy - task.Ly * whole(dy * inverse_y));
         const double ex = task.Lx - dx, ey = task.Ly - dy, s = 1 - 2 * dx * inverse_x,
                      t = 1 - 2 * dy * inverse_y;
-        u[j] = 2 * s * s - 1, v[j] = 2 * t * t - 1;
+        u[j] = 2 * s * s - 1;
+        v[j] = 2 * t * t - 1;
         near[j] = inverse(dx * dx + dy * dy) +
                   (inverse(ex * ex + dy * dy) +
                    (inverse(dx * dx + ey * ey) + inverse(ex * ex + ey * ey)));
@@ -201,9 +203,11 @@ Lattice::Lattice(Period period, const SmoothPart* smooth, double near)
         std::vector<double> x, y;
         for (int k = 0; k < kNodes; ++k) {
             const double part = 0.5 * (1 - std::sqrt((1 + std::cos(pi * (k + 0.5) / kNodes)) / 2));
-            x.push_back(part * period.x), y.push_back(part * period.y);
+            x.push_back(part * period.x);
+            y.push_back(part * period.y);
         }
-        x.push_back(0), y.push_back(0);
+        x.push_back(0);
+        y.push_back(0);
         const std::vector<double> sum = shares(x, y);
         own = sum.back();
         for (std::size_t i = 0; i < kNodes; ++i)
@@ -238,10 +242,13 @@ Lattice::Lattice(Period period, const SmoothPart* smooth, double near)
     constexpr int rays = 16;
     for (double d = 0.01 * smooth->scale(); d < 0.75 * (period.x + period.y); d *= 1.01)
         for (int ray = 0; ray <= rays; ++ray) {
-            const double angle = 0.5 * pi * ray / rays, x = d * std::cos(angle),
-                         y = d * std::sin(angle), value = at(x, y);
-            if (x <= period.x / 2 && y <= period.y / 2)
-                least_ = std::min(least_, value), largest = std::max(largest, std::abs(least_));
+            const double angle = 0.5 * pi * ray / rays;
+            const double x = d * std::cos(angle), y = d * std::sin(angle);
+            const double value = at(x, y);
+            if (x <= period.x / 2 && y <= period.y / 2) {
+                least_ = std::min(least_, value);
+                largest = std::max(largest, std::abs(least_));
+            }
         }
     least_ -= 1e-2 * largest;  // between the places asked
 }
@@ -291,8 +298,10 @@ void Lattice::potential(std::size_t n_targets, const double* xt, const double* y
             const double dx = std::abs((xi - xj[k]) - period_.x * whole((xi - xj[k]) / period_.x)),
                          dy = std::abs((yi - yj[k]) - period_.y * whole((yi - yj[k]) / period_.y));
             const double ex = period_.x - dx, ey = period_.y - dy;
-            square[k] = dx * dx + dy * dy, square[kBlock + k] = ex * ex + dy * dy;
-            square[2 * kBlock + k] = dx * dx + ey * ey, square[3 * kBlock + k] = ex * ex + ey * ey;
+            square[k] = dx * dx + dy * dy;
+            square[kBlock + k] = ex * ex + dy * dy;
+            square[2 * kBlock + k] = dx * dx + ey * ey;
+            square[3 * kBlock + k] = ex * ex + ey * ey;
         }
         for (std::size_t image = 0; image < 4; ++image)
             smooth_->table().values(kBlock, square + image * kBlock, s + image * kBlock);
@@ -305,7 +314,9 @@ void Lattice::potential(std::size_t n_targets, const double* xt, const double* y
         const std::size_t count = std::min(kBlock, n_sources - j);
         for (std::size_t k = 0; k < kBlock; ++k) {
             const std::size_t from = j + std::min(k, count - 1);
-            x[k] = xs[from], y[k] = ys[from], f[k] = k < count ? fs[from] : 0;
+            x[k] = xs[from];
+            y[k] = ys[from];
+            f[k] = k < count ? fs[from] : 0;
         }
         for (std::size_t i = 0; i < n_targets; ++i) {
             lattice_values({period_.x, period_.y, xt[i], yt[i], x, y, c_.data(), degree_, value});

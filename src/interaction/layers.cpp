@@ -170,7 +170,8 @@ private:
             const double off = t - static_cast<double>(i);
             if (off == 0) return values[first + i];
             const double w = binomial / off;
-            sum += w * values[first + i], weights += w;
+            sum += w * values[first + i];
+            weights += w;
             binomial *= -static_cast<double>(kNodes - 1 - i) / static_cast<double>(i + 1);
         }
         return sum / weights;

@@ -399,12 +399,17 @@ void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) con
     if (const auto range = numbers_attribute(v, "valid_range")) {
         if (range->size() != 2)
             bad_input(path_ + ": attribute " + v.name + ":valid_range must be two numbers");
-        least = (*range)[0], most = (*range)[1];
+        least = (*range)[0];
+        most = (*range)[1];
     }
-    if (unpacked)
-        least -= 0.5 * std::abs(scale), most += 0.5 * std::abs(scale);  // however they are rounded
-    else
-        least = typed(least), most = typed(most);
+    if (unpacked) {
+        // However the stored numbers were rounded.
+        least -= 0.5 * std::abs(scale);
+        most += 0.5 * std::abs(scale);
+    } else {
+        least = typed(least);
+        most = typed(most);
+    }
     for (std::size_t i = 0; i < v.count(); ++i) {
         const double stored = typed(out[i]);
         const double judged = unpacked ? stored * scale + offset : stored;

@@ -23,7 +23,9 @@ HeightMap prepare(const std::string& path, const Header& h, const std::string& l
         if (!(value > 0 && std::isfinite(value)))
             bad_input(path + ": " + name + " = " + text_of(value) + ": must be positive");
     };
-    positive("Xscale", h.dx), positive("Yscale", h.dy), positive("Zscale", h.scale);
+    positive("Xscale", h.dx);
+    positive("Yscale", h.dy);
+    positive("Zscale", h.scale);
     if (h.compression != 0)
         bad_input(path + ": Compression = " + std::to_string(h.compression) +
                   ": only 0 (none) is known");
@@ -31,7 +33,8 @@ HeightMap prepare(const std::string& path, const Header& h, const std::string& l
         bad_input(path + ": CheckType = " + std::to_string(h.check) + ": only 0 (none) is known");
     const double metre = length_factor("m", length_unit);
     HeightMap map = allocate_map(h.nx, h.ny);
-    map.dx = h.dx * metre, map.dy = h.dy * metre;
+    map.dx = h.dx * metre;
+    map.dy = h.dy * metre;
     factor = h.scale * metre;
     return map;
 }
@@ -143,8 +146,11 @@ HeightMap read_text(const std::string& path, std::string bytes, const std::strin
         value = static_cast<Value>(*read);
     };
     Header h;
-    number("NumPoints", h.nx), number("NumProfiles", h.ny);
-    number("Xscale", h.dx), number("Yscale", h.dy), number("Zscale", h.scale);
+    number("NumPoints", h.nx);
+    number("NumProfiles", h.ny);
+    number("Xscale", h.dx);
+    number("Yscale", h.dy);
+    number("Zscale", h.scale);
     if (header.count("compression")) number("Compression", h.compression);
     if (header.count("datatype")) number("DataType", h.type);
     if (header.count("checktype")) number("CheckType", h.check);

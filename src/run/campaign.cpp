@@ -233,7 +233,8 @@ std::optional<RunSummary> finished_result(const Case& settings) {
     const std::optional<LevelCount> count = count_levels(settings.output.file);
     if (!count) return {};
     RunSummary summary;
-    summary.levels = count->levels, summary.failed = count->failed;
+    summary.levels = count->levels;
+    summary.failed = count->failed;
     return summary;
 }
 

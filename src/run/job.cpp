@@ -35,7 +35,8 @@ void move_to(const Domain& place, HeightMap& map, std::int64_t number) {
         bad_input("the map of realization " + std::to_string(number) + " is " + text_of(map.Lx()) +
                   " x " + text_of(map.Ly()) + ", the first is " + text_of(place.Lx) + " x " +
                   text_of(place.Ly) + "; maps of one size are expected");
-    map.x0 = place.x0, map.y0 = place.y0;
+    map.x0 = place.x0;
+    map.y0 = place.y0;
 }
 
 // As many files as realizations, and all of the size of the first. Only the sizes are read here.
@@ -80,7 +81,8 @@ double seam(const HeightMap& map) {
             const bool at_end = i + 1 == map.nx, at_top = j + 1 == map.ny;
             (at_end ? across : within) += right * right;
             (at_top ? across : within) += up * up;
-            ++(at_end ? n_across : n_within), ++(at_top ? n_across : n_within);
+            ++(at_end ? n_across : n_within);
+            ++(at_top ? n_across : n_within);
         }
     return std::sqrt(across / static_cast<double>(n_across) /
                      (within / static_cast<double>(n_within)));

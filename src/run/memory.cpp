@@ -150,8 +150,9 @@ double expected_megabytes(const Job& job, double workers) {
     // Bytes for each point of the surface (heights, modes; transforms of two flats), and for each
     // point under the indenter or in contact, from the peaks of some 40 runs; a single realization
     // keeps the pixels of all its levels, and the result some numbers a level.
-    constexpr double program = 40e6, tables = 15e6, table = 1500, under = 170, adhesion = 49,
-                     yielding = 5, flats = 28, touching = 150, pixel = 24, record = 0.3e6;
+    constexpr double program = 40e6, tables = 15e6, table = 1500, record = 0.3e6;
+    constexpr double under = 170, adhesion = 49, yielding = 5;
+    constexpr double flats = 28, touching = 150, pixel = 24;
     const double sticking = job.settings.solids.adhesion > 0 ? adhesion : 0;
     const double heights =
         8.4 + sticking + (std::isfinite(job.settings.solids.hardness) ? yielding : 0.0);

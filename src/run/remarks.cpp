@@ -197,9 +197,12 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
     const char *l = c.run.length_unit.c_str(), *f = c.run.force_unit.c_str();
     long jumps = 0;
     double lost = 0, least = 0, attracting = 0;
-    for (const LevelValues& level : levels)
-        attracting = std::fmax(attracting, level.area + level.cohesive_area), jumps += level.jumps,
-        lost = std::fmax(lost, level.energy_lost), least = std::fmin(least, level.least_force);
+    for (const LevelValues& level : levels) {
+        attracting = std::fmax(attracting, level.area + level.cohesive_area);
+        jumps += level.jumps;
+        lost = std::fmax(lost, level.energy_lost);
+        least = std::fmin(least, level.least_force);
+    }
     // of the work of adhesion: some steps, each divided at 0.003
     // (physics/adhesion/adhesive_pixels.cpp)
     constexpr double resolved = 0.01;
@@ -331,7 +334,8 @@ void tell_unreached_heights(std::ostream& out, std::span<const SurfaceStatistics
     const double all = static_cast<double>(surfaces.size());
     long missed = 0;
     for (const SurfaceStatistics& s : surfaces) {
-        mean.skewness += s.skewness / all, mean.kurtosis += s.kurtosis / all;
+        mean.skewness += s.skewness / all;
+        mean.kurtosis += s.kurtosis / all;
         missed += std::abs(s.skewness - wish.skewness) > near_skewness ||
                   std::abs(s.kurtosis - wish.kurtosis) > near_kurtosis;
     }

@@ -82,7 +82,8 @@ std::string twins_text(const Job& job, const std::string& result) {
     const Measured& m = *job.measured;
     Case twins = job.settings;
     const auto scale_levels = [&keys = twins.indentation](double factor) {
-        keys.start *= factor, keys.stop *= factor;
+        keys.start *= factor;
+        keys.stop *= factor;
         for (double& level : keys.levels) level *= factor;
     };
     const double L = std::max(m.Lx(), m.Ly());
@@ -93,10 +94,14 @@ std::string twins_text(const Job& job, const std::string& result) {
     const Case::Surface keys = twins.surface;
     twins.surface = {};
     if (!twins.indenter.file.empty()) {  // these keys belong to the map of body 2, too
-        twins.surface.detrend = keys.detrend, twins.surface.missing = keys.missing;
-        twins.surface.filter_cutoff = keys.filter_cutoff, twins.surface.outliers = keys.outliers;
-        if (is_text_map(twins.indenter.file))
-            twins.surface.height_unit = keys.height_unit, twins.surface.pixel = keys.pixel;
+        twins.surface.detrend = keys.detrend;
+        twins.surface.missing = keys.missing;
+        twins.surface.filter_cutoff = keys.filter_cutoff;
+        twins.surface.outliers = keys.outliers;
+        if (is_text_map(twins.indenter.file)) {
+            twins.surface.height_unit = keys.height_unit;
+            twins.surface.pixel = keys.pixel;
+        }
         if (!is_instrument_map(twins.indenter.file))
             twins.surface.missing_value = keys.missing_value;
     }
@@ -120,7 +125,8 @@ std::string twins_text(const Job& job, const std::string& result) {
     }
     if (job.indenter.period.finite() &&
         twins.indentation.control == Control::force) {  // the area of the twins may be another
-        twins.indentation.control = Control::pressure, twins.indentation.unit = LevelUnit::pressure;
+        twins.indentation.control = Control::pressure;
+        twins.indentation.unit = LevelUnit::pressure;
         scale_levels(1 / job.indenter.period.area());
     }
     // The square begins at 0 and has the longer side of the map; the tip keeps its distance from
@@ -135,7 +141,8 @@ std::string twins_text(const Job& job, const std::string& result) {
     twins.output.heights = false;
     // What is for one realization only.
     const Case defaults;
-    twins.output.fields.clear(), twins.output.field_levels.clear();
+    twins.output.fields.clear();
+    twins.output.field_levels.clear();
     std::ranges::copy(defaults.output.field_window, twins.output.field_window);
     twins.solids.friction = 0;
     twins.solver.model = model_of(job.settings).model;  // as for the map, for comparison

@@ -28,7 +28,7 @@ public:
         // Weights, scaled so that the larger is 1, of the neighbours to the left, below, to the
         // right and above.
         const double least = std::min(map.dx, map.dy);
-        weight_[0] = weight_[2] = std::pow(least / map.dx, 2),
+        weight_[0] = weight_[2] = std::pow(least / map.dx, 2);
         weight_[1] = weight_[3] = std::pow(least / map.dy, 2);
         double sum = 0, weight = 0;
         for (Point& p : points_)
@@ -39,8 +39,12 @@ public:
                 const double w = weight_[k];
                 p.diagonal += w;
                 p.beside[k] = number[map.index(i, j)];
-                if (p.beside[k] < 0)
-                    sum += w * map(i, j), weight += w, p.source += w * map(i, j), p.present += w;
+                if (p.beside[k] < 0) {
+                    sum += w * map(i, j);
+                    weight += w;
+                    p.source += w * map(i, j);
+                    p.present += w;
+                }
             }
         // The mean level is subtracted, so that a large offset does not cause cancellation.
         level_ = weight > 0 ? sum / weight : 0;
@@ -71,8 +75,10 @@ public:
             for (std::size_t k = 0; k < n; ++k)
                 q[k] = points_[k].diagonal * p[k] - around(k, p, 0, 4);
             const double length = rho / dot(p, q);
-            for (std::size_t k = 0; k < n; ++k)
-                solution_[k] += length * p[k], r[k] -= length * q[k];
+            for (std::size_t k = 0; k < n; ++k) {
+                solution_[k] += length * p[k];
+                r[k] -= length * q[k];
+            }
             precondition(r, y);
             const double next = dot(r, y), share = next / rho;
             rho = next;
@@ -103,8 +109,10 @@ private:
             for (int d = 1; d <= kReach; ++d)
                 sum += 0.5 * kWeights[static_cast<std::size_t>(d - 1)] * map(i + d * a, j + d * b);
             const double next = map(i + a, j + b), line = 2 * next - map(i + 2 * a, j + 2 * b);
-            high = std::max(high, next), low = std::min(low, next);
-            least = std::min(least, line), most = std::max(most, line);
+            high = std::max(high, next);
+            low = std::min(low, next);
+            least = std::min(least, line);
+            most = std::max(most, line);
         }
         if (std::isnan(sum)) return {};
         return std::clamp(sum, std::min(low, most), std::max(high, least));
@@ -378,13 +386,17 @@ void smooth_rounded(HeightMap& map, double step) {
     constexpr std::size_t beside = 2;  // neighbouring rings on either side included in the mean
     damp_waves(map, false, "the cosine series of a map", [&](double* series, double scale) {
         for (std::size_t j = 0; j < ny; ++j)
-            for (std::size_t i = 0; i < nx; ++i)
-                power[ring(i, j)] += series[j * nx + i] * series[j * nx + i], ++modes[ring(i, j)];
+            for (std::size_t i = 0; i < nx; ++i) {
+                power[ring(i, j)] += series[j * nx + i] * series[j * nx + i];
+                ++modes[ring(i, j)];
+            }
         for (std::size_t k = 0; k < power.size(); ++k) {
             double sum = 0, count = 0;
             for (std::size_t l = k - std::min(k, beside);
-                 l <= std::min(k + beside, power.size() - 1); ++l)
-                sum += power[l], count += modes[l];
+                 l <= std::min(k + beside, power.size() - 1); ++l) {
+                sum += power[l];
+                count += modes[l];
+            }
             gain[k] = std::max(0.0, 1 - rounding * count / std::max(sum, 1e-300));
             if (k > 0 && gain[k] == 0) break;  // all shorter waves are rounding noise
         }
@@ -459,7 +471,10 @@ Breaks find_breaks(const HeightMap& map, double height_step) {
         in_row(static_cast<std::size_t>(ny), 0);
     const auto tell = [&](Breaks::Kind kind, int i, int j, double size) {
         Breaks::Found& found = breaks.found[kind];
-        if (++found.points == 1 || size > found.size) found.largest = {i, j}, found.size = size;
+        if (++found.points == 1 || size > found.size) {
+            found.largest = {i, j};
+            found.size = size;
+        }
     };
     // True if a neighbour is a pit or spike (`kind`), which causes the second difference at this
     // point.
@@ -506,7 +521,8 @@ Breaks find_breaks(const HeightMap& map, double height_step) {
         const auto most = std::max_element(counts.begin(), counts.end());
         return 2 * *most > length ? static_cast<int>(most - counts.begin()) : -1;
     };
-    breaks.seam_column = seam(in_column, ny), breaks.seam_row = seam(in_row, nx);
+    breaks.seam_column = seam(in_column, ny);
+    breaks.seam_row = seam(in_row, nx);
     if (marked.empty()) return breaks;
     breaks.clear.assign(map.points(), Breaks::kMostClear);
     constexpr int reach = Breaks::kMostClear;
@@ -514,7 +530,10 @@ Breaks find_breaks(const HeightMap& map, double height_step) {
         for (int dj = -reach; dj <= reach; ++dj)
             for (int di = -reach; di <= reach; ++di) {
                 int k = i + di, l = j + dj;
-                if (map.periodic) k = wrapped(k, nx), l = wrapped(l, ny);
+                if (map.periodic) {
+                    k = wrapped(k, nx);
+                    l = wrapped(l, ny);
+                }
                 if (k < 0 || l < 0 || k >= nx || l >= ny) continue;
                 auto& clear = breaks.clear[map.index(k, l)];
                 clear = std::min(clear,

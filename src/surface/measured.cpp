@@ -155,7 +155,8 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
         std::max(1, static_cast<int>(std::lround(m.shortest_wave / (8 * std::max(m.dx, m.dy))))));
     if (can_fit(stretched)) {
         m.fit = fit_self_affine(stretched);
-        m.fit->aspect = aspect, m.fit->direction = slopes.direction;
+        m.fit->aspect = aspect;
+        m.fit->direction = slopes.direction;
     }
     if (m.fit) {
         MeasuredSpectrum& s = m.spectrum;

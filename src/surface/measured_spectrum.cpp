@@ -30,10 +30,12 @@ public:
             // The last ring is a group of its own, so that the table ends with the spectrum.
             const std::size_t end = r < rings && next == rings + 1 ? rings : next;
             for (std::size_t i = r; i < end; ++i) group_[i] = first_.size();
-            first_.push_back(r), last_.push_back(end - 1);
+            first_.push_back(r);
+            last_.push_back(end - 1);
             r = end;
         }
-        power_.resize(first_.size() * kAngles), count_.resize(first_.size() * kAngles);
+        power_.resize(first_.size() * kAngles);
+        count_.resize(first_.size() * kAngles);
     }
     void add(std::size_t ring, double kx, double ky, double power, double copies) {
         if (ring == 0) return;
@@ -55,7 +57,8 @@ public:
                     const std::size_t reach = std::min(wide, kAngles / 2 - 1);
                     for (std::size_t t = 0; t <= 2 * reach; ++t) {
                         const std::size_t place = g * kAngles + (a + kAngles + t - reach) % kAngles;
-                        power += power_[place], count += count_[place];
+                        power += power_[place];
+                        count += count_[place];
                     }
                 }
                 s.plane_psd.push_back(count > 0 ? scale * power / count : 0);
@@ -81,9 +84,13 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
         double row = 0, row_w = 0, row_s = 0;
         for (int i = 0; i < nx; ++i) {
             const double w = wx[static_cast<std::size_t>(i)] * wy[static_cast<std::size_t>(j)];
-            row += w * map(i, j), row_w += w, row_s += w * w;
+            row += w * map(i, j);
+            row_w += w;
+            row_s += w * w;
         }
-        sum += row, weights += row_w, squares += row_s;
+        sum += row;
+        weights += row_w;
+        squares += row_s;
     }
     const double mean = sum / weights;
     const std::unique_ptr<double[], HeightMap::Free> buffer(
@@ -191,9 +198,10 @@ MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double di
         double sum = 0;
         for (const auto& [place, share] : seen[r]) sum += share;
         s.seen.emplace_back();
-        for (const auto& [place, share] : seen[r])
-            s.seen.back().emplace_back(place, share / sum),
-                s.places = std::max(s.places, place + 1);
+        for (const auto& [place, share] : seen[r]) {
+            s.seen.back().emplace_back(place, share / sum);
+            s.places = std::max(s.places, place + 1);
+        }
     }
     s.lost = map.periodic ? 0 : 1.5;
     if (aspect == 1) plane.finish(s, ring, scale);
@@ -216,10 +224,14 @@ HeightParameters height_parameters(const HeightMap& map) {
     double all = 0, high = 0, high_points = 0;
     for (int j = 0; j + 1 < map.ny; ++j)
         for (int i = 0; i + 1 < map.nx; ++i) {
-            const double sx = (map(i + 1, j) - map(i, j)) / map.dx,
-                         sy = (map(i, j + 1) - map(i, j)) / map.dy, square = sx * sx + sy * sy;
+            const double sx = (map(i + 1, j) - map(i, j)) / map.dx;
+            const double sy = (map(i, j + 1) - map(i, j)) / map.dy;
+            const double square = sx * sx + sy * sy;
             all += square;
-            if (map(i, j) > level + p.sq) high += square, high_points += 1;
+            if (map(i, j) > level + p.sq) {
+                high += square;
+                high_points += 1;
+            }
         }
     if (all > 0 && high_points > 0)
         p.high_slope = std::sqrt(high / high_points * (map.nx - 1.0) * (map.ny - 1.0) / all);
@@ -243,7 +255,8 @@ double twin_exponent(const std::function<double(double, double)>& psd,
                              ky = k * std::sin(std::numbers::pi * a / angles);
                 const double sx = difference(kx, map.dx), sy = difference(ky, map.dy),
                              power = k * k * width * psd(kx, ky);
-                height += power, slope += power * (sx * sx + sy * sy);
+                height += power;
+                slope += power * (sx * sx + sy * sy);
             }
             rings.push_back({log_k, height, slope});
         }
@@ -253,8 +266,10 @@ double twin_exponent(const std::function<double(double, double)>& psd,
     for (int step = 0; step < 50; ++step) {
         const double e = 0.5 * (low + high);
         double height = 0, slope = 0;
-        for (const auto& [log_k, h, s] : rings)
-            height += h * std::exp(e * log_k), slope += s * std::exp(e * log_k);
+        for (const auto& [log_k, h, s] : rings) {
+            height += h * std::exp(e * log_k);
+            slope += s * std::exp(e * log_k);
+        }
         (slope > wanted * height ? high : low) = e;
     }
     return high;
@@ -278,9 +293,13 @@ Isotropy isotropy(const HeightMap& map) {
             // Gradient at the centre of four points.
             const double a = map(i, j), b = map(i + 1, j), c = map(i, j + 1), d = map(i + 1, j + 1);
             const double zx = 0.5 * (b - a + d - c) / map.dx, zy = 0.5 * (c - a + d - b) / map.dy;
-            row_xx += zx * zx, row_xy += zx * zy, row_yy += zy * zy;
+            row_xx += zx * zx;
+            row_xy += zx * zy;
+            row_yy += zy * zy;
         }
-        xx += row_xx, xy += row_xy, yy += row_yy;
+        xx += row_xx;
+        xy += row_xy;
+        yy += row_yy;
     }
     const double mean = 0.5 * (xx + yy), apart = std::hypot(0.5 * (xx - yy), xy);
     if (!(mean + apart > 0)) return {};

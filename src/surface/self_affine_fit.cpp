@@ -81,7 +81,8 @@ public:
     Left left(const Cut& c) const {
         Left l;
         const auto add = [&](double square, const Sums::Six& s) {
-            l.square += square, l.weight += s.n;
+            l.square += square;
+            l.weight += s.n;
         };
         add(power_law(c).left, sums_.between(c.low, c.high));
         if (c.low > kBlurred) {
@@ -149,7 +150,8 @@ public:
         double ratio = 0, logs = 0;
         for (std::size_t i = first_; i < end_; ++i) {
             const double m = s_.independent * s_.modes[i], e = expected[i - first_];
-            ratio += m * s_.psd[i] / e, logs += m * std::log(e);
+            ratio += m * s_.psd[i] / e;
+            logs += m * std::log(e);
         }
         const double log_phi0 = std::log(ratio / weights_);
         return {weights_ * log_phi0 + logs, log_phi0};
@@ -255,7 +257,10 @@ SelfAffineFit fit_in_rings(const MeasuredSpectrum& spectrum) {
     double least = HUGE_VAL;  // default: one power law over all rings
     const auto try_cut = [&](const Cut& c) {
         if (c.high < c.low + kShortest || c.high > n) return;
-        if (const double cost = search.cost(c); cost < least) least = cost, best = c;
+        if (const double cost = search.cost(c); cost < least) {
+            least = cost;
+            best = c;
+        }
     };
     // Coarse search with about 60 places per decade, then a fine search around the best cut.
     std::vector<std::size_t> places;
@@ -309,7 +314,8 @@ SelfAffineFit fit_in_rings(const MeasuredSpectrum& spectrum) {
     for (const Likelihood::Model& m : models) {
         const double left = allowed - (m.misfit - found.misfit);
         if (left < 0) continue;
-        low = std::min(low, m.kl), high = std::max(high, m.kl);
+        low = std::min(low, m.kl);
+        high = std::max(high, m.kl);
         fit.hurst.error = std::max(
             fit.hurst.error, std::abs(m.hurst - found.hurst) + std::sqrt(2 * left / curvature));
         log_error = std::max(log_error, std::abs(m.log_phi0 - found.log_phi0));
@@ -321,7 +327,8 @@ SelfAffineFit fit_in_rings(const MeasuredSpectrum& spectrum) {
     if (fit.kl_seen && !found.plateau && k[end - 1] > above_break + kShortest) {
         const Likelihood upper(spectrum, above_break, end);
         const Likelihood::Model again = upper.best(found.kl, false);
-        found.hurst = fit.hurst.value = again.hurst, found.log_phi0 = again.log_phi0;
+        found.hurst = fit.hurst.value = again.hurst;
+        found.log_phi0 = again.log_phi0;
         fit.hurst.error = std::sqrt(2 * 0.5 * 1.645 * 1.645 * upper.excess(again) /
                                     std::max(upper.curvature(again), 1e-3));
     }
@@ -390,8 +397,10 @@ SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
     for (double& p : s.psd) p = p > 0 ? std::max(p / unit, kRounding) : 0;
     SelfAffineFit fit = fit_in_rings(s);
     for (const auto& [fitted, scale] :
-         {std::pair(&fit.kl, s.ring), std::pair(&fit.ks, s.ring), std::pair(&fit.Phi0, unit)})
-        fitted->value *= scale, fitted->error *= scale;
+         {std::pair(&fit.kl, s.ring), std::pair(&fit.ks, s.ring), std::pair(&fit.Phi0, unit)}) {
+        fitted->value *= scale;
+        fitted->error *= scale;
+    }
     return fit;
 }
 

@@ -247,7 +247,8 @@ RefinedSummit SummitClimber::of_grid(double bend, bool& broken) const {
         };
         const double here = bent(0);
         if (here >= -usual * bend) return here;
-        bends_usually = false, broken = true;
+        bends_usually = false;
+        broken = true;
         double least = here;
         for (const int k : {-1, 1})
             if (const double beside = bent(k); beside < 0) least = std::max(least, beside);
@@ -294,9 +295,12 @@ std::optional<RefinedSummit> SummitClimber::summit_from(int i, int j, bool maxim
 // c_SS are the coefficients of the quartic along the long and short axes (physics, section 16).
 // Also appends the plain one.
 double SummitClimber::append_biharmonic(const RefinedSummit& s, Asperities& a) const {
-    const double dx = place_.dx, dy = place_.dy, z40 = s.zxxxx / (dx * dx * dx * dx),
-                 z31 = s.zxxxy / (dx * dx * dx * dy), z22 = s.zxxyy / (dx * dx * dy * dy),
-                 z13 = s.zxyyy / (dx * dy * dy * dy), z04 = s.zyyyy / (dy * dy * dy * dy);
+    const double dx = place_.dx, dy = place_.dy;
+    const double z40 = s.zxxxx / (dx * dx * dx * dx);
+    const double z31 = s.zxxxy / (dx * dx * dx * dy);
+    const double z22 = s.zxxyy / (dx * dx * dy * dy);
+    const double z13 = s.zxyyy / (dx * dy * dy * dy);
+    const double z04 = s.zyyyy / (dy * dy * dy * dy);
     const double c = std::cos(a.angle.back()), t = std::sin(a.angle.back()), cc = c * c, tt = t * t,
                  ct = c * t;
     const double along =
@@ -324,8 +328,12 @@ void SummitClimber::climb_from(int i, int j, bool maximum, const Rows& row, Refi
     double u = 0, v = 0;
     bool kept = s.has_value();
     if (kept) {
-        u = i + s->x, v = j + s->y;
-        if (place_.periodic) u = wrapped(u, place_.nx), v = wrapped(v, ny_);
+        u = i + s->x;
+        v = j + s->y;
+        if (place_.periodic) {
+            u = wrapped(u, place_.nx);
+            v = wrapped(v, ny_);
+        }
         const SecondOrder second{0.5 * s->zxx / (place_.dx * place_.dx),
                                  0.5 * s->zyy / (place_.dy * place_.dy),
                                  0.5 * s->zxy / (place_.dx * place_.dy)};

@@ -67,7 +67,10 @@ double mean_present(const HeightMap& map, Value value) {
     for (int j = 0; j < map.ny; ++j) {
         double row = 0;
         for (int i = 0; i < map.nx; ++i)
-            if (const double z = map(i, j); !std::isnan(z)) row += value(z, i, j), ++points;
+            if (const double z = map(i, j); !std::isnan(z)) {
+                row += value(z, i, j);
+                ++points;
+            }
         total += row;
     }
     return total / points;

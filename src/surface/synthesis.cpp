@@ -285,15 +285,19 @@ void RowSource::make_pairs(int j, int count, double* out, std::ptrdiff_t stride,
         for (int r = 0; r < rows; r += 2, to += 2 * apart, mirror += 2 * apart) {
             const double a = factor * from[2 * r], b = real ? 0 : factor * from[2 * r + 1];
             const double c = factor * from[2 * r + 2], d = real ? 0 : factor * from[2 * r + 3];
-            to[0] = a - d, to[apart] = b + c;
-            mirror[0] = a + d, mirror[apart] = c - b;
+            to[0] = a - d;
+            to[apart] = b + c;
+            mirror[0] = a + d;
+            mirror[apart] = c - b;
         }
     }
     double* const spare = parts + rows * apart;  // for a row that is not wanted
     for (int r = 0; r < rows; r += 2) {
         double *const re = parts + r * apart, *const im = re + apart;
-        if (const int none = n_ + 1 - 2 * columns_; none > 0)
-            std::fill_n(re + columns_, none, 0.0), std::fill_n(im + columns_, none, 0.0);
+        if (const int none = n_ + 1 - 2 * columns_; none > 0) {
+            std::fill_n(re + columns_, none, 0.0);
+            std::fill_n(im + columns_, none, 0.0);
+        }
         const int at = first + r - j;  // row of `out`
         const bool direct = at >= 0 && at + 1 < count && stride == apart;
         double* const to = direct ? out + at * stride : spare;

@@ -19,7 +19,10 @@ public:
     double approach(double force) override;
 
     // Discards the last levels. The caller must also call forget() of the contacts.
-    void forget() { last_[0].reset(), last_[1].reset(); }
+    void forget() {
+        last_[0].reset();
+        last_[1].reset();
+    }
 
     // Number of levels computed, and of those that did not converge.
     long levels() const { return levels_; }

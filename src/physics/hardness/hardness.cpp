@@ -108,7 +108,13 @@ public:
     }
     std::span<const int> yielded() const override { return yielded_; }
     void forget() override {
-        for (Summit& s : summits_) s.deepest = 0, s.end = {}, s.rest = 0, s.power = 1.5, s.lost = 0;
+        for (Summit& s : summits_) {
+            s.deepest = 0;
+            s.end = {};
+            s.rest = 0;
+            s.power = 1.5;
+            s.lost = 0;
+        }
         yielded_.clear();
     }
     double work_lost() const override {
