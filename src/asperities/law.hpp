@@ -103,9 +103,9 @@ public:
     // The history of an asperity: its largest accepted penetration, 0 if it never yielded. forget()
     // removes the history.
     virtual double deepest(int asperity) const { return (void)asperity, 0.0; }
-    virtual std::span<const int> yielded() const {
-        return {};
-    }  // the asperities that have, in increasing order
+    // The asperities with a history, in increasing order.
+    virtual std::span<const int> yielded() const { return {}; }
+
     virtual void forget() {}
 };
 

@@ -29,13 +29,11 @@ public:
 
     const Period& period() const { return period_; }
     double at(double dx, double dy) const;  // nonzero offset
-    double self() const {
-        return self_;
-    }  // at a source, without its own 1/d: -3.90026492/L on a square
-    double least() const {
-        return least_;
-    }  // smallest value, in the middle between images: -1.61554/L on a square; with layers a bound of
-       // the least value
+    // At a source, without its own 1/d: -3.90026492/L on a square.
+    double self() const { return self_; }
+    // Smallest value, in the middle between images: -1.61554/L on a square; with layers a bound of
+    // it.
+    double least() const { return least_; }
     // Gamma minus 1/d + s(d)/near of the nearest image.
     double rest(double dx, double dy) const;
     double nearest_smooth(double dx, double dy) const;  // s(d)/near of the nearest image

@@ -31,9 +31,9 @@ public:
     // (base/parallel.hpp); the bits do not depend on their number.
     void apply(const double* f, double* phi);
 
-    std::size_t mesh_points() const {
-        return far_ ? far_->points() : 0;
-    }  // of the doubled mesh; 0: direct sums
+    // Points of the doubled mesh; 0: direct sums.
+    std::size_t mesh_points() const { return far_ ? far_->points() : 0; }
+
     // Estimated seconds per product on one core of 3.4 GHz with AVX2, for n points spread uniformly
     // over a rectangle and a smooth part that changes little within `scale` times the longer side.
     static double estimated_cost(std::size_t n, double relative_error, double aspect_ratio = 1,

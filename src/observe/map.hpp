@@ -6,8 +6,7 @@
 namespace rsc {
 
 // nx x ny square cells of side `side` from the corner (x0, y0); cell (i, j) is number j*nx + i, its
-// centre at
-// (x0 + (i + 1/2) side, y0 + (j + 1/2) side).
+// centre at (x0 + (i + 1/2) side, y0 + (j + 1/2) side).
 struct MapGrid {
     double x0 = 0, y0 = 0;  // [length]
     double side = 0;        // [length]
@@ -58,12 +57,11 @@ std::int32_t count_crowded_cells(const MapGrid& grid, const MapLevel& map);
 // from `first` on.
 //
 // Between nodes i and i+1 the curve is a cubic Bezier with control points f_i, f_i + t_i/3, f_(i+1)
-// - t_(i+1)/3, f_(i+1). The tangents are
-// those of Catmull and Rom, t_i = (f_(i+1) - f_(i-1))/2, at inner nodes, and the slopes of the
-// parabola through the three outermost nodes at the two ends. The interpolation is continuously
-// differentiable, linear in the data and exact for parabolas. It is extrapolated beyond the end
-// nodes, because a map extends half a cell beyond its outermost centres. Two nodes define a line,
-// one node a constant.
+// - t_(i+1)/3, f_(i+1). The tangents are those of Catmull and Rom, t_i = (f_(i+1) - f_(i-1))/2, at
+// inner nodes, and the slopes of the parabola through the three outermost nodes at the two ends.
+// The interpolation is continuously differentiable, linear in the data and exact for parabolas. It
+// is extrapolated beyond the end nodes, because a map extends half a cell beyond its outermost
+// centres. Two nodes define a line, one node a constant.
 struct BezierWeights {
     int first = 0, count = 0;
     std::array<double, 4> weight{};

@@ -19,7 +19,8 @@ bool has_spectrum(const Case& settings);
 // True if every realization has its own surface: synthesized, or read from several files.
 bool differs_by_realization(const Case& settings);
 
-// The heights of realization `number` of a case whose surface is read from several files, untreated.
+// The heights of realization `number` of a case whose surface is read from several files, without
+// any treatment.
 HeightMap read_points(const Case& settings, std::int64_t number);
 
 struct Surface {

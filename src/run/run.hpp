@@ -80,8 +80,8 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
 std::optional<RunSummary> finished_result(const Case& settings);
 
 // rsc --merge. `files`: results of one case, in any order, whose realizations are consecutive. The
-// variables of the result file `output` equal, within rounding, those of one campaign over all of them.
-// Throws Error(bad_input), before anything is written, naming a file that is no result of a
+// variables of the result file `output` equal, within rounding, those of one campaign over all of
+// them. Throws Error(bad_input), before anything is written, naming a file that is no result of a
 // campaign, of another version or of another case (with the keys that differ), or realizations that
 // are in two files or in none.
 RunSummary merge_campaigns(const std::vector<std::string>& files, const std::string& output,

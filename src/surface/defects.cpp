@@ -241,7 +241,9 @@ Outliers remove_outliers(HeightMap& map, double times) {
                             !std::isnan(other) && (a != 0 || b != 0))
                             around.push_back(other);
                 if (!around.empty()) d = std::abs(z - median(around));
-            } else {  // on the border from the straight line through two points in the direction that fits best
+            } else {
+                // On the border: from the straight line through two points in the direction that
+                // fits best.
                 double best = HUGE_VAL;
                 for (int b = -1; b <= 1; ++b)
                     for (int a = -1; a <= 1; ++a)

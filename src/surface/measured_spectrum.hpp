@@ -1,5 +1,5 @@
-// Spectrum, height parameters and height distribution of a height map, from which similar synthetic surfaces
-// can be made.
+// Spectrum, height parameters and height distribution of a height map, from which similar synthetic
+// surfaces can be made.
 #pragma once
 
 #include "surface/surface.hpp"

@@ -201,8 +201,7 @@ bool SummitClimber::seen_from_maximum(int i, int j, const Rows& row) const {
 }
 
 // Typical second difference around the middle of the patch: the sum of the medians along x and
-// along y. Pits, grooves and steps affect a minority of
-// the points and do not change it.
+// along y. Pits, grooves and steps affect a minority of the points and do not change it.
 double SummitClimber::usual_bend() const {
     constexpr int reach = 3, around = reach + 1, side = 2 * around + 1,
                   points = (2 * reach + 1) * (2 * reach + 1);
@@ -234,8 +233,8 @@ bool SummitClimber::smooth_around(const RefinedSummit& summit, double bend) cons
     return summit.z <= highest + most * bend;
 }
 
-// The grid maximum in the middle of the patch as a summit with second differences. If one of these is that of a pit or
-// a step, the smallest one at the point and its neighbours is used.
+// The grid maximum in the middle of the patch as a summit with second differences. If one of these
+// is that of a pit or a step, the smallest one at the point and its neighbours is used.
 RefinedSummit SummitClimber::of_grid(double bend, bool& broken) const {
     constexpr double usual = 8;
     const auto z = [&](int di, int dj) { return height(di, dj); };

@@ -90,8 +90,8 @@ inline constexpr std::array kNormaliseNames = {"sample", "ensemble"};
 Moments grid_moments(const HeightMap& map);
 
 // Every second point of a map along both sides, from the first one on, or from column 1 or row 1:
-// the map of a measurement half as fine. Not a copy: its heights are those of `map`, which must outlive it. Read it by (i,
-// j), not by row().
+// the map of a measurement half as fine. Not a copy: its heights are those of `map`, which must
+// outlive it. Read it by (i, j), not by row().
 HeightMap every_second_point_of(const HeightMap& map, int column = 0, int row = 0);
 
 }  // namespace rsc

@@ -361,8 +361,7 @@ FrictionHistory::Tangent FrictionHistory::stiffness(LoadCurve& curve) const {
     return tangent;
 }
 
-// --- First loading and cycles
-// ---------------------------------------------------------------------------------------------------
+// --- First loading and cycles ---
 
 namespace {
 

@@ -19,9 +19,8 @@ public:
           sinks_(sinks),
           place_(asperities.size(), -1) {}
 
-    bool convex() const override {
-        return false;
-    }  // the slope decreases where a reloaded asperity continues to yield
+    // The slope decreases where a reloaded asperity continues to yield.
+    bool convex() const override { return false; }
     bool path_dependent() const override { return true; }
 
     void prepare(std::span<const int> asperities) override {
