@@ -151,9 +151,8 @@ private:
     std::vector<double> g0_, p_;
     std::deque<Past> past_;
 
-    // Relaxing bodies:
-    std::unique_ptr<PixelProducts>
-        loads_products_;  // separate, since those of the solver keep its set of pixels
+    // Of relaxing bodies; separate, because those of the solver keep its set of pixels.
+    std::unique_ptr<PixelProducts> loads_products_;
     // Deflection by earlier loads of the pixels that could touch at `lowered_at_` or above, in this
     // step; NaN: unknown.
     double lowered_at_ = kUnknown;

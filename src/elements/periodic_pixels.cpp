@@ -76,9 +76,8 @@ typename Fftw<Real>::Complex* as_complex(Real* p) {
 template <class Real>
 struct PeriodicPixels<Real>::Plans {
     typename Fftw<Real>::Plan row_forward, row_backward, column_forward, column_backward;
-    std::size_t length = 0,
-                // of a row or column being transformed, and between the columns of a block
-        stride = 0;
+    // Of a row or column being transformed, and between the columns of a block.
+    std::size_t length = 0, stride = 0;
     std::size_t size() const { return length + (kColumns + 1) * stride; }
     // One for each thread: a row or column being transformed, a block of columns, and the factors
     // of a column.

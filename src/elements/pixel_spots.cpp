@@ -61,9 +61,8 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
     }
     struct Sum {
         double p = 0, weight = 0, px = 0, py = 0, highest = 0, own = 0;
-        long pixels = 0, hard = 0,
-             // hard: pixels at the hardness; border: sides without a neighbour of the other pixels
-            border = 0;
+        // hard: pixels at the hardness; border: sides without a neighbour of the other pixels.
+        long pixels = 0, hard = 0, border = 0;
         Pixel peak{0, 0};
     };
     std::vector<Sum> sums(at(contacts));

@@ -56,9 +56,8 @@ private:
     double near_;
     double self_ = 0, least_ = 0;
     int degree_ = 0;
-    std::vector<double>
-        // of u^a v^b, a + b <= degree, ordered by a, then b; u = 2 (1 - 2|x|/Lx)^2 - 1, v similarly
-        c_;
+    // Of u^a v^b, a + b <= degree, ordered by a, then b; u = 2 (1 - 2|x|/Lx)^2 - 1, v similarly.
+    std::vector<double> c_;
 };
 
 }  // namespace rsc

@@ -9,9 +9,8 @@ namespace rsc {
 namespace {
 
 using Matrix = std::array<std::array<double, 4>, 4>;
-struct
-    // displacements (along, down) per traction (shear, normal) over 2 mu of the material above
-    Compliance {
+// Displacements (along, down) per traction (shear, normal) over 2 mu of the material above.
+struct Compliance {
     double aa, ab, bb;
 };
 

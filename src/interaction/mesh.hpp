@@ -51,9 +51,8 @@ private:
     std::size_t n_;
     std::shared_ptr<const Kernel> kernel_;
     const Lattice* lattice_;  // null unless periodic
-    PairSums
-        // used instead of the mesh for few or coinciding points, and if a mesh would be too fine
-        direct_;
+    // Used instead of the mesh for few or coinciding points, and if a mesh would be too fine.
+    PairSums direct_;
 
     const MeshDesign* design_;
     double spacing_ = 0;  // of the mesh [length]

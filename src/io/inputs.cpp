@@ -86,9 +86,9 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
     std::sort(c.begin(), c.end());
     TextAxis axis;
     axis.first = c.front();
-    const double range = c.back() - c.front(),
-                 same =
-                     1e-3 * range / static_cast<double>(table.rows);  // less than any uniform step
+    const double range = c.back() - c.front();
+    // Less than any uniform step.
+    const double same = 1e-3 * range / static_cast<double>(table.rows);
     // The smallest gap between values is nearly the step; a wider one is several steps, where all
     // points of a column are missing.
     double least = range;

@@ -32,9 +32,8 @@ MapGrid make_map_grid(double x0, double y0, double Lx, double Ly, int cells);
 struct MapLevel {
     std::vector<std::int32_t> cell;
     std::vector<double> area;  // contact area in the cell [length^2]
-    std::vector<double>
-        // sum of f in the cell, with adhesion also of places that attract without contact [force]
-        force;
+    // Sum of f in the cell, with adhesion also of places that attract without contact [force].
+    std::vector<double> force;
     // contacts outside the map: included in the sums of the level, but in no cell
     std::int32_t outside = 0;
 };

@@ -214,10 +214,8 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads,
                 if (turns(levels, next))
                     on_path = reference.solve(levels[next], false).converged && on_path;
             truth = reference.solve(level, by_force);
-        } catch (
-            const Error&
-                // two flats closer than their mean planes, which only the asperity model allows
-                error) {
+        } catch (const Error& error) {
+            // Two flats closer than their mean planes, which only the asperity model allows.
             if (error.kind() != Failure::bad_input) throw;
             if (table)
                 *table << format("level %zu, Z0/sigma %.5g: not compared: %s\n", step + 1,

@@ -11,9 +11,9 @@ struct RunOptions {
     std::string command;              // for the history attribute
     std::vector<std::string> inputs;  // input files of the case, which no result may overwrite
     Progress progress = Progress::never;
-    bool compare_automatically =
-        false;            // apply compare%levels = 'auto', as the program does in single runs
-    bool resume = false;  // a campaign: continue an interrupted run
+    // Apply compare%levels = 'auto', as the program does in single runs.
+    bool compare_automatically = false;
+    bool resume = false;                           // a campaign: continue an interrupted run
     std::ostream* table = nullptr;                 // the level table and the summary; null: none
     std::ostream* messages = nullptr;              // warnings, progress; null: none
     const std::atomic<bool>* abandoned = nullptr;  // once true the run ends with Interrupted
@@ -24,9 +24,8 @@ struct RunOptions {
 
 // The outcome of a run.
 struct RunSummary {
-    long levels = 0,
-         // of all realizations, including those compared with elements; failed: not converged
-        failed = 0;
+    // Of all realizations, including those compared with elements; failed: not converged.
+    long levels = 0, failed = 0;
     double separation = 0;  // of the last level; its means over the realizations:
     double force = 0, area = 0;
 };

@@ -72,10 +72,9 @@ struct Breaks {
     // Column and row of a step that runs through most of the map, such as a seam between stitched
     // windows; -1: none.
     int seam_column = -1, seam_row = -1;
-    std::vector<std::uint8_t>
-        // distance to the nearest spike or step in points, at most kMostClear, at j*nx + i; empty:
-        // none
-        clear;
+    // Distance to the nearest spike or step in points, at most kMostClear, at j*nx + i; empty:
+    // none.
+    std::vector<std::uint8_t> clear;
     static constexpr int kMostClear = 6;
 };
 
