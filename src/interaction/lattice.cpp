@@ -170,8 +170,9 @@ std::vector<double> Lattice::shares(const std::vector<double>& x,
     return sum;
 }
 
-Lattice::Lattice(Period period, const SmoothPart* smooth, double near)
-    : period_(period), smooth_(smooth), near_(near) {
+namespace {
+
+void require_shape(const Period& period) {
     const double longer = std::max(period.x, period.y), shorter = std::min(period.x, period.y);
     if (!(shorter > 0) || !period.finite())
         throw Error(Failure::bad_input,
@@ -181,6 +182,35 @@ Lattice::Lattice(Period period, const SmoothPart* smooth, double near)
                                             text_of(period.y) +
                                             ": the longer may be at most 4 times the shorter");
     }
+}
+
+// Turns values at the nodes, row by row, into coefficients of powers. Returns the degree beyond
+// which nothing is left.
+int to_powers(std::vector<double>& table) {
+    for (std::size_t k = 0; k < kNodes; ++k) chebyshev(&table[k * kNodes], 1);
+    for (std::size_t k = 0; k < kNodes; ++k) chebyshev(&table[k], kNodes);
+    const auto tail = [&](int degree) {  // magnitude of the truncated terms
+        double sum = 0;
+        for (int i = 0; i < kNodes; ++i)
+            for (int j = std::max(0, degree + 1 - i); j < kNodes; ++j)
+                sum += std::abs(table[static_cast<std::size_t>(i * kNodes + j)]);
+        return sum;
+    };
+    int degree = 1;
+    while (degree < kNodes - 1 && tail(degree) > tail(kNodes - 1) + 2e-14) ++degree;
+    for (int i = 0; i < kNodes; ++i)
+        for (int j = std::max(0, degree + 1 - i); j < kNodes; ++j)
+            table[static_cast<std::size_t>(i * kNodes + j)] = 0;
+    for (std::size_t k = 0; k < kNodes; ++k) powers(&table[k * kNodes], 1, degree);
+    for (std::size_t k = 0; k < kNodes; ++k) powers(&table[k], kNodes, degree);
+    return degree;
+}
+
+}  // namespace
+
+Lattice::Lattice(Period period, const SmoothPart* smooth, double near)
+    : period_(period), smooth_(smooth), near_(near) {
+    require_shape(period);
     const double unit = std::sqrt(period.x) * std::sqrt(period.y), a = period.x / unit,
                  b = period.y / unit;
     const Ewald ewald(a, b);
@@ -192,60 +222,50 @@ Lattice::Lattice(Period period, const SmoothPart* smooth, double near)
             };
             table[static_cast<std::size_t>(i * kNodes + j)] = ewald.rest(place(i, a), place(j, b));
         }
-    // Contribution of the four images around the offset (x, y).
-    const auto around = [&](double x, double y) {
-        const double ex = period.x - x, ey = period.y - y;
-        return this->smooth(x, y) + this->smooth(ex, y) + this->smooth(x, ey) +
-               this->smooth(ex, ey);
-    };
-    double own = 0;
-    if (smooth) {
-        std::vector<double> x, y;
-        for (int k = 0; k < kNodes; ++k) {
-            const double part = 0.5 * (1 - std::sqrt((1 + std::cos(pi * (k + 0.5) / kNodes)) / 2));
-            x.push_back(part * period.x);
-            y.push_back(part * period.y);
-        }
-        x.push_back(0);
-        y.push_back(0);
-        const std::vector<double> sum = shares(x, y);
-        own = sum.back();
-        for (std::size_t i = 0; i < kNodes; ++i)
-            for (std::size_t j = 0; j < kNodes; ++j)
-                table[i * kNodes + j] += unit * (sum[i * (kNodes + 1) + j] - around(x[i], y[j]));
-    }
-    for (std::size_t k = 0; k < kNodes; ++k) chebyshev(&table[k * kNodes], 1);
-    for (std::size_t k = 0; k < kNodes; ++k) chebyshev(&table[k], kNodes);
-    const auto tail = [&](int degree) {  // magnitude of the truncated terms
-        double sum = 0;
-        for (int i = 0; i < kNodes; ++i)
-            for (int j = std::max(0, degree + 1 - i); j < kNodes; ++j)
-                sum += std::abs(table[static_cast<std::size_t>(i * kNodes + j)]);
-        return sum;
-    };
-    degree_ = 1;
-    while (degree_ < kNodes - 1 && tail(degree_) > tail(kNodes - 1) + 2e-14) ++degree_;
-    for (int i = 0; i < kNodes; ++i)
-        for (int j = std::max(0, degree_ + 1 - i); j < kNodes; ++j)
-            table[static_cast<std::size_t>(i * kNodes + j)] = 0;
-    for (std::size_t k = 0; k < kNodes; ++k) powers(&table[k * kNodes], 1, degree_);
-    for (std::size_t k = 0; k < kNodes; ++k) powers(&table[k], kNodes, degree_);
+    const double own = smooth ? add_smooth(unit, table) : 0;
+    degree_ = to_powers(table);
     for (int i = 0; i <= degree_; ++i)
         for (int j = 0; j <= degree_ - i; ++j)
             c_.push_back(table[static_cast<std::size_t>(i * kNodes + j)] / unit);
     self_ = ewald.rest(0, 0) / unit + 1 / period.x + 1 / period.y +
             1 / std::hypot(period.x, period.y) + own;
     least_ = at(period.x / 2, period.y / 2);
-    if (!smooth) return;
-    // A soft layer on a stiff base bulges around a force, so the minimum is searched.
+    if (smooth) search_least();
+}
+
+// Adds the smooth part, without that of the four nearest images, to the values at the nodes.
+// Returns its value at the source.
+double Lattice::add_smooth(double unit, std::vector<double>& table) const {
+    // Contribution of the four images around the offset (x, y).
+    const auto around = [&](double x, double y) {
+        const double ex = period_.x - x, ey = period_.y - y;
+        return smooth(x, y) + smooth(ex, y) + smooth(x, ey) + smooth(ex, ey);
+    };
+    std::vector<double> x, y;
+    for (int k = 0; k < kNodes; ++k) {
+        const double part = 0.5 * (1 - std::sqrt((1 + std::cos(pi * (k + 0.5) / kNodes)) / 2));
+        x.push_back(part * period_.x);
+        y.push_back(part * period_.y);
+    }
+    x.push_back(0);
+    y.push_back(0);
+    const std::vector<double> sum = shares(x, y);
+    for (std::size_t i = 0; i < kNodes; ++i)
+        for (std::size_t j = 0; j < kNodes; ++j)
+            table[i * kNodes + j] += unit * (sum[i * (kNodes + 1) + j] - around(x[i], y[j]));
+    return sum.back();
+}
+
+// A soft layer on a stiff base bulges around a force, so the minimum is searched.
+void Lattice::search_least() {
     double largest = least_;
     constexpr int rays = 16;
-    for (double d = 0.01 * smooth->scale(); d < 0.75 * (period.x + period.y); d *= 1.01)
+    for (double d = 0.01 * smooth_->scale(); d < 0.75 * (period_.x + period_.y); d *= 1.01)
         for (int ray = 0; ray <= rays; ++ray) {
             const double angle = 0.5 * pi * ray / rays;
             const double x = d * std::cos(angle), y = d * std::sin(angle);
             const double value = at(x, y);
-            if (x <= period.x / 2 && y <= period.y / 2) {
+            if (x <= period_.x / 2 && y <= period_.y / 2) {
                 least_ = std::min(least_, value);
                 largest = std::max(largest, std::abs(least_));
             }

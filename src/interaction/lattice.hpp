@@ -45,6 +45,8 @@ public:
                    const double* xs, const double* ys, const double* fs, double* phi) const;
 
 private:
+    double add_smooth(double unit, std::vector<double>& table) const;
+    void search_least();
     double polynomial(double u, double v) const;
     double smooth(double x, double y) const;  // s/near at an offset
     // Contribution of the shares of the modes at all (x, y), from 0 to half a period, in the units

@@ -461,86 +461,112 @@ std::optional<Breaks::Kind> kind_of(const Profile& p, double least) {
 
 }  // namespace
 
-Breaks find_breaks(const HeightMap& map, double height_step) {
-    Breaks breaks;
-    const int nx = map.nx, ny = map.ny;
-    if (nx < 3 || ny < 3) return breaks;
-    constexpr double rounding = 3;  // rounding changes a second difference by up to two steps
-    const double least_x = std::max(kBreak * median_bend(map, true), rounding * height_step),
-                 least_y = std::max(kBreak * median_bend(map, false), rounding * height_step);
-    std::vector<Breaks::Place> marked;
-    std::vector<int> in_column(static_cast<std::size_t>(nx), 0),
-        in_row(static_cast<std::size_t>(ny), 0);
-    const auto tell = [&](Breaks::Kind kind, int i, int j, double size) {
+namespace {
+
+// True if a neighbour is a pit or spike (`kind`), which causes the second difference at this point.
+bool bent_by(const Profile& p, Breaks::Kind kind, double least) {
+    const auto beside = [&](int k) {
+        return p.has(k) &&
+               kind_of({p.map, p.i + (p.along_x ? k : 0), p.j + (p.along_x ? 0 : k), p.along_x},
+                       least) == kind;
+    };
+    return beside(-1) || beside(1);
+}
+
+// The larger of the jumps to the two neighbours.
+double jump(const Profile& p) {
+    return std::max(p.has(-1) ? std::abs(p.at(0) - p.at(-1)) : 0,
+                    p.has(1) ? std::abs(p.at(1) - p.at(0)) : 0);
+}
+
+// Sorts points into pits, spikes and steps.
+struct BreakSearch {
+    const HeightMap& map;
+    double least_x, least_y;  // smallest second differences of a break
+    Breaks& breaks;
+    std::vector<Breaks::Place> marked;  // spikes and steps
+    std::vector<int> in_column, in_row;
+
+    void visit(int i, int j) {
+        const Profile x{map, i, j, true}, y{map, i, j, false};
+        const double bend_x = x.bend(0), bend_y = y.bend(0);
+        if (!(std::abs(bend_x) > least_x || std::abs(bend_y) > least_y)) return;
+        const auto along_x = kind_of(x, least_x), along_y = kind_of(y, least_y);
+        if (along_x == Breaks::pit || along_y == Breaks::pit) {
+            const bool across =
+                along_x == Breaks::pit && (along_y != Breaks::pit || bend_x >= bend_y);
+            breaks.pits.push_back({i, j, across});
+            tell(Breaks::pit, i, j, 0.5 * (across ? bend_x : bend_y));
+            return;
+        }
+        const bool spike = along_x == Breaks::spike && along_y == Breaks::spike;
+        const auto left = [&](Breaks::Kind of) {
+            return (along_x && !bent_by(x, of, least_x)) || (along_y && !bent_by(y, of, least_y));
+        };
+        if (!spike && !left(Breaks::pit)) return;
+        marked.push_back({i, j});
+        if (spike) breaks.spikes.push_back({i, j});
+        if (!spike && !left(Breaks::spike)) return;
+        tell(spike ? Breaks::spike : Breaks::step, i, j,
+             spike ? -0.5 * std::max(bend_x, bend_y) : std::max(jump(x), jump(y)));
+        if (!spike && along_x) ++in_column[static_cast<std::size_t>(i)];
+        if (!spike && along_y) ++in_row[static_cast<std::size_t>(j)];
+    }
+
+private:
+    void tell(Breaks::Kind kind, int i, int j, double size) {
         Breaks::Found& found = breaks.found[kind];
         if (++found.points == 1 || size > found.size) {
             found.largest = {i, j};
             found.size = size;
         }
-    };
-    // True if a neighbour is a pit or spike (`kind`), which causes the second difference at this
-    // point.
-    const auto bent_by = [](const Profile& p, Breaks::Kind kind, double least) {
-        const auto beside = [&](int k) {
-            return p.has(k) &&
-                   kind_of({p.map, p.i + (p.along_x ? k : 0), p.j + (p.along_x ? 0 : k), p.along_x},
-                           least) == kind;
-        };
-        return beside(-1) || beside(1);
-    };
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i) {
-            const Profile x{map, i, j, true}, y{map, i, j, false};
-            const double bend_x = x.bend(0), bend_y = y.bend(0);
-            if (!(std::abs(bend_x) > least_x || std::abs(bend_y) > least_y)) continue;
-            const auto along_x = kind_of(x, least_x), along_y = kind_of(y, least_y);
-            if (along_x == Breaks::pit || along_y == Breaks::pit) {
-                const bool across =
-                    along_x == Breaks::pit && (along_y != Breaks::pit || bend_x >= bend_y);
-                breaks.pits.push_back({i, j, across});
-                tell(Breaks::pit, i, j, 0.5 * (across ? bend_x : bend_y));
-                continue;
-            }
-            const bool spike = along_x == Breaks::spike && along_y == Breaks::spike;
-            const auto left = [&](Breaks::Kind of) {
-                return (along_x && !bent_by(x, of, least_x)) ||
-                       (along_y && !bent_by(y, of, least_y));
-            };
-            if (!spike && !left(Breaks::pit)) continue;
-            marked.push_back({i, j});
-            if (spike) breaks.spikes.push_back({i, j});
-            if (!spike && !left(Breaks::spike)) continue;
-            const auto jump = [](const Profile& p) {
-                return std::max(p.has(-1) ? std::abs(p.at(0) - p.at(-1)) : 0,
-                                p.has(1) ? std::abs(p.at(1) - p.at(0)) : 0);
-            };
-            tell(spike ? Breaks::spike : Breaks::step, i, j,
-                 spike ? -0.5 * std::max(bend_x, bend_y) : std::max(jump(x), jump(y)));
-            if (!spike && along_x) ++in_column[static_cast<std::size_t>(i)];
-            if (!spike && along_y) ++in_row[static_cast<std::size_t>(j)];
-        }
-    const auto seam = [](const std::vector<int>& counts, int length) {
-        const auto most = std::max_element(counts.begin(), counts.end());
-        return 2 * *most > length ? static_cast<int>(most - counts.begin()) : -1;
-    };
-    breaks.seam_column = seam(in_column, ny);
-    breaks.seam_row = seam(in_row, nx);
-    if (marked.empty()) return breaks;
-    breaks.clear.assign(map.points(), Breaks::kMostClear);
+    }
+};
+
+// Distance of every point to the nearest marked one.
+std::vector<std::uint8_t> distances_to(const std::vector<Breaks::Place>& marked,
+                                       const HeightMap& map) {
+    std::vector<std::uint8_t> distance(map.points(), Breaks::kMostClear);
     constexpr int reach = Breaks::kMostClear;
     for (const auto [i, j, unused] : marked)
         for (int dj = -reach; dj <= reach; ++dj)
             for (int di = -reach; di <= reach; ++di) {
                 int k = i + di, l = j + dj;
                 if (map.periodic) {
-                    k = wrapped(k, nx);
-                    l = wrapped(l, ny);
+                    k = wrapped(k, map.nx);
+                    l = wrapped(l, map.ny);
                 }
-                if (k < 0 || l < 0 || k >= nx || l >= ny) continue;
-                auto& clear = breaks.clear[map.index(k, l)];
+                if (k < 0 || l < 0 || k >= map.nx || l >= map.ny) continue;
+                auto& clear = distance[map.index(k, l)];
                 clear = std::min(clear,
                                  static_cast<std::uint8_t>(std::max(std::abs(di), std::abs(dj))));
             }
+    return distance;
+}
+
+}  // namespace
+
+Breaks find_breaks(const HeightMap& map, double height_step) {
+    Breaks breaks;
+    const int nx = map.nx, ny = map.ny;
+    if (nx < 3 || ny < 3) return breaks;
+    constexpr double rounding = 3;  // rounding changes a second difference by up to two steps
+    BreakSearch search{map,
+                       std::max(kBreak * median_bend(map, true), rounding * height_step),
+                       std::max(kBreak * median_bend(map, false), rounding * height_step),
+                       breaks,
+                       {},
+                       std::vector<int>(static_cast<std::size_t>(nx), 0),
+                       std::vector<int>(static_cast<std::size_t>(ny), 0)};
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) search.visit(i, j);
+    const auto seam = [](const std::vector<int>& counts, int length) {
+        const auto most = std::max_element(counts.begin(), counts.end());
+        return 2 * *most > length ? static_cast<int>(most - counts.begin()) : -1;
+    };
+    breaks.seam_column = seam(search.in_column, ny);
+    breaks.seam_row = seam(search.in_row, nx);
+    if (!search.marked.empty()) breaks.clear = distances_to(search.marked, map);
     return breaks;
 }
 
