@@ -114,9 +114,8 @@ std::string twins_text(const Job& job, const std::string& result) {
     twins.surface.twins = m.isotropy < kIsotropic ? Twins::directional : Twins::radial;
     twins.surface.twin_heights = m.gaussian() ? TwinHeights::gaussian : TwinHeights::measured;
     twins.surface.sigma = m.parameters.sq;
-    twins.surface.normalise = Normalise::
-        // the rms height of the map is that of one sample; that of the twins scatters likewise
-        ensemble;
+    // The rms height of the map is that of one sample; that of the twins scatters likewise.
+    twins.surface.normalise = Normalise::ensemble;
     if (keys.sigma && twins.indentation.control == Control::separation &&
         twins.indentation.unit == LevelUnit::sigma) {
         // For the map sigma was a unit of length; for twins it is the rms height.

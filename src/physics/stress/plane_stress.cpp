@@ -142,12 +142,12 @@ void solve_periodic(Planes& planes, const PointGrid& grid, const StressedBody& b
 // points from `first` on. Without a period the plane is padded, with one it is the whole period.
 struct Axis {
     Axis(int from_, int sources, int first_, int targets, int period)
-        : offset(period > 0 ? -(period / 2) : first_ - from_ - sources + 1);
-    kernel(period > 0 ? period : targets + sources - 1);
-    size(period > 0 ? period : fast_size(kernel));
-    from(period > 0 ? 0 : from_);
-    answer(period > 0 ? first_ + period / 2 : sources - 1);
-    repeats(period > 0) {}
+        : offset(period > 0 ? -(period / 2) : first_ - from_ - sources + 1),
+          kernel(period > 0 ? period : targets + sources - 1),
+          size(period > 0 ? period : fast_size(kernel)),
+          from(period > 0 ? 0 : from_),
+          answer(period > 0 ? first_ + period / 2 : sources - 1),
+          repeats(period > 0) {}
 
     int offset;  // of the first value of the kernel
     int kernel;  // number of its values
