@@ -60,7 +60,8 @@ Key number(const Place& at, const char* unit, Bounds bounds, const char* meaning
 Key list(const Place& at, int most, const char* unit, Bounds bounds, const char* unset,
          const char* meaning) {
     Key key = number(at, unit, bounds, meaning, unset);
-    key.list = true, key.size = most;
+    key.list = true;
+    key.size = most;
     return key;
 }
 Key text(const Place& at, int length, const char* meaning) {
@@ -72,18 +73,22 @@ Key text(const Place& at, int length, const char* meaning) {
 template <class Names>
 Key choice(const Place& at, const Names& names, const char* meaning) {
     Key key = text(at, 32, meaning);
-    key.type = Type::choice, key.choices.assign(names.begin(), names.end());
+    key.type = Type::choice;
+    key.choices.assign(names.begin(), names.end());
     return key;
 }
 // A list of choices, in any order.
 Key words(Key key) {
-    key.list = true, key.size = static_cast<int>(key.choices.size()), key.unset = "none";
+    key.list = true;
+    key.size = static_cast<int>(key.choices.size());
+    key.unset = "none";
     return key;
 }
 // A list of numbers, or one of some words.
 template <class Names>
 Key or_word(const Names& names, Slot (*word)(Case&), Key key) {
-    key.choices.assign(names.begin(), names.end()), key.word = word;
+    key.choices.assign(names.begin(), names.end());
+    key.word = word;
     return key;
 }
 

@@ -166,6 +166,13 @@ std::string walk_of(const Key& key, const Assignment& a, Walk& walk) {
     return problem.empty() && walk.step != 1 ? "a substring must not have a step" : problem;
 }
 
+std::string too_many(const Item& item, long elements, bool is_text) {
+    const std::string room = elements == 1 ? "one value" : std::to_string(elements) + " values";
+    if (item.counted) return "the repeat count is too large: " + room + " at most";
+    return "too many values: " + room + " at most, found " + quote(item) +
+           (is_text ? "" : hint(item));
+}
+
 }  // namespace
 
 Ledger::Entry& Ledger::entry(const Key& key) {
@@ -225,14 +232,8 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
             done += std::min(left, item.repeat);
             continue;
         }
-        if (left == 0 || item.repeat > left) {
-            const std::string room =
-                elements == 1 ? "one value" : std::to_string(elements) + " values";
-            return fault(item.at, item.counted
-                                      ? "the repeat count is too large: " + room + " at most"
-                                      : "too many values: " + room + " at most, found " +
-                                            quote(item) + (is_text ? "" : hint(item)));
-        }
+        if (left == 0 || item.repeat > left)
+            return fault(item.at, too_many(item, elements, is_text));
         if (!item.null) {
             for (long k = 0; k < item.repeat; ++k) {
                 const long element = walk.first + (done + k) * walk.step;
