@@ -211,7 +211,26 @@ void SplitPixels::multiply(SparsePlane& plane, const PixelSet& set, const std::v
     // The near part of a uniform pressure, which deflects nothing.
     const double uniform =
         near_.transform(0) * total / (static_cast<double>(nx_) * static_cast<double>(ny_));
-    // Spreads the pixels of each row along x, then the rows along y.
+    // The pixels of each row are spread along x, then the rows along y.
+    spread(set, threads);
+    const std::size_t length = at(mx) + 3;
+    const auto load = [&](int J, float* row) {
+        std::fill_n(row, mx, 0.0f);
+        for (int t = 0; t < 4; ++t)
+            for (int m = 0; m < kFactor; ++m) {
+                const float along_y = kSplines[at(m)][at(t)] / (kFactor * kFactor);
+                const float* const line =
+                    lines_.data() + at(((J + 1 - t + my) % my) * kFactor + m) * length + 1;
+                for (int i = 0; i < mx; ++i) row[i] += along_y * line[i];
+            }
+    };
+    coarse_.apply(load, [](int, const float*) {});
+    gather(set, uniform, Kx, threads);
+}
+
+// Spreads x_ along the rows of the plane.
+void SplitPixels::spread(const PixelSet& set, int threads) {
+    const int mx = nx_ / kFactor;
     const std::size_t length = at(mx) + 3;
     lines_.resize(length * at(ny_));
     parallel_for(ny_, kRows, threads, [&](int j) {
@@ -237,17 +256,12 @@ void SplitPixels::multiply(SparsePlane& plane, const PixelSet& set, const std::v
         line[1] += line[at(mx) + 1];
         line[2] += line[at(mx) + 2];
     });
-    const auto load = [&](int J, float* row) {
-        std::fill_n(row, mx, 0.0f);
-        for (int t = 0; t < 4; ++t)
-            for (int m = 0; m < kFactor; ++m) {
-                const float along_y = kSplines[at(m)][at(t)] / (kFactor * kFactor);
-                const float* const line =
-                    lines_.data() + at(((J + 1 - t + my) % my) * kFactor + m) * length + 1;
-                for (int i = 0; i < mx; ++i) row[i] += along_y * line[i];
-            }
-    };
-    coarse_.apply(load, [](int, const float*) {});
+}
+
+// Adds the coarse plane at the pixels to the near part, y_.
+void SplitPixels::gather(const PixelSet& set, double uniform, std::vector<double>& Kx,
+                         int threads) {
+    const int mx = nx_ / kFactor, my = ny_ / kFactor;
     parallel_for(ny_, kRows, threads, [&](int j) {
         if (set.rows[at(j)] == set.rows[at(j) + 1]) return;
         const std::array<float, 4>& along_y = kSplines[at(j % kFactor)];

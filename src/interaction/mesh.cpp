@@ -231,13 +231,21 @@ void MeshPotential::make_strips(const double* x, const double* y, double x0, dou
         segments(i, [&](std::size_t s) { point_[next[s]++] = static_cast<std::uint32_t>(i); });
 
     for (auto* array : {&x_, &y_, &u_, &v_, &f_, &near_phi_, &far_phi_}) array->assign(size, 0.0);
+    fill_strips(x, y, x0, y0, whole);
     mesh_ = fftw_array(far_->rows() * far_->stride());
+    spread_band_ = static_cast<std::size_t>((design_->width + 1) * spacing_ / height) + 1;
+}
+
+// Sorts the points of each strip, and sets their coordinates. `whole`: number of strips without the
+// copies beyond the right border.
+void MeshPotential::fill_strips(const double* x, const double* y, double x0, double y0,
+                                std::size_t whole) {
     const double offset = 0.5 * design_->width;
     const double dx =
         lattice_ ? lattice_->period().x / static_cast<double>(far_->columns()) : spacing_;
     const double dy =
         lattice_ ? lattice_->period().y / static_cast<double>(far_->lines()) : spacing_;
-    parallel_for(all, kStrips, threads(), [&](std::size_t s) {
+    parallel_for(strip_size_.size(), kStrips, threads(), [&](std::size_t s) {
         const double right = s >= whole ? lattice_->period().x : 0,
                      up = s % whole >= strips_ ? lattice_->period().y : 0;
         const auto begin = point_.begin() + static_cast<std::ptrdiff_t>(strip_begin_[s]);
@@ -258,7 +266,6 @@ void MeshPotential::make_strips(const double* x, const double* y, double x0, dou
             y_[k] = y0 * scale_;
         }
     });
-    spread_band_ = static_cast<std::size_t>((design_->width + 1) * spacing_ / height) + 1;
 }
 
 // Even bands of strips are processed in parallel, then odd ones: concurrent bands never access the

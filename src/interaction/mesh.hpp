@@ -44,6 +44,7 @@ private:
     double resolved() const;
     void make_periodic(const double* x, const double* y);
     void make_strips(const double* x, const double* y, double x0, double y0, double length_y);
+    void fill_strips(const double* x, const double* y, double x0, double y0, std::size_t whole);
     void near_strip(std::size_t s);
     void near_field();
     void spread();
@@ -67,8 +68,8 @@ private:
     // strips beyond the right border.
     std::size_t strips_ = 0;
     std::vector<std::size_t> strip_begin_, strip_size_;
-    std::vector<std::uint32_t>
-        point_;                    // [strip_begin_[s] + k] index of the caller, k < strip_size_[s]
+    // [strip_begin_[s] + k] index of the caller, k < strip_size_[s].
+    std::vector<std::uint32_t> point_;
     std::vector<double> x_, y_;    // for the near field, scaled
     std::vector<double> u_, v_;    // on the mesh
     std::size_t spread_band_ = 1;  // number of strips whose windows reach only into the next band

@@ -1,6 +1,5 @@
 // The readers of file formats, each in its own source file; io/inputs.cpp selects one by the first
-// bytes of a file. All throw
-// Error(bad_input) with the line or byte of the error.
+// bytes of a file. All throw Error(bad_input) with the line or byte of the error.
 #pragma once
 
 #include "base/error.hpp"

@@ -54,9 +54,8 @@ RunSummary run_realization(const Case& settings, const RunOptions& options);
 std::string twins_text(const Job& job, const std::string& result);
 
 // Runs a case, one realization or a campaign, and writes its file. Returns the number of levels
-// that did not converge. Throws Error, and
-// Interrupted after a signal if the program catches signals; then there is no new result file, but
-// a campaign leaves its checkpoint.
+// that did not converge. Throws Error, and Interrupted after a signal if the program catches
+// signals; then there is no new result file, but a campaign leaves its checkpoint.
 long run_case(const Case& settings, const RunOptions& options);
 
 // Campaigns: the realizations of a case, distributed to a team and added up in their order; they

@@ -151,8 +151,8 @@ SlidePoint slide_at_force(LoadCurve& curve, const Friction& friction, double del
 double full_slip(const LoadCurve& curve, const Friction& friction, double delta);
 
 // First loading in equal steps of xi to full slip, then a cycle between +-kCycleAmplitude of it.
-// After a reversal at A, Q = Q_A - 2 mu [N -
-// N(delta**)] and xi = xi_A - 2 (mu/m) (delta - delta**).
+// After a reversal at A, Q = Q_A - 2 mu [N - N(delta**)] and xi = xi_A - 2 (mu/m) (delta -
+// delta**).
 struct SlideCycle {
     std::vector<double> displacement,
         force;              // first loading from 0 to full slip, then the closed cycle
