@@ -177,7 +177,7 @@ void require_shape(const Period& period) {
     if (!(shorter > 0) || !period.finite())
         throw Error(Failure::bad_input,
                     "the sides of a periodic surface must be positive and finite");
-    if (longer > kMostAspect * shorter) {
+    if (longer > Lattice::kMostAspect * shorter) {
         throw Error(Failure::bad_input, "periodic surface of sides " + text_of(period.x) + " and " +
                                             text_of(period.y) +
                                             ": the longer may be at most 4 times the shorter");
