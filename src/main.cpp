@@ -49,7 +49,8 @@ std::unique_ptr<rsc::Team> make_team(Job& job, rsc::CampaignWork& work, const rs
 #ifdef RSC_MPI
     return job.team(std::ref(work), threads, rsc::effective_namelist(read));
 #else
-    (void)job, (void)read;
+    (void)job;
+    (void)read;
     return std::make_unique<rsc::ThreadTeam>(std::ref(work), static_cast<int>(threads));
 #endif
 }
@@ -125,25 +126,18 @@ auto named(const rsc::Options& options, F f) {
     }
 }
 
-int run_program(int argc, char** argv, Job& job) {
-    const rsc::Options options = rsc::parse_options(argc, argv);
+// Prints what is asked about the program, or about a result file, without a case to run. False if
+// nothing is.
+bool tells(const rsc::Options& options) {
     if (options.help) {
         std::cout << rsc::usage_text();
-        return 0;
-    }
-    if (options.version) {
+    } else if (options.version) {
         std::cout << rsc::version_text();
-        return 0;
-    }
-    if (options.man) {
+    } else if (options.man) {
         std::cout << rsc::manual_page();
-        return 0;
-    }
-    if (options.describe) {
+    } else if (options.describe) {
         std::cout << rsc::describe(options.describe_what);
-        return 0;
-    }
-    if (options.show_case) {
+    } else if (options.show_case) {
         const std::optional<rsc::ResultHead> head = rsc::head_of_result(options.case_path);
         const std::string why = head ? "" : rsc::why_not_opened(options.case_path);
         if (!head)
@@ -151,8 +145,15 @@ int run_program(int argc, char** argv, Job& job) {
                 options.case_path + ": " +
                 (why.empty() ? "is no result of rsc, so there is no case to print" : why));
         std::cout << head->case_text;
-        return 0;
+    } else {
+        return false;
     }
+    return true;
+}
+
+int run_program(int argc, char** argv, Job& job) {
+    const rsc::Options options = rsc::parse_options(argc, argv);
+    if (tells(options)) return 0;
     refuse_mpi(options);
     if (!options.merge.empty()) {
         catch_signals_early();

@@ -49,7 +49,7 @@ Vec2 moment_of(const rsc_contact& contact) {
 Indenter surrounded(Indenter indenter, const SurfaceDomain& domain) {
     if (!domain.repeats || indenter.period.finite() || indenter.period.line()) return indenter;
     indenter.repeats = {domain.Lx, domain.Ly};
-    indenter.x0 = onto(indenter.x0, domain.x0, domain.Lx),
+    indenter.x0 = onto(indenter.x0, domain.x0, domain.Lx);
     indenter.y0 = onto(indenter.y0, domain.y0, domain.Ly);
     return indenter;
 }

@@ -71,10 +71,15 @@ void write(const std::string& path, const char* what, Entries& entries) {
     entries.texts["rsc"] = RSC_VERSION;
     ArchiveWriter writer;
     writer(static_cast<std::uint64_t>(entries.texts.size()));
-    for (const auto& [name, text] : entries.texts)
-        writer(characters(name)), writer(characters(text));
+    for (const auto& [name, text] : entries.texts) {
+        writer(characters(name));
+        writer(characters(text));
+    }
     writer(static_cast<std::uint64_t>(entries.numbers.size()));
-    for (const auto& [name, numbers] : entries.numbers) writer(characters(name)), writer(numbers);
+    for (const auto& [name, numbers] : entries.numbers) {
+        writer(characters(name));
+        writer(numbers);
+    }
     const std::uint64_t hash = mix(kHash, writer.bytes.data(), writer.bytes.size());
     write_whole(path, kSave, kStart + what + "\n" + bytes_of(hash) + writer.bytes);
 }
@@ -97,7 +102,8 @@ Entries read(const std::string& path, const char* what) {
     std::vector<char> name, text;
     std::uint64_t count = 0;
     for (reader(count); count > 0; --count) {
-        reader(name), reader(text);
+        reader(name);
+        reader(text);
         entries.texts[{name.begin(), name.end()}] = {text.begin(), text.end()};
     }
     for (reader(count); count > 0; --count) {
@@ -139,7 +145,8 @@ std::unique_ptr<rsc_contact> get_making(const Entries& from, const rsc_asperitie
     Indenter indenter = told ? Indenter{from.of("given").at(0), from.of("given").at(1), 0, 0,
                                         period_of(*keys, domain)}
                              : indenter_of(*keys, domain);
-    indenter.x0 = tip[0], indenter.y0 = tip[1];
+    indenter.x0 = tip[0];
+    indenter.y0 = tip[1];
     indenter = surrounded(std::move(indenter), domain);
     if (from.numbers.contains("moved") && from.one("moved") != 0)
         indenter.around = indenter.repeats;
@@ -153,16 +160,24 @@ std::unique_ptr<rsc_contact> get_making(const Entries& from, const rsc_asperitie
 // Visits the arrays of a level with their names.
 template <class Visit>
 void visit_arrays(Level& level, Visit&& visit) {
-    visit("asperity", level.asperity), visit("yields", level.yields);
-    visit("x", level.x), visit("y", level.y), visit("f", level.f), visit("a", level.a),
-        visit("u", level.u);
-    visit("pixel", level.pixels.index), visit("pixel_contact", level.pixels.contact),
-        visit("pixel_pressure", level.pixels.pressure);
+    visit("asperity", level.asperity);
+    visit("yields", level.yields);
+    visit("x", level.x);
+    visit("y", level.y);
+    visit("f", level.f);
+    visit("a", level.a);
+    visit("u", level.u);
+    visit("pixel", level.pixels.index);
+    visit("pixel_contact", level.pixels.contact);
+    visit("pixel_pressure", level.pixels.pressure);
     LevelTractions& t = level.tractions;
-    visit("attached_x", t.x), visit("attached_y", t.y), visit("attached_a", t.a),
-        visit("attached_c", t.c);
-    visit("attached_pressed", t.pressed), visit("attached_pulled", t.pulled),
-        visit("pixel_cohesive", level.pixels.cohesive);
+    visit("attached_x", t.x);
+    visit("attached_y", t.y);
+    visit("attached_a", t.a);
+    visit("attached_c", t.c);
+    visit("attached_pressed", t.pressed);
+    visit("attached_pulled", t.pulled);
+    visit("pixel_cohesive", level.pixels.cohesive);
 }
 
 void put_state(Entries& to, const std::string& prefix, const Path::State& state) {
@@ -206,7 +221,8 @@ Path::State get_state(const Entries& from, const std::string& prefix, const rsc_
     Path::State state;
     const Numbers& tip = from.of(prefix + "tip");
     if (tip.size() != 2) bad_input(kBroken);
-    state.x0 = tip[0], state.y0 = tip[1];
+    state.x0 = tip[0];
+    state.y0 = tip[1];
     get_history(from, prefix, contact.path.relaxes(), state);
     if (!from.numbers.contains(prefix + "level")) return state;
     const Numbers& known = from.of(prefix + "level");
@@ -215,7 +231,8 @@ Path::State get_state(const Entries& from, const std::string& prefix, const rsc_
         bad_input(kBroken);
     Level level;
     level.separation = known[0];
-    state.level_x0 = known[1], state.level_y0 = known[2];
+    state.level_x0 = known[1];
+    state.level_y0 = known[2];
     for (const LevelQuantity& q :
          level_quantities()) {  // entries missing in files of earlier versions keep their defaults
         const std::string name = prefix + "level." + q.name;
@@ -230,7 +247,9 @@ Path::State get_state(const Entries& from, const std::string& prefix, const rsc_
             values.push_back(static_cast<std::decay_t<decltype(values[0])>>(value));
     });
     level.pixels.columns = static_cast<int>(pixels[0]);
-    level.pixels.x0 = pixels[1], level.pixels.y0 = pixels[2], level.pixels.dx = pixels[3],
+    level.pixels.x0 = pixels[1];
+    level.pixels.y0 = pixels[2];
+    level.pixels.dx = pixels[3];
     level.pixels.dy = pixels[4];
     if (pixels.size() == 6) level.pixels.tension = pixels[5];
     const auto& points = contact.on->points;

@@ -69,7 +69,10 @@ int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double d
         auto made = std::make_unique<rsc_surface>();
         rsc::HeightMap& map = made->surface.map;
         map.allocate(static_cast<int>(nx), static_cast<int>(ny), static_cast<std::ptrdiff_t>(nx));
-        map.dx = dx, map.dy = dy, map.x0 = x0, map.y0 = y0;
+        map.dx = dx;
+        map.dy = dy;
+        map.x0 = x0;
+        map.y0 = y0;
         map.periodic = periodic == 1;
         std::copy(heights, heights + nx * ny, map.row(0));
         made->surface.sigma = rsc::detrend(map, rsc::Detrend::none).rms;

@@ -60,8 +60,8 @@ Method choose_method(const SolverOptions& options, const Kernel& kernel,
     // points near the middle.
     constexpr double contacts_per_candidate = 0.4, mesh_overhead = 4;
     const double contacts = contacts_per_candidate * static_cast<double>(candidates.size());
-    // length scale of a smooth part, relative to the extent of the candidates Between flats the
-    // finer mesh is left out: direct sums are slower by the same factor.
+    // The length over which a smooth part changes, relative to the extent of the candidates.
+    // Between flats the finer mesh is left out: direct sums are slower by the same factor.
     double scale = 1e300;
     if (kernel.smooth() && !kernel.lattice() && candidates.size() > 0) {
         const auto [west, east] = std::minmax_element(candidates.x.begin(), candidates.x.end());

@@ -75,7 +75,8 @@ Level AsperityModel::Impl::report(double Z0) const {
               [&](std::size_t a, std::size_t b) { return set.asperity[a] < set.asperity[b]; });
     for (auto* list : {&level.x, &level.y, &level.f, &level.a, &level.u})
         list->reserve(order.size());
-    level.asperity.reserve(order.size()), level.yields.reserve(order.size());
+    level.asperity.reserve(order.size());
+    level.yields.reserve(order.size());
     double extreme = 0;
     for (std::size_t k : order) {
         const double area = law->area(set.asperity[k], v[k]);

@@ -80,7 +80,9 @@ BesselProfile::BesselProfile() {
                               w = (cell - kCellsOfT + along) / kCellsPerUnit;
             const auto value = defined<long double>(
                 cell < kCellsOfT ? kFirst + (cell + along) / kCellsPerUnit : 1 - w * w);
-            radius[k] = value.radius, load[k] = value.load, work[k] = value.work;
+            radius[k] = value.radius;
+            load[k] = value.load;
+            work[k] = value.work;
         }
         cells_[static_cast<std::size_t>(cell)] = {interpolate(s, radius), interpolate(s, load),
                                                   interpolate(s, work)};

@@ -1,8 +1,7 @@
 // Frictionless contact of the axisymmetric profile z = A (1 - J0(q r)), the sum of waves of one
-// length in all directions (Sneddon, Int. J.
-// Eng. Sci. 3, 1965, 47): delta = A (1 - cos(q a)), P = 2 E* A [sin(q a)/q - a cos(q a)], dP = 2 E*
-// a ddelta. Relative to the paraboloid with the same curvature kappa = A q^2/2 at the top, all
-// quantities are functions of
+// length in all directions (Sneddon, Int. J. Eng. Sci. 3, 1965, 47): delta = A (1 - cos(q a)), P =
+// 2 E* A [sin(q a)/q - a cos(q a)], dP = 2 E* a ddelta. Relative to the paraboloid with the same
+// curvature kappa = A q^2/2 at the top, all quantities are functions of
 //     t = q^2 delta/(4 kappa) = sin^2(q a/2)
 // only; for q^2 < 0, cos and sin become cosh and sinh. At t = 1 the contact reaches the trough of
 // the profile, q a = pi.

@@ -45,17 +45,19 @@ void select_candidates(Contenders contenders, const SolverOptions& options, doub
 // slopes of the law.
 struct Solution {
     std::vector<double> v, force, slope;
-    void clear() { v.clear(), force.clear(), slope.clear(); }
+    void clear() {
+        v.clear();
+        force.clear();
+        slope.clear();
+    }
 };
 
 struct WorkingSetOptions {
     double tolerance;
     int max_iterations;
-    bool
-        // the start is a guess: the set is selected again once the solution is known to 10 %, and
-        // the result is tested to be
-        rough_start;
-    // a minimum. Otherwise the caller must prove uniqueness.
+    // True if the start is a guess: the set is selected again once the solution is known to 10 %,
+    // and the result is tested to be a minimum. Otherwise the caller must prove uniqueness.
+    bool rough_start;
 };
 
 // Solves from penetrations `start` over the candidates. Candidates far from contact are excluded

@@ -73,7 +73,9 @@ PaperOutcome solve_by_dgesv(const Law& law, const Kernel& kernel, const WorkingS
         return relative_residual(target, force);
     };
 
-    v.resize(size), force.resize(size), slope.resize(size);
+    v.resize(size);
+    force.resize(size);
+    slope.resize(size);
     law.respond(n, set.asperity.data(), set.g0.data(), force.data(), slope.data(), work.data());
     penetrations();
 

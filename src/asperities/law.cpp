@@ -159,10 +159,9 @@ private:
     // Integral of asin^2(sqrt(t')) dt' from 0 to t, divided by t^2.
     static double integral_over_t2(double t, double R, double root) {
         if (std::abs(t) > 0.02) return (R * root - 0.5 - 0.5 * R * R * (1 - 2 * t)) / t;
-        double sum = 0, power = 1,
-               // asin^2(sqrt(t)) = sum of coefficient_n t^n, coefficient_n+1/coefficient_n =
-            // n^2/((n+1)(n+1/2))
-            coefficient = 1;
+        // asin^2(sqrt(t)) = sum of coefficient_n t^n,
+        // coefficient_n+1/coefficient_n = n^2/((n+1)(n+1/2)).
+        double sum = 0, power = 1, coefficient = 1;
         for (int n = 1; n <= 10; ++n) {
             sum += coefficient * power / (n + 1);
             power *= t;

@@ -49,7 +49,9 @@ public:
     // Accepts a level with penetrations u[k] of asperity[k]; all other asperities are out of
     // contact.
     virtual void commit(int n, const int* asperity, const double* u) {
-        (void)n, (void)asperity, (void)u;
+        (void)n;
+        (void)asperity;
+        (void)u;
     }
 
     // Precomputes the data of these asperities; must be called before any other function for them,
@@ -101,9 +103,9 @@ public:
     // The history of an asperity: its largest accepted penetration, 0 if it never yielded. forget()
     // removes the history.
     virtual double deepest(int asperity) const { return (void)asperity, 0.0; }
-    virtual std::span<const int> yielded() const {
-        return {};
-    }  // the asperities that have, in increasing order
+    // The asperities with a history, in increasing order.
+    virtual std::span<const int> yielded() const { return {}; }
+
     virtual void forget() {}
 };
 

@@ -189,6 +189,27 @@ void Newton::step(const WorkingSet& set, const State& state, double forcing, dou
     }
 }
 
+namespace {
+
+double forcing_of(double residual, double tolerance) {
+    return std::clamp(
+        std::max(std::min(kLoosest, std::sqrt(residual)), kLastShare * tolerance / residual),
+        kFinestForcing, kMostForcing);
+}
+
+// |S v|^2 over the active set, with v measured from where the force begins.
+double square_of_scaled(const Law& law, const WorkingSet& set, const std::vector<int>& active,
+                        const Vector& v, const Vector& slope) {
+    double square = 0;
+    for (int k : active) {
+        const double u = v[at(k)] - law.residual_depth(set.asperity[at(k)]);
+        square += slope[at(k)] * u * u;
+    }
+    return square;
+}
+
+}  // namespace
+
 NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_iterations, Vector& v,
                             bool ask_minimum) {
     NewtonOutcome outcome;
@@ -215,15 +236,9 @@ NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_ite
             }
             break;
         }
-        const double forcing = std::clamp(std::max(std::min(kLoosest, std::sqrt(now_.residual)),
-                                                   kLastShare * tolerance / now_.residual),
-                                          kFinestForcing, kMostForcing);
-        double size2 = 0;  // |S v|^2, with v measured from where the force begins
-        for (int k : now_.active) {
-            const double v = now_.v[at(k)] - law_.residual_depth(set.asperity[at(k)]);
-            size2 += now_.slope[at(k)] * v * v;
-        }
-        radius = std::min(radius, kLongest * std::sqrt(size2));
+        const double forcing = forcing_of(now_.residual, tolerance);
+        radius = std::min(radius, kLongest * std::sqrt(square_of_scaled(law_, set, now_.active,
+                                                                        now_.v, now_.slope)));
         bool accepted = false;
         for (int attempt = 0; attempt < kMostAttempts && !accepted; ++attempt) {
             products_->set_active(now_.active);

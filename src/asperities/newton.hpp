@@ -3,17 +3,15 @@
 //
 // Unknowns: the penetrations v with interaction at all points of the working set (negative: no
 // contact); F = f(<v>).
-//     v + B F(v) = g0
-//     equation
-//     (I + S B S) w = -S res on the active set {v > 0}, S = sqrt(D), D = df/dv, dv = w/S
-//     Newton step
-//     E(F) = F'BF/2 + sum(f v - W(v)) - g0'F over F >= 0, dE/dF = res = v + B F - g0
-//     energy
+//     equation:     v + B F(v) = g0
+//     Newton step:  (I + S B S) w = -S res on the active set {v > 0},
+//                   S = sqrt(D), D = df/dv, dv = w/S
+//     energy:       E(F) = F'BF/2 + sum(f v - W(v)) - g0'F over F >= 0,
+//                   dE/dF = res = v + B F - g0
 // B has no negative elements, so the energy is coercive on F >= 0 and has a minimum. I + S B S may
-// be indefinite if spots overlap:
-// Steihaug's conjugate gradients follow negative curvature to the border of the trust region. A
-// stationary point is accepted only if I + S
-// B S is positive definite there; otherwise it is left along the lowest eigenvector.
+// be indefinite if spots overlap: Steihaug's conjugate gradients follow negative curvature to the
+// border of the trust region. A stationary point is accepted only if I + S B S is positive definite
+// there; otherwise it is left along the lowest eigenvector.
 #pragma once
 
 #include "asperities/law.hpp"
@@ -27,8 +25,18 @@ struct WorkingSet {
     std::vector<int> asperity;
     std::vector<double> x, y, g0;
     int size() const { return static_cast<int>(asperity.size()); }
-    void reserve(std::size_t n) { asperity.reserve(n), x.reserve(n), y.reserve(n), g0.reserve(n); }
-    void clear() { asperity.clear(), x.clear(), y.clear(), g0.clear(); }
+    void reserve(std::size_t n) {
+        asperity.reserve(n);
+        x.reserve(n);
+        y.reserve(n);
+        g0.reserve(n);
+    }
+    void clear() {
+        asperity.clear();
+        x.clear();
+        y.clear();
+        g0.clear();
+    }
 };
 
 struct NewtonOutcome {
@@ -61,9 +69,9 @@ public:
     // Sets v as the solution, to which the functions below then refer. Products as in solve().
     void take(const WorkingSet& set, const std::vector<double>& v);
 
-    double energy() const {
-        return now_.energy;
-    }  // E(F), with an error of second order in that of F
+    // E(F), with an error of second order in that of F.
+    double energy() const { return now_.energy; }
+
     const std::vector<double>& force() const { return now_.force; }  // F over the working set
     const std::vector<double>& slope() const { return now_.slope; }  // D over the working set
     const std::vector<double>& phi() const { return now_.phi; }      // B F over the working set

@@ -29,7 +29,8 @@ void Ranking::assign(const Asperities& asperities, const Indenter& indenter) {
     now_ = indenter;
     x_rest_ = indenter.x0;
     y_rest_ = indenter.y0;
-    entries_.clear(), places_.clear();
+    entries_.clear();
+    places_.clear();
     sorted_ = 0;
     entries_.reserve(asperities.size());
     highest_rest_ = highest_z_ = -kInfinity;

@@ -108,8 +108,10 @@ double steepest_contact(const Level& level, const Indenter& indenter) {
     for (std::size_t k = 0; k < level.x.size(); ++k) {
         const Vec2 slope =
             indenter.shape->gradient(level.x[k] - indenter.x0, level.y[k] - indenter.y0);
-        if (const double here = slope.x * slope.x + slope.y * slope.y; here > square)
-            square = here, steepest = slope;
+        if (const double here = slope.x * slope.x + slope.y * slope.y; here > square) {
+            square = here;
+            steepest = slope;
+        }
     }
     return std::hypot(steepest.x, steepest.y);
 }

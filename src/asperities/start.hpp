@@ -28,8 +28,8 @@ public:
 
     bool unique() const { return unique_; }  // the last solution is proved to be unique
     // Predicts penetrations at Z0 from the last level and its slope, or at a new place of the tip
-    // from the levels of the last two places. Candidates that are not in earlier levels are assumed not to
-    // touch (which is checked later). Returns false without a prediction.
+    // from the levels of the last two places. Candidates that are not in earlier levels are assumed
+    // not to touch (which is checked later). Returns false without a prediction.
     bool predict(double Z0, const Candidates& candidates, std::vector<double>& start) const;
 
     // Start for force control, if there is one below `first_touch`.

@@ -263,76 +263,110 @@ bool positive_definite_by_shells(const Vector& x, const Vector& y, const Vector&
     return true;
 }
 
+namespace {
+
+// Partners beyond `kNear` contact radii cannot cause a second solution with their present radii,
+// since S B S < 0.16. But a flat asperity of radius r_j >> r_i may form a large spot of radius
+// A_j = sqrt(r_j f_i G) if the force of i vanishes, so that (2/pi) sqrt(a_i A_j)/d > `kFar` up to
+// d = farthest() a_i (r_j/r_i)^(1/5).
+constexpr double kNear = 2.0, kFar = 0.25;
+double farthest() {
+    return std::pow(
+        std::pow(2 / (std::numbers::pi * kFar), 2) * std::sqrt(4 / (3 * std::numbers::pi)), 0.4);
+}
+
+// Radius of passive points, which are found by the reach of others.
+constexpr double kTouch = 1e-300;
+
+struct Radii {
+    Vector radius, flatness;  // a_i; r_i^(1/5)
+    Vector reach;
+
+    Radii(const Law& law, double E_star, const std::vector<int>& asperity, const Vector& slope,
+          double deepest)
+        : radius(slope.size()), flatness(slope.size()), reach(slope.size()) {
+        double sharpest = 0;
+        for (std::size_t i = 0; i < slope.size(); ++i) {
+            radius[i] = slope[i] / (2 * E_star);
+            flatness[i] =
+                deepest > 0
+                    ? std::pow(law.area(asperity[i], deepest) / (std::numbers::pi * deepest), 0.2)
+                    : 0;
+            if (radius[i] > 0) sharpest = std::max(sharpest, radius[i] / flatness[i]);
+        }
+        for (std::size_t i = 0; i < slope.size(); ++i)
+            reach[i] = std::max({kNear * radius[i], farthest() * sharpest * flatness[i], kTouch});
+    }
+};
+
+struct Partners {
+    std::vector<Coupling> close;
+    // Not close by their radii, but one may be flat and form a large spot.
+    std::vector<Pair> distant;
+    bool told_apart = true;
+
+    Partners(const Kernel& kernel, const Vector& x, const Vector& y, const Radii& r) {
+        const auto extent = [](const Vector& c) {
+            return *std::max_element(c.begin(), c.end()) - *std::min_element(c.begin(), c.end());
+        };
+        // Penetrations of candidates far from contact are computed in single precision, which
+        // cannot resolve nearly coinciding partners.
+        constexpr double resolved = 1e-6;
+        const double nearest = resolved * std::max(extent(x), extent(y));
+        const double far = farthest();
+        for_close_pairs(x, y, r.reach, kernel.period(),
+                        [&](std::size_t i, std::size_t j, double d) {
+                            if (d < std::max(kNear * (r.radius[i] + r.radius[j]), 2 * kTouch)) {
+                                told_apart = told_apart && d > nearest;
+                                if (d > 0) close.push_back({i, j, kernel.at(d, 0)});
+                            } else if (d * r.flatness[i] < far * r.radius[i] * r.flatness[j] ||
+                                       d * r.flatness[j] < far * r.radius[j] * r.flatness[i]) {
+                                distant.push_back({i, j, d});
+                            }
+                        });
+    }
+
+    // Counts distant partners as close of which one could be large enough. `relief`: the
+    // additional penetrations if all close partners lost contact.
+    void add_rivals(const Law& law, const Kernel& kernel, const std::vector<int>& asperity,
+                    const Vector& v, const Vector& force, const Vector& radius,
+                    const Vector& relief) {
+        Vector all(relief);  // additional penetration of each if all its partners lost contact
+        for (const Pair& p : distant) {
+            all[p.i] += force[p.j] * kernel.at(p.d, 0);
+            all[p.j] += force[p.i] * kernel.at(p.d, 0);
+        }
+        const auto rivals = [&](std::size_t i, std::size_t j, double d) {
+            const double A = std::sqrt(law.area(asperity[j], v[j] + all[j]) / std::numbers::pi);
+            return 2 / std::numbers::pi * std::sqrt(radius[i] * A) > kFar * d;
+        };
+        for (const Pair& p : distant) {
+            if (rivals(p.i, p.j, p.d) || rivals(p.j, p.i, p.d))
+                close.push_back({p.i, p.j, kernel.at(p.d, 0)});
+        }
+    }
+};
+
+}  // namespace
+
 bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<int>& asperity,
                       const Vector& x, const Vector& y, const Vector& v, const Vector& force,
                       const Vector& slope) {
     if (kernel.none() || v.empty()) return true;
     const double E_star = kernel.modulus();
     const std::size_t n = v.size();
-    // Partners beyond `near` contact radii cannot cause a second solution with their present radii,
-    // since S B S < 0.16. But a flat asperity of radius r_j >> r_i may form a large spot of radius
-    // A_j = sqrt(r_j f_i G) if the force of i vanishes, so that (2/pi) sqrt(a_i A_j)/d > `far` up
-    // to d = `farthest` a_i (r_j/r_i)^(1/5).
-    constexpr double near = 2.0, far = 0.25;
-    const double farthest = std::pow(
-        std::pow(2 / (std::numbers::pi * far), 2) * std::sqrt(4 / (3 * std::numbers::pi)), 0.4);
-    // radius of passive points, which are found by the reach of others
-    constexpr double touch = 1e-300;
     const double deepest = *std::max_element(v.begin(), v.end());
-    Vector radius(n), flatness(n), reach(n);  // a_i; r_i^(1/5)
-    double sharpest = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        radius[i] = slope[i] / (2 * E_star);
-        flatness[i] =
-            deepest > 0
-                ? std::pow(law.area(asperity[i], deepest) / (std::numbers::pi * deepest), 0.2)
-                : 0;
-        if (radius[i] > 0) sharpest = std::max(sharpest, radius[i] / flatness[i]);
-    }
-    for (std::size_t i = 0; i < n; ++i)
-        reach[i] = std::max({near * radius[i], farthest * sharpest * flatness[i], touch});
-    // Penetrations of candidates far from contact are computed in single precision, which cannot
-    // resolve nearly coinciding partners.
-    constexpr double resolved = 1e-6;
-    const double nearest =
-        resolved *
-        std::max(*std::max_element(x.begin(), x.end()) - *std::min_element(x.begin(), x.end()),
-                 *std::max_element(y.begin(), y.end()) - *std::min_element(y.begin(), y.end()));
-    bool told_apart = true;
-    std::vector<Coupling> close;
-    std::vector<Pair>
-        distant;  // not close by their radii, but one may be flat and form a large spot
-    for_close_pairs(x, y, reach, kernel.period(), [&](std::size_t i, std::size_t j, double d) {
-        if (d < std::max(near * (radius[i] + radius[j]), 2 * touch)) {
-            told_apart = told_apart && d > nearest;
-            if (d > 0) close.push_back({i, j, kernel.at(d, 0)});
-        } else if (d * flatness[i] < farthest * radius[i] * flatness[j] ||
-                   d * flatness[j] < farthest * radius[j] * flatness[i]) {
-            distant.push_back({i, j, d});
-        }
-    });
-    if (!told_apart) return false;
+    const Radii radii(law, E_star, asperity, slope, deepest);
+    Partners partners(kernel, x, y, radii);
+    if (!partners.told_apart) return false;
 
     // Bounds on the penetrations of any other solution: upper bounds without the close partners
     // give lower bounds, and so on.
     Vector alone(v), relief(n), high, low(n), f(n), a(n);
-    couple(close, force, relief);
-    if (!distant.empty()) {
-        Vector all(relief);  // additional penetration of each if all its partners lost contact
-        for (const Pair& p : distant) {
-            all[p.i] += force[p.j] * kernel.at(p.d, 0);
-            all[p.j] += force[p.i] * kernel.at(p.d, 0);
-        }
-        const auto rivals = [&](std::size_t i, std::size_t j,
-                                double d) {  // true if j could then be large enough
-            const double A = std::sqrt(law.area(asperity[j], v[j] + all[j]) / std::numbers::pi);
-            return 2 / std::numbers::pi * std::sqrt(radius[i] * A) > far * d;
-        };
-        for (const Pair& p : distant) {
-            if (rivals(p.i, p.j, p.d) || rivals(p.j, p.i, p.d))
-                close.push_back({p.i, p.j, kernel.at(p.d, 0)});
-        }
-        couple(close, force, relief);
+    couple(partners.close, force, relief);
+    if (!partners.distant.empty()) {
+        partners.add_rivals(law, kernel, asperity, v, force, radii.radius, relief);
+        couple(partners.close, force, relief);
     }
     for (std::size_t i = 0; i < n; ++i) alone[i] += relief[i];
     high = alone;
@@ -344,8 +378,8 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
     };
     secants();
     if (!shells_fit(a, kernel.period())) return false;
-    const auto pairs = shell_pairs(
-        x, y, a, kernel.period());  // for the widest shells; the bounds only become narrower below
+    // For the widest shells; the bounds only become narrower below.
+    const auto pairs = shell_pairs(x, y, a, kernel.period());
     auto doubtful = doubtful_clusters(pairs, a);
     const auto settled = [&](const Cluster& cluster) {
         return positive_definite(cluster, of_points(cluster, a));
@@ -354,7 +388,7 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
     if (doubtful.empty()) return true;
     for (auto [from, to] : {std::pair{&high, &low}, std::pair{&low, &high}}) {
         for (std::size_t i = 0; i < n; ++i) f[i] = law.force(asperity[i], (*from)[i]);
-        couple(close, f, relief);
+        couple(partners.close, f, relief);
         for (std::size_t i = 0; i < n; ++i) (*to)[i] = alone[i] - relief[i];
     }
     secants();
@@ -363,7 +397,7 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
     // Penetrations of candidates far from contact are computed in single precision.
     constexpr double precision = 1e-4;
     return std::all_of(doubtful.begin(), doubtful.end(), [&](const Cluster& cluster) {
-        return Search(law, E_star, cluster, close, asperity, v, slope, precision * deepest)
+        return Search(law, E_star, cluster, partners.close, asperity, v, slope, precision * deepest)
             .finds_one(of_points(cluster, low), of_points(cluster, high));
     });
 }

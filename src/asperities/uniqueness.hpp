@@ -1,8 +1,8 @@
 // Proof that the contact problem has only one solution.
 //
 // Every asperity is assigned a spherical shell of radius rho_i. Separate shells interact as 1/d
-// (Newton), so the matrix U of shell energies
-// (U_ii = 1/rho_i, U_ij = 1/d_ij, less for overlapping shells) is positive semidefinite. Hence
+// (Newton), so the matrix U of shell energies (U_ii = 1/rho_i, U_ij = 1/d_ij, less for overlapping
+// shells) is positive semidefinite. Hence
 //     I + S B S, S_i^2 = 2 E* a_i, (S B S)_ij = (2/pi) sqrt(a_i a_j)/d_ij
 // is I - (2/pi) diag(a_i/rho_i) + (2/pi) sqrt(a_i a_j) (1/d_ij - U_ij) + a semidefinite part. Only
 // pairs with overlapping shells can make it indefinite. With rho_i = 3 (2/pi) a_i the diagonal is

@@ -98,7 +98,8 @@ struct Pool {
                 continue;
             }
             Job& job = **found;
-            --job.wanted, ++job.inside;
+            --job.wanted;
+            ++job.inside;
             const std::size_t worker = ++job.joined;
             lock.unlock();
             work(job, worker);

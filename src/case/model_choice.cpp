@@ -13,8 +13,8 @@ namespace {
 // the rms slope of the surface: beyond it, contacts lie on flanks between the summits.
 constexpr double kLargestSlopeRatio = 0.2;
 
-// The same limit for two flats. The pressure in the middle of a smooth contact is
-// p0 = (2/pi) E* a/R, and a/R is the slope of the indenter at its border.
+// The same limit for two flats. The pressure in the middle of a smooth contact is p0 = (2/pi) E*
+// a/R, and a/R is the slope of the indenter at its border.
 constexpr double kLargestPressureRatio = 2 / std::numbers::pi * kLargestSlopeRatio;
 
 // Largest grid of elements, in points a side.

@@ -353,8 +353,8 @@ private:
     // --- values
     // Up to the next key, the end of the group or the end of the text.
     void values(Assignment& a) {
-        std::size_t doubtful = std::string_view::
-            npos;  // offset of a null value for gfortran but not for the Fortran standard
+        // Offset of a null value for gfortran but not for the Fortran standard.
+        std::size_t doubtful = std::string_view::npos;
         skip_blanks();
         bool after_line = false;
         for (;;) {

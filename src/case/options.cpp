@@ -80,6 +80,31 @@ void apply(Options& options, const Flag& flag, const std::string& value) {
     }
 }
 
+// Gives the words that are no options their meaning.
+void take_paths(Options& options, const std::vector<std::string>& paths) {
+    if (options.describe) {
+        if (paths.size() > 1) refuse("--describe takes one group or group%key");
+        if (!paths.empty()) options.describe_what = paths.front();
+        return;
+    }
+    if (!options.merge.empty()) {
+        if (paths.size() < 2) refuse("--merge needs two result files or more");
+        if (!options.output) refuse("--merge needs --output FILE, the result to write");
+        if (!options.set.empty() || options.check || options.list || options.member ||
+            options.resume || options.show_case)
+            refuse("--merge can only be combined with --output, --quiet and --progress");
+        options.merge = paths;
+        return;
+    }
+    if (paths.size() > 1)
+        refuse("one case at a time: both '" + paths[0] + "' and '" + paths[1] + "' are given");
+    if (options.show_case && paths.empty()) refuse("--case needs the name of a result file");
+    if (!paths.empty()) {
+        if (paths.front().empty()) refuse("the name of the case is empty");
+        if (paths.front() != "-") options.case_path = paths.front();
+    }
+}
+
 }  // namespace
 
 Options parse_options(int argc, const char* const* argv) {
@@ -126,27 +151,7 @@ Options parse_options(int argc, const char* const* argv) {
         }
         if (options.help || options.version) return options;
     }
-    if (options.describe) {
-        if (paths.size() > 1) refuse("--describe takes one group or group%key");
-        if (!paths.empty()) options.describe_what = paths.front();
-        return options;
-    }
-    if (!options.merge.empty()) {
-        if (paths.size() < 2) refuse("--merge needs two result files or more");
-        if (!options.output) refuse("--merge needs --output FILE, the result to write");
-        if (!options.set.empty() || options.check || options.list || options.member ||
-            options.resume || options.show_case)
-            refuse("--merge can only be combined with --output, --quiet and --progress");
-        options.merge = paths;
-        return options;
-    }
-    if (paths.size() > 1)
-        refuse("one case at a time: both '" + paths[0] + "' and '" + paths[1] + "' are given");
-    if (options.show_case && paths.empty()) refuse("--case needs the name of a result file");
-    if (!paths.empty()) {
-        if (paths.front().empty()) refuse("the name of the case is empty");
-        if (paths.front() != "-") options.case_path = paths.front();
-    }
+    take_paths(options, paths);
     return options;
 }
 

@@ -182,7 +182,9 @@ Reading read_namelist(std::string_view text) {
     return reading;
 }
 
-ReadCase read_case_text(std::string_view text, const std::string& name, const Options& options) {
+namespace {
+
+void require_text(std::string_view text, const std::string& name) {
     if (text.size() > namelist::kLargestText)
         bad_input(name + ": larger than " + std::to_string(namelist::kLargestText) +
                   " bytes, the limit for a case");
@@ -192,6 +194,64 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
         bad_input(
             name +
             ": is a NetCDF file; to run the case of a result again, give its name: rsc FILE.nc");
+}
+
+// Files that cannot be opened; other errors in them are reported when they are read.
+void check_files(const Reading& reading, std::vector<Fault>& faults) {
+    for (const char* const group : {"surface", "indenter"}) {
+        const Ledger::Entry* const entry = reading.ledger.find(*find_key(group, "file"));
+        const std::string& file = group == std::string_view("surface")
+                                      ? reading.settings.surface.file
+                                      : reading.settings.indenter.file;
+        if (!entry || entry->given.empty() || entry->faulty || file.empty() ||
+            file.find_first_of("*?[") != std::string::npos)
+            continue;
+        if (const std::string why = why_not_opened(file); !why.empty())
+            faults.push_back({entry->given.front().second,
+                              "&" + std::string(group) + ": file = '" + file + "': " + why});
+    }
+}
+
+// Throws one error with a line for each fault, by their places in the case.
+void refuse_faults(const std::string& name, std::vector<Fault>& faults,
+                   const std::vector<std::string>& set_faults) {
+    std::stable_sort(faults.begin(), faults.end(), [](const Fault& a, const Fault& b) {
+        return a.at.line != b.at.line ? a.at.line < b.at.line : a.at.column < b.at.column;
+    });
+    std::string message;
+    std::size_t count = 0;
+    const auto line = [&](const std::string& text_line) {
+        if (++count <= namelist::kMostFaults) message += (message.empty() ? "" : "\n") + text_line;
+    };
+    for (const Fault& fault : faults) line(namelist::format(name, fault));
+    for (const std::string& fault : set_faults) line(fault);
+    if (count > 0) bad_input(message);
+}
+
+void warn(const std::string& name, const Reading& reading, ReadCase& read) {
+    for (const Fault& warning : reading.warnings)
+        read.warnings.push_back(namelist::format(name, warning));
+    for (const char* const key_name : {"E", "nu", "R"}) {
+        const Ledger::Entry* entry = reading.ledger.find(*find_key("solids", key_name));
+        if (!entry || entry->given.size() != 1) continue;
+        const std::string other =
+            std::string("solids%") + key_name + (entry->given.front().first == 1 ? "(2)" : "(1)");
+        read.warnings.push_back(name + ": &solids: " + key_name + ": one value of two; " + other +
+                                " = " + get_key(read.settings, other) + " taken by default");
+    }
+    const auto& indentation = read.settings.indentation;
+    if (indentation.levels.empty() && indentation.control == Control::separation &&
+        indentation.start < indentation.stop)
+        read.warnings.push_back(
+            name + ": &indentation: start = " + get_key(read.settings, "indentation%start") +
+            " is less than stop = " + get_key(read.settings, "indentation%stop") +
+            ": separations increase, so that the levels are an unloading");
+}
+
+}  // namespace
+
+ReadCase read_case_text(std::string_view text, const std::string& name, const Options& options) {
+    require_text(text, name);
     Reading reading = read_namelist(text);
     std::vector<Fault> faults = std::move(reading.faults);
     faults.insert(faults.end(), reading.duplicates.begin(), reading.duplicates.end());
@@ -215,50 +275,11 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
                  "&" + std::string(problem.keys.front()->group) + ": " + problem.text});
     if (reading.study && faults.empty() && set_faults.empty())
         faults = check_study(settings, *reading.study);
-
-    if (!faults.empty() || !set_faults.empty())  // other errors are reported when the file is read
-        for (const char* const group : {"surface", "indenter"}) {
-            const Ledger::Entry* const entry = reading.ledger.find(*find_key(group, "file"));
-            const std::string& file = group == std::string_view("surface") ? settings.surface.file
-                                                                           : settings.indenter.file;
-            if (!entry || entry->given.empty() || entry->faulty || file.empty() ||
-                file.find_first_of("*?[") != std::string::npos)
-                continue;
-            if (const std::string why = why_not_opened(file); !why.empty())
-                faults.push_back({entry->given.front().second,
-                                  "&" + std::string(group) + ": file = '" + file + "': " + why});
-        }
-
-    std::stable_sort(faults.begin(), faults.end(), [](const Fault& a, const Fault& b) {
-        return a.at.line != b.at.line ? a.at.line < b.at.line : a.at.column < b.at.column;
-    });
-    std::string message;
-    std::size_t count = 0;
-    const auto line = [&](const std::string& text_line) {
-        if (++count <= namelist::kMostFaults) message += (message.empty() ? "" : "\n") + text_line;
-    };
-    for (const Fault& fault : faults) line(namelist::format(name, fault));
-    for (const std::string& fault : set_faults) line(fault);
-    if (count > 0) bad_input(message);
+    if (!faults.empty() || !set_faults.empty()) check_files(reading, faults);
+    refuse_faults(name, faults, set_faults);
 
     ReadCase read{std::move(settings), std::move(reading.study), {}};
-    for (const Fault& warning : reading.warnings)
-        read.warnings.push_back(namelist::format(name, warning));
-    for (const char* const key_name : {"E", "nu", "R"}) {
-        const Ledger::Entry* entry = reading.ledger.find(*find_key("solids", key_name));
-        if (!entry || entry->given.size() != 1) continue;
-        const std::string other =
-            std::string("solids%") + key_name + (entry->given.front().first == 1 ? "(2)" : "(1)");
-        read.warnings.push_back(name + ": &solids: " + key_name + ": one value of two; " + other +
-                                " = " + get_key(read.settings, other) + " taken by default");
-    }
-    const auto& indentation = read.settings.indentation;
-    if (indentation.levels.empty() && indentation.control == Control::separation &&
-        indentation.start < indentation.stop)
-        read.warnings.push_back(
-            name + ": &indentation: start = " + get_key(read.settings, "indentation%start") +
-            " is less than stop = " + get_key(read.settings, "indentation%stop") +
-            ": separations increase, so that the levels are an unloading");
+    warn(name, reading, read);
     return read;
 }
 

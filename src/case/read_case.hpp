@@ -10,9 +10,8 @@ namespace rsc {
 
 struct ReadCase {
     Case settings;
-    std::optional<Study>
-        // with each value checked; expand_study(settings, *study) returns its members, checked
-        study;
+    // With each value checked; expand_study(settings, *study) returns its members, checked.
+    std::optional<Study> study;
     std::vector<std::string> warnings;  // "case.nml:3:9: ...", one line each
 };
 

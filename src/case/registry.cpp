@@ -60,7 +60,8 @@ Key number(const Place& at, const char* unit, Bounds bounds, const char* meaning
 Key list(const Place& at, int most, const char* unit, Bounds bounds, const char* unset,
          const char* meaning) {
     Key key = number(at, unit, bounds, meaning, unset);
-    key.list = true, key.size = most;
+    key.list = true;
+    key.size = most;
     return key;
 }
 Key text(const Place& at, int length, const char* meaning) {
@@ -72,18 +73,22 @@ Key text(const Place& at, int length, const char* meaning) {
 template <class Names>
 Key choice(const Place& at, const Names& names, const char* meaning) {
     Key key = text(at, 32, meaning);
-    key.type = Type::choice, key.choices.assign(names.begin(), names.end());
+    key.type = Type::choice;
+    key.choices.assign(names.begin(), names.end());
     return key;
 }
 // A list of choices, in any order.
 Key words(Key key) {
-    key.list = true, key.size = static_cast<int>(key.choices.size()), key.unset = "none";
+    key.list = true;
+    key.size = static_cast<int>(key.choices.size());
+    key.unset = "none";
     return key;
 }
 // A list of numbers, or one of some words.
 template <class Names>
 Key or_word(const Names& names, Slot (*word)(Case&), Key key) {
-    key.choices.assign(names.begin(), names.end()), key.word = word;
+    key.choices.assign(names.begin(), names.end());
+    key.word = word;
     return key;
 }
 
@@ -98,7 +103,7 @@ std::vector<const char*> shape_names() {
     return all;
 }
 
-std::vector<Key> make_registry() {
+std::vector<Key> keys_of_run() {
     return {
         changing(Changes::file, text(RSC_KEY(run, title), 1024, "title of the result file")),
         number(RSC_KEY(run, seed), "1", kAny,
@@ -115,7 +120,11 @@ std::vector<Key> make_registry() {
              "unit of every force, as UDUNITS spells it; '1' for dimensionless forces"),
         text(RSC_KEY(run, time_unit), 64,
              "unit of every time, as UDUNITS spells it; '1' for dimensionless times"),
+    };
+}
 
+std::vector<Key> keys_of_solids() {
+    return {
         number(RSC_KEY(solids, E), "force/length^2", kPositiveOrInfinite,
                "Young's modulus of body 1 (rough) and of body 2 (the indenter); Infinity: rigid"),
         number(RSC_KEY(solids, nu), "1", above(-1, 0.5), "Poisson's ratio of the two bodies"),
@@ -157,7 +166,11 @@ std::vector<Key> make_registry() {
              "exp(-t/tau_k))); their sum is at most 1"),
         list(RSC_KEY(solids, relaxation_time), kMostRelaxations, "time", kPositive, "none",
              "relaxation times tau_k, one for each share"),
+    };
+}
 
+std::vector<Key> keys_of_surface() {
+    return {
         choice(RSC_KEY(surface, source), kSourceNames,
                "synthetic: a random surface with the keys below; heights, asperities: read from "
                "`file`; spectrum: random surfaces with the spectrum in `file`"),
@@ -227,7 +240,11 @@ std::vector<Key> make_registry() {
             "roughness"),
         list(RSC_KEY(surface, missing_value), 16, "", kAny, "none",
              "heights that mean a missing point, as they stand in a text or NetCDF file"),
+    };
+}
 
+std::vector<Key> keys_of_asperities() {
+    return {
         choice(RSC_KEY(asperities, curvature), kCurvatureNames,
                "mean of the principal curvatures that defines the radius of an asperity"),
         choice(RSC_KEY(asperities, law), kLawNames,
@@ -236,7 +253,11 @@ std::vector<Key> make_registry() {
                "points; fourth_order: the paraboloid corrected by the fourth derivatives at the "
                "summit; the latter two are at the summits of the difference between surface and "
                "indenter, and count overlapping areas once"),
+    };
+}
 
+std::vector<Key> keys_of_indenter() {
+    return {
         choice({"indenter", "shape", 0, [](Case& c) { return choice_slot(c.indenter.shape); }},
                shape_names(),
                "shape of body 2: a sphere of solids%R (Infinity: a flat), a paraboloid of two "
@@ -263,7 +284,11 @@ std::vector<Key> make_registry() {
              "filter_cutoff, height_unit and pixel apply to it, too"),
         text(RSC_KEY(indenter, channel), 1024,
              "shape = 'map': channel or variable of that file, as surface%channel"),
+    };
+}
 
+std::vector<Key> keys_of_indentation() {
+    return {
         choice(RSC_KEY(indentation, boundary), kBoundaryNames,
                "free: the surface ends at its border; periodic: two flats (solids%R = Infinity, "
                "Infinity), surface and contact are periodic"),
@@ -302,7 +327,11 @@ std::vector<Key> make_registry() {
                "selection_factor times the paper's radius"),
         number(RSC_KEY(indentation, selection_factor), "1", kPositive,
                "factor for selection = 'paper'"),
+    };
+}
 
+std::vector<Key> keys_of_solver() {
+    return {
         choice(RSC_KEY(solver, method), kMethodNames,
                "dgesv: the paper's method; direct, mesh: matrix-free Newton's method, products by "
                "pairs or by fast Fourier transforms"),
@@ -322,12 +351,20 @@ std::vector<Key> make_registry() {
                "they hold (slope of the indenter at the contacts at most 0.2 of the rms slope of "
                "the surface, or two flats), elsewhere elements, unless another key needs "
                "asperities"),
+    };
+}
 
+std::vector<Key> keys_of_elements() {
+    return {
         number(RSC_KEY(elements, points_per_wave), "1", between(4, 64),
                "grid steps in the shortest wavelength for model = 'elements'; &compare starts with "
                "it and refines the grid until N converges; a "
                "height map is used on its own grid"),
+    };
+}
 
+std::vector<Key> keys_of_compare() {
+    return {
         or_word(
             kCompareNames, [](Case& c) { return slot_of(c.compare.what); },
             list(RSC_KEY(compare, levels), 1000, "`unit` of the indentation", kAny, "",
@@ -336,7 +373,11 @@ std::vector<Key> make_registry() {
                  "asperity model on this surface. auto: the last level of a single run of the "
                  "program, if elements have at most 2^24 points, and 2^18 under the indenter (a "
                  "sixth of these for a force)")),
+    };
+}
 
+std::vector<Key> keys_of_output() {
+    return {
         changing(Changes::file, text(RSC_KEY(output, file), 4096, "the result file")),
         changing(Changes::file,
                  choice(RSC_KEY(output, format), kFormatNames, "format of the result file")),
@@ -377,6 +418,15 @@ std::vector<Key> make_registry() {
         changing(Changes::file, number(RSC_KEY(output, compression), "1", between(0, 9),
                                        "deflate level of netcdf4")),
     };
+}
+
+std::vector<Key> make_registry() {
+    std::vector<Key> all;
+    for (const auto keys :
+         {keys_of_run, keys_of_solids, keys_of_surface, keys_of_asperities, keys_of_indenter,
+          keys_of_indentation, keys_of_solver, keys_of_elements, keys_of_compare, keys_of_output})
+        for (Key& key : keys()) all.push_back(std::move(key));
+    return all;
 }
 
 #undef RSC_KEY

@@ -107,8 +107,7 @@ void finish_lists(Case& settings, Ledger& ledger, std::vector<namelist::Fault>& 
 void set_key(Case& settings, std::string_view name, std::string_view value, bool whole = false);
 
 // The value in namelist syntax, as set_key accepts it; an element with "group%key(2)". Empty for an
-// unset value. Throws
-// Error(bad_input) for an unknown name.
+// unset value. Throws Error(bad_input) for an unknown name.
 std::string get_key(const Case& settings, std::string_view name);
 
 // --- a whole case

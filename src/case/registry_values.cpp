@@ -152,6 +152,27 @@ std::string at_line(const namelist::Position& at) {
     return at.line > 0 ? " at line " + std::to_string(at.line) : "";
 }
 
+bool is_one_text(const Key& key) {
+    return key.type == Type::string || (key.type == Type::choice && !key.list);
+}
+
+// The elements that the subscript of an assignment selects. Returns what is wrong with it.
+std::string walk_of(const Key& key, const Assignment& a, Walk& walk) {
+    if (!is_one_text(key))
+        return key.size == 1 ? "this key is no array: it takes no subscript"
+                             : resolve(a, key.size, walk, "this key");
+    if (!a.subscript->section) return "a substring needs a subscript (first:last)";
+    const std::string problem = resolve(a, key.length, walk, "the text");
+    return problem.empty() && walk.step != 1 ? "a substring must not have a step" : problem;
+}
+
+std::string too_many(const Item& item, long elements, bool is_text) {
+    const std::string room = elements == 1 ? "one value" : std::to_string(elements) + " values";
+    if (item.counted) return "the repeat count is too large: " + room + " at most";
+    return "too many values: " + room + " at most, found " + quote(item) +
+           (is_text ? "" : hint(item));
+}
+
 }  // namespace
 
 Ledger::Entry& Ledger::entry(const Key& key) {
@@ -176,21 +197,10 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
         faults.push_back({at, context + text});
         entry.faulty = true;
     };
-    const bool is_text = key.type == Type::string || (key.type == Type::choice && !key.list);
+    const bool is_text = is_one_text(key);
     Walk walk{1, 1, key.size};
     if (a.subscript) {
-        std::string problem;
-        if (is_text) {
-            if (!a.subscript->section)
-                problem = "a substring needs a subscript (first:last)";
-            else
-                problem = resolve(a, key.length, walk, "the text");
-            if (problem.empty() && walk.step != 1) problem = "a substring must not have a step";
-        } else if (key.size == 1) {
-            problem = "this key is no array: it takes no subscript";
-        } else {
-            problem = resolve(a, key.size, walk, "this key");
-        }
+        const std::string problem = walk_of(key, a, walk);
         if (!problem.empty()) return fault(a.subscript->at, problem);
     } else {
         entry.whole = true;
@@ -222,14 +232,8 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
             done += std::min(left, item.repeat);
             continue;
         }
-        if (left == 0 || item.repeat > left) {
-            const std::string room =
-                elements == 1 ? "one value" : std::to_string(elements) + " values";
-            return fault(item.at, item.counted
-                                      ? "the repeat count is too large: " + room + " at most"
-                                      : "too many values: " + room + " at most, found " +
-                                            quote(item) + (is_text ? "" : hint(item)));
-        }
+        if (left == 0 || item.repeat > left)
+            return fault(item.at, too_many(item, elements, is_text));
         if (!item.null) {
             for (long k = 0; k < item.repeat; ++k) {
                 const long element = walk.first + (done + k) * walk.step;

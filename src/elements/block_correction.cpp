@@ -24,7 +24,9 @@ BlockCorrection::BlockCorrection(int nx, int ny, double aspect, const PixelStenc
     int side = kNarrowest;
     while (side <= kWidest && common % side != 0) ++side;
     if (side > kWidest || std::min(nx, ny) < kFewest * side) return;
-    side_ = side, mx_ = nx / side, my_ = ny / side;
+    side_ = side;
+    mx_ = nx / side;
+    my_ = ny / side;
     far_ = std::make_unique<PeriodicPixels<float>>(mx_, my_, 1, aspect, [&](double k_side) {
         const double k = k_side / side,
                      beyond = (share ? 1 + share(k) : 1) - 0.5 * k / inverse.transform(k);
@@ -82,8 +84,10 @@ void BlockCorrection::subtract(const PixelSet& set, const float* r, float* y, in
         multiply(direction, image);
         for (std::size_t i = 0; i < image.size(); ++i) image[i] += direction[i];
         const auto alpha = static_cast<float>(square / product(direction, image));
-        for (std::size_t i = 0; i < z.size(); ++i)
-            z[i] += alpha * direction[i], residual[i] -= alpha * image[i];
+        for (std::size_t i = 0; i < z.size(); ++i) {
+            z[i] += alpha * direction[i];
+            residual[i] -= alpha * image[i];
+        }
         const double last = std::exchange(square, product(residual, residual));
         const auto beta = static_cast<float>(square / last);
         for (std::size_t i = 0; i < z.size(); ++i) direction[i] = residual[i] + beta * direction[i];

@@ -28,7 +28,10 @@ void for_neighbours(const std::vector<Pixel>& pixels, int period_x, int period_y
         end = end_of(k);
         run(k, end);
         const Pixel first = pixels[at(k)], last = pixels[at(end - 1)];
-        const auto next = [&] { above = above_end, above_end = end_of(above); };
+        const auto next = [&] {
+            above = above_end;
+            above_end = end_of(above);
+        };
         while (above < k && before(pixels[at(above_end - 1)], {first.x, first.y - 1})) next();
         while (above < k && pixels[at(above)].y == first.y - 1 && pixels[at(above)].x <= last.x) {
             const int left = std::max(first.x, pixels[at(above)].x),
@@ -53,7 +56,10 @@ std::vector<int> open_sides(const std::vector<Pixel>& pixels, int period_x, int 
             for (int l = k; l < end; ++l) open[at(l)] = 2 + (l == k) + (l == end - 1);
         },
         [&](int k, int l, int n) {
-            for (int i = 0; i < n; ++i) --open[at(k + i)], --open[at(l + i)];
+            for (int i = 0; i < n; ++i) {
+                --open[at(k + i)];
+                --open[at(l + i)];
+            }
         });
     return open;
 }
@@ -70,7 +76,8 @@ int connected_sets(const std::vector<Pixel>& pixels, std::vector<int>& label, in
         pixels, period_x, period_y,
         [&](int k, int end) { std::fill(parent.begin() + k, parent.begin() + end, k); },
         [&](int k, int l, int) {
-            k = root(k), l = root(l);
+            k = root(k);
+            l = root(l);
             parent[at(std::max(k, l))] = std::min(k, l);
         });
     label.resize(pixels.size());

@@ -3,14 +3,19 @@
 namespace rsc {
 
 CutMap::CutMap(const HeightMap& heights) : map_x0_(heights.x0), map_y0_(heights.y0) {
-    frame.nx = heights.nx, frame.ny = heights.ny, frame.dx = heights.dx, frame.dy = heights.dy;
-    frame.x0 = heights.x0, frame.y0 = heights.y0;
+    frame.nx = heights.nx;
+    frame.ny = heights.ny;
+    frame.dx = heights.dx;
+    frame.dy = heights.dy;
+    frame.x0 = heights.x0;
+    frame.y0 = heights.y0;
 }
 
 void CutMap::cut_open(const Indenter& indenter, int block) {
     const auto cut = [block](double tip, double first, double step, int n, bool repeats, int& turn,
                              double& origin) {
-        turn = 0, origin = first;
+        turn = 0;
+        origin = first;
         const double place = (tip - first) / (n * step);
         if (!repeats || (place >= 0.25 && place < 0.75)) return;
         turn = n / 2 / block * block;
@@ -34,8 +39,13 @@ void CutMap::number_by_map(Level& level) const {
         const auto before = values;
         for (std::size_t k = 0; k < values.size(); ++k) values[k] = before[order[k]];
     };
-    sort(level.asperity), sort(level.x), sort(level.y), sort(level.f), sort(level.a), sort(level.u),
-        sort(level.yields);
+    sort(level.asperity);
+    sort(level.x);
+    sort(level.y);
+    sort(level.f);
+    sort(level.a);
+    sort(level.u);
+    sort(level.yields);
     std::vector<std::int32_t> now(n);
     for (std::size_t k = 0; k < n; ++k) now[order[k]] = static_cast<std::int32_t>(k);
     for (std::int32_t& contact : level.pixels.contact)

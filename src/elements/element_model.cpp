@@ -61,7 +61,10 @@ public:
         if (past_.size() > 1) past_.resize(1);
         const int before_x = turn_x, before_y = turn_y;
         cut_open(indenter_, kBlock);
-        if (turn_x != before_x || turn_y != before_y) past_.clear(), lowered_at_ = kUnknown;
+        if (turn_x != before_x || turn_y != before_y) {
+            past_.clear();
+            lowered_at_ = kUnknown;
+        }
         find_top();
     }
 
@@ -131,9 +134,13 @@ private:
         for (std::size_t k = 0; k < pixels_.size(); ++k) {
             const double g = g0_[k] - fall(k);
             if (!(g > 0)) continue;
-            pixels_[kept] = pixels_[k], p_[kept] = p_[k], g0_[kept++] = g;
+            pixels_[kept] = pixels_[k];
+            p_[kept] = p_[k];
+            g0_[kept++] = g;
         }
-        pixels_.resize(kept), p_.resize(kept), g0_.resize(kept);
+        pixels_.resize(kept);
+        p_.resize(kept);
+        g0_.resize(kept);
     }
     Level report(double Z0, const ElementsOutcome& outcome);
 
@@ -150,9 +157,8 @@ private:
     std::vector<double> g0_, p_;
     std::deque<Past> past_;
 
-    // Relaxing bodies:
-    std::unique_ptr<PixelProducts>
-        loads_products_;  // separate, since those of the solver keep its set of pixels
+    // Of relaxing bodies; separate, because those of the solver keep its set of pixels.
+    std::unique_ptr<PixelProducts> loads_products_;
     // Deflection by earlier loads of the pixels that could touch at `lowered_at_` or above, in this
     // step; NaN: unknown.
     double lowered_at_ = kUnknown;
@@ -208,20 +214,23 @@ void ElementModel::select(double Z0) {
                 double dx[kBlock], face[kBlock], dy = 0;
                 for (int c = 0; c < n; ++c) {
                     const Vec2 d = indenter_.from_tip(x(pixel_x(first + c)), y(j));
-                    dx[c] = d.x, dy = d.y;
+                    dx[c] = d.x;
+                    dy = d.y;
                 }
                 indenter_.shape->heights(n, dx, dy, face);
                 for (int c = 0; c < n; ++c) {
                     const double g = height(first + c, r) - face[c] - Z0;
-                    if (g > 0)
-                        found[at(b)].pixels.push_back({pixel_x(first + c), j}),
-                            found[at(b)].g0.push_back(g);
+                    if (g > 0) {
+                        found[at(b)].pixels.push_back({pixel_x(first + c), j});
+                        found[at(b)].g0.push_back(g);
+                    }
                 }
             }
     });
     std::vector<std::size_t> begin(found.size() + 1, 0);
     for (std::size_t b = 0; b < found.size(); ++b) begin[b + 1] = begin[b] + found[b].g0.size();
-    pixels_.resize(begin.back()), g0_.resize(begin.back());
+    pixels_.resize(begin.back());
+    g0_.resize(begin.back());
     parallel_for(found.size(), 16, begin.back() > kThreads ? 0 : 1, [&](std::size_t b) {
         std::copy(found[b].pixels.begin(), found[b].pixels.end(), pixels_.data() + begin[b]);
         std::copy(found[b].g0.begin(), found[b].g0.end(), g0_.data() + begin[b]);
@@ -275,7 +284,10 @@ void ElementModel::predict(double Z0) {
     if (past_.size() > 1) {
         const double gap = past_[0].separation - past_[1].separation,
                      t = (Z0 - past_[0].separation) / gap;
-        if (gap != 0 && std::abs(t) <= 2) weight[0] = 1 + t, weight[1] = -t;
+        if (gap != 0 && std::abs(t) <= 2) {
+            weight[0] = 1 + t;
+            weight[1] = -t;
+        }
     }
     parallel_for(
         (pixels_.size() + kPiece - 1) / kPiece, 1, pixels_.size() > kThreads ? 0 : 1,
@@ -423,8 +435,10 @@ void ElementModel::remember(double Z0) {
         p_.size(), kPiece, p_.size() > kThreads ? 0 : 1, [&](std::size_t k) { return p_[k] > 0; },
         pressed);
     Past now{Z0, std::vector<Pixel>(pressed.size()), std::vector<double>(pressed.size())};
-    for (std::size_t l = 0; l < pressed.size(); ++l)
-        now.pixels[l] = pixels_[at(pressed[l])], now.p[l] = p_[at(pressed[l])];
+    for (std::size_t l = 0; l < pressed.size(); ++l) {
+        now.pixels[l] = pixels_[at(pressed[l])];
+        now.p[l] = p_[at(pressed[l])];
+    }
     past_.push_front(std::move(now));
     if (past_.size() > 2) past_.pop_back();
     accepted_ = false;

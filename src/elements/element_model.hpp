@@ -1,15 +1,13 @@
 // Boundary-element contact of a rough surface with an indenter: every pixel carries a uniform
-// pressure p >= 0 (Johnson 1985, section 3.4;
-// Polonsky and Keer, Wear 231, 1999). The asperity model is an approximation of this.
+// pressure p >= 0 (Johnson 1985, section 3.4; Polonsky and Keer, Wear 231, 1999). The asperity
+// model is an approximation of this.
 //
 // With a hardness H, p <= H. Where p = H the gap w may be negative; the heights are permanently
-// lowered by -w when the level is accepted.
-// The plastic work is H times the volume of this residual, and the recoverable energy is W = p'Kp
-// dx dy/2.
+// lowered by -w when the level is accepted. The plastic work is H times the volume of this
+// residual, and the recoverable energy is W = p'Kp dx dy/2.
 //
 // For relaxing bodies (solids%relaxation_share) a level is an elastic problem with an additional
-// gap due to earlier loads
-// (load_memory.hpp).
+// gap due to earlier loads (load_memory.hpp).
 //
 // For bodies that wear (pixel_model.hpp, Lowering) pixels deflect by their own pressure, too, by as
 // much as it lowers them in this step.

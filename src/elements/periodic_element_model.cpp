@@ -29,7 +29,8 @@ public:
         if (!yields()) solver_.require_gap(N / area());
     }
     void move_tip(double x0, double y0) override {
-        indenter_.x0 = x0, indenter_.y0 = y0;
+        indenter_.x0 = x0;
+        indenter_.y0 = y0;
         if (!indenter_.shape->flat()) set_heights();
     }
 
@@ -114,7 +115,8 @@ private:
         return changed;
     }
     Level report(double Z0, const ElementsOutcome& outcome) {
-        touches_ = Z0 < top_, accepted_ = false;
+        touches_ = Z0 < top_;
+        accepted_ = false;
         const auto candidates =
             static_cast<std::size_t>(heights_.nx) * static_cast<std::size_t>(heights_.ny);
         if (!touches_) return PixelModel::report(Z0, outcome, candidates, {}, {});

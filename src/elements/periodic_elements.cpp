@@ -121,33 +121,42 @@ std::vector<double> PeriodicElements::coarse_heights() const {
 }
 
 void PeriodicElements::start(const PeriodicElements& coarse) {
-    column_.clear(), p_.clear(), z_.clear();
+    column_.clear();
+    p_.clear();
+    z_.clear();
     for (int j = 0; j < relief_.ny; ++j) {
         rows_[at(j)] = p_.size();
         for (std::size_t k = coarse.rows_[at(j / 2)]; k < coarse.rows_[at(j / 2) + 1]; ++k) {
             if (!(coarse.p_[k] > 0)) continue;
-            for (int i : {2 * coarse.column_[k], 2 * coarse.column_[k] + 1})
-                column_.push_back(i), p_.push_back(coarse.p_[k]), z_.push_back(height(j, i));
+            for (int i : {2 * coarse.column_[k], 2 * coarse.column_[k] + 1}) {
+                column_.push_back(i);
+                p_.push_back(coarse.p_[k]);
+                z_.push_back(height(j, i));
+            }
         }
     }
     rows_.back() = p_.size();
 }
 
 void PeriodicElements::start(Given given) {
-    column_.clear(), p_.clear(), z_.clear();
+    column_.clear();
+    p_.clear();
+    z_.clear();
     for (int j = 0; j < relief_.ny; ++j) {
         rows_[at(j)] = p_.size();
         for (int i = 0; i < relief_.nx; ++i) {
             const double overlap = given.is_pressure ? 1 : height(j, i) - given.value;
             if (!(overlap > 0)) continue;
-            column_.push_back(i), z_.push_back(height(j, i));
+            column_.push_back(i);
+            z_.push_back(height(j, i));
             p_.push_back(given.is_pressure ? given.value : std::sqrt(overlap));
         }
     }
     rows_.back() = p_.size();
     if (given.is_pressure || p_.empty()) return;
     // Scales the pressures to the smallest energy.
-    wanted_.reset(), Z0_ = given.value;
+    wanted_.reset();
+    Z0_ = given.value;
     evaluate(false);
     double overlap = 0, energy = 0;
     for (std::size_t k = 0; k < p_.size(); ++k) {
@@ -197,7 +206,8 @@ void PeriodicElements::multiply(const std::vector<double>& x, std::vector<double
 
 // Also collects the penetrating pixels for renew().
 double PeriodicElements::outside() {
-    partial_.resize(at(relief_.ny)), outside_.resize(at(relief_.ny));
+    partial_.resize(at(relief_.ny));
+    outside_.resize(at(relief_.ny));
     parallel_for(relief_.ny, kRows, threads(), [&](int j) {
         const float* const inner = inner_.row(j);
         const double* const exact = exact_ ? fine_->row(j) : nullptr;
@@ -210,7 +220,10 @@ double PeriodicElements::outside() {
             for (; i < upto; ++i) {
                 const double w =
                     unit_ * (exact ? exact[i] : static_cast<double>(inner[i])) - height(j, i) + Z0_;
-                if (w < 0) part += w * w, found.push_back({i, w});
+                if (w < 0) {
+                    part += w * w;
+                    found.push_back({i, w});
+                }
             }
         }
         partial_[at(j)] = part;
@@ -234,7 +247,9 @@ void PeriodicElements::renew() {
     parallel_for(relief_.ny, kRows, threads(), [&](int j) {
         std::size_t next = rows[at(j)];
         const auto add = [&](std::int32_t i, double pressure, double gap) {
-            column[next] = i, p[next] = pressure, w[next] = gap;
+            column[next] = i;
+            p[next] = pressure;
+            w[next] = gap;
             z[next++] = height(j, i);
         };
         auto other = outside_[at(j)].begin();
@@ -246,8 +261,11 @@ void PeriodicElements::renew() {
         }
         for (; other != end; ++other) add(other->column, 0, other->w);
     });
-    rows_ = std::move(rows), column_ = std::move(column);
-    p_ = std::move(p), w_ = std::move(w), z_ = std::move(z);
+    rows_ = std::move(rows);
+    column_ = std::move(column);
+    p_ = std::move(p);
+    w_ = std::move(w);
+    z_ = std::move(z);
 }
 
 // Products inside a round need not be accurate, because the next round starts from an accurate one.
@@ -260,7 +278,8 @@ void PeriodicElements::multiply_roughly(const std::vector<double>& x, std::vecto
 // y = K^-1, truncated to some pixels and with a correction for the farther ones, times r over the
 // free pixels.
 void PeriodicElements::precondition(const std::vector<double>& r, std::vector<double>& y) {
-    from_.resize(r.size()), to_.resize(r.size());
+    from_.resize(r.size());
+    to_.resize(r.size());
     for (std::size_t k = 0; k < r.size(); ++k)
         from_[k] = free_[k] ? static_cast<float>(r[k]) : 0.0f;
     plane_.convolve(inverse_, {rows_, column_}, from_.data(), to_.data(), threads());
@@ -291,7 +310,8 @@ void PeriodicElements::correct(std::vector<double>& y) {
 void PeriodicElements::freed() {
     if (inverse_of_ != diagonal_) prepare_inverse();
     far_is_set_ = far_->exists();
-    from_.assign(free_.begin(), free_.end()), ones_.resize(free_.size());
+    from_.assign(free_.begin(), free_.end());
+    ones_.resize(free_.size());
     plane_.convolve(inverse_, {rows_, column_}, from_.data(), ones_.data(), threads());
     if (!far_is_set_) return;
     std::vector<float> m = ones_;
@@ -326,11 +346,13 @@ ElementsOutcome PeriodicElements::solve(Given given, double tolerance, int most_
     outcome.products = products_ - before;
     if (!finest) return outcome;
     const std::vector<Pixel> all = set();
-    pixels_.clear(), pressures_.clear();
+    pixels_.clear();
+    pressures_.clear();
     for (std::size_t k = 0; k < all.size(); ++k)
-        if (p_[k] > 0)
-            pixels_.push_back(all[k]),
-                pressures_.push_back(p_[k] >= highest_ ? hardness_ : p_[k] * pressure_unit_);
+        if (p_[k] > 0) {
+            pixels_.push_back(all[k]);
+            pressures_.push_back(p_[k] >= highest_ ? hardness_ : p_[k] * pressure_unit_);
+        }
     return outcome;
 }
 

@@ -76,9 +76,8 @@ typename Fftw<Real>::Complex* as_complex(Real* p) {
 template <class Real>
 struct PeriodicPixels<Real>::Plans {
     typename Fftw<Real>::Plan row_forward, row_backward, column_forward, column_backward;
-    std::size_t length = 0,
-                // of a row or column being transformed, and between the columns of a block
-        stride = 0;
+    // Of a row or column being transformed, and between the columns of a block.
+    std::size_t length = 0, stride = 0;
     std::size_t size() const { return length + (kColumns + 1) * stride; }
     // One for each thread: a row or column being transformed, a block of columns, and the factors
     // of a column.
@@ -217,7 +216,10 @@ void scale(Real* __restrict mode, std::size_t n, Real kx2, const Real* __restric
         const Real two = Real(2) / points;
         for (std::size_t j = 0; j < n; ++j) k[j] = two / k[j];
     }
-    for (std::size_t j = 0; j < n; ++j) mode[2 * j] *= k[j], mode[2 * j + 1] *= k[j];
+    for (std::size_t j = 0; j < n; ++j) {
+        mode[2 * j] *= k[j];
+        mode[2 * j + 1] *= k[j];
+    }
 }
 
 // Transforms the columns of modes, multiplies them and transforms them back while they are in the
@@ -253,7 +255,8 @@ void PeriodicPixels<Real>::columns(Answer answer) {
                     for (std::size_t j = 0; j < rows; ++j) {
                         const Real share = layered[std::min(j, rows - j)],
                                    factor = answer == Answer::deflection ? share : 1 / share;
-                        modes[2 * j] *= factor, modes[2 * j + 1] *= factor;
+                        modes[2 * j] *= factor;
+                        modes[2 * j + 1] *= factor;
                     }
                 }
                 if (i == 0 && half_space_) modes[0] = modes[1] = 0;

@@ -63,10 +63,9 @@ private:
     bool threads_;
     Memory plane_;
     bool half_space_ = true;  // modes are multiplied by 2/|k|, too
-    Memory
-        // factors of the modes with ky >= 0, [column][row]: 1 + share; none for a homogeneous
-        // half-space
-        layered_;
+    // Factors of the modes with ky >= 0, [column][row]: 1 + share; none for a homogeneous
+    // half-space.
+    Memory layered_;
     std::unique_ptr<Plans> plans_;
 };
 

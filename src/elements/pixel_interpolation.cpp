@@ -143,7 +143,8 @@ Interpolation::Interpolation(double error, int rows, const PixelAnswer& answer)
         interpolation_weights(q, (i + 0.5) * 2 / kTileColumns - 1, &columns_of_[at(i * q)]);
     for (int i = 0; i < rows; ++i)
         interpolation_weights(q, (i + 0.5) * 2 / rows - 1, &rows_of_[at(i * q)]);
-    columns_at_ = transposed(q, columns_of_), rows_at_ = transposed(q, rows_of_);
+    columns_at_ = transposed(q, columns_of_);
+    rows_at_ = transposed(q, rows_of_);
     for (int half = 0; half < 2; ++half) {
         child_[half].resize(at(q * q));
         for (int i = 0; i < q; ++i)

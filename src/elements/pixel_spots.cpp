@@ -14,7 +14,10 @@ template <class Sums>
 double median_by_area(const Sums& sums) {
     std::vector<long> sizes;
     long all = 0;
-    for (const auto& s : sums) sizes.push_back(s.pixels), all += s.pixels;
+    for (const auto& s : sums) {
+        sizes.push_back(s.pixels);
+        all += s.pixels;
+    }
     std::sort(sizes.begin(), sizes.end());
     long so_far = 0;
     std::size_t k = 0;
@@ -44,39 +47,35 @@ const HeightMap& require_elements(const HeightMap& heights, const Indenter& inde
     return heights;
 }
 
-void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, double H0,
-                const std::vector<Pixel>& touching, std::vector<double> pressure, double tension) {
-    std::vector<int> label;
-    const int period_x = std::isfinite(indenter.period.x) ? map.nx : 0,
-              period_y = std::isfinite(indenter.period.y) ? map.ny : 0;
-    const int contacts = connected_sets(touching, label, period_x, period_y);
-    std::vector<int> open = open_sides(touching, period_x, period_y);  // the borders of contacts
-    // Beyond a border of the map that does not repeat the contact may continue.
+namespace {
+
+// Sums over the pixels of a contact.
+struct ContactSum {
+    double p = 0, weight = 0, px = 0, py = 0, highest = 0, own = 0;
+    // hard: pixels at the hardness; border: sides without a neighbour of the other pixels.
+    long pixels = 0, hard = 0, border = 0;
+    Pixel peak{0, 0};
+};
+
+// The sides of each pixel that are borders of contacts. Beyond a border of the map that does not
+// repeat the contact may continue.
+std::vector<int> borders(const std::vector<Pixel>& touching, const HeightMap& map, int period_x,
+                         int period_y) {
+    std::vector<int> open = open_sides(touching, period_x, period_y);
     for (std::size_t k = 0; k < open.size(); ++k) {
         if (period_x == 0) open[k] -= (touching[k].x == 0) + (touching[k].x == map.nx - 1);
         if (period_y == 0) open[k] -= (touching[k].y == 0) + (touching[k].y == map.ny - 1);
     }
-    struct Sum {
-        double p = 0, weight = 0, px = 0, py = 0, highest = 0, own = 0;
-        long pixels = 0, hard = 0,
-             // hard: pixels at the hardness; border: sides without a neighbour of the other pixels
-            border = 0;
-        Pixel peak{0, 0};
-    };
-    std::vector<Sum> sums(at(contacts));
-    double extreme = 0;  // number of pixels
-    for (std::size_t k = 0; k < touching.size(); ++k) {
-        Sum& s = sums[at(label[k])];
-        const double weight = pressure[k] + tension;
-        s.p += pressure[k], s.weight += weight;
-        s.pixels += 1;
-        const bool yields = pressure[k] >= H0;
-        s.hard += yields;
-        if (!yields) s.border += open[k];
-        if (pressure[k] > kExtreme * indenter.E_star) extreme += 1;
-        if (weight > s.highest) s.highest = weight, s.peak = touching[k];
-    }
-    // Positions relative to the highest pressure, to the nearest image.
+    return open;
+}
+
+// Adds moments about the pixels of the highest pressure, and the deflections of these pixels by
+// their own contacts.
+void add_about_peaks(const std::vector<Pixel>& touching, const std::vector<int>& label,
+                     const std::vector<double>& pressure, double tension, const HeightMap& map,
+                     const Indenter& indenter, int period_x, int period_y,
+                     std::vector<ContactSum>& sums) {
+    // Positions to the nearest image.
     const auto nearest = [](int offset, int n) {
         if (n == 0) return offset;
         if (2 * offset > n) return offset - n;
@@ -94,12 +93,41 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
         at_peak[k] = substrate.under_pixel(d.x * map.dx, d.y * map.dy, map.dx, map.dy);
     });
     for (std::size_t k = 0; k < touching.size(); ++k) {
-        Sum& s = sums[at(label[k])];
+        ContactSum& s = sums[at(label[k])];
         const Pixel d = from_peak(k);
         s.px += (pressure[k] + tension) * d.x;
         s.py += (pressure[k] + tension) * d.y;
         s.own += pressure[k] * at_peak[k];
     }
+}
+
+}  // namespace
+
+void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, double H0,
+                const std::vector<Pixel>& touching, std::vector<double> pressure, double tension) {
+    std::vector<int> label;
+    const int period_x = std::isfinite(indenter.period.x) ? map.nx : 0,
+              period_y = std::isfinite(indenter.period.y) ? map.ny : 0;
+    const int contacts = connected_sets(touching, label, period_x, period_y);
+    const std::vector<int> open = borders(touching, map, period_x, period_y);
+    std::vector<ContactSum> sums(at(contacts));
+    double extreme = 0;  // number of pixels
+    for (std::size_t k = 0; k < touching.size(); ++k) {
+        ContactSum& s = sums[at(label[k])];
+        const double weight = pressure[k] + tension;
+        s.p += pressure[k];
+        s.weight += weight;
+        s.pixels += 1;
+        const bool yields = pressure[k] >= H0;
+        s.hard += yields;
+        if (!yields) s.border += open[k];
+        if (pressure[k] > kExtreme * indenter.E_star) extreme += 1;
+        if (weight > s.highest) {
+            s.highest = weight;
+            s.peak = touching[k];
+        }
+    }
+    add_about_peaks(touching, label, pressure, tension, map, indenter, period_x, period_y, sums);
     if (!touching.empty()) {
         level.pixels_per_contact = median_by_area(sums);
         level.pressure_max = *std::max_element(pressure.begin(), pressure.end());
@@ -109,7 +137,7 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
     };
     const double pixel = map.dx * map.dy;
     const double border = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
-    for (const Sum& s : sums) {
+    for (const ContactSum& s : sums) {
         const double flat = static_cast<double>(s.hard) / static_cast<double>(s.pixels);
         const double area = pixel * (static_cast<double>(s.pixels) -
                                      (1 + flat * flat) * border * static_cast<double>(s.border));

@@ -71,12 +71,16 @@ struct Layout {
 // then so once.
 void enclose(Generation& g, std::vector<Box>& boxes) {
     int x1 = boxes[0].x, y1 = boxes[0].y;
-    g.x0 = x1, g.y0 = y1;
+    g.x0 = x1;
+    g.y0 = y1;
     for (const Box& b : boxes) {
-        g.x0 = std::min(g.x0, b.x), g.y0 = std::min(g.y0, b.y);
-        x1 = std::max(x1, b.x), y1 = std::max(y1, b.y);
+        g.x0 = std::min(g.x0, b.x);
+        g.y0 = std::min(g.y0, b.y);
+        x1 = std::max(x1, b.x);
+        y1 = std::max(y1, b.y);
     }
-    g.nx = x1 - g.x0 + 1, g.ny = y1 - g.y0 + 1;
+    g.nx = x1 - g.x0 + 1;
+    g.ny = y1 - g.y0 + 1;
     g.index.assign(at(g.stride()) * at(g.ny + 2 * Generation::kMargin), -1);
     std::erase_if(boxes,
                   [&](const Box& b) { return std::exchange(g.index[g.place(b.x, b.y)], 0) == 0; });
@@ -105,43 +109,56 @@ void pair_up(Generation& g, std::size_t c) {
 
 int threads_for(std::size_t tiles) { return tiles > kThreads ? 0 : 1; }
 
-// Sets the layout of pixels; its memory is used again.
-void lay_out(Layout& layout, const std::vector<Pixel>& pixels, int rows) {
-    layout.strips.clear(), layout.begin.clear(), layout.chunks.clear();
-    auto& generations = layout.generations;
-    for (Generation& g : generations) g.boxes.clear(), g.parent.clear(), g.inside.clear();
-    layout.roots = layout.chunks_below = 0;
-    if (pixels.empty()) return;
-    const int shift = std::countr_zero(static_cast<unsigned>(rows));
-    struct Found {
-        Box tile;
-        Layout::Strip strip;
-    };
-    constexpr std::size_t some = 8192;  // pixels that a thread takes at a time
-    std::vector<std::vector<Found>> found((pixels.size() + some - 1) / some);
-    parallel_for(found.size(), 1, 0, [&](std::size_t piece) {
-        Pixel next{};
-        for (std::size_t k = piece * some; k < std::min(pixels.size(), (piece + 1) * some); ++k) {
-            const Pixel p = pixels[k];
-            const int column = p.x & (kTileColumns - 1);
-            if (k == piece * some || column == 0 || p != next)
-                found[piece].push_back(
-                    {{p.x >> kColumnShift, p.y >> shift},
-                     {static_cast<std::uint32_t>(k), 0, static_cast<std::uint8_t>(column),
-                      static_cast<std::uint8_t>(p.y & (rows - 1))}});
-            ++found[piece].back().strip.count;
-            next = {p.x + 1, p.y};
-        }
-    });
-    const auto for_strips = [&](auto&& visit) {
-        for (const auto& strips : found)
-            for (const Found& f : strips) visit(f);
-    };
-    std::vector<Box> boxes;
-    for_strips([&](const Found& f) {
-        if (boxes.empty() || f.tile.x != boxes.back().x || f.tile.y != boxes.back().y)
-            boxes.push_back(f.tile);
-    });
+// The strips of pixels, each within a row of a tile, in the order of the pixels.
+struct FoundStrip {
+    Box tile;
+    Layout::Strip strip;
+};
+class FoundStrips {
+public:
+    FoundStrips(const std::vector<Pixel>& pixels, int rows)
+        : found_((pixels.size() + kSome - 1) / kSome) {
+        const int shift = std::countr_zero(static_cast<unsigned>(rows));
+        parallel_for(found_.size(), 1, 0, [&](std::size_t piece) {
+            Pixel next{};
+            for (std::size_t k = piece * kSome; k < std::min(pixels.size(), (piece + 1) * kSome);
+                 ++k) {
+                const Pixel p = pixels[k];
+                const int column = p.x & (kTileColumns - 1);
+                if (k == piece * kSome || column == 0 || p != next)
+                    found_[piece].push_back(
+                        {{p.x >> kColumnShift, p.y >> shift},
+                         {static_cast<std::uint32_t>(k), 0, static_cast<std::uint8_t>(column),
+                          static_cast<std::uint8_t>(p.y & (rows - 1))}});
+                ++found_[piece].back().strip.count;
+                next = {p.x + 1, p.y};
+            }
+        });
+    }
+
+    template <class Visit>
+    void for_each(Visit&& visit) const {
+        for (const auto& strips : found_)
+            for (const FoundStrip& f : strips) visit(f);
+    }
+
+    std::vector<Box> tiles() const {
+        std::vector<Box> boxes;
+        for_each([&](const FoundStrip& f) {
+            if (boxes.empty() || f.tile.x != boxes.back().x || f.tile.y != boxes.back().y)
+                boxes.push_back(f.tile);
+        });
+        return boxes;
+    }
+
+private:
+    static constexpr std::size_t kSome = 8192;  // pixels that a thread takes at a time
+    std::vector<std::vector<FoundStrip>> found_;
+};
+
+// Sets the generations of boxes above these tiles, and numbers the boxes, from the largest to the
+// tiles.
+void number_boxes(std::vector<Generation>& generations, std::vector<Box> boxes) {
     std::size_t levels = 0;
     for (;;) {
         if (generations.size() == levels) generations.emplace_back();
@@ -151,7 +168,6 @@ void lay_out(Layout& layout, const std::vector<Pixel>& pixels, int rows) {
         for (Box& b : boxes) b = {b.x >> 1, b.y >> 1};
     }
     generations.resize(levels);
-    // Numbers the boxes, from the largest to the tiles.
     Generation& last = generations.back();
     for (int y = 0; y < last.ny; ++y)
         for (int x = 0; x < last.nx; ++x) last.add(last.x0 + x, last.y0 + y);
@@ -165,28 +181,41 @@ void lay_out(Layout& layout, const std::vector<Pixel>& pixels, int rows) {
         }
         above.inside.push_back(g.boxes.size());
     }
-    Generation& leaf = generations[0];
+}
+
+// Sorts the strips by tile.
+void sort_strips(Layout& layout, const FoundStrips& found) {
+    Generation& leaf = layout.generations[0];
     leaf.inside.assign(leaf.boxes.size() + 1, 0);
     layout.begin.assign(leaf.boxes.size() + 1, 0);
     std::size_t strips = 0;
-    for_strips([&](const Found& f) {
+    found.for_each([&](const FoundStrip& f) {
         const std::size_t tile = at(leaf.find(f.tile.x, f.tile.y));
-        ++leaf.inside[tile + 1], ++strips;
+        ++leaf.inside[tile + 1];
+        ++strips;
         layout.begin[tile + 1] += f.strip.count;
     });
     for (auto* begin : {&leaf.inside, &layout.begin})
         std::partial_sum(begin->begin(), begin->end(), begin->begin());
     std::vector<std::size_t> next(leaf.inside.begin(), leaf.inside.end() - 1);
     layout.strips.resize(strips);
-    for_strips([&](const Found& f) {
+    found.for_each([&](const FoundStrip& f) {
         layout.strips[next[at(leaf.find(f.tile.x, f.tile.y))]++] = f.strip;
     });
-    for (std::size_t l = 0; l < levels; ++l) {
+}
+
+// Sets the pairs of boxes that interact, and the neighbours of each tile.
+void pair_boxes(Layout& layout) {
+    auto& generations = layout.generations;
+    const Generation& leaf = generations[0];
+    for (std::size_t l = 0; l < generations.size(); ++l) {
         Generation& g = generations[l];
         g.pairs.resize((g.boxes.size() + kChunk - 1) / kChunk);
         for (std::size_t c = 0; c < g.pairs.size(); ++c) layout.chunks.push_back({l, c});
-        if (l == 0 || g.boxes.size() >= kFewest)
-            layout.roots = l, layout.chunks_below = layout.chunks.size();
+        if (l == 0 || g.boxes.size() >= kFewest) {
+            layout.roots = l;
+            layout.chunks_below = layout.chunks.size();
+        }
     }
     layout.around.resize(leaf.boxes.size());
     parallel_for(layout.chunks.size(), 1, threads_for(leaf.boxes.size()), [&](std::size_t chunk) {
@@ -198,6 +227,24 @@ void lay_out(Layout& layout, const std::vector<Pixel>& pixels, int rows) {
                 layout.around[t][at(o)] =
                     leaf.find(leaf.boxes[t].x + o % 3 - 1, leaf.boxes[t].y + o / 3 - 1);
     });
+}
+
+// Sets the layout of pixels; its memory is used again.
+void lay_out(Layout& layout, const std::vector<Pixel>& pixels, int rows) {
+    layout.strips.clear();
+    layout.begin.clear();
+    layout.chunks.clear();
+    for (Generation& g : layout.generations) {
+        g.boxes.clear();
+        g.parent.clear();
+        g.inside.clear();
+    }
+    layout.roots = layout.chunks_below = 0;
+    if (pixels.empty()) return;
+    const FoundStrips found(pixels, rows);
+    number_boxes(layout.generations, found.tiles());
+    sort_strips(layout, found);
+    pair_boxes(layout);
 }
 
 class Tree final : public PixelProducts {
@@ -253,7 +300,8 @@ public:
                                                       diagonal * body.modulus() / answer_.dx));
     }
     double coefficient(int dx, int dy) const override {
-        dx = std::abs(dx), dy = std::abs(dy);
+        dx = std::abs(dx);
+        dy = std::abs(dy);
         if (dx <= table_.reach_x && dy <= table_.reach_y)
             return near_[at((dy + table_.reach_y) * table_.stride + dx + table_.reach_x)];
         return answer_(dx, dy * aspect_);
@@ -293,118 +341,154 @@ private:
     std::vector<std::size_t> source_end_;
     std::vector<TileSource> sources_;
     std::vector<std::vector<double>> up_, down_;
-    enum : char {
-        kLoaded = 1,
-        kWanted = 2
-    };  // boxes with pressures, and with pixels whose deflections are wanted
+    // Boxes with pressures, and with pixels whose deflections are wanted.
+    enum : char { kLoaded = 1, kWanted = 2 };
     std::vector<std::vector<char>> marks_;
+
+    class Passes;
 };
 
-// Up from the pixels, transfers between boxes, and down to the pixels. The boxes of one generation
-// are pieces of parallel loops with all inside them; those above are a piece of the transfers.
-void Tree::product(const Layout& layout, Interpolation& interpolation, std::size_t n,
-                   const double* p, double* w, const char* wanted) {
-    if (n == 0) return;
-    stopping_point();  // the caller may get no piece of the loops
-    const auto& generations = layout.generations;
-    const Generation& leaf = generations[0];
-    const std::size_t levels = generations.size(), roots = layout.roots,
-                      size = at(kTileColumns * rows_), points = at(interpolation.padded());
-    const int q = interpolation.points(), threads = threads_for(leaf.boxes.size());
-
-    up_.resize(std::max(up_.size(), levels));
-    down_.resize(std::max(down_.size(), levels));
-    marks_.resize(std::max(marks_.size(), levels));
-    for (std::size_t l = 0; l < levels; ++l) {
-        const std::size_t boxes = generations[l].boxes.size();
-        for (auto* values : {&up_[l], &down_[l]})
-            if (values->size() < boxes * points) values->resize(boxes * points);
-        if (marks_[l].size() < boxes) marks_[l].resize(boxes);
-        if (levels > 1 || leaf.boxes.size() > 1) interpolation.matrices(l);
+// The passes of one product over the boxes: up from the pixels, transfers between boxes, and down to
+// the pixels.
+class Tree::Passes {
+public:
+    Passes(Tree& tree, const Layout& layout, Interpolation& interpolation, std::size_t n,
+           const double* p, double* w, const char* wanted)
+        : tree_(tree),
+          layout_(layout),
+          generations_(layout.generations),
+          leaf_(layout.generations[0]),
+          interpolation_(interpolation),
+          size_(at(kTileColumns * tree.rows_)),
+          points_(at(interpolation.padded())),
+          q_(interpolation.points()),
+          kernels_(pixel_kernels()),
+          p_(p),
+          w_(w),
+          wanted_(wanted) {
+        const std::size_t levels = generations_.size();
+        tree.up_.resize(std::max(tree.up_.size(), levels));
+        tree.down_.resize(std::max(tree.down_.size(), levels));
+        tree.marks_.resize(std::max(tree.marks_.size(), levels));
+        for (std::size_t l = 0; l < levels; ++l) {
+            const std::size_t boxes = generations_[l].boxes.size();
+            for (auto* values : {&tree.up_[l], &tree.down_[l]})
+                if (values->size() < boxes * points_) values->resize(boxes * points_);
+            if (tree.marks_[l].size() < boxes) tree.marks_[l].resize(boxes);
+            if (levels > 1 || leaf_.boxes.size() > 1) interpolation.matrices(l);
+        }
+        tree.sources_.resize(n);
+        tree.source_end_.resize(leaf_.boxes.size());
     }
-    sources_.resize(n);
-    source_end_.resize(leaf.boxes.size());
-    const auto up_from_pixels = [&](std::size_t t) {
-        const std::size_t begin = layout.begin[t];
+
+    void up_from_pixels(std::size_t t) const {
+        const std::size_t begin = layout_.begin[t];
         std::size_t end = begin;
-        char mark = wanted ? 0 : kWanted;
-        for (std::size_t i = leaf.inside[t]; i < leaf.inside[t + 1]; ++i) {
-            const auto [first, count, column, row] = layout.strips[i];
+        char mark = wanted_ ? 0 : kWanted;
+        for (std::size_t i = leaf_.inside[t]; i < leaf_.inside[t + 1]; ++i) {
+            const auto [first, count, column, row] = layout_.strips[i];
             for (int c = 0; c < count; ++c) {
-                const double value = p[first + at(c)];
-                sources_[end] = {static_cast<std::int16_t>(column + c), row, value};
+                const double value = p_[first + at(c)];
+                tree_.sources_[end] = {static_cast<std::int16_t>(column + c), row, value};
                 end += value != 0 ? 1 : 0;
-                if (wanted) mark = static_cast<char>(mark | (wanted[first + at(c)] ? kWanted : 0));
+                if (wanted_)
+                    mark = static_cast<char>(mark | (wanted_[first + at(c)] ? kWanted : 0));
             }
         }
-        source_end_[t] = end;
-        marks_[0][t] = static_cast<char>(mark | (end > begin ? kLoaded : 0));
-        double* const to = up_[0].data() + t * points;
-        std::fill_n(to, points, 0.0);
-        interpolation.up_from_tile(end - begin, sources_.data() + begin, to);
-    };
-    const auto up = [&](std::size_t l, std::size_t k) {  // from the boxes inside
-        const Generation &g = generations[l], &below = generations[l - 1];
-        double* const to = up_[l].data() + k * points;
-        std::fill_n(to, points, 0.0);
-        char& mark = marks_[l][k] = 0;
+        tree_.source_end_[t] = end;
+        tree_.marks_[0][t] = static_cast<char>(mark | (end > begin ? kLoaded : 0));
+        double* const to = tree_.up_[0].data() + t * points_;
+        std::fill_n(to, points_, 0.0);
+        interpolation_.up_from_tile(end - begin, tree_.sources_.data() + begin, to);
+    }
+    // From the boxes inside.
+    void up(std::size_t l, std::size_t k) const {
+        const Generation &g = generations_[l], &below = generations_[l - 1];
+        double* const to = tree_.up_[l].data() + k * points_;
+        std::fill_n(to, points_, 0.0);
+        char& mark = tree_.marks_[l][k] = 0;
         for (std::size_t c = g.inside[k]; c < g.inside[k + 1]; ++c) {
-            mark = static_cast<char>(mark | marks_[l - 1][c]);
-            if (!(marks_[l - 1][c] & kLoaded)) continue;
-            interpolation.up(below.boxes[c].x & 1, below.boxes[c].y & 1,
-                             up_[l - 1].data() + c * points, to);
+            mark = static_cast<char>(mark | tree_.marks_[l - 1][c]);
+            if (!(tree_.marks_[l - 1][c] & kLoaded)) continue;
+            interpolation_.up(below.boxes[c].x & 1, below.boxes[c].y & 1,
+                              tree_.up_[l - 1].data() + c * points_, to);
         }
-    };
-    const PixelKernels& kernels = pixel_kernels();
-    const auto transfer = [&](const std::array<std::size_t, 2>& chunk) {
+    }
+    void transfer(const std::array<std::size_t, 2>& chunk) const {
         const auto [l, c] = chunk;
-        const Generation::Pairs& pairs = generations[l].pairs[c];
+        const Generation::Pairs& pairs = generations_[l].pairs[c];
+        const std::vector<char>& marks = tree_.marks_[l];
         const std::size_t first = c * kChunk,
-                          last = std::min(first + kChunk, generations[l].boxes.size());
-        std::fill_n(down_[l].data() + first * points, (last - first) * points, 0.0);
+                          last = std::min(first + kChunk, generations_[l].boxes.size());
+        std::fill_n(tree_.down_[l].data() + first * points_, (last - first) * points_, 0.0);
         std::array<const double*, kChunk + 1> from;
         std::array<double*, kChunk + 1> to;
         for (std::size_t o = 0; o < kOffsets; ++o) {
             std::size_t count = 0;
             for (std::size_t k = pairs.begin[o]; k < pairs.begin[o + 1]; ++k) {
                 const auto [source, target] = pairs.from_to[k];
-                from[count] = up_[l].data() + at(source) * points;
-                to[count] = down_[l].data() + at(target) * points;
-                count +=
-                    (marks_[l][at(source)] & kLoaded) && (marks_[l][at(target)] & kWanted) ? 1 : 0;
+                from[count] = tree_.up_[l].data() + at(source) * points_;
+                to[count] = tree_.down_[l].data() + at(target) * points_;
+                count += (marks[at(source)] & kLoaded) && (marks[at(target)] & kWanted) ? 1 : 0;
             }
             if (count > 0)
-                kernels.translate(static_cast<int>(points), q * q,
-                                  interpolation.matrices(l)[o].data(), count, from.data(),
-                                  to.data());
+                kernels_.translate(static_cast<int>(points_), q_ * q_,
+                                   interpolation_.matrices(l)[o].data(), count, from.data(),
+                                   to.data());
         }
-    };
-    const auto down = [&](std::size_t l, std::size_t k) {  // from the parent
-        const Generation& g = generations[l];
-        if (!(marks_[l][k] & kWanted)) return;
-        interpolation.down(g.boxes[k].x & 1, g.boxes[k].y & 1,
-                           down_[l + 1].data() + at(g.parent[k]) * points,
-                           down_[l].data() + k * points);
-    };
-    const auto down_to_pixels = [&](std::size_t t) {
+    }
+    // From the parent.
+    void down(std::size_t l, std::size_t k) const {
+        const Generation& g = generations_[l];
+        if (!(tree_.marks_[l][k] & kWanted)) return;
+        interpolation_.down(g.boxes[k].x & 1, g.boxes[k].y & 1,
+                            tree_.down_[l + 1].data() + at(g.parent[k]) * points_,
+                            tree_.down_[l].data() + k * points_);
+    }
+    void down_to_pixels(std::size_t t) const {
         double values[kTileColumns * kMostRows];
-        std::fill_n(values, size, 0.0);
-        const bool is_wanted = marks_[0][t] & kWanted;
-        if (is_wanted) interpolation.down_to_tile(down_[0].data() + t * points, values);
+        std::fill_n(values, size_, 0.0);
+        const bool is_wanted = tree_.marks_[0][t] & kWanted;
+        if (is_wanted) interpolation_.down_to_tile(tree_.down_[0].data() + t * points_, values);
         for (int o = 0; o < 9 && is_wanted; ++o) {
-            const int s = layout.around[t][at(o)];
+            const int s = layout_.around[t][at(o)];
             if (s < 0) continue;
-            const std::size_t begin = layout.begin[at(s)], m = source_end_[at(s)] - begin;
+            const std::size_t begin = layout_.begin[at(s)], m = tree_.source_end_[at(s)] - begin;
             if (m > 0)
-                kernels.near_tile(table_, rows_, o % 3 - 1, o / 3 - 1, m, sources_.data() + begin,
-                                  values);
+                kernels_.near_tile(tree_.table_, tree_.rows_, o % 3 - 1, o / 3 - 1, m,
+                                   tree_.sources_.data() + begin, values);
         }
-        for (std::size_t i = leaf.inside[t]; i < leaf.inside[t + 1]; ++i) {
-            const auto [first, count, column, row] = layout.strips[i];
+        for (std::size_t i = leaf_.inside[t]; i < leaf_.inside[t + 1]; ++i) {
+            const auto [first, count, column, row] = layout_.strips[i];
             for (int c = 0; c < count; ++c)
-                w[first + at(c)] = values[row * kTileColumns + column + c];
+                w_[first + at(c)] = values[row * kTileColumns + column + c];
         }
-    };
+    }
+
+private:
+    Tree& tree_;
+    const Layout& layout_;
+    const std::vector<Generation>& generations_;
+    const Generation& leaf_;
+    Interpolation& interpolation_;
+    const std::size_t size_, points_;
+    const int q_;
+    const PixelKernels& kernels_;
+    const double* const p_;
+    double* const w_;
+    const char* const wanted_;
+};
+
+// The boxes of one generation are pieces of parallel loops with all inside them; those above are a
+// piece of the transfers.
+void Tree::product(const Layout& layout, Interpolation& interpolation, std::size_t n,
+                   const double* p, double* w, const char* wanted) {
+    if (n == 0) return;
+    stopping_point();  // the caller may get no piece of the loops
+    const auto& generations = layout.generations;
+    const std::size_t levels = generations.size(), roots = layout.roots;
+    const int threads = threads_for(generations[0].boxes.size());
+    const Passes pass(*this, layout, interpolation, n, p, w, wanted);
 
     // The boxes of each generation inside a root.
     using Ranges = std::array<std::array<std::size_t, 2>, 32>;
@@ -419,26 +503,26 @@ void Tree::product(const Layout& layout, Interpolation& interpolation, std::size
     const std::size_t count = generations[roots].boxes.size();
     parallel_for(count, 1, threads, [&](std::size_t root) {
         const Ranges ranges = inside(root);
-        for (std::size_t t = ranges[0][0]; t < ranges[0][1]; ++t) up_from_pixels(t);
+        for (std::size_t t = ranges[0][0]; t < ranges[0][1]; ++t) pass.up_from_pixels(t);
         for (std::size_t l = 1; l <= roots; ++l)
-            for (std::size_t k = ranges[l][0]; k < ranges[l][1]; ++k) up(l, k);
+            for (std::size_t k = ranges[l][0]; k < ranges[l][1]; ++k) pass.up(l, k);
     });
     parallel_for(1 + layout.chunks_below, 1, threads, [&](std::size_t piece) {
         stopping_point();
-        if (piece > 0) return transfer(layout.chunks[piece - 1]);
+        if (piece > 0) return pass.transfer(layout.chunks[piece - 1]);
         for (std::size_t l = roots + 1; l < levels; ++l)
-            for (std::size_t k = 0; k < generations[l].boxes.size(); ++k) up(l, k);
+            for (std::size_t k = 0; k < generations[l].boxes.size(); ++k) pass.up(l, k);
         for (std::size_t c = layout.chunks_below; c < layout.chunks.size(); ++c)
-            transfer(layout.chunks[c]);
+            pass.transfer(layout.chunks[c]);
         for (std::size_t l = levels - 1; l-- > roots + 1;)
-            for (std::size_t k = 0; k < generations[l].boxes.size(); ++k) down(l, k);
+            for (std::size_t k = 0; k < generations[l].boxes.size(); ++k) pass.down(l, k);
     });
     parallel_for(count, 1, threads, [&](std::size_t root) {
         stopping_point();
         const Ranges ranges = inside(root);
         for (std::size_t l = std::min(roots + 1, levels - 1); l-- > 0;)
-            for (std::size_t k = ranges[l][0]; k < ranges[l][1]; ++k) down(l, k);
-        for (std::size_t t = ranges[0][0]; t < ranges[0][1]; ++t) down_to_pixels(t);
+            for (std::size_t k = ranges[l][0]; k < ranges[l][1]; ++k) pass.down(l, k);
+        for (std::size_t t = ranges[0][0]; t < ranges[0][1]; ++t) pass.down_to_pixels(t);
     });
 }
 

@@ -205,14 +205,38 @@ SplitPixels::SplitPixels(int nx, int ny, double aspect, const Share& share)
 void SplitPixels::multiply(SparsePlane& plane, const PixelSet& set, const std::vector<double>& x,
                            std::vector<double>& Kx, int threads) {
     const int mx = nx_ / kFactor, my = ny_ / kFactor;
-    x_.resize(x.size()), y_.resize(x.size()), Kx.resize(x.size());
+    x_.resize(x.size());
+    y_.resize(x.size());
+    Kx.resize(x.size());
     double total = 0;
-    for (std::size_t k = 0; k < x.size(); ++k) x_[k] = static_cast<float>(x[k]), total += x[k];
+    for (std::size_t k = 0; k < x.size(); ++k) {
+        x_[k] = static_cast<float>(x[k]);
+        total += x[k];
+    }
     plane.convolve(near_, set, x_.data(), y_.data(), threads);
     // The near part of a uniform pressure, which deflects nothing.
     const double uniform =
         near_.transform(0) * total / (static_cast<double>(nx_) * static_cast<double>(ny_));
-    // Spreads the pixels of each row along x, then the rows along y.
+    // The pixels of each row are spread along x, then the rows along y.
+    spread(set, threads);
+    const std::size_t length = at(mx) + 3;
+    const auto load = [&](int J, float* row) {
+        std::fill_n(row, mx, 0.0f);
+        for (int t = 0; t < 4; ++t)
+            for (int m = 0; m < kFactor; ++m) {
+                const float along_y = kSplines[at(m)][at(t)] / (kFactor * kFactor);
+                const float* const line =
+                    lines_.data() + at(((J + 1 - t + my) % my) * kFactor + m) * length + 1;
+                for (int i = 0; i < mx; ++i) row[i] += along_y * line[i];
+            }
+    };
+    coarse_.apply(load, [](int, const float*) {});
+    gather(set, uniform, Kx, threads);
+}
+
+// Spreads x_ along the rows of the plane.
+void SplitPixels::spread(const PixelSet& set, int threads) {
+    const int mx = nx_ / kFactor;
     const std::size_t length = at(mx) + 3;
     lines_.resize(length * at(ny_));
     parallel_for(ny_, kRows, threads, [&](int j) {
@@ -226,24 +250,24 @@ void SplitPixels::multiply(SparsePlane& plane, const PixelSet& set, const std::v
         };
         for (std::size_t k = set.rows[at(j)]; k < set.rows[at(j) + 1]; ++k) {
             const int q = set.column[k] / kFactor;
-            if (q != last) store(), last = q;
+            if (q != last) {
+                store();
+                last = q;
+            }
             const std::array<float, 4>& along_x = kSplines[at(set.column[k] % kFactor)];
             for (std::size_t u = 0; u < 4; ++u) sum[u] += x_[k] * along_x[u];
         }
         store();
-        line[at(mx)] += line[0], line[1] += line[at(mx) + 1], line[2] += line[at(mx) + 2];
+        line[at(mx)] += line[0];
+        line[1] += line[at(mx) + 1];
+        line[2] += line[at(mx) + 2];
     });
-    const auto load = [&](int J, float* row) {
-        std::fill_n(row, mx, 0.0f);
-        for (int t = 0; t < 4; ++t)
-            for (int m = 0; m < kFactor; ++m) {
-                const float along_y = kSplines[at(m)][at(t)] / (kFactor * kFactor);
-                const float* const line =
-                    lines_.data() + at(((J + 1 - t + my) % my) * kFactor + m) * length + 1;
-                for (int i = 0; i < mx; ++i) row[i] += along_y * line[i];
-            }
-    };
-    coarse_.apply(load, [](int, const float*) {});
+}
+
+// Adds the coarse plane at the pixels to the near part, y_.
+void SplitPixels::gather(const PixelSet& set, double uniform, std::vector<double>& Kx,
+                         int threads) {
+    const int mx = nx_ / kFactor, my = ny_ / kFactor;
     parallel_for(ny_, kRows, threads, [&](int j) {
         if (set.rows[at(j)] == set.rows[at(j) + 1]) return;
         const std::array<float, 4>& along_y = kSplines[at(j % kFactor)];
@@ -254,7 +278,9 @@ void SplitPixels::multiply(SparsePlane& plane, const PixelSet& set, const std::v
         for (int i = 0; i < mx; ++i)
             line[at(i) + 1] = along_y[0] * rows[0][i] + along_y[1] * rows[1][i] +
                               along_y[2] * rows[2][i] + along_y[3] * rows[3][i];
-        line[0] = line[at(mx)], line[at(mx) + 1] = line[1], line[at(mx) + 2] = line[2];
+        line[0] = line[at(mx)];
+        line[at(mx) + 1] = line[1];
+        line[at(mx) + 2] = line[2];
         for (std::size_t k = set.rows[at(j)]; k < set.rows[at(j) + 1]; ++k) {
             const std::array<float, 4>& along_x = kSplines[at(set.column[k] % kFactor)];
             const float* const from = line.data() + set.column[k] / kFactor;

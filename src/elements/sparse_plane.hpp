@@ -77,6 +77,9 @@ public:
                   std::vector<double>& Kx, int threads);
 
 private:
+    void spread(const PixelSet& set, int threads);
+    void gather(const PixelSet& set, double uniform, std::vector<double>& Kx, int threads);
+
     int nx_, ny_;
     PeriodicPixels<float> coarse_;
     PixelStencil near_;

@@ -28,7 +28,10 @@ void for_close_pairs(const std::vector<double>& x, const std::vector<double>& y,
         return points.empty() ? 0.0 : (*high).*side - (*low).*side;
     };
     if (extent(&Point::y) > extent(&Point::x))
-        for (Point& p : points) std::swap(p.x, p.y), p.low = p.x - p.reach;
+        for (Point& p : points) {
+            std::swap(p.x, p.y);
+            p.low = p.x - p.reach;
+        }
     const auto before = [](const Point& a, const Point& b) {
         return a.low != b.low ? a.low < b.low : a.index < b.index;
     };
@@ -66,7 +69,8 @@ void for_close_pairs(const std::vector<double>& x, const std::vector<double>& y,
         for (bool mx : {false, true})
             for (bool my : {false, true}) {
                 if ((mx && x0 > far) || (my && y0 > far)) continue;
-                xs.push_back(mx ? x0 + period.x : x0), ys.push_back(my ? y0 + period.y : y0);
+                xs.push_back(mx ? x0 + period.x : x0);
+                ys.push_back(my ? y0 + period.y : y0);
                 reaches.push_back(reach[i]);
                 images.push_back({i, mx, my});
             }

@@ -121,7 +121,10 @@ void SquareTable::add(std::size_t n_targets, const double* xt, const double* yt,
         const std::size_t count = std::min(kBlock, n_sources - j);
         for (std::size_t k = 0; k < kBlock; ++k) {
             const std::size_t from = j + std::min(k, count - 1);
-            x[k] = xs[from], y[k] = ys[from], force[k] = k < count ? f[from] : 0, back[k] = 0;
+            x[k] = xs[from];
+            y[k] = ys[from];
+            force[k] = k < count ? f[from] : 0;
+            back[k] = 0;
         }
         for (std::size_t i = 0; i < (same ? j + count : n_targets); ++i) {
             for (std::size_t k = 0; k < kBlock; ++k)

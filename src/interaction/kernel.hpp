@@ -34,10 +34,9 @@ public:
 
 private:
     double unit_, inverse_square_;
-    std::vector<double>
-        // [degree][piece], of powers of the distance from the middle of the piece, relative to its
-        // octave
-        coefficient_;
+    // [degree][piece], of powers of the distance from the middle of the piece, relative to its
+    // octave.
+    std::vector<double> coefficient_;
     std::vector<double> sum_;  // integral of v dy up to each piece
 };
 

@@ -79,7 +79,8 @@ void powers(double* values, std::size_t stride, int degree) {
         for (int m = 0; m <= degree; ++m)
             sum[m] += values[static_cast<std::size_t>(k) * stride] * t0[m];
         for (int m = 0; m <= degree; ++m) t2[m] = (m > 0 ? 2 * t1[m - 1] : 0) - t0[m];
-        std::copy_n(t1, kNodes, t0), std::copy_n(t2, kNodes, t1);
+        std::copy_n(t1, kNodes, t0);
+        std::copy_n(t2, kNodes, t1);
     }
     for (int m = 0; m <= degree; ++m) values[static_cast<std::size_t>(m) * stride] = sum[m];
 }
@@ -111,7 +112,8 @@ RSC_ALWAYS_INLINE void lattice_body(const Task& task) {
         dy = std::abs(dy - task.Ly * whole(dy * inverse_y));
         const double ex = task.Lx - dx, ey = task.Ly - dy, s = 1 - 2 * dx * inverse_x,
                      t = 1 - 2 * dy * inverse_y;
-        u[j] = 2 * s * s - 1, v[j] = 2 * t * t - 1;
+        u[j] = 2 * s * s - 1;
+        v[j] = 2 * t * t - 1;
         near[j] = inverse(dx * dx + dy * dy) +
                   (inverse(ex * ex + dy * dy) +
                    (inverse(dx * dx + ey * ey) + inverse(ex * ex + ey * ey)));
@@ -168,17 +170,47 @@ std::vector<double> Lattice::shares(const std::vector<double>& x,
     return sum;
 }
 
-Lattice::Lattice(Period period, const SmoothPart* smooth, double near)
-    : period_(period), smooth_(smooth), near_(near) {
+namespace {
+
+void require_shape(const Period& period) {
     const double longer = std::max(period.x, period.y), shorter = std::min(period.x, period.y);
     if (!(shorter > 0) || !period.finite())
         throw Error(Failure::bad_input,
                     "the sides of a periodic surface must be positive and finite");
-    if (longer > kMostAspect * shorter) {
+    if (longer > Lattice::kMostAspect * shorter) {
         throw Error(Failure::bad_input, "periodic surface of sides " + text_of(period.x) + " and " +
                                             text_of(period.y) +
                                             ": the longer may be at most 4 times the shorter");
     }
+}
+
+// Turns values at the nodes, row by row, into coefficients of powers. Returns the degree beyond
+// which nothing is left.
+int to_powers(std::vector<double>& table) {
+    for (std::size_t k = 0; k < kNodes; ++k) chebyshev(&table[k * kNodes], 1);
+    for (std::size_t k = 0; k < kNodes; ++k) chebyshev(&table[k], kNodes);
+    const auto tail = [&](int degree) {  // magnitude of the truncated terms
+        double sum = 0;
+        for (int i = 0; i < kNodes; ++i)
+            for (int j = std::max(0, degree + 1 - i); j < kNodes; ++j)
+                sum += std::abs(table[static_cast<std::size_t>(i * kNodes + j)]);
+        return sum;
+    };
+    int degree = 1;
+    while (degree < kNodes - 1 && tail(degree) > tail(kNodes - 1) + 2e-14) ++degree;
+    for (int i = 0; i < kNodes; ++i)
+        for (int j = std::max(0, degree + 1 - i); j < kNodes; ++j)
+            table[static_cast<std::size_t>(i * kNodes + j)] = 0;
+    for (std::size_t k = 0; k < kNodes; ++k) powers(&table[k * kNodes], 1, degree);
+    for (std::size_t k = 0; k < kNodes; ++k) powers(&table[k], kNodes, degree);
+    return degree;
+}
+
+}  // namespace
+
+Lattice::Lattice(Period period, const SmoothPart* smooth, double near)
+    : period_(period), smooth_(smooth), near_(near) {
+    require_shape(period);
     const double unit = std::sqrt(period.x) * std::sqrt(period.y), a = period.x / unit,
                  b = period.y / unit;
     const Ewald ewald(a, b);
@@ -190,58 +222,53 @@ Lattice::Lattice(Period period, const SmoothPart* smooth, double near)
             };
             table[static_cast<std::size_t>(i * kNodes + j)] = ewald.rest(place(i, a), place(j, b));
         }
-    // Contribution of the four images around the offset (x, y).
-    const auto around = [&](double x, double y) {
-        const double ex = period.x - x, ey = period.y - y;
-        return this->smooth(x, y) + this->smooth(ex, y) + this->smooth(x, ey) +
-               this->smooth(ex, ey);
-    };
-    double own = 0;
-    if (smooth) {
-        std::vector<double> x, y;
-        for (int k = 0; k < kNodes; ++k) {
-            const double part = 0.5 * (1 - std::sqrt((1 + std::cos(pi * (k + 0.5) / kNodes)) / 2));
-            x.push_back(part * period.x), y.push_back(part * period.y);
-        }
-        x.push_back(0), y.push_back(0);
-        const std::vector<double> sum = shares(x, y);
-        own = sum.back();
-        for (std::size_t i = 0; i < kNodes; ++i)
-            for (std::size_t j = 0; j < kNodes; ++j)
-                table[i * kNodes + j] += unit * (sum[i * (kNodes + 1) + j] - around(x[i], y[j]));
-    }
-    for (std::size_t k = 0; k < kNodes; ++k) chebyshev(&table[k * kNodes], 1);
-    for (std::size_t k = 0; k < kNodes; ++k) chebyshev(&table[k], kNodes);
-    const auto tail = [&](int degree) {  // magnitude of the truncated terms
-        double sum = 0;
-        for (int i = 0; i < kNodes; ++i)
-            for (int j = std::max(0, degree + 1 - i); j < kNodes; ++j)
-                sum += std::abs(table[static_cast<std::size_t>(i * kNodes + j)]);
-        return sum;
-    };
-    degree_ = 1;
-    while (degree_ < kNodes - 1 && tail(degree_) > tail(kNodes - 1) + 2e-14) ++degree_;
-    for (int i = 0; i < kNodes; ++i)
-        for (int j = std::max(0, degree_ + 1 - i); j < kNodes; ++j)
-            table[static_cast<std::size_t>(i * kNodes + j)] = 0;
-    for (std::size_t k = 0; k < kNodes; ++k) powers(&table[k * kNodes], 1, degree_);
-    for (std::size_t k = 0; k < kNodes; ++k) powers(&table[k], kNodes, degree_);
+    const double own = smooth ? add_smooth(unit, table) : 0;
+    degree_ = to_powers(table);
     for (int i = 0; i <= degree_; ++i)
         for (int j = 0; j <= degree_ - i; ++j)
             c_.push_back(table[static_cast<std::size_t>(i * kNodes + j)] / unit);
     self_ = ewald.rest(0, 0) / unit + 1 / period.x + 1 / period.y +
             1 / std::hypot(period.x, period.y) + own;
     least_ = at(period.x / 2, period.y / 2);
-    if (!smooth) return;
-    // A soft layer on a stiff base bulges around a force, so the minimum is searched.
+    if (smooth) search_least();
+}
+
+// Adds the smooth part, without that of the four nearest images, to the values at the nodes.
+// Returns its value at the source.
+double Lattice::add_smooth(double unit, std::vector<double>& table) const {
+    // Contribution of the four images around the offset (x, y).
+    const auto around = [&](double x, double y) {
+        const double ex = period_.x - x, ey = period_.y - y;
+        return smooth(x, y) + smooth(ex, y) + smooth(x, ey) + smooth(ex, ey);
+    };
+    std::vector<double> x, y;
+    for (int k = 0; k < kNodes; ++k) {
+        const double part = 0.5 * (1 - std::sqrt((1 + std::cos(pi * (k + 0.5) / kNodes)) / 2));
+        x.push_back(part * period_.x);
+        y.push_back(part * period_.y);
+    }
+    x.push_back(0);
+    y.push_back(0);
+    const std::vector<double> sum = shares(x, y);
+    for (std::size_t i = 0; i < kNodes; ++i)
+        for (std::size_t j = 0; j < kNodes; ++j)
+            table[i * kNodes + j] += unit * (sum[i * (kNodes + 1) + j] - around(x[i], y[j]));
+    return sum.back();
+}
+
+// A soft layer on a stiff base bulges around a force, so the minimum is searched.
+void Lattice::search_least() {
     double largest = least_;
     constexpr int rays = 16;
-    for (double d = 0.01 * smooth->scale(); d < 0.75 * (period.x + period.y); d *= 1.01)
+    for (double d = 0.01 * smooth_->scale(); d < 0.75 * (period_.x + period_.y); d *= 1.01)
         for (int ray = 0; ray <= rays; ++ray) {
-            const double angle = 0.5 * pi * ray / rays, x = d * std::cos(angle),
-                         y = d * std::sin(angle), value = at(x, y);
-            if (x <= period.x / 2 && y <= period.y / 2)
-                least_ = std::min(least_, value), largest = std::max(largest, std::abs(least_));
+            const double angle = 0.5 * pi * ray / rays;
+            const double x = d * std::cos(angle), y = d * std::sin(angle);
+            const double value = at(x, y);
+            if (x <= period_.x / 2 && y <= period_.y / 2) {
+                least_ = std::min(least_, value);
+                largest = std::max(largest, std::abs(least_));
+            }
         }
     least_ -= 1e-2 * largest;  // between the places asked
 }
@@ -291,8 +318,10 @@ void Lattice::potential(std::size_t n_targets, const double* xt, const double* y
             const double dx = std::abs((xi - xj[k]) - period_.x * whole((xi - xj[k]) / period_.x)),
                          dy = std::abs((yi - yj[k]) - period_.y * whole((yi - yj[k]) / period_.y));
             const double ex = period_.x - dx, ey = period_.y - dy;
-            square[k] = dx * dx + dy * dy, square[kBlock + k] = ex * ex + dy * dy;
-            square[2 * kBlock + k] = dx * dx + ey * ey, square[3 * kBlock + k] = ex * ex + ey * ey;
+            square[k] = dx * dx + dy * dy;
+            square[kBlock + k] = ex * ex + dy * dy;
+            square[2 * kBlock + k] = dx * dx + ey * ey;
+            square[3 * kBlock + k] = ex * ex + ey * ey;
         }
         for (std::size_t image = 0; image < 4; ++image)
             smooth_->table().values(kBlock, square + image * kBlock, s + image * kBlock);
@@ -305,7 +334,9 @@ void Lattice::potential(std::size_t n_targets, const double* xt, const double* y
         const std::size_t count = std::min(kBlock, n_sources - j);
         for (std::size_t k = 0; k < kBlock; ++k) {
             const std::size_t from = j + std::min(k, count - 1);
-            x[k] = xs[from], y[k] = ys[from], f[k] = k < count ? fs[from] : 0;
+            x[k] = xs[from];
+            y[k] = ys[from];
+            f[k] = k < count ? fs[from] : 0;
         }
         for (std::size_t i = 0; i < n_targets; ++i) {
             lattice_values({period_.x, period_.y, xt[i], yt[i], x, y, c_.data(), degree_, value});

@@ -29,13 +29,11 @@ public:
 
     const Period& period() const { return period_; }
     double at(double dx, double dy) const;  // nonzero offset
-    double self() const {
-        return self_;
-    }  // at a source, without its own 1/d: -3.90026492/L on a square
-    double least() const {
-        return least_;
-    }  // smallest value, in the middle between images: -1.61554/L on a square; with layers a bound of
-       // the least value
+    // At a source, without its own 1/d: -3.90026492/L on a square.
+    double self() const { return self_; }
+    // Smallest value, in the middle between images: -1.61554/L on a square; with layers a bound of
+    // it.
+    double least() const { return least_; }
     // Gamma minus 1/d + s(d)/near of the nearest image.
     double rest(double dx, double dy) const;
     double nearest_smooth(double dx, double dy) const;  // s(d)/near of the nearest image
@@ -47,6 +45,8 @@ public:
                    const double* xs, const double* ys, const double* fs, double* phi) const;
 
 private:
+    double add_smooth(double unit, std::vector<double>& table) const;
+    void search_least();
     double polynomial(double u, double v) const;
     double smooth(double x, double y) const;  // s/near at an offset
     // Contribution of the shares of the modes at all (x, y), from 0 to half a period, in the units
@@ -58,9 +58,8 @@ private:
     double near_;
     double self_ = 0, least_ = 0;
     int degree_ = 0;
-    std::vector<double>
-        // of u^a v^b, a + b <= degree, ordered by a, then b; u = 2 (1 - 2|x|/Lx)^2 - 1, v similarly
-        c_;
+    // Of u^a v^b, a + b <= degree, ordered by a, then b; u = 2 (1 - 2|x|/Lx)^2 - 1, v similarly.
+    std::vector<double> c_;
 };
 
 }  // namespace rsc

@@ -9,9 +9,8 @@ namespace rsc {
 namespace {
 
 using Matrix = std::array<std::array<double, 4>, 4>;
-struct
-    // displacements (along, down) per traction (shear, normal) over 2 mu of the material above
-    Compliance {
+// Displacements (along, down) per traction (shear, normal) over 2 mu of the material above.
+struct Compliance {
     double aa, ab, bb;
 };
 
@@ -170,7 +169,8 @@ private:
             const double off = t - static_cast<double>(i);
             if (off == 0) return values[first + i];
             const double w = binomial / off;
-            sum += w * values[first + i], weights += w;
+            sum += w * values[first + i];
+            weights += w;
             binomial *= -static_cast<double>(kNodes - 1 - i) / static_cast<double>(i + 1);
         }
         return sum / weights;

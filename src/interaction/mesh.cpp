@@ -50,7 +50,8 @@ public:
                 for (std::size_t i = 0; i < nx; ++i)
                     coarse[(j / 2) * mx + i / 2] += count[j * nx + i];
             count.swap(coarse);
-            nx = mx, ny = my;
+            nx = mx;
+            ny = my;
         }
     }
     // A cell of area pi r^2 represents a disc of radius r; interpolated between sizes by a power
@@ -131,8 +132,10 @@ MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, do
         if (!std::isfinite(x[i]) || !std::isfinite(y[i]))
             throw Error(Failure::bad_input, "mesh product: coordinates of point " +
                                                 std::to_string(i + 1) + " must be finite");
-        x_min = std::min(x_min, x[i]), x_max = std::max(x_max, x[i]);
-        y_min = std::min(y_min, y[i]), y_max = std::max(y_max, y[i]);
+        x_min = std::min(x_min, x[i]);
+        x_max = std::max(x_max, x[i]);
+        y_min = std::min(y_min, y[i]);
+        y_max = std::max(y_max, y[i]);
     }
     if (n <= (lattice_ ? kDirectLattice : kDirect) || (x_max == x_min && y_max == y_min)) {
         direct_.assign(n, x, y);
@@ -144,8 +147,11 @@ MeshPotential::MeshPotential(std::size_t n, const double* x, const double* y, do
         return;
     }
     // The kernel is symmetric in x and y.
-    if (y_max - y_min > x_max - x_min)
-        std::swap(x, y), std::swap(x_min, y_min), std::swap(x_max, y_max);
+    if (y_max - y_min > x_max - x_min) {
+        std::swap(x, y);
+        std::swap(x_min, y_min);
+        std::swap(x_max, y_max);
+    }
     const double length_x = x_max - x_min, length_y = y_max - y_min;
     if (!std::isfinite(length_x))
         throw Error(Failure::bad_input, "mesh product: the extent of the points overflows");
@@ -171,8 +177,10 @@ void MeshPotential::make_periodic(const double* x, const double* y) {
         const double moved = value - side * std::floor(value / side);
         return moved < side ? moved : 0.0;
     };
-    for (std::size_t i = 0; i < n_; ++i)
-        inside_x[i] = inside(x[i], period.x), inside_y[i] = inside(y[i], period.y);
+    for (std::size_t i = 0; i < n_; ++i) {
+        inside_x[i] = inside(x[i], period.x);
+        inside_y[i] = inside(y[i], period.y);
+    }
     spacing_ =
         choose_spacing(*design_, n_, period.x, period.y, true, resolved(),
                        PairEstimate(n_, inside_x.data(), inside_y.data(), 0, 0, period.x, period.y))
@@ -223,13 +231,21 @@ void MeshPotential::make_strips(const double* x, const double* y, double x0, dou
         segments(i, [&](std::size_t s) { point_[next[s]++] = static_cast<std::uint32_t>(i); });
 
     for (auto* array : {&x_, &y_, &u_, &v_, &f_, &near_phi_, &far_phi_}) array->assign(size, 0.0);
+    fill_strips(x, y, x0, y0, whole);
     mesh_ = fftw_array(far_->rows() * far_->stride());
+    spread_band_ = static_cast<std::size_t>((design_->width + 1) * spacing_ / height) + 1;
+}
+
+// Sorts the points of each strip, and sets their coordinates. `whole`: number of strips without the
+// copies beyond the right border.
+void MeshPotential::fill_strips(const double* x, const double* y, double x0, double y0,
+                                std::size_t whole) {
     const double offset = 0.5 * design_->width;
     const double dx =
         lattice_ ? lattice_->period().x / static_cast<double>(far_->columns()) : spacing_;
     const double dy =
         lattice_ ? lattice_->period().y / static_cast<double>(far_->lines()) : spacing_;
-    parallel_for(all, kStrips, threads(), [&](std::size_t s) {
+    parallel_for(strip_size_.size(), kStrips, threads(), [&](std::size_t s) {
         const double right = s >= whole ? lattice_->period().x : 0,
                      up = s % whole >= strips_ ? lattice_->period().y : 0;
         const auto begin = point_.begin() + static_cast<std::ptrdiff_t>(strip_begin_[s]);
@@ -238,15 +254,18 @@ void MeshPotential::make_strips(const double* x, const double* y, double x0, dou
             [x](std::uint32_t a, std::uint32_t b) { return x[a] != x[b] ? x[a] < x[b] : a < b; });
         for (std::size_t k = strip_begin_[s]; k < strip_begin_[s] + strip_size_[s]; ++k) {
             const std::uint32_t i = point_[k];
-            x_[k] = (x[i] + right) * scale_, y_[k] = (y[i] + up) * scale_;
-            u_[k] = (x[i] - x0) / dx + offset, v_[k] = (y[i] - y0) / dy + offset;
+            x_[k] = (x[i] + right) * scale_;
+            y_[k] = (y[i] + up) * scale_;
+            u_[k] = (x[i] - x0) / dx + offset;
+            v_[k] = (y[i] - y0) / dy + offset;
         }
         // Padding points are farther from all others than the cutoff, since the box is at most 1
         // wide.
-        for (std::size_t k = strip_begin_[s] + strip_size_[s]; k < strip_begin_[s + 1]; ++k)
-            x_[k] = x0 * scale_ + 4, y_[k] = y0 * scale_;
+        for (std::size_t k = strip_begin_[s] + strip_size_[s]; k < strip_begin_[s + 1]; ++k) {
+            x_[k] = x0 * scale_ + 4;
+            y_[k] = y0 * scale_;
+        }
     });
-    spread_band_ = static_cast<std::size_t>((design_->width + 1) * spacing_ / height) + 1;
 }
 
 // Even bands of strips are processed in parallel, then odd ones: concurrent bands never access the
@@ -285,7 +304,10 @@ void MeshPotential::near_strip(std::size_t s) {
     if (lattice_) between(s, whole + s);
     for (std::size_t t = s + 1; t < std::min(whole, s + 3); ++t) {
         between(s, t);
-        if (lattice_) between(s, whole + t), between(t, whole + s);
+        if (lattice_) {
+            between(s, whole + t);
+            between(t, whole + s);
+        }
     }
 }
 

@@ -31,9 +31,9 @@ public:
     // (base/parallel.hpp); the bits do not depend on their number.
     void apply(const double* f, double* phi);
 
-    std::size_t mesh_points() const {
-        return far_ ? far_->points() : 0;
-    }  // of the doubled mesh; 0: direct sums
+    // Points of the doubled mesh; 0: direct sums.
+    std::size_t mesh_points() const { return far_ ? far_->points() : 0; }
+
     // Estimated seconds per product on one core of 3.4 GHz with AVX2, for n points spread uniformly
     // over a rectangle and a smooth part that changes little within `scale` times the longer side.
     static double estimated_cost(std::size_t n, double relative_error, double aspect_ratio = 1,
@@ -44,6 +44,7 @@ private:
     double resolved() const;
     void make_periodic(const double* x, const double* y);
     void make_strips(const double* x, const double* y, double x0, double y0, double length_y);
+    void fill_strips(const double* x, const double* y, double x0, double y0, std::size_t whole);
     void near_strip(std::size_t s);
     void near_field();
     void spread();
@@ -51,9 +52,8 @@ private:
     std::size_t n_;
     std::shared_ptr<const Kernel> kernel_;
     const Lattice* lattice_;  // null unless periodic
-    PairSums
-        // used instead of the mesh for few or coinciding points, and if a mesh would be too fine
-        direct_;
+    // Used instead of the mesh for few or coinciding points, and if a mesh would be too fine.
+    PairSums direct_;
 
     const MeshDesign* design_;
     double spacing_ = 0;  // of the mesh [length]
@@ -68,8 +68,8 @@ private:
     // strips beyond the right border.
     std::size_t strips_ = 0;
     std::vector<std::size_t> strip_begin_, strip_size_;
-    std::vector<std::uint32_t>
-        point_;                    // [strip_begin_[s] + k] index of the caller, k < strip_size_[s]
+    // [strip_begin_[s] + k] index of the caller, k < strip_size_[s].
+    std::vector<std::uint32_t> point_;
     std::vector<double> x_, y_;    // for the near field, scaled
     std::vector<double> u_, v_;    // on the mesh
     std::size_t spread_band_ = 1;  // number of strips whose windows reach only into the next band

@@ -39,11 +39,13 @@ std::vector<long double> polynomial(const std::function<double(double)>& functio
     while (degree > 1 && (tail += std::abs(chebyshev[degree])) < tolerance) --degree;
     std::vector<long double> sum(static_cast<std::size_t>(degree) + 1), t0(sum.size()),
         t1(sum.size()), t2(sum.size());
-    t0[0] = 1, t1[1] = 1;
+    t0[0] = 1;
+    t1[1] = 1;
     for (int k = 0; k <= degree; ++k) {
         for (std::size_t m = 0; m < sum.size(); ++m) sum[m] += chebyshev[k] * t0[m];
         for (std::size_t m = 0; m < sum.size(); ++m) t2[m] = (m > 0 ? 2 * t1[m - 1] : 0) - t0[m];
-        t0.swap(t1), t1.swap(t2);
+        t0.swap(t1);
+        t1.swap(t2);
     }
     return sum;
 }
@@ -124,8 +126,10 @@ struct Tables {
 const Tables& tables(const MeshDesign& design) {
     static Tables all[std::size(kDesigns)];
     Tables& mine = all[&design - kDesigns];
-    std::call_once(mine.made,
-                   [&] { mine.kernel = unit_kernel(design), mine.window = make_window(design); });
+    std::call_once(mine.made, [&] {
+        mine.kernel = unit_kernel(design);
+        mine.window = make_window(design);
+    });
     return mine;
 }
 
@@ -391,8 +395,10 @@ void FarField::convolve(double* mesh) const {
         for (std::size_t n = 0; n < period_y_; ++n) {
             const double* factor = factors + std::min(n, period_y_ - n) * kColumns;
             double* value = block + n * kRow;
-            for (std::size_t c = 0; c < kColumns; ++c)
-                value[2 * c] *= factor[c], value[2 * c + 1] *= factor[c];
+            for (std::size_t c = 0; c < kColumns; ++c) {
+                value[2 * c] *= factor[c];
+                value[2 * c + 1] *= factor[c];
+            }
         }
         fftw_execute_dft(column_backward_.get(), as_complex(block), as_complex(block));
         for (std::size_t n = 0; n < rows; ++n)

@@ -92,8 +92,15 @@ std::size_t PairMatrix::Hash::operator()(const Place& place) const {
 }
 
 void PairMatrix::forget() {
-    points_.clear(), numbers_.clear(), active_.clear(), summed_.clear(), x_.clear(), y_.clear();
-    unit_ = 0, values_ = 0, small_ = 0;
+    points_.clear();
+    numbers_.clear();
+    active_.clear();
+    summed_.clear();
+    x_.clear();
+    y_.clear();
+    unit_ = 0;
+    values_ = 0;
+    small_ = 0;
 }
 
 bool PairMatrix::too_large(std::size_t active, std::size_t others) const {
@@ -122,7 +129,8 @@ void PairMatrix::extend(Point& point) {
     const std::size_t all = x_.size();
     if (from == all) return;
     values_ += all - from;
-    point.exact.resize(all), point.rough.resize(all);
+    point.exact.resize(all);
+    point.rough.resize(all);
     for (; from < all; from += std::min(kBlock, all - from)) {
         const std::size_t count = std::min(kBlock, all - from);
         for (std::size_t k = 0; k < count; ++k) {
@@ -137,13 +145,15 @@ void PairMatrix::extend(Point& point) {
 }
 
 bool PairMatrix::set_active(const std::vector<std::uint32_t>& active) {
-    active_ = active, summed_.clear();
+    active_ = active;
+    summed_.clear();
     for (const std::uint32_t k : active_) {
         Point& point = points_[k];
         if (point.source != kNone) continue;
         extend(point);
         point.source = static_cast<std::uint32_t>(x_.size());
-        x_.push_back(point.x), y_.push_back(point.y);
+        x_.push_back(point.x);
+        y_.push_back(point.y);
     }
     place_.assign(x_.size(), kNone);
     for (std::uint32_t k = 0; k < active_.size(); ++k) place_[points_[active_[k]].source] = k;
@@ -201,7 +211,8 @@ void PairMatrix::symmetric(Sums<Real>& sums, double* phi) {
 }
 
 void PairMatrix::among(bool single, const double* f, double* phi) {
-    summed_.assign(f, f + active_.size()), summed_single_ = single;
+    summed_.assign(f, f + active_.size());
+    summed_single_ = single;
     const double unit = single ? begin(rough_, f) * unit_ : begin(exact_, f);
     if (single)
         symmetric(rough_, phi);

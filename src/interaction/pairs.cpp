@@ -25,8 +25,10 @@ void enclose(Bounds& bounds, std::size_t n, const double* x, const double* y) {
             throw Error(Failure::bad_input,
                         "point " + std::to_string(i + 1) + " of a sum over pairs: coordinates (" +
                             text_of(x[i]) + ", " + text_of(y[i]) + ") must be finite");
-        bounds.x_min = std::min(bounds.x_min, x[i]), bounds.x_max = std::max(bounds.x_max, x[i]);
-        bounds.y_min = std::min(bounds.y_min, y[i]), bounds.y_max = std::max(bounds.y_max, y[i]);
+        bounds.x_min = std::min(bounds.x_min, x[i]);
+        bounds.x_max = std::max(bounds.x_max, x[i]);
+        bounds.y_min = std::min(bounds.y_min, y[i]);
+        bounds.y_max = std::max(bounds.y_max, y[i]);
     }
 }
 
@@ -53,7 +55,8 @@ double coordinate(const PairPoints<double>& points, double value, double) {
 
 // Integer coordinates: their differences fit in 31 bits.
 void set_frame(PairPoints<std::int32_t>& points, const Bounds& bounds) {
-    points.x0 = bounds.x_min, points.y0 = bounds.y_min;
+    points.x0 = bounds.x_min;
+    points.y0 = bounds.y_min;
     points.scale = bounds.extent() > 0 ? std::min(0x1.fffffep30 / bounds.extent(), 0x1p1000) : 1;
 }
 std::int32_t coordinate(const PairPoints<std::int32_t>& points, double value, double origin) {
@@ -143,7 +146,7 @@ void sum_onto(const PairLoops<Real, Coordinate>& loops, std::size_t n, const dou
         const std::size_t count = std::min(kTargets, n - i), full = padded(count);
         for (std::size_t k = 0; k < full; ++k) {
             const std::size_t from = i + std::min(k, count - 1);
-            xt[k] = coordinate(sources, x[from], sources.x0),
+            xt[k] = coordinate(sources, x[from], sources.x0);
             yt[k] = coordinate(sources, y[from], sources.y0);
         }
         std::fill_n(phi + i, count, 0.0);

@@ -9,10 +9,10 @@
 // Throughput of the symmetric loop, per pack of pairs (2 W directed pairs), in instructions that
 // need a multiply pipe (two of them on Zen 3 and on Intel's cores; the differences run on the add
 // pipes of Zen 3):
-//   single: d^2 2, rsqrt 1, Newton 3, mask 1-2, sums 2  ~ 9-10 -> 5 cycles for 16 directed pairs
-//   with 8 lanes: 3.2 a cycle
-//   double: d^2 2, rsqrt 1, refinement 7, mask 1-2, sums 2, conversions 1-2 ~ 15 -> 7.5 cycles for
-//   8 with 4 lanes: 1.1 a cycle
+//   single: d^2 2, rsqrt 1, Newton 3, mask 1-2, sums 2, together 9-10: 5 cycles for 16 directed
+//           pairs with 8 lanes, 3.2 a cycle
+//   double: d^2 2, rsqrt 1, refinement 7, mask 1-2, sums 2, conversions 1-2, together 15: 7.5
+//           cycles for 8 with 4 lanes, 1.1 a cycle
 // that is 10 G/s and 3.3 G/s at 3.1 GHz (EPYC, Zen 3). Measured there with AVX2: 8 to 9 G/s and 2.5
 // G/s (SSE2: 3.9 and 1.2).
 

@@ -30,7 +30,10 @@ public:
         stored_ = keeps_pairs(passive_.size());
         if (stored_) {
             const bool again = matrix_->stale(active_.size());
-            if (again) matrix_->forget(), xo_.clear();
+            if (again) {
+                matrix_->forget();
+                xo_.clear();
+            }
             if (moved || again || all_.size() != x_.size())
                 number(x_.size(), x_.data(), y_.data(), all_);
             select(active_, active_numbers_);
@@ -60,9 +63,11 @@ public:
         const auto count = static_cast<std::size_t>(n);
         if (stored_ && keeps_pairs(count)) {
             if (!std::equal(x, x + count, xo_.begin(), xo_.end()) ||
-                !std::equal(y, y + count, yo_.begin(), yo_.end()))
-                number(count, x, y, other_numbers_), xo_.assign(x, x + count),
-                    yo_.assign(y, y + count);
+                !std::equal(y, y + count, yo_.begin(), yo_.end())) {
+                number(count, x, y, other_numbers_);
+                xo_.assign(x, x + count);
+                yo_.assign(y, y + count);
+            }
             return matrix_->onto(sums_.has_single(), f, other_numbers_, phi);
         }
         if (stored_) {
@@ -134,9 +139,12 @@ void Products::inner_everywhere(const double* f, double* phi) {
 
 void Products::gather(const std::vector<int>& which, std::vector<double>& x,
                       std::vector<double>& y) const {
-    x.clear(), y.clear();
-    for (const int k : which)
-        x.push_back(x_[static_cast<std::size_t>(k)]), y.push_back(y_[static_cast<std::size_t>(k)]);
+    x.clear();
+    y.clear();
+    for (const int k : which) {
+        x.push_back(x_[static_cast<std::size_t>(k)]);
+        y.push_back(y_[static_cast<std::size_t>(k)]);
+    }
 }
 
 void Products::divide(const std::vector<int>& active) {

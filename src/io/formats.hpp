@@ -1,6 +1,5 @@
 // The readers of file formats, each in its own source file; io/inputs.cpp selects one by the first
-// bytes of a file. All throw
-// Error(bad_input) with the line or byte of the error.
+// bytes of a file. All throw Error(bad_input) with the line or byte of the error.
 #pragma once
 
 #include "base/error.hpp"
@@ -54,10 +53,9 @@ std::string gwyddion_advice(const std::string& path);
 // (adjacent blanks are ignored); the same separator is required throughout. With semicolons the
 // decimal mark may be a comma, but then throughout. `#` starts a comment; empty lines are skipped;
 // exponents may be Fortran's (1.5d-3). `columns`: the required number, or 0 for that of the first
-// row. With `missing` the words nan and bad and empty cells between commas or semicolons are missing
-// values: NaN. Throws Error(bad_input) for
-// words that are no finite number, rows of different length or separator, files without rows, and
-// UTF-16.
+// row. With `missing` the words nan and bad and empty cells between commas or semicolons are
+// missing values: NaN. Throws Error(bad_input) for words that are no finite number, rows of
+// different length or separator, files without rows, and UTF-16.
 TextTable read_table(const std::string& path, std::size_t columns, bool missing = false);
 
 // A number as Fortran reads it. Empty for other words, and for an exponent without a letter: in a

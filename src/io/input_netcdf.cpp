@@ -356,34 +356,51 @@ std::optional<std::string> NetcdfInput::text_attribute(const Variable& v, const 
     return printable(text.substr(0, text.find('\0')), text.size());
 }
 
-void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) const {
-    if (!v.numeric()) bad_input(path_ + ": variable " + v.name + " is not numeric");
-    must(nc_get_var_double(id_, v.id, out), "variable " + v.name);
+double NetcdfInput::number_attribute(const Variable& v, const char* name, double otherwise) const {
+    const auto values = numbers_attribute(v, name);
+    if (!values) return otherwise;
+    if (values->size() != 1 || !std::isfinite(values->front()))
+        bad_input(path_ + ": attribute " + v.name + ":" + name + " must be one finite number");
+    return values->front();
+}
 
-    std::vector<double> missing =
-        numbers_attribute(v, "missing_value").value_or(std::vector<double>());
-    if (const auto fill = numbers_attribute(v, "_FillValue"))
-        missing.insert(missing.end(), fill->begin(), fill->end());
-    else if (const auto standard = default_fill(v.type))
-        missing.push_back(*standard);
-    const auto factor = [&](const char* name, double otherwise) {
-        const auto values = numbers_attribute(v, name);
-        if (!values) return otherwise;
-        if (values->size() != 1 || !std::isfinite(values->front()))
-            bad_input(path_ + ": attribute " + v.name + ":" + name + " must be one finite number");
-        return values->front();
-    };
-    const double scale = factor("scale_factor", 1.0), offset = factor("add_offset", 0.0);
-    // A value of the variable's type; the classic formats mark unsigned integers by an attribute.
-    const bool is_unsigned =
-        v.type <= NC_INT && text_attribute(v, "_Unsigned").value_or("") == "true";
-    const double wrap = v.type == NC_BYTE ? 0x1p8 : v.type == NC_SHORT ? 0x1p16 : 0x1p32;
-    const auto typed = [&](double value) {
+// How the stored numbers of a variable are to be read.
+struct NetcdfInput::Packing {
+    nc_type type;
+    // The classic formats mark unsigned integers by an attribute.
+    bool is_unsigned;
+    double scale, offset;
+    std::vector<double> missing;
+    double least, most;     // of valid values
+    bool unpacked = false;  // these limits are those of unpacked values
+
+    // A value of the variable's type.
+    double typed(double value) const {
+        const double wrap = type == NC_BYTE ? 0x1p8 : type == NC_SHORT ? 0x1p16 : 0x1p32;
         return is_unsigned && value < 0 ? value + wrap
-               : v.type == NC_FLOAT     ? static_cast<double>(static_cast<float>(value))
+               : type == NC_FLOAT       ? static_cast<double>(static_cast<float>(value))
                                         : value;
-    };
-    for (double& value : missing) value = typed(value);
+    }
+    bool is_missing(double stored) const {
+        const double judged = unpacked ? stored * scale + offset : stored;
+        return std::find(missing.begin(), missing.end(), stored) != missing.end() ||
+               judged < least || judged > most;
+    }
+};
+
+NetcdfInput::Packing NetcdfInput::packing(const Variable& v) const {
+    Packing packing{v.type,
+                    v.type <= NC_INT && text_attribute(v, "_Unsigned").value_or("") == "true",
+                    number_attribute(v, "scale_factor", 1.0),
+                    number_attribute(v, "add_offset", 0.0),
+                    numbers_attribute(v, "missing_value").value_or(std::vector<double>()),
+                    number_attribute(v, "valid_min", -kInfinity),
+                    number_attribute(v, "valid_max", kInfinity)};
+    if (const auto fill = numbers_attribute(v, "_FillValue"))
+        packing.missing.insert(packing.missing.end(), fill->begin(), fill->end());
+    else if (const auto standard = default_fill(v.type))
+        packing.missing.push_back(*standard);
+    for (double& value : packing.missing) value = packing.typed(value);
     // Limits are stored values, unless those are integers, and the limits real numbers like the
     // factors (NetCDF user's guide).
     const auto real = [&](const char* name) {
@@ -391,25 +408,33 @@ void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) con
         return nc_inq_atttype(id_, v.id, name, &type) == NC_NOERR &&
                (type == NC_FLOAT || type == NC_DOUBLE);
     };
-    const bool unpacked = v.type != NC_FLOAT && v.type != NC_DOUBLE &&
-                          (real("scale_factor") || real("add_offset")) &&
-                          (real("valid_range") || real("valid_min") || real("valid_max"));
-    constexpr double all = kInfinity;
-    double least = factor("valid_min", -all), most = factor("valid_max", all);
+    packing.unpacked = v.type != NC_FLOAT && v.type != NC_DOUBLE &&
+                       (real("scale_factor") || real("add_offset")) &&
+                       (real("valid_range") || real("valid_min") || real("valid_max"));
     if (const auto range = numbers_attribute(v, "valid_range")) {
         if (range->size() != 2)
             bad_input(path_ + ": attribute " + v.name + ":valid_range must be two numbers");
-        least = (*range)[0], most = (*range)[1];
+        packing.least = (*range)[0];
+        packing.most = (*range)[1];
     }
-    if (unpacked)
-        least -= 0.5 * std::abs(scale), most += 0.5 * std::abs(scale);  // however they are rounded
-    else
-        least = typed(least), most = typed(most);
+    if (packing.unpacked) {
+        // However the stored numbers were rounded.
+        packing.least -= 0.5 * std::abs(packing.scale);
+        packing.most += 0.5 * std::abs(packing.scale);
+    } else {
+        packing.least = packing.typed(packing.least);
+        packing.most = packing.typed(packing.most);
+    }
+    return packing;
+}
+
+void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) const {
+    if (!v.numeric()) bad_input(path_ + ": variable " + v.name + " is not numeric");
+    must(nc_get_var_double(id_, v.id, out), "variable " + v.name);
+    const Packing packing = this->packing(v);
     for (std::size_t i = 0; i < v.count(); ++i) {
-        const double stored = typed(out[i]);
-        const double judged = unpacked ? stored * scale + offset : stored;
-        const bool filled = std::find(missing.begin(), missing.end(), stored) != missing.end() ||
-                            judged < least || judged > most;
+        const double stored = packing.typed(out[i]);
+        const bool filled = packing.is_missing(stored);
         if (missing_allowed && (std::isnan(stored) || filled)) {
             out[i] = std::nan("");
             continue;
@@ -417,7 +442,7 @@ void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) con
         if (filled)
             bad_input(path_ + ": " + indices(v, i) + " is missing (" + text_of(stored) +
                       " is a fill value or not valid); every value must be known");
-        out[i] = stored * scale + offset;
+        out[i] = stored * packing.scale + packing.offset;
         if (!std::isfinite(out[i]))
             bad_input(path_ + ": " + indices(v, i) + " is not finite; every value must be known");
     }

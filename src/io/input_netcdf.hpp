@@ -27,8 +27,7 @@ bool require_sound(const std::string& path);
 void check_classic_length(const std::string& path);
 
 // HDF5 may crash, now or when the program ends, if it is out of memory: allocates as many bytes as
-// it needs, as a test. Throws
-// Error(no_memory): "not enough memory PURPOSE (some 34 MB)REMEDY".
+// it needs, as a test. Throws Error(no_memory): "not enough memory PURPOSE (some 34 MB)REMEDY".
 void require_memory(double bytes, const std::string& purpose, const char* remedy = "");
 
 // NetCDF queries attributes that may be missing, and HDF5 prints each failure on stderr. NetCDF
@@ -73,8 +72,8 @@ public:
     std::optional<double> unit_factor(const Variable& variable, const std::string& length_unit,
                                       int power = 1) const;
     // All values of the variable `name`, with `rank` dimensions, converted from its units, if it
-    // has them, to length_unit^power. Throws
-    // Error(bad_input), with `expected` if there is no such variable.
+    // has them, to length_unit^power. Throws Error(bad_input), with `expected` if there is no such
+    // variable.
     std::vector<double> values(const std::string& name, std::size_t rank,
                                const std::string& length_unit, int power,
                                const char* expected) const;
@@ -89,6 +88,9 @@ public:
 private:
     void must(int status, const std::string& what) const;
     Variable variable(int id) const;
+    double number_attribute(const Variable& variable, const char* name, double otherwise) const;
+    struct Packing;
+    Packing packing(const Variable& variable) const;
 
     std::unique_lock<LibraryLock> alone_;
     std::string path_;
@@ -96,8 +98,8 @@ private:
 };
 
 // True if the first bytes are those of a NetCDF file (classic, 64-bit, CDF-5, or HDF5 with or
-// without a user block). Throws
-// Error(bad_input) if there is no such file, it cannot be read, or it is empty.
+// without a user block). Throws Error(bad_input) if there is no such file, it cannot be read, or it
+// is empty.
 bool is_netcdf(const std::string& path);
 
 }  // namespace rsc

@@ -25,7 +25,9 @@ HeightMap prepare(const std::string& path, const Header& h, const std::string& l
         if (!(value > 0 && std::isfinite(value)))
             bad_input(path + ": " + name + " = " + text_of(value) + ": must be positive");
     };
-    positive("Xscale", h.dx), positive("Yscale", h.dy), positive("Zscale", h.scale);
+    positive("Xscale", h.dx);
+    positive("Yscale", h.dy);
+    positive("Zscale", h.scale);
     if (h.compression != 0)
         bad_input(path + ": Compression = " + std::to_string(h.compression) +
                   ": only 0 (none) is known");
@@ -33,7 +35,8 @@ HeightMap prepare(const std::string& path, const Header& h, const std::string& l
         bad_input(path + ": CheckType = " + std::to_string(h.check) + ": only 0 (none) is known");
     const double metre = length_factor("m", length_unit);
     HeightMap map = allocate_map(h.nx, h.ny);
-    map.dx = h.dx * metre, map.dy = h.dy * metre;
+    map.dx = h.dx * metre;
+    map.dy = h.dy * metre;
     factor = h.scale * metre;
     return map;
 }
@@ -108,52 +111,70 @@ HeightMap read_binary(const std::string& path, const std::string& bytes,
     return map;
 }
 
-HeightMap read_text(const std::string& path, std::string bytes, const std::string& length_unit) {
-    std::replace(bytes.begin(), bytes.end(), '\0', ' ');
-    std::istringstream in(bytes);
-    long lines = 0;
-    std::map<std::string, std::pair<std::string, long>>
-        header;  // the value of a name, and its line
-    std::string line, word;
-    std::getline(in, line);  // the version
-    do {
-        if (!std::getline(in, line))
-            bad_input(path +
-                      ": the line '*' that ends the header is missing; is the file complete?");
-        ++lines;
-        std::replace(line.begin(), line.end(), '=', ' ');
-        std::istringstream words(line);
-        std::string value, more;
-        word.clear();
-        words >> word >> value >> more;
-        if (!more.empty() && more[0] != ';') value += ' ' + more;  // no unit may follow a number
-        header[namelist::lower_case(word)] = {value, lines + 1};
-    } while (word[0] != '*');
-    const auto number = [&](const char* name, auto& value) {
-        const auto found = header.find(namelist::lower_case(name));
-        if (found == header.end()) bad_input(path + ": the header has no " + std::string(name));
+// The header of a text: its names in lower case, with their values and lines.
+class TextHeader {
+public:
+    // Reads up to the line that begins with '*'.
+    TextHeader(const std::string& path, std::istream& in) : path_(path) {
+        long lines = 0;
+        std::string line, word;
+        std::getline(in, line);  // the version
+        do {
+            if (!std::getline(in, line))
+                bad_input(path +
+                          ": the line '*' that ends the header is missing; is the file complete?");
+            ++lines;
+            std::replace(line.begin(), line.end(), '=', ' ');
+            std::istringstream words(line);
+            std::string value, more;
+            word.clear();
+            words >> word >> value >> more;
+            if (!more.empty() && more[0] != ';')
+                value += ' ' + more;  // no unit may follow a number
+            values_[namelist::lower_case(word)] = {value, lines + 1};
+        } while (word[0] != '*');
+    }
+
+    bool has(const char* name) const { return values_.count(namelist::lower_case(name)) > 0; }
+
+    template <class Value>
+    void number(const char* name, Value& value) const {
+        const auto found = values_.find(namelist::lower_case(name));
+        if (found == values_.end()) bad_input(path_ + ": the header has no " + std::string(name));
         const std::string& text = found->second.first;
         const long at = found->second.second;
         const auto read = [&] {
-            if constexpr (std::is_floating_point_v<std::remove_reference_t<decltype(value)>>)
+            if constexpr (std::is_floating_point_v<Value>)
                 return number_in_file(text);
             else
                 return namelist::to_integer(text);
         }();
-        using Value = std::remove_reference_t<decltype(value)>;
         if (!read ||
             (std::is_integral_v<Value> &&
              (*read < 0 || !std::in_range<std::uint32_t>(static_cast<std::int64_t>(*read)))))
-            bad_input(path + ":" + std::to_string(at) + ": " + name +
+            bad_input(path_ + ":" + std::to_string(at) + ": " + name +
                       ": a number was expected, not " + shown(text));
         value = static_cast<Value>(*read);
-    };
+    }
+
+private:
+    const std::string& path_;
+    std::map<std::string, std::pair<std::string, long>> values_;
+};
+
+HeightMap read_text(const std::string& path, std::string bytes, const std::string& length_unit) {
+    std::replace(bytes.begin(), bytes.end(), '\0', ' ');
+    std::istringstream in(bytes);
+    const TextHeader header(path, in);
     Header h;
-    number("NumPoints", h.nx), number("NumProfiles", h.ny);
-    number("Xscale", h.dx), number("Yscale", h.dy), number("Zscale", h.scale);
-    if (header.count("compression")) number("Compression", h.compression);
-    if (header.count("datatype")) number("DataType", h.type);
-    if (header.count("checktype")) number("CheckType", h.check);
+    header.number("NumPoints", h.nx);
+    header.number("NumProfiles", h.ny);
+    header.number("Xscale", h.dx);
+    header.number("Yscale", h.dy);
+    header.number("Zscale", h.scale);
+    if (header.has("Compression")) header.number("Compression", h.compression);
+    if (header.has("DataType")) header.number("DataType", h.type);
+    if (header.has("CheckType")) header.number("CheckType", h.check);
     // A height has at least two characters, so excessive sizes are refused before memory is
     // allocated.
     if (h.nx > 0 && h.ny > bytes.size() / h.nx)
@@ -175,6 +196,7 @@ HeightMap read_text(const std::string& path, std::string bytes, const std::strin
         const auto lines_before = std::count(bytes.begin(), bytes.begin() + in.tellg(), '\n');
         bad_input(path + ":" + std::to_string(lines_before + 1) + ": " + what);
     };
+    std::string word;
     for (std::size_t k = 0; k < points; ++k) {
         if (!(in >> word) || word[0] == '*')
             refuse(std::to_string(k) + " heights where " + size +

@@ -33,7 +33,10 @@ double number(std::string_view word, const std::string& path, long line, std::si
     if (style.separator == ';') {
         const std::size_t mark = text.find_first_of(".,");
         if (mark != std::string::npos) {
-            if (style.decimal == 0) style.decimal = text[mark], style.decimal_line = line;
+            if (style.decimal == 0) {
+                style.decimal = text[mark];
+                style.decimal_line = line;
+            }
             if (style.decimal != text[mark])
                 refuse(path, line,
                        place + ": a decimal " + (text[mark] == ',' ? "comma" : "point") +
@@ -72,7 +75,10 @@ Row parse(std::string_view text, const std::string& path, long line, Style& styl
     const bool semicolons = text.find(';') != std::string_view::npos;
     const auto separates = [semicolons](char c) { return c == (semicolons ? ';' : ','); };
     const auto require = [&](char found, const std::string& before) {
-        if (style.separator == 0) style.separator = found, style.line = line;
+        if (style.separator == 0) {
+            style.separator = found;
+            style.line = line;
+        }
         if (style.separator == found) return;
         const bool here = style.line == line;
         // In "0,01 0,02" one of two apparent separators may be a decimal comma.

@@ -86,9 +86,9 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
     std::sort(c.begin(), c.end());
     TextAxis axis;
     axis.first = c.front();
-    const double range = c.back() - c.front(),
-                 same =
-                     1e-3 * range / static_cast<double>(table.rows);  // less than any uniform step
+    const double range = c.back() - c.front();
+    // Less than any uniform step.
+    const double same = 1e-3 * range / static_cast<double>(table.rows);
     // The smallest gap between values is nearly the step; a wider one is several steps, where all
     // points of a column are missing.
     double least = range;
@@ -147,7 +147,10 @@ HeightMap read_text_triples(const std::string& path, const TextTable& table,
     }
     for (std::size_t k = 0; missing && k < line.size();
          ++k)  // a point that is not listed is missing
-        if (line[k] == 0) map.data[k] = std::nan(""), line[k] = -1;
+        if (line[k] == 0) {
+            map.data[k] = std::nan("");
+            line[k] = -1;
+        }
     if (const auto empty = std::find(line.begin(), line.end(), 0L); empty != line.end()) {
         const auto point = static_cast<std::size_t>(empty - line.begin());
         bad_input(path + ": three columns are read as x y z of a map of " +
@@ -499,8 +502,10 @@ Asperities read_text_asperities(const std::string& path) {
     Asperities a;
     for (std::size_t i = 0; i < table.rows; ++i) {
         const double* const row = table.values.data() + 4 * i;
-        a.x.push_back(row[0]), a.y.push_back(row[1]), a.z.push_back(row[2]),
-            a.radius.push_back(row[3]);
+        a.x.push_back(row[0]);
+        a.y.push_back(row[1]);
+        a.z.push_back(row[2]);
+        a.radius.push_back(row[3]);
     }
     validate(a, [&](std::size_t i) { return path + ":" + std::to_string(table.line[i]); });
     return a;
@@ -521,8 +526,10 @@ std::optional<double> likely_code(const HeightMap& map, long& points) {
     constexpr double kShare = 1e-3;
     double low = kInfinity, high = -kInfinity;
     for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i)
-            low = std::fmin(low, map(i, j)), high = std::fmax(high, map(i, j));
+        for (int i = 0; i < map.nx; ++i) {
+            low = std::fmin(low, map(i, j));
+            high = std::fmax(high, map(i, j));
+        }
     const double many = kShare * static_cast<double>(map.points());
     for (const double code : {low, high}) {
         double least = kInfinity, most = -kInfinity;
@@ -531,8 +538,10 @@ std::optional<double> likely_code(const HeightMap& map, long& points) {
             for (int i = 0; i < map.nx; ++i)
                 if (map(i, j) == code)
                     ++points;
-                else
-                    least = std::fmin(least, map(i, j)), most = std::fmax(most, map(i, j));
+                else {
+                    least = std::fmin(least, map(i, j));
+                    most = std::fmax(most, map(i, j));
+                }
         const double away = code == low ? least - code : code - most;
         const bool fills = points > 1 && static_cast<double>(points) > many;  // one is an outlier
         if (fills && least < most && away > most - least) return code;
@@ -651,8 +660,10 @@ InputSpectrum read_spectrum(const std::string& path, const std::string& length_u
                     "surface%twin_heights = "
                     "'measured' need the result file of a measured map");
             const TextTable table = read_table(path, 2);
-            for (std::size_t i = 0; i < table.rows; ++i)
-                wavenumber.push_back(table.values[2 * i]), psd.push_back(table.values[2 * i + 1]);
+            for (std::size_t i = 0; i < table.rows; ++i) {
+                wavenumber.push_back(table.values[2 * i]);
+                psd.push_back(table.values[2 * i + 1]);
+            }
         }
         const auto radial =
             std::make_shared<const SpectrumTable>(std::move(wavenumber), std::move(psd));

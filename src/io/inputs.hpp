@@ -48,35 +48,32 @@ bool is_instrument_map(const std::string& path);
 bool is_text_map(const std::string& path);
 
 // Heights from `path`.
+//
 // NetCDF: the variable `height`, dimensions (y, x), or the only two-dimensional numeric variable.
-// scale_factor and
-//   add_offset are applied; missing values (_FillValue, missing_value, outside valid_min, valid_max
-//   or valid_range, NaN) are refused.
-//   These limits are stored values, before scale_factor and add_offset; real numbers for packed
-//   integers are heights. Heights and
-//   coordinates are converted from their `units` to `length_unit`. If none of them has `units`,
-//   length_unit is assumed; if only some have,
-//   and another unit than length_unit, the file is refused. The spacing comes from the coordinate
-//   variables of the two dimensions, which
-//   must be uniform to 1e-6 of a step (or to the rounding of their own type); x0, y0 are the first
-//   coordinates; decreasing coordinates are
-//   reversed. Without coordinate variables the steps are dx = dy = L/nx and x0 = y0 = 0. If both
-//   are given, nx dx must equal L to 1e-6.
-// Text (formats.hpp): a matrix, one line for each y in increasing order; heights are in the unit that
-// a comment states as theirs, otherwise in length_unit; a comment that names another unit of length
-// asks for `text.height_unit`. Needs L, or a comment with the width.
-//   Or three columns x y z, in any order of the lines: the points of a full grid whose
-//   coordinates are uniform to a hundredth of
-//   a step, as text is rounded. Four columns are refused, because they are a list of asperities.
-// L: extent in x [length_unit] of the points as cells (L = nx dx). At least 3 x 3 points. The map
-// is not periodic.
+// scale_factor and add_offset are applied; missing values (_FillValue, missing_value, outside
+// valid_min, valid_max or valid_range, NaN) are refused. These limits are stored values, before
+// scale_factor and add_offset; real numbers for packed integers are heights. Heights and
+// coordinates are converted from their `units` to `length_unit`. If none of them has `units`,
+// length_unit is assumed; if only some have, and another unit than length_unit, the file is
+// refused. The spacing comes from the coordinate variables of the two dimensions, which must be
+// uniform to 1e-6 of a step (or to the rounding of their own type); x0, y0 are the first
+// coordinates; decreasing coordinates are reversed. Without coordinate variables the steps are
+// dx = dy = L/nx and x0 = y0 = 0. If both are given, nx dx must equal L to 1e-6.
+//
+// Text (formats.hpp): a matrix, one line for each y in increasing order; heights are in the unit
+// that a comment states as theirs, otherwise in length_unit; a comment that names another unit of
+// length asks for `text.height_unit`. Needs L, or a comment with the width. Or three columns x y z,
+// in any order of the lines: the points of a full grid whose coordinates are uniform to a hundredth
+// of a step, as text is rounded. Four columns are refused, because they are a list of asperities.
+//
 // Gwyddion's .gwy and .sdf of ISO 25178-71 (formats.hpp): sizes and units come from the file; L, if
 // given, must agree.
-// `channel` names the image of a .gwy or the variable of a NetCDF file; empty: the first with
-// heights. With Missing::fill missing points are NaN in the map; otherwise they are refused. In a
-// text `nan` and `bad` are missing points, as are points that are not
-//   among the triples.
-// `text` is for text files only; other files are refused with it.
+//
+// L: extent in x [length_unit] of the points as cells (L = nx dx). At least 3 x 3 points. The map
+// is not periodic. `channel` names the image of a .gwy or the variable of a NetCDF file; empty: the
+// first with heights. With Missing::fill missing points are NaN in the map; otherwise they are
+// refused. In a text `nan` and `bad` are missing points, as are points that are not among the
+// triples. `text` is for text files only; other files are refused with it.
 HeightMap read_heights(const std::string& path, std::optional<double> L,
                        const std::string& length_unit = "mm", const std::string& channel = "",
                        Missing missing = Missing::refuse, const TextMap& text = {},
@@ -84,9 +81,8 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
 
 // Asperities from `path`.
 // NetCDF: asperity_x, asperity_y, asperity_z, asperity_radius over one dimension; asperity_kappa1,
-// _kappa2 and _angle if all
-//   three exist, asperity_biharmonic if it exists; each converted from its `units`, if it has them,
-//   to length_unit.
+// _kappa2 and _angle if all three exist, asperity_biharmonic if it exists; each converted from its
+// `units`, if it has them, to length_unit.
 // Text: four columns x y z r in length_unit, separators and comments as above.
 // At least one asperity; all values finite, radii positive, kappa1 >= kappa2 > 0, no two asperities
 // at the same (x, y).

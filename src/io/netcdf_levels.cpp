@@ -255,8 +255,10 @@ void ResultTable::surfaces() {
                of_surfaces([](const auto& s) { return std::sqrt(2 * s.m2); }),
                "sqrt(2 m2); the theory assumes small slopes");
     std::vector<std::int32_t> summits, saddles;
-    for (const SurfaceStatistics& s : o_.surface)
-        summits.push_back(clamped(s.summits)), saddles.push_back(clamped(s.saddles));
+    for (const SurfaceStatistics& s : o_.surface) {
+        summits.push_back(clamped(s.summits));
+        saddles.push_back(clamped(s.saddles));
+    }
     if (std::any_of(summits.begin(), summits.end(),
                     [](auto n) { return n > 0; })) {  // elements do not search for summits
         add("summits", dims, "1", "number of asperities", summits);
@@ -310,8 +312,10 @@ void ResultTable::outline() {
     const std::vector<Vec2> curve = r_.indenter.shape->outline(height);
     if (curve.empty()) return;
     std::vector<double> x, y;
-    for (const Vec2& p : curve)
-        x.push_back(r_.indenter.x0 + p.x), y.push_back(r_.indenter.y0 + p.y);
+    for (const Vec2& p : curve) {
+        x.push_back(r_.indenter.x0 + p.x);
+        y.push_back(r_.indenter.y0 + p.y);
+    }
     file_.dimension("outline_point", curve.size());
     const auto how = comment(
         "closed curve on which the indenter is 4 sigma_reference above the mean plane at the "
@@ -376,8 +380,11 @@ void ResultTable::friction() {
 void ResultTable::two_flats(const Moments& m) {
     const double E = r_.indenter.E_star, A0 = r_.indenter.period.area();
     double summits = 0, kappa = 0, m2 = 0;
-    for (const SurfaceStatistics& s : o_.surface)
-        summits += static_cast<double>(s.summits), kappa += s.mean_kappa_g, m2 += s.m2;
+    for (const SurfaceStatistics& s : o_.surface) {
+        summits += static_cast<double>(s.summits);
+        kappa += s.mean_kappa_g;
+        m2 += s.m2;
+    }
     const auto n = static_cast<double>(o_.surface.size());
     // of the generated surfaces: for a band that begins at L their slope differs from that of
     // m2_theory

@@ -366,7 +366,10 @@ void ResultTable::compared() {
     if (p.index.empty()) return;
     file_.dimension("compare_pixel", p.index.size());
     std::vector<double> x, y;
-    for (std::size_t k = 0; k < p.index.size(); ++k) x.push_back(p.x(k)), y.push_back(p.y(k));
+    for (std::size_t k = 0; k < p.index.size(); ++k) {
+        x.push_back(p.x(k));
+        y.push_back(p.y(k));
+    }
     const std::string last = " of the last level compared";
     add("compare_pixel_x", {"compare_pixel"}, unit(1), "x of the pixels under pressure" + last, x,
         {{"pixel_size", std::vector<double>{p.dx}}});

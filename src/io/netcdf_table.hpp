@@ -131,6 +131,10 @@ private:
     void regimes();
     // netcdf_writer.cpp
     void measured();
+    void measured_form(const Measured& m);
+    void measured_heights(const Measured& m);
+    void measured_spectrum(const Measured& m);
+    void measured_fit(const MeasuredSpectrum& spectrum, const SelfAffineFit& found);
     void friction();
     void two_flats(const Moments& moments);
     // netcdf_observed.cpp

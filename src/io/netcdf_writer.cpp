@@ -40,11 +40,13 @@ void ResultTable::measured() {
     if (!r_.measured) return;
     const Measured& m = *r_.measured;
     if (!m.channel.empty()) file_.attribute("surface_channel", m.channel);
-    const auto scalar = [&](const std::string& name, const std::string& units,
-                            const std::string& long_name, double value,
-                            const std::string& note = "") {
-        add(name, {}, units, long_name, std::vector<double>{value}, comment(note));
-    };
+    measured_form(m);
+    measured_heights(m);
+    measured_spectrum(m);
+    if (m.fit) measured_fit(m.spectrum, *m.fit);
+}
+
+void ResultTable::measured_form(const Measured& m) {
     add("filled_points", {}, "1", "missing points of the map that were filled",
         std::vector<std::int32_t>{clamped(m.missing)},
         {{"share", std::vector<double>{m.missing_share}},
@@ -69,10 +71,17 @@ void ResultTable::measured() {
                     "and yy; the radius of a sphere is positive for a dome"});
     add("form_removed", {}, "1", "form subtracted from the heights",
         std::vector<std::int32_t>{static_cast<std::int32_t>(m.form.how)}, form);
-    scalar("filter_cutoff", unit(1), "cutoff of the Gaussian filter of the heights; 0: none",
-           m.filter_cutoff,
-           "ISO 16610-61: exp(-pi (alpha cutoff/lambda)^2), alpha = sqrt(ln 2/pi)");
+    add("filter_cutoff", {}, unit(1), "cutoff of the Gaussian filter of the heights; 0: none",
+        std::vector<double>{m.filter_cutoff},
+        comment("ISO 16610-61: exp(-pi (alpha cutoff/lambda)^2), alpha = sqrt(ln 2/pi)"));
+}
 
+void ResultTable::measured_heights(const Measured& m) {
+    const auto scalar = [&](const std::string& name, const std::string& units,
+                            const std::string& long_name, double value,
+                            const std::string& note = "") {
+        add(name, {}, units, long_name, std::vector<double>{value}, comment(note));
+    };
     file_.dimension("map_stage", 3);
     add("map_stage", {"map_stage"}, "1", "stage of the map", one_to(3),
         {{"flag_values", one_to(3)}, {"flag_meanings", "as_read without_form filtered"}});
@@ -107,7 +116,9 @@ void ResultTable::measured() {
     add("height_bin", {"height_bin"}, unit(1), "middle of the bin of heights about their mean",
         each_of(bins, [&](int i) { return (i + 0.5 - 0.5 * bins) * m.height_bin; }));
     add("height_pdf", {"height_bin"}, unit(-1), "probability density of the heights", m.height_pdf);
+}
 
+void ResultTable::measured_spectrum(const Measured& m) {
     const auto of_twins = [&](const std::string& what, double exponent) {
         NetcdfAttributes attributes = comment(
             what +
@@ -143,10 +154,11 @@ void ResultTable::measured() {
         t.height,
         comment("a straight line for Gaussian heights; surface%twin_heights = 'measured' generates "
                 "surfaces with it"));
-    if (!m.fit) return;
-    const SelfAffineFit& found = *m.fit;
+}
+
+void ResultTable::measured_fit(const MeasuredSpectrum& spectrum, const SelfAffineFit& found) {
     std::vector<double> fit;
-    for (const double k : m.spectrum.wavenumber) fit.push_back(found.around(k));
+    for (const double k : spectrum.wavenumber) fit.push_back(found.around(k));
     const auto one = [](double v) { return std::vector<double>{v}; };
     add("psd_fit", {"wavenumber"}, unit(4), "self-affine spectrum fitted to psd", fit,
         {{"aspect", one(found.aspect)},
@@ -164,12 +176,12 @@ void ResultTable::measured() {
          {"kl_seen", std::vector<std::int32_t>{found.kl_seen ? 1 : 0}},
          {"ks_seen", std::vector<std::int32_t>{found.ks_seen ? 1 : 0}},
          {"comment",
-          "Phi0 (k/kl)^(-2(1+hurst)) from kl to ks, Phi0 below kl with the plateau, 0 elsewhere, k "
-          "= hypot(sqrt(aspect) k along, k across/sqrt(aspect)) the direction "
-          "[degree] of the lay, mean over all directions; errors are 90 % intervals; ks_seen 0: "
-          "the power law extends to the shortest wavelength of the grid; "
-          "kl_seen 0: kl is an upper bound because the map is too small; plateau_seen 0: the "
-          "existence of a plateau is not determined"}});
+          "Phi0 (k/kl)^(-2(1+hurst)) from kl to ks, Phi0 below kl with the plateau, 0 elsewhere, "
+          "k = hypot(sqrt(aspect) k along, k across/sqrt(aspect)) the direction [degree] of the "
+          "lay, mean over all directions; errors are 90 % intervals; ks_seen 0: the power law "
+          "extends to the shortest wavelength of the grid; kl_seen 0: kl is an upper bound "
+          "because the map is too small; plateau_seen 0: the existence of a plateau is not "
+          "determined"}});
 }
 
 }  // namespace rsc

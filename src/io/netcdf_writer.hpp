@@ -18,8 +18,7 @@ struct WriteOptions {
 // the others becomes _FillValue.
 //
 // Equal results give equal files except for the attribute `history`, whose date is that of the
-// environment variable
-// SOURCE_DATE_EPOCH (seconds since 1970) if it is set.
+// environment variable SOURCE_DATE_EPOCH (seconds since 1970) if it is set.
 void write_result(const Result& result, const std::string& path, const WriteOptions& options);
 
 // The attribute `history`: the date and the command, or the version if there is no command.

@@ -88,9 +88,11 @@ void keep_contacts(Result& result, std::vector<Level>& levels, Contacts keep) {
         packed.force.insert(packed.force.end(), level.f.begin(), level.f.end());
         packed.radius.insert(packed.radius.end(), level.a.begin(), level.a.end());
         for (const Spot& spot : level.spots) {
-            packed.spot_x.push_back(spot.x), packed.spot_y.push_back(spot.y);
-            packed.major.push_back(spot.major), packed.minor.push_back(spot.minor),
-                packed.angle.push_back(spot.angle);
+            packed.spot_x.push_back(spot.x);
+            packed.spot_y.push_back(spot.y);
+            packed.major.push_back(spot.major);
+            packed.minor.push_back(spot.minor);
+            packed.angle.push_back(spot.angle);
         }
         if (std::isfinite(result.settings.solids.hardness))
             packed.yields.insert(packed.yields.end(), level.yields.begin(), level.yields.end());
@@ -208,14 +210,15 @@ void read_surfaces(const Columns& file, Accumulators& sums) {
         read(name, [m = member](S& s) -> double& { return s.*m; });
     for (const auto& [name, of] : kMomentComponents)
         read(name, [m = of](S& s) -> double& { return s.tensor.*m; });
-    if (file.find("skewness"))
-        read("skewness", [](S& s) -> double& { return s.skewness; }),
-            read("kurtosis", [](S& s) -> double& { return s.kurtosis; });
+    if (file.find("skewness")) {
+        read("skewness", [](S& s) -> double& { return s.skewness; });
+        read("kurtosis", [](S& s) -> double& { return s.kurtosis; });
+    }
     if (!file.find("summits")) return;  // elements do not search for summits
     read(
-        "summits", [](S & s) -> auto& { return s.summits; }),
-        read(
-            "saddles", [](S & s) -> auto& { return s.saddles; });
+        "summits", [](S & s) -> auto& { return s.summits; });
+    read(
+        "saddles", [](S & s) -> auto& { return s.saddles; });
 }
 
 void read_stresses(const Columns& file, Accumulators& sums) {

@@ -45,8 +45,8 @@ void remove_parts_left(const std::string& path);
 class WholeFile {
 public:
     // Creates the temporary `path`.rsc-part-<k> with the first free number k = 0, 1, ..., after
-    // remove_parts_left(). Throws
-    // Error(file_system) if reason_to_leave() returns a reason or the folder is not writable.
+    // remove_parts_left(). Throws Error(file_system) if reason_to_leave() returns a reason or the
+    // folder is not writable.
     WholeFile(const std::string& path, const FileKind& kind);
     WholeFile(const WholeFile&) = delete;
     WholeFile& operator=(const WholeFile&) = delete;

@@ -98,7 +98,8 @@ Distributions distributions_of(const PdfBins& bins, const Level& level, std::int
         if (!level.pixels.index.empty()) continue;
         if (k < level.yields.size() && level.yields[k]) {
             add_value(d.pressure, p, area, bins.pressure_width());
-            d.pressure.total += area, d.pressure.squares += area * area;
+            d.pressure.total += area;
+            d.pressure.squares += area * area;
         } else {
             spread_pressure(d.pressure, 1.5 * p, area, bins.pressure_width());
         }

@@ -108,7 +108,8 @@ void for_each_number(D& d, const PdfBins& bins, Visit visit) {
     visit(d.spot_area.overflow, 0.0);
     double p_power = 1, area_power = 1;
     for (std::size_t k = 0; k < 4; ++k) {
-        p_power *= p, area_power *= area;
+        p_power *= p;
+        area_power *= area;
         visit(d.mean_pressure.power[k], p_power);
         visit(d.pressure.power[k], area * p_power);
         visit(d.spot_area.power[k], area_power);

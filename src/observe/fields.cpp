@@ -155,8 +155,10 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
         const int i = static_cast<int>(point % map.nx), j = static_cast<int>(point / map.nx);
         if (i >= columns.first && i <= columns.last && j >= rows.first && j <= rows.last)
             p[at(j - rows.first) * at(columns.size()) + at(i - columns.first)] = load.pressure;
-        else
-            pixels.push_back({i, j}), p.push_back(load.pressure);
+        else {
+            pixels.push_back({i, j});
+            p.push_back(load.pressure);
+        }
     }
     std::vector<double> w(p.size());
     products->elsewhere(p.data(), pixels, w.data());
@@ -168,11 +170,12 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
 // map if there are none.
 void about_contact(const HeightMap& map, const std::vector<Pressures>& levels, Range& columns,
                    Range& rows) {
-    columns = {map.nx, -1}, rows = {map.ny, -1};
+    columns = {map.nx, -1};
+    rows = {map.ny, -1};
     for (const Pressures& pressures : levels)
         for (const auto& [point, p] : pressures) {
             const int i = static_cast<int>(point % map.nx), j = static_cast<int>(point / map.nx);
-            columns = {std::min(columns.first, i), std::max(columns.last, i)},
+            columns = {std::min(columns.first, i), std::max(columns.last, i)};
             rows = {std::min(rows.first, j), std::max(rows.last, j)};
         }
     const auto widened = [](Range r, int n, double margin) {
@@ -182,7 +185,7 @@ void about_contact(const HeightMap& map, const std::vector<Pressures>& levels, R
                           : Range{std::max(0, r.first - more), std::min(n - 1, r.last + more)};
     };
     const double margin = 0.15 * std::max(columns.size() * map.dx, rows.size() * map.dy);
-    columns = widened(columns, map.nx, margin / map.dx),
+    columns = widened(columns, map.nx, margin / map.dx);
     rows = widened(rows, map.ny, margin / map.dy);
 }
 
@@ -246,7 +249,8 @@ ResidualProfile lowered_summits(const HeightMap& map, bool repeats, const Asperi
                 const int column = wrapped(i, map.nx), row = wrapped(j, map.ny);
                 if (!(map(column, row) > top) || std::hypot(map.x(i) - x, map.y(j) - y) > radius)
                     continue;
-                lowered.x.push_back(map.x(column)), lowered.y.push_back(map.y(row));
+                lowered.x.push_back(map.x(column));
+                lowered.y.push_back(map.y(row));
                 lowered.depth.push_back(map(column, row) - top);
             }
     }
@@ -278,7 +282,7 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
     Range columns{0, map.nx - 1}, rows{0, map.ny - 1};
     if (asked.window) {
         const auto& w = *asked.window;
-        columns = points_within(map.x0, map.dx, map.nx, w[0], w[1]),
+        columns = points_within(map.x0, map.dx, map.nx, w[0], w[1]);
         rows = points_within(map.y0, map.dy, map.ny, w[2], w[3]);
         if (columns.size() < 1 || rows.size() < 1)
             bad_input("output%field_window contains no point of the surface");

@@ -40,13 +40,14 @@ inline constexpr double kTractionSlide = 0.5;
 struct Fields {
     std::vector<std::int32_t> step;  // the levels, from 0
     std::vector<double> x, y;        // of the points in the window [length]
-    std::vector<double> pressure,
-        gap;  // [step][y][x] [force/length^2], [length; NaN where there is no indenter above]
+    // [step][y][x] [force/length^2], [length; NaN where there is no indenter above]
+    std::vector<double> pressure, gap;
     std::vector<std::int32_t> contact;  // [step][y][x] 1 in contact, otherwise 0
     std::vector<double>
         heights;  // [y][x], or if worn [step][y][x], of the undeformed surface [length]
     // [step][y][x] magnitude of the flux times viscosity for a mean pressure gradient 1 along x
-    std::vector<double> flow;  // [length^3]
+    // [length^3]
+    std::vector<double> flow;
     // [step][y][x] of first sliding, kTractionSlide of the way to full slip [force/length^2]
     std::vector<double> traction;
     std::vector<double> depth;                  // of the stresses [length]

@@ -139,11 +139,16 @@ BezierWeights bezier_weights(int n, double s) {
     at(i + 1) += b2 + b3;
     const auto add_tangent = [&](int node, double factor) {
         if (node == 0) {
-            at(0) += -1.5 * factor, at(1) += 2 * factor, at(2) += -0.5 * factor;
+            at(0) += -1.5 * factor;
+            at(1) += 2 * factor;
+            at(2) += -0.5 * factor;
         } else if (node == n - 1) {
-            at(n - 1) += 1.5 * factor, at(n - 2) += -2 * factor, at(n - 3) += 0.5 * factor;
+            at(n - 1) += 1.5 * factor;
+            at(n - 2) += -2 * factor;
+            at(n - 3) += 0.5 * factor;
         } else {
-            at(node + 1) += 0.5 * factor, at(node - 1) += -0.5 * factor;
+            at(node + 1) += 0.5 * factor;
+            at(node - 1) += -0.5 * factor;
         }
     };
     add_tangent(i, b1 / 3);

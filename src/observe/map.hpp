@@ -6,8 +6,7 @@
 namespace rsc {
 
 // nx x ny square cells of side `side` from the corner (x0, y0); cell (i, j) is number j*nx + i, its
-// centre at
-// (x0 + (i + 1/2) side, y0 + (j + 1/2) side).
+// centre at (x0 + (i + 1/2) side, y0 + (j + 1/2) side).
 struct MapGrid {
     double x0 = 0, y0 = 0;  // [length]
     double side = 0;        // [length]
@@ -33,9 +32,8 @@ MapGrid make_map_grid(double x0, double y0, double Lx, double Ly, int cells);
 struct MapLevel {
     std::vector<std::int32_t> cell;
     std::vector<double> area;  // contact area in the cell [length^2]
-    std::vector<double>
-        // sum of f in the cell, with adhesion also of places that attract without contact [force]
-        force;
+    // Sum of f in the cell, with adhesion also of places that attract without contact [force].
+    std::vector<double> force;
     // contacts outside the map: included in the sums of the level, but in no cell
     std::int32_t outside = 0;
 };
@@ -58,12 +56,11 @@ std::int32_t count_crowded_cells(const MapGrid& grid, const MapLevel& map);
 // from `first` on.
 //
 // Between nodes i and i+1 the curve is a cubic Bezier with control points f_i, f_i + t_i/3, f_(i+1)
-// - t_(i+1)/3, f_(i+1). The tangents are
-// those of Catmull and Rom, t_i = (f_(i+1) - f_(i-1))/2, at inner nodes, and the slopes of the
-// parabola through the three outermost nodes at the two ends. The interpolation is continuously
-// differentiable, linear in the data and exact for parabolas. It is extrapolated beyond the end
-// nodes, because a map extends half a cell beyond its outermost centres. Two nodes define a line,
-// one node a constant.
+// - t_(i+1)/3, f_(i+1). The tangents are those of Catmull and Rom, t_i = (f_(i+1) - f_(i-1))/2, at
+// inner nodes, and the slopes of the parabola through the three outermost nodes at the two ends.
+// The interpolation is continuously differentiable, linear in the data and exact for parabolas. It
+// is extrapolated beyond the end nodes, because a map extends half a cell beyond its outermost
+// centres. Two nodes define a line, one node a constant.
 struct BezierWeights {
     int first = 0, count = 0;
     std::array<double, 4> weight{};

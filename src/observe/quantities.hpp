@@ -23,8 +23,8 @@ struct LevelQuantity {
     const char* meaning = "";    // long_name
     const char* comment = "";
     bool always = true;  // false: written only if some level has it
-    double LevelValues::*beside =
-        nullptr;              // a count: written with this quantity, even if it is 0 at all levels
+    // A count: written with this quantity, even if it is 0 at all levels.
+    double LevelValues::*beside = nullptr;
     bool statistics = false;  // files also have name_mean and name_std over realizations
     // these are of its logarithm, name_log_mean ..., over the realizations where it is positive
     bool logarithm = false;

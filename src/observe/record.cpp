@@ -48,8 +48,10 @@ std::int32_t nearest_level(const std::vector<double>& levels, double wanted) {
     double least = kInfinity;
     for (std::size_t k = 0; k < levels.size(); ++k)
         if (const double distance = std::abs(levels[k] - wanted);
-            best < 0 || distance < least - 1e-9 * (least + std::abs(wanted)))
-            best = static_cast<std::int32_t>(k), least = distance;
+            best < 0 || distance < least - 1e-9 * (least + std::abs(wanted))) {
+            best = static_cast<std::int32_t>(k);
+            least = distance;
+        }
     return best;
 }
 
@@ -101,7 +103,10 @@ LevelStatistics Observations::statistics(
             }
         };
         double sum = 0, squares = 0;
-        each([&](double value) { sum += value, ++s.count[step]; });
+        each([&](double value) {
+            sum += value;
+            ++s.count[step];
+        });
         const double M = s.count[step];
         if (M < 1) continue;
         s.mean[step] = sum / M;

@@ -151,6 +151,24 @@ std::string how_far(const Progressing& state, const Case& settings) {
            "'";
 }
 
+// Runs the realizations that are not finished, and calls tell_batch() after each twentieth of all.
+void run_remaining(Team& team, std::int32_t member, Progressing& state, std::size_t total,
+                   ProgressLine& line, const std::function<void()>& tell_batch) {
+    const std::size_t batch = std::max<std::size_t>(1, total / 20);
+    team.run(
+        [&]() -> std::optional<Task> {
+            const std::optional<std::int64_t> number = state.next();
+            return number ? std::optional<Task>({member, *number}) : std::nullopt;
+        },
+        [&](const Task&, std::string&& record) {
+            const std::size_t before = state.added();
+            state.collect(std::move(record));
+            if (state.added() / batch > before / batch) tell_batch();
+            line.show(static_cast<double>(state.finished()), static_cast<double>(total));
+        },
+        1);
+}
+
 }  // namespace
 
 RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& team,
@@ -175,7 +193,6 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
 
     std::ostream* const table = options.table;
     if (table) print_campaign_heading(*table, *job, team.workers(), already);
-    const std::size_t batch = std::max<std::size_t>(1, total / 20);
     if (options.report)
         team.meanwhile = [&] {
             if (options.report(static_cast<double>(state.finished()), static_cast<double>(total)))
@@ -183,21 +200,11 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
         };
     try {
         ProgressLine line(options, "realizations", static_cast<double>(already));
-        team.run(
-            [&]() -> std::optional<Task> {
-                const std::optional<std::int64_t> number = state.next();
-                return number ? std::optional<Task>({member, *number}) : std::nullopt;
-            },
-            [&](const Task&, std::string&& record) {
-                const std::size_t before = state.added();
-                state.collect(std::move(record));
-                if (table && state.added() / batch > before / batch) {
-                    line.wipe();
-                    print_batch(*table, *job, state.sums(), seconds(), state.finished() - already);
-                }
-                line.show(static_cast<double>(state.finished()), static_cast<double>(total));
-            },
-            1);
+        run_remaining(team, member, state, total, line, [&] {
+            if (!table) return;
+            line.wipe();
+            print_batch(*table, *job, state.sums(), seconds(), state.finished() - already);
+        });
     } catch (const Interrupted& stop) {
         throw Interrupted(stop.signal(), std::string(stop.what()) + "; " +
                                              how_far(state, settings) + ": " + kGoesOn);
@@ -233,7 +240,8 @@ std::optional<RunSummary> finished_result(const Case& settings) {
     const std::optional<LevelCount> count = count_levels(settings.output.file);
     if (!count) return {};
     RunSummary summary;
-    summary.levels = count->levels, summary.failed = count->failed;
+    summary.levels = count->levels;
+    summary.failed = count->failed;
     return summary;
 }
 

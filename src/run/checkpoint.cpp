@@ -305,23 +305,42 @@ template <class Archive, class T>
 void transfer(Archive& a, T& x) {
     using Type = std::remove_const_t<T>;
     if constexpr (std::is_same_v<Type, Histogram>) {
-        a(x.weight), a(x.overflow), a(x.total), a(x.squares), a(x.power);
+        a(x.weight);
+        a(x.overflow);
+        a(x.total);
+        a(x.squares);
+        a(x.power);
     } else if constexpr (std::is_same_v<Type, Distributions>) {
-        a(x.separation), a(x.levels), a(x.step);
-        transfer(a, x.mean_pressure), transfer(a, x.pressure), transfer(a, x.spot_area),
-            transfer(a, x.gap);
+        a(x.separation);
+        a(x.levels);
+        a(x.step);
+        transfer(a, x.mean_pressure);
+        transfer(a, x.pressure);
+        transfer(a, x.spot_area);
+        transfer(a, x.gap);
     } else if constexpr (std::is_same_v<Type, MapLevel>) {
-        a(x.cell), a(x.area), a(x.force), a(x.outside);
+        a(x.cell);
+        a(x.area);
+        a(x.force);
+        a(x.outside);
     } else if constexpr (std::is_same_v<Type, DistributionSums>) {
-        a(x.step), a(x.numbers);
+        a(x.step);
+        a(x.numbers);
     } else if constexpr (std::is_same_v<Type, RealizationRecord>) {
-        a(x.realization), a(x.surface), a(x.levels), a(x.stresses);
-        transfer_each(a, x.maps), transfer_each(a, x.distributions);
+        a(x.realization);
+        a(x.surface);
+        a(x.levels);
+        a(x.stresses);
+        transfer_each(a, x.maps);
+        transfer_each(a, x.distributions);
     } else if constexpr (std::is_same_v<Type, std::vector<CellSums>>) {
         a(x);
     } else {
         static_assert(std::is_same_v<Type, Accumulators>);
-        a(x.realization), a(x.surface), a(x.rows), a(x.stresses);
+        a(x.realization);
+        a(x.surface);
+        a(x.rows);
+        a(x.stresses);
         transfer_each(a, x.maps);
         transfer_each(a, x.distributions);
     }

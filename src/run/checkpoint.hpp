@@ -26,12 +26,10 @@ public:
 
     // Opens the state of the campaign `settings`, and locks it while it is open.
     //   resume = false   starts a new one. Throws Error(bad_input) with a remedy if there is one
-    //   already, so that none is lost
-    //                    by accident.
-    //   resume = true    continues with the existing one, if any: contents() has its contents.
-    //   Throws Error(bad_input) if it
-    //                    belongs to another case, with the keys that differ, or to another version,
-    //                    or is damaged.
+    //                    already, so that none is lost by accident.
+    //   resume = true    continues with the existing one, if any: take_contents() has its
+    //                    contents. Throws Error(bad_input) if it belongs to another case, with the
+    //                    keys that differ, or to another version, or is damaged.
     // Throws Error(bad_input) if another process has it open, Error(file_system) if it cannot be
     // written.
     Checkpoint(const std::string& result_file, const Case& settings, bool resume);

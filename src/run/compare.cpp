@@ -214,10 +214,8 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads,
                 if (turns(levels, next))
                     on_path = reference.solve(levels[next], false).converged && on_path;
             truth = reference.solve(level, by_force);
-        } catch (
-            const Error&
-                // two flats closer than their mean planes, which only the asperity model allows
-                error) {
+        } catch (const Error& error) {
+            // Two flats closer than their mean planes, which only the asperity model allows.
             if (error.kind() != Failure::bad_input) throw;
             if (table)
                 *table << format("level %zu, Z0/sigma %.5g: not compared: %s\n", step + 1,
@@ -237,11 +235,12 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads,
                           truth.residual};
         row.force_error_expected = truth.force_error_expected;
         row.area_error_expected = truth.area_error_expected;
-        row.contacts = truth.contacts, row.columns = reference.map().nx,
+        row.contacts = truth.contacts;
+        row.columns = reference.map().nx;
         row.rows = reference.map().ny;
         if (!by_force) row.force_error = error(level.force, truth.force);
         if (by_force && found) row.separation_error = level.separation - truth.separation;
-        row.area_error = error(level.area, truth.area),
+        row.area_error = error(level.area, truth.area);
         row.contacts_error = error(level.contacts, truth.contacts);
         c.levels.push_back(row);
         c.pixels = std::move(truth.pixels);

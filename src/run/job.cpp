@@ -37,7 +37,8 @@ void move_to(const Domain& place, HeightMap& map, std::int64_t number) {
         bad_input("the map of realization " + std::to_string(number) + " is " + text_of(map.Lx()) +
                   " x " + text_of(map.Ly()) + ", the first is " + text_of(place.Lx) + " x " +
                   text_of(place.Ly) + "; maps of one size are expected");
-    map.x0 = place.x0, map.y0 = place.y0;
+    map.x0 = place.x0;
+    map.y0 = place.y0;
 }
 
 // As many files as realizations, and all of the size of the first. Only the sizes are read here.
@@ -82,7 +83,8 @@ double seam(const HeightMap& map) {
             const bool at_end = i + 1 == map.nx, at_top = j + 1 == map.ny;
             (at_end ? across : within) += right * right;
             (at_top ? across : within) += up * up;
-            ++(at_end ? n_across : n_within), ++(at_top ? n_across : n_within);
+            ++(at_end ? n_across : n_within);
+            ++(at_top ? n_across : n_within);
         }
     return std::sqrt(across / static_cast<double>(n_across) /
                      (within / static_cast<double>(n_within)));
@@ -159,6 +161,225 @@ FieldsAsked fields_asked(const Job& job) {
     asked.body = stressed_body(job);
     if (w[0]) asked.window = {*w[0], *w[1], *w[2], *w[3]};
     return asked;
+}
+
+// Reads the surface or its spectrum. Returns sqrt(m4), as far as it is known.
+double take_surface(Job& job) {
+    const Case& settings = job.settings;
+    const bool elements = by_elements(settings);
+    if (has_spectrum(settings)) {
+        job.spectrum = spectrum_of(settings);
+        if (elements || settings.compare.listed())
+            if (const std::string why = too_large_for_elements(settings, *job.spectrum);
+                !why.empty())
+                bad_input(why);
+        job.domain = synthetic_domain(*job.spectrum, settings.surface.n);
+        job.theory = theoretical_moments(*job.spectrum);
+        return std::sqrt(job.theory->m4);
+    }
+    SurfaceModel model;
+    if (settings.surface.source == Source::heights) {
+        Surface surface = make_surface(settings, settings.run.first_realization, 1);
+        model = elements ? make_bare_model(surface) : make_surface_model(surface, settings, 1);
+        if (surface.map.periodic) job.seam = seam(surface.map);
+        job.given_heights = std::move(surface.map);
+    } else {
+        model = make_surface_model(settings, 1, 1);
+    }
+    job.domain = model.domain;
+    job.measured = model.measured;
+    const double sqrt_m4 = model.statistics.m4 > 0 ? std::sqrt(model.statistics.m4)
+                           : elements              ? 0.0
+                                                   : typical_sqrt_m4(model.asperities);
+    if (!differs_by_realization(settings) || settings.run.realizations == 1)
+        job.given = std::move(model);
+    if (differs_by_realization(settings)) require_maps(settings, job.domain);
+    return sqrt_m4;
+}
+
+// The highest separation at which a point of the given map touches the indenter.
+double highest_touch(const Job& job) {
+    double highest = job.points_touch;
+    if (!job.given || !job.given_heights) return highest;
+    const HeightMap& map = *job.given_heights;
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i)
+            highest = std::max(highest, job.indenter.clearance(map.x(i), map.y(j), map(i, j)));
+    return highest;
+}
+
+// The unit of nominal pressures as forces. Refuses pressures that no contact or model can bear.
+double unit_of_pressures(const Job& job) {
+    const Case& settings = job.settings;
+    const auto& indentation = settings.indentation;
+    const bool elements = by_elements(settings);
+    const double m2 = m2_of_pressures(job), full = job.indenter.E_star * std::sqrt(2 * m2);
+    const bool relative = indentation.unit == LevelUnit::relative;
+    if (relative && !(m2 > 0)) {
+        bad_input(
+            "indentation%unit = 'relative': the rms slope of the surface is not known, only its "
+            "summits; use unit = 'pressure'");
+    }
+    const double unit = relative ? full : 1.0;
+    for (double level : job.levels) {
+        if (!elements && level * unit >= kClosingPressure * full)
+            bad_input(key_of_largest(settings.indentation) +
+                      format("a pressure of %g: at E* sqrt(2 m2) = %g and above less than 5 %% of "
+                             "the area is gap, too little for the asperity model; use "
+                             "solver%%model = 'elements', which is valid up to full contact",
+                             level * unit, full));
+        if (!(level * unit < settings.solids.hardness))
+            bad_input(key_of_largest(settings.indentation) +
+                      format("a nominal pressure of %.9g exceeds the hardness, %.9g", level * unit,
+                             settings.solids.hardness));
+    }
+    return unit * job.indenter.period.area();
+}
+
+// Refuses what elements cannot resolve or hold in memory.
+void require_feasible(const Job& job) {
+    const Case& settings = job.settings;
+    const auto& indentation = settings.indentation;
+    const bool elements = by_elements(settings);
+    if (elements && indentation.control == Control::separation &&
+        (job.given_heights || (job.spectrum && job.indenter.shape->flat())))
+        require_open(job);
+    if (elements && settings.solids.adhesion > 0) {
+        const double side =
+            job.given_heights ? std::max(job.given_heights->dx, job.given_heights->dy)
+            : job.spectrum    ? job.spectrum->L / element_points(settings, *job.spectrum)
+                              : 0.0;
+        require_resolved(job.indenter.E_star, job.solver.adhesion, side);
+    }
+    if (settings.output.flow)
+        require_flow_memory(settings,
+                            job.given_heights
+                                ? static_cast<double>(job.given_heights->nx) * job.given_heights->ny
+                                : std::pow(element_points(settings, *job.spectrum), 2.0));
+}
+
+}  // namespace
+
+Job prepare(const Case& settings) {
+    Job job;
+    job.settings = settings;
+    const double sqrt_m4 = take_surface(job);
+    job.sigma = sigma_of(settings, job.domain);
+    if (!(job.sigma > 0)) {
+        bad_input(
+            "surface%sigma: the rms height of the data read is 0; give a sigma > 0 (it scales "
+            "unit='sigma' and solver%delta0), and unit='length' if the levels are lengths");
+    }
+    job.solver = solver_of(settings, job.domain);
+    job.indenter = indenter_of(settings, job.domain);
+
+    job.points_touch = highest_touch(job);
+
+    const auto& indentation = settings.indentation;
+    job.levels = spaced(indentation);
+    job.times = times_of(indentation, job.levels.size());
+    if (relaxes(settings) && job.times.empty())
+        bad_input(
+            "indentation%duration: solids%relaxation_share lets body 1 relax, and the levels have "
+            "no times; give duration or times");
+    if (wears(settings) && !indentation.slides())
+        bad_input(
+            "indentation%sliding: body 1 wears (solids%wear_coefficient), and the levels have no "
+            "distances of sliding; give sliding or distances");
+    if (indentation.control == Control::separation && indentation.unit == LevelUnit::sigma)
+        job.level_unit = job.sigma;
+    if (indentation.control == Control::pressure) job.level_unit = unit_of_pressures(job);
+    for (double& level : job.levels) level *= job.level_unit;
+    require_feasible(job);
+    job.observe = observe_options(settings, job.domain, job.indenter, job.sigma, sqrt_m4);
+    job.observe.stress_depths = stress_depths(job);
+    return job;
+}
+
+namespace {
+
+// The surface of a realization, beside its asperities.
+struct RoughBody {
+    JudgedSurface judged;
+    const HeightMap* map = nullptr;  // of elements
+    std::shared_ptr<const Measured> measured;
+    SolverOptions solver;
+};
+
+// The points of elements.
+void make_points(const Job& job, std::int64_t number, int threads, Realization& r, RoughBody& s) {
+    const auto& settings = job.settings;
+    if (job.given) {
+        r.statistics = job.given->statistics;
+    } else {
+        Surface surface =
+            make_element_surface(settings, number, threads, &job.indenter, job.levels);
+        if (!job.spectrum) move_to(job.domain, surface.map, number);  // one of several maps
+        r.statistics = make_bare_model(surface).statistics;
+        s.measured = surface.measured;
+        r.heights = std::move(surface.map);
+    }
+    s.map = job.given ? &*job.given_heights : &*r.heights;
+    s.judged.map = s.map;
+    s.judged.second_grid = true;
+    if (job.theory) s.judged.curvature = curvature_at_unit_height(*job.theory);
+}
+
+void make_summits(const Job& job, std::int64_t number, int threads, Realization& r, RoughBody& s) {
+    const auto& settings = job.settings;
+    if ((settings.output.heights || !settings.output.fields.empty()) && job.spectrum)
+        r.heights = make_surface(settings, *job.spectrum, number, threads).map;
+    SurfaceModel model;
+    if (job.spectrum) {
+        model = make_surface_model(settings, *job.spectrum, number, threads);
+    } else if (job.given) {
+        model = *job.given;
+    } else {  // one of several maps
+        Surface surface = make_surface(settings, number, threads);
+        move_to(job.domain, surface.map, number);
+        model = make_surface_model(surface, settings, threads);
+        s.measured = surface.measured;
+    }
+    r.asperities = std::move(model.asperities);
+    r.statistics = model.statistics;
+    s.solver.gentlest_slope = model.domain.gentlest_slope;
+}
+
+// What filled points of a measured map are to be judged by.
+void describe_filled(const Job& job, RoughBody& s) {
+    const Measured* const measured = s.measured.get();
+    s.judged.filled = filled_points(measured, job.domain.x0, job.domain.y0, job.indenter);
+    if (measured)
+        s.judged.scattered =
+            static_cast<double>(measured->missing - std::ranges::count(measured->filled, 1)) /
+            static_cast<double>(measured->points());
+}
+
+const HeightMap& heights_of(const Job& job, const Realization& r) {
+    return job.given_heights ? *job.given_heights : *r.heights;
+}
+
+// Refuses a force that no separation has, before the levels below it are solved.
+void require_reachable(const Job& job, Path& contact) {
+    const auto& settings = job.settings;
+    if (settings.indentation.control == Control::separation || job.levels.empty()) return;
+    try {
+        contact.require_gap(wears(settings) ? job.levels.front() : std::ranges::max(job.levels));
+    } catch (const Error& error) {
+        if (error.kind() != Failure::bad_input) throw;
+        bad_input(key_of_largest(settings.indentation) + error.what() + "; give smaller ones");
+    }
+}
+
+// The state of a level of which fields are requested.
+FieldLevel field_level(const Job& job, const Realization& r, Path& contact, std::size_t k,
+                       const Level& level, std::vector<double> flow) {
+    const auto yielding = contact.asperities();
+    return {static_cast<std::int32_t>(k), &level,
+            yielding ? lowered_summits(heights_of(job, r), job.indenter.period.finite(), *yielding,
+                                       contact.residual_depths())
+                     : contact.residual_profile(),
+            contact.lasting_loads(level), std::move(flow)};
 }
 
 // A contact and the judge of its levels.
@@ -264,201 +485,41 @@ private:
 
 }  // namespace
 
-Job prepare(const Case& settings) {
-    Job job;
-    job.settings = settings;
-    const bool elements = by_elements(settings);
-    double sqrt_m4;
-    if (has_spectrum(settings)) {
-        job.spectrum = spectrum_of(settings);
-        if (elements || settings.compare.listed())
-            if (const std::string why = too_large_for_elements(settings, *job.spectrum);
-                !why.empty())
-                bad_input(why);
-        job.domain = synthetic_domain(*job.spectrum, settings.surface.n);
-        job.theory = theoretical_moments(*job.spectrum);
-        sqrt_m4 = std::sqrt(job.theory->m4);
-    } else {
-        SurfaceModel model;
-        if (settings.surface.source == Source::heights) {
-            Surface surface = make_surface(settings, settings.run.first_realization, 1);
-            model = elements ? make_bare_model(surface) : make_surface_model(surface, settings, 1);
-            if (surface.map.periodic) job.seam = seam(surface.map);
-            job.given_heights = std::move(surface.map);
-        } else {
-            model = make_surface_model(settings, 1, 1);
-        }
-        job.domain = model.domain;
-        job.measured = model.measured;
-        sqrt_m4 = model.statistics.m4 > 0 ? std::sqrt(model.statistics.m4)
-                  : elements              ? 0.0
-                                          : typical_sqrt_m4(model.asperities);
-        if (!differs_by_realization(settings) || settings.run.realizations == 1)
-            job.given = std::move(model);
-        if (differs_by_realization(settings)) require_maps(settings, job.domain);
-    }
-    job.sigma = sigma_of(settings, job.domain);
-    if (!(job.sigma > 0)) {
-        bad_input(
-            "surface%sigma: the rms height of the data read is 0; give a sigma > 0 (it scales "
-            "unit='sigma' "
-            "and solver%delta0), and unit='length' if the levels are lengths");
-    }
-    job.solver = solver_of(settings, job.domain);
-    job.indenter = indenter_of(settings, job.domain);
-
-    if (job.given && job.given_heights) {
-        const HeightMap& map = *job.given_heights;
-        for (int j = 0; j < map.ny; ++j)
-            for (int i = 0; i < map.nx; ++i)
-                job.points_touch = std::max(job.points_touch,
-                                            job.indenter.clearance(map.x(i), map.y(j), map(i, j)));
-    }
-
-    const auto& indentation = settings.indentation;
-    job.levels = spaced(indentation);
-    job.times = times_of(indentation, job.levels.size());
-    if (relaxes(settings) && job.times.empty())
-        bad_input(
-            "indentation%duration: solids%relaxation_share lets body 1 relax, and the levels have "
-            "no times; give "
-            "duration or times");
-    if (wears(settings) && !indentation.slides())
-        bad_input(
-            "indentation%sliding: body 1 wears (solids%wear_coefficient), and the levels have no "
-            "distances of sliding; give sliding or distances");
-    if (indentation.control == Control::separation && indentation.unit == LevelUnit::sigma)
-        job.level_unit = job.sigma;
-    if (indentation.control == Control::pressure) {
-        const double m2 = m2_of_pressures(job), full = job.indenter.E_star * std::sqrt(2 * m2);
-        const bool relative = indentation.unit == LevelUnit::relative;
-        if (relative && !(m2 > 0)) {
-            bad_input(
-                "indentation%unit = 'relative': the rms slope of the surface is not known, only "
-                "its summits; use unit = 'pressure'");
-        }
-        const double unit = relative ? full : 1.0;
-        for (double level : job.levels) {
-            if (!elements && level * unit >= kClosingPressure * full)
-                bad_input(key_of_largest(settings.indentation) +
-                          format("a pressure of %g: at E* sqrt(2 m2) = %g and above less than 5 %% "
-                                 "of the area is gap, too little for the "
-                                 "asperity model; use solver%%model = 'elements', which is valid "
-                                 "up to full contact",
-                                 level * unit, full));
-            if (!(level * unit < settings.solids.hardness))
-                bad_input(key_of_largest(settings.indentation) +
-                          format("a nominal pressure of %.9g exceeds the hardness, %.9g",
-                                 level * unit, settings.solids.hardness));
-        }
-        job.level_unit = unit * job.indenter.period.area();
-    }
-    for (double& level : job.levels) level *= job.level_unit;
-    if (elements && indentation.control == Control::separation &&
-        (job.given_heights || (job.spectrum && job.indenter.shape->flat())))
-        require_open(job);
-    if (elements && settings.solids.adhesion > 0) {
-        const double side =
-            job.given_heights ? std::max(job.given_heights->dx, job.given_heights->dy)
-            : job.spectrum    ? job.spectrum->L / element_points(settings, *job.spectrum)
-                              : 0.0;
-        require_resolved(job.indenter.E_star, job.solver.adhesion, side);
-    }
-    if (settings.output.flow)
-        require_flow_memory(settings,
-                            job.given_heights
-                                ? static_cast<double>(job.given_heights->nx) * job.given_heights->ny
-                                : std::pow(element_points(settings, *job.spectrum), 2.0));
-    job.observe = observe_options(settings, job.domain, job.indenter, job.sigma, sqrt_m4);
-    job.observe.stress_depths = stress_depths(job);
-    return job;
-}
-
 Realization realize(const Job& job, std::int64_t number, int threads,
                     const std::function<void(std::size_t, const Level&)>& on_level) {
     Realization r;
     const auto& settings = job.settings;
-    JudgedSurface judged;
-    const HeightMap* map = nullptr;  // of elements
-    std::shared_ptr<const Measured> measured = job.given ? job.measured : nullptr;
-    SolverOptions solver = job.solver;
-    if (by_elements(settings)) {
-        if (job.given) {
-            r.statistics = job.given->statistics;
-        } else {
-            Surface surface =
-                make_element_surface(settings, number, threads, &job.indenter, job.levels);
-            if (!job.spectrum) move_to(job.domain, surface.map, number);  // one of several maps
-            r.statistics = make_bare_model(surface).statistics;
-            measured = surface.measured;
-            r.heights = std::move(surface.map);
-        }
-        map = job.given ? &*job.given_heights : &*r.heights;
-        judged.map = map;
-        judged.second_grid = true;
-        if (job.theory) judged.curvature = curvature_at_unit_height(*job.theory);
-    } else {
-        if ((settings.output.heights || !settings.output.fields.empty()) && job.spectrum)
-            r.heights = make_surface(settings, *job.spectrum, number, threads).map;
-        SurfaceModel model;
-        if (job.spectrum) {
-            model = make_surface_model(settings, *job.spectrum, number, threads);
-        } else if (job.given) {
-            model = *job.given;
-        } else {  // one of several maps
-            Surface surface = make_surface(settings, number, threads);
-            move_to(job.domain, surface.map, number);
-            model = make_surface_model(surface, settings, threads);
-            measured = surface.measured;
-        }
-        r.asperities = std::move(model.asperities);
-        r.statistics = model.statistics;
-        solver.gentlest_slope = model.domain.gentlest_slope;
-    }
+    RoughBody body;
+    body.measured = job.given ? job.measured : nullptr;
+    body.solver = job.solver;
+    (by_elements(settings) ? make_points : make_summits)(job, number, threads, r, body);
+    describe_filled(job, body);
+    const HeightMap* const map = body.map;
     const auto make_contact = [&] {
         return map ? make_element_contact(*map, job.indenter, job.solver)
-                   : make_asperity_contact(r.asperities, job.indenter, solver);
+                   : make_asperity_contact(r.asperities, job.indenter, body.solver);
     };
     std::optional<FrictionLevels> friction;
     if (settings.solids.friction > 0) friction.emplace(settings, make_contact);
     r.levels.reserve(job.levels.size());
     const std::vector<std::int32_t> field_steps = steps_of_fields(job);
-    judged.filled = filled_points(measured.get(), job.domain.x0, job.domain.y0, job.indenter);
-    if (measured)
-        judged.scattered =
-            static_cast<double>(measured->missing - std::ranges::count(measured->filled, 1)) /
-            static_cast<double>(measured->points());
-    const MakePressed make = [&] { return Pressed{make_contact(), Judge(solver, judged)}; };
+    const MakePressed make = [&] {
+        return Pressed{make_contact(), Judge(body.solver, body.judged)};
+    };
     Pressed pressed = make();
     std::unique_ptr<Path>& contact = pressed.contact;
     std::vector<FieldLevel> fields;
-    if (settings.indentation.control != Control::separation &&
-        !job.levels.empty())  // before the levels below it are solved
-        try {
-            contact->require_gap(wears(settings) ? job.levels.front()
-                                                 : std::ranges::max(job.levels));
-        } catch (const Error& error) {
-            if (error.kind() != Failure::bad_input) throw;
-            bad_input(key_of_largest(settings.indentation) + error.what() + "; give smaller ones");
-        }
+    require_reachable(job, *contact);
     const auto take = [&](std::size_t k, Level solved) {
         Level& level = r.levels.emplace_back(std::move(solved));
         const bool field = std::find(field_steps.begin(), field_steps.end(),
                                      static_cast<std::int32_t>(k)) != field_steps.end();
         std::vector<double> flow;
         if (has_gap(settings))
-            measure_gap(job.given_heights ? *job.given_heights : *r.heights, *contact, level,
-                        job.observe.pdf, settings.output.flow,
+            measure_gap(heights_of(job, r), *contact, level, job.observe.pdf, settings.output.flow,
                         field && fields_asked(job).flow ? &flow : nullptr);
         if (field && !std::isnan(level.force)) {  // a level without a state has none
-            const auto yielding = contact->asperities();
-            fields.push_back(
-                {static_cast<std::int32_t>(k), &level,
-                 yielding ? lowered_summits(job.given_heights ? *job.given_heights : *r.heights,
-                                            job.indenter.period.finite(), *yielding,
-                                            contact->residual_depths())
-                          : contact->residual_profile(),
-                 contact->lasting_loads(level), std::move(flow)});
+            fields.push_back(field_level(job, r, *contact, k, level, std::move(flow)));
             if (fields_asked(job).traction)
                 fields.back().stuck = friction->stuck(level, kTractionSlide);
         }
@@ -475,8 +536,8 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     r.residual_depth = contact->residual_depths();
     r.residual_profile = contact->residual_profile();
     if (!fields.empty())
-        r.fields = fields_of(job.given_heights ? *job.given_heights : *r.heights, job.indenter,
-                             job.solver.interaction, fields, fields_asked(job));
+        r.fields = fields_of(heights_of(job, r), job.indenter, job.solver.interaction, fields,
+                             fields_asked(job));
     if (const auto touched = contact->asperities(); touched && touched.get() != &r.asperities) {
         Asperities used = *touched;
         friction.reset();

@@ -43,9 +43,8 @@ struct Realization {
     std::vector<Level> levels;
     std::vector<LargestStress> stresses;  // [step][depth]
     FrictionLoops friction;
-    std::vector<double>
-        // residual depth of the asperities after the last level; empty without hardness
-        residual_depth;
+    // Residual depth of the asperities after the last level; empty without hardness.
+    std::vector<double> residual_depth;
     ResidualProfile residual_profile;  // of elements that yielded, likewise
     std::optional<HeightMap> heights;  // if requested by the case
     Fields fields;                     // likewise

@@ -151,9 +151,9 @@ double expected_megabytes(const Job& job, double workers) {
     // Bytes for each point of the surface (heights, modes; transforms of two flats), and for each
     // point under the indenter or in contact, from the peaks of some 40 runs; a single realization
     // keeps the pixels of all its levels, and the result some numbers a level.
-    constexpr double program = 40e6, tables = 15e6, table = 1500, under = 170, adhesion = 49,
-                     lowered = 8, states = 50, flats = 28, touching = 150, pixel = 24,
-                     record = 0.3e6;
+    constexpr double program = 40e6, tables = 15e6, table = 1500, record = 0.3e6;
+    constexpr double under = 170, adhesion = 49, lowered = 8, states = 50;
+    constexpr double flats = 28, touching = 150, pixel = 24;
     const double sticking = job.settings.solids.adhesion > 0 ? adhesion : 0;
     // Depths of lowered points, and with wear those of the level before.
     const double lowering = (std::isfinite(job.settings.solids.hardness) ? lowered : 0.0) +

@@ -45,7 +45,8 @@ void set_sampled(const Moments& sampled, SurfaceStatistics& s) {
     s.m4 = sampled.m4;
     s.tensor = sampled.tensor;
     if (sampled.heights.skewness == 0 && sampled.heights.kurtosis == 3) return;
-    s.skewness = sampled.heights.skewness, s.kurtosis = sampled.heights.kurtosis;
+    s.skewness = sampled.heights.skewness;
+    s.kurtosis = sampled.heights.kurtosis;
 }
 
 void require_summits(const SurfaceModel& model, const std::string& name, const std::string& where) {
@@ -89,7 +90,10 @@ HeightMap part_of(const HeightMap& map, const std::optional<double> (&window)[4]
                    path.c_str(), map.x0, map.x(map.nx - 1), map.y0, map.y(map.ny - 1)));
     HeightMap part;
     part.allocate(i1 - i0 + 1, j1 - j0 + 1, i1 - i0 + 1);
-    part.dx = map.dx, part.dy = map.dy, part.x0 = map.x(i0), part.y0 = map.y(j0);
+    part.dx = map.dx;
+    part.dy = map.dy;
+    part.x0 = map.x(i0);
+    part.y0 = map.y(j0);
     for (int j = j0; j <= j1; ++j) std::copy_n(map.row(j) + i0, part.nx, part.row(j - j0));
     return part;
 }
@@ -124,7 +128,8 @@ Surface read_map(const Case& settings, const std::string& path, std::optional<do
         auto measured = std::make_shared<Measured>(
             measure(surface.map, {keys.missing, keys.detrend, keys.filter_cutoff, keys.outliers}));
         measured->channel = origin.channel;
-        measured->code = origin.code, measured->coded = origin.coded;
+        measured->code = origin.code;
+        measured->coded = origin.coded;
         surface.measured = std::move(measured);
     } catch (const Error& error) {
         throw Error(error.kind(), path + ": " + error.what());
@@ -157,7 +162,8 @@ Spectrum spectrum_of(const Case& settings) {
         Spectrum spectrum = tabulated_spectrum(
             found.table, keys.L.value_or(2 * std::numbers::pi / found.table->lowest()),
             keys.sigma.value_or(found.sigma));
-        spectrum.aspect = keys.aspect, spectrum.direction = keys.direction;
+        spectrum.aspect = keys.aspect;
+        spectrum.direction = keys.direction;
         spectrum.shape = {keys.skewness, keys.kurtosis};
         spectrum.heights = found.heights;
         return spectrum;
@@ -189,7 +195,8 @@ Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_
     surface.theory = theoretical_moments(spectrum);
     const RowSource source(spectrum, keys.n, keys.normalise, settings.run.seed, number, threads, 0,
                            RowSource::Lines::narrowest);
-    surface.sampled = source.sampled(), surface.differences = source.differences();
+    surface.sampled = source.sampled();
+    surface.differences = source.differences();
     surface.map = source.all(threads, wanted);
     return surface;
 }
@@ -298,7 +305,8 @@ SurfaceDomain synthetic_domain(const Spectrum& spectrum, int n) {
     const Moments theory = theoretical_moments(spectrum);
     SurfaceDomain domain{
         {0, 0, spectrum.L, spectrum.L}, spectrum.sigma, false, theory.mean_spacing()};
-    domain.points_per_wave = n / spectrum.L_lambda_s, domain.step = spectrum.L / n;
+    domain.points_per_wave = n / spectrum.L_lambda_s;
+    domain.step = spectrum.L / n;
     domain.gentlest_slope = theory.tensor.gentlest_slope();
     domain.repeats = true;
     domain.measured = spectrum.directional() || !spectrum.gaussian();
@@ -334,8 +342,14 @@ std::shared_ptr<const MapMarks> marks_of(const HeightMap& map, const Breaks& bre
     const auto border = [&](int i, int j) {
         marks->border.push_back({map.x(i), map.y(j), map(i, j)});
     };
-    for (int i = 0; i < map.nx; ++i) border(i, 0), border(i, map.ny - 1);
-    for (int j = 1; j < map.ny - 1; ++j) border(0, j), border(map.nx - 1, j);
+    for (int i = 0; i < map.nx; ++i) {
+        border(i, 0);
+        border(i, map.ny - 1);
+    }
+    for (int j = 1; j < map.ny - 1; ++j) {
+        border(0, j);
+        border(map.nx - 1, j);
+    }
     for (const Breaks::Place& spike : breaks.spikes)
         marks->spikes.push_back({map.x(spike.i), map.y(spike.j)});
     marks->reach = std::max(map.dx, map.dy);
@@ -375,8 +389,10 @@ SurfaceModel make_bare_model(const Surface& surface) {
     model.measured = surface.measured;
     model.domain = {map.x0, map.y0, map.Lx(), map.Ly()};
     model.domain.measured = !surface.theory;
-    if (!surface.theory)
-        model.domain.half_step_x = 0.5 * map.dx, model.domain.half_step_y = 0.5 * map.dy;
+    if (!surface.theory) {
+        model.domain.half_step_x = 0.5 * map.dx;
+        model.domain.half_step_y = 0.5 * map.dy;
+    }
     model.domain.repeats = map.periodic;
     model.domain.sigma = surface.sigma;
     model.domain.points_per_wave =

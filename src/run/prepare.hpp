@@ -19,7 +19,8 @@ bool has_spectrum(const Case& settings);
 // True if every realization has its own surface: synthesized, or read from several files.
 bool differs_by_realization(const Case& settings);
 
-// The heights of realization `number` of a case whose surface is read from several files, untreated.
+// The heights of realization `number` of a case whose surface is read from several files, without
+// any treatment.
 HeightMap read_points(const Case& settings, std::int64_t number);
 
 struct Surface {
@@ -71,8 +72,8 @@ struct SurfaceDomain : Domain {
     // rectangle derived from the asperities of a list, because surface%L is not set
     bool guessed = false;
     double mean_spacing = 0;  // <d> of the asperities [length]; 0: not known (a single one)
-    double points_per_wave =
-        0;            // of the grid of the summits, in the shortest wavelength; 0: not known
+    // Of the grid of the summits, in the shortest wavelength; 0: not known.
+    double points_per_wave = 0;
     double step = 0;  // of that grid [length]; 0: not known
     // Half a grid step of a map: its points are cells that begin at 0, so the middle of the points
     // is half a step below that of the cells.
@@ -80,9 +81,9 @@ struct SurfaceDomain : Domain {
     double gentlest_slope = 0;  // MomentTensor::gentlest_slope(); 0: not known (a list)
     // periodic beyond its rectangle: synthetic surfaces, and heights declared periodic
     bool repeats = false;
-    std::shared_ptr<const MapMarks> marks =
-        nullptr;  // of a measured map that is free at its border
-    // heights from a file or from the caller of the library, or not isotropic and Gaussian
+    // Of a measured map that is free at its border.
+    std::shared_ptr<const MapMarks> marks = nullptr;
+    // Heights from a file or from the caller of the library, or not isotropic and Gaussian
     bool measured = false;
 };
 

@@ -12,7 +12,10 @@ namespace {
 // E* at the surface: that of the top layer if body 1 has layers.
 double surface_modulus(const Case::Solids& solids) {
     double E[2] = {solids.E[0], solids.E[1]}, nu[2] = {solids.nu[0], solids.nu[1]};
-    if (!solids.layer_E.empty()) E[0] = solids.layer_E[0], nu[0] = solids.layer_nu[0];
+    if (!solids.layer_E.empty()) {
+        E[0] = solids.layer_E[0];
+        nu[0] = solids.layer_nu[0];
+    }
     return equivalent_modulus(E, nu);
 }
 
@@ -20,7 +23,10 @@ LayeredBody layers_in(const Case::Solids& solids) {
     LayeredBody body;
     for (std::size_t k = 0; k < solids.layer_thickness.size(); ++k, ++body.count)
         body.layer[k] = {solids.layer_thickness[k], solids.layer_E[k], solids.layer_nu[k]};
-    if (body.count > 0) body.E = solids.E[0], body.nu = solids.nu[0];
+    if (body.count > 0) {
+        body.E = solids.E[0];
+        body.nu = solids.nu[0];
+    }
     return body;
 }
 

@@ -198,33 +198,10 @@ void print_changes(std::ostream& out, std::span<const LevelValues> levels, const
     out << ". Levels depend on the levels before.\n";
 }
 
-// The summary of a run with adhesion, and the range of attraction up to which JKR is valid.
-void print_sticking(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
+// The range of attraction up to which JKR is valid.
+void print_tabor(std::ostream& out, const Job& job) {
     const Case& c = job.settings;
-    if (!(c.solids.adhesion > 0) || levels.empty()) return;
-    const char *l = c.run.length_unit.c_str(), *f = c.run.force_unit.c_str();
-    long jumps = 0;
-    double lost = 0, least = 0, attracting = 0;
-    for (const LevelValues& level : levels)
-        attracting = std::fmax(attracting, level.area + level.cohesive_area), jumps += level.jumps,
-        lost = std::fmax(lost, level.energy_lost), least = std::fmin(least, level.least_force);
-    // of the work of adhesion: some steps, each divided at 0.003
-    // (physics/adhesion/adhesive_pixels.cpp)
-    constexpr double resolved = 0.01;
-    std::string how;
-    if (by_elements(c))
-        how = c.indentation.control == Control::separation
-                  ? format(" (below %.1g not resolved)", resolved * c.solids.adhesion * attracting)
-                  : " (trapezoidal rule over the levels)";
-    const bool without_state = std::ranges::any_of(
-        levels, [](const LevelValues& level) { return std::isnan(level.force); });
-    if (c.run.realizations == 1 && without_state)
-        out << "  adhesion: the smallest force is not known, because levels have no state.\n";
-    else if (c.run.realizations == 1)
-        out << format(
-            "  adhesion: the smallest force is %.4g %s; jumps: %ld, energy lost: %.4g %s %s%s. "
-            "Levels depend on the levels before.\n",
-            least, f, jumps, lost, f, l, how.c_str());
+    const char* const l = c.run.length_unit.c_str();
     // JKR holds from a Tabor parameter of 5 on.
     const auto reach = [&](double radius) {
         return std::cbrt(radius * std::pow(c.solids.adhesion / job.indenter.E_star, 2));
@@ -246,13 +223,18 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
     else if (summit > 0)
         out << format(
             "  JKR (adhesion_range = 0) is valid for summits of mean radius (%.3g %s) if the range "
-            "of the attraction is at most %.3g %s "
-            "(Tabor's parameter 5)",
+            "of the attraction is at most %.3g %s (Tabor's parameter 5)",
             summit, l, reach(summit) / 5, l);
     if (summit > 0 && std::isfinite(R))
         out << (range > 0 ? format("; %.3g for a smooth sphere", reach(R) / range)
                           : format("; for a smooth sphere at most %.3g %s", reach(R) / 5, l));
     if (summit > 0) out << ".\n";
+}
+
+// Whether two flats with this surface would stick.
+void print_stickiness(std::ostream& out, const Job& job) {
+    const Case& c = job.settings;
+    const double range = c.solids.adhesion_range;
     if (!(job.theory && range > 0) || job.indenter.layers.count > 0) return;
     // Pastewka and Robbins, PNAS 111, 3298 (2014), with kappa_rep = 2, d_rep = 4 h'/h'': h'
     // range/(2 l_a) (h'^2/(h'' range))^(2/3) < pi (3/16)^(2/3), l_a = w/E*, rms slope h', rms
@@ -264,7 +246,42 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
     out << format(
         "  two flats with this surface %s (Pastewka and Robbins 2014): it needs w above about %.2g "
         "%s/%s.\n",
-        c.solids.adhesion > needed ? "would stick" : "would not stick", needed, f, l);
+        c.solids.adhesion > needed ? "would stick" : "would not stick", needed,
+        c.run.force_unit.c_str(), c.run.length_unit.c_str());
+}
+
+// The summary of a run with adhesion.
+void print_sticking(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
+    const Case& c = job.settings;
+    if (!(c.solids.adhesion > 0) || levels.empty()) return;
+    const char *l = c.run.length_unit.c_str(), *f = c.run.force_unit.c_str();
+    long jumps = 0;
+    double lost = 0, least = 0, attracting = 0;
+    for (const LevelValues& level : levels) {
+        attracting = std::fmax(attracting, level.area + level.cohesive_area);
+        jumps += level.jumps;
+        lost = std::fmax(lost, level.energy_lost);
+        least = std::fmin(least, level.least_force);
+    }
+    // Of the work of adhesion: some steps, each divided at 0.003
+    // (physics/adhesion/adhesive_pixels.cpp).
+    constexpr double resolved = 0.01;
+    std::string how;
+    if (by_elements(c))
+        how = c.indentation.control == Control::separation
+                  ? format(" (below %.1g not resolved)", resolved * c.solids.adhesion * attracting)
+                  : " (trapezoidal rule over the levels)";
+    const bool without_state = std::ranges::any_of(
+        levels, [](const LevelValues& level) { return std::isnan(level.force); });
+    if (c.run.realizations == 1 && without_state)
+        out << "  adhesion: the smallest force is not known, because levels have no state.\n";
+    else if (c.run.realizations == 1)
+        out << format(
+            "  adhesion: the smallest force is %.4g %s; jumps: %ld, energy lost: %.4g %s %s%s. "
+            "Levels depend on the levels before.\n",
+            least, f, jumps, lost, f, l, how.c_str());
+    print_tabor(out, job);
+    print_stickiness(out, job);
 }
 
 // Dundurs' second parameter, which couples the normal and the tangential problem; 0 for equal
@@ -339,7 +356,8 @@ void tell_unreached_heights(std::ostream& out, std::span<const SurfaceStatistics
     const double all = static_cast<double>(surfaces.size());
     long missed = 0;
     for (const SurfaceStatistics& s : surfaces) {
-        mean.skewness += s.skewness / all, mean.kurtosis += s.kurtosis / all;
+        mean.skewness += s.skewness / all;
+        mean.kurtosis += s.kurtosis / all;
         missed += std::abs(s.skewness - wish.skewness) > near_skewness ||
                   std::abs(s.kurtosis - wish.kurtosis) > near_kurtosis;
     }

@@ -76,13 +76,29 @@ std::string stem(const std::string& result) {
     return result.ends_with(".nc") ? result.substr(0, result.size() - 3) : result;
 }
 
+// The keys of a surface that belong to the map of body 2, too.
+Case::Surface for_second_body(const Case::Surface& keys, const std::string& file) {
+    Case::Surface kept;
+    kept.detrend = keys.detrend;
+    kept.missing = keys.missing;
+    kept.filter_cutoff = keys.filter_cutoff;
+    kept.outliers = keys.outliers;
+    if (is_text_map(file)) {
+        kept.height_unit = keys.height_unit;
+        kept.pixel = keys.pixel;
+    }
+    if (!is_instrument_map(file)) kept.missing_value = keys.missing_value;
+    return kept;
+}
+
 }  // namespace
 
 std::string twins_text(const Job& job, const std::string& result) {
     const Measured& m = *job.measured;
     Case twins = job.settings;
     const auto scale_levels = [&keys = twins.indentation](double factor) {
-        keys.start *= factor, keys.stop *= factor;
+        keys.start *= factor;
+        keys.stop *= factor;
         for (double& level : keys.levels) level *= factor;
     };
     const double L = std::max(m.Lx(), m.Ly());
@@ -91,15 +107,8 @@ std::string twins_text(const Job& job, const std::string& result) {
     twins.run.realizations = kRealizations;
     twins.run.first_realization = 1;
     const Case::Surface keys = twins.surface;
-    twins.surface = {};
-    if (!twins.indenter.file.empty()) {  // these keys belong to the map of body 2, too
-        twins.surface.detrend = keys.detrend, twins.surface.missing = keys.missing;
-        twins.surface.filter_cutoff = keys.filter_cutoff, twins.surface.outliers = keys.outliers;
-        if (is_text_map(twins.indenter.file))
-            twins.surface.height_unit = keys.height_unit, twins.surface.pixel = keys.pixel;
-        if (!is_instrument_map(twins.indenter.file))
-            twins.surface.missing_value = keys.missing_value;
-    }
+    const std::string& second = twins.indenter.file;
+    twins.surface = second.empty() ? Case::Surface() : for_second_body(keys, second);
     twins.surface.source = Source::spectrum;
     twins.surface.file = result;
     twins.surface.L = L;
@@ -109,9 +118,8 @@ std::string twins_text(const Job& job, const std::string& result) {
     twins.surface.twins = m.isotropy < kIsotropic ? Twins::directional : Twins::radial;
     twins.surface.twin_heights = m.gaussian() ? TwinHeights::gaussian : TwinHeights::measured;
     twins.surface.sigma = m.parameters.sq;
-    twins.surface.normalise = Normalise::
-        // the rms height of the map is that of one sample; that of the twins scatters likewise
-        ensemble;
+    // The rms height of the map is that of one sample; that of the twins scatters likewise.
+    twins.surface.normalise = Normalise::ensemble;
     if (keys.sigma && twins.indentation.control == Control::separation &&
         twins.indentation.unit == LevelUnit::sigma) {
         // For the map sigma was a unit of length; for twins it is the rms height.
@@ -120,7 +128,8 @@ std::string twins_text(const Job& job, const std::string& result) {
     }
     if (job.indenter.period.finite() &&
         twins.indentation.control == Control::force) {  // the area of the twins may be another
-        twins.indentation.control = Control::pressure, twins.indentation.unit = LevelUnit::pressure;
+        twins.indentation.control = Control::pressure;
+        twins.indentation.unit = LevelUnit::pressure;
         scale_levels(1 / job.indenter.period.area());
     }
     // The square begins at 0 and has the longer side of the map; the tip keeps its distance from
@@ -135,7 +144,8 @@ std::string twins_text(const Job& job, const std::string& result) {
     twins.output.heights = false;
     // What is for one realization only.
     const Case defaults;
-    twins.output.fields.clear(), twins.output.field_levels.clear();
+    twins.output.fields.clear();
+    twins.output.field_levels.clear();
     std::ranges::copy(defaults.output.field_window, twins.output.field_window);
     twins.solids.friction = 0;
     twins.solver.model = model_of(job.settings).model;  // as for the map, for comparison
@@ -208,6 +218,33 @@ static std::string write_twins(const Job& job, const std::string& result) {
            " " + shell_word(path) + ")" + other_slopes(*job.measured);
 }
 
+namespace {
+
+// Moves what a realization leaves into its result.
+void take_realization(Result& result, Job& job, Realization& r) {
+    result.friction = std::move(r.friction);
+    result.asperities = std::move(r.asperities);
+    result.residual_depth = std::move(r.residual_depth);
+    result.residual_profile = std::move(r.residual_profile);
+    result.measured = job.measured;
+    result.fields = std::move(r.fields);
+    if (job.settings.output.heights)
+        result.heights = std::move(r.heights ? r.heights : job.given_heights);
+}
+
+RunSummary summary_of(const std::vector<LevelValues>& levels, const ComparedLevels& compared) {
+    const auto failed = [](const LevelValues& level) {
+        return level.status == LevelStatus::not_converged;
+    };
+    const LevelValues& last = levels.back();
+    return {
+        static_cast<long>(levels.size() + compared.levels.size()),
+        static_cast<long>(std::count_if(levels.begin(), levels.end(), failed)) + compared.failed,
+        last.separation, last.force, last.area};
+}
+
+}  // namespace
+
 RunSummary run_realization(const Case& settings, const RunOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     const bool replaces = check_result_path(settings, options);
@@ -250,16 +287,8 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     Result result = make_result(settings, case_text(settings), job.indenter, job.sigma, job.theory,
                                 sums.finish());
     keep_contacts(result, r.levels, keep);
-    const SurfaceStatistics statistics = r.statistics;
-    result.friction = std::move(r.friction);
-    result.asperities = std::move(r.asperities);
-    result.residual_depth = std::move(r.residual_depth);
-    result.residual_profile = std::move(r.residual_profile);
-    result.measured = job.measured;
     result.compared = std::move(compared);
-    result.fields = std::move(r.fields);
-    if (settings.output.heights)
-        result.heights = std::move(r.heights ? r.heights : job.given_heights);
+    take_realization(result, job, r);
     write_result(result, settings.output.file,
                  {settings.output.format, settings.output.compression, options.command});
 
@@ -268,17 +297,9 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (table)
-        summarise(*table, job, statistics, record.levels, record.stresses, seconds,
+        summarise(*table, job, r.statistics, record.levels, record.stresses, seconds,
                   settings.output.file, replaces, twins);
-    const LevelValues& last = record.levels.back();
-    const auto failed = [](const LevelValues& level) {
-        return level.status == LevelStatus::not_converged;
-    };
-    const RunSummary summary{
-        static_cast<long>(record.levels.size() + result.compared.levels.size()),
-        static_cast<long>(std::count_if(record.levels.begin(), record.levels.end(), failed)) +
-            result.compared.failed,
-        last.separation, last.force, last.area};
+    const RunSummary summary = summary_of(record.levels, result.compared);
     tell_failed(options, summary);
     return summary;
 }

@@ -11,9 +11,9 @@ struct RunOptions {
     std::string command;              // for the history attribute
     std::vector<std::string> inputs;  // input files of the case, which no result may overwrite
     Progress progress = Progress::never;
-    bool compare_automatically =
-        false;            // apply compare%levels = 'auto', as the program does in single runs
-    bool resume = false;  // a campaign: continue an interrupted run
+    // Apply compare%levels = 'auto', as the program does in single runs.
+    bool compare_automatically = false;
+    bool resume = false;                           // a campaign: continue an interrupted run
     std::ostream* table = nullptr;                 // the level table and the summary; null: none
     std::ostream* messages = nullptr;              // warnings, progress; null: none
     const std::atomic<bool>* abandoned = nullptr;  // once true the run ends with Interrupted
@@ -24,9 +24,8 @@ struct RunOptions {
 
 // The outcome of a run.
 struct RunSummary {
-    long levels = 0,
-         // of all realizations, including those compared with elements; failed: not converged
-        failed = 0;
+    // Of all realizations, including those compared with elements; failed: not converged.
+    long levels = 0, failed = 0;
     double separation = 0;  // of the last level; its means over the realizations:
     double force = 0, area = 0;
 };
@@ -55,9 +54,8 @@ RunSummary run_realization(const Case& settings, const RunOptions& options);
 std::string twins_text(const Job& job, const std::string& result);
 
 // Runs a case, one realization or a campaign, and writes its file. Returns the number of levels
-// that did not converge. Throws Error, and
-// Interrupted after a signal if the program catches signals; then there is no new result file, but
-// a campaign leaves its checkpoint.
+// that did not converge. Throws Error, and Interrupted after a signal if the program catches
+// signals; then there is no new result file, but a campaign leaves its checkpoint.
 long run_case(const Case& settings, const RunOptions& options);
 
 // Campaigns: the realizations of a case, distributed to a team and added up in their order; they
@@ -80,8 +78,8 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
 std::optional<RunSummary> finished_result(const Case& settings);
 
 // rsc --merge. `files`: results of one case, in any order, whose realizations are consecutive. The
-// variables of the result file `output` equal, within rounding, those of one campaign over all of them.
-// Throws Error(bad_input), before anything is written, naming a file that is no result of a
+// variables of the result file `output` equal, within rounding, those of one campaign over all of
+// them. Throws Error(bad_input), before anything is written, naming a file that is no result of a
 // campaign, of another version or of another case (with the keys that differ), or realizations that
 // are in two files or in none.
 RunSummary merge_campaigns(const std::vector<std::string>& files, const std::string& output,

@@ -397,7 +397,8 @@ void print_batch(std::ostream& out, const Job& job, const Accumulators& sums, do
                  std::size_t done_in_this_run) {
     const std::size_t count = sums.realization.size();
     Observations last;  // the last level of each realization
-    last.realizations = count, last.steps = 1;
+    last.realizations = count;
+    last.steps = 1;
     for (std::size_t k = 1; k <= count; ++k) last.rows.push_back(sums.rows[k * sums.steps - 1]);
     const LevelStatistics force = last.statistics([](const LevelValues& l) { return l.force; });
     const LevelStatistics area = last.statistics([](const LevelValues& l) { return l.area; });

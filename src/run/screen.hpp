@@ -51,8 +51,7 @@ std::string duration(double seconds);
 class ProgressLine {
 public:
     // On options.messages, as options.progress says. `already`: done by an earlier run, not
-    // included in the rate; `scrolls`: with
-    // Progress::automatic there is no line.
+    // included in the rate; `scrolls`: with Progress::automatic there is no line.
     ProgressLine(const RunOptions& options, const char* unit, double already = 0,
                  bool scrolls = false);
     ~ProgressLine();  // erases the line

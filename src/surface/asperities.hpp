@@ -25,15 +25,12 @@ inline constexpr std::array kCurvatureNames = {"geometric", "algebraic"};
 struct Asperities {
     std::vector<double> x, y, z, radius;
     std::vector<double> kappa1, kappa2;  // principal curvatures, kappa1 >= kappa2 > 0 [1/length]
-    std::vector<double>
-        // direction of the kappa2 axis (the long axis of the contact ellipse) from x, in (-pi/2,
-        // pi/2]
-        angle;
-    std::vector<double>
-        // nabla^4 z at the summit [1/length^3]; with a lay, or one summit alone, that of the round
-        // profile
-        biharmonic;
-    // equivalent to an elongated summit; empty unless a law needs it
+    // Direction of the kappa2 axis (the long axis of the contact ellipse) from x, in (-pi/2, pi/2].
+    std::vector<double> angle;
+    // Nabla^4 z at the summit [1/length^3]; with a lay, or one summit alone, that of the round
+    // profile equivalent to an elongated summit; empty unless a law needs it.
+    std::vector<double> biharmonic;
+
     std::size_t size() const { return x.size(); }
 };
 

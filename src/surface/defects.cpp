@@ -28,7 +28,7 @@ public:
         // Weights, scaled so that the larger is 1, of the neighbours to the left, below, to the
         // right and above.
         const double least = std::min(map.dx, map.dy);
-        weight_[0] = weight_[2] = std::pow(least / map.dx, 2),
+        weight_[0] = weight_[2] = std::pow(least / map.dx, 2);
         weight_[1] = weight_[3] = std::pow(least / map.dy, 2);
         double sum = 0, weight = 0;
         for (Point& p : points_)
@@ -39,8 +39,12 @@ public:
                 const double w = weight_[k];
                 p.diagonal += w;
                 p.beside[k] = number[map.index(i, j)];
-                if (p.beside[k] < 0)
-                    sum += w * map(i, j), weight += w, p.source += w * map(i, j), p.present += w;
+                if (p.beside[k] < 0) {
+                    sum += w * map(i, j);
+                    weight += w;
+                    p.source += w * map(i, j);
+                    p.present += w;
+                }
             }
         // The mean level is subtracted, so that a large offset does not cause cancellation.
         level_ = weight > 0 ? sum / weight : 0;
@@ -71,8 +75,10 @@ public:
             for (std::size_t k = 0; k < n; ++k)
                 q[k] = points_[k].diagonal * p[k] - around(k, p, 0, 4);
             const double length = rho / dot(p, q);
-            for (std::size_t k = 0; k < n; ++k)
-                solution_[k] += length * p[k], r[k] -= length * q[k];
+            for (std::size_t k = 0; k < n; ++k) {
+                solution_[k] += length * p[k];
+                r[k] -= length * q[k];
+            }
             precondition(r, y);
             const double next = dot(r, y), share = next / rho;
             rho = next;
@@ -103,8 +109,10 @@ private:
             for (int d = 1; d <= kReach; ++d)
                 sum += 0.5 * kWeights[static_cast<std::size_t>(d - 1)] * map(i + d * a, j + d * b);
             const double next = map(i + a, j + b), line = 2 * next - map(i + 2 * a, j + 2 * b);
-            high = std::max(high, next), low = std::min(low, next);
-            least = std::min(least, line), most = std::max(most, line);
+            high = std::max(high, next);
+            low = std::min(low, next);
+            least = std::min(least, line);
+            most = std::max(most, line);
         }
         if (std::isnan(sum)) return {};
         return std::clamp(sum, std::min(low, most), std::max(high, least));
@@ -233,7 +241,9 @@ Outliers remove_outliers(HeightMap& map, double times) {
                             !std::isnan(other) && (a != 0 || b != 0))
                             around.push_back(other);
                 if (!around.empty()) d = std::abs(z - median(around));
-            } else {  // on the border from the straight line through two points in the direction that fits best
+            } else {
+                // On the border: from the straight line through two points in the direction that
+                // fits best.
                 double best = HUGE_VAL;
                 for (int b = -1; b <= 1; ++b)
                     for (int a = -1; a <= 1; ++a)
@@ -378,13 +388,17 @@ void smooth_rounded(HeightMap& map, double step) {
     constexpr std::size_t beside = 2;  // neighbouring rings on either side included in the mean
     damp_waves(map, false, "the cosine series of a map", [&](double* series, double scale) {
         for (std::size_t j = 0; j < ny; ++j)
-            for (std::size_t i = 0; i < nx; ++i)
-                power[ring(i, j)] += series[j * nx + i] * series[j * nx + i], ++modes[ring(i, j)];
+            for (std::size_t i = 0; i < nx; ++i) {
+                power[ring(i, j)] += series[j * nx + i] * series[j * nx + i];
+                ++modes[ring(i, j)];
+            }
         for (std::size_t k = 0; k < power.size(); ++k) {
             double sum = 0, count = 0;
             for (std::size_t l = k - std::min(k, beside);
-                 l <= std::min(k + beside, power.size() - 1); ++l)
-                sum += power[l], count += modes[l];
+                 l <= std::min(k + beside, power.size() - 1); ++l) {
+                sum += power[l];
+                count += modes[l];
+            }
             gain[k] = std::max(0.0, 1 - rounding * count / std::max(sum, 1e-300));
             if (k > 0 && gain[k] == 0) break;  // all shorter waves are rounding noise
         }
@@ -447,79 +461,112 @@ std::optional<Breaks::Kind> kind_of(const Profile& p, double least) {
 
 }  // namespace
 
-Breaks find_breaks(const HeightMap& map, double height_step) {
-    Breaks breaks;
-    const int nx = map.nx, ny = map.ny;
-    if (nx < 3 || ny < 3) return breaks;
-    constexpr double rounding = 3;  // rounding changes a second difference by up to two steps
-    const double least_x = std::max(kBreak * median_bend(map, true), rounding * height_step),
-                 least_y = std::max(kBreak * median_bend(map, false), rounding * height_step);
-    std::vector<Breaks::Place> marked;
-    std::vector<int> in_column(static_cast<std::size_t>(nx), 0),
-        in_row(static_cast<std::size_t>(ny), 0);
-    const auto tell = [&](Breaks::Kind kind, int i, int j, double size) {
-        Breaks::Found& found = breaks.found[kind];
-        if (++found.points == 1 || size > found.size) found.largest = {i, j}, found.size = size;
+namespace {
+
+// True if a neighbour is a pit or spike (`kind`), which causes the second difference at this point.
+bool bent_by(const Profile& p, Breaks::Kind kind, double least) {
+    const auto beside = [&](int k) {
+        return p.has(k) &&
+               kind_of({p.map, p.i + (p.along_x ? k : 0), p.j + (p.along_x ? 0 : k), p.along_x},
+                       least) == kind;
     };
-    // True if a neighbour is a pit or spike (`kind`), which causes the second difference at this
-    // point.
-    const auto bent_by = [](const Profile& p, Breaks::Kind kind, double least) {
-        const auto beside = [&](int k) {
-            return p.has(k) &&
-                   kind_of({p.map, p.i + (p.along_x ? k : 0), p.j + (p.along_x ? 0 : k), p.along_x},
-                           least) == kind;
-        };
-        return beside(-1) || beside(1);
-    };
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i) {
-            const Profile x{map, i, j, true}, y{map, i, j, false};
-            const double bend_x = x.bend(0), bend_y = y.bend(0);
-            if (!(std::abs(bend_x) > least_x || std::abs(bend_y) > least_y)) continue;
-            const auto along_x = kind_of(x, least_x), along_y = kind_of(y, least_y);
-            if (along_x == Breaks::pit || along_y == Breaks::pit) {
-                const bool across =
-                    along_x == Breaks::pit && (along_y != Breaks::pit || bend_x >= bend_y);
-                breaks.pits.push_back({i, j, across});
-                tell(Breaks::pit, i, j, 0.5 * (across ? bend_x : bend_y));
-                continue;
-            }
-            const bool spike = along_x == Breaks::spike && along_y == Breaks::spike;
-            const auto left = [&](Breaks::Kind of) {
-                return (along_x && !bent_by(x, of, least_x)) ||
-                       (along_y && !bent_by(y, of, least_y));
-            };
-            if (!spike && !left(Breaks::pit)) continue;
-            marked.push_back({i, j});
-            if (spike) breaks.spikes.push_back({i, j});
-            if (!spike && !left(Breaks::spike)) continue;
-            const auto jump = [](const Profile& p) {
-                return std::max(p.has(-1) ? std::abs(p.at(0) - p.at(-1)) : 0,
-                                p.has(1) ? std::abs(p.at(1) - p.at(0)) : 0);
-            };
-            tell(spike ? Breaks::spike : Breaks::step, i, j,
-                 spike ? -0.5 * std::max(bend_x, bend_y) : std::max(jump(x), jump(y)));
-            if (!spike && along_x) ++in_column[static_cast<std::size_t>(i)];
-            if (!spike && along_y) ++in_row[static_cast<std::size_t>(j)];
+    return beside(-1) || beside(1);
+}
+
+// The larger of the jumps to the two neighbours.
+double jump(const Profile& p) {
+    return std::max(p.has(-1) ? std::abs(p.at(0) - p.at(-1)) : 0,
+                    p.has(1) ? std::abs(p.at(1) - p.at(0)) : 0);
+}
+
+// Sorts points into pits, spikes and steps.
+struct BreakSearch {
+    const HeightMap& map;
+    double least_x, least_y;  // smallest second differences of a break
+    Breaks& breaks;
+    std::vector<Breaks::Place> marked;  // spikes and steps
+    std::vector<int> in_column, in_row;
+
+    void visit(int i, int j) {
+        const Profile x{map, i, j, true}, y{map, i, j, false};
+        const double bend_x = x.bend(0), bend_y = y.bend(0);
+        if (!(std::abs(bend_x) > least_x || std::abs(bend_y) > least_y)) return;
+        const auto along_x = kind_of(x, least_x), along_y = kind_of(y, least_y);
+        if (along_x == Breaks::pit || along_y == Breaks::pit) {
+            const bool across =
+                along_x == Breaks::pit && (along_y != Breaks::pit || bend_x >= bend_y);
+            breaks.pits.push_back({i, j, across});
+            tell(Breaks::pit, i, j, 0.5 * (across ? bend_x : bend_y));
+            return;
         }
-    const auto seam = [](const std::vector<int>& counts, int length) {
-        const auto most = std::max_element(counts.begin(), counts.end());
-        return 2 * *most > length ? static_cast<int>(most - counts.begin()) : -1;
-    };
-    breaks.seam_column = seam(in_column, ny), breaks.seam_row = seam(in_row, nx);
-    if (marked.empty()) return breaks;
-    breaks.clear.assign(map.points(), Breaks::kMostClear);
+        const bool spike = along_x == Breaks::spike && along_y == Breaks::spike;
+        const auto left = [&](Breaks::Kind of) {
+            return (along_x && !bent_by(x, of, least_x)) || (along_y && !bent_by(y, of, least_y));
+        };
+        if (!spike && !left(Breaks::pit)) return;
+        marked.push_back({i, j});
+        if (spike) breaks.spikes.push_back({i, j});
+        if (!spike && !left(Breaks::spike)) return;
+        tell(spike ? Breaks::spike : Breaks::step, i, j,
+             spike ? -0.5 * std::max(bend_x, bend_y) : std::max(jump(x), jump(y)));
+        if (!spike && along_x) ++in_column[static_cast<std::size_t>(i)];
+        if (!spike && along_y) ++in_row[static_cast<std::size_t>(j)];
+    }
+
+private:
+    void tell(Breaks::Kind kind, int i, int j, double size) {
+        Breaks::Found& found = breaks.found[kind];
+        if (++found.points == 1 || size > found.size) {
+            found.largest = {i, j};
+            found.size = size;
+        }
+    }
+};
+
+// Distance of every point to the nearest marked one.
+std::vector<std::uint8_t> distances_to(const std::vector<Breaks::Place>& marked,
+                                       const HeightMap& map) {
+    std::vector<std::uint8_t> distance(map.points(), Breaks::kMostClear);
     constexpr int reach = Breaks::kMostClear;
     for (const auto [i, j, unused] : marked)
         for (int dj = -reach; dj <= reach; ++dj)
             for (int di = -reach; di <= reach; ++di) {
                 int k = i + di, l = j + dj;
-                if (map.periodic) k = wrapped(k, nx), l = wrapped(l, ny);
-                if (k < 0 || l < 0 || k >= nx || l >= ny) continue;
-                auto& clear = breaks.clear[map.index(k, l)];
+                if (map.periodic) {
+                    k = wrapped(k, map.nx);
+                    l = wrapped(l, map.ny);
+                }
+                if (k < 0 || l < 0 || k >= map.nx || l >= map.ny) continue;
+                auto& clear = distance[map.index(k, l)];
                 clear = std::min(clear,
                                  static_cast<std::uint8_t>(std::max(std::abs(di), std::abs(dj))));
             }
+    return distance;
+}
+
+}  // namespace
+
+Breaks find_breaks(const HeightMap& map, double height_step) {
+    Breaks breaks;
+    const int nx = map.nx, ny = map.ny;
+    if (nx < 3 || ny < 3) return breaks;
+    constexpr double rounding = 3;  // rounding changes a second difference by up to two steps
+    BreakSearch search{map,
+                       std::max(kBreak * median_bend(map, true), rounding * height_step),
+                       std::max(kBreak * median_bend(map, false), rounding * height_step),
+                       breaks,
+                       {},
+                       std::vector<int>(static_cast<std::size_t>(nx), 0),
+                       std::vector<int>(static_cast<std::size_t>(ny), 0)};
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) search.visit(i, j);
+    const auto seam = [](const std::vector<int>& counts, int length) {
+        const auto most = std::max_element(counts.begin(), counts.end());
+        return 2 * *most > length ? static_cast<int>(most - counts.begin()) : -1;
+    };
+    breaks.seam_column = seam(search.in_column, ny);
+    breaks.seam_row = seam(search.in_row, nx);
+    if (!search.marked.empty()) breaks.clear = distances_to(search.marked, map);
     return breaks;
 }
 

@@ -27,8 +27,9 @@ Outliers remove_outliers(HeightMap& map, double times);
 // Fills missing points with the discrete harmonic function of the heights around them: every filled
 // point is the mean of its neighbours (four inside the map, fewer at its edges), weighted by 1/dx^2
 // and 1/dy^2. Solved by conjugate gradients to 1e-12. Points that are alone get the mean of the
-// polynomials through four points on either side along their row and column. Returns a mask of the filled points, 1 at
-// j*nx + i, or an empty vector if no point is missing. Throws Error(bad_input) if all are missing.
+// polynomials through four points on either side along their row and column. Returns a mask of the
+// filled points, 1 at j*nx + i, or an empty vector if no point is missing. Throws Error(bad_input)
+// if all are missing.
 std::vector<std::uint8_t> fill_missing(HeightMap& map);
 
 // Leaves of a mask of filled points those more than `steps` steps along rows and columns away from
@@ -71,10 +72,9 @@ struct Breaks {
     // Column and row of a step that runs through most of the map, such as a seam between stitched
     // windows; -1: none.
     int seam_column = -1, seam_row = -1;
-    std::vector<std::uint8_t>
-        // distance to the nearest spike or step in points, at most kMostClear, at j*nx + i; empty:
-        // none
-        clear;
+    // Distance to the nearest spike or step in points, at most kMostClear, at j*nx + i; empty:
+    // none.
+    std::vector<std::uint8_t> clear;
     static constexpr int kMostClear = 6;
 };
 

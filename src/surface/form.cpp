@@ -211,21 +211,27 @@ Form detrend(HeightMap& map, Detrend how) {
     if (how == Detrend::plane) {
         const auto c = subtract_polynomial<3>(map, frame, "plane", level);
         form.level += c[0];
-        form.slope_x = c[1] / a, form.slope_y = c[2] / a;
+        form.slope_x = c[1] / a;
+        form.slope_y = c[2] / a;
     } else if (how == Detrend::quadratic) {
         const auto c = subtract_polynomial<6>(map, frame, "quadratic", level);
         form.level += c[0];
-        form.slope_x = c[1] / a, form.slope_y = c[2] / a;
-        form.zxx = 2 * c[3] / (a * a), form.zxy = c[4] / (a * a), form.zyy = 2 * c[5] / (a * a);
+        form.slope_x = c[1] / a;
+        form.slope_y = c[2] / a;
+        form.zxx = 2 * c[3] / (a * a);
+        form.zxy = c[4] / (a * a);
+        form.zyy = 2 * c[5] / (a * a);
     } else if (how == Detrend::sphere) {
         const Sphere s = fit_sphere(map, frame, level);
         for (int j = 0; j < map.ny; ++j)
             for (int i = 0; i < map.nx; ++i)
                 map.row(j)[i] = (map(i, j) - level) - s(frame.u(i) * a, frame.v(j) * a);
         form.level += s.level;
-        form.slope_x = s.p, form.slope_y = s.q;
+        form.slope_x = s.p;
+        form.slope_y = s.q;
         // From w + bend w^2/2 + g = 0, differentiated twice in the middle.
-        form.zxx = -s.bend * (1 + s.p * s.p), form.zxy = -s.bend * s.p * s.q,
+        form.zxx = -s.bend * (1 + s.p * s.p);
+        form.zxy = -s.bend * s.p * s.q;
         form.zyy = -s.bend * (1 + s.q * s.q);
         form.radius = s.bend != 0 ? std::sqrt(1 + s.p * s.p + s.q * s.q) / s.bend : HUGE_VAL;
     }

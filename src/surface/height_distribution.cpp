@@ -26,9 +26,16 @@ Shape shape_of(const HeightDistribution& of) {
     const double at = of(0.0);  // near the mean, to avoid cancellation
     for (int i = -most; i <= most; ++i) {
         const double u = i * step, w = std::exp(-0.5 * u * u), d = of(u) - at;
-        total += w, m1 += w * d, m2 += w * d * d, m3 += w * d * d * d, m4 += w * d * d * d * d;
+        total += w;
+        m1 += w * d;
+        m2 += w * d * d;
+        m3 += w * d * d * d;
+        m4 += w * d * d * d * d;
     }
-    m1 /= total, m2 /= total, m3 /= total, m4 /= total;
+    m1 /= total;
+    m2 /= total;
+    m3 /= total;
+    m4 /= total;
     const double variance = m2 - m1 * m1, deviation = std::sqrt(variance);
     return {at + m1, deviation, (m3 - 3 * m1 * m2 + 2 * m1 * m1 * m1) / (variance * deviation),
             (m4 - 4 * m1 * m3 + 6 * m1 * m1 * m2 - 3 * m1 * m1 * m1 * m1) / (variance * variance)};

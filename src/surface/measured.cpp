@@ -90,6 +90,48 @@ bool Measured::gaussian() const {
 
 double Measured::points_per_wave() const { return shortest_wave / std::max(dx, dy); }
 
+namespace {
+
+// The spectrum of the treated map, and the self-affine one fitted to it.
+void measure_and_fit(const HeightMap& map, const Isotropy& slopes, Measured& m) {
+    const auto spectrum = [&](double aspect, double direction) {
+        MeasuredSpectrum s = measure_spectrum(map, aspect, direction);
+        if (m.form.how == Detrend::quadratic || m.form.how == Detrend::sphere) s.lost = 2.5;
+        return s;
+    };
+    m.spectrum = spectrum(1, 0);
+    // The aspect ratio is limited for endless grooves, as it is in synthesis.
+    const double aspect = m.isotropy < kIsotropic ? 1 / std::max(m.isotropy, 0.05) : 1;
+    const MeasuredSpectrum stretched =
+        aspect > 1 ? spectrum(aspect, slopes.direction) : MeasuredSpectrum();
+    m.shortest_wave = 2 * std::max(m.dx, m.dy);
+    if (can_fit(m.spectrum)) {
+        m.fit = fit_self_affine(m.spectrum);
+        m.shortest_wave = 2 * std::numbers::pi / m.fit->ks.value;
+    }
+    keep_depths(
+        m.filled, m.nx, m.ny,
+        std::max(1, static_cast<int>(std::lround(m.shortest_wave / (8 * std::max(m.dx, m.dy))))));
+    if (can_fit(stretched)) {
+        m.fit = fit_self_affine(stretched);
+        m.fit->aspect = aspect;
+        m.fit->direction = slopes.direction;
+    }
+    if (m.fit) {
+        MeasuredSpectrum& s = m.spectrum;
+        const SpectrumTable table(s.wavenumber, s.psd),
+            plane(s.plane_wavenumber, s.plane_psd, MeasuredSpectrum::kAngles);
+        const auto breaks = [](const Breaks::Found& found) { return found.points > 0; };
+        const double most =
+            std::any_of(m.breaks.found.begin(), m.breaks.found.end(), breaks) ? 0 : kMostExponent;
+        s.exponent = twin_exponent([&](double kx, double ky) { return table(std::hypot(kx, ky)); },
+                                   s.wavenumber, map, m.parameters, most);
+        s.plane_exponent = twin_exponent(plane, s.plane_wavenumber, map, m.parameters, most);
+    }
+}
+
+}  // namespace
+
 Measured measure(HeightMap& map, const MeasureOptions& options) {
     Measured m;
     static_cast<PointGrid&>(m) = map;
@@ -135,45 +177,13 @@ Measured measure(HeightMap& map, const MeasureOptions& options) {
     m.isotropy = slopes.ratio;
     m.quantiles = height_quantiles(map);
     count_heights(map, m);
-    const auto spectrum = [&](double aspect, double direction) {
-        MeasuredSpectrum s = measure_spectrum(map, aspect, direction);
-        if (m.form.how == Detrend::quadratic || m.form.how == Detrend::sphere) s.lost = 2.5;
-        return s;
-    };
-    m.spectrum = spectrum(1, 0);
-    // The aspect ratio is limited for endless grooves, as it is in synthesis.
-    const double aspect = m.isotropy < kIsotropic ? 1 / std::max(m.isotropy, 0.05) : 1;
-    const MeasuredSpectrum stretched =
-        aspect > 1 ? spectrum(aspect, slopes.direction) : MeasuredSpectrum();
-    m.shortest_wave = 2 * std::max(m.dx, m.dy);
-    if (can_fit(m.spectrum)) {
-        m.fit = fit_self_affine(m.spectrum);
-        m.shortest_wave = 2 * std::numbers::pi / m.fit->ks.value;
-    }
-    keep_depths(
-        m.filled, m.nx, m.ny,
-        std::max(1, static_cast<int>(std::lround(m.shortest_wave / (8 * std::max(m.dx, m.dy))))));
-    if (can_fit(stretched)) {
-        m.fit = fit_self_affine(stretched);
-        m.fit->aspect = aspect, m.fit->direction = slopes.direction;
-    }
-    if (m.fit) {
-        MeasuredSpectrum& s = m.spectrum;
-        const SpectrumTable table(s.wavenumber, s.psd),
-            plane(s.plane_wavenumber, s.plane_psd, MeasuredSpectrum::kAngles);
-        const auto breaks = [](const Breaks::Found& found) { return found.points > 0; };
-        const double most =
-            std::any_of(m.breaks.found.begin(), m.breaks.found.end(), breaks) ? 0 : kMostExponent;
-        s.exponent = twin_exponent([&](double kx, double ky) { return table(std::hypot(kx, ky)); },
-                                   s.wavenumber, map, m.parameters, most);
-        s.plane_exponent = twin_exponent(plane, s.plane_wavenumber, map, m.parameters, most);
-    }
+    measure_and_fit(map, slopes, m);
     return m;
 }
 
-std::vector<std::string> report(const Measured& m, const std::string& length_unit) {
-    const char* const l = length_unit.c_str();
-    std::vector<std::string> lines;
+namespace {
+
+void tell_points(const Measured& m, const char* l, std::vector<std::string>& lines) {
     lines.push_back(format("map%s: %d x %d points of %.6g x %.6g %s, %.6g x %.6g %s",
                            m.channel.empty() ? "" : (" '" + m.channel + "'").c_str(), m.nx, m.ny,
                            m.dx, m.dy, l, m.Lx(), m.Ly(), l));
@@ -208,6 +218,9 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
                                     "smaller surface%outliers removes"
                                   : "they continue outliers at the border of the holes, which a "
                                     "positive surface%outliers (6) removes"));
+}
+
+void tell_form_and_heights(const Measured& m, const char* l, std::vector<std::string>& lines) {
     std::string form =
         std::string("form '") + kDetrendNames[static_cast<std::size_t>(m.form.how)] + "': ";
     if (m.form.how == Detrend::plane || m.form.how == Detrend::quadratic)
@@ -230,7 +243,9 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
             format("heights are rounded to multiples of %.4g %s: asperities are detected after a "
                    "Wiener filter has removed the rounding",
                    m.height_step, l));
-    tell_breaks(m, l, lines);
+}
+
+void tell_spectrum(const Measured& m, const char* l, std::vector<std::string>& lines) {
     if (m.fit) {
         const SelfAffineFit& fit = *m.fit;
         const double two_pi = 2 * std::numbers::pi;
@@ -255,9 +270,13 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
     if (m.points_per_wave() < kFewPointsPerWave)
         lines.push_back(
             format("warning: fewer than %.0f points in the shortest wave: slopes, curvatures and "
-                   "summits are determined by the grid or by pixel "
-                   "noise; surface%%filter_cutoff removes such waves",
+                   "summits are determined by the grid or by pixel noise; "
+                   "surface%%filter_cutoff removes such waves",
                    kFewPointsPerWave));
+}
+
+// What similar synthetic surfaces need.
+void tell_twins(const Measured& m, std::vector<std::string>& lines) {
     const bool directional = m.isotropy < kIsotropic, gaussian = m.gaussian();
     if (directional) lines.push_back(format("lay at %.0f degrees from x", m.spectrum.lay));
     if (directional || !gaussian)
@@ -268,6 +287,18 @@ std::vector<std::string> report(const Measured& m, const std::string& length_uni
                         (directional ? "surface%twins = 'directional'" : "") +
                         (directional && !gaussian ? ", " : "") +
                         (gaussian ? "" : "surface%twin_heights = 'measured'"));
+}
+
+}  // namespace
+
+std::vector<std::string> report(const Measured& m, const std::string& length_unit) {
+    const char* const l = length_unit.c_str();
+    std::vector<std::string> lines;
+    tell_points(m, l, lines);
+    tell_form_and_heights(m, l, lines);
+    tell_breaks(m, l, lines);
+    tell_spectrum(m, l, lines);
+    tell_twins(m, lines);
     return lines;
 }
 

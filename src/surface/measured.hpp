@@ -37,29 +37,26 @@ struct Measured : PointGrid {
     double outlier_times = 0;    // MeasureOptions::outliers
     Outliers outliers;           // of the points filled
     double missing_share = 0;    // of all points
-    std::vector<std::uint8_t>
-        // 1 at j*nx + i where a point deep in a hole was filled (keep_depths()); empty: none
-        filled;
+    // 1 at j*nx + i where a point deep in a hole was filled (keep_depths()); empty: none.
+    std::vector<std::uint8_t> filled;
     Form form;
     double filter_cutoff = 0;
     Roughness as_read, without_form, filtered;  // the last two are equal when there is no filter
     HeightParameters parameters;
     double isotropy = 1;
     HeightQuantiles quantiles;
-    double height_step =
-        0;          // rounding step of the heights [length]; 0: not rounded, or filtered afterwards
+    // Rounding step of the heights [length]; 0: not rounded, or filtered afterwards.
+    double height_step = 0;
     Breaks breaks;  // pits, spikes and steps
-    std::vector<double>
-        // density of the heights about their mean, in an even number of bins around it [1/length]
-        height_pdf;
+    // Density of the heights about their mean, in an even number of bins around it [1/length].
+    std::vector<double> height_pdf;
     double height_bin = 0;  // their width [length]
     MeasuredSpectrum spectrum;
     std::optional<SelfAffineFit> fit;  // absent if the map is too small or too flat
     // upper end of the direction-averaged spectrum, or twice the grid step [length]
     double shortest_wave = 0;
-    bool gaussian()
-        // skewness within 0.3 of 0 and kurtosis within 0.6 of 3, the scatter of Gaussian samples
-        const;
+    // Skewness within 0.3 of 0 and kurtosis within 0.6 of 3, the scatter of Gaussian samples.
+    bool gaussian() const;
     double points_per_wave() const;  // grid steps in the shortest wave
 };
 

@@ -30,10 +30,12 @@ public:
             // The last ring is a group of its own, so that the table ends with the spectrum.
             const std::size_t end = r < rings && next == rings + 1 ? rings : next;
             for (std::size_t i = r; i < end; ++i) group_[i] = first_.size();
-            first_.push_back(r), last_.push_back(end - 1);
+            first_.push_back(r);
+            last_.push_back(end - 1);
             r = end;
         }
-        power_.resize(first_.size() * kAngles), count_.resize(first_.size() * kAngles);
+        power_.resize(first_.size() * kAngles);
+        count_.resize(first_.size() * kAngles);
     }
     void add(std::size_t ring, double kx, double ky, double power, double copies) {
         if (ring == 0) return;
@@ -55,7 +57,8 @@ public:
                     const std::size_t reach = std::min(wide, kAngles / 2 - 1);
                     for (std::size_t t = 0; t <= 2 * reach; ++t) {
                         const std::size_t place = g * kAngles + (a + kAngles + t - reach) % kAngles;
-                        power += power_[place], count += count_[place];
+                        power += power_[place];
+                        count += count_[place];
                     }
                 }
                 s.plane_psd.push_back(count > 0 ? scale * power / count : 0);
@@ -69,135 +72,207 @@ private:
     std::vector<double> power_, count_;
 };
 
-}  // namespace
+using Buffer = std::unique_ptr<double[], HeightMap::Free>;
 
-MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double direction) {
-    const int nx = map.nx, ny = map.ny, columns = nx / 2 + 1;
-    const std::vector<double> wx = hann(nx, map.periodic), wy = hann(ny, map.periodic);
+// The window of a map, and the modes of the windowed heights.
+class WindowedMap {
+public:
+    explicit WindowedMap(const HeightMap& map)
+        : map_(map), wx_(hann(map.nx, map.periodic)), wy_(hann(map.ny, map.periodic)) {}
+
+    int columns() const { return map_.nx / 2 + 1; }
+    double squares() const { return squares_; }  // of the window; after modes()
+
+    // Modes (i, j), i < columns(), are numbers j * columns() + i of the buffer.
+    Buffer modes() {
+        const int nx = map_.nx, ny = map_.ny;
+        const double mean = subtracted_mean();
+        Buffer buffer(
+            allocate_doubles(2 * static_cast<std::size_t>(columns()) * static_cast<std::size_t>(ny),
+                             "the spectrum of a height map"));
+        double* const z = buffer.get();
+        FftwPlan plan;
+        {
+            const auto lock = fftw_planning();
+            plan.reset(
+                fftw_plan_dft_r2c_2d(ny, nx, z, reinterpret_cast<fftw_complex*>(z), FFTW_ESTIMATE));
+        }
+        if (!plan) throw Error(Failure::internal, "spectrum: FFTW made no plan");
+        for (int j = 0; j < ny; ++j)
+            for (int i = 0; i < nx; ++i)
+                z[static_cast<std::ptrdiff_t>(j) * 2 * columns() + i] =
+                    weight(i, j) * (map_(i, j) - mean);
+        fftw_execute(plan.get());
+        return buffer;
+    }
+
+private:
+    double weight(int i, int j) const {
+        return wx_[static_cast<std::size_t>(i)] * wy_[static_cast<std::size_t>(j)];
+    }
     // The windowed mean is subtracted, because the window turns a constant into a wave as long as
     // the map.
-    double sum = 0, weights = 0, squares = 0;
-    for (int j = 0; j < ny; ++j) {
-        double row = 0, row_w = 0, row_s = 0;
-        for (int i = 0; i < nx; ++i) {
-            const double w = wx[static_cast<std::size_t>(i)] * wy[static_cast<std::size_t>(j)];
-            row += w * map(i, j), row_w += w, row_s += w * w;
+    double subtracted_mean() {
+        double sum = 0, weights = 0;
+        squares_ = 0;
+        for (int j = 0; j < map_.ny; ++j) {
+            double row = 0, row_w = 0, row_s = 0;
+            for (int i = 0; i < map_.nx; ++i) {
+                const double w = weight(i, j);
+                row += w * map_(i, j);
+                row_w += w;
+                row_s += w * w;
+            }
+            sum += row;
+            weights += row_w;
+            squares_ += row_s;
         }
-        sum += row, weights += row_w, squares += row_s;
+        return sum / weights;
     }
-    const double mean = sum / weights;
-    const std::unique_ptr<double[], HeightMap::Free> buffer(
-        allocate_doubles(2 * static_cast<std::size_t>(columns) * static_cast<std::size_t>(ny),
-                         "the spectrum of a height map"));
-    double* const z = buffer.get();
-    auto* const modes = reinterpret_cast<std::complex<double>*>(z);
-    FftwPlan plan;
-    {
-        const auto lock = fftw_planning();
-        plan.reset(
-            fftw_plan_dft_r2c_2d(ny, nx, z, reinterpret_cast<fftw_complex*>(z), FFTW_ESTIMATE));
-    }
-    if (!plan) throw Error(Failure::internal, "spectrum: FFTW made no plan");
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i)
-            z[static_cast<std::ptrdiff_t>(j) * 2 * columns + i] = wx[static_cast<std::size_t>(i)] *
-                                                                  wy[static_cast<std::size_t>(j)] *
-                                                                  (map(i, j) - mean);
-    fftw_execute(plan.get());
 
-    const double step_x = 2 * std::numbers::pi / map.Lx(), step_y = 2 * std::numbers::pi / map.Ly(),
-                 ring = std::min(step_x, step_y);
-    // Up to this stretched wavenumber the grid holds waves of all directions.
-    const double stretch = std::sqrt(aspect),
-                 nyquist = std::numbers::pi / (std::max(map.dx, map.dy) * stretch);
-    const double along = std::cos(direction), aside = std::sin(direction);
-    const auto rings =
-        static_cast<std::size_t>(std::max(1.0, std::floor(nyquist / ring * (1 + 1e-12) + 0.5)));
-    std::vector<double> power(rings + 1, 0.0), count(rings + 1, 0.0);
-    Plane plane(rings);
-    std::complex<double> directed = 0;  // mean direction of the power, at twice the angle
-    for (int j = 0; j < ny; ++j) {
-        const double ky = step_y * (j <= ny / 2 ? j : j - ny);
-        for (int i = 0; i < columns; ++i) {
-            const double kx = step_x * i, q = std::hypot(stretch * (kx * along + ky * aside),
-                                                         (ky * along - kx * aside) / stretch) /
-                                              ring;
-            const std::size_t r = nearest(q);
-            if (r > rings) continue;
-            // counts the mirror image in the other half plane
-            const double copies = i == 0 || 2 * i == nx ? 1 : 2;
-            const double of_mode =
-                copies * std::norm(modes[static_cast<std::ptrdiff_t>(j) * columns + i]);
-            power[r] += of_mode;
-            count[r] += copies;
-            if (aspect != 1) continue;
-            plane.add(r, kx, ky, of_mode, copies);
-            if (r > 0) directed += std::polar(of_mode, 2 * std::atan2(ky, kx));
-        }
+    const HeightMap& map_;
+    std::vector<double> wx_, wy_;
+    double squares_ = 0;
+};
+
+// The rings of modes: ellipses of constant stretched wavenumber with a lay.
+struct Rings {
+    double step_x, step_y, ring;
+    double stretch, along, aside;
+    std::size_t count;
+
+    Rings(const HeightMap& map, double aspect, double direction)
+        : step_x(2 * std::numbers::pi / map.Lx()),
+          step_y(2 * std::numbers::pi / map.Ly()),
+          ring(std::min(step_x, step_y)),
+          stretch(std::sqrt(aspect)),
+          along(std::cos(direction)),
+          aside(std::sin(direction)) {
+        // Up to this stretched wavenumber the grid holds waves of all directions.
+        const double nyquist = std::numbers::pi / (std::max(map.dx, map.dy) * stretch);
+        count =
+            static_cast<std::size_t>(std::max(1.0, std::floor(nyquist / ring * (1 + 1e-12) + 0.5)));
     }
-    // The sensitivity of the rings of long waves to each wavenumber, from the squared transform of
-    // the window at half steps: the covariance within a window of length L is a series of waves of
-    // length 2 L.
-    constexpr int reach = 5;  // half steps; the transform of a Hann window is below 1e-4 beyond
-    std::array<double, reach + 1> window{};
-    for (int u = 0; u <= reach; ++u) {
+
+    // The stretched wavenumber of a mode, in rings.
+    double of(double kx, double ky) const {
+        return std::hypot(stretch * (kx * along + ky * aside),
+                          (ky * along - kx * aside) / stretch) /
+               ring;
+    }
+};
+
+// The squared transform of the window at `reach` half steps: the covariance within a window of
+// length L is a series of waves of length 2 L. The transform of a Hann window is below 1e-4 beyond.
+constexpr int kReach = 5;
+std::array<double, kReach + 1> squared_transform(bool periodic) {
+    std::array<double, kReach + 1> window{};
+    for (int u = 0; u <= kReach; ++u) {
         const auto sinc = [](double x) {
             return x == 0 ? 1.0 : std::sin(std::numbers::pi * x) / (std::numbers::pi * x);
         };
         const double amplitude =
             0.5 * sinc(0.5 * u) + 0.25 * (sinc(0.5 * u - 1) + sinc(0.5 * u + 1));
         window[static_cast<std::size_t>(u)] =
-            map.periodic ? (u == 0 ? 1.0 : 0.0) : amplitude * amplitude;
+            periodic ? (u == 0 ? 1.0 : 0.0) : amplitude * amplitude;
     }
+    return window;
+}
+
+// The sensitivity of the rings of long waves to each wavenumber, from the squared transform of the
+// window.
+std::vector<std::map<std::size_t, double>> sensitivity(const HeightMap& map, const Rings& rings) {
+    const int nx = map.nx, ny = map.ny;
+    const std::array<double, kReach + 1> window = squared_transform(map.periodic);
     constexpr std::size_t long_rings = 32;
-    std::vector<std::map<std::size_t, double>> seen(std::min(rings, long_rings) + 1);
-    const int half = map.periodic ? 0 : reach,
-              far = static_cast<int>(
-                  std::ceil((long_rings + 0.5) * stretch * ring / std::min(step_x, step_y)));
+    std::vector<std::map<std::size_t, double>> seen(std::min(rings.count, long_rings) + 1);
+    const int half = map.periodic ? 0 : kReach;
+    const int far = static_cast<int>(std::ceil((long_rings + 0.5) * rings.stretch * rings.ring /
+                                               std::min(rings.step_x, rings.step_y)));
     for (int j = -std::min(far, ny / 2); j <= std::min(far, ny / 2); ++j)
         for (int i = 0; i <= std::min(far, nx / 2); ++i) {
-            const auto stretched = [&](double kx, double ky) {
-                return std::hypot(stretch * (kx * along + ky * aside),
-                                  (ky * along - kx * aside) / stretch) /
-                       ring;
-            };
-            const std::size_t r = nearest(stretched(step_x * i, step_y * j));
+            const std::size_t r = nearest(rings.of(rings.step_x * i, rings.step_y * j));
             if (r == 0 || r >= seen.size()) continue;
             for (int v = -half; v <= half; ++v)
                 for (int u = -half; u <= half; ++u) {
                     const double share = window[static_cast<std::size_t>(std::abs(u))] *
                                          window[static_cast<std::size_t>(std::abs(v))];
-                    const double q = stretched(step_x * (i + 0.5 * u), step_y * (j + 0.5 * v));
+                    const double q =
+                        rings.of(rings.step_x * (i + 0.5 * u), rings.step_y * (j + 0.5 * v));
                     seen[r][nearest(q * MeasuredSpectrum::kPlaces)] += (i == 0 ? 1 : 2) * share;
                 }
         }
+    return seen;
+}
+
+// The power of all modes, summed by ring and by direction.
+struct ModePower {
+    std::vector<double> power, count;   // by ring
+    Plane plane;                        // of isotropic rings
+    std::complex<double> directed = 0;  // mean direction of the power, at twice the angle
+
+    ModePower(const HeightMap& map, const Rings& rings, bool isotropic, int columns,
+              const std::complex<double>* modes)
+        : power(rings.count + 1, 0.0), count(rings.count + 1, 0.0), plane(rings.count) {
+        const int nx = map.nx, ny = map.ny;
+        for (int j = 0; j < ny; ++j) {
+            const double ky = rings.step_y * (j <= ny / 2 ? j : j - ny);
+            for (int i = 0; i < columns; ++i) {
+                const double kx = rings.step_x * i;
+                const std::size_t r = nearest(rings.of(kx, ky));
+                if (r > rings.count) continue;
+                // Counts the mirror image in the other half plane.
+                const double copies = i == 0 || 2 * i == nx ? 1 : 2;
+                const double of_mode =
+                    copies * std::norm(modes[static_cast<std::ptrdiff_t>(j) * columns + i]);
+                power[r] += of_mode;
+                count[r] += copies;
+                if (!isotropic) continue;
+                plane.add(r, kx, ky, of_mode, copies);
+                if (r > 0) directed += std::polar(of_mode, 2 * std::atan2(ky, kx));
+            }
+        }
+    }
+};
+
+}  // namespace
+
+MeasuredSpectrum measure_spectrum(const HeightMap& map, double aspect, double direction) {
+    const Rings rings(map, aspect, direction);
+    WindowedMap windowed(map);
+    const Buffer buffer = windowed.modes();
+    const ModePower modes(map, rings, aspect == 1, windowed.columns(),
+                          reinterpret_cast<const std::complex<double>*>(buffer.get()));
+    const auto seen = sensitivity(map, rings);
     // By Parseval's theorem the squared modes add up to nx ny times the sum of the squared windowed
     // heights.
-    const double scale = 1 / (static_cast<double>(nx) * ny * squares * step_x * step_y);
+    const double scale = 1 / (static_cast<double>(map.nx) * map.ny * windowed.squares() *
+                              rings.step_x * rings.step_y);
     MeasuredSpectrum s;
-    s.ring = ring;
+    s.ring = rings.ring;
     // For a Hann window (sum w^2)^2/(n sum w^4) = 0.514 in each direction, so a share 0.27 of the
     // modes in a ring is independent. Half of that is used: it also compensates for the blur by the
     // window and gave more accurate Hurst exponents for 100 known spectra.
     constexpr double kHann = 0.514;
     s.independent = map.periodic ? 0.5 : 0.5 * kHann * kHann;
     s.coupled = map.periodic ? 1 : 1 / kHann;
-    for (std::size_t r = 1; r <= rings; ++r) {
-        if (count[r] == 0) continue;  // rings of a narrow map may have no modes
-        s.wavenumber.push_back(static_cast<double>(r) * ring);
-        s.psd.push_back(scale * power[r] / count[r]);
-        s.modes.push_back(count[r]);
+    for (std::size_t r = 1; r <= rings.count; ++r) {
+        if (modes.count[r] == 0) continue;  // rings of a narrow map may have no modes
+        s.wavenumber.push_back(static_cast<double>(r) * rings.ring);
+        s.psd.push_back(scale * modes.power[r] / modes.count[r]);
+        s.modes.push_back(modes.count[r]);
         if (r >= seen.size()) continue;
         double sum = 0;
         for (const auto& [place, share] : seen[r]) sum += share;
         s.seen.emplace_back();
-        for (const auto& [place, share] : seen[r])
-            s.seen.back().emplace_back(place, share / sum),
-                s.places = std::max(s.places, place + 1);
+        for (const auto& [place, share] : seen[r]) {
+            s.seen.back().emplace_back(place, share / sum);
+            s.places = std::max(s.places, place + 1);
+        }
     }
     s.lost = map.periodic ? 0 : 1.5;
-    if (aspect == 1) plane.finish(s, ring, scale);
-    const double across = 90 / std::numbers::pi * std::arg(directed) + 90;
+    if (aspect == 1) modes.plane.finish(s, rings.ring, scale);
+    const double across = 90 / std::numbers::pi * std::arg(modes.directed) + 90;
     s.lay = across < 180 ? across : across - 180;
     return s;
 }
@@ -216,10 +291,14 @@ HeightParameters height_parameters(const HeightMap& map) {
     double all = 0, high = 0, high_points = 0;
     for (int j = 0; j + 1 < map.ny; ++j)
         for (int i = 0; i + 1 < map.nx; ++i) {
-            const double sx = (map(i + 1, j) - map(i, j)) / map.dx,
-                         sy = (map(i, j + 1) - map(i, j)) / map.dy, square = sx * sx + sy * sy;
+            const double sx = (map(i + 1, j) - map(i, j)) / map.dx;
+            const double sy = (map(i, j + 1) - map(i, j)) / map.dy;
+            const double square = sx * sx + sy * sy;
             all += square;
-            if (map(i, j) > level + p.sq) high += square, high_points += 1;
+            if (map(i, j) > level + p.sq) {
+                high += square;
+                high_points += 1;
+            }
         }
     if (all > 0 && high_points > 0)
         p.high_slope = std::sqrt(high / high_points * (map.nx - 1.0) * (map.ny - 1.0) / all);
@@ -243,7 +322,8 @@ double twin_exponent(const std::function<double(double, double)>& psd,
                              ky = k * std::sin(std::numbers::pi * a / angles);
                 const double sx = difference(kx, map.dx), sy = difference(ky, map.dy),
                              power = k * k * width * psd(kx, ky);
-                height += power, slope += power * (sx * sx + sy * sy);
+                height += power;
+                slope += power * (sx * sx + sy * sy);
             }
             rings.push_back({log_k, height, slope});
         }
@@ -253,8 +333,10 @@ double twin_exponent(const std::function<double(double, double)>& psd,
     for (int step = 0; step < 50; ++step) {
         const double e = 0.5 * (low + high);
         double height = 0, slope = 0;
-        for (const auto& [log_k, h, s] : rings)
-            height += h * std::exp(e * log_k), slope += s * std::exp(e * log_k);
+        for (const auto& [log_k, h, s] : rings) {
+            height += h * std::exp(e * log_k);
+            slope += s * std::exp(e * log_k);
+        }
         (slope > wanted * height ? high : low) = e;
     }
     return high;
@@ -278,9 +360,13 @@ Isotropy isotropy(const HeightMap& map) {
             // Gradient at the centre of four points.
             const double a = map(i, j), b = map(i + 1, j), c = map(i, j + 1), d = map(i + 1, j + 1);
             const double zx = 0.5 * (b - a + d - c) / map.dx, zy = 0.5 * (c - a + d - b) / map.dy;
-            row_xx += zx * zx, row_xy += zx * zy, row_yy += zy * zy;
+            row_xx += zx * zx;
+            row_xy += zx * zy;
+            row_yy += zy * zy;
         }
-        xx += row_xx, xy += row_xy, yy += row_yy;
+        xx += row_xx;
+        xy += row_xy;
+        yy += row_yy;
     }
     const double mean = 0.5 * (xx + yy), apart = std::hypot(0.5 * (xx - yy), xy);
     if (!(mean + apart > 0)) return {};

@@ -1,5 +1,5 @@
-// Spectrum, height parameters and height distribution of a height map, from which similar synthetic surfaces
-// can be made.
+// Spectrum, height parameters and height distribution of a height map, from which similar synthetic
+// surfaces can be made.
 #pragma once
 
 #include "surface/surface.hpp"
@@ -16,27 +16,23 @@ struct Fitted {
 struct SelfAffineFit {
     Fitted Phi0;    // [length^4]
     Fitted kl, ks;  // [1/length]
-    Fitted
-        // Hurst exponent; above 1 for slopes steeper than -4, below 0 for slopes flatter than -2
-        hurst;
+    // Hurst exponent; above 1 for slopes steeper than -4, below 0 for slopes flatter than -2.
+    Fitted hurst;
     bool plateau = false;
     bool ks_seen = false;  // true if the power law ends before the grid's shortest wave
     bool kl_seen = false;  // false if the map is too small to show kl; kl is then an upper bound
-    // false if the map is too small to decide whether there is a plateau Lay of the surface. Phi
-    // depends only on the stretched wavenumber hypot(sqrt(aspect) k_along, k_across/sqrt(aspect)).
-    bool plateau_seen = false;
-    double aspect = 1,
-           // ratio of the correlation lengths along and across the lay; angle of the lay from the x
-        // axis [rad]
-        direction = 0;
+    bool plateau_seen = false;  // false if the map is too small to tell whether there is a plateau
+    // Lay of the surface: ratio of the correlation lengths along and across it, and its angle from
+    // the x axis [rad]. Phi depends only on the stretched wavenumber
+    // hypot(sqrt(aspect) k_along, k_across/sqrt(aspect)).
+    double aspect = 1, direction = 0;
     double operator()(double k) const;
     double around(double k) const;  // mean over all directions at the unstretched wavenumber k
 };
 
 // Power spectral density over the wavenumber k = 2 pi/lambda, averaged over rings: the integral of
-// Phi 2 pi k dk is the mean square height.
-// Rings are 2 pi/max(Lx, Ly) wide and reach from that wavenumber to the smaller Nyquist wavenumber
-// of the two directions.
+// Phi 2 pi k dk is the mean square height. Rings are 2 pi/max(Lx, Ly) wide and reach from that
+// wavenumber to the smaller Nyquist wavenumber of the two directions.
 struct MeasuredSpectrum {
     double ring = 0;                 // their width [1/length]
     std::vector<double> wavenumber;  // middle of the rings that have modes [1/length]

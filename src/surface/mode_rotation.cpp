@@ -16,17 +16,28 @@ RSC_ALWAYS_INLINE void add_powers_body(const float* z, std::ptrdiff_t count, dou
         const Eight a = reinterpret_cast<const Eight&>(z[i]),
                     b = reinterpret_cast<const Eight&>(z[i + 8]);
         const Eight a2 = a * a, b2 = b * b;
-        second += a2, third += a * a2, fourth += a2 * a2;
-        second2 += b2, third2 += b * b2, fourth2 += b2 * b2;
+        second += a2;
+        third += a * a2;
+        fourth += a2 * a2;
+        second2 += b2;
+        third2 += b * b2;
+        fourth2 += b2 * b2;
     }
-    second += second2, third += third2, fourth += fourth2;
-    for (int l = 0; l < 8; ++l) total[0] += second[l], total[1] += third[l], total[2] += fourth[l];
+    second += second2;
+    third += third2;
+    fourth += fourth2;
+    for (int l = 0; l < 8; ++l) {
+        total[0] += second[l];
+        total[1] += third[l];
+        total[2] += fourth[l];
+    }
 }
 
 RSC_ALWAYS_INLINE void angles(const float* x, const float* y, const float* inverse, float p,
                               float q, float* tangent, float* cosine) {
     if (p == 0 && q == 0) {
-        std::fill_n(tangent, kBatch, 0.0f), std::fill_n(cosine, kBatch, 1.0f);
+        std::fill_n(tangent, kBatch, 0.0f);
+        std::fill_n(cosine, kBatch, 1.0f);
         return;
     }
     for (int i = 0; i < kBatch; ++i) {
@@ -49,12 +60,19 @@ RSC_ALWAYS_INLINE void add_rotated_body(const float* x, const float* y, const fl
     for (int m = 0; m < kBatch; m += 8) {
         const Eight weight = at(cosine, m) * at(inverse, m), wx = weight * at(x, m),
                     lost = 1 - at(cosine, m);
-        xx += wx * at(x, m), xy += wx * at(y, m), yy += weight * at(y, m) * at(y, m);
-        lost_u += lost * at(u, m), lost_v += lost * at(v, m);
+        xx += wx * at(x, m);
+        xy += wx * at(y, m);
+        yy += weight * at(y, m) * at(y, m);
+        lost_u += lost * at(u, m);
+        lost_v += lost * at(v, m);
     }
-    for (int l = 0; l < 8; ++l)
-        total[0] += xx[l], total[1] += xy[l], total[2] += yy[l], total[3] += lost_u[l],
-            total[4] += lost_v[l];
+    for (int l = 0; l < 8; ++l) {
+        total[0] += xx[l];
+        total[1] += xy[l];
+        total[2] += yy[l];
+        total[3] += lost_u[l];
+        total[4] += lost_v[l];
+    }
 }
 
 }  // namespace

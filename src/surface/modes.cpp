@@ -34,7 +34,10 @@ RSC_ALWAYS_INLINE void noise_batch(const NoiseKey& key, std::int32_t kx, std::in
             c2 = static_cast<std::uint32_t>(p0 >> 32) ^ c3 ^ (k1 + round * PHILOX_W32_1);
             c3 = static_cast<std::uint32_t>(p0);
         }
-        w0[i] = c0, w1[i] = c1, w2[i] = c2, w3[i] = c3;
+        w0[i] = c0;
+        w1[i] = c1;
+        w2[i] = c2;
+        w3[i] = c3;
     }
     alignas(64) double radius[kNoiseBatch];
     for (int i = 0; i < kNoiseBatch; ++i) {
@@ -186,9 +189,14 @@ void draw_run(const Spectrum& spectrum, const Band& limits, const NoiseKey& key,
 void ModeSums::add(const ModeSums& other) {
     expected += other.expected;
     m0 += other.m0;
-    tensor.m20 += other.tensor.m20, tensor.m11 += other.tensor.m11, tensor.m02 += other.tensor.m02;
-    tensor.m40 += other.tensor.m40, tensor.m31 += other.tensor.m31, tensor.m22 += other.tensor.m22;
-    tensor.m13 += other.tensor.m13, tensor.m04 += other.tensor.m04;
+    tensor.m20 += other.tensor.m20;
+    tensor.m11 += other.tensor.m11;
+    tensor.m02 += other.tensor.m02;
+    tensor.m40 += other.tensor.m40;
+    tensor.m31 += other.tensor.m31;
+    tensor.m22 += other.tensor.m22;
+    tensor.m13 += other.tensor.m13;
+    tensor.m04 += other.tensor.m04;
     m2 += other.m2;
     m4 += other.m4;
     m2_differences += other.m2_differences;
@@ -226,8 +234,9 @@ ModeSums draw_column(const Spectrum& spectrum, const NoiseKey& key, int kx, int 
     }
     const double x2 = static_cast<double>(kx) * kx;
     const bool isotropic = !spectrum.directional();
-    const double x = kx, e = sum(lanes.e), y1 = sum(lanes.y1), y2 = sum(lanes.y2),
-                 y3 = sum(lanes.y3), y4 = sum(lanes.y4);
+    const double x = kx, e = sum(lanes.e);
+    const double y1 = sum(lanes.y1), y2 = sum(lanes.y2);
+    const double y3 = sum(lanes.y3), y4 = sum(lanes.y4);
     ModeSums sums;
     sums.expected = 2.0 * sum(lanes.a);
     sums.m0 = 2.0 * e;

@@ -103,7 +103,11 @@ public:
         step_ = 0;
         for (int round = 0;; ++round) {
             const double off = distance(now_, wish);
-            if ((round > 0 || !by) && off < nearest) nearest = off, best = now_, kept_ = mode_;
+            if ((round > 0 || !by) && off < nearest) {
+                nearest = off;
+                best = now_;
+                kept_ = mode_;
+            }
             if (round >= rounds || nearest <= near_enough ||
                 (!again && round > 2 && off > still * before))
                 break;
@@ -253,7 +257,8 @@ private:
     };
     template <class Function>
     void parts(Function of, Parts& to) {
-        to.along.resize(mode_.size()), to.across.resize(mode_.size());
+        to.along.resize(mode_.size());
+        to.across.resize(mode_.size());
         const float scale = 0.5f / (static_cast<float>(m_) * static_cast<float>(m_));
         coefficients(of, [&](std::size_t first, const Complex* change, std::size_t count) {
             const Complex* const mode = mode_.data() + first;
@@ -285,7 +290,7 @@ private:
                      kurtosis = wish.kurtosis - from_.kurtosis;
         double s = skewness / 6, t = (kurtosis - 4.0 / 3 * skewness * skewness) / 8, size = 0;
         const auto expect = [&](double share) {
-            s = (skewness - share * missed_.skewness) / 6,
+            s = (skewness - share * missed_.skewness) / 6;
             t = (kurtosis - share * missed_.kurtosis) / 8;
         };
         if (again) expect(1);
@@ -300,12 +305,14 @@ private:
             const auto [a, b, c, lost_s, lost_t] = sums;
             const double determinant = a * c - b * b, s1 = s + lost_s, t1 = t + lost_t;
             if (!(determinant > 0)) break;
-            p = static_cast<float>((c * s1 - b * t1) / determinant),
+            p = static_cast<float>((c * s1 - b * t1) / determinant);
             q = static_cast<float>((a * t1 - b * s1) / determinant);
             size = std::sqrt(2 * (p * p * a + 2 * p * q * b + q * q * c));
             const double longest = size > 1 ? kFar : kLongest;
-            if (const float most = static_cast<float>(longest / size); most < 1)
-                p *= most, q *= most;
+            if (const float most = static_cast<float>(longest / size); most < 1) {
+                p *= most;
+                q *= most;
+            }
             size = std::min(size, longest);
             predicted = {6 * (a * p + b * q - lost_s), 8 * (b * p + c * q - lost_t)};
             if (!again && step_ > 0 && step_ <= kLongest && size < kSmall)
@@ -486,7 +493,8 @@ HeightShape reshape_heights(const Spectrum& spectrum, std::complex<double>* colu
         const auto [skewness, kurtosis] = of_long_waves(
             {fine_wish.skewness - got.skewness, 3 + fine_wish.kurtosis - got.kurtosis},
             share / share_of_most);
-        ask.skewness += skewness, ask.kurtosis += kurtosis - 3;
+        ask.skewness += skewness;
+        ask.kurtosis += kurtosis - 3;
     }
     if (off > 1 || spectrum.heights)
         got = fine.run(fine_wish, spectrum.heights.get(), spectrum.heights ? 0.3 : 1, fine_rounds,

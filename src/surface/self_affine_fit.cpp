@@ -81,7 +81,8 @@ public:
     Left left(const Cut& c) const {
         Left l;
         const auto add = [&](double square, const Sums::Six& s) {
-            l.square += square, l.weight += s.n;
+            l.square += square;
+            l.weight += s.n;
         };
         add(power_law(c).left, sums_.between(c.low, c.high));
         if (c.low > kBlurred) {
@@ -149,7 +150,8 @@ public:
         double ratio = 0, logs = 0;
         for (std::size_t i = first_; i < end_; ++i) {
             const double m = s_.independent * s_.modes[i], e = expected[i - first_];
-            ratio += m * s_.psd[i] / e, logs += m * std::log(e);
+            ratio += m * s_.psd[i] / e;
+            logs += m * std::log(e);
         }
         const double log_phi0 = std::log(ratio / weights_);
         return {weights_ * log_phi0 + logs, log_phi0};
@@ -228,34 +230,39 @@ bool can_fit(const MeasuredSpectrum& spectrum) {
 
 namespace {
 
-// With wavenumbers in rings, of which they are whole numbers: where a fit ends must not depend on
-// the rounding of a unit of length.
-SelfAffineFit fit_in_rings(const MeasuredSpectrum& spectrum) {
-    std::vector<double> k, x, y, weight;
-    double weights = 0;
-    for (std::size_t i = 0; i < spectrum.psd.size(); ++i)
-        if (spectrum.psd[i] > 0) {
-            const double independent = spectrum.independent * spectrum.modes[i];
-            k.push_back(spectrum.wavenumber[i]);
-            x.push_back(std::log(spectrum.wavenumber[i]));
-            // Bias correction: the logarithm of a mean of M squared amplitudes lies on average
-            // 1/(2M) below the logarithm of the expectation.
-            y.push_back(std::log(spectrum.psd[i]) + 0.5 / independent);
-            weight.push_back(independent);
-            weights += independent;
-        }
-    for (double& w : weight) w *= static_cast<double>(weight.size()) / weights;
-    constexpr std::size_t kShortest = 4;  // smallest number of rings of a power law
-    const std::size_t n = x.size();
-    if (n < kFewest)
-        bad_input("the map is too small for a spectrum: it has " + std::to_string(n) +
-                  " rings of modes");
-    const BandSearch search(x, y, weight);
+// The rings of a spectrum that have power, their wavenumbers in rings, of which they are whole
+// numbers: where a fit ends must not depend on the rounding of a unit of length.
+struct PoweredRings {
+    std::vector<double> k, x, y, weight;  // x = ln k, y = ln Phi
+
+    explicit PoweredRings(const MeasuredSpectrum& spectrum) {
+        double weights = 0;
+        for (std::size_t i = 0; i < spectrum.psd.size(); ++i)
+            if (spectrum.psd[i] > 0) {
+                const double independent = spectrum.independent * spectrum.modes[i];
+                k.push_back(spectrum.wavenumber[i]);
+                x.push_back(std::log(spectrum.wavenumber[i]));
+                // Bias correction: the logarithm of a mean of M squared amplitudes lies on average
+                // 1/(2M) below the logarithm of the expectation.
+                y.push_back(std::log(spectrum.psd[i]) + 0.5 / independent);
+                weight.push_back(independent);
+                weights += independent;
+            }
+        for (double& w : weight) w *= static_cast<double>(weight.size()) / weights;
+    }
+};
+
+constexpr std::size_t kShortest = 4;  // smallest number of rings of a power law
+
+Cut best_cut(const BandSearch& search, std::size_t n) {
     Cut best{0, n};
     double least = HUGE_VAL;  // default: one power law over all rings
     const auto try_cut = [&](const Cut& c) {
         if (c.high < c.low + kShortest || c.high > n) return;
-        if (const double cost = search.cost(c); cost < least) least = cost, best = c;
+        if (const double cost = search.cost(c); cost < least) {
+            least = cost;
+            best = c;
+        }
     };
     // Coarse search with about 60 places per decade, then a fine search around the best cut.
     std::vector<std::size_t> places;
@@ -275,13 +282,21 @@ SelfAffineFit fit_in_rings(const MeasuredSpectrum& spectrum) {
              high <= around.high + wide; ++high)
             try_cut({best.low, high});
     }
-    SelfAffineFit fit;
-    fit.ks_seen = best.high < n;
+    return best;
+}
 
-    // The rings next to ks, which the window blurs, are left out.
-    const std::size_t blurred = fit.ks_seen ? (spectrum.coupled > 1 ? BandSearch::kBlurred : 1) : 0;
-    const std::size_t end =
-        best.high - std::min(blurred, best.high > kFewest ? best.high - kFewest : 0);
+// Models with a larger misfit than this above the least are outside the 90 % interval.
+double allowed_misfit(const Likelihood& likelihood, const Likelihood::Model& m) {
+    return 0.5 * 1.645 * 1.645 * likelihood.excess(m);
+}
+
+double curvature_of(const Likelihood& likelihood, const Likelihood::Model& m) {
+    return std::max(likelihood.curvature(m), 1e-3);
+}
+
+// Sets hurst, Phi0, kl and the plateau by the rings before `end`. Returns the model.
+Likelihood::Model fit_power_law(const MeasuredSpectrum& spectrum, std::size_t end,
+                                double highest_ring, SelfAffineFit& fit) {
     const Likelihood likelihood(spectrum, spectrum.lost, end);
     // kl in steps of a quarter of a ring, later of 4 %. Values below the lowest ring mean that
     // there is no break.
@@ -292,15 +307,14 @@ SelfAffineFit fit_in_rings(const MeasuredSpectrum& spectrum) {
         for (const bool plateau : {false, true}) models.push_back(likelihood.best(kl, plateau));
     Likelihood::Model found;
     std::array<double, 2> least_misfit{HUGE_VAL, HUGE_VAL};
-    // models that differ only below the lowest ring: the first one counts
+    // Of models that differ only below the lowest ring the first one counts.
     constexpr double kEqual = 1e-6;
     for (const Likelihood::Model& m : models) {
         if (m.misfit < found.misfit - kEqual) found = m;
         least_misfit[m.plateau] = std::min(least_misfit[m.plateau], m.misfit);
     }
-    // Models with a larger misfit are outside the 90 % interval.
-    const double allowed = 0.5 * 1.645 * 1.645 * likelihood.excess(found),
-                 curvature = std::max(likelihood.curvature(found), 1e-3);
+    const double allowed = allowed_misfit(likelihood, found),
+                 curvature = curvature_of(likelihood, found);
     fit.plateau = found.plateau;
     fit.plateau_seen = std::abs(least_misfit[0] - least_misfit[1]) > allowed;
     double low = found.kl, high = found.kl;
@@ -309,7 +323,8 @@ SelfAffineFit fit_in_rings(const MeasuredSpectrum& spectrum) {
     for (const Likelihood::Model& m : models) {
         const double left = allowed - (m.misfit - found.misfit);
         if (left < 0) continue;
-        low = std::min(low, m.kl), high = std::max(high, m.kl);
+        low = std::min(low, m.kl);
+        high = std::max(high, m.kl);
         fit.hurst.error = std::max(
             fit.hurst.error, std::abs(m.hurst - found.hurst) + std::sqrt(2 * left / curvature));
         log_error = std::max(log_error, std::abs(m.log_phi0 - found.log_phi0));
@@ -318,12 +333,13 @@ SelfAffineFit fit_in_rings(const MeasuredSpectrum& spectrum) {
     // Without a plateau the rings next to kl have fewer effective modes. The exponent is fitted to
     // the rings above them.
     const double above_break = found.kl + 1;
-    if (fit.kl_seen && !found.plateau && k[end - 1] > above_break + kShortest) {
+    if (fit.kl_seen && !found.plateau && highest_ring > above_break + kShortest) {
         const Likelihood upper(spectrum, above_break, end);
         const Likelihood::Model again = upper.best(found.kl, false);
-        found.hurst = fit.hurst.value = again.hurst, found.log_phi0 = again.log_phi0;
-        fit.hurst.error = std::sqrt(2 * 0.5 * 1.645 * 1.645 * upper.excess(again) /
-                                    std::max(upper.curvature(again), 1e-3));
+        found.hurst = again.hurst;
+        fit.hurst.value = again.hurst;
+        found.log_phi0 = again.log_phi0;
+        fit.hurst.error = std::sqrt(2 * allowed_misfit(upper, again) / curvature_of(upper, again));
     }
     if (fit.kl_seen)
         fit.kl = {found.kl, std::max(high - found.kl, found.kl - low) + 0.25};
@@ -336,46 +352,65 @@ SelfAffineFit fit_in_rings(const MeasuredSpectrum& spectrum) {
         std::abs(likelihood.misfit(found.kl, found.plateau, found.hurst + fit.hurst.error).second -
                  found.log_phi0);
     fit.Phi0 = {std::exp(log_phi0), std::exp(log_phi0) * std::expm1(log_error)};
+    return found;
+}
 
-    // Half the range over which ks can move before the residual grows by one variance.
-    constexpr double half_ring = 0.5;
-    if (!fit.ks_seen) {
-        fit.ks = {k[n - 1], half_ring};
-    } else {
-        const double variance =
-            spectrum.coupled *
-            std::max(search.power_law(best).left /
-                         std::max(static_cast<double>(best.high - best.low) - 2, 1.0),
-                     BandSearch::kScatter);
-        const double limit_left = search.left(best).square + variance;
-        const auto may_end = [&](std::size_t to) {
-            const Cut c{best.low, to};
-            return c.low + kShortest <= c.high && c.high <= n &&
-                   search.left(c).square <= limit_left;
-        };
-        std::size_t from = best.high, to = best.high;
-        while (from > 0 && may_end(from - 1)) --from;
-        while (to < n && may_end(to + 1)) ++to;
-        // ks is where the spectrum falls to half of the power law.
-        std::size_t last = best.high - 1;
-        const auto above = [&](std::size_t i) {  // > 0 if above half of it
-            return y[i] - 0.5 / (spectrum.independent * spectrum.modes[i]) - found.log_phi0 +
-                   2 * (1 + found.hurst) * std::log(k[i] / found.kl) + std::log(2.0);
-        };
-        const std::size_t limit = std::min(n - 1, best.high + 3);
-        while (last < limit && above(last + 1) > 0) ++last;
-        while (last > best.low && above(last) <= 0) --last;
-        double ks = k[best.high - 1];
-        if (last < limit && above(last) > 0 && above(last + 1) <= 0) {
-            const double share_last = std::exp(above(last)),
-                         // relative to half of the power law
-                share_next = std::exp(above(last + 1));
-            ks = k[last] + (k[last + 1] - k[last]) *
-                               std::clamp((share_last - 1) / (share_last - share_next), 0.0, 1.0);
-        }
-        fit.ks = {ks,
-                  std::max(0.5 * (k[std::min(to, n - 1)] - k[std::min(from, n - 1)]), half_ring)};
+constexpr double kHalfRing = 0.5;
+
+// ks is where the spectrum falls to half of the power law; its error is half the range over which
+// the end of the power law can move before the residual grows by one variance.
+Fitted end_of_power_law(const MeasuredSpectrum& spectrum, const PoweredRings& rings,
+                        const BandSearch& search, const Cut& best, const Likelihood::Model& found) {
+    const std::vector<double>& k = rings.k;
+    const std::size_t n = k.size();
+    const double variance =
+        spectrum.coupled *
+        std::max(search.power_law(best).left /
+                     std::max(static_cast<double>(best.high - best.low) - 2, 1.0),
+                 BandSearch::kScatter);
+    const double limit_left = search.left(best).square + variance;
+    const auto may_end = [&](std::size_t to) {
+        const Cut c{best.low, to};
+        return c.low + kShortest <= c.high && c.high <= n && search.left(c).square <= limit_left;
+    };
+    std::size_t from = best.high, to = best.high;
+    while (from > 0 && may_end(from - 1)) --from;
+    while (to < n && may_end(to + 1)) ++to;
+    std::size_t last = best.high - 1;
+    const auto above = [&](std::size_t i) {  // > 0 if above half of it
+        return rings.y[i] - 0.5 / (spectrum.independent * spectrum.modes[i]) - found.log_phi0 +
+               2 * (1 + found.hurst) * std::log(k[i] / found.kl) + std::log(2.0);
+    };
+    const std::size_t limit = std::min(n - 1, best.high + 3);
+    while (last < limit && above(last + 1) > 0) ++last;
+    while (last > best.low && above(last) <= 0) --last;
+    double ks = k[best.high - 1];
+    if (last < limit && above(last) > 0 && above(last + 1) <= 0) {
+        // Relative to half of the power law.
+        const double share_last = std::exp(above(last)), share_next = std::exp(above(last + 1));
+        ks = k[last] + (k[last + 1] - k[last]) *
+                           std::clamp((share_last - 1) / (share_last - share_next), 0.0, 1.0);
     }
+    return {ks, std::max(0.5 * (k[std::min(to, n - 1)] - k[std::min(from, n - 1)]), kHalfRing)};
+}
+
+SelfAffineFit fit_in_rings(const MeasuredSpectrum& spectrum) {
+    const PoweredRings rings(spectrum);
+    const std::size_t n = rings.k.size();
+    if (n < kFewest)
+        bad_input("the map is too small for a spectrum: it has " + std::to_string(n) +
+                  " rings of modes");
+    const BandSearch search(rings.x, rings.y, rings.weight);
+    const Cut best = best_cut(search, n);
+    SelfAffineFit fit;
+    fit.ks_seen = best.high < n;
+    // The rings next to ks, which the window blurs, are left out.
+    const std::size_t blurred = fit.ks_seen ? (spectrum.coupled > 1 ? BandSearch::kBlurred : 1) : 0;
+    const std::size_t end =
+        best.high - std::min(blurred, best.high > kFewest ? best.high - kFewest : 0);
+    const Likelihood::Model found = fit_power_law(spectrum, end, rings.k[end - 1], fit);
+    fit.ks = fit.ks_seen ? end_of_power_law(spectrum, rings, search, best, found)
+                         : Fitted{rings.k[n - 1], kHalfRing};
     return fit;
 }
 
@@ -385,13 +420,15 @@ SelfAffineFit fit_self_affine(const MeasuredSpectrum& spectrum) {
     MeasuredSpectrum s = spectrum;
     const double unit = s.psd.empty() ? 1 : *std::max_element(s.psd.begin(), s.psd.end());
     for (double& k : s.wavenumber) k = std::round(k / s.ring);
-    // rings of a map without short waves contain only rounding errors
+    // Rings of a map without short waves contain only rounding errors.
     constexpr double kRounding = 1e-24;
     for (double& p : s.psd) p = p > 0 ? std::max(p / unit, kRounding) : 0;
     SelfAffineFit fit = fit_in_rings(s);
     for (const auto& [fitted, scale] :
-         {std::pair(&fit.kl, s.ring), std::pair(&fit.ks, s.ring), std::pair(&fit.Phi0, unit)})
-        fitted->value *= scale, fitted->error *= scale;
+         {std::pair(&fit.kl, s.ring), std::pair(&fit.ks, s.ring), std::pair(&fit.Phi0, unit)}) {
+        fitted->value *= scale;
+        fitted->error *= scale;
+    }
     return fit;
 }
 

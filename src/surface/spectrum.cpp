@@ -277,7 +277,10 @@ Moments theoretical_moments(const Spectrum& s) {
     }
     Moments m = isotropic_moments(s);
     m.tensor = directional_moments(m.m2, m.m4, s.aspect, s.direction);
-    if (s.aspect != 1) m.m2 = m.tensor.m2(), m.m4 = m.tensor.m4();
+    if (s.aspect != 1) {
+        m.m2 = m.tensor.m2();
+        m.m4 = m.tensor.m4();
+    }
     return m;
 }
 

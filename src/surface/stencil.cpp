@@ -121,7 +121,10 @@ double Stencil::fit(double cutoff) {
             const double size = LeastSquares::dot(wanted, wanted);
             const std::vector<double> w = fit.solve(wanted);
             for (int u = 0; u < unknowns; ++u) centre_[q][u + odd] = w[static_cast<std::size_t>(u)];
-            if (q == 4) left4 = LeastSquares::dot(wanted, wanted), size4 = size;
+            if (q == 4) {
+                left4 = LeastSquares::dot(wanted, wanted);
+                size4 = size;
+            }
             if (q == 5) left5 = LeastSquares::dot(wanted, wanted);
         }
     }

@@ -27,9 +27,8 @@ public:
     static Stencil polynomial(int reach);
 
     int reach() const { return reach_; }
-    bool band_known() const {
-        return band_known_;
-    }  // made by band_limited(), which is exact between points up to its error
+    // True if made by band_limited(), which is exact between points up to its error.
+    bool band_known() const { return band_known_; }
 
     // weight[o][reach + i] of point i for derivative o at t, |t| <= 1/2, o < orders; zero after i =
     // reach.

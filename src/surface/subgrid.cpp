@@ -201,8 +201,7 @@ bool SummitClimber::seen_from_maximum(int i, int j, const Rows& row) const {
 }
 
 // Typical second difference around the middle of the patch: the sum of the medians along x and
-// along y. Pits, grooves and steps affect a minority of
-// the points and do not change it.
+// along y. Pits, grooves and steps affect a minority of the points and do not change it.
 double SummitClimber::usual_bend() const {
     constexpr int reach = 3, around = reach + 1, side = 2 * around + 1,
                   points = (2 * reach + 1) * (2 * reach + 1);
@@ -234,8 +233,8 @@ bool SummitClimber::smooth_around(const RefinedSummit& summit, double bend) cons
     return summit.z <= highest + most * bend;
 }
 
-// The grid maximum in the middle of the patch as a summit with second differences. If one of these is that of a pit or
-// a step, the smallest one at the point and its neighbours is used.
+// The grid maximum in the middle of the patch as a summit with second differences. If one of these
+// is that of a pit or a step, the smallest one at the point and its neighbours is used.
 RefinedSummit SummitClimber::of_grid(double bend, bool& broken) const {
     constexpr double usual = 8;
     const auto z = [&](int di, int dj) { return height(di, dj); };
@@ -247,7 +246,8 @@ RefinedSummit SummitClimber::of_grid(double bend, bool& broken) const {
         };
         const double here = bent(0);
         if (here >= -usual * bend) return here;
-        bends_usually = false, broken = true;
+        bends_usually = false;
+        broken = true;
         double least = here;
         for (const int k : {-1, 1})
             if (const double beside = bent(k); beside < 0) least = std::max(least, beside);
@@ -294,9 +294,12 @@ std::optional<RefinedSummit> SummitClimber::summit_from(int i, int j, bool maxim
 // c_SS are the coefficients of the quartic along the long and short axes (physics, section 16).
 // Also appends the plain one.
 double SummitClimber::append_biharmonic(const RefinedSummit& s, Asperities& a) const {
-    const double dx = place_.dx, dy = place_.dy, z40 = s.zxxxx / (dx * dx * dx * dx),
-                 z31 = s.zxxxy / (dx * dx * dx * dy), z22 = s.zxxyy / (dx * dx * dy * dy),
-                 z13 = s.zxyyy / (dx * dy * dy * dy), z04 = s.zyyyy / (dy * dy * dy * dy);
+    const double dx = place_.dx, dy = place_.dy;
+    const double z40 = s.zxxxx / (dx * dx * dx * dx);
+    const double z31 = s.zxxxy / (dx * dx * dx * dy);
+    const double z22 = s.zxxyy / (dx * dx * dy * dy);
+    const double z13 = s.zxyyy / (dx * dy * dy * dy);
+    const double z04 = s.zyyyy / (dy * dy * dy * dy);
     const double c = std::cos(a.angle.back()), t = std::sin(a.angle.back()), cc = c * c, tt = t * t,
                  ct = c * t;
     const double along =
@@ -324,8 +327,12 @@ void SummitClimber::climb_from(int i, int j, bool maximum, const Rows& row, Refi
     double u = 0, v = 0;
     bool kept = s.has_value();
     if (kept) {
-        u = i + s->x, v = j + s->y;
-        if (place_.periodic) u = wrapped(u, place_.nx), v = wrapped(v, ny_);
+        u = i + s->x;
+        v = j + s->y;
+        if (place_.periodic) {
+            u = wrapped(u, place_.nx);
+            v = wrapped(v, ny_);
+        }
         const SecondOrder second{0.5 * s->zxx / (place_.dx * place_.dx),
                                  0.5 * s->zyy / (place_.dy * place_.dy),
                                  0.5 * s->zxy / (place_.dx * place_.dy)};

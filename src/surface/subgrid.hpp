@@ -43,9 +43,8 @@ struct RefinedSummits {
         bool maximum;     // the start is a maximum of the grid
         double u, v;      // position of the summit in grid steps, x = x0 + u dx, y = y0 + v dy
         double moved;     // distance from the start, the larger of both directions [grid steps]
-        double
-            // biharmonic of the round profile that flattens like the elongated summit [1/length^3]
-            elongated;
+        // Biharmonic of the round profile that flattens like the elongated summit [1/length^3].
+        double elongated;
     };
     Asperities found;
     std::vector<From> from;

@@ -103,7 +103,8 @@ void HeightMap::allocate(int nx_, int ny_, std::ptrdiff_t stride_, bool zeros) {
 HeightMap HeightMap::copy() const {
     HeightMap made;
     made.allocate(nx, ny, nx);
-    static_cast<PointGrid&>(made) = *this, made.periodic = periodic;
+    static_cast<PointGrid&>(made) = *this;
+    made.periodic = periodic;
     for (int j = 0; j < ny; ++j)
         for (int i = 0; i < nx; ++i) made.row(j)[i] = (*this)(i, j);
     return made;
@@ -160,7 +161,9 @@ HeightMap every_second_point_of(const HeightMap& map, int column, int row) {
                                      2 * map.dy,
                                      map.x(column),
                                      map.y(row)};
-    view.stride = 2 * map.stride, view.every = 2 * map.every, view.periodic = map.periodic;
+    view.stride = 2 * map.stride;
+    view.every = 2 * map.every;
+    view.periodic = map.periodic;
     double* const first = map.data.get() + row * map.stride + std::ptrdiff_t{column} * map.every;
     view.data = std::unique_ptr<double[], HeightMap::Free>(first, HeightMap::Free(false));
     return view;

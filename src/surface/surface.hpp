@@ -67,7 +67,10 @@ double mean_present(const HeightMap& map, Value value) {
     for (int j = 0; j < map.ny; ++j) {
         double row = 0;
         for (int i = 0; i < map.nx; ++i)
-            if (const double z = map(i, j); !std::isnan(z)) row += value(z, i, j), ++points;
+            if (const double z = map(i, j); !std::isnan(z)) {
+                row += value(z, i, j);
+                ++points;
+            }
         total += row;
     }
     return total / points;
@@ -87,8 +90,8 @@ inline constexpr std::array kNormaliseNames = {"sample", "ensemble"};
 Moments grid_moments(const HeightMap& map);
 
 // Every second point of a map along both sides, from the first one on, or from column 1 or row 1:
-// the map of a measurement half as fine. Not a copy: its heights are those of `map`, which must outlive it. Read it by (i,
-// j), not by row().
+// the map of a measurement half as fine. Not a copy: its heights are those of `map`, which must
+// outlive it. Read it by (i, j), not by row().
 HeightMap every_second_point_of(const HeightMap& map, int column = 0, int row = 0);
 
 }  // namespace rsc

@@ -173,6 +173,43 @@ RowSource::RowSource(const Spectrum& wanted, int n, Normalise normalise, std::in
     if (exchanged_) sampled_.tensor = sampled_.tensor.transposed();
 }
 
+// The transform of a column, from `column` to `stored`. Also sets that of a row.
+FftwPlan RowSource::make_plans(double* column, double* row, std::complex<double>* stored) {
+    FftwPlan column_plan;
+    {
+        const auto lock = fftw_planning();
+        column_plan.reset(
+            fftw_plan_dft_1d(n_, fftw(column), fftw(stored), FFTW_BACKWARD, FFTW_ESTIMATE));
+        // Real and imaginary parts are exchanged: FFTW knows only forward transforms of separate
+        // parts.
+        if (pairs_) {
+            const fftw_iodim all{n_, 1, 1};
+            double* const to = row + 2 * row_distance(n_);
+            row_plan_.reset(fftw_plan_guru_split_dft(1, &all, 0, nullptr, row + row_distance(n_),
+                                                     row, to + row_distance(n_), to,
+                                                     FFTW_ESTIMATE));
+        } else {
+            row_plan_.reset(fftw_plan_dft_c2r_1d(n_, fftw(row), row + row_stride_, FFTW_ESTIMATE));
+        }
+    }
+    if (!column_plan || !row_plan_)
+        throw Error(Failure::internal, "surface: FFTW made no plan for n = " + std::to_string(n_));
+    return column_plan;
+}
+
+// Adds the modes of a column of the unsheared plane to those they become in the sheared one.
+void RowSource::shear_column(int kx, int bottom, int top, const std::complex<double>* column,
+                             std::complex<double>* store) const {
+    for (int ky = kx > 0 ? bottom : 1; ky <= top; ++ky) {
+        const std::complex<double> c = column[ky < 0 ? ky + n_ : ky];
+        const int inner = exchanged_ ? ky : kx,
+                  k = exchanged_ ? kx + shear_ * ky : ky + shear_ * kx;
+        if (k >= 0) store[k * column_stride_ + (inner < 0 ? inner + n_ : inner)] = c;
+        // The same wave.
+        if (k <= 0) store[-k * column_stride_ + (inner > 0 ? n_ - inner : -inner)] = std::conj(c);
+    }
+}
+
 void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed,
                      std::int64_t realization, int threads, double difference_step) {
     const NoiseKey key{seed, realization};
@@ -181,33 +218,15 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     std::vector<Buffer> drawn(static_cast<std::size_t>(threads));
     for (auto& buffer : drawn)
         buffer.reset(allocate_doubles(doubles, "a column of a synthetic surface"));
-    Buffer row(allocate_doubles(4 * static_cast<std::size_t>(row_stride_),
-                                "a row of a synthetic surface"));
-    FftwPlan column_plan;
-    {
-        const auto lock = fftw_planning();
-        column_plan.reset(
-            fftw_plan_dft_1d(n_, fftw(drawn[0].get()), fftw(store), FFTW_BACKWARD, FFTW_ESTIMATE));
-        // real and imaginary parts exchanged: FFTW knows only forward transforms of separate parts
-        if (pairs_) {
-            const fftw_iodim all{n_, 1, 1};
-            double *const from = row.get(), *const to = from + 2 * row_distance(n_);
-            row_plan_.reset(fftw_plan_guru_split_dft(1, &all, 0, nullptr, from + row_distance(n_),
-                                                     from, to + row_distance(n_), to,
-                                                     FFTW_ESTIMATE));
-        } else {
-            row_plan_.reset(
-                fftw_plan_dft_c2r_1d(n_, fftw(row.get()), row.get() + row_stride_, FFTW_ESTIMATE));
-        }
-    }
-    if (!column_plan || !row_plan_)
-        throw Error(Failure::internal, "surface: FFTW made no plan for n = " + std::to_string(n_));
+    const Buffer row(allocate_doubles(4 * static_cast<std::size_t>(row_stride_),
+                                      "a row of a synthetic surface"));
+    const FftwPlan column_plan = make_plans(drawn[0].get(), row.get(), store);
+    auto& plan = *column_plan;
 
     // The sums go by column and are added in order, whichever thread drew them.
     const Band limits = band(spectrum);
     std::vector<ModeSums> sums(static_cast<std::size_t>(limits.highest_kx) + 1);
-    auto& plan = *column_plan;
-    // a column is complete when it is drawn
+    // A column is complete when it is drawn.
     const bool at_once = spectrum.gaussian() && shear_ == 0;
     if (shear_ != 0) std::fill_n(store, columns_ * column_stride_, std::complex<double>());
     const Differences differences(std::max(limits.highest_kx, limits.highest_ky),
@@ -221,15 +240,7 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
         if (at_once) fftw_execute_dft(&plan, fftw(column), fftw(stored));
         if (shear_ == 0) return;
         const auto [bottom, top] = limits.column(kx);
-        for (int ky = kx > 0 ? bottom : 1; ky <= top; ++ky) {
-            const std::complex<double> c = column[ky < 0 ? ky + n_ : ky];
-            const int inner = exchanged_ ? ky : kx,
-                      k = exchanged_ ? kx + shear_ * ky : ky + shear_ * kx;
-            if (k >= 0) store[k * column_stride_ + (inner < 0 ? inner + n_ : inner)] = c;
-            if (k <= 0)
-                // the same wave
-                store[-k * column_stride_ + (inner > 0 ? n_ - inner : -inner)] = std::conj(c);
-        }
+        shear_column(kx, bottom, top, column, store);
     });
     HeightShape shape;
     if (!spectrum.gaussian()) shape = reshape_heights(spectrum, store, column_stride_, n_);
@@ -243,6 +254,12 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     }
     ModeSums total;
     for (const ModeSums& s : sums) total.add(s);
+    scale_moments(spectrum, normalise, total, shape, difference_step);
+}
+
+// Sets the factor of the heights and their moments.
+void RowSource::scale_moments(const Spectrum& spectrum, Normalise normalise, const ModeSums& total,
+                              const HeightShape& shape, double difference_step) {
     const double mean_square = normalise == Normalise::sample ? total.grid : total.expected;
     factor_ = spectrum.sigma / std::sqrt(mean_square);
     const double step = 2.0 * std::numbers::pi / spectrum.L;
@@ -285,15 +302,19 @@ void RowSource::make_pairs(int j, int count, double* out, std::ptrdiff_t stride,
         for (int r = 0; r < rows; r += 2, to += 2 * apart, mirror += 2 * apart) {
             const double a = factor * from[2 * r], b = real ? 0 : factor * from[2 * r + 1];
             const double c = factor * from[2 * r + 2], d = real ? 0 : factor * from[2 * r + 3];
-            to[0] = a - d, to[apart] = b + c;
-            mirror[0] = a + d, mirror[apart] = c - b;
+            to[0] = a - d;
+            to[apart] = b + c;
+            mirror[0] = a + d;
+            mirror[apart] = c - b;
         }
     }
     double* const spare = parts + rows * apart;  // for a row that is not wanted
     for (int r = 0; r < rows; r += 2) {
         double *const re = parts + r * apart, *const im = re + apart;
-        if (const int none = n_ + 1 - 2 * columns_; none > 0)
-            std::fill_n(re + columns_, none, 0.0), std::fill_n(im + columns_, none, 0.0);
+        if (const int none = n_ + 1 - 2 * columns_; none > 0) {
+            std::fill_n(re + columns_, none, 0.0);
+            std::fill_n(im + columns_, none, 0.0);
+        }
         const int at = first + r - j;  // row of `out`
         const bool direct = at >= 0 && at + 1 < count && stride == apart;
         double* const to = direct ? out + at * stride : spare;

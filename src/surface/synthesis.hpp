@@ -8,6 +8,8 @@
 
 namespace rsc {
 
+struct ModeSums;
+
 // True if the lay is nearer to the y axis than to the x axis. Such a surface is synthesised as that
 // of transposed(), with x and y exchanged, so that a direction of 90 degrees gives the same bits as
 // 0 degrees.
@@ -61,6 +63,11 @@ public:
 private:
     void draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed,
               std::int64_t realization, int threads, double difference_step);
+    FftwPlan make_plans(double* column, double* row, std::complex<double>* stored);
+    void shear_column(int kx, int bottom, int top, const std::complex<double>* column,
+                      std::complex<double>* store) const;
+    void scale_moments(const Spectrum& spectrum, Normalise normalise, const ModeSums& total,
+                       const HeightShape& shape, double difference_step);
     void make_pairs(int j, int count, double* out, std::ptrdiff_t stride, double* parts) const;
     void make_rows(int j, int count, double* out, std::ptrdiff_t stride,
                    double* coefficients) const;

@@ -31,8 +31,8 @@ std::vector<FilledPoints> filled_points(const Measured* measured, double x0, dou
 namespace {
 
 // Share of the filled points in the area where the heights reach the indenter, for Gaussian heights
-// of rms sigma. The points in a hole of body 2, whose face
-// is smooth there, count like the others in their cell.
+// of rms sigma. The points in a hole of body 2, whose face is smooth there, count like the others
+// in their cell.
 double expected_share(double Z0, std::span<const FilledPoints> maps, const Indenter& indenter,
                       double sigma) {
     struct Cell {

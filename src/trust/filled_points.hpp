@@ -21,8 +21,8 @@ std::vector<FilledPoints> filled_points(const Measured* measured, double x0, dou
 
 // Share of the contact area that is on filled points: of the pixels under pressure of elements, or
 // of the points of the first map within the contact spots of asperities, or, if that is larger, of
-// the points where Gaussian heights of rms sigma would reach the indenter: the filling is smooth and
-// low, so that contact avoids it.
+// the points where Gaussian heights of rms sigma would reach the indenter: the filling is smooth
+// and low, so that contact avoids it.
 double share_on_filled(const Level& level, std::span<const FilledPoints> maps,
                        const Indenter& indenter, double sigma);
 

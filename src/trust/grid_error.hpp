@@ -3,10 +3,10 @@
 // A level is solved again on every second point along both sides, at a quarter of the cost. The
 // error of elements on a synthetic surface, which has no waves shorter than lambda_s, decreases at
 // least as the first power of the grid step, so that it is at most the change of N from the coarser
-// grid; it is more for contacts of few pixels. A map from a file may have waves shorter than
-// its grid; the expected error, that of a measurement twice as fine, is fitted to such changes and
-// to the size of contacts in pixels. (Its interpolation to a finer grid has no new waves: changes of
-// N on it are several times smaller than those of a finer measurement.) Crests of straight ridges
+// grid; it is more for contacts of few pixels. A map from a file may have waves shorter than its
+// grid; the expected error, that of a measurement twice as fine, is fitted to such changes and to
+// the size of contacts in pixels. (Its interpolation to a finer grid has no new waves: changes of N
+// on it are several times smaller than those of a finer measurement.) Crests of straight ridges
 // between the points have errors of their own, because both grids may miss them by the same height.
 #pragma once
 

@@ -22,8 +22,8 @@ constexpr double kMuchFilled = 0.01;
 constexpr double kScattered = 0.15;
 
 // Elements with adhesion. Smallest cohesive resolution. Error of N over the force of the traction
-// s0 on a strip of one pixel along the edge of what attracts: edges are resolved to a pixel only, and
-// errors of separate contacts cancel on average (measured on smooth spheres: 0.25 to 1.05 for
+// s0 on a strip of one pixel along the edge of what attracts: edges are resolved to a pixel only,
+// and errors of separate contacts cancel on average (measured on smooth spheres: 0.25 to 1.05 for
 // Maugis's lambda from 0.3 to 4; test/README). Error of A: of w on the area, times the inverse of
 // the resolution, and of edges, times h over the radius.
 constexpr double kResolved = 4, kEdgeError = 1.1, kWorkError = 0.8, kRadiusError = 0.8;

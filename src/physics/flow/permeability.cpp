@@ -107,7 +107,10 @@ std::vector<std::uint8_t> carrying(const GapMap& map, const Conductances& conduc
         while (used[k]) {
             std::size_t links = 0, next = k;
             for (const std::size_t l : around(map, k))
-                if (linked(k, l)) ++links, next = l;
+                if (linked(k, l)) {
+                    ++links;
+                    next = l;
+                }
             if (links > 1) break;
             used[k] = 0;
             k = next;

@@ -19,7 +19,10 @@ public:
     double approach(double force) override;
 
     // Discards the last levels. The caller must also call forget() of the contacts.
-    void forget() { last_[0].reset(), last_[1].reset(); }
+    void forget() {
+        last_[0].reset();
+        last_[1].reset();
+    }
 
     // Number of levels computed, and of those that did not converge.
     long levels() const { return levels_; }
@@ -36,9 +39,8 @@ private:
 };
 
 // Friction of the spots of the current level: forces q_i = -m sum over the pieces of u' [f_i(s_end)
-// - f_i(s_begin)], and stick radii. The
-// stick radius is that of the spot at stick_approach(), 0 if all of it slips; the rest of the spot
-// slips.
+// - f_i(s_begin)], and stick radii. The stick radius is that of the spot at stick_approach(), 0 if
+// all of it slips; the rest of the spot slips.
 struct SpotSlip {
     int asperity = 0;  // 0-based index, increasing: the contacts of the level at history.approach()
     double radius = 0, stick_radius = 0;

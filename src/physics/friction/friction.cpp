@@ -208,6 +208,70 @@ void FrictionHistory::advance(LoadCurve& curve, State& state, double delta, Slid
     slip(curve, state, dd, dxi, old_delta, std::move(free));
 }
 
+namespace {
+
+// Where a piece leaves the cone: the distance from its beginning, at which |u + p t| = L - c t,
+// (p^2 - c^2) t^2 + 2 (p.u + c L) t + u^2 - L^2 = 0.
+double way_inside(Slide u, Slide p, double c, double L, double h) {
+    const double b = dot(p, u) + c * L;
+    const Slide q = c * u + L * p;
+    const double root = std::sqrt(std::max(0.0, dot(q, q) - cross(p, u) * cross(p, u)));
+    const double deficit = (L - norm(u)) * (L + norm(u));
+    double t = b + root > 0 ? std::min(h, deficit / (b + root)) : h;
+    // Corrects cancellation in numerator and denominator.
+    for (int polish = 0; polish < 2; ++polish) {
+        const Slide w = u + t * p;
+        const double rate = norm(w) > 0 ? dot(p, w) / norm(w) + c : 0.0;
+        if (rate > 0) t = std::clamp(t - (norm(w) - (L - c * t)) / rate, 0.0, h);
+    }
+    return t;
+}
+
+// A step in which springs slip in `direction`, the one at the edge and all above it.
+struct SlippingStep {
+    double c, delta, old_delta, dd;
+    double rate;  // of slip along the step
+    Slide direction;
+
+    double limit(double s) const { return c * (delta - s); }
+
+    // Work dissipated by the springs of `free` (deflections without a limit) from the node `begin`
+    // in piece `piece` on, over m: a spring slips by `over` at the rate along the step, while its
+    // limit changes.
+    double lost(const std::vector<Node>& free, std::size_t piece, Node begin) const {
+        const double e = rate;
+        double lost = 0;
+        const auto over = [&](std::size_t k, double s) {
+            return dot(direction, between(free[k], free[k + 1], s)) - limit(s);
+        };
+        for (std::size_t k = piece; k + 1 < free.size(); ++k) {
+            const Node& end = free[k + 1];
+            // Springs that touched during the step slip from the beginning.
+            if (dd > 0 && begin.approach >= old_delta)
+                lost += integral(
+                    begin, end, [&](double s) { return 0.5 * e * limit(s) * limit(s) / (c * dd); });
+            else
+                lost += integral(begin, end, [&](double s) {
+                    return over(k, s) * (limit(s) - 0.5 * c * dd * over(k, s) / e);
+                });
+            begin = end;
+        }
+        return lost;
+    }
+    // Springs released during the step slip until their limit is 0.
+    double lost_by_released(const std::vector<Node>& before, const Node& top) const {
+        const std::size_t k = before.size() - 2;
+        return integral(top, before.back(), [&](double s) {
+            const double still =
+                (c * (old_delta - s) - dot(direction, between(before[k], before[k + 1], s))) / rate;
+            const double limit_then = c * (old_delta - s + still * dd);
+            return -0.5 * rate * limit_then * limit_then / (c * dd);
+        });
+    }
+};
+
+}  // namespace
+
 // Limits the free deflections to the cone |u| <= c (delta - s). They change by at most c per unit
 // of s, so that all springs above one that leaves the cone are outside as well: the springs s* < s
 // <= delta slip.
@@ -237,23 +301,10 @@ void FrictionHistory::slip(LoadCurve& curve, State& state, double dd, Slide dxi,
         bottom.deflection = limit(touch) * direction;
         after.push_back(bottom);
     } else {
-        // The last piece leaves the cone where |u + p t| = L - c t: (p^2 - c^2) t^2 + 2 (p.u + c L)
-        // t + u^2 - L^2 = 0.
         const Node &begin = free[inside - 1], &end = free[inside];
         const Slide u = begin.deflection, p = slope(begin, end);
-        const double L = std::max(limit(begin.approach), norm(u)),
-                     h = end.approach - begin.approach;
-        const double b = dot(p, u) + c * L;
-        const Slide q = c * u + L * p;
-        const double root = std::sqrt(std::max(0.0, dot(q, q) - cross(p, u) * cross(p, u)));
-        const double deficit = (L - norm(u)) * (L + norm(u));
-        double t = b + root > 0 ? std::min(h, deficit / (b + root)) : h;
-        for (int polish = 0; polish < 2;
-             ++polish) {  // corrects cancellation in numerator and denominator
-            const Slide w = u + t * p;
-            const double rate = norm(w) > 0 ? dot(p, w) / norm(w) + c : 0.0;
-            if (rate > 0) t = std::clamp(t - (norm(w) - (L - c * t)) / rate, 0.0, h);
-        }
+        const double L = std::max(limit(begin.approach), norm(u));
+        const double t = way_inside(u, p, c, L, end.approach - begin.approach);
         const double s = begin.approach + t;
         const Slide at = u + t * p;
         direction =
@@ -268,38 +319,13 @@ void FrictionHistory::slip(LoadCurve& curve, State& state, double dd, Slide dxi,
     Node top = free.back();
     top.deflection = {};
 
-    // Dissipated work: a spring slips by `over` in the direction n, at the rate e along the step,
-    // while its limit changes.
     const double e = dot(direction, dxi) - c * dd;
     if (c > 0 && e > 0) {
+        const SlippingStep step{c, delta, old_delta, dd, e, direction};
         double lost = 0;
-        const auto over = [&](std::size_t k, double s) {
-            return dot(direction, between(free[k], free[k + 1], s)) - limit(s);
-        };
-        Node begin = after.back();
-        for (std::size_t k = std::max<std::size_t>(inside, 1) - 1; k + 1 < n && edge < delta; ++k) {
-            const Node& end = free[k + 1];
-            if (dd > 0 &&
-                begin.approach >=
-                    old_delta)  // springs that touched during the step slip from the beginning
-                lost += integral(
-                    begin, end, [&](double s) { return 0.5 * e * limit(s) * limit(s) / (c * dd); });
-            else
-                lost += integral(begin, end, [&](double s) {
-                    return over(k, s) * (limit(s) - 0.5 * c * dd * over(k, s) / e);
-                });
-            begin = end;
-        }
-        if (dd < 0) {  // springs released during the step slip until their limit is 0
-            const std::size_t k = before.size() - 2;
-            lost += integral(top, before.back(), [&](double s) {
-                const double still =
-                    (c * (old_delta - s) - dot(direction, between(before[k], before[k + 1], s))) /
-                    e;
-                const double limit_then = c * (old_delta - s + still * dd);
-                return -0.5 * e * limit_then * limit_then / (c * dd);
-            });
-        }
+        if (edge < delta)
+            lost = step.lost(free, std::max<std::size_t>(inside, 1) - 1, after.back());
+        if (dd < 0) lost += step.lost_by_released(before, top);
         state.step_lost += m * lost;
     }
     after.push_back(top);
@@ -361,8 +387,7 @@ FrictionHistory::Tangent FrictionHistory::stiffness(LoadCurve& curve) const {
     return tangent;
 }
 
-// --- First loading and cycles
-// ---------------------------------------------------------------------------------------------------
+// --- First loading and cycles ---
 
 namespace {
 

@@ -1,13 +1,12 @@
 // Friction of a contact with a known load curve. Partial slip is the superposition of two normal
-// contacts (Ciavarella, Int. J. Solids
-// Struct. 35, 1998; Jaeger, Arch. Appl. Mech. 68, 1998).
+// contacts (Ciavarella, Int. J. Solids Struct. 35, 1998; Jaeger, Arch. Appl. Mech. 68, 1998).
 //
 // With the approach delta = -Z0, the load N(delta), its stiffness S = dN/ddelta and its energy W,
 // dW/ddelta = N, a contact with friction mu responds to a slide xi like a set of springs. Spring s
 // touches at the approach s; per ds it has the normal stiffness S'(s) and the tangential stiffness
 // m S'(s), so that
-//     N = int S'(s) (delta - s) ds,   Q = m int S'(s) u(s) ds,   |u(s)| <= (mu/m) (delta - s),   m
-//     = 4 G*/E*,
+//     N = int S'(s) (delta - s) ds,   Q = m int S'(s) u(s) ds,
+//     |u(s)| <= (mu/m) (delta - s),   m = 4 G*/E*,
 // u is the tangential deflection of the spring: it follows the slide within the disc of its
 // friction limit. u(s) is piecewise linear and changes by at most mu/m per unit of s; integration
 // by parts gives
@@ -152,8 +151,8 @@ SlidePoint slide_at_force(LoadCurve& curve, const Friction& friction, double del
 double full_slip(const LoadCurve& curve, const Friction& friction, double delta);
 
 // First loading in equal steps of xi to full slip, then a cycle between +-kCycleAmplitude of it.
-// After a reversal at A, Q = Q_A - 2 mu [N -
-// N(delta**)] and xi = xi_A - 2 (mu/m) (delta - delta**).
+// After a reversal at A, Q = Q_A - 2 mu [N - N(delta**)] and xi = xi_A - 2 (mu/m) (delta -
+// delta**).
 struct SlideCycle {
     std::vector<double> displacement,
         force;              // first loading from 0 to full slip, then the closed cycle

@@ -19,9 +19,8 @@ public:
           sinks_(sinks),
           place_(asperities.size(), -1) {}
 
-    bool convex() const override {
-        return false;
-    }  // the slope decreases where a reloaded asperity continues to yield
+    // The slope decreases where a reloaded asperity continues to yield.
+    bool convex() const override { return false; }
     bool path_dependent() const override { return true; }
 
     void prepare(std::span<const int> asperities) override {
@@ -108,7 +107,13 @@ public:
     }
     std::span<const int> yielded() const override { return yielded_; }
     void forget() override {
-        for (Summit& s : summits_) s.deepest = 0, s.end = {}, s.rest = 0, s.power = 1.5, s.lost = 0;
+        for (Summit& s : summits_) {
+            s.deepest = 0;
+            s.end = {};
+            s.rest = 0;
+            s.power = 1.5;
+            s.lost = 0;
+        }
         yielded_.clear();
     }
     double work_lost() const override {

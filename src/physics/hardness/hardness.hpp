@@ -3,8 +3,8 @@
 //
 // The given law holds while the mean pressure f/A is below H. From the penetration u_c on, where it
 // reaches H, the area grows by truncation at constant pressure:
-//     A = A(u_c) + 2 [A(u) - A(u_c)], f = H A        (sphere: u_c = (3 pi H/(4 E*))^2 r, A = pi r
-//     (2u - u_c))
+//     A = A(u_c) + 2 [A(u) - A(u_c)],   f = H A
+//     (sphere: u_c = (3 pi H/(4 E*))^2 r, A = pi r (2u - u_c))
 // where A(u) is the area of the elastic law, extrapolated linearly beyond its range (Law::spread).
 // Force and area are continuous; the slope increases abruptly at u_c (sphere: from 1.5 pi H r to 2
 // pi H r). Unloading from (u_m, f_m, a_m) is elastic, like a sphere of radius r' = 4 E' a_m^3/(3
@@ -17,11 +17,10 @@
 //
 // More accurate model, if `sinks` (law 'fourth_order'): the flattened summit also sinks in as a
 // whole, by 4 H a/(pi E') at its border (disc of constant pressure, Johnson 1985, eq. 3.29b), so
-// that its area depends on
-//     u - (4 H/(pi E')) [a - a(u_c)] in place of u.
-// Compared with boundary elements of the same hardness, the force of a sphere is accurate to 6 % at
-// u_c (where the middle has yielded since
-// 0.44 u_c), 3 % at 2 u_c and 1 % at 5 u_c; without sinking it is 29 % too large at 2.7 u_c.
+// that its area depends on u - (4 H/(pi E')) [a - a(u_c)] in place of u. Compared with boundary
+// elements of the same hardness, the force of a sphere is accurate to 6 % at u_c (where the middle
+// has yielded since 0.44 u_c), 3 % at 2 u_c and 1 % at 5 u_c; without sinking it is 29 % too large
+// at 2.7 u_c.
 //
 // Size effect (Swadener, George, Pharr 2002; paper, section 5): H_i = H0 sqrt(1 + l/r_i).
 #pragma once
@@ -30,8 +29,8 @@
 
 namespace rsc {
 
-// Wraps a law to limit its pressures. Throws Error(bad_input) unless H0 > 0 and length is finite and
-// not negative.
+// Wraps a law to limit its pressures. Throws Error(bad_input) unless H0 > 0 and length is finite
+// and not negative.
 std::unique_ptr<Law> make_yielding(std::unique_ptr<Law> elastic, const Asperities& asperities,
                                    const Hardness& hardness, bool sinks);
 

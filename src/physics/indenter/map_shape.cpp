@@ -117,7 +117,9 @@ private:
         if (std::abs(t) < kOnPoint) t = 0;
         if (reach != along.reach || std::abs(t - along.t) > 1e-3 * kOnPoint ||
             orders > along.orders) {
-            along.reach = reach, along.t = t, along.orders = orders;
+            along.reach = reach;
+            along.t = t;
+            along.orders = orders;
             stencils_[static_cast<std::size_t>(reach - 1)].weights(t, orders, along.weight);
         }
         along.first = middle - reach;
@@ -151,8 +153,10 @@ private:
                 for (int j = std::max(bj * kBlock - 1, 0);
                      j <= std::min((bj + 1) * kBlock, map_.ny - 1); ++j)
                     for (int i = std::max(bi * kBlock - 1, 0);
-                         i <= std::min((bi + 1) * kBlock, map_.nx - 1); ++i)
-                        low = std::min(low, map_(i, j)), high = std::max(high, map_(i, j));
+                         i <= std::min((bi + 1) * kBlock, map_.nx - 1); ++i) {
+                        low = std::min(low, map_(i, j));
+                        high = std::max(high, map_(i, j));
+                    }
                 tops_.push_back(high + 0.25 * (high - low));
             }
     }

@@ -55,9 +55,9 @@ public:
     }
 
 private:
-    double beyond(double x, double y) const {
-        return std::sqrt(x * x + y * y) - a_;
-    }  // distance outside the flat end
+    // Distance outside the flat end.
+    double beyond(double x, double y) const { return std::sqrt(x * x + y * y) - a_; }
+
     double a_, r_;
 };
 

@@ -88,10 +88,13 @@ std::size_t LoadMemory::read(std::span<const double> numbers) {
     const auto n = static_cast<std::size_t>(count);
     const double* next = numbers.data() + 1;
     const auto take = [&](std::vector<double>& to, std::size_t size) {
-        to.assign(next, next + size), next += size;
+        to.assign(next, next + size);
+        next += size;
     };
-    ff_ = *next++, lost_ = *next++;
-    take(yf_, terms), take(yy_, terms);
+    ff_ = *next++;
+    lost_ = *next++;
+    take(yf_, terms);
+    take(yy_, terms);
     for (std::size_t i = 0; i < n; ++i) places_.push_back(static_cast<std::int32_t>(*next++));
     take(f_, n);
     for (auto& y : y_) take(y, n);

@@ -1,4 +1,4 @@
-// Effect of earlier loads on a relaxing body (law/relaxation.hpp): the deflection under loads f at
+// Effect of earlier loads on a relaxing body (relaxation.hpp): the deflection under loads f at
 // the end of a step is
 //     K [compliance f + r],   r the rest of earlier loads,
 // where K f are the deflections of the instantaneous body. A step is thus an elastic problem with a

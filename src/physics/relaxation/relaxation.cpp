@@ -25,16 +25,19 @@ double lagged(double x) {
     return (1 - decayed(x)) / x;
 }
 
-}  // namespace
+using Branch = Creep::Branch;
+constexpr double kRounding = 1e-12;  // of the sum of the shares
 
-Creep::Creep(const Relaxation& body) {
+// The branches of the body itself, slowest first; equal times are merged. Sets the sum of their
+// shares.
+std::vector<Branch> branches_of(const Relaxation& body, double& total) {
     if (body.share.size() != body.time.size() ||
         body.share.size() > static_cast<std::size_t>(kMostRelaxations))
         throw Error(Failure::bad_input,
                     "solids%relaxation_share and relaxation_time must have the same number of "
                     "values, at most 16");
-    double total = 0;
-    std::vector<Branch> own;  // branches of the body itself, slowest first; equal times are merged
+    total = 0;
+    std::vector<Branch> own;
     for (std::size_t k = 0; k < body.share.size(); ++k) {
         if (!(body.share[k] >= 0) || !(body.time[k] > 0) || std::isinf(body.time[k]))
             throw Error(Failure::bad_input,
@@ -43,8 +46,7 @@ Creep::Creep(const Relaxation& body) {
         total += body.share[k];
         if (body.share[k] > 0) own.push_back({body.share[k], 1 / body.time[k]});
     }
-    constexpr double rounding = 1e-12;
-    if (total > 1 + rounding)
+    if (total > 1 + kRounding)
         throw Error(Failure::bad_input, "solids%relaxation_share: the sum of the shares exceeds 1");
     if (!(body.soft > 0 && body.soft <= 1))
         throw Error(Failure::bad_input,
@@ -56,7 +58,15 @@ Creep::Creep(const Relaxation& body) {
         own[k - 1].share += own[k].share;
         own.erase(own.begin() + static_cast<std::ptrdiff_t>(k));
     }
-    const double g = 1 - total > rounding ? 1 - total : 0;
+    return own;
+}
+
+}  // namespace
+
+Creep::Creep(const Relaxation& body) {
+    double total;
+    const std::vector<Branch> own = branches_of(body, total);
+    const double g = 1 - total > kRounding ? 1 - total : 0;
 
     // The transform at -lambda, g - sum g_k lambda/(1/tau_k - lambda), decreases between its poles
     // 1/tau_k.

@@ -14,8 +14,7 @@ namespace rsc {
 // for a displacement w is that of the instantaneous body for
 //     g w + sum_k g_k d_k,   d_k' = w' - d_k/tau_k,   g = 1 - sum g_k,
 // lambda_k are the zeros of the transform of the relaxation function, one below each 1/tau_k. If
-// the shares add up to 1, one of them is 0
-// (viscous flow, J ~ t).
+// the shares add up to 1, one of them is 0 (viscous flow, J ~ t).
 class Creep {
 public:
     // Throws Error(bad_input) for invalid shares or times.

@@ -1,4 +1,4 @@
-// Asperities of a relaxing body (law/relaxation.hpp), for any law f = F(u) whose slope S(u)
+// Asperities of a relaxing body (relaxation.hpp), for any law f = F(u) whose slope S(u)
 // increases with the penetration.
 //
 // The contact is represented by independent springs (Popov and Hess, Method of Dimensionality

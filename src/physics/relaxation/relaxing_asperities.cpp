@@ -47,7 +47,8 @@ void RelaxingAsperities::add_places(std::vector<double>& x, std::vector<double>&
                                     const std::vector<int>& places) const {
     for (int i : places) {
         const Vec2 image = indenter_.image(asperities_.x[at(i)], asperities_.y[at(i)]);
-        x.push_back(image.x), y.push_back(image.y);
+        x.push_back(image.x);
+        y.push_back(image.y);
     }
 }
 
@@ -81,12 +82,17 @@ void RelaxingAsperities::lower(Candidates& candidates, Products& products) {
     for (std::size_t k = 0; k < set.g0.size(); ++k) {
         const double g0 = set.g0[k] - lowered_[at(set.asperity[k])];
         if (!(g0 > 0)) continue;
-        set.asperity[kept] = set.asperity[k], set.x[kept] = set.x[k], set.y[kept] = set.y[k];
+        set.asperity[kept] = set.asperity[k];
+        set.x[kept] = set.x[k];
+        set.y[kept] = set.y[k];
         candidates.rank[kept] = candidates.rank[k];
         set.g0[kept++] = g0;
     }
-    set.asperity.resize(kept), set.x.resize(kept), set.y.resize(kept), set.g0.resize(kept),
-        candidates.rank.resize(kept);
+    set.asperity.resize(kept);
+    set.x.resize(kept);
+    set.y.resize(kept);
+    set.g0.resize(kept);
+    candidates.rank.resize(kept);
 }
 
 void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& solution,
@@ -109,15 +115,21 @@ void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& so
         const std::vector<double> dy = deflected_by(retarded[k]);
         stored += 0.5 * creep_.retardations()[k].rate / creep_.retardations()[k].flow *
                   dot(retarded[k], dy);
-        for (std::size_t i = 0; i < load.size(); ++i) load[i] += retarded[k][i], d[i] += dy[i];
+        for (std::size_t i = 0; i < load.size(); ++i) {
+            load[i] += retarded[k][i];
+            d[i] += dy[i];
+        }
     }
     // Work f' dd of the step by the trapezoidal rule; asperities touched for the first time had no
     // load before.
-    force_.resize(f.size(), 0.0), load_.resize(f.size(), 0.0);
+    force_.resize(f.size(), 0.0);
+    load_.resize(f.size(), 0.0);
     const double held = dot(f, d);
     lost_ += 0.5 * (held + dot(force_, d) - dot(df, load_) - held_) - (stored - stored_);
-    stored_ = stored, held_ = held;
-    force_ = f, load_ = std::move(load);
+    stored_ = stored;
+    held_ = held;
+    force_ = f;
+    load_ = std::move(load);
     step(0);
     level.energy_lost = law_.lost() + lost_;
 }
@@ -150,7 +162,9 @@ void RelaxingAsperities::read(std::span<const double> numbers) {
     if (numbers.size() < 3)
         throw Error(Failure::bad_input, "the state does not belong to these asperities");
     law_.read(numbers.subspan(3));
-    stored_ = numbers[0], lost_ = numbers[1], held_ = numbers[2];
+    stored_ = numbers[0];
+    lost_ = numbers[1];
+    held_ = numbers[2];
     load_ = force_ = law_.forces();
     for (const std::vector<double>& y : law_.retarded())
         for (std::size_t i = 0; i < y.size(); ++i) load_[i] += y[i];

@@ -32,8 +32,8 @@ public:
     // and dissipated energy [force length].
     std::optional<double> stored() const override { return law_.stored() + stored_; }
 
-    // As History::lasting_loads(): on the spots of the level, and where it has no contact on circles
-    // of the largest area so far.
+    // As History::lasting_loads(): on the spots of the level, and where it has no contact on
+    // circles of the largest area so far.
     std::optional<Level> lasting(const Level& level) const override;
 
     void write(std::vector<double>& numbers) const override;

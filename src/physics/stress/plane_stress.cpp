@@ -89,8 +89,8 @@ void load(Planes& planes, const LevelPixels& pixels, const GridWindow& where, do
     planes.to_modes(planes.pressure);
 }
 
-// Stress of a mode of pressure exp(i k x) and the traction that accompanies it, k = (kx, ky), in the
-// half-space: plane strain along k (Airy's function (A + B z) exp(-k z)), and shear across k.
+// Stress of a mode of pressure exp(i k x) and the traction that accompanies it, k = (kx, ky), in
+// the half-space: plane strain along k (Airy's function (A + B z) exp(-k z)), and shear across k.
 std::array<Complex, 6> mode_stress(double kx, double ky, double z, const StressedBody& body) {
     const double k = std::hypot(kx, ky);
     if (k == 0) {

@@ -31,15 +31,15 @@ struct StressPlane {
 // `grid`. If they repeat in both directions, the pressures are taken as band-limited, each mode has
 // its closed form, and the mean pressure acts on a body that cannot expand sideways. Otherwise
 // Love's and Cerruti's fields of the pixels are added up, in line contact with those of their
-// images. `plane`, if given, is set to all values. Returns the largest
-// ones. Throws Error(no_memory). Results do not depend on the number of threads.
+// images. `plane`, if given, is set to all values. Returns the largest ones. Throws
+// Error(no_memory). Results do not depend on the number of threads.
 LargestStress stress_below(const PointGrid& grid, const LevelPixels& pixels,
                            const StressedBody& body, double depth, const GridWindow& window,
                            StressPlane* plane = nullptr);
 
 // The points at and around the contact where the largest stresses at this depth are sought: those
-// within 2 depths of a pixel under pressure along either axis, and the nearest 4 at least; all along
-// an axis of the period. Empty if there is no contact.
+// within 2 depths of a pixel under pressure along either axis, and the nearest 4 at least; all
+// along an axis of the period. Empty if there is no contact.
 GridWindow stressed_window(const PointGrid& grid, const LevelPixels& pixels, const Period& period,
                            double depth);
 
