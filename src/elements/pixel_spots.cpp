@@ -128,7 +128,10 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
         }
     }
     add_about_peaks(touching, label, pressure, tension, map, indenter, period_x, period_y, sums);
-    if (!touching.empty()) level.pixels_per_contact = median_by_area(sums);
+    if (!touching.empty()) {
+        level.pixels_per_contact = median_by_area(sums);
+        level.pressure_max = *std::max_element(pressure.begin(), pressure.end());
+    }
     const auto inside = [](double column, int n) {
         return n > 0 ? column - n * std::floor(column / n) : column;
     };

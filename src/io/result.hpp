@@ -75,7 +75,7 @@ struct Result {
 
     // Levels depend on the levels before.
     bool path_dependent() const {
-        return relaxes(settings) || std::isfinite(settings.solids.hardness) ||
+        return relaxes(settings) || wears(settings) || std::isfinite(settings.solids.hardness) ||
                settings.solids.adhesion > 0;
     }
     // The separation of a level differs between realizations.

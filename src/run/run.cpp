@@ -229,7 +229,7 @@ void take_realization(Result& result, Job& job, Realization& r) {
     result.measured = job.measured;
     result.fields = std::move(r.fields);
     if (job.settings.output.heights)
-        result.heights = std::move(job.given_heights ? job.given_heights : r.heights);
+        result.heights = std::move(r.heights ? r.heights : job.given_heights);
 }
 
 RunSummary summary_of(const std::vector<LevelValues>& levels, const ComparedLevels& compared) {
@@ -273,7 +273,6 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
                         done = static_cast<double>(k + 1);
                         progress.show(done, total);
                         go_on();
-                        return true;
                     });
     }
     Accumulators sums(job.observe, job.levels.size());
