@@ -136,14 +136,10 @@ private:
     // Pairs of keys that exclude each other.
     void check_exclusive() {
         const Case::Solids& s = c_.solids;
-        const bool adhesion = s.adhesion > 0;
-        const bool range = s.adhesion_range > 0;
-        const bool hard = std::isfinite(s.hardness);
-        const bool friction = s.friction > 0;
-        const bool relaxes = rsc::relaxes(c_);
-        const bool layers = !s.layer_thickness.empty();
-        const bool compare = c_.compare.listed();
-        const bool wears = rsc::wears(c_);
+        const bool adhesion = s.adhesion > 0, range = s.adhesion_range > 0;
+        const bool hard = std::isfinite(s.hardness), friction = s.friction > 0;
+        const bool relaxes = rsc::relaxes(c_), wears = rsc::wears(c_);
+        const bool layers = !s.layer_thickness.empty(), compare = c_.compare.listed();
         const bool dgesv = c_.solver.method == Method::dgesv,
                    paper = c_.indentation.selection == Selection::paper;
         const bool size_effect = hard && s.size_effect > 0,

@@ -348,8 +348,8 @@ private:
     class Passes;
 };
 
-// The passes of one product over the boxes: up from the pixels, transfers between boxes, and down to
-// the pixels.
+// The passes of one product over the boxes: up from the pixels, transfers between boxes, and down
+// to the pixels.
 class Tree::Passes {
 public:
     Passes(Tree& tree, const Layout& layout, Interpolation& interpolation, std::size_t n,

@@ -282,8 +282,8 @@ constexpr LevelQuantity kQuantities[] = {
      .length_power = 1,
      .of_step = true,
      .meaning = "sliding distance of the level",
-     .comment = "the load changes linearly between levels; the first level is reached without "
-                "sliding",
+     .comment =
+         "the load changes linearly between levels; the first level is reached without sliding",
      .always = false,
      .heading = "distance",
      .width = 11,

@@ -163,6 +163,110 @@ FieldsAsked fields_asked(const Job& job) {
     return asked;
 }
 
+// A contact and the judge of its levels.
+struct Pressed {
+    std::unique_ptr<Path> contact;
+    Judge judge;
+};
+using MakePressed = std::function<Pressed()>;
+
+// Solves level k of the case. `complete` adds what its status depends on.
+Level press(const Job& job, std::size_t k, Pressed& pressed,
+            const std::function<void(Level&)>& complete) {
+    const bool by_force = job.settings.indentation.control != Control::separation;
+    Path& contact = *pressed.contact;
+    if (!job.times.empty()) contact.set_time(job.times[k]);
+    Level level = by_force ? contact.at_force(job.levels[k]) : contact.at_separation(job.levels[k]);
+    if (!job.times.empty())
+        (job.settings.indentation.slides() ? level.distance : level.time) = job.times[k];
+    add_answers(contact, level, job.settings.solids.resistivity);
+    complete(level);
+    pressed.judge.judge(level, contact, by_force);
+    return level;
+}
+
+// Whether levels are solved in groups: first the first ones of all groups, one from another, then
+// the others, which begin with the first of their group. The loops of levels with few points are
+// too short to be shared by many threads. The groups, and with them the results, are the same for
+// any number of threads.
+bool independent_levels(const Job& job, const Path& contact) {
+    return by_elements(job.settings) && job.times.empty() && !contact.path_dependent() &&
+           !(job.settings.solids.friction > 0) && job.levels.size() >= kFewestGroups * kGroup;
+}
+
+class LevelGroups {
+public:
+    // Calls take(k, level) for all levels in their order, on this thread, soon after they are
+    // known.
+    LevelGroups(const Job& job, Pressed& first, const MakePressed& make,
+                std::function<void(std::size_t, Level)> take)
+        : job_(job), first_(first), make_(make), take_(std::move(take)) {}
+
+    void press_all(int threads) {
+        std::int32_t points = 0;
+        for (std::size_t g = 0; g < groups_; ++g) {
+            Level& level = levels_[g * kGroup].emplace(press(job_, g * kGroup, first_, none));
+            points = std::max(points, level.candidates);
+            begin_[g] = {first_.contact->state(), first_.judge.state()};
+        }
+        if (points > kFewPoints) {
+            for (std::size_t g = 0; g < groups_; ++g) {
+                press_group(g, first_);
+                take_solved();
+            }
+            return;
+        }
+        std::vector<std::optional<Pressed>> of_worker(most_threads(threads));
+        parallel_pieces(groups_, threads, [&](std::size_t g, std::size_t worker) {
+            if (!of_worker[worker]) of_worker[worker].emplace(make_());
+            press_group(g, *of_worker[worker]);
+            if (worker == 0) take_solved();
+        });
+        take_solved();
+    }
+
+private:
+    static void none(Level&) {}
+
+    void press_group(std::size_t g, Pressed& pressed) {
+        pressed.contact->forget();
+        pressed.contact->restore(begin_[g].contact);
+        pressed.contact->start_from_level();
+        pressed.judge.restore(begin_[g].judge, pressed.contact->indenter());
+        for (std::size_t k = g * kGroup + 1; k < std::min(levels_.size(), (g + 1) * kGroup); ++k)
+            levels_[k] = press(job_, k, pressed, none);
+        const std::lock_guard lock(mutex_);
+        begin_[g] = {};
+        solved_[g] = 1;
+    }
+
+    void take_solved() {
+        const auto next_is_solved = [&] {
+            const std::lock_guard lock(mutex_);
+            return taken_ < levels_.size() && solved_[taken_ / kGroup];
+        };
+        for (; next_is_solved(); ++taken_) {
+            take_(taken_, std::move(*levels_[taken_]));
+            levels_[taken_].reset();
+        }
+    }
+
+    const Job& job_;
+    Pressed& first_;
+    const MakePressed& make_;
+    std::function<void(std::size_t, Level)> take_;
+    std::vector<std::optional<Level>> levels_ =
+        std::vector<std::optional<Level>>(job_.levels.size());
+    std::size_t groups_ = (levels_.size() + kGroup - 1) / kGroup, taken_ = 0;
+    struct Begin {
+        Path::State contact;
+        std::optional<Path::State> judge;
+    };
+    std::vector<Begin> begin_ = std::vector<Begin>(groups_);
+    std::vector<char> solved_ = std::vector<char>(groups_, 0);
+    std::mutex mutex_;
+};
+
 // Reads the surface or its spectrum. Returns sqrt(m4), as far as it is known.
 double take_surface(Job& job) {
     const Case& settings = job.settings;
@@ -298,16 +402,16 @@ Job prepare(const Case& settings) {
 
 namespace {
 
-// The surface of a realization, beside its asperities.
-struct RoughBody {
+// The surface of a realization, and what is needed to solve and judge its levels.
+struct Prepared {
     JudgedSurface judged;
     const HeightMap* map = nullptr;  // of elements
     std::shared_ptr<const Measured> measured;
     SolverOptions solver;
 };
 
-// The points of elements.
-void make_points(const Job& job, std::int64_t number, int threads, Realization& r, RoughBody& s) {
+void prepare_elements(const Job& job, std::int64_t number, int threads, Realization& r,
+                      Prepared& s) {
     const auto& settings = job.settings;
     if (job.given) {
         r.statistics = job.given->statistics;
@@ -325,7 +429,8 @@ void make_points(const Job& job, std::int64_t number, int threads, Realization& 
     if (job.theory) s.judged.curvature = curvature_at_unit_height(*job.theory);
 }
 
-void make_summits(const Job& job, std::int64_t number, int threads, Realization& r, RoughBody& s) {
+void prepare_asperities(const Job& job, std::int64_t number, int threads, Realization& r,
+                        Prepared& s) {
     const auto& settings = job.settings;
     if ((settings.output.heights || !settings.output.fields.empty()) && job.spectrum)
         r.heights = make_surface(settings, *job.spectrum, number, threads).map;
@@ -345,14 +450,18 @@ void make_summits(const Job& job, std::int64_t number, int threads, Realization&
     s.solver.gentlest_slope = model.domain.gentlest_slope;
 }
 
-// What filled points of a measured map are to be judged by.
-void describe_filled(const Job& job, RoughBody& s) {
+Prepared prepared_surface(const Job& job, std::int64_t number, int threads, Realization& r) {
+    Prepared s;
+    s.measured = job.given ? job.measured : nullptr;
+    s.solver = job.solver;
+    (by_elements(job.settings) ? prepare_elements : prepare_asperities)(job, number, threads, r, s);
     const Measured* const measured = s.measured.get();
     s.judged.filled = filled_points(measured, job.domain.x0, job.domain.y0, job.indenter);
     if (measured)
         s.judged.scattered =
             static_cast<double>(measured->missing - std::ranges::count(measured->filled, 1)) /
             static_cast<double>(measured->points());
+    return s;
 }
 
 const HeightMap& heights_of(const Job& job, const Realization& r) {
@@ -382,130 +491,24 @@ FieldLevel field_level(const Job& job, const Realization& r, Path& contact, std:
             contact.lasting_loads(level), std::move(flow)};
 }
 
-// A contact and the judge of its levels.
-struct Pressed {
-    std::unique_ptr<Path> contact;
-    Judge judge;
-};
-using MakePressed = std::function<Pressed()>;
-
-// Solves level k of the case. `complete` adds what its status depends on.
-Level press(const Job& job, std::size_t k, Pressed& pressed,
-            const std::function<void(Level&)>& complete) {
-    const bool by_force = job.settings.indentation.control != Control::separation;
-    Path& contact = *pressed.contact;
-    if (!job.times.empty()) contact.set_time(job.times[k]);
-    Level level = by_force ? contact.at_force(job.levels[k]) : contact.at_separation(job.levels[k]);
-    if (!job.times.empty())
-        (job.settings.indentation.slides() ? level.distance : level.time) = job.times[k];
-    add_answers(contact, level, job.settings.solids.resistivity);
-    complete(level);
-    pressed.judge.judge(level, contact, by_force);
-    return level;
-}
-
-// Whether levels are solved in groups: first the first ones of all groups, one from another, then
-// the others, which begin with the first of their group. The loops of levels with few points are
-// too short to be shared by many threads. The groups, and with them the results, are the same for
-// any number of threads.
-bool independent_levels(const Job& job, const Path& contact) {
-    return by_elements(job.settings) && job.times.empty() && !contact.path_dependent() &&
-           !(job.settings.solids.friction > 0) && job.levels.size() >= kFewestGroups * kGroup;
-}
-
-class LevelGroups {
-public:
-    // Calls take(k, level) for all levels in their order, on this thread, soon after they are
-    // known.
-    LevelGroups(const Job& job, Pressed& first, const MakePressed& make,
-                std::function<void(std::size_t, Level)> take)
-        : job_(job), first_(first), make_(make), take_(std::move(take)) {}
-
-    void press_all(int threads) {
-        std::int32_t points = 0;
-        for (std::size_t g = 0; g < groups_; ++g) {
-            Level& level = levels_[g * kGroup].emplace(press(job_, g * kGroup, first_, none));
-            points = std::max(points, level.candidates);
-            begin_[g] = {first_.contact->state(), first_.judge.state()};
-        }
-        if (points > kFewPoints) {
-            for (std::size_t g = 0; g < groups_; ++g) press_group(g, first_), take_solved();
-            return;
-        }
-        std::vector<std::optional<Pressed>> of_worker(most_threads(threads));
-        parallel_pieces(groups_, threads, [&](std::size_t g, std::size_t worker) {
-            if (!of_worker[worker]) of_worker[worker].emplace(make_());
-            press_group(g, *of_worker[worker]);
-            if (worker == 0) take_solved();
-        });
-        take_solved();
-    }
-
-private:
-    static void none(Level&) {}
-
-    void press_group(std::size_t g, Pressed& pressed) {
-        pressed.contact->forget();
-        pressed.contact->restore(begin_[g].contact);
-        pressed.contact->start_from_level();
-        pressed.judge.restore(begin_[g].judge, pressed.contact->indenter());
-        for (std::size_t k = g * kGroup + 1; k < std::min(levels_.size(), (g + 1) * kGroup); ++k)
-            levels_[k] = press(job_, k, pressed, none);
-        const std::lock_guard lock(mutex_);
-        begin_[g] = {};
-        solved_[g] = 1;
-    }
-
-    void take_solved() {
-        const auto next_is_solved = [&] {
-            const std::lock_guard lock(mutex_);
-            return taken_ < levels_.size() && solved_[taken_ / kGroup];
-        };
-        for (; next_is_solved(); ++taken_) {
-            take_(taken_, std::move(*levels_[taken_]));
-            levels_[taken_].reset();
-        }
-    }
-
-    const Job& job_;
-    Pressed& first_;
-    const MakePressed& make_;
-    std::function<void(std::size_t, Level)> take_;
-    std::vector<std::optional<Level>> levels_ =
-        std::vector<std::optional<Level>>(job_.levels.size());
-    std::size_t groups_ = (levels_.size() + kGroup - 1) / kGroup, taken_ = 0;
-    struct Begin {
-        Path::State contact;
-        std::optional<Path::State> judge;
-    };
-    std::vector<Begin> begin_ = std::vector<Begin>(groups_);
-    std::vector<char> solved_ = std::vector<char>(groups_, 0);
-    std::mutex mutex_;
-};
-
 }  // namespace
 
 Realization realize(const Job& job, std::int64_t number, int threads,
                     const std::function<void(std::size_t, const Level&)>& on_level) {
     Realization r;
     const auto& settings = job.settings;
-    RoughBody body;
-    body.measured = job.given ? job.measured : nullptr;
-    body.solver = job.solver;
-    (by_elements(settings) ? make_points : make_summits)(job, number, threads, r, body);
-    describe_filled(job, body);
-    const HeightMap* const map = body.map;
+    const Prepared surface = prepared_surface(job, number, threads, r);
+    const HeightMap* const map = surface.map;
+    const SolverOptions& solver = surface.solver;
     const auto make_contact = [&] {
         return map ? make_element_contact(*map, job.indenter, job.solver)
-                   : make_asperity_contact(r.asperities, job.indenter, body.solver);
+                   : make_asperity_contact(r.asperities, job.indenter, solver);
     };
     std::optional<FrictionLevels> friction;
     if (settings.solids.friction > 0) friction.emplace(settings, make_contact);
     r.levels.reserve(job.levels.size());
     const std::vector<std::int32_t> field_steps = steps_of_fields(job);
-    const MakePressed make = [&] {
-        return Pressed{make_contact(), Judge(body.solver, body.judged)};
-    };
+    const MakePressed make = [&] { return Pressed{make_contact(), Judge(solver, surface.judged)}; };
     Pressed pressed = make();
     std::unique_ptr<Path>& contact = pressed.contact;
     std::vector<FieldLevel> fields;

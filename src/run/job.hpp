@@ -51,8 +51,8 @@ struct Realization {
 };
 
 // Levels of elements that do not depend on each other are solved in groups of this many, if there
-// are at least kFewestGroups of them; groups whose levels have at most kFewPoints candidates side by
-// side, by a contact for each thread.
+// are at least kFewestGroups of them; groups whose levels have at most kFewPoints candidates side
+// by side, by a contact for each thread.
 inline constexpr std::size_t kGroup = 8, kFewestGroups = 4;
 inline constexpr std::int32_t kFewPoints = 200000;
 
