@@ -37,6 +37,7 @@ PICTURES = {
     "two_maps": ["surface", "spots"],
     "creep": ["time"],
     "relax": ["time"],
+    "running_in": ["wear"],
     "adhesion": ["pull"],
     "campaign": ["area", "radial"],
     "map": ["surface", "spots"],
