@@ -97,8 +97,7 @@ std::string twins_text(const Job& job, const std::string& result) {
         twins.surface.filter_cutoff = keys.filter_cutoff, twins.surface.outliers = keys.outliers;
         if (is_text_map(twins.indenter.file))
             twins.surface.height_unit = keys.height_unit, twins.surface.pixel = keys.pixel;
-        if (!is_instrument_map(twins.indenter.file))
-            twins.surface.missing_value = keys.missing_value;
+        twins.surface.missing_value = keys.missing_value;
     }
     twins.surface.source = Source::spectrum;
     twins.surface.file = result;
