@@ -254,10 +254,36 @@ double text_height_factor(const std::string& path, const TextTable& table, const
     }
 }
 
+// True if the values are uniform to the rounding of their digits.
+bool is_uniform(const std::vector<double>& c) {
+    const double step = (c.back() - c.front()) / static_cast<double>(c.size() - 1);
+    if (!(std::abs(step) > 0)) return false;  // also where one is missing
+    const double rounding = 1.01 * last_digit(c);
+    for (std::size_t i = 0; i < c.size(); ++i)
+        if (!(std::abs(c[i] - (c.front() + static_cast<double>(i) * step)) <= rounding))
+            return false;
+    return true;
+}
+
+// Refuses a matrix whose first line and first column are the coordinates, with an empty corner.
+void refuse_coordinates(const std::string& path, const TextTable& table) {
+    if (!std::isnan(table.values[0]) || table.rows < 4 || table.columns < 4) return;
+    const std::vector<double> x(table.values.begin() + 1,
+                                table.values.begin() + static_cast<std::ptrdiff_t>(table.columns));
+    std::vector<double> y;
+    for (std::size_t j = 1; j < table.rows; ++j) y.push_back(table.values[j * table.columns]);
+    if (!is_uniform(x) || !is_uniform(y)) return;
+    bad_input(path + ":" + std::to_string(table.line[0]) +
+              ": the corner is empty, the first line and the first column are uniform as "
+              "coordinates are: a matrix contains heights alone; remove them, and give the step as "
+              "surface%pixel");
+}
+
 HeightMap read_text_heights(const std::string& path, std::optional<double> L, bool missing,
                             const TextMap& text, const std::string& length_unit,
                             MapOrigin* origin) {
     const TextTable table = read_table(path, 0, missing);
+    refuse_coordinates(path, table);
     const double factor = text_height_factor(path, table, text, length_unit);
     HeightMap map = read_text_points(path, table, L, missing, text, length_unit);
     mark_missing(map, text.missing_value, origin);

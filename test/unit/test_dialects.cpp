@@ -111,6 +111,16 @@ TEST(test_empty_cells) {
             "empty cells of a map are missing points");
 }
 
+// A table with its coordinates in the first line and column, as spreadsheets write it; a map that
+// only lacks its corner is read.
+TEST(test_coordinates_are_no_heights) {
+    const std::string rows = "2.5,7,9,1,4\n5,3,8,2,7\n7.5,1,2,9,5\n10,4,4,3,8\n";
+    REFUSED(text_map(",0,0.33,0.67,1\n" + rows, {"", 0.5}, Missing::fill),
+            "t:1: the corner is empty, the first line and the first column are uniform");
+    CHECK(text_map(",0,0.33,0.77,1\n" + rows, {"", 0.5}, Missing::fill).nx == 5);
+    CHECK(text_map("1,0,0.33,0.67,1\n" + rows).nx == 5);
+}
+
 TEST(test_missing_values) {
     const std::string text = "-9999 1 2 1 2\n2 1 -9999 2 1\n1 2 1 2 -32768\n";
     MapOrigin origin;
