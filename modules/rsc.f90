@@ -125,6 +125,7 @@ module rsc
     procedure :: tip => contact_tip
     procedure :: first_touch => contact_first_touch
     procedure :: set_time => contact_set_time
+    procedure :: set_distance => contact_set_distance
     procedure :: indent => contact_indent
     procedure :: press => contact_press
     procedure :: separation => contact_separation

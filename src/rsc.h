@@ -508,6 +508,16 @@ RSC_API int32_t rsc_contact_indent(rsc_contact* contact, double separation, doub
  * Errors: -1 null; -2 not finite, or before the last level. */
 RSC_API int32_t rsc_contact_set_time(rsc_contact* contact, double time);
 
+/* Sets the distance that has been slid at the following levels, for a body that wears
+ * (solids%wear_coefficient; without effect for others): between two levels the separation
+ * (rsc_contact_press: the force) changes linearly with it, in steps that are halved until the level
+ * does not depend on them (rsc_contact_value, "sliding_error"), and the first level is reached
+ * without sliding. Initially 0, kept and restored as the time of rsc_contact_set_time.
+ *     contact: the contact;
+ *     distance: s, not less than that of the last level [length].
+ * Errors: -1 null; -2 not finite, or less than that of the last level. */
+RSC_API int32_t rsc_contact_set_distance(rsc_contact* contact, double distance);
+
 /* Finds the separation at which the sphere carries a force, and computes the contact there, to
  * solver%tolerance of the force (elements with adhesion: of the attraction, if that is larger).
  *     contact: the contact;

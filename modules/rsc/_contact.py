@@ -136,6 +136,12 @@ class Contact(_Object):
         ArgumentError if it is not finite or before the last level."""
         _call("rsc_contact_set_time", self, time)
 
+    def set_distance(self, distance: float) -> None:
+        """Sets the distance that has been slid at the following levels, for a body that wears
+        (solids%wear_coefficient) [length]. Raises ArgumentError if it is not finite or less than
+        that of the last level."""
+        _call("rsc_contact_set_distance", self, distance)
+
     def _at(self, time: float | None) -> None:
         if time is not None:
             self.set_time(time)

@@ -57,6 +57,7 @@ rsc_contact_tip(const rsc_contact* contact, double* x0, double* y0)
 rsc_contact_first_touch(const rsc_contact* contact, double* separation)
 rsc_contact_indent(rsc_contact* contact, double separation, double* force)
 rsc_contact_set_time(rsc_contact* contact, double time)
+rsc_contact_set_distance(rsc_contact* contact, double distance)
 rsc_contact_press(rsc_contact* contact, double force, double* separation)
 rsc_contact_result(const rsc_contact* contact, double* separation, double* force, double* area,
     int64_t* contacts)

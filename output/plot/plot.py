@@ -66,6 +66,7 @@ PICTURES = {
     "loop": plot_friction.loop,
     "stick": plot_friction.stick,
     "time": plot_time.time,
+    "wear": plot_time.wear,
     "pull": plot_adhesion.pull,
     "stress": plot_stress.stress,
     "section": plot_stress.section,

@@ -5,19 +5,10 @@ from matplotlib.colors import PowerNorm
 
 from plot_curves import title
 from plot_results import edges, names
-from plot_spots import draw_pixels, draw_smooth, heights
+from plot_spots import draw_pixels, draw_smooth, heights, with_smooth
 from plot_style import COLOURS, Page, amount, colour_bar, label
 
 MOST = 36  # maps of several results on one page
-
-
-def hertz_radius(result, step):
-    """Radius of the contact of the smooth indenter; NaN if it is no circle."""
-    return (
-        float(np.sqrt(result["area_hertz"][step] / np.pi))
-        if result.has_sphere() and result.shape() != "paraboloid"
-        else np.nan
-    )
 
 
 def shown(results, options):
@@ -50,17 +41,18 @@ def _field(result, level, name, fine):
 def _window(panels):
     """The smallest square that contains the contact of all panels, of a line contact across its
     axis, within the surface."""
-    ends, sides = [], panels[0][0].sides()
+    lows, highs, sides = [], [], panels[0][0].sides()
     for result, level, _ in panels:
-        field, side = result.cells("map_pressure", level)[0], float(result["map_cell_side"])
-        rows, columns = np.nonzero(field)
-        if rows.size:
-            x, y = result["x"][columns], result["y"][rows]
-            ends.append([x.min() - side / 2, x.max() + side / 2])
-            ends[-1] += [y.min() - side / 2, y.max() + side / 2]
-    if not ends:
+        field, half = result.cells("map_pressure", level)[0], float(result["map_cell_side"]) / 2
+        places = [result[of][k] for of, k in zip("yx", np.nonzero(field))][::-1]
+        if places[0].size:
+            low, high = (np.array([f(v) for v in places]) for f in (np.min, np.max))
+            low, high = with_smooth(result, level, low - half, high + half)
+            lows.append(low)
+            highs.append(high)
+    if not lows:
         return sides
-    low, high = np.min(ends, axis=0)[[0, 2]], np.max(ends, axis=0)[[1, 3]]
+    low, high = np.min(lows, axis=0), np.max(highs, axis=0)
     extent = high - low
     if "force_per_length" in panels[0][0]:  # a part of the length
         extent[1 if panels[0][0].along_y() else 0] = 0
@@ -86,7 +78,8 @@ def maps(results, options):
         options.say(f"map: {MOST} of {len(panels)} results are drawn, evenly spaced")
         panels = [panels[k] for k in np.linspace(0, len(panels) - 1, MOST).round().astype(int)]
     one = len(results) == 1
-    first = "contact" if one and "contact_mask" in results[0] else "map_area_fraction"
+    masked = all("mask_step" in r and level + 1 in r["mask_step"] for r, level, _ in panels)
+    first = "contact" if one and masked else "map_area_fraction"
     quantities = [first, "map_pressure"] if one else ["map_pressure"]
     columns = (
         len(panels)

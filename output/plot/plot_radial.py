@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from plot_map import hertz_radius, shown
+from plot_map import shown
 from plot_curves import panel_looks, title
+from plot_spots import hertz_radius
 from plot_style import Page, amount, label
 
 

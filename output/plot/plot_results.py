@@ -166,7 +166,7 @@ class Result:
 
     def level_name(self, step):
         """Name of a level: the separation, force or pressure of the case unless it is constant in
-        time, and the time if the file has it."""
+        time, and the time or the distance of sliding if the file has it."""
         values, text, dimension = self.depth()
         symbol = text.partition(" ")[2]
         if self.control() in ("force", "pressure") and self.control() in self:
@@ -176,9 +176,10 @@ class Result:
                 self.dimension(self.control()),
             )
         name = f"{symbol} = {amount(values[step], dimension)}"
-        if "time" not in self:
+        clock = next((c for c in ("time", "distance") if c in self), None)
+        if not clock:
             return name
-        time = f"$t$ = {amount(self['time'][step], self.dimension('time'))}"
+        time = f"${'t' if clock == 'time' else 's'}$ = {amount(self[clock][step], self.dimension(clock))}"
         # A prescribed load is exact only to the solver's tolerance.
         return (
             time
@@ -272,6 +273,7 @@ class Result:
             self.case.get("solids%hardness", "Infinity") != "Infinity"
             or ("jumps" in self and self.worst("jumps").any())
             or ("time" in self and "energy_lost" in self)
+            or "worn_volume" in self
         )
         if not remembers or at.size < 2:
             return [(at[np.argsort(-z[at], kind="stable")], False)]

@@ -100,7 +100,8 @@ def flow(results, options):
     result = results[0]
     steps = result["field_step"].astype(int) - 1
     drawn = np.unique(np.linspace(0, steps.size - 1, min(3, steps.size)).astype(int))
-    page = Page(options, drawn.size, aspect=0.95, columns=drawn.size)
+    columns = drawn.size if options.width >= 120 else 1
+    page = Page(options, drawn.size, aspect=0.95, columns=columns)
     x, y = result["field_x"], result["field_y"]
     gaps, fluxes, image = result["field_gap"][drawn], [], None
     for k in drawn:
@@ -127,7 +128,7 @@ def flow(results, options):
                 text = "ring: " + amount(gap[row, column], result.dimension("field_gap"))
         label(axis, "x", "$x$", result.dimension("field_x"))
         label(axis, "y", "$y$", result.dimension("field_y"))
-        if k:
+        if k and columns > 1:
             axis.set_ylabel("")
             axis.tick_params(labelleft=False)
         axis.set_title(f"{result.level_name(steps[drawn[k]])}\n{text}", fontsize=7)

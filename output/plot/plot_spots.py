@@ -40,7 +40,8 @@ def heights(result, axis, window=None, bright=0.0, most=900):
     if i.size < 2 or j.size < 2:
         return None
     stride = max(1, max(i.size, j.size) // most)
-    z = result.window(name, slice(j[0], j[-1] + 1, stride), slice(i[0], i[-1] + 1, stride))
+    last = (-1,) * (result.file.variables[name].ndim - 2)  # of a surface that wears
+    z = result.window(name, *last, slice(j[0], j[-1] + 1, stride), slice(i[0], i[-1] + 1, stride))
     low, high = float(np.nanmin(z)), float(np.nanmax(z))
     return axis.imshow(
         z,
@@ -150,6 +151,21 @@ def draw_pixels(page, axis, result, step):
     return True
 
 
+def hertz_radius(result, step):
+    """Radius of the contact of the smooth indenter; NaN if it is no circle."""
+    if not result.has_sphere() or result.shape() == "paraboloid":
+        return np.nan
+    return float(np.sqrt(result["area_hertz"][step] / np.pi))
+
+
+def with_smooth(result, step, low, high):
+    """The corners of a window that also contains the contact of the smooth indenter."""
+    a = hertz_radius(result, step)
+    tip = np.array([float(result["tip_" + of]) for of in "xy"]) if np.isfinite(a) else low
+    a = np.nan_to_num(a)
+    return np.minimum(low, tip - a), np.maximum(high, tip + a)
+
+
 def draw_smooth(page, axis, result, step):
     """The outline of the contact of the smooth indenter under the same force."""
     half = result.half_width(step)
@@ -159,9 +175,9 @@ def draw_smooth(page, axis, result, step):
         for place in (tip - half, tip + half):
             (axis.axvline if along_y else axis.axhline)(place, ls="--", lw=1.0, color="k")
         page.entry("smooth cylinder (Hertz)", ls="--", lw=1.0, color="k")
-    elif result.has_sphere() and result.shape() != "paraboloid":
+    elif np.isfinite(hertz_radius(result, step)):
         t = np.linspace(0, 2 * np.pi, 181)
-        a = np.sqrt(result["area_hertz"][step] / np.pi)
+        a = hertz_radius(result, step)
         x, y = (float(result["tip_" + of]) for of in "xy")
         axis.plot(
             x + a * np.cos(t),
@@ -237,6 +253,7 @@ def spots(results, options):
         place = np.array([x[big], y[big]])
         first, last = place - a[big], place + a[big]
         least = max(14 * np.median(a), 4 * a[big])
+    low, high = with_smooth(result, step, low, high)
     whole = square(low, high, sides, least=least if pixels else 0.0)
     half = (whole[1] - whole[0]) / 2
     rim = (last - first).max() > 1.2 * half  # the largest fills the left panel

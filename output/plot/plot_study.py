@@ -119,8 +119,7 @@ def _curves(page, axis, panel, results, keys, texts, along, others):
         at = [k for k in np.argsort(numbers, kind="stable") if others[k] == other]
         x, y = numbers[at], panel.values[at]
         axis.plot(x, y, marker, ls=line, color=colour, ms=3.5, label=other or None)
-        of = f" of {other}" if len(shown) > 1 else ""
-        text = "expected error" + of
+        text = "expected error" + (f", {other}" if len(shown) > 1 else "")
         error_band(page, axis, x, y, panel.expected[at], text, color=colour, alpha=0.15)
         if panel.errors[at].any():
             bars(page, axis, x, y, panel.errors[at], results[at[0]], colour)

@@ -300,7 +300,7 @@ class Page:
                 wrapped(
                     self.figure,
                     text,
-                    self.width - 10 if len(self.entries) < 2 or ":" not in text[:20] else 62,
+                    62 if text.startswith("level ") and len(self.entries) > 1 else self.width - 10,
                     "legend.fontsize",
                 )
                 for text in self.entries
@@ -346,22 +346,21 @@ def settle(figure):
     """Wraps the titles of axes half way to the next axes or at the edge of the figure, makes the
     figure higher by the lines that this adds, and takes ticks away until their labels are apart."""
     figure.draw_without_rendering()  # for the positions of the axes
-    centres = {
-        axis: sum(axis.get_position().intervalx) / 2 for axis in figure.axes if axis.get_title()
-    }
+    titled = [
+        (axis, sum(axis.get_position().intervalx) / 2, axis.get_subplotspec().rowspan.start)
+        for axis in figure.axes
+        if axis.get_title()
+    ]
     added = {}  # lines of each row of axes
-    for axis, centre in centres.items():
-        half = min(
-            [centre, 1 - centre]
-            + [abs(centre - other) / 2 for other in centres.values() if abs(centre - other) > 0.05]
-        )
+    for axis, centre, row in titled:
+        beside = [abs(centre - x) / 2 for other, x, r in titled if other is not axis and r == row]
+        half = min([centre, 1 - centre, *beside])
         text = wrapped(
             figure,
             axis.get_title(),
             1.88 * half * 25.4 * figure.get_figwidth(),
             axis.title.get_fontsize(),
         )
-        row = axis.get_subplotspec().rowspan.start
         added[row] = max(added.get(row, 0), text.count("\n") - axis.get_title().count("\n"))
         axis.title.set_text(text)
     figure.set_figheight(figure.get_figheight() + sum(added.values()) * 3.4 / 25.4)

@@ -25,7 +25,7 @@ def surface(results, options):
         )
         if there
     ]
-    page = Page(options, len(drawn), aspect=0.82 if len(drawn) > 1 else 0.72)
+    page = Page(options, len(drawn), aspect=0.92 if len(drawn) > 1 else 0.72)
     for axis, (result, name) in zip(page.axes, maps):
         _map(page, axis, result, f"{name}\n" if len(maps) > 1 else "")
     for axis, name in list(zip(page.axes, drawn))[len(maps) :]:

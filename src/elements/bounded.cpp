@@ -54,6 +54,7 @@ void BoundedSolver::set_free(F&& of) {
 void BoundedSolver::evaluate(bool exact) {
     stopping_point();
     multiply(p_, w_, exact);
+    add_diagonal(p_, w_);
     if (wanted_) Z0_ = 0;
     each([&](std::size_t k) { w_[k] += Z0_ - z_[k]; });
     find_Z0();
@@ -115,6 +116,7 @@ void BoundedSolver::prepare_constant(bool plain) {
     punch_ = 0;
     if (wanted_ || plain) return;
     multiply_roughly(one_, image_);
+    add_diagonal(one_, image_);
     const double energy =
         sum_free([&](std::size_t k) { return free_[k] ? one_[k] * image_[k] : 0.0; });
     if (energy > 0) punch_ = 1 / energy;
@@ -156,6 +158,7 @@ double BoundedSolver::descend(int most_steps, double reduction) {
         });
         stopping_point();
         multiply_roughly(direction_, image_);
+        add_diagonal(direction_, image_);
         const double curvature = product(direction_, image_);
         if (!(curvature > 0)) break;
         const double alpha = ry / curvature;
@@ -204,6 +207,7 @@ void BoundedSolver::release(int most_steps) {
     bound();
     each([&](std::size_t k) { direction_[k] = p_[k] - direction_[k]; });
     multiply_roughly(direction_, image_);
+    add_diagonal(direction_, image_);
     each([&](std::size_t k) { w_[k] += image_[k]; });
     find_Z0();
     const std::vector<char> before = free_;
@@ -326,6 +330,7 @@ double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, in
         }
         if (most_rounds > 1) {
             multiply(p_, w_, !manner_.repeats);
+            add_diagonal(p_, w_);
             each([&](std::size_t k) { w_[k] -= 1; });
             residual = rms();
         }
@@ -358,6 +363,11 @@ std::vector<std::pair<int, double>> BoundedSolver::press_out() {
         w_[k] = 0;
     }
     return depths;
+}
+
+void BoundedSolver::settle() {
+    each([&](std::size_t k) { z_[k] -= diagonal_ * p_[k]; });
+    diagonal_ = 0;
 }
 
 }  // namespace rsc

@@ -84,7 +84,9 @@ public:
           width_(along_x_ ? ny : nx),
           period_(along_x_ ? nx : ny),
           half_(at(period_) / 2 + 1),
-          inverse_(inverse_stencil(dy / dx)) {
+          aspect_(dy / dx),
+          dx_(dx),
+          modulus_(substrate.modulus()) {
         if (substrate.smooth())
             throw Error(Failure::bad_input, "line contact is not available for bodies with layers");
         const double step = along_x_ ? dx : dy, across_step = along_x_ ? dy : dx,
@@ -127,7 +129,9 @@ public:
                    const char*) override {
         multiply(arrange(pixels), p, w, Accuracy::inner);
     }
-    const PixelStencil& inverse() const override { return inverse_; }
+    PixelStencil inverse(double diagonal) const override {
+        return inverse_stencil(aspect_, with_diagonal({}, diagonal * modulus_ / dx_));
+    }
     double coefficient(int dx, int dy) const override {
         const int across = std::abs(along_x_ ? dy : dx), along = along_x_ ? dx : dy;
         const int folded = std::abs(along) % period_;
@@ -186,7 +190,7 @@ private:
     bool along_x_;
     int width_, period_;  // of the map across and along, in pixels
     std::size_t half_;
-    PixelStencil inverse_;
+    double aspect_, dx_, modulus_;
     double shift_ = 0;
     std::vector<double> coefficient_;  // [across][along], along at most half a period
     Set set_;

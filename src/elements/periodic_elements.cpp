@@ -75,17 +75,28 @@ PeriodicElements::PeriodicElements(const PeriodicElements& finer,
       aspect_(finer.aspect_),
       inner_(relief_.nx, relief_.ny, 1, aspect_, share_of_modes(substrate_, relief_.dx)),
       plane_(relief_.nx, relief_.ny) {
+    diagonal_ = finer.diagonal_;
     prepare();
 }
 
 void PeriodicElements::prepare() {
-    const int nx = relief_.nx, ny = relief_.ny;
     const Share share = share_of_modes(substrate_, relief_.dx);
-    rows_.assign(at(ny) + 1, 0);
+    rows_.assign(at(relief_.ny) + 1, 0);
+    prepare_inverse();
+    if (SplitPixels::suits(relief_.nx, relief_.ny, aspect_, share))
+        split_ = std::make_unique<SplitPixels>(relief_.nx, relief_.ny, aspect_, share);
+}
+
+void PeriodicElements::prepare_inverse() {
+    inverse_of_ = diagonal_;
+    const Share share = with_diagonal(share_of_modes(substrate_, relief_.dx), diagonal_ / unit_);
     inverse_ = inverse_stencil(aspect_, share);
-    far_ = std::make_unique<BlockCorrection>(nx, ny, aspect_, inverse_, share);
-    if (SplitPixels::suits(nx, ny, aspect_, share))
-        split_ = std::make_unique<SplitPixels>(nx, ny, aspect_, share);
+    far_ = std::make_unique<BlockCorrection>(relief_.nx, relief_.ny, aspect_, inverse_, share);
+}
+
+void PeriodicElements::set_diagonal(double diagonal) {
+    diagonal_ = diagonal / (rms_ / pressure_unit_);
+    closes_ = true;
 }
 
 int PeriodicElements::threads() const { return relief_.nx >= kThreads / relief_.ny ? 0 : 1; }
@@ -278,6 +289,7 @@ void PeriodicElements::correct(std::vector<double>& y) {
 }
 
 void PeriodicElements::freed() {
+    if (inverse_of_ != diagonal_) prepare_inverse();
     far_is_set_ = far_->exists();
     from_.assign(free_.begin(), free_.end()), ones_.resize(free_.size());
     plane_.convolve(inverse_, {rows_, column_}, from_.data(), ones_.data(), threads());
@@ -341,7 +353,7 @@ ElementsOutcome PeriodicElements::press(double mean_pressure, double tolerance,
                                         int most_iterations) {
     const ElementsOutcome outcome =
         solve({true, mean_pressure / pressure_unit_}, tolerance, most_iterations, true);
-    if (pixels_.size() == at(relief_.nx) * at(relief_.ny))
+    if (!closes_ && pixels_.size() == at(relief_.nx) * at(relief_.ny))
         refuse_closing(mean_pressure, closing_pressure());
     return outcome;
 }
@@ -360,7 +372,7 @@ ElementsOutcome PeriodicElements::approach(double Z0, double tolerance, int most
 }
 
 double PeriodicElements::closed() const {
-    return highest_ < kInfinity ? -kInfinity : mean_ + kRounding * rms_;
+    return highest_ < kInfinity || diagonal_ > 0 ? -kInfinity : mean_ + kRounding * rms_;
 }
 
 std::vector<double> PeriodicElements::deflections(const std::vector<Pixel>& pixels,

@@ -36,8 +36,9 @@ public:
     // K between two pixels dx columns and dy rows apart [length/pressure].
     virtual double coefficient(int dx, int dy) const = 0;
 
-    // Approximate inverse of K between near pixels, to a constant factor.
-    virtual const PixelStencil& inverse() const = 0;
+    // Approximate inverse of K with `diagonal` added on its diagonal, between near pixels, to a
+    // constant factor.
+    virtual PixelStencil inverse(double diagonal) const = 0;
 
     // Constant by which K was raised for each unit force, so that no force raises other points
     // (Kernel::shift()) [length/force].

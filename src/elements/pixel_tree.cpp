@@ -210,8 +210,7 @@ public:
           rows_(rows_of(dy / dx)),
           inner_(inner_error, rows_, answer_),
           between_(std::sqrt(inner_error * full_error), rows_, answer_),
-          full_(full_error, rows_, answer_),
-          inverse_(inverse_stencil(aspect_, share_of_modes(substrate, dx))) {
+          full_(full_error, rows_, answer_) {
         table_.reach_x = 2 * kTileColumns;
         table_.reach_y = 2 * rows_;
         table_.stride = 2 * table_.reach_x + 1;
@@ -248,7 +247,11 @@ public:
         product(others_layout_, inner_, pixels.size(), p, w, wanted);
     }
 
-    const PixelStencil& inverse() const override { return inverse_; }
+    PixelStencil inverse(double diagonal) const override {
+        const Substrate& body = answer_.substrate;
+        return inverse_stencil(aspect_, with_diagonal(share_of_modes(body, answer_.dx),
+                                                      diagonal * body.modulus() / answer_.dx));
+    }
     double coefficient(int dx, int dy) const override {
         dx = std::abs(dx), dy = std::abs(dy);
         if (dx <= table_.reach_x && dy <= table_.reach_y)
@@ -283,7 +286,6 @@ private:
     std::vector<double> near_;
     NearTable table_{};
     Interpolation inner_, between_, full_;
-    PixelStencil inverse_;
     std::size_t size_ = 0;
     std::vector<Pixel> others_;
     Layout layout_, others_layout_;

@@ -105,6 +105,12 @@ std::function<double(double)> share_of_modes(const Substrate& substrate, double 
     return [substrate, dx](double k) { return substrate.smooth()->share(k / dx); };
 }
 
+std::function<double(double)> with_diagonal(const std::function<double(double)>& share,
+                                            double diagonal) {
+    if (diagonal == 0) return share;
+    return [share, diagonal](double k) { return (share ? share(k) : 0.0) + 0.5 * diagonal * k; };
+}
+
 PixelStencil inverse_stencil(double aspect, const std::function<double(double)>& share) {
     constexpr int reach = 6;
     return PixelStencil(

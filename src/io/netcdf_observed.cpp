@@ -389,7 +389,8 @@ void ResultTable::heights() {
     file_.variable({"height",
                     {"height_y", "height_x"},
                     unit(1),
-                    "height of the surface",
+                    wears(r_.settings) ? "height of the worn surface after the last level"
+                                       : "height of the surface",
                     RowFiller([&h](std::size_t j, std::span<double> row) {
                         std::copy_n(h.data.get() + static_cast<std::ptrdiff_t>(j) * h.stride,
                                     row.size(), row.begin());
@@ -453,8 +454,8 @@ void ResultTable::fields() {
         if (const std::vector<double>& values = f.*q.field; !values.empty())
             add_disorder(std::string("field_") + q.name, planes, unit(-2, 1), q.meaning, values);
     if (!f.heights.empty())
-        add_disorder("field_height", {"field_y", "field_x"}, unit(1),
-                     "height of the surface without load", f.heights);
+        add_disorder("field_height", wears(r_.settings) ? dims : Names{"field_y", "field_x"},
+                     unit(1), "height of the surface without load", f.heights);
 }
 
 }  // namespace rsc

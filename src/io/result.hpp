@@ -75,7 +75,7 @@ struct Result {
 
     // Levels depend on the levels before.
     bool path_dependent() const {
-        return relaxes(settings) || std::isfinite(settings.solids.hardness) ||
+        return relaxes(settings) || wears(settings) || std::isfinite(settings.solids.hardness) ||
                settings.solids.adhesion > 0;
     }
     // The separation of a level differs between realizations.
@@ -107,11 +107,9 @@ void keep_contacts(Result& result, std::vector<Level>& levels, Contacts keep);
 Moments regime_moments(const Result& result);
 
 // Reads the sums over realizations from the result file of a campaign, so that realizations can be
-// added.
-
-// The sums at the time of writing, within rounding; `options` and `steps` are those of the case. Throws
-// Error(bad_input) with the name of the file if it lacks the sums (it has one realization, or is of
-// an earlier version), has other bins, map or levels, or is damaged.
+// added: the sums at the time of writing, within rounding. `options` and `steps` are those of the
+// case. Throws Error(bad_input) with the name of the file if it lacks the sums (it has one
+// realization, or is of an earlier version), has other bins, map or levels, or is damaged.
 Accumulators read_sums(const std::string& path, const ObserveOptions& options, std::size_t steps);
 
 // Levels of all realizations in a result, and how many of them did not converge. None if the file

@@ -124,7 +124,7 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
             return std::isnan(l.stiffness) && l.contacts > 0 && l.converged;
         },
         std::string("stiffness, conductance and resistance are missing: ") +
-            (elements ? "their iteration did not converge"
+            (elements ? "their iteration did not converge, or the gap of worn flats is closed"
                       : "contacts overlap too much for them" + to_elements(job)));
     levels_with.say([](const LevelValues& l) { return l.status == LevelStatus::overlapping; },
                     "overlapping - pairs of contact spots closer than the sum of their radii: "
@@ -161,15 +161,23 @@ void print_bounds(std::ostream& out, std::span<const LevelValues> levels, const 
                   first.c_str(), area.c_str());
 }
 
-// The summary of plastic contacts for cases with hardness, and of the energy lost in bodies that
-// relax.
-void print_yielding(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
+// The summary of plastic contacts for cases with hardness, of what is worn off, and of the energy
+// lost in bodies that relax.
+void print_changes(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
     if (relaxes(job.settings) && !levels.empty() && job.settings.run.realizations == 1)
         out << format(
             "  %.4g %s %s of the work done are lost by relaxation. Levels depend on the levels "
             "before.\n",
             levels.back().energy_lost, job.settings.run.force_unit.c_str(),
             job.settings.run.length_unit.c_str());
+    if (wears(job.settings) && !levels.empty() && job.settings.run.realizations == 1) {
+        const char* const l = job.settings.run.length_unit.c_str();
+        const LevelValues& last = levels.back();
+        out << format(
+            "  %.4g %s3 are worn off, up to %.4g %s deep, and the surface has the rms height %.4g "
+            "%s. Levels depend on the levels before.\n",
+            last.worn_volume, l, last.wear_depth_max, l, last.worn_rms, l);
+    }
     if (!std::isfinite(job.settings.solids.hardness) || levels.empty()) return;
     const auto most = std::max_element(levels.begin(), levels.end(),
                                        [](const LevelValues& p, const LevelValues& q) {
@@ -310,7 +318,7 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
             "stays elastic at such pressures; solids%%hardness "
             "limits them.\n",
             100 * extreme->extreme_area_fraction, extreme->separation / job.sigma);
-    print_yielding(out, levels, job);
+    print_changes(out, levels, job);
     print_sticking(out, levels, job);
     print_words(out, job, elements);
     std::int64_t crowded = 0;

@@ -235,7 +235,6 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
                         done = static_cast<double>(k + 1);
                         progress.show(done, total);
                         go_on();
-                        return true;
                     });
     }
     Accumulators sums(job.observe, job.levels.size());
@@ -259,7 +258,7 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     result.compared = std::move(compared);
     result.fields = std::move(r.fields);
     if (settings.output.heights)
-        result.heights = std::move(job.given_heights ? job.given_heights : r.heights);
+        result.heights = std::move(r.heights ? r.heights : job.given_heights);
     write_result(result, settings.output.file,
                  {settings.output.format, settings.output.compression, options.command});
 

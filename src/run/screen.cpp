@@ -34,7 +34,9 @@ bool shown(const LevelQuantity& q, const Job& job) {
     if (!q.heading) return false;
     if (q.always) return true;
     if (q.of_flow) return job.settings.output.flow;
-    if (q.of_step) return !job.times.empty();
+    if (q.of_step)
+        return !job.times.empty() && job.settings.indentation.slides() == (q.unit == nullptr);
+    if (q.member == LevelQuantity::Member(&LevelValues::worn_volume)) return wears(job.settings);
     const bool line = q.member == LevelQuantity::Member(&LevelValues::force_per_length);
     return line ? job.indenter.period.line() : job.indenter.period.finite();
 }
@@ -226,7 +228,7 @@ void print_heading(std::ostream& out, const Job& job) {
         std::string heading = q.heading;
         if (q.length_power != 0 || q.force_power != 0)
             heading += " [" + unit_of(l, q.length_power, f, q.force_power) + "]";
-        if (q.of_step) heading += " [" + job.settings.run.time_unit + "]";
+        if (q.of_step && q.unit) heading += " [" + job.settings.run.time_unit + "]";
         out << format(" %*s", q.width, heading.c_str());
     }
     out << '\n';

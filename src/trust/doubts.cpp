@@ -35,6 +35,8 @@ std::string sentence(Cause cause, bool elements) {
                             : "the bodies may touch beside the summits, so that N need not be 0";
         case Cause::model_error:
             return "N may differ from that of elements at this separation by more than 10 %";
+        case Cause::sliding_steps:
+            return "the steps of sliding may change N by more than 1 %: give closer distances";
     }
     return "";
 }
@@ -49,11 +51,12 @@ std::string words_of_doubts(std::int32_t doubts) {
 }
 
 void conclude(LevelValues& level, std::span<const Doubt> doubts, bool by_force) {
-    double force = 0, area = 0;
+    double force = 0, area = 0, separation = 0;
     level.doubts = 0;
     for (const Doubt& doubt : doubts) {
         force += doubt.force;
         area += doubt.area;
+        separation += doubt.separation;
         if (doubt.serious) level.doubts |= bit(doubt.cause);
     }
     level.status = !level.converged              ? LevelStatus::not_converged
@@ -66,7 +69,7 @@ void conclude(LevelValues& level, std::span<const Doubt> doubts, bool by_force) 
     level.area_error_expected = known ? area + (by_force ? force : 0.0) : kNotComputed;
     level.separation_error_expected =
         known && by_force && level.stiffness < 0
-            ? force * std::abs(level.force) / std::abs(level.stiffness)
+            ? separation + force * std::abs(level.force) / std::abs(level.stiffness)
             : kNotComputed;
 }
 
