@@ -207,7 +207,7 @@ HeightMap read_text_points(const std::string& path, const TextTable& table, std:
     return map;
 }
 
-// Marks heights that mean "no data", as the file has them, and looks for others that may mean it.
+// Marks heights that mean "no data", and looks for others that may mean it.
 void mark_missing(HeightMap& map, const std::vector<double>& codes, MapOrigin* origin) {
     constexpr double kSingle = 1e-7;  // a code may have been rounded to single precision
     for (std::size_t k = 0; !codes.empty() && k < map.points(); ++k)
@@ -257,10 +257,36 @@ double text_height_factor(const std::string& path, const TextTable& table, const
     }
 }
 
+// True if the values are uniform to the rounding of their digits.
+bool is_uniform(const std::vector<double>& c) {
+    const double step = (c.back() - c.front()) / static_cast<double>(c.size() - 1);
+    if (!(std::abs(step) > 0)) return false;  // also where one is missing
+    const double rounding = 1.01 * last_digit(c);
+    for (std::size_t i = 0; i < c.size(); ++i)
+        if (!(std::abs(c[i] - (c.front() + static_cast<double>(i) * step)) <= rounding))
+            return false;
+    return true;
+}
+
+// Refuses a matrix whose first line and first column are the coordinates, with an empty corner.
+void refuse_coordinates(const std::string& path, const TextTable& table) {
+    if (!std::isnan(table.values[0]) || table.rows < 4 || table.columns < 4) return;
+    const std::vector<double> x(table.values.begin() + 1,
+                                table.values.begin() + static_cast<std::ptrdiff_t>(table.columns));
+    std::vector<double> y;
+    for (std::size_t j = 1; j < table.rows; ++j) y.push_back(table.values[j * table.columns]);
+    if (!is_uniform(x) || !is_uniform(y)) return;
+    bad_input(path + ":" + std::to_string(table.line[0]) +
+              ": the corner is empty, the first line and the first column are uniform as "
+              "coordinates are: a matrix contains heights alone; remove them, and give the step as "
+              "surface%pixel");
+}
+
 HeightMap read_text_heights(const std::string& path, std::optional<double> L, bool missing,
                             const TextMap& text, const std::string& length_unit,
                             MapOrigin* origin) {
     const TextTable table = read_table(path, 0, missing);
+    refuse_coordinates(path, table);
     const double factor = text_height_factor(path, table, text, length_unit);
     HeightMap map = read_text_points(path, table, L, missing, text, length_unit);
     mark_missing(map, text.missing_value, origin);
@@ -522,6 +548,35 @@ bool is_instrument_map(const std::string& path) {
 
 bool is_text_map(const std::string& path) { return !is_netcdf(path) && !is_instrument_map(path); }
 
+// True if `code`, the lowest or highest height, is farther from the others than these are from each
+// other, or is met more often than the height next to it, by five standard deviations of counts:
+// towards its end a distribution of heights only becomes thinner.
+static bool ends_in_code(const HeightMap& map, double code, bool lowest, double many,
+                         long& points) {
+    double least = kInfinity;
+    double most = -kInfinity;
+    points = 0;
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) {
+            if (map(i, j) == code) {
+                ++points;
+                continue;
+            }
+            least = std::fmin(least, map(i, j));
+            most = std::fmax(most, map(i, j));
+        }
+    if (points < 2 || !(least < most)) return false;  // one is an outlier
+    const double next = lowest ? least : most;
+    if (static_cast<double>(points) > many && std::abs(next - code) > most - least) return true;
+    long at_next = 0;
+    for (int j = 0; j < map.ny; ++j)
+        for (int i = 0; i < map.nx; ++i) at_next += map(i, j) == next;
+    constexpr double kDeviations = 5;
+    const auto more = static_cast<double>(points - at_next);
+    return 2 * points < static_cast<long>(map.points()) &&
+           more > kDeviations * std::sqrt(static_cast<double>(points + at_next));
+}
+
 std::optional<double> likely_code(const HeightMap& map, long& points) {
     constexpr double kShare = 1e-3;
     double low = kInfinity, high = -kInfinity;
@@ -531,21 +586,8 @@ std::optional<double> likely_code(const HeightMap& map, long& points) {
             high = std::fmax(high, map(i, j));
         }
     const double many = kShare * static_cast<double>(map.points());
-    for (const double code : {low, high}) {
-        double least = kInfinity, most = -kInfinity;
-        points = 0;
-        for (int j = 0; j < map.ny; ++j)
-            for (int i = 0; i < map.nx; ++i)
-                if (map(i, j) == code)
-                    ++points;
-                else {
-                    least = std::fmin(least, map(i, j));
-                    most = std::fmax(most, map(i, j));
-                }
-        const double away = code == low ? least - code : code - most;
-        const bool fills = points > 1 && static_cast<double>(points) > many;  // one is an outlier
-        if (fills && least < most && away > most - least) return code;
-    }
+    for (const double code : {low, high})
+        if (ends_in_code(map, code, code == low, many, points)) return code;
     long zero_blocks = 0, other_blocks = 0;
     points = 0;
     for (int j = 0; j < map.ny; ++j)
@@ -582,14 +624,13 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
         bad_input(
             path +
             ": is not a text file; surface%height_unit and surface%pixel are only for text files");
-    if (instrument && !text.missing_value.empty())
-        bad_input(path +
-                  ": surface%missing_value is for text and NetCDF files; this format marks "
-                  "its missing points itself");
     HeightMap map = netcdf ? read_netcdf_heights(path, L, length_unit, channel, fill, text, origin)
                     : instrument ? instrument->read(path, channel, length_unit, origin)
                                  : read_text_heights(path, L, fill, text, length_unit, origin);
-    if (instrument) check_given_L(path, "x", map.nx, map.dx, L);
+    if (instrument) {
+        mark_missing(map, text.missing_value, origin);
+        check_given_L(path, "x", map.nx, map.dx, L);
+    }
     for (const double step : {map.dx, map.dy})
         if (!usable_positive(step))
             bad_input(path + ": the spacing " + kPositiveBounds + ", not " + text_of(step));

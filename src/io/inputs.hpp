@@ -22,7 +22,8 @@ std::vector<std::string> matching_files(const std::string& name);
 struct TextMap {
     std::string height_unit;      // of its heights; empty: length_unit
     std::optional<double> pixel;  // step between the points of a matrix, instead of L [length_unit]
-    // Heights, as the file has them, that mean a missing point; also for NetCDF.
+    // Heights that mean a missing point, also for other files: as text and NetCDF files have them,
+    // of instruments' files [length_unit].
     std::vector<double> missing_value = {};
     bool any() const { return !height_unit.empty() || pixel; }
 };
@@ -30,14 +31,16 @@ struct TextMap {
 // What a map was read from, for messages and results.
 struct MapOrigin {
     std::string channel;  // image of a .gwy or variable of a NetCDF file; empty: the file has none
-    // A height, as the file has it, that is probably a code for missing points (likely_code()).
+    // A height as in TextMap::missing_value that is probably a code for missing points
+    // (likely_code()).
     std::optional<double> code;
     long coded = 0;  // points that have it
 };
 
-// A height that fills more than a thousandth of the points and probably means "no data": the lowest
-// or highest one if it is farther from the others than these are from each other, or 0 in blocks of
-// 3 x 3 points and more where no other height fills such blocks. `points` receives their number.
+// A height that probably means "no data": the lowest or highest one if it fills more than a
+// thousandth of the points and is farther from the others than these are from each other, or if it
+// is met much more often than the height next to it; or 0 in blocks of 3 x 3 points and more where
+// no other height fills such blocks. `points` receives their number.
 std::optional<double> likely_code(const HeightMap& map, long& points);
 
 // True if the readable file `path` is one of an instrument, .gwy or .sdf.

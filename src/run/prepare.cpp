@@ -110,8 +110,6 @@ HeightMap read_raw_map(const Case& settings, const std::string& path, std::optio
     TextMap text{keys.height_unit, keys.pixel, keys.missing_value};
     if (!other.empty() && is_text_map(other) && !is_text_map(path))
         text = {"", {}, keys.missing_value};
-    if (!other.empty() && is_instrument_map(path) && !is_instrument_map(other))
-        text.missing_value.clear();
     HeightMap map = read_heights(path, L, settings.run.length_unit, channel,
                                  part ? Missing::fill : keys.missing, text, origin);
     return part ? part_of(map, keys.window, path) : std::move(map);

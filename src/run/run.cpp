@@ -87,7 +87,7 @@ Case::Surface for_second_body(const Case::Surface& keys, const std::string& file
         kept.height_unit = keys.height_unit;
         kept.pixel = keys.pixel;
     }
-    if (!is_instrument_map(file)) kept.missing_value = keys.missing_value;
+    kept.missing_value = keys.missing_value;
     return kept;
 }
 

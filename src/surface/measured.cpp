@@ -188,11 +188,11 @@ void tell_points(const Measured& m, const char* l, std::vector<std::string>& lin
                            m.channel.empty() ? "" : (" '" + m.channel + "'").c_str(), m.nx, m.ny,
                            m.dx, m.dy, l, m.Lx(), m.Ly(), l));
     if (m.code)
-        lines.push_back(
-            format("warning: %ld points (%.3g %%) have the height %g in the file: if that means a "
-                   "missing point, set surface%%missing_value = %g",
-                   m.coded, 100 * static_cast<double>(m.coded) / static_cast<double>(m.points()),
-                   *m.code, *m.code));
+        lines.push_back(format(
+            "warning: %ld points (%.3g %%) have the height %s: if that means a missing point, "
+            "set surface%%missing_value = %s",
+            m.coded, 100 * static_cast<double>(m.coded) / static_cast<double>(m.points()),
+            text_of(*m.code).c_str(), text_of(*m.code).c_str()));
     if (m.outlier_times > 0)
         lines.push_back(format(
             "outliers: %ld points differ by more than %.4g %s (%.3g standard deviations) "

@@ -111,6 +111,16 @@ TEST(test_empty_cells) {
             "empty cells of a map are missing points");
 }
 
+// A table with its coordinates in the first line and column, as spreadsheets write it; a map that
+// only lacks its corner is read.
+TEST(test_coordinates_are_no_heights) {
+    const std::string rows = "2.5,7,9,1,4\n5,3,8,2,7\n7.5,1,2,9,5\n10,4,4,3,8\n";
+    REFUSED(text_map(",0,0.33,0.67,1\n" + rows, {"", 0.5}, Missing::fill),
+            "t:1: the corner is empty, the first line and the first column are uniform");
+    CHECK(text_map(",0,0.33,0.77,1\n" + rows, {"", 0.5}, Missing::fill).nx == 5);
+    CHECK(text_map("1,0,0.33,0.67,1\n" + rows).nx == 5);
+}
+
 TEST(test_missing_values) {
     const std::string text = "-9999 1 2 1 2\n2 1 -9999 2 1\n1 2 1 2 -32768\n";
     MapOrigin origin;
@@ -122,6 +132,23 @@ TEST(test_missing_values) {
     CHECK(origin.code == -9999.0 && origin.coded == 2);
     text_map("-9999 1 2 1 2\n2 1 1 2 1\n1 2 1 2 3\n", {"", 0.5}, Missing::refuse, &origin);
     CHECK(!origin.code);
+    // The lowest height is met more often than the next, however near it is; a tail that thins out,
+    // two levels and a plateau that is most of the map are no codes.
+    long repeated = 0;
+    const auto with_lowest = [](int times, double lowest) {
+        return height_map(40, 40, 1, 1, [=](int i, int j) {
+            return 40 * i + j < times ? lowest : std::fmod(0.618 * (40 * i + j), 1);
+        });
+    };
+    CHECK(likely_code(with_lowest(60, -1e-3), repeated) == -1e-3 && repeated == 60);
+    CHECK(!likely_code(with_lowest(10, -1e-3), repeated));
+    CHECK(!likely_code(with_lowest(900, -1e-3), repeated));
+    const HeightMap two = height_map(40, 40, 1, 1, [](int i, int j) { return (i + j) % 2; });
+    CHECK(!likely_code(two, repeated));
+    const HeightMap rounded = height_map(40, 40, 1, 1, [](int i, int j) {
+        return std::round(4 * std::sin(0.7 * i) + 4 * std::sin(0.9 * j));
+    });
+    CHECK(!likely_code(rounded, repeated));
     // Zeros in a block among heights about 0, but not a plateau among plateaus.
     long points = 0;
     const auto with_block = [&](double elsewhere) {

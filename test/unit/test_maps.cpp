@@ -211,6 +211,11 @@ TEST(sdf) {
             const bool missing = mark < 0 || version[1] == 'B';
             CHECK(std::isnan(in_micrometres(path, "", Missing::fill)(4, 2)) == missing);
         }
+    // A mark that the format does not know, in the unit of the case (um).
+    const auto marked = values_of<std::int16_t>(map, 1e-9, 9999, true);
+    const std::string path = write("t.sdf", sdf_binary(map, 5, 1e-9, marked));
+    const TextMap text{"", {}, {9.999}};
+    check_sample(read_heights(path, {}, "um", "", Missing::fill, text), 4);
     // Olympus: eight bytes more in the header.
     std::string olympus = sdf_binary(map, 5, 1e-9, i16);
     olympus.insert(81, bytes(std::uint32_t{5}) + bytes(std::uint32_t{1}));
