@@ -10,6 +10,9 @@ namespace {
 constexpr double kUnresolved = 1e-6;
 constexpr double kFarAbove = 100;   // relative to the requested force
 constexpr double kReleased = 1e-3;  // resolution of pulling off, relative to the range
+// Steps of the approach to a force: the most by which one is longer than the last, and than the
+// secant.
+constexpr double kGrowth = 3, kBeyond = 1.02;
 constexpr int kTrials = 2;          // number of failures after which no trials are used
 
 // Evaluation of a level at z: it is the solution (or failed), or lies above it; `next` is the next
@@ -27,8 +30,8 @@ bool has_force(const Level& level, double N, double tolerance) {
 }
 
 // The separations that bodies that attract try for a force N, away from the first level or towards
-// the surface: in growing steps until the force is beyond N or nothing attracts any more, then
-// between, by the secant through the last two levels.
+// the surface: by the secant through the last two levels, at most kGrowth times as far as before,
+// until the force is beyond N or nothing attracts any more, then between.
 struct Approach {
     double N;
     bool down;
@@ -49,7 +52,11 @@ struct Approach {
     // Absent: there is none left.
     std::optional<double> next() {
         if (!down && free) return std::nullopt;
-        if (std::isnan(beyond)) return down ? std::max(z - step, lowest) : z + step;
+        if (std::isnan(beyond)) {
+            const double length = kBeyond * (down ? z - secant : secant - z);
+            if (length > 0) step = std::min(length, kGrowth * step);
+            return down ? std::max(z - step, lowest) : z + step;
+        }
         const double width = beyond - z, share = (secant - z) / width;
         if (released && std::abs(width) < kReleased * range) return std::nullopt;
         const bool inside = !released && ++secants % 4 != 0 && share > 1e-3 && share < 1 - 1e-3;
@@ -62,7 +69,6 @@ struct Approach {
             level.separation + (N - level.force) * (level.separation - z) / (level.force - force);
         if (nearer(level)) {
             begin(level);
-            step *= 1.4;
         } else {
             beyond = level.separation;
             released = !down && is_free(level);
@@ -503,6 +509,8 @@ Level Path::approach_force(double N) {
     if (ends(level)) return level;
     Approach way{N, level.force < N, range, model_->closed() + 1e-6 * range};
     way.begin(level);
+    if (const double slope = model_->stiffness(Model::kForNewton); slope < 0)
+        way.secant = way.z + (N - way.force) / slope;
     history()->accept(level);
     jumps = level.jumps;
     double least = level.force, separation_of_least = level.separation;
