@@ -13,7 +13,7 @@ constexpr double kReleased = 1e-3;  // resolution of pulling off, relative to th
 // Steps of the approach to a force: the most by which one is longer than the last, and than the
 // secant.
 constexpr double kGrowth = 3, kBeyond = 1.02;
-constexpr int kTrials = 2;          // number of failures after which no trials are used
+constexpr int kTrials = 2;  // number of failures after which no trials are used
 
 // Evaluation of a level at z: it is the solution (or failed), or lies above it; `next` is the next
 // separation by Newton's method, -Infinity: none.
@@ -25,7 +25,9 @@ struct Verdict {
 // Near N = 0 the force of bodies that attract is the difference of pressure and attraction, and no
 // more exact than these.
 bool has_force(const Level& level, double N, double tolerance) {
-    const double pulled = std::abs(level.pixels.tension) * (level.area + level.cohesive_area);
+    double pulled =
+        std::abs(level.pixels.tension) * (level.area + std::fmax(level.cohesive_area, 0.0));
+    for (const double force : level.tractions.pulled) pulled += std::abs(force);
     return std::abs(level.force - N) <= tolerance * std::max(std::abs(N), pulled);
 }
 
@@ -40,7 +42,7 @@ struct Approach {
     bool free = false, released = false;  // nothing attracts at z, or beyond
     int secants = 0;
 
-    static bool is_free(const Level& l) { return l.contacts == 0 && l.cohesive_area == 0; }
+    static bool is_free(const Level& l) { return l.contacts == 0 && !(l.cohesive_area > 0); }
     void begin(const Level& level) {
         z = level.separation;
         force = level.force;
@@ -478,10 +480,19 @@ Level Path::search_force(double N) {
 // N is larger than the present force, otherwise away. If no level has it, the result is that of the
 // smallest force, with Fallback::held.
 Level Path::follow_to_force(double N) {
+    // Where the smallest force is reached, less than this share from it.
+    constexpr double near_least = 1e-7;
     const State before = state();
     const auto take_back = [&] { restore_history(before); };
     try {
         Level level = approach_force(N);
+        if (level.fallback == Fallback::held &&
+            level.force > (1 - near_least) * level.least_force) {
+            take_back();
+            level = approach_force((1 - near_least) * level.least_force);
+            level.fallback = Fallback::held;
+            level.converged = false;
+        }
         if (!level.converged && level.fallback != Fallback::held) take_back();
         return level;
     } catch (...) {
@@ -495,6 +506,7 @@ Level Path::approach_force(double N) {
     const double range = history()->attraction();
     std::int32_t iterations = 0, jumps = 0;
     std::int64_t products = 0;
+    double least_on_path = 0;
     const auto solve = [&](double z, bool trial) {
         Level there = model_->solve(z, trial);
         there.iterations = iterations += there.iterations;
@@ -511,34 +523,32 @@ Level Path::approach_force(double N) {
     way.begin(level);
     if (const double slope = model_->stiffness(Model::kForNewton); slope < 0)
         way.secant = way.z + (N - way.force) / slope;
-    history()->accept(level);
-    jumps = level.jumps;
-    double least = level.force, separation_of_least = level.separation;
-    std::vector<double> history_of_least = history()->write();
-    for (;;) {
-        const std::optional<double> z = way.next();
-        if (!z) {
-            history()->read(history_of_least);
-            level = solve(separation_of_least, false);
-            level.fallback = Fallback::held;
-            level.converged = false;
-            return level;
-        }
+    State least;
+    const auto accept = [&] {
+        history()->accept(level);
+        jumps = level.jumps;
+        if (std::isfinite(least.force) && level.force >= least.force) return;
+        least.force = level.force;
+        least.separation = level.separation;
+        least.history = history()->write();
+    };
+    accept();
+    while (const std::optional<double> z = way.next()) {
         level = solve(*z, true);
         const bool nearer = way.nearer(level);
         if (level.provisional && (nearer || ends(level))) level = solve(*z, false);
         if (ends(level)) return level;
         if (nearer && *z == way.lowest) refuse_closing(N, level);
         way.note(level);
-        if (!nearer) continue;
-        history()->accept(level);
-        jumps = level.jumps;
-        if (level.force < least) {
-            least = level.force;
-            separation_of_least = level.separation;
-            history_of_least = history()->write();
-        }
+        least_on_path = level.least_force;
+        if (nearer) accept();
     }
+    history()->read(least.history);
+    level = solve(least.separation, false);
+    level.least_force = least_on_path;
+    level.fallback = Fallback::held;
+    level.converged = false;
+    return level;
 }
 
 }  // namespace rsc

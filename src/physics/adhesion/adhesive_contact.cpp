@@ -44,7 +44,7 @@ public:
     double force_at_most(double) override { return 0; }
 
 private:
-    double attraction() const override { return path_->options.adhesion.range; }
+    double attraction() const override { return path_->longest_pull(); }
     void accept(Level&) override {
         path_->accepted = path_->now;
         path_->accepted.jumps = 0;

@@ -70,16 +70,15 @@ void AdhesivePath::find_members(double lowest, const std::vector<int>& attached)
         find_members_of_motion(fresh);
     } else {
         const std::size_t last = ranking.above(covered, fresh);
-        for (std::size_t r = 0; r < last; ++r)
-            add_member(ranking[r].asperity, ranking[r].height);
+        for (std::size_t r = 0; r < last; ++r) add_member(ranking[r].asperity, ranking[r].height);
     }
     std::vector<char> member(asperities.size(), 0);
     for (const int i : set.asperity) member[at(i)] = 1;
     for (const int i : attached) {
         if (member[at(i)]) continue;
         fresh.push_back(i);
-        add_member(i, indenter.clearance(asperities.x[at(i)], asperities.y[at(i)],
-                                         asperities.z[at(i)]));
+        add_member(
+            i, indenter.clearance(asperities.x[at(i)], asperities.y[at(i)], asperities.z[at(i)]));
     }
     sticking.prepare(fresh);
     set.g0.resize(clearance.size());
@@ -211,6 +210,14 @@ bool AdhesivePath::begin(double target) {
     }
     lost_way = !cover(lowest, now.asperity, now.s);
     return true;
+}
+
+double AdhesivePath::longest_pull() {
+    if (ranking.empty()) return 0;
+    std::vector<int> fresh;
+    (void)ranking.above(std::nextafter(ranking.highest(), -kInfinity), fresh);
+    sticking.prepare(fresh);
+    return -sticking.lets_go(ranking[0].asperity);
 }
 
 bool AdhesivePath::small(int position) const {
@@ -395,7 +402,6 @@ bool AdhesivePath::follow(double target) {
     double blocked_at = kNotComputed;  // where the last step that failed would have ended
     const double direction = target > here.Z ? 1 : -1;
     for (long guard = 0; here.Z != target && !lost_way; ++guard) {
-        if(getenv("DBG")) fprintf(stderr,"Z %.12g n %zu set %d lost %g E %g\n",here.Z,here.active.size(),set.size(),now.lost,now.most_energy);
         if (here.active.empty() && direction > 0 && !motion) return false;
         const double rest = std::abs(target - here.Z);
         const Step step = next_step(
@@ -410,7 +416,6 @@ bool AdhesivePath::follow(double target) {
         Point there = predicted(Z, step.jump);
         Found found = descend(there, step.jump, Z == target ? 0.0 : kOnTheWay);
         held.clear();
-        if(getenv("DBG")) fprintf(stderr,"   step %g jump %d ahead %g found %d n %zu steps %d blocked %g\n",step.length,step.jump,step.ahead,int(found),there.active.size(),steps,blocked_at);
         if (found == Found::raised) {
             covered = kInfinity;
             products->set_active(here.active);
@@ -454,7 +459,7 @@ bool AdhesivePath::accept(Point there, const Step& step) {
     } else {
         jumps += static_cast<int>(changed.size());
         for (const int position : changed)
-            {now.lost += sticking.loss(at_place(position), attaches(position)); if(std::isnan(now.lost)) {fprintf(stderr,"NAN %d %d u %g %g\n",at_place(position),attaches(position),sticking.lets_go(at_place(position)),sticking.least(at_place(position)));exit(3);}}
+            now.lost += sticking.loss(at_place(position), attaches(position));
     }
     here = std::move(there);
     double energy = 0;

@@ -91,6 +91,8 @@ struct AdhesivePath : ContactBodies {
     bool begin(double target);
     bool follow(double target);
     Past past() const;
+    // Penetration by which the highest asperity is pulled out before it detaches.
+    double longest_pull();
     bool move(double x0, double y0);
     bool stand();
 
