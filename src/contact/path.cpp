@@ -25,8 +25,9 @@ struct Verdict {
 // Near N = 0 the force of bodies that attract is the difference of pressure and attraction, and no
 // more exact than these.
 bool has_force(const Level& level, double N, double tolerance) {
-    double pulled =
-        std::abs(level.pixels.tension) * (level.area + std::fmax(level.cohesive_area, 0.0));
+    double pulled = 0;
+    for (const auto* pressures : {&level.pixels.pressure, &level.pixels.attraction})
+        for (const double p : *pressures) pulled += std::abs(p) * level.pixels.dx * level.pixels.dy;
     for (const double force : level.tractions.pulled) pulled += std::abs(force);
     return std::abs(level.force - N) <= tolerance * std::max(std::abs(N), pulled);
 }

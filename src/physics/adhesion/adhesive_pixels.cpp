@@ -11,19 +11,43 @@ namespace {
 
 // Smallest ratio of the cohesive length to the side of a pixel, and that of accurate forces.
 constexpr double kCoarsest = 0.5, kFine = 4;
-// Largest error of the work of a step, relative to w times the area that attracts: beyond it the
-// step is divided, at once into this number of pieces at most, and never below this share of a
-// level's way.
-constexpr double kWorkShare = 0.003, kMostPieces = 8, kShortest = 1.0 / 4096;
-constexpr double kJump = 0.1;  // least dissipated energy of a jump, relative to w times its area
-constexpr double kFewest = 8;  // and least number of its points
+// Energy that a step between separations may seem to lose, relative to w times the area that
+// attracts: if it seems to lose more, it contains a jump or its trapezoidal work is not accurate,
+// and it is divided until it is this share of a level's way.
+constexpr double kLossShare = 1e-3, kShortest = 1.0 / 4096;
+constexpr std::size_t kFewest = 8;    // least number of points of a jump, if there are several
 constexpr double kInnerError = 1e-3;  // error of products in iterations
-// Number of renewals after which pixels no longer leave the attracting set, so that the iteration
-// ends; and largest number.
-constexpr int kQuick = 200, kMost = 2000;
+constexpr double kEarly = 0.1;        // error of pressures relative to the change of the attraction
+constexpr int kMost = 2000;           // renewals of the attraction
 // Longest piece of a way of the tip: change of the clearances of attracting points relative to z0,
 // and number of pixel sides.
 constexpr double kPiece = 0.25, kPieceSides = 0.25;
+
+// Integral of the positive part of a linear function over a triangle of unit area, from its values
+// at the corners, and the derivatives with respect to these.
+struct Linear {
+    double integral = 0;
+    std::array<double, 3> share{};
+};
+Linear positive_part(const std::array<double, 3>& d) {
+    const auto positive = std::count_if(d.begin(), d.end(), [](double value) { return value > 0; });
+    Linear whole{(d[0] + d[1] + d[2]) / 3, {1.0 / 3, 1.0 / 3, 1.0 / 3}};
+    if (positive == 0) return {};
+    if (positive == 3) return whole;
+    // The part of one corner, which has another sign than the others.
+    std::size_t alone = 0;
+    while ((d[alone] > 0) != (positive == 1)) ++alone;
+    const std::size_t next = (alone + 1) % 3, last = (alone + 2) % 3;
+    const double a = d[alone] / (d[alone] - d[next]), b = d[alone] / (d[alone] - d[last]);
+    Linear part{a * b * d[alone] / 3, {}};
+    part.share[alone] = a * b * (3 - a - b) / 3;
+    part.share[next] = a * b * a / 3;
+    part.share[last] = a * b * b / 3;
+    if (positive == 1) return part;
+    for (std::size_t k = 0; k < 3; ++k) whole.share[k] -= part.share[k];
+    whole.integral -= part.integral;
+    return whole;
+}
 
 }  // namespace
 
@@ -92,12 +116,11 @@ void AdhesivePixels::set_clearances() {
 
 // No level, and no point attracts.
 void AdhesivePixels::forget() {
-    accepted = {};
+    accepted = now = {};
     tried.reset();
     margin = bulged = 0;
-    for (std::vector<double>* values : {&q, &gap_before, &p_before})
+    for (std::vector<double>* values : {&q, &share, &gap_before, &p_before})
         values->assign(clearance.size(), 0.0);
-    on.assign(clearance.size(), 0);
 }
 
 // Selects the points whose gap can be below z0 if points are raised by at most the margin and
@@ -108,7 +131,7 @@ void AdhesivePixels::gather(double Z) {
     for (int j = 0; j < heights.ny; ++j)
         for (int i = 0; i < heights.nx; ++i) {
             const std::int32_t k = place({i, j});
-            if (flats || on[at(k)] || clearance[at(k)] > Z - z0 - margin - bulged)
+            if (flats || share[at(k)] > 0 || clearance[at(k)] > Z - z0 - margin - bulged)
                 reach.push_back(k), pixels.push_back({i, j});
             else
                 q[at(k)] = 0;
@@ -131,14 +154,54 @@ std::vector<double> AdhesivePixels::deflections(const std::vector<double>& p) {
     return flats->deflections(where, some);
 }
 
-// Solves for q with fixed attracting points. Returns false if it does not converge.
-bool AdhesivePixels::press(double Z, Level& level) {
+// The traction s0 acts where the gap, linear between the points, is below z0. Returns s0^-1 times
+// the integral of the attraction over the area, in pixels: of the positive part of z0 - gap; and the
+// shares of the points, its derivatives with respect to z0 - gap there. Of the two ways in which
+// four points make two triangles the mean is taken, so that mirrored maps have mirrored results.
+double AdhesivePixels::attraction(std::vector<double>& shares) const {
+    shares.assign(gap.size(), 0.0);
+    double sum = 0;
+    const auto index = [&](int i, int j) {
+        const auto inside = [&](int k, int n) {
+            if (flats) return k < 0 ? k + n : k >= n ? k - n : k;
+            return std::clamp(k, 0, n - 1);
+        };
+        return at(place({inside(i, heights.nx), inside(j, heights.ny)}));
+    };
+    const int first = flats ? 0 : -1;
+    for (int j = first; j < heights.ny; ++j)
+        for (int i = first; i < heights.nx; ++i) {
+            const std::array corner = {index(i, j), index(i + 1, j), index(i, j + 1),
+                                       index(i + 1, j + 1)};
+            std::array<double, 4> d;
+            for (std::size_t c = 0; c < 4; ++c) d[c] = z0 - gap[corner[c]];
+            const auto [least, most] = std::minmax_element(d.begin(), d.end());
+            if (!(*most > 0)) continue;
+            if (*least >= 0) {
+                for (std::size_t c = 0; c < 4; ++c) {
+                    shares[corner[c]] += 0.25;
+                    sum += 0.25 * d[c];
+                }
+                continue;
+            }
+            for (const auto& [a, b, c] : {std::array{0, 1, 2}, {1, 3, 2}, {0, 1, 3}, {0, 3, 2}}) {
+                const std::array where = {corner[at(a)], corner[at(b)], corner[at(c)]};
+                const Linear part = positive_part({d[at(a)], d[at(b)], d[at(c)]});
+                sum += 0.25 * part.integral;
+                for (std::size_t k = 0; k < 3; ++k) shares[where[k]] += 0.25 * part.share[k];
+            }
+        }
+    return sum;
+}
+
+// Solves for q under a fixed attraction. Returns false if it does not converge.
+bool AdhesivePixels::press(double Z, double tolerance, Level& level) {
     ElementsOutcome outcome;
     if (flats) {
         for (std::size_t k = 0; k < reach.size(); ++k)
             raised.row(reach[k] / heights.nx)[reach[k] % heights.nx] = clearance[k] + lift[k];
         flats->heights_changed();
-        outcome = flats->approach(Z, options.tolerance, options.max_iterations);
+        outcome = flats->approach(Z, tolerance, options.max_iterations);
         std::fill(q.begin(), q.end(), 0.0);
         for (std::size_t k = 0; k < flats->pixels().size(); ++k)
             q[at(flats->pixels()[k].y) * at(heights.nx) + at(flats->pixels()[k].x)] =
@@ -153,7 +216,7 @@ bool AdhesivePixels::press(double Z, Level& level) {
                 pixels.push_back(pixel_at(reach[k])), g0.push_back(g), p.push_back(here);
             here = 0;
         }
-        outcome = spots->solve(pixels, g0, options.tolerance, options.max_iterations, p);
+        outcome = spots->solve(pixels, g0, tolerance, options.max_iterations, p);
         for (std::size_t k = 0; k < p.size(); ++k) q[at(place(pixels[k]))] = p[k];
     }
     level.iterations += outcome.iterations;
@@ -162,14 +225,18 @@ bool AdhesivePixels::press(double Z, Level& level) {
     return outcome.converged;
 }
 
-// Finds the state at Z by renewing the attracting points, starting from the present ones. Returns
-// false if it does not converge.
+// Finds the state at Z by renewing the attraction from the present one. As a stronger attraction
+// only closes gaps and so becomes stronger still, the states on the way are all on one side of the
+// nearest equilibrium if the separation has changed, and do not pass it. Returns false if it does
+// not converge.
 bool AdhesivePixels::renew(double Z, Level& level) {
     gather(Z);
+    std::vector<double> next;
+    double tolerance = std::max(options.tolerance, kEarly * kEarly);
     for (int round = 0; round < kMost; ++round) {
         stopping_point();
         std::vector<double> p(reach.size());
-        for (std::size_t k = 0; k < reach.size(); ++k) p[k] = on[at(reach[k])] ? s0 : 0.0;
+        for (std::size_t k = 0; k < reach.size(); ++k) p[k] = s0 * share[at(reach[k])];
         lift = deflections(p);
         const double most = lift.empty() ? 0.0 : *std::max_element(lift.begin(), lift.end());
         if (!flats && most > margin) {
@@ -177,7 +244,7 @@ bool AdhesivePixels::renew(double Z, Level& level) {
             gather(Z);
             continue;
         }
-        if (!press(Z, level)) return false;
+        if (!press(Z, tolerance, level)) return false;
         if (const double most_bulged = bulge * pixel * std::accumulate(q.begin(), q.end(), 0.0);
             most_bulged > bulged) {
             bulged = 1.5 * most_bulged;
@@ -186,24 +253,25 @@ bool AdhesivePixels::renew(double Z, Level& level) {
         }
         for (std::size_t k = 0; k < reach.size(); ++k) p[k] = q[at(reach[k])];
         p = deflections(p);
-        long changed = 0;
-        for (std::size_t k = 0; k < reach.size(); ++k) {
-            const std::size_t i = at(reach[k]);
-            gap[i] = p[k] - (lift[k] + clearance[i] - Z);
-            char& attracts = on[i];
-            const char next = gap[i] < z0 || (round > kQuick && attracts);
-            changed += next != attracts;
-            attracts = next;
+        for (std::size_t k = 0; k < reach.size(); ++k)
+            gap[at(reach[k])] = p[k] - (lift[k] + clearance[at(reach[k])] - Z);
+        attracted = attraction(next);
+        double change = 0, sum = 0;
+        for (const std::int32_t i : reach) {
+            change += std::abs(next[at(i)] - share[at(i)]);
+            sum += next[at(i)];
         }
-        if (changed == 0) return true;
+        const bool exact = tolerance <= options.tolerance;
+        if (change <= options.tolerance * sum && exact) return true;
+        tolerance = std::clamp(kEarly * change / sum, options.tolerance, tolerance);
+        share.swap(next);
     }
     return false;
 }
 
 Level AdhesivePixels::step(double Z) {
     now = accepted;
-    std::fill(on.begin(), on.end(), char(0));
-    for (const std::int32_t k : accepted.attracting) on[at(k)] = 1;
+    restore(accepted);
     Level level;
     level.separation = Z;
     level.method = Method::automatic;
@@ -213,64 +281,55 @@ Level AdhesivePixels::step(double Z) {
     level.candidates = static_cast<std::int32_t>(reach.size());
     now.separation = Z;
     now.attracting.clear();
+    now.share.clear();
     std::vector<Pixel> touching;
     std::vector<double> pressures;
-    double twice = 0, attraction = 0, tension = 0;
-    long cohesive = 0;
+    double twice = 0, cohesive = 0;
+    std::vector<std::int32_t> sorted = reach;
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t k = 0; k < sorted.size() && converged; ++k)
+        if (const std::size_t i = at(sorted[k]); share[i] > 0) {
+            now.attracting.push_back(sorted[k]);
+            now.share.push_back(share[i]);
+        }
     for (std::size_t k = 0; k < reach.size() && converged; ++k) {
         const std::size_t i = at(reach[k]);
         const Pixel here = pixel_at(reach[k]);
         twice += pressure(i) * (gap[i] + clearance[i] - Z);
-        if (q[i] > 0) touching.push_back(here), pressures.push_back(pressure(i));
-        if (!on[i]) continue;
-        now.attracting.push_back(reach[k]);
-        attraction += s0 * (z0 - gap[i]);
-        if (!(q[i] > 0))
-            tension += s0, ++cohesive,
-                level.pixels.cohesive.push_back(here.y * heights.nx + here.x);
+        if (q[i] > 0) {
+            touching.push_back(here);
+            pressures.push_back(pressure(i));
+        } else if (share[i] > 0) {
+            cohesive += share[i];
+            level.pixels.cohesive.push_back(here.y * heights.nx + here.x);
+            level.pixels.attraction.push_back(-s0 * share[i]);
+        }
     }
-    std::sort(now.attracting.begin(), now.attracting.end());
     add_pixels(level, frame, indenter, kInfinity, touching, std::move(pressures), s0);
     number_by_map(level);
-    level.pixels.tension = -s0;
-    level.force -= pixel * tension;
-    level.cohesive_area = pixel * static_cast<double>(cohesive);
+    level.force -= pixel * s0 * cohesive;
+    level.cohesive_area = pixel * cohesive;
     level.cohesive_resolution = resolution();
-    energy = pixel * (0.5 * twice - attraction);
-    if (accepted.separation < kInfinity)
-        now.work += 0.5 * (accepted.force + level.force) * (accepted.separation - Z);
-    else
-        now.work = energy;
+    now.energy = pixel * (0.5 * twice - s0 * attracted);
     now.force = level.force;
     now.least_force = std::min(now.least_force, level.force);
     level.least_force = now.least_force;
-    level.energy_lost = now.lost = now.work - energy;
-    if (converged) level.jumps = accepted.jumps + count_jumps();
+    level.jumps = accepted.jumps;
+    level.energy_lost = accepted.lost;
     level.converged = converged;
-    if (!converged) level.residual = 1;  // no state: Contact::finish() leaves no values
+    if (!converged) level.residual = 1;  // no state: Path::finish() leaves no values
     return level;
 }
 
-// By point i between the accepted state and this one, per unit of area; see count_jumps().
-double AdhesivePixels::dissipated(std::size_t i) const {
-    const auto psi = [&](double w) { return -s0 * std::max(z0 - w, 0.0); };
-    return -0.5 * (p_before[i] + pressure(i)) * (gap[i] - gap_before[i]) -
-           (psi(gap[i]) - psi(gap_before[i]));
+// The work of the step from the accepted state, by the trapezoidal rule, minus the change of the
+// energy.
+double AdhesivePixels::lost_in_step() const {
+    if (!(accepted.separation < kInfinity)) return 0;
+    return 0.5 * (accepted.force + now.force) * (accepted.separation - now.separation) -
+           (now.energy - accepted.energy);
 }
 
-// Largest error of the trapezoidal work of the step: what points that changed their state seem to
-// have dissipated, an artefact unless they jumped, or what the place of a jump within the step can
-// change.
-double AdhesivePixels::work_error() const {
-    const double width = std::abs(accepted.separation - now.separation);
-    if (!(width < kInfinity)) return 0;
-    double sum = 0;
-    for (const std::int32_t k : reach) sum += std::abs(dissipated(at(k)));
-    return std::min(pixel * sum, 0.5 * width * std::abs(now.force - accepted.force));
-}
-
-// In as many steps as the work needs. The error of a step falls with the third power of its length,
-// but in proportion to it if there is a jump.
+// A step that seems to lose energy is divided, until it does not, or is so short that it is a jump.
 Level AdhesivePixels::solve(double Z, bool trial) {
     std::optional<Level> done = std::exchange(tried, std::nullopt);
     const bool completes = !trial && done && done->separation == Z;
@@ -281,77 +340,79 @@ Level AdhesivePixels::solve(double Z, bool trial) {
         level.provisional = true;
         return level;
     }
-    const double shortest = kShortest * std::abs(Z - accepted.separation);
-    const auto pieces = [&] {
-        const double most =
-            kWorkShare * options.adhesion.work * pixel *
-            static_cast<double>(std::max(now.attracting.size(), accepted.attracting.size()));
-        const double error = !level.converged ? 0 : work_error();
-        if (!(error > most) || !(std::abs(now.separation - accepted.separation) > shortest))
-            return 1;
-        return static_cast<int>(std::ceil(std::min(std::sqrt(error / most), kMostPieces)));
+    const double way = std::abs(Z - accepted.separation), shortest = kShortest * way;
+    const auto certain = [&] {
+        const double attracting =
+            std::accumulate(now.share.begin(), now.share.end(), 0.0) +
+            std::accumulate(accepted.share.begin(), accepted.share.end(), 0.0);
+        return !level.converged || std::abs(lost_in_step()) <= kLossShare * options.adhesion.work *
+                                                                   pixel * 0.5 * attracting;
     };
-    if (pieces() == 1) return level;
+    if (certain()) return level;
     const Past before = accepted;
     const std::vector<double> gaps = gap_before, pressures = p_before;
     std::vector<double> ends = {Z};  // of steps, the next one last
     std::int32_t iterations = level.iterations;
     std::int64_t products = level.products;
-    const auto restore = [&] { accepted = before, gap_before = gaps, p_before = pressures; };
+    const auto take_back = [&] {
+        accepted = before;
+        gap_before = gaps;
+        p_before = pressures;
+    };
     try {
         while (true) {
-            if (const int n = pieces(); n > 1) {
-                const double end = ends.back(), way = accepted.separation - end;
-                for (int k = 1; k < n; ++k) ends.push_back(end + way * k / n);
+            const bool smooth = certain();
+            if (!smooth && std::abs(now.separation - accepted.separation) > shortest) {
+                ends.push_back(0.5 * (accepted.separation + ends.back()));
             } else {
                 if (!level.converged) {  // in one step it converges
-                    restore();
+                    take_back();
                     return step(Z);
+                }
+                if (!smooth) {
+                    now.lost += std::max(lost_in_step(), 0.0);
+                    level.energy_lost = now.lost;
+                    level.jumps += count_jumps();
                 }
                 ends.pop_back();
                 if (ends.empty()) break;
-                accepted = now, accepted.jumps = level.jumps;
+                accepted = now;
+                accepted.jumps = level.jumps;
                 keep();
             }
             level = step(ends.back());
-            iterations += level.iterations, products += level.products;
+            iterations += level.iterations;
+            products += level.products;
         }
     } catch (...) {
-        restore();
+        take_back();
         throw;
     }
-    restore();
-    level.iterations = iterations, level.products = products;
+    take_back();
+    level.iterations = iterations;
+    level.products = products;
     return level;
 }
 
-// Number of connected sets of points that began or ceased to attract since the accepted level and
-// dissipated energy by it. Between two states point k dissipates -(p + p')(w' - w)/2 - (psi' - psi)
-// a unit area, where psi = -s0 (z0 - w) if it attracts and 0 otherwise: with trapezoidal work these
-// add up exactly to energy_lost, because deflections are linear in the pressures. A point that
-// crosses z0 smoothly dissipates at most half of s0 times the change of its gap, in the middle of a
-// step nothing. Sets of fewer points, or of less dissipation per area than kJump w, are not
-// counted: edges advance and recede from pixel to pixel in small jumps.
+// Number of connected sets of points that began or ceased to attract in the step: 1, or that of the
+// sets of at least kFewest points if this is larger.
 std::int32_t AdhesivePixels::count_jumps() const {
-    if (!(accepted.separation < kInfinity)) return 0;
     std::vector<Pixel> where;
-    std::vector<double> lost;
-    for (const std::int32_t k : reach) {
-        const std::size_t i = at(k);
-        if ((p_before[i] != 0) == on[i]) continue;
-        where.push_back(pixel_at(k));
-        lost.push_back(dissipated(i));
-    }
+    for (const std::int32_t k : reach)
+        if ((p_before[at(k)] != 0) != (pressure(at(k)) != 0)) where.push_back(pixel_at(k));
     std::vector<int> set;
     const int sets = connected_sets(where, set, flats ? heights.nx : 0, flats ? heights.ny : 0);
-    std::vector<double> sum(at(sets)), points(at(sets));
-    for (std::size_t c = 0; c < where.size(); ++c)
-        sum[at(set[c])] += lost[c], points[at(set[c])] += 1;
-    const double least = kJump * options.adhesion.work;
-    std::int32_t jumps = 0;
-    for (std::size_t c = 0; c < sum.size(); ++c)
-        jumps += points[c] >= kFewest && sum[c] > least * points[c];
-    return jumps;
+    std::vector<std::size_t> points(at(sets));
+    for (const int of : set) ++points[at(of)];
+    const auto large =
+        std::count_if(points.begin(), points.end(), [](std::size_t n) { return n >= kFewest; });
+    return std::max(1, static_cast<std::int32_t>(large));
+}
+
+void AdhesivePixels::restore(const Past& past) {
+    std::fill(share.begin(), share.end(), 0.0);
+    for (std::size_t k = 0; k < past.attracting.size(); ++k)
+        share[at(past.attracting[k])] = past.share[k];
 }
 
 // Stores gaps and pressures of the last level, the accepted one.
@@ -440,8 +501,7 @@ void AdhesivePixels::follow() {
     for (std::size_t i = 0; i < before.size(); ++i)
         if (const double p = p_before[i] + pressure(i); p != 0)
             twice += p * (clearance[i] - before[i]);
-    now.work += 0.5 * pixel * twice;
-    now.lost = now.work - energy;
+    now.lost += std::max(0.5 * pixel * twice - (now.energy - accepted.energy), 0.0);
     now.jumps = level.jumps;
     accepted = now;
     keep();
