@@ -49,6 +49,87 @@ Linear positive_part(const std::array<double, 3>& d) {
     return whole;
 }
 
+// Iterates of a map x -> f(x), accelerated by combining the last ones so that f(x) - x is smallest
+// (Anderson, J. ACM 12, 1965). Where this grows nevertheless, the combination begins anew. Where it
+// stays above its smallest value, there is no fixed point nearby, and the iterates are f(x) until it
+// has become smaller.
+class Iterates {
+public:
+    // Sets x to the next iterate.
+    void advance(const std::vector<double>& fx, std::vector<double>& x) {
+        constexpr std::size_t most = 5;
+        constexpr int patience = 6;
+        constexpr double growth = 1.5, fresh = 1e-8, calmer = 0.1;
+        std::vector<double> r(x.size());
+        double size = 0;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            r[i] = fx[i] - x[i];
+            size += r[i] * r[i];
+        }
+        since_best_ = size < best_ ? 0 : since_best_ + 1;
+        if (size < (alone_ ? calmer : 1.0) * best_) {
+            best_ = size;
+            alone_ = false;
+        }
+        alone_ = alone_ || since_best_ == patience;
+        if (alone_ || size > growth * size_) {
+            dr_.clear();
+            dfx_.clear();
+        } else if (!r_.empty()) {
+            for (std::size_t i = 0; i < x.size(); ++i) {
+                r_[i] = r[i] - r_[i];
+                fx_[i] = fx[i] - fx_[i];
+            }
+            dr_.push_back(std::move(r_));
+            dfx_.push_back(std::move(fx_));
+        }
+        if (dr_.size() > most) {
+            dr_.erase(dr_.begin());
+            dfx_.erase(dfx_.begin());
+        }
+        x = fx;
+        // Gram and Schmidt, from the latest difference on.
+        std::vector<std::vector<double>> q, p;
+        std::vector<double> rest = r;
+        for (std::size_t j = dr_.size(); j-- > 0;) {
+            std::vector<double> v = dr_[j], w = dfx_[j];
+            const double whole = product(v, v);
+            for (std::size_t k = 0; k < q.size(); ++k) {
+                const double along = product(v, q[k]);
+                add(v, -along, q[k]);
+                add(w, -along, p[k]);
+            }
+            const double norm2 = product(v, v);
+            if (!(norm2 > fresh * whole)) continue;
+            const double per = 1 / std::sqrt(norm2);
+            for (double& value : v) value *= per;
+            for (double& value : w) value *= per;
+            const double share = product(rest, v);
+            add(rest, -share, v);
+            add(x, -share, w);
+            q.push_back(std::move(v));
+            p.push_back(std::move(w));
+        }
+        for (double& value : x) value = std::clamp(value, 0.0, 1.0);
+        r_ = std::move(r);
+        fx_ = fx;
+        size_ = size;
+    }
+
+private:
+    static double product(const std::vector<double>& a, const std::vector<double>& b) {
+        return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+    }
+    static void add(std::vector<double>& to, double factor, const std::vector<double>& of) {
+        for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * of[i];
+    }
+    double size_ = kInfinity, best_ = kInfinity;
+    int since_best_ = 0;
+    bool alone_ = false;
+    std::vector<double> r_, fx_;
+    std::vector<std::vector<double>> dr_, dfx_;
+};
+
 }  // namespace
 
 void require_resolved(double E_star, const Adhesion& adhesion, double step) {
@@ -232,6 +313,7 @@ bool AdhesivePixels::press(double Z, double tolerance, Level& level) {
 bool AdhesivePixels::renew(double Z, Level& level) {
     gather(Z);
     std::vector<double> next;
+    Iterates iterates;
     double tolerance = std::max(options.tolerance, kEarly * kEarly);
     for (int round = 0; round < kMost; ++round) {
         stopping_point();
@@ -261,10 +343,12 @@ bool AdhesivePixels::renew(double Z, Level& level) {
             change += std::abs(next[at(i)] - share[at(i)]);
             sum += next[at(i)];
         }
-        const bool exact = tolerance <= options.tolerance;
-        if (change <= options.tolerance * sum && exact) return true;
-        tolerance = std::clamp(kEarly * change / sum, options.tolerance, tolerance);
-        share.swap(next);
+        if(getenv("DBG"))fprintf(stderr,"  round %d change %.3g tol %.2g it %d prod %ld\n",round,change/sum,tolerance,level.iterations,long(level.products));
+        if (change <= kEarly * options.tolerance * sum && tolerance <= options.tolerance)
+            return true;
+        tolerance = sum > 0 ? std::clamp(kEarly * change / sum, options.tolerance, tolerance)
+                            : options.tolerance;
+        iterates.advance(next, share);
     }
     return false;
 }
@@ -277,7 +361,7 @@ Level AdhesivePixels::step(double Z) {
     level.method = Method::automatic;
     gap.resize(clearance.size());
     for (std::size_t i = 0; i < gap.size(); ++i) gap[i] = Z - clearance[i];
-    const bool converged = renew(Z, level);
+    const bool converged = renew(Z, level);if(getenv("DBG"))fprintf(stderr,"step Z %g from %g reach %zu\n",Z,accepted.separation,reach.size());
     level.candidates = static_cast<std::int32_t>(reach.size());
     now.separation = Z;
     now.attracting.clear();
@@ -341,12 +425,19 @@ Level AdhesivePixels::solve(double Z, bool trial) {
         return level;
     }
     const double way = std::abs(Z - accepted.separation), shortest = kShortest * way;
+    // The energy that a step may seem to lose, or that the place of a jump in it may change.
+    const auto negligible = [&] {
+        return kLossShare * options.adhesion.work * pixel *
+               std::max(std::accumulate(now.share.begin(), now.share.end(), 0.0),
+                        std::accumulate(accepted.share.begin(), accepted.share.end(), 0.0));
+    };
     const auto certain = [&] {
-        const double attracting =
-            std::accumulate(now.share.begin(), now.share.end(), 0.0) +
-            std::accumulate(accepted.share.begin(), accepted.share.end(), 0.0);
-        return !level.converged || std::abs(lost_in_step()) <= kLossShare * options.adhesion.work *
-                                                                   pixel * 0.5 * attracting;
+        return !level.converged || std::abs(lost_in_step()) <= negligible();
+    };
+    const auto short_enough = [&] {
+        const double length = std::abs(now.separation - accepted.separation);
+        return length <= shortest ||
+               0.5 * length * std::abs(now.force - accepted.force) <= negligible();
     };
     if (certain()) return level;
     const Past before = accepted;
@@ -362,7 +453,7 @@ Level AdhesivePixels::solve(double Z, bool trial) {
     try {
         while (true) {
             const bool smooth = certain();
-            if (!smooth && std::abs(now.separation - accepted.separation) > shortest) {
+            if (!smooth && !short_enough()) {
                 ends.push_back(0.5 * (accepted.separation + ends.back()));
             } else {
                 if (!level.converged) {  // in one step it converges
