@@ -18,6 +18,8 @@ constexpr double kLossShare = 1e-3, kShortest = 1.0 / 4096;
 constexpr std::size_t kFewest = 8;    // least number of points of a jump, if there are several
 constexpr double kInnerError = 1e-3;  // error of products in iterations
 constexpr double kEarly = 0.1;        // error of pressures relative to the change of the attraction
+constexpr double kSettled = 0.3;  // last change of the attraction relative to the tolerance
+constexpr double kProductError = 0.3;  // error of products relative to that of pressures
 constexpr int kMost = 2000;           // renewals of the attraction
 // Longest piece of a way of the tip: change of the clearances of attracting points relative to z0,
 // and number of pixel sides.
@@ -220,12 +222,17 @@ void AdhesivePixels::gather(double Z) {
     if (field && !pixels.empty()) field->set_pixels(pixels);
 }
 
-// K p at the points within reach.
-std::vector<double> AdhesivePixels::deflections(const std::vector<double>& p) {
+// K p at the points within reach, for pressures of this tolerance.
+std::vector<double> AdhesivePixels::deflections(const std::vector<double>& p, double tolerance) {
     std::vector<double> u(p.size());
     if (p.empty()) return u;
     if (!flats) {
-        field->apply(p.data(), u.data(), PixelProducts::Accuracy::full);
+        using enum PixelProducts::Accuracy;
+        const double most = kProductError * tolerance;
+        field->apply(p.data(), u.data(),
+                     field->error(inner) <= most     ? inner
+                     : field->error(between) <= most ? between
+                                                     : full);
         return u;
     }
     std::vector<Pixel> where;
@@ -319,7 +326,7 @@ bool AdhesivePixels::renew(double Z, Level& level) {
         stopping_point();
         std::vector<double> p(reach.size());
         for (std::size_t k = 0; k < reach.size(); ++k) p[k] = s0 * share[at(reach[k])];
-        lift = deflections(p);
+        lift = deflections(p, tolerance);
         const double most = lift.empty() ? 0.0 : *std::max_element(lift.begin(), lift.end());
         if (!flats && most > margin) {
             margin = 1.5 * most;
@@ -334,7 +341,7 @@ bool AdhesivePixels::renew(double Z, Level& level) {
             continue;
         }
         for (std::size_t k = 0; k < reach.size(); ++k) p[k] = q[at(reach[k])];
-        p = deflections(p);
+        p = deflections(p, tolerance);
         for (std::size_t k = 0; k < reach.size(); ++k)
             gap[at(reach[k])] = p[k] - (lift[k] + clearance[at(reach[k])] - Z);
         attracted = attraction(next);
@@ -344,7 +351,7 @@ bool AdhesivePixels::renew(double Z, Level& level) {
             sum += next[at(i)];
         }
         if(getenv("DBG"))fprintf(stderr,"  round %d change %.3g tol %.2g it %d prod %ld\n",round,change/sum,tolerance,level.iterations,long(level.products));
-        if (change <= kEarly * options.tolerance * sum && tolerance <= options.tolerance)
+        if (change <= kSettled * options.tolerance * sum && tolerance <= options.tolerance)
             return true;
         tolerance = sum > 0 ? std::clamp(kEarly * change / sum, options.tolerance, tolerance)
                             : options.tolerance;
@@ -353,9 +360,10 @@ bool AdhesivePixels::renew(double Z, Level& level) {
     return false;
 }
 
-Level AdhesivePixels::step(double Z) {
+// The level at Z next to the accepted state, or next to the attraction of another one.
+Level AdhesivePixels::step(double Z, const Past* start) {
     now = accepted;
-    restore(accepted);
+    restore(start ? *start : accepted);
     Level level;
     level.separation = Z;
     level.method = Method::automatic;
@@ -405,6 +413,13 @@ Level AdhesivePixels::step(double Z) {
     return level;
 }
 
+// Energy that a step may seem to lose without a jump, or that the place of a jump in it may change.
+double AdhesivePixels::negligible() const {
+    return kLossShare * options.adhesion.work * pixel *
+           std::max(std::accumulate(now.share.begin(), now.share.end(), 0.0),
+                    std::accumulate(accepted.share.begin(), accepted.share.end(), 0.0));
+}
+
 // The work of the step from the accepted state, by the trapezoidal rule, minus the change of the
 // energy.
 double AdhesivePixels::lost_in_step() const {
@@ -413,7 +428,44 @@ double AdhesivePixels::lost_in_step() const {
            (now.energy - accepted.energy);
 }
 
-// A step that seems to lose energy is divided, until it does not, or is so short that it is a jump.
+// Divides the step from the accepted state to this level, if it seems to lose energy, until it does
+// not, or is so short that it is a jump. Where Simpson's rule shows that it loses none, the state at
+// its end is the right one. If a part does not converge, `level` is that of the part.
+void AdhesivePixels::divide(Level& level, double shortest) {
+    const auto parts = [&](auto&& add) {
+        const std::int32_t iterations = level.iterations;
+        const std::int64_t products = level.products;
+        add();
+        level.iterations += iterations;
+        level.products += products;
+    };
+    const double lost = lost_in_step(), most = negligible(), Z = now.separation,
+                 length = std::abs(Z - accepted.separation);
+    if (!level.converged || std::abs(lost) <= most) return;
+    if (length <= shortest || 0.5 * length * std::abs(now.force - accepted.force) <= most) {
+        now.lost += std::max(lost, 0.0);
+        level.energy_lost = now.lost;
+        level.jumps += count_jumps();
+        return;
+    }
+    const Past end = now;
+    parts([&] { level = step(0.5 * (accepted.separation + Z)); });
+    if (!level.converged) return;
+    const double work =
+        (accepted.force + 4 * now.force + end.force) * (accepted.separation - Z) / 6;
+    if (std::abs(work - (end.energy - accepted.energy)) <= most) {
+        parts([&] { level = step(Z, &end); });
+        return;
+    }
+    divide(level, shortest);
+    if (!level.converged) return;
+    accepted = now;
+    accepted.jumps = level.jumps;
+    keep();
+    parts([&] { level = step(Z); });
+    divide(level, shortest);
+}
+
 Level AdhesivePixels::solve(double Z, bool trial) {
     std::optional<Level> done = std::exchange(tried, std::nullopt);
     const bool completes = !trial && done && done->separation == Z;
@@ -424,65 +476,22 @@ Level AdhesivePixels::solve(double Z, bool trial) {
         level.provisional = true;
         return level;
     }
-    const double way = std::abs(Z - accepted.separation), shortest = kShortest * way;
-    // The energy that a step may seem to lose, or that the place of a jump in it may change.
-    const auto negligible = [&] {
-        return kLossShare * options.adhesion.work * pixel *
-               std::max(std::accumulate(now.share.begin(), now.share.end(), 0.0),
-                        std::accumulate(accepted.share.begin(), accepted.share.end(), 0.0));
-    };
-    const auto certain = [&] {
-        return !level.converged || std::abs(lost_in_step()) <= negligible();
-    };
-    const auto short_enough = [&] {
-        const double length = std::abs(now.separation - accepted.separation);
-        return length <= shortest ||
-               0.5 * length * std::abs(now.force - accepted.force) <= negligible();
-    };
-    if (certain()) return level;
+    if (!level.converged) return level;
     const Past before = accepted;
     const std::vector<double> gaps = gap_before, pressures = p_before;
-    std::vector<double> ends = {Z};  // of steps, the next one last
-    std::int32_t iterations = level.iterations;
-    std::int64_t products = level.products;
     const auto take_back = [&] {
         accepted = before;
         gap_before = gaps;
         p_before = pressures;
     };
     try {
-        while (true) {
-            const bool smooth = certain();
-            if (!smooth && !short_enough()) {
-                ends.push_back(0.5 * (accepted.separation + ends.back()));
-            } else {
-                if (!level.converged) {  // in one step it converges
-                    take_back();
-                    return step(Z);
-                }
-                if (!smooth) {
-                    now.lost += std::max(lost_in_step(), 0.0);
-                    level.energy_lost = now.lost;
-                    level.jumps += count_jumps();
-                }
-                ends.pop_back();
-                if (ends.empty()) break;
-                accepted = now;
-                accepted.jumps = level.jumps;
-                keep();
-            }
-            level = step(ends.back());
-            iterations += level.iterations;
-            products += level.products;
-        }
+        divide(level, kShortest * std::abs(Z - accepted.separation));
     } catch (...) {
         take_back();
         throw;
     }
     take_back();
-    level.iterations = iterations;
-    level.products = products;
-    return level;
+    return level.converged ? level : step(Z);  // in one step it converges
 }
 
 // Number of connected sets of points that began or ceased to attract in the step: 1, or that of the

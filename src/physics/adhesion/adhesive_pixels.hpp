@@ -63,8 +63,10 @@ struct AdhesivePixels : CutMap {
     void restore(const Past& past);
     void move(double x0, double y0);
     void follow();
-    std::vector<double> deflections(const std::vector<double>& p);
-    Level step(double Z);
+    std::vector<double> deflections(const std::vector<double>& p, double tolerance);
+    Level step(double Z, const Past* start = nullptr);
+    double negligible() const;
+    void divide(Level& level, double shortest);
     double lost_in_step() const;
     Level solve(double Z, bool trial);
     std::optional<Level> tried;  // the present state is that of a trial from the accepted one
