@@ -18,9 +18,9 @@ constexpr double kLossShare = 1e-3, kShortest = 1.0 / 4096;
 constexpr std::size_t kFewest = 8;    // least number of points of a jump, if there are several
 constexpr double kInnerError = 1e-3;  // error of products in iterations
 constexpr double kEarly = 0.1;        // error of pressures relative to the change of the attraction
-constexpr double kSettled = 0.3;  // last change of the attraction relative to the tolerance
+constexpr double kSettled = 0.3;      // last change of the attraction relative to the tolerance
 constexpr double kProductError = 0.3;  // error of products relative to that of pressures
-constexpr int kMost = 2000;           // renewals of the attraction
+constexpr int kMost = 2000;            // renewals of the attraction
 // Longest piece of a way of the tip: change of the clearances of attracting points relative to z0,
 // and number of pixel sides.
 constexpr double kPiece = 0.25, kPieceSides = 0.25;
@@ -350,7 +350,6 @@ bool AdhesivePixels::renew(double Z, Level& level) {
             change += std::abs(next[at(i)] - share[at(i)]);
             sum += next[at(i)];
         }
-        if(getenv("DBG"))fprintf(stderr,"  round %d change %.3g tol %.2g it %d prod %ld\n",round,change/sum,tolerance,level.iterations,long(level.products));
         if (change <= kSettled * options.tolerance * sum && tolerance <= options.tolerance)
             return true;
         tolerance = sum > 0 ? std::clamp(kEarly * change / sum, options.tolerance, tolerance)
@@ -369,7 +368,7 @@ Level AdhesivePixels::step(double Z, const Past* start) {
     level.method = Method::automatic;
     gap.resize(clearance.size());
     for (std::size_t i = 0; i < gap.size(); ++i) gap[i] = Z - clearance[i];
-    const bool converged = renew(Z, level);if(getenv("DBG"))fprintf(stderr,"step Z %g from %g reach %zu\n",Z,accepted.separation,reach.size());
+    const bool converged = renew(Z, level);
     level.candidates = static_cast<std::int32_t>(reach.size());
     now.separation = Z;
     now.attracting.clear();
@@ -466,13 +465,12 @@ void AdhesivePixels::divide(Level& level, double shortest) {
     divide(level, shortest);
 }
 
+// A trial starts from the last one; its state may be another one than that which the path reaches.
 Level AdhesivePixels::solve(double Z, bool trial) {
-    std::optional<Level> done = std::exchange(tried, std::nullopt);
-    const bool completes = !trial && done && done->separation == Z;
-    Level level = completes ? std::move(*done) : step(Z);
-    if (completes) level.iterations = 0, level.products = 0;
+    const std::optional<Past> last = std::exchange(tried, std::nullopt);
+    Level level = step(Z, trial && last ? &*last : nullptr);
     if (trial) {
-        tried = level;
+        if (level.converged) tried = now;
         level.provisional = true;
         return level;
     }

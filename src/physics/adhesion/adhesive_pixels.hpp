@@ -69,7 +69,7 @@ struct AdhesivePixels : CutMap {
     void divide(Level& level, double shortest);
     double lost_in_step() const;
     Level solve(double Z, bool trial);
-    std::optional<Level> tried;  // the present state is that of a trial from the accepted one
+    std::optional<Past> tried;  // the state of the last trial since a level was accepted
 };
 
 }  // namespace rsc
