@@ -24,9 +24,9 @@ struct Verdict {
 // Near N = 0 the force of bodies that attract is the difference of pressure and attraction, and no
 // more exact than these.
 bool has_force(const Level& level, double N, double tolerance) {
-    double pulled = 0;
-    for (const auto* pressures : {&level.pixels.pressure, &level.pixels.attraction})
-        for (const double p : *pressures) pulled += std::abs(p) * level.pixels.dx * level.pixels.dy;
+    double traction = 0, pulled = 0;
+    for (const double p : level.pixels.attraction) traction = std::max(traction, -p);
+    if (traction > 0) pulled = traction * (level.area + level.cohesive_area);
     for (const double force : level.tractions.pulled) pulled += std::abs(force);
     return std::abs(level.force - N) <= tolerance * std::max(std::abs(N), pulled);
 }
@@ -535,7 +535,8 @@ Level Path::approach_force(double N) {
     level.separation = first ? first_touch() + range : separation_;
     level.force = first ? 0.0 : force_;
     level.contacts = level.force != 0;
-    if (std::abs(level.force - N) <= tolerance_ * std::abs(N) || levels_since_move_ == 0) {
+    if (std::abs(level.force - N) <= tolerance_ * std::abs(N) || levels_since_move_ == 0 ||
+        (!first && level.force == 0)) {
         level = solve(level.separation, false);
         if (ends(level)) return level;
         if (!first) history()->accept(level);

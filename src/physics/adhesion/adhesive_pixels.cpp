@@ -18,6 +18,8 @@ constexpr double kLossShare = 1e-3, kShortest = 1.0 / 4096;
 constexpr std::size_t kFewest = 8;    // least number of points of a jump, if there are several
 constexpr double kInnerError = 1e-3;  // error of products in iterations
 constexpr double kEarly = 0.1;        // error of pressures relative to the change of the attraction
+constexpr double kFar = 1e6;          // largest gap relative to the range
+constexpr double kFinest = 1e-9;      // smallest tolerance
 constexpr double kSettled = 0.3;      // last change of the attraction relative to the tolerance
 constexpr double kProductError = 0.3;  // error of products relative to that of pressures
 constexpr int kMost = 2000;            // renewals of the attraction
@@ -257,26 +259,32 @@ double AdhesivePixels::attraction(std::vector<double>& shares) const {
         return at(place({inside(i, heights.nx), inside(j, heights.ny)}));
     };
     const int first = flats ? 0 : -1;
+    const auto beyond = [&](int k, int n) { return !flats && (k < 0 || k == n - 1); };
     for (int j = first; j < heights.ny; ++j)
         for (int i = first; i < heights.nx; ++i) {
             const std::array corner = {index(i, j), index(i + 1, j), index(i, j + 1),
                                        index(i + 1, j + 1)};
             std::array<double, 4> d;
-            for (std::size_t c = 0; c < 4; ++c) d[c] = z0 - gap[corner[c]];
+            for (std::size_t c = 0; c < 4; ++c)
+                d[c] = std::max(z0 - gap[corner[c]], -kFar * z0);  // beyond the edge of a body
             const auto [least, most] = std::minmax_element(d.begin(), d.end());
             if (!(*most > 0)) continue;
+            // Half of a pixel at the border lies beyond the last points.
+            const double part_of_cell =
+                0.25 * (beyond(i, heights.nx) ? 0.5 : 1.0) * (beyond(j, heights.ny) ? 0.5 : 1.0);
             if (*least >= 0) {
                 for (std::size_t c = 0; c < 4; ++c) {
-                    shares[corner[c]] += 0.25;
-                    sum += 0.25 * d[c];
+                    shares[corner[c]] += part_of_cell;
+                    sum += part_of_cell * d[c];
                 }
                 continue;
             }
             for (const auto& [a, b, c] : {std::array{0, 1, 2}, {1, 3, 2}, {0, 1, 3}, {0, 3, 2}}) {
                 const std::array where = {corner[at(a)], corner[at(b)], corner[at(c)]};
                 const Linear part = positive_part({d[at(a)], d[at(b)], d[at(c)]});
-                sum += 0.25 * part.integral;
-                for (std::size_t k = 0; k < 3; ++k) shares[where[k]] += 0.25 * part.share[k];
+                sum += part_of_cell * part.integral;
+                for (std::size_t k = 0; k < 3; ++k)
+                    shares[where[k]] += part_of_cell * part.share[k];
             }
         }
     return sum;
@@ -321,7 +329,8 @@ bool AdhesivePixels::renew(double Z, Level& level) {
     gather(Z);
     std::vector<double> next;
     Iterates iterates;
-    double tolerance = std::max(options.tolerance, kEarly * kEarly);
+    const double aim = std::max(options.tolerance, kFinest);
+    double tolerance = std::max(aim, kEarly * kEarly);
     for (int round = 0; round < kMost; ++round) {
         stopping_point();
         std::vector<double> p(reach.size());
@@ -350,10 +359,8 @@ bool AdhesivePixels::renew(double Z, Level& level) {
             change += std::abs(next[at(i)] - share[at(i)]);
             sum += next[at(i)];
         }
-        if (change <= kSettled * options.tolerance * sum && tolerance <= options.tolerance)
-            return true;
-        tolerance = sum > 0 ? std::clamp(kEarly * change / sum, options.tolerance, tolerance)
-                            : options.tolerance;
+        if (change <= kSettled * aim * sum && tolerance <= aim) return true;
+        tolerance = sum > 0 ? std::clamp(kEarly * change / sum, aim, tolerance) : aim;
         iterates.advance(next, share);
     }
     return false;
@@ -590,7 +597,7 @@ void AdhesivePixels::follow() {
             throw Error(Failure::bad_input,
                         "a body with an edge cannot be moved while points attract near its edge: "
                         "pull it off first");
-    const Level level = solve(accepted.separation, false);
+    Level level = step(accepted.separation);
     if (!level.converged)
         throw Error(Failure::not_converged,
                     "the path of the attracting points to the new position of the tip is lost; the "
@@ -599,7 +606,11 @@ void AdhesivePixels::follow() {
     for (std::size_t i = 0; i < before.size(); ++i)
         if (const double p = p_before[i] + pressure(i); p != 0)
             twice += p * (clearance[i] - before[i]);
-    now.lost += std::max(0.5 * pixel * twice - (now.energy - accepted.energy), 0.0);
+    if (const double lost = 0.5 * pixel * twice - (now.energy - accepted.energy);
+        lost > negligible()) {
+        now.lost += lost;
+        level.jumps += count_jumps();
+    }
     now.jumps = level.jumps;
     accepted = now;
     keep();
