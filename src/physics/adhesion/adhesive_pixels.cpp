@@ -209,17 +209,29 @@ void AdhesivePixels::forget() {
 }
 
 // Selects the points whose gap can be below z0 if points are raised by at most the margin and
-// `bulged`; for periodic flats all points.
+// `bulged`, and their neighbours, between which the gap is interpolated; for periodic flats all
+// points.
 void AdhesivePixels::gather(double Z) {
     reach.clear();
+    std::vector<char> wanted(clearance.size(), flats ? 1 : 0);
+    const auto include = [&](int i, int j) {
+        for (int y = std::max(j - 1, 0); y <= std::min(j + 1, heights.ny - 1); ++y)
+            for (int x = std::max(i - 1, 0); x <= std::min(i + 1, heights.nx - 1); ++x)
+                wanted[at(place({x, y}))] = 1;
+    };
+    for (int j = 0; j < heights.ny && !flats; ++j)
+        for (int i = 0; i < heights.nx; ++i) {
+            const std::size_t k = at(place({i, j}));
+            if (share[k] > 0 || clearance[k] > Z - z0 - margin - bulged) include(i, j);
+        }
     std::vector<Pixel> pixels;
     for (int j = 0; j < heights.ny; ++j)
         for (int i = 0; i < heights.nx; ++i) {
             const std::int32_t k = place({i, j});
-            if (flats || share[at(k)] > 0 || clearance[at(k)] > Z - z0 - margin - bulged)
-                reach.push_back(k), pixels.push_back({i, j});
-            else
-                q[at(k)] = 0;
+            q[at(k)] = wanted[at(k)] ? q[at(k)] : 0.0;
+            if (!wanted[at(k)]) continue;
+            reach.push_back(k);
+            pixels.push_back({i, j});
         }
     if (field && !pixels.empty()) field->set_pixels(pixels);
 }
