@@ -1,14 +1,17 @@
-# The common part of input/paper/run.sh and input/flat/run.sh, which define: `here` the folder of the cases, `study` its name, `cases` their names in
-# order, and the function shorten, which reads a case and writes its short version.
+# The common part of input/paper/run.sh and input/flat/run.sh, which define: `here` the folder
+# of the cases, `study` its name, `cases` their names in order, and the function shorten, which
+# reads a case and writes its short version.
 # Usage: sh input/STUDY/run.sh [--short] [RSC [FOLDER]]
 #   RSC      the program (default ./rsc)
 #   FOLDER   folder of results, pictures and report.txt (default output/STUDY)
 #   --short  few realizations and small grids, as a check; the numbers are those of other surfaces. Default FOLDER:
 #            output/STUDY_short. Options may be anywhere.
-# Results of a full run are never replaced by those of a short one, nor vice versa, nor files that run.sh did not write.
-# After an interruption the same command with the same program and cases continues: finished cases are kept, and the finished realizations
-# of the interrupted case. After a complete run, the next one starts anew.
-# PYTHON: a Python with numpy, scipy, matplotlib and netCDF4; default: python3 or /usr/bin/python3 if they have them.
+# Results of a full run are never replaced by those of a short one, nor vice versa, nor files
+# that run.sh did not write. After an interruption the same command with the same program and
+# cases continues: finished cases are kept, and the finished realizations of the interrupted
+# case. After a complete run, the next one starts anew.
+# PYTHON: a Python with numpy, scipy, matplotlib and netCDF4; default: python3 or
+# /usr/bin/python3 if they have them.
 short=no
 rsc=
 folder=
@@ -49,7 +52,8 @@ fi
 
 of=$(echo $cases | wc -w)
 
-# Keeps the results of an interrupted run of the same program on the same cases and removes everything else.
+# Keeps the results of an interrupted run of the same program on the same cases and removes
+# everything else.
 mkdir -p "$folder"
 there=$(cat "$folder/kind.txt" 2> /dev/null || true)
 if [ "$there" != $kind ] && ls "$folder"/*.nc > /dev/null 2>&1; then

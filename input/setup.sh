@@ -1,6 +1,7 @@
 #!/bin/sh
-# Installs missing packages (on Debian and derivatives; elsewhere it lists them and stops) and builds rsc in build/.
-# Usage: sh input/setup.sh            from anywhere; extra arguments go to cmake, e.g. -DRSC_MPI=ON
+# Installs missing packages (on Debian and derivatives; elsewhere it lists them and stops) and
+# builds rsc in build/.
+# Usage: sh input/setup.sh      from anywhere; extra arguments go to cmake, e.g. -DRSC_MPI=ON
 set -eu
 top=$(cd "$(dirname "$0")/.." && pwd)
 

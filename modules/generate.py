@@ -2,16 +2,17 @@
 """Writes the parts of the bindings that follow from the C interface, from src/rsc.h.
 
     python3 modules/generate.py            writes the files below
-    python3 modules/generate.py --check    writes nothing; exit status 1 if one of them is stale, or if rsc.f90 lacks a procedure
+    python3 modules/generate.py --check    writes nothing; exit status 1 if one of them is stale,
+                                           or if rsc.f90 lacks a procedure
 
-    modules/generated/interface.inc   Fortran: status codes and interfaces of all C functions       (included by rsc.f90)
-    modules/generated/wrappers.inc    Fortran: the generated procedures of the derived types            (included by rsc.f90)
-    modules/generated/rsc77.inc       C: the generated subroutines of FORTRAN 77                        (included by rsc77.c)
-    modules/_rsc_h.py                 Python: status codes and the arguments of all C functions     (imported by rsc.py)
+    modules/generated/interface.inc   status codes and interfaces of all C functions, for rsc.f90
+    modules/generated/wrappers.inc    the generated procedures of the derived types, for rsc.f90
+    modules/generated/rsc77.inc       the generated subroutines of FORTRAN 77, for rsc77.c
+    modules/rsc/_h.py                 status codes and arguments of all C functions, for Python
 
-They are part of the source: building and installing rsc needs no Python. Procedures written by hand in rsc.f90 or rsc77.c are not
-generated. Optional arguments are those that the comments of rsc.h mark as "may be null".
-"""
+They are part of the source: building and installing rsc needs no Python. Procedures written by hand
+in rsc.f90 or rsc77.c are not generated. Optional arguments are those that the comments of rsc.h
+mark as "may be null"."""
 import os
 import re
 import sys
@@ -60,12 +61,12 @@ NAMES_77 = {
 # Inputs that are optional in Fortran, with their defaults.
 DEFAULTS = {"realization": "1"}
 # C functions that Fortran has under another name or within another procedure.
-ELSEWHERE = {"contact_result", "case_create", "case_set"}
+ELSEWHERE = {"contact_result", "case_create", "case_set", "case_resume"}
 
 
 class Argument:
-    """One argument of a C function. role: handle, new (address of a handle), handles (an array of them), text, buffer, value, callback,
-    in (array), out (scalar) or array (output)."""
+    """One argument of a C function. role: handle, new (address of a handle), handles (an array of
+    them), text, buffer, value, callback, in (array), out (scalar) or array (output)."""
 
     def __init__(self, function, words, optional, has_n, first):
         match = re.fullmatch(r"(const )?(\w+)(\**) (\w+)", " ".join(words.split()))
@@ -159,19 +160,19 @@ def read_header(*names):
     return functions, constants
 
 
-# ---- Fortran -------------------------------------------------------------------------------------------------------------------
+# ---- Fortran -------------------------------------------------------------------------------------
 REAL, LONG, SHORT = "real(c_double)", "integer(c_int64_t)", "integer(c_int32_t)"
 C_TYPES = {"double": REAL, "int64_t": LONG, "int32_t": SHORT}
 
 
 def wrapped(line, indent=2):
-    """A Fortran line, continued where it is longer than 120."""
-    if len(line) + indent <= 120:
+    """A Fortran line, continued where it is longer than 100."""
+    if len(line) + indent <= 100:
         return " " * indent + line
     return " &\n".join(
         textwrap.wrap(
             line,
-            116,
+            96,
             initial_indent=" " * indent,
             subsequent_indent=" " * (indent + 4),
             break_long_words=False,
@@ -181,7 +182,7 @@ def wrapped(line, indent=2):
 
 
 def comment(text):
-    return "\n".join(textwrap.wrap(text, 120, initial_indent="  !> ", subsequent_indent="  !> "))
+    return "\n".join(textwrap.wrap(text, 100, initial_indent="  !> ", subsequent_indent="  !> "))
 
 
 def declarations(pairs):
@@ -195,7 +196,8 @@ def declarations(pairs):
 
 
 def interface_type(a):
-    """(declaration, variable) of an argument for the C interface. Outputs are intent(inout): after a failure they keep their value."""
+    """(declaration, variable) of an argument for the C interface. Outputs are intent(inout): after
+    a failure they keep their value."""
     optional = ", optional" if a.optional else ""
     if a.role == "callback":
         return "type(c_funptr), value", a.name
@@ -205,7 +207,8 @@ def interface_type(a):
         return "type(c_ptr), intent(inout)", a.name + ("(*)" if a.role == "handles" else "")
     if a.role in ("text", "buffer"):
         return (
-            f"character(kind=c_char), intent({'in' if a.const else 'inout'}){'' if a.role == 'buffer' else optional}",
+            f"character(kind=c_char), intent({'in' if a.const else 'inout'})"
+            + ("" if a.role == "buffer" else optional),
             a.name + "(*)",
         )
     if a.role == "value":
@@ -233,11 +236,9 @@ def interface(functions, constants):
         if f.name in own:
             continue
         body = declarations([interface_type(a) for a in f.arguments])
+        names = ", ".join(a.name for a in f.arguments)
         lines += [
-            wrapped(
-                f"integer(c_int32_t) function {f.name}({', '.join(a.name for a in f.arguments)}) bind(c)",
-                4,
-            ),
+            wrapped(f"integer(c_int32_t) function {f.name}({names}) bind(c)", 4),
             "      import :: "
             + ", ".join(
                 k
@@ -257,7 +258,8 @@ ERROR_ARGUMENTS = [
 
 
 def wrapper(f):
-    """A procedure of a derived type that only calls its C function; None if there is no rule for its arguments."""
+    """A procedure of a derived type that only calls its C function; None if there is no rule for
+    its arguments."""
     arguments = f.arguments
     result, single = None, [a for a in arguments if a.role == "out"]
     if (
@@ -291,7 +293,8 @@ def wrapper(f):
         if a.role == "handle":
             declared.append(
                 (
-                    f"class(rsc_{a.kind}), intent({'in' if a.const else 'inout'}){', optional' if a.kind == 'case' else ''}",
+                    f"class(rsc_{a.kind}), intent({'in' if a.const else 'inout'})"
+                    + (", optional" if a.kind == "case" else ""),
                     dummy,
                 )
             )
@@ -366,7 +369,7 @@ def wrapper(f):
             )
         else:
             return None
-    refusal = []
+    refusal, verb = [], f.short.split("_", 1)[1]
     if inputs:
         first, *others = [a for a in arguments if a.role in ("in", "array")]
         required = " .and. ".join(
@@ -380,7 +383,8 @@ def wrapper(f):
         ]
         refusal += [
             "if (.not. same) then",
-            f"  call refuse('{f.kind}%{f.short.split('_', 1)[1]}: the arrays are not of one size', stat, errmsg)",
+            f"  call refuse('{f.kind}%{verb}: the arrays are not of one size', &",
+            "              stat, errmsg)",
             "  return",
             "end if",
         ]
@@ -416,12 +420,12 @@ def wrapper(f):
     else:
         body = [*before, f"call finish({called}, stat, errmsg)"]
     kind = "function" if result else "subroutine"
+    arguments = ", ".join([*dummies, "stat", "errmsg"])
+    returns = f" result({result.name})" if result else ""
     order = sorted(declared, key=lambda pair: result is not None and pair[1] == result.name)
     return [
         comment(f.brief()),
-        wrapped(
-            f"{kind} {f.short}({', '.join([*dummies, 'stat', 'errmsg'])}){f' result({result.name})' if result else ''}"
-        ),
+        wrapped(f"{kind} {f.short}({arguments}){returns}"),
         *declarations([pair for pair in order if not result or pair[1] != result.name]),
         *["    " + line for line in ERROR_ARGUMENTS],
         *declarations([pair for pair in order if result and pair[1] == result.name] + local),
@@ -433,7 +437,8 @@ def wrapper(f):
 
 def ownership(kind):
     """Copy and release of a derived type."""
-    return f"""  !> Its own copy of another object; what this one held is released, unless both are names of one object.
+    return f"""  !> Its own copy of another object; what this one held is released, unless both are
+  !> one object.
   subroutine {kind}_copy(self, original, stat, errmsg)
     class(rsc_{kind}), intent(inout) :: self
     class(rsc_{kind}), intent(in) :: original
@@ -482,14 +487,16 @@ def wrappers(functions, source):
                 continue
             if f"=> {f.short}\n" not in bound:
                 wanted.append(
-                    f"modules/rsc.f90, type rsc_{kind}: add  procedure :: {f.short.split('_', 1)[1]} => {f.short}"
+                    f"modules/rsc.f90, type rsc_{kind}: add  "
+                    f"procedure :: {f.short.split('_', 1)[1]} => {f.short}"
                 )
             if f.short in by_hand:
                 continue
             made = wrapper(f)
             if made is None:
                 wanted.append(
-                    f"modules/rsc.f90: write the procedure {f.short} by hand; there is no rule for its arguments"
+                    f"modules/rsc.f90: write the procedure {f.short} by hand; "
+                    "there is no rule for its arguments"
                 )
             else:
                 lines += made
@@ -498,9 +505,10 @@ def wrappers(functions, source):
     return lines[:-1], wanted
 
 
-# ---- FORTRAN 77 ----------------------------------------------------------------------------------------------------------------
+# ---- FORTRAN 77 ----------------------------------------------------------------------------------
 def subroutine_77(name, f, left_out):
-    """A subroutine of FORTRAN 77: arguments by address, handles as INTEGER, lengths of texts after all arguments."""
+    """A subroutine of FORTRAN 77: arguments by address, handles as INTEGER, lengths of texts after
+    all arguments."""
     parameters, lengths, find, before, call, after, position = [], [], [], [], [], [], 0
     for k, a in enumerate(f.arguments):
         if a.name in left_out:
@@ -553,13 +561,13 @@ def subroutine_77(name, f, left_out):
         *[f"free(c_{t});" for t in texts],
         *after,
     ]
-    fill = lambda line: textwrap.wrap(line, 140, subsequent_indent=" " * 8, break_long_words=False)
+    fill = lambda line: textwrap.wrap(line, 100, subsequent_indent=" " * 8, break_long_words=False)
     return [
         *fill(head + " {"),
         *[
             part
             for line in body
-            for part in textwrap.wrap(line, 136, initial_indent=" " * 4, subsequent_indent=" " * 8)
+            for part in textwrap.wrap(line, 100, initial_indent=" " * 4, subsequent_indent=" " * 8)
         ],
         "}",
         "",
@@ -575,10 +583,12 @@ def names_77(functions, source):
     return lines[:-1]
 
 
-# ---- Python --------------------------------------------------------------------------------------------------------------------
+# ---- Python --------------------------------------------------------------------------------------
 def python(functions, constants):
     lines = ['PROTOTYPES = """']
-    lines += [f"{f.name}({', '.join(a.c() for a in f.arguments)})" for f in functions]
+    for f in functions:
+        prototype = f"{f.name}({', '.join(a.c() for a in f.arguments)})"
+        lines += textwrap.wrap(prototype, 100, subsequent_indent="    ", break_long_words=False)
     lines += ['"""', ""]
     lines += [f"{name[4:]} = {value}" for name, value in constants]
     levels = ", ".join(
@@ -586,7 +596,7 @@ def python(functions, constants):
     )
     lines += [
         "",
-        "#: Names of the statuses of a level, by number, as in the variable `status` of a result file.",
+        "#: Names of the statuses of a level, by number, as in `status` of a result file.",
         f"LEVELS = ({levels})",
     ]
     return lines
@@ -599,7 +609,7 @@ def main():
     with open(os.path.join(HERE, "rsc77.c"), encoding="utf-8") as file:
         c = file.read()
     generated, wanted = wrappers(functions, fortran)
-    note = "Generated by modules/generate.py from src/rsc.h. Do not edit: change rsc.h and run python3 modules/generate.py"
+    note = "Generated from src/rsc.h by python3 modules/generate.py. Do not edit."
     files = {
         "generated/interface.inc": [
             f"! {note}",
@@ -607,8 +617,8 @@ def main():
         ],
         "generated/wrappers.inc": [f"! {note}", *generated],
         "generated/rsc77.inc": ["/* clang-format off */", f"/* {note} */", *names_77(functions, c)],
-        "_rsc_h.py": [
-            '"""Functions and status codes of rsc.h, for rsc.py.',
+        "rsc/_h.py": [
+            '"""Functions and status codes of rsc.h.',
             "",
             note + '"""',
             "",

@@ -1,5 +1,5 @@
-!> rsc in Fortran: the contact of a sphere with a rough surface of asperities. It provides the functions of
-!> rsc.h; see there for details of every argument.
+!> rsc in Fortran: the contact of a sphere with a rough surface of asperities. It provides the
+!> functions of rsc.h; see there for details of every argument.
 !>
 !>     use rsc
 !>     type(rsc_asperities) :: asperities
@@ -9,28 +9,33 @@
 !>     call contact%indent(separation=0.02d0, force=N)
 !>     print *, N, contact%area(), contact%stiffness()
 !>
-!> An object refers to something of the library, as a pointer does: assignment (b = a, whole arrays, types that contain objects,
-!> source=, firstprivate) makes another name for the same contact. `call b%copy(a)` gives b a contact of its own, with result and
-!> path; `call q%copy(q)` does so after q = p. `call a%free()` releases it, and every other name of it is an error status (or an
-!> error stop) from then on, never released memory. Creating an object again releases its former content. Nothing is released
-!> by itself, also not where a variable goes out of scope or a list is deallocated. Different objects may be used by different
-!> threads at the same time; names of one object may not.
+!> An object refers to something of the library, as a pointer does: assignment (b = a, whole arrays,
+!> types that contain objects, source=, firstprivate) makes another name for the same contact. `call
+!> b%copy(a)` gives b a contact of its own, with result and path; `call q%copy(q)` does so after q =
+!> p. `call a%free()` releases it, and every other name of it is an error status (or an error stop)
+!> from then on, never released memory. Creating an object again releases its former content.
+!> Nothing is released by itself, also not where a variable goes out of scope or a list is
+!> deallocated. Different objects may be used by different threads at the same time; names of one
+!> object may not.
 !>
-!> Every procedure has stat and errmsg like the statements of the language: with stat, a failure is reported in it (negative: wrong
-!> argument; positive: one of the rsc_* codes) and in errmsg, which otherwise keeps its value; without stat, a failure is an error stop
-!> with the message. After a failure functions return 0, allocatable arrays have size 0, and other outputs are undefined, except with
-!> stat = rsc_not_converged. Asperities count from 1.
+!> Every procedure has stat and errmsg like the statements of the language: with stat, a failure is
+!> reported in it (negative: wrong argument; positive: one of the rsc_* codes) and in errmsg, which
+!> otherwise keeps its value; without stat, a failure is an error stop with the message. After a
+!> failure functions return 0, allocatable arrays have size 0, and other outputs are undefined,
+!> except with stat = rsc_not_converged. Asperities count from 1.
 module rsc
-  use, intrinsic :: iso_c_binding, only: c_ptr, c_funptr, c_funloc, c_null_ptr, c_associated, c_char, c_null_char, &
-    c_double, c_float, c_int32_t, c_int64_t
+  use, intrinsic :: iso_c_binding, only: c_ptr, c_funptr, c_funloc, c_null_ptr, c_associated, &
+      c_char, c_null_char, c_double, c_float, c_int32_t, c_int64_t
   implicit none
   private
   public :: rsc_case, rsc_surface, rsc_asperities, rsc_contact, rsc_friction, rsc_library_version
-  public :: rsc_stiffness_ratio, rsc_press_all, rsc_indent_all, rsc_step_all, rsc_watch, rsc_lock, rsc_unlock, rsc_keys
+  public :: rsc_stiffness_ratio, rsc_press_all, rsc_indent_all, rsc_step_all, rsc_watch, rsc_lock, &
+      rsc_unlock, rsc_keys
 
   include 'generated/interface.inc'
 
-  ! Of src/api/handle_numbers.h: the objects store numbers, which stay safe when the compiler copies them.
+  ! Of src/api/handle_numbers.h: the objects store numbers, which stay safe when the compiler copies
+  ! them.
   interface
     integer(c_int64_t) function rsc_number_of(handle) bind(c)
       import :: c_int64_t, c_ptr
@@ -51,9 +56,11 @@ module rsc
     private
     integer(c_int64_t) :: number = 0
   contains
-    !> set(name, value): value is a real or an integer of either usual kind, an array of them, a logical, or text in namelist syntax
-    !> (with quotes if it is a text). A default real is converted to the shortest decimal number with that value: 0.1 is 0.1.
-    generic :: set => set_text, set_real, set_single, set_integer, set_long, set_logical, set_reals, set_singles, set_integers
+    !> set(name, value): value is a real or an integer of either usual kind, an array of them, a
+    !> logical, or text in namelist syntax (with quotes if it is a text). A default real is
+    !> converted to the shortest decimal number with that value: 0.1 is 0.1.
+    generic :: set => set_text, set_real, set_single, set_integer, set_long, set_logical, &
+        set_reals, set_singles, set_integers
     procedure :: get => case_get
     procedure :: read => case_read
     procedure :: read_file => case_read_file
@@ -118,6 +125,7 @@ module rsc
     procedure :: tip => contact_tip
     procedure :: first_touch => contact_first_touch
     procedure :: set_time => contact_set_time
+    procedure :: set_distance => contact_set_distance
     procedure :: indent => contact_indent
     procedure :: press => contact_press
     procedure :: separation => contact_separation
@@ -162,7 +170,8 @@ module rsc
   end type
 
   abstract interface
-    !> Called by run_watched; returns 0 to continue, otherwise the run stops. done, total: levels or realizations; data: of run_watched.
+    !> Called by run_watched; returns 0 to continue, otherwise the run stops. done, total: levels or
+    !> realizations; data: of run_watched.
     function rsc_watch(done, total, data) bind(c) result(stop)
       import :: c_double, c_int32_t, c_ptr
       real(c_double), value :: done, total
@@ -173,7 +182,7 @@ module rsc
 
 contains
 
-  ! --- failures and text ---------------------------------------------------------------------------------------------------------
+  ! --- failures and text --------------------------------------------------------------------------
 
   !> Reports a failure to the caller, or stops.
   subroutine finish(status, stat, errmsg)
@@ -236,7 +245,9 @@ contains
     character(kind=c_char) :: buffer(4096)
     integer(c_int64_t) :: length
     text = ''
-    if (rsc_message(buffer, size(buffer, kind=c_int64_t), length) == rsc_success) text = joined(buffer, length)
+    if (rsc_message(buffer, size(buffer, kind=c_int64_t), length) == rsc_success) then
+      text = joined(buffer, length)
+    end if
   end function
 
   !> The version of the library.
@@ -245,7 +256,9 @@ contains
     character(kind=c_char) :: buffer(64)
     integer(c_int64_t) :: length
     text = ''
-    if (rsc_version(buffer, size(buffer, kind=c_int64_t), length) == rsc_success) text = joined(buffer, length)
+    if (rsc_version(buffer, size(buffer, kind=c_int64_t), length) == rsc_success) then
+      text = joined(buffer, length)
+    end if
   end function
 
   !> The names of all keys, 'group%key', padded with blanks, as for get, set and ./rsc --describe.
@@ -258,7 +271,9 @@ contains
     allocate (character(64) :: names(n))
     do k = 1, n
       names(k) = ''
-      if (rsc_key_name(k - 1, buffer, size(buffer, kind=c_int64_t), length) == rsc_success) names(k) = joined(buffer, length)
+      if (rsc_key_name(k - 1, buffer, size(buffer, kind=c_int64_t), length) == rsc_success) then
+        names(k) = joined(buffer, length)
+      end if
     end do
   end function
 
@@ -284,7 +299,7 @@ contains
     chars(len(text) + 1) = c_null_char
   end function
 
-  ! --- case ------------------------------------------------------------------------------------------------------------------------
+  ! --- case ---------------------------------------------------------------------------------------
 
   !> The handle of the case for changing, created if there is none yet.
   subroutine case_ready(self, handle, status)
@@ -300,7 +315,8 @@ contains
     handle = rsc_handle_of(self%number)
   end subroutine
 
-  !> The handle of the case for reading; if nothing was set, a temporary case of defaults, to be destroyed afterwards.
+  !> The handle of the case for reading; if nothing was set, a temporary case of defaults, to be
+  !> destroyed afterwards.
   subroutine case_as_is(self, handle, defaults, status)
     class(rsc_case), intent(in) :: self
     type(c_ptr), intent(out) :: handle, defaults
@@ -321,24 +337,35 @@ contains
     integer(c_int32_t) :: status
     type(c_ptr) :: handle
     call case_ready(self, handle, status)
-    if (status == rsc_success) status = rsc_case_set(handle, terminated(trim(name)), terminated(value))
+    if (status == rsc_success) then
+      status = rsc_case_set(handle, terminated(trim(name)), terminated(value))
+    end if
     call finish(status, stat, errmsg)
   end subroutine
 
-  !> Runs the case and calls `watch` about ten times a second; stat is rsc_stopped if it stopped the run. data: for watch.
-  subroutine case_run_watched(self, watch, data, failed_levels, stat, errmsg)
+  !> Runs the case and calls `watch` about ten times a second; stat is rsc_stopped if it stopped the
+  !> run. data: for watch; resume: .true. continues an interrupted campaign (rsc_case_resume).
+  subroutine case_run_watched(self, watch, data, failed_levels, resume, stat, errmsg)
     class(rsc_case), intent(in) :: self
     procedure(rsc_watch) :: watch
     type(c_ptr), intent(in), optional :: data
     integer(c_int64_t), intent(inout), optional :: failed_levels
+    logical, intent(in), optional :: resume
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
     type(c_ptr) :: handle, defaults, given
+    logical :: continued
     given = c_null_ptr
     if (present(data)) given = data
+    continued = .false.
+    if (present(resume)) continued = resume
     call case_as_is(self, handle, defaults, status)
-    if (status == rsc_success) status = rsc_case_run_watched(handle, c_funloc(watch), given, failed_levels)
+    if (status == rsc_success .and. continued) then
+      status = rsc_case_resume(handle, c_funloc(watch), given, failed_levels)
+    else if (status == rsc_success) then
+      status = rsc_case_run_watched(handle, c_funloc(watch), given, failed_levels)
+    end if
     call finish(status, stat, errmsg)
     status = rsc_case_destroy(defaults)
   end subroutine
@@ -518,7 +545,8 @@ contains
       if (allocated(buffer)) deallocate (buffer)
       allocate (buffer(length + 1))
       if (present(name)) then
-        status = rsc_case_get(handle, terminated(trim(name)), buffer, size(buffer, kind=c_int64_t), length)
+        status = rsc_case_get(handle, terminated(trim(name)), buffer, &
+                              size(buffer, kind=c_int64_t), length)
       else
         status = rsc_case_text(handle, buffer, size(buffer, kind=c_int64_t), length)
       end if
@@ -554,7 +582,7 @@ contains
     if (present(options)) handle = rsc_handle_of(options%number)
   end function
 
-  ! --- surface -----------------------------------------------------------------------------------------------------------------------
+  ! --- surface ------------------------------------------------------------------------------------
 
   !> A surface of heights z(i,j), measured from z = 0; periodic: .false. by default.
   subroutine surface_take(self, z, dx, dy, x0, y0, periodic, stat, errmsg)
@@ -578,7 +606,8 @@ contains
     if (present(periodic)) wraps = merge(1_c_int32_t, 0_c_int32_t, periodic)
     call self%free()
     handle = c_null_ptr
-    status = rsc_surface_take(handle, size(z, 1, c_int64_t), size(z, 2, c_int64_t), dx, step_y, first_x, first_y, wraps, z)
+    status = rsc_surface_take(handle, size(z, 1, c_int64_t), size(z, 2, c_int64_t), dx, step_y, &
+                              first_x, first_y, wraps, z)
     call keep(self%number, handle, status)
     call finish(status, stat, errmsg)
   end subroutine
@@ -620,9 +649,9 @@ contains
     call finish(status, stat, errmsg)
   end subroutine
 
-  ! --- asperities ----------------------------------------------------------------------------------------------------------------------
+  ! --- asperities ---------------------------------------------------------------------------------
 
-  ! --- contact -------------------------------------------------------------------------------------------------------------------------
+  ! --- contact ------------------------------------------------------------------------------------
 
   !> Z0 of the last level.
   function contact_separation(self, stat, errmsg) result(separation)
@@ -675,7 +704,8 @@ contains
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
     integer(c_int64_t) :: n
-    ! An argument that is absent may not be handed on as allocatable; an array that is not allocated may, and is absent then.
+    ! An argument that is absent may not be handed on as allocatable; an array that is not allocated
+    ! may, and is absent then.
     real(c_double), allocatable :: force_(:), radius_(:), penetration_(:)
     integer(c_int32_t), allocatable :: which(:)
     integer :: problem
@@ -688,7 +718,10 @@ contains
     if (present(force)) call make_room(force_, n, status)
     if (present(radius)) call make_room(radius_, n, status)
     if (present(penetration)) call make_room(penetration_, n, status)
-    if (status == rsc_success) status = rsc_contact_spots(rsc_handle_of(self%number), n, which, force_, radius_, penetration_)
+    if (status == rsc_success) then
+      status = rsc_contact_spots(rsc_handle_of(self%number), n, which, force_, radius_, &
+                                 penetration_)
+    end if
     if (present(force)) call move_alloc(force_, force)
     if (present(radius)) call move_alloc(radius_, radius)
     if (present(penetration)) call move_alloc(penetration_, penetration)
@@ -696,7 +729,8 @@ contains
     call finish(status, stat, errmsg)
   end subroutine
 
-  !> Force, radius and penetration of every asperity, 0 where there is no contact; the arrays have the size of the number of asperities.
+  !> Force, radius and penetration of every asperity, 0 where there is no contact; the arrays have
+  !> the size of the number of asperities.
   subroutine contact_per_asperity(self, force, radius, penetration, stat, errmsg)
     class(rsc_contact), intent(in) :: self
     real(c_double), intent(out), contiguous, optional :: force(:), radius(:), penetration(:)
@@ -716,11 +750,12 @@ contains
       call refuse('contact%per_asperity: the arrays are not of one size', stat, errmsg)
       return
     end if
-    call finish(rsc_contact_per_asperity(rsc_handle_of(self%number), n, force, radius, penetration), stat, errmsg)
+    call finish(rsc_contact_per_asperity(rsc_handle_of(self%number), n, force, radius, &
+                                         penetration), stat, errmsg)
   end subroutine
 
-  !> Presses many contacts with a force each, distributed among threads (0: all of the machine); returns the separations and statuses of
-  !> press.
+  !> Presses many contacts with a force each, distributed among threads (0: all of the machine);
+  !> returns the separations and statuses of press.
   subroutine rsc_press_all(contacts, force, separation, threads, each, stat, errmsg)
     type(rsc_contact), intent(inout) :: contacts(:)
     real(c_double), intent(in) :: force(:)
@@ -732,12 +767,12 @@ contains
     type(c_ptr) :: handles(size(contacts))
     if (.not. of_one_size('rsc_press_all', contacts, force, separation, each, stat, errmsg)) return
     handles = handles_of(contacts)
-    call finish(rsc_contacts_press(size(contacts, kind=c_int64_t), handles, force, separation, each, team_of(threads)), stat, &
-                errmsg)
+    call finish(rsc_contacts_press(size(contacts, kind=c_int64_t), handles, force, separation, &
+                                   each, team_of(threads)), stat, errmsg)
   end subroutine
 
-  !> Indents many contacts to a separation each, distributed among threads (0: all of the machine); returns the forces and statuses of
-  !> indent.
+  !> Indents many contacts to a separation each, distributed among threads (0: all of the machine);
+  !> returns the forces and statuses of indent.
   subroutine rsc_indent_all(contacts, separation, force, threads, each, stat, errmsg)
     type(rsc_contact), intent(inout) :: contacts(:)
     real(c_double), intent(in) :: separation(:)
@@ -749,19 +784,21 @@ contains
     type(c_ptr) :: handles(size(contacts))
     if (.not. of_one_size('rsc_indent_all', contacts, separation, force, each, stat, errmsg)) return
     handles = handles_of(contacts)
-    call finish(rsc_contacts_indent(size(contacts, kind=c_int64_t), handles, separation, force, each, team_of(threads)), stat, &
-                errmsg)
+    call finish(rsc_contacts_indent(size(contacts, kind=c_int64_t), handles, separation, force, &
+                                    each, team_of(threads)), stat, errmsg)
   end subroutine
 
-  !> A step of many contacts: moves tips to (x0, y0), then applies a force (by_force) or a separation to each; returns the requested
-  !> results.
-  subroutine rsc_step_all(contacts, by_force, value, x0, y0, separation, force, stiffness, lateral_x, lateral_y, moment_x, &
-                          moment_y, level_status, threads, each, stat, errmsg)
+  !> A step of many contacts: moves tips to (x0, y0), then applies a force (by_force) or a
+  !> separation to each; returns the requested results.
+  subroutine rsc_step_all(contacts, by_force, value, x0, y0, separation, force, stiffness, &
+                          lateral_x, lateral_y, moment_x, moment_y, level_status, threads, each, &
+                          stat, errmsg)
     type(rsc_contact), intent(inout) :: contacts(:)
     logical, intent(in) :: by_force
     real(c_double), intent(in) :: value(:)
     real(c_double), intent(in), contiguous, optional :: x0(:), y0(:)
-    real(c_double), intent(inout), contiguous, optional :: separation(:), force(:), stiffness(:), lateral_x(:), lateral_y(:)
+    real(c_double), intent(inout), contiguous, optional :: separation(:), force(:), stiffness(:), &
+        lateral_x(:), lateral_y(:)
     real(c_double), intent(inout), contiguous, optional :: moment_x(:), moment_y(:)
     integer(c_int32_t), intent(inout), contiguous, optional :: level_status(:), each(:)
     integer, intent(in), optional :: threads
@@ -786,9 +823,10 @@ contains
       return
     end if
     handles = handles_of(contacts)
-    call finish(rsc_contacts_step(size(contacts, kind=c_int64_t), handles, x0, y0, merge(1_c_int32_t, 0_c_int32_t, by_force), &
-                                  value, separation, force, stiffness, lateral_x, lateral_y, moment_x, moment_y, level_status, &
-                                  each, team_of(threads)), stat, errmsg)
+    call finish(rsc_contacts_step(size(contacts, kind=c_int64_t), handles, x0, y0, &
+                                  merge(1_c_int32_t, 0_c_int32_t, by_force), value, separation, &
+                                  force, stiffness, lateral_x, lateral_y, moment_x, moment_y, &
+                                  level_status, each, team_of(threads)), stat, errmsg)
   end subroutine
 
   logical function of_one_size(name, contacts, given, answer, each, stat, errmsg)
@@ -818,9 +856,10 @@ contains
     if (present(threads)) team_of = int(threads, c_int32_t)
   end function
 
-  ! --- friction ------------------------------------------------------------------------------------------------------------------------
+  ! --- friction -----------------------------------------------------------------------------------
 
-  !> m = 4 G*/E* of two bodies, the ratio of tangential to normal stiffness, from Young's moduli (infinite: rigid) and Poisson's ratios.
+  !> m = 4 G*/E* of two bodies, the ratio of tangential to normal stiffness, from Young's moduli
+  !> (infinite: rigid) and Poisson's ratios.
   function rsc_stiffness_ratio(E, nu, stat, errmsg) result(ratio)
     real(c_double), intent(in) :: E(2), nu(2)
     integer, intent(out), optional :: stat
@@ -837,23 +876,28 @@ contains
     character(*), intent(inout), optional :: errmsg
     real(c_double) :: k(2, 2)
     k = 0
-    call finish(rsc_friction_stiffness(rsc_handle_of(self%number), k(1, 1), k(1, 2), k(2, 1), k(2, 2)), stat, errmsg)
+    call finish(rsc_friction_stiffness(rsc_handle_of(self%number), k(1, 1), k(1, 2), k(2, 1), &
+                                       k(2, 2)), stat, errmsg)
   end function
 
-  !> The spots of the last update: number of the asperity, contact radius, radius of the stick area, share of Q.
+  !> The spots of the last update: number of the asperity, contact radius, radius of the stick area,
+  !> share of Q.
   subroutine friction_spots(self, asperity, radius, stick_radius, force_x, force_y, stat, errmsg)
     class(rsc_friction), intent(inout) :: self
     integer, intent(out), allocatable, optional :: asperity(:)
-    real(c_double), intent(out), allocatable, optional :: radius(:), stick_radius(:), force_x(:), force_y(:)
+    real(c_double), intent(out), allocatable, optional :: radius(:), stick_radius(:), force_x(:), &
+        force_y(:)
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     integer(c_int32_t) :: status
     integer(c_int64_t) :: n
-    ! An argument that is absent may not be handed on as allocatable; an array that is not allocated may, and is absent then.
+    ! An argument that is absent may not be handed on as allocatable; an array that is not allocated
+    ! may, and is absent then.
     real(c_double), allocatable :: radius_(:), stick_radius_(:), force_x_(:), force_y_(:)
     integer(c_int32_t), allocatable :: which(:)
     n = 0
-    status = rsc_friction_spots(rsc_handle_of(self%number), 0_c_int64_t, count=n)  ! asks for the number only
+    ! asks for the number only
+    status = rsc_friction_spots(rsc_handle_of(self%number), 0_c_int64_t, count=n)
     allocate (which(n))
     if (present(radius)) allocate (radius_(n))
     if (present(stick_radius)) allocate (stick_radius_(n))
@@ -869,7 +913,7 @@ contains
     call finish(status, stat, errmsg)
   end subroutine
 
-  ! --- procedures that only call their C function --------------------------------------------------------------------------------
+  ! --- procedures that only call their C function -------------------------------------------------
 
   include 'generated/wrappers.inc'
 

@@ -1,16 +1,20 @@
-/* rsc for fixed-form FORTRAN 77 and other languages without derived types: every call is a subroutine with a name of six letters, every object
- * an INTEGER. For the list and an example see modules/README.
+/* rsc for fixed-form FORTRAN 77 and other languages without derived types: every call is a
+ * subroutine with a name of six letters, every object an INTEGER. For the list and an example
+ * see modules/README.
  *
  *     CALL RSCIND(ICON, Z0, FORCE, IERR)
  *
- * INTEGER must have 4 bytes and DOUBLE PRECISION 8, the default of compilers. Compilers and linkers do not report other sizes
- * (-fdefault-integer-8, -i8, -fdefault-real-8); therefore all calls are refused before RSCINT and RSCDBL, which check the sizes. Arrays
- * and scalars are passed by address; the length of a CHARACTER follows all arguments by value, as with gfortran and flang; trailing
- * blanks do not count. IERR is the status of rsc.h: 0, -i for the i-th argument of the call here, or a positive value of
- * RSC_STATUS_LIST; RSCMSG returns the message. Outputs keep their values after a failure, except for IERR = 1 (not converged).
- * Indices count from 1. A handle of 0 means none: for a case, the defaults.
+ * INTEGER must have 4 bytes and DOUBLE PRECISION 8, the default of compilers. Compilers and
+ * linkers do not report other sizes (-fdefault-integer-8, -i8, -fdefault-real-8); therefore all
+ * calls are refused before RSCINT and RSCDBL, which check the sizes. Arrays and scalars are
+ * passed by address; the length of a CHARACTER follows all arguments by value, as with gfortran
+ * and flang; trailing blanks do not count. IERR is the status of rsc.h: 0, -i for the i-th
+ * argument of the call here, or a positive value of RSC_STATUS_LIST; RSCMSG returns the message.
+ * Outputs keep their values after a failure, except for IERR = 1 (not converged). Indices count
+ * from 1. A handle of 0 means none: for a case, the defaults.
  *
- * Different handles may be used by different threads at the same time, as rsc.h says; the table of handles has its own lock.
+ * Different handles may be used by different threads at the same time, as rsc.h says; the table
+ * of handles has its own lock.
  */
 #include <pthread.h>
 #include <stdatomic.h>
@@ -37,8 +41,8 @@ static int32_t refuse(int32_t argument, const char* why) {
     return -argument;
 }
 
-/* A handle consists of the number of its entry, from 1, and in higher bits the generation, so that a deleted handle is invalid even if its
- * entry is used again. */
+/* A handle consists of the number of its entry, from 1, and in higher bits the generation, so
+ * that a deleted handle is invalid even if its entry is used again. */
 #define INDEX_BITS 20
 #define GENERATIONS 2047
 
@@ -130,7 +134,8 @@ static atomic_int integers_fit, doubles_fit;
         *ierr = RSC_NO_RESULT;                                                                   \
         return;                                                                                  \
     }
-/* Finds the object of a handle, or returns with the number of that argument. A case of 0 means the defaults. */
+/* Finds the object of a handle, or returns with the number of that argument. A case of 0 means
+ * the defaults. */
 #define FIND(type, name, handle, kind, argument)                                        \
     type* const name = object_of(*(handle), kind);                                      \
     if (!name) {                                                                        \
@@ -156,7 +161,7 @@ static atomic_int integers_fit, doubles_fit;
         }                                          \
     }
 
-/* ---- texts ------------------------------------------------------------------------------------------------------------------ */
+/* ---- texts ----------------------------------------------------------------------------------- */
 
 RSC_API void rscver_(char* text, size_t length) {
     char buffer[64] = "";
@@ -193,7 +198,7 @@ RSC_API void rscdbl_(const double* one_and_two, int32_t* ierr) {
                           "or with -fdefault-double-8, too");
 }
 
-/* ---- all handles ------------------------------------------------------------------------------------------------------------ */
+/* ---- all handles ----------------------------------------------------------------------------- */
 
 RSC_API void rscdel_(int32_t* handle, int32_t* ierr) {
     BEGIN
@@ -223,7 +228,7 @@ RSC_API void rsccpy_(int32_t* handle, const int32_t* original, int32_t* ierr) {
     ENTER(entry.kind, made, handle)
 }
 
-/* ---- cases ------------------------------------------------------------------------------------------------------------------ */
+/* ---- cases ----------------------------------------------------------------------------------- */
 
 RSC_API void rscget_(const int32_t* icase, const char* name, char* value, int32_t* ierr,
                      size_t name_length, size_t value_length) {
@@ -238,7 +243,7 @@ RSC_API void rscget_(const int32_t* icase, const char* name, char* value, int32_
     free(buffer);
 }
 
-/* ---- contact ---------------------------------------------------------------------------------------------------------------- */
+/* ---- contact --------------------------------------------------------------------------------- */
 
 RSC_API void rscspt_(const int32_t* icon, const int32_t* n, int32_t* asperity, double* force,
                      double* radius, double* penetration, int32_t* ierr) {
@@ -250,6 +255,6 @@ RSC_API void rscspt_(const int32_t* icon, const int32_t* n, int32_t* asperity, d
     for (int64_t k = 0; *ierr == 0 && k < contacts; ++k) ++asperity[k];
 }
 
-/* ---- subroutines that only call their function ------------------------------------------------------------------------------- */
+/* ---- subroutines that only call their function ----------------------------------------------- */
 
 #include "generated/rsc77.inc"

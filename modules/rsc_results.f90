@@ -1,4 +1,5 @@
-!> Reads the result files of rsc, by netcdf-fortran: any variable by its name, into an array of its rank.
+!> Reads the result files of rsc, by netcdf-fortran: any variable by its name, into an array of its
+!> rank.
 !>
 !>     use rsc_results
 !>     type(rsc_result) :: r
@@ -8,10 +9,10 @@
 !>     if (r%has('map_pressure')) call r%get('map_pressure', pressure)
 !>     call r%close()
 !>
-!> A result file lists its dimensions slowest first, as ncdump prints them; Fortran sees them reversed: map_pressure(step,y,x) of
-!> the file is map_pressure(x,y,step) here. Indices count from 1 in the file already. What is missing in a variable (the deviation
-!> over a single realization) is found by rsc_is_absent(value). Attributes: nf90_get_att(r%id, nf90_global, ...) of netcdf-fortran.
-!> With stat a failure is reported in it and in errmsg, which otherwise keeps its value; without stat it is an error stop.
+!> A result file lists its dimensions slowest first, and Fortran sees them reversed:
+!> map_pressure(step,y,x) of ncdump is map_pressure(x,y,step) here. Indices count from 1 in the
+!> file, too. rsc_is_absent(value) finds what is missing. Attributes: nf90_get_att(r%id, ...). With
+!> stat a failure is reported in it and in errmsg; without stat it is an error stop.
 module rsc_results
   use, intrinsic :: iso_fortran_env, only: real64
   use netcdf

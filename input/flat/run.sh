@@ -1,6 +1,8 @@
 #!/bin/sh
-# Known results on rough flats under pressure: runs the cases of input/flat, draws two pictures and writes the report.
-# Usage: sh input/flat/run.sh [--short] [RSC [FOLDER]], as explained in input/run_cases.sh; FOLDER is output/flat by default.
+# Known results on rough flats under pressure: runs the cases of input/flat, draws two pictures
+# and writes the report.
+# Usage: sh input/flat/run.sh [--short] [RSC [FOLDER]], as explained in input/run_cases.sh;
+# FOLDER is output/flat by default.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 study=flat

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 """Generates map.sdf and map.gwy: a map as from a profilometer, of a known synthetic surface.
 
-Heights: an isotropic self-affine Gaussian surface of period 600 um with waves from 100 to 16 um, hurst 0.8, rms height 0.5 um (a sum of Fourier
-modes, so that nothing is periodic on the map itself); on a dome of 20 mm radius; tilted by 0.8 % and -0.5 %; white noise of 4 nm rms; rounded to
-1 nm. A scratch of missing points and some single ones. 160 x 128 points of 2.5 x 3.125 um: 400 x 400 um.
+Heights: an isotropic self-affine Gaussian surface of period 600 um with waves from 100 to 16 um,
+hurst 0.8, rms height 0.5 um (a sum of Fourier modes, so that nothing is periodic on the map
+itself); on a dome of 20 mm radius; tilted by 0.8 % and -0.5 %; white noise of 4 nm rms; rounded to
+1 nm. A scratch of missing points and some single ones. 160 x 128 points of 2.5 x 3.125 um: 400 x
+400 um.
 
     python3 input/map/make_map.py           writes both files beside itself; needs nothing but Python
 """

@@ -1,6 +1,8 @@
 #!/bin/sh
-# All results of the paper: runs the cases of input/paper, draws the pictures and writes the report.
-# Usage: sh input/paper/run.sh [--short] [RSC [FOLDER]], as explained in input/run_cases.sh; FOLDER is output/paper by default.
+# All results of the paper: runs the cases of input/paper, draws the pictures and writes the
+# report.
+# Usage: sh input/paper/run.sh [--short] [RSC [FOLDER]], as explained in input/run_cases.sh;
+# FOLDER is output/paper by default.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 study=paper

@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""Thirty bodies as engineers press them, by the default run and by the three laws of asperities, against elements on a finer grid.
+"""Thirty bodies as engineers press them, by the default run and by the three laws of asperities,
+against elements on a finer grid.
 
     /usr/bin/python3 input/trust/bodies.py [--rsc ./rsc] [NAME ...]
 
-Measured maps are sampled from heights that are known on a grid twice as fine, on which the elements they are compared with are solved; made
-surfaces are compared with elements at 12 points in the shortest wave. Told: status, N over that of the elements minus 1, and the error that the
-run expected, all in per cent; and at the end the numbers of status 0 that are more than 10 % off. Minutes; needs numpy and netCDF4.
-"""
+Measured maps are sampled from heights that are known on a grid twice as fine, on which the elements
+they are compared with are solved; made surfaces are compared with elements at 12 points in the
+shortest wave. Told: status, N over that of the elements minus 1, and the error that the run
+expected, all in per cent; and at the end the numbers of status 0 that are more than 10 % off.
+Minutes; needs numpy and netCDF4."""
 import argparse
 import math
 import os
@@ -113,8 +115,8 @@ def measured(name, n):
     return z / z.std()
 
 
-# name, rough body, the other one, side [mm], rms height [mm], radius [mm]; pressed to so many rms heights, or by the force under which a smooth
-# ball touches over so many times the side
+# name, rough body, the other one, side [mm], rms height [mm], radius [mm]; pressed to so many rms
+# heights, or by the force under which a smooth ball touches over so many times the side
 MAPS = [
     ("ground raceway", BEARING, SI3N4, 0.4, 2.5e-4, 6.35, "force 0.15 0.35"),
     ("ground shaft, oblique", STEEL, BRASS, 0.5, 4e-4, 10, "force 0.1 0.3"),
@@ -133,7 +135,8 @@ MAPS = [
     ("shot-peened blade", ALUMINIUM, RUBY, 1.0, 4e-3, 2.5, "force 0.1 0.3"),
     ("small window", GOLD, STEEL, 0.02, 2e-5, 10, "sigma 2 1"),
 ]
-# the same, with L/lambda_l, L/lambda_s, H, plateau, points in the shortest wave, further keys of &solids
+# the same, with L/lambda_l, L/lambda_s, H, plateau, points in the shortest wave, further keys of
+# &solids
 MADE = [
     (
         "bearing ball G5",

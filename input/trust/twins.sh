@@ -1,7 +1,10 @@
 #!/bin/sh
-# Twins of ground surfaces against the ensemble that these came from: sh input/trust/twins.sh RSC FOLDER [PYTHON] (a minute).
-# 100 surfaces with a lay and valleys are pressed by a ball. Ten others of the same ensemble are stored as maps, read again as if they had
-# been measured, and each has ten twins, made from the file of its run alone. Printed: means of both, with standard errors.
+# Twins of ground surfaces against the ensemble that these came from (a minute):
+# sh input/trust/twins.sh RSC FOLDER [PYTHON]
+# 100 surfaces with a lay and valleys are pressed by a ball. Ten
+# others of the same ensemble are stored as maps, read again as if they had been measured, and
+# each has ten twins, made from the file of its run alone. Printed: means of both, with standard
+# errors.
 set -e
 rsc=$1 to=$2 python=${3:-python3}
 mkdir -p "$to"

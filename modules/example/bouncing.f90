@@ -1,7 +1,7 @@
-! A steel ball dropped on a rough surface bounces, by the velocity Verlet method. The contact is conservative, as is the method on
-! average: the sum of kinetic, elastic and potential energy must be constant over many bounces.
-! Argument: the number of bounces, default 100.
-! Units: mm, N, s, hence t (1000 kg) for masses and N mm for energies.
+! A steel ball dropped on a rough surface bounces, by the velocity Verlet method. The contact is
+! conservative, as is the method on average: the sum of kinetic, elastic and potential energy must
+! be constant over many bounces. Argument: the number of bounces, default 100. Units: mm, N, s,
+! hence t (1000 kg) for masses and N mm for energies.
 program bouncing
   use rsc
   use, intrinsic :: iso_c_binding, only: dp => c_double
@@ -54,7 +54,8 @@ program bouncing
   end do
   print '(i0,a,i0,a)', done, ' bounces in ', steps, ' steps'
   print '(a,es10.3,a)', 'deepest penetration below first touch ', touch - deepest, ' mm'
-  print '(a,es10.3,a)', 'largest change of the total energy     ', worst / (mass * g * drop), ' of that of the drop'
+  print '(a,es10.3,a)', 'largest change of the total energy     ', worst / (mass * g * drop), &
+      ' of that of the drop'
   if (.not. worst <= tolerance * mass * g * drop) error stop 'the total energy is not kept'
 
 contains

@@ -1,5 +1,6 @@
-! Each rank of an MPI program has its own patch of a rough plate, with a separate surface, under one flat rigid punch with a given
-! load. The ranks determine the common separation at which the sum of their forces equals the load.
+! Each rank of an MPI program has its own patch of a rough plate, with a separate surface, under one
+! flat rigid punch with a given load. The ranks determine the common separation at which the sum of
+! their forces equals the load.
 program ranks
   use mpi
   use rsc
@@ -17,7 +18,8 @@ program ranks
   call mpi_comm_size(mpi_comm_world, size, error)
   load = size * load_per_patch
 
-  call options%read('&surface n=256, L_lambda_l=8, L_lambda_s=64, sigma=0.005 / &solids R=2*Infinity / &solver tolerance=1e-10 /')
+  call options%read('&surface n=256, L_lambda_l=8, L_lambda_s=64, sigma=0.005 /' // &
+                    ' &solids R=2*Infinity / &solver tolerance=1e-10 /')
   call patch%make(options, realization=rank + 1)
   call contact%create_from_case(patch, options)
   touch = contact%first_touch()
@@ -40,8 +42,8 @@ program ranks
     Z0 = Z0 + (load - all(1)) / all(2)
     if (Z0 >= high .or. Z0 <= low) Z0 = 0.5_dp * (max(low, high - 1) + high)
   end do
-  print '(a,i0,a,f10.6,a,f10.5,a,i0)', 'rank ', rank, ': force ', contact%force(), ' N, area ', contact%area(), ' mm2, contacts ', &
-      contact%contacts()
+  print '(a,i0,a,f10.6,a,f10.5,a,i0)', 'rank ', rank, ': force ', contact%force(), ' N, area ', &
+      contact%area(), ' mm2, contacts ', contact%contacts()
   check = contact%force()
   call mpi_allreduce(check, all(1), 1, mpi_double_precision, mpi_sum, mpi_comm_world, error)
   if (rank == 0) print '(a,f12.8,a,f12.6,a)', 'together at ', Z0, ' mm: ', all(1), ' N'

@@ -1,5 +1,6 @@
-/* The resistance of a switch as it closes: a gold-plated sphere is pressed on a rough gold surface with increasing forces. The constriction
- * resistance of all spots together is (rho1 + rho2)/(2 S/E*), S = -dN/dZ0 being the stiffness of the contact (Barber 2003): no electrical
+/* The resistance of a switch as it closes: a gold-plated sphere is pressed on a rough gold
+ * surface with increasing forces. The constriction resistance of all spots together is (rho1 +
+ * rho2)/(2 S/E*), S = -dN/dZ0 being the stiffness of the contact (Barber 2003): no electrical
  * problem needs to be solved. Units: mm, N, ohm. */
 #include <math.h>
 #include <stdio.h>
@@ -47,7 +48,8 @@ int main(void) {
         one = 2 * rho / (4 * sqrt(A / 3.14159265358979323846)); /* a single spot of the same area */
         printf("%9.3f %7lld %19.5f %20.5f %29.5f\n", N, (long long)spots, 1e3 * resistance,
                1e3 * alone, 1e3 * one);
-        /* The resistance decreases with force; it is between that of independent spots and that of one spot. */
+        /* The resistance decreases with force; it is between that of independent spots and that
+         * of one spot. */
         if (!(resistance < before && resistance >= alone * (1 - 1e-6) &&
               resistance <= one * (1 + 1e-6)))
             return 1;

@@ -1,5 +1,6 @@
-! Many spheres on one surface, distributed among OpenMP threads: one contact per thread, all on the same asperities. Every thread
-! moves its own sphere to several positions; the results do not depend on the distribution.
+! Many spheres on one surface, distributed among OpenMP threads: one contact per thread, all on the
+! same asperities. Every thread moves its own sphere to several positions; the results do not depend
+! on the distribution.
 program threads
   use rsc
   use omp_lib
@@ -18,9 +19,10 @@ program threads
   most = max(4, omp_get_max_threads())
   call work(1, alone)
   call work(most, together)
-  print '(a,i0,a,f0.6,a,f0.6,a)', 'mean separation under 1 N at ', places, ' places: ', sum(together) / places, ' mm, mean area ', &
-      sum(area) / places, ' mm2'
-  print '(a,es9.2)', 'largest difference between one thread and several: ', maxval(abs(together - alone))
+  print '(a,i0,a,f0.6,a,f0.6,a)', 'mean separation under 1 N at ', places, ' places: ', &
+      sum(together) / places, ' mm, mean area ', sum(area) / places, ' mm2'
+  print '(a,es9.2)', 'largest difference between one thread and several: ', &
+      maxval(abs(together - alone))
   if (.not. maxval(abs(together - alone)) < 1e-8_dp) error stop 'the threads disagree'
   if (.not. (maxval(alone) - minval(alone) > 1e-4_dp)) error stop 'all places are alike'
 
@@ -38,7 +40,8 @@ contains
     !$omp parallel do num_threads(n_threads) private(mine) schedule(dynamic)
     do k = 1, places
       mine = omp_get_thread_num() + 1
-      call contact(mine)%move_tip(0.2_dp + 0.6_dp * mod(k - 1, 8) / 7, 0.2_dp + 0.6_dp * ((k - 1) / 8) / 7)
+      call contact(mine)%move_tip(0.2_dp + 0.6_dp * mod(k - 1, 8) / 7, &
+                                  0.2_dp + 0.6_dp * ((k - 1) / 8) / 7)
       call contact(mine)%press(load, separation(k))
       area(k) = contact(mine)%area()
     end do

@@ -1,12 +1,13 @@
-! An interface law of rsc for Abaqus: user subroutine UINTER, pressure of rough flats against overclosure. No friction, no heat.
-! Properties (*SURFACE INTERACTION, USER, PROPERTIES=n):
-!     0, c1, p1, c2, p2, ...    a table, overclosure and pressure, both increasing: output/export/law.py RESULT.nc --abaqus
-!                               writes these lines
-!     1, A, Z0                  rsc itself: the case is read from the file rsc.nml in the working folder; pressure is force
-!                               over the nominal area A, overclosure c is the separation Z0 - c. One contact serves all points,
-!                               one call at a time
-! Beyond the last point of a table the last segment is continued. Units are those of the deck and of the law. Compile with the module rsc
-! (pkg-config --cflags --libs rsc_fortran).
+! An interface law of rsc for Abaqus: user subroutine UINTER, pressure of rough flats against
+! overclosure. No friction, no heat. Properties (*SURFACE INTERACTION, USER, PROPERTIES=n):
+!     0, c1, p1, c2, p2, ...    a table, overclosure and pressure, both increasing:
+!                               output/export/law.py RESULT.nc --abaqus writes these lines
+!     1, A, Z0                  rsc itself: the case is read from the file rsc.nml in the working
+!                               folder; pressure is force over the nominal area A, overclosure c
+!                               is the separation Z0 - c. One contact serves all points, one call
+!                               at a time
+! Beyond the last point of a table the last segment is continued. Units are those of the deck and of
+! the law. Compile with the module rsc (pkg-config --cflags --libs rsc_fortran).
 module rough_interface
   use rsc
   implicit none
@@ -19,7 +20,8 @@ module rough_interface
 
 contains
 
-  ! Pressure p and its slope dp/dc at the overclosure c by linear interpolation of the pairs (c1, p1, c2, p2, ...); 0 before the first.
+  ! Pressure p and its slope dp/dc at the overclosure c by linear interpolation of the pairs (c1,
+  ! p1, c2, p2, ...); 0 before the first.
   pure subroutine from_table(pairs, c, p, slope)
     real(dp), intent(in) :: pairs(:), c
     real(dp), intent(out) :: p, slope
@@ -70,18 +72,21 @@ contains
   end subroutine
 end module
 
-subroutine uinter(stress, ddsddr, dviscous, dstructural, flux, ddfddt, ddsddt, ddfddr, statev, sed, sfd, spd, svd, scd, &
-                  pnewdt, rdisp, drdisp, temp, dtemp, predef, dpred, time, dtime, freqr, ciname, slname, msname, props, coords, &
-                  alocaldir, drot, area, chrlngth, node, ndir, nstatv, npred, nprops, mcrd, kstep, kinc, kit, linper, lopenclose, &
-                  lstate, lsdi, lprint)
+subroutine uinter(stress, ddsddr, dviscous, dstructural, flux, ddfddt, ddsddt, ddfddr, statev, &
+                  sed, sfd, spd, svd, scd, pnewdt, rdisp, drdisp, temp, dtemp, predef, dpred, &
+                  time, dtime, freqr, ciname, slname, msname, props, coords, alocaldir, drot, &
+                  area, chrlngth, node, ndir, nstatv, npred, nprops, mcrd, kstep, kinc, kit, &
+                  linper, lopenclose, lstate, lsdi, lprint)
   use rough_interface
   implicit none
   integer, parameter :: dp = kind(1.0d0)
-  integer :: node, ndir, nstatv, npred, nprops, mcrd, kstep, kinc, kit, linper, lopenclose, lstate, lsdi, lprint
-  real(dp) :: stress(ndir), ddsddr(ndir, ndir), dviscous(ndir, ndir), dstructural(ndir, ndir), flux(2), ddfddt(2, 2), &
-              ddsddt(ndir, 2), ddfddr(2, ndir), statev(nstatv), sed, sfd, spd, svd, scd, pnewdt, rdisp(ndir), drdisp(ndir), &
-              temp(2), dtemp(2), predef(2, npred), dpred(2, npred), time(2), dtime, freqr, props(nprops), coords(mcrd), &
-              alocaldir(3, 3), drot(2, 2), area, chrlngth
+  integer :: node, ndir, nstatv, npred, nprops, mcrd, kstep, kinc, kit, linper, lopenclose, &
+      lstate, lsdi, lprint
+  real(dp) :: stress(ndir), ddsddr(ndir, ndir), dviscous(ndir, ndir), dstructural(ndir, ndir), &
+      flux(2), ddfddt(2, 2), ddsddt(ndir, 2), ddfddr(2, ndir), statev(nstatv), sed, sfd, spd, svd, &
+      scd, pnewdt, rdisp(ndir), drdisp(ndir), temp(2), dtemp(2), predef(2, npred), &
+      dpred(2, npred), time(2), dtime, freqr, props(nprops), coords(mcrd), alocaldir(3, 3), &
+      drot(2, 2), area, chrlngth
   character(80) :: ciname, slname, msname
   stress = 0
   ddsddr = 0

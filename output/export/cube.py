@@ -6,8 +6,8 @@
     import xarray
     xarray.open_dataset('output/study_cube.nc').force.sel(surface_sigma=0.01).mean('realization')
 
-rsc.read('output/study_manifest.nc') in Python returns the same without a file. Needs numpy and netCDF4 (Debian: python3-numpy python3-netcdf4).
-"""
+rsc.read('output/study_manifest.nc') in Python returns the same without a file. Needs numpy and
+netCDF4 (Debian: python3-numpy python3-netcdf4)."""
 
 import argparse
 import os
@@ -22,7 +22,7 @@ if __name__ == "__main__":
 
 import netCDF4  # noqa: E402
 
-from _rsc_cube import cube  # noqa: E402
+from rsc._cube import cube  # noqa: E402
 
 
 def main(words=None):
@@ -57,7 +57,9 @@ def main(words=None):
                 variable[...] = values.astype(object) if text else values
     except (OSError, IndexError, KeyError) as error:
         sys.exit(
-            f"cube.py: {arguments.manifest}: {error.strerror or error if isinstance(error, OSError) else 'no list of members in it'}; the manifest of a study (..._manifest.nc) is expected"
+            f"cube.py: {arguments.manifest}: "
+            + (error.strerror or str(error) if isinstance(error, OSError) else "no list of members")
+            + "; the manifest of a study (..._manifest.nc) is expected"
         )
     print(path)
 

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 """The fields of a result (&output fields) for other programs.
 
-    python3 output/export/fields.py RESULT.nc                    RESULT_fields_3.vti: VTK image data of level 3, for ParaView and PyVista;
-                                                                  stresses also as RESULT_stresses_3.vtr, a volume
-    python3 output/export/fields.py RESULT.nc --format csv       a table x, y, pressure, ... of each level
-    python3 output/export/fields.py RESULT.nc --format png       a picture of each level
+    fields.py RESULT.nc                 RESULT_fields_3.vti: VTK image data of level 3, for ParaView
+                                        and PyVista; stresses also as a volume, _stresses_3.vtr
+    fields.py RESULT.nc --format csv    a table x, y, pressure, ... of each level
+    fields.py RESULT.nc --format png    a picture of each level
 
-A .vti file contains all fields of one level on its points, in the units of the result. Needs numpy and netCDF4, for pictures matplotlib (Debian:
-python3-numpy python3-netcdf4 python3-matplotlib).
-"""
+A .vti file contains all fields of one level on its points, in the units of the result. Needs numpy
+and netCDF4, for pictures matplotlib (Debian: python3-numpy python3-netcdf4 python3-matplotlib)."""
 
 import argparse
 import base64
@@ -44,7 +43,8 @@ def read(path):
     with open_result(path) as file:
         if "field_step" not in file.variables:
             raise Refused(
-                f"{path!r} has no fields; a case with &output fields = 'pressure', 'gap' writes them"
+                f"{path!r} has no fields; a case with &output fields = 'pressure', 'gap' "
+                "writes them"
             )
         at = (
             lambda name, k: np.ma.filled(file[name][k].astype(float), np.nan)
@@ -72,25 +72,31 @@ def read(path):
 
 
 def write_vti(path, x, y, fields):
-    """VTK's XML image data: points on a grid, x fastest, every array as the base64 of its length in bytes and its numbers."""
+    """VTK's XML image data: points on a grid, x fastest, every array as the base64 of its length in
+    bytes and its numbers."""
     step = lambda v: float(v[1] - v[0]) if v.size > 1 else 1.0
     encoded = lambda values: base64.b64encode(
         np.uint64(8 * values.size).tobytes() + values.astype("<f8").tobytes()
     ).decode()
     arrays = "".join(
-        f'<DataArray type="Float64" Name="{name} [{unit}]" format="binary">{encoded(values)}</DataArray>\n'
+        f'<DataArray type="Float64" Name="{name} [{unit}]" format="binary">'
+        f"{encoded(values)}</DataArray>\n"
         for name, (values, unit) in fields.items()
     )
     extent = f"0 {x.size - 1} 0 {y.size - 1} 0 0"
     with open(path, "w", encoding="ascii") as out:
         out.write(
-            f'<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<ImageData WholeExtent="{extent}" '
-            f'Origin="{float(x[0])!r} {float(y[0])!r} 0" Spacing="{step(x)!r} {step(y)!r} 1">\n<Piece Extent="{extent}">\n<PointData>\n{arrays}</PointData>\n</Piece>\n</ImageData>\n</VTKFile>\n'
+            '<VTKFile type="ImageData" version="1.0" byte_order="LittleEndian" '
+            f'header_type="UInt64">\n<ImageData WholeExtent="{extent}" '
+            f'Origin="{float(x[0])!r} {float(y[0])!r} 0" Spacing="{step(x)!r} {step(y)!r} 1">\n'
+            f'<Piece Extent="{extent}">\n<PointData>\n{arrays}</PointData>\n</Piece>\n'
+            "</ImageData>\n</VTKFile>\n"
         )
 
 
 def read_volume(path):
-    """(depth, {number of the level: {name: (stresses [depth][y][x], unit)}}), empty if there are none."""
+    """(depth, {number of the level: {name: (stresses [depth][y][x], unit)}}), empty if there are
+    none."""
     with open_result(path) as file:
         there = [name for name in STRESSES if "field_" + name in file.variables]
         if not there:
@@ -105,12 +111,14 @@ def read_volume(path):
 
 
 def write_vtr(path, x, y, depth, fields):
-    """VTK's XML rectilinear grid, for depths at uneven distances: z is minus the depth, from the deepest plane up."""
+    """VTK's XML rectilinear grid, for depths at uneven distances: z is minus the depth, from the
+    deepest plane up."""
     encoded = lambda values: base64.b64encode(
         np.uint64(8 * values.size).tobytes() + np.ascontiguousarray(values, "<f8").tobytes()
     ).decode()
-    array = (
-        lambda name, values: f'<DataArray type="Float64" Name="{name}" format="binary">{encoded(values)}</DataArray>\n'
+    array = lambda name, values: (
+        f'<DataArray type="Float64" Name="{name}" format="binary">'
+        f"{encoded(values)}</DataArray>\n"
     )
     extent = f"0 {x.size - 1} 0 {y.size - 1} 0 {depth.size - 1}"
     coordinates = array("x", x) + array("y", y) + array("z", -depth[::-1])
@@ -119,8 +127,10 @@ def write_vtr(path, x, y, depth, fields):
     )
     with open(path, "w", encoding="ascii") as out:
         out.write(
-            f'<VTKFile type="RectilinearGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n<RectilinearGrid WholeExtent="{extent}">\n'
-            f'<Piece Extent="{extent}">\n<Coordinates>\n{coordinates}</Coordinates>\n<PointData>\n{arrays}</PointData>\n</Piece>\n</RectilinearGrid>\n</VTKFile>\n'
+            '<VTKFile type="RectilinearGrid" version="1.0" byte_order="LittleEndian" '
+            f'header_type="UInt64">\n<RectilinearGrid WholeExtent="{extent}">\n'
+            f'<Piece Extent="{extent}">\n<Coordinates>\n{coordinates}</Coordinates>\n'
+            f"<PointData>\n{arrays}</PointData>\n</Piece>\n</RectilinearGrid>\n</VTKFile>\n"
         )
 
 
@@ -207,7 +217,10 @@ def write_png(path, x, y, fields, length, title):
 
 def main(words=None):
     parser = argparse.ArgumentParser(
-        description="The fields of a result of rsc as VTK image data, CSV tables or pictures, one file for each level."
+        description=(
+            "The fields of a result of rsc as VTK image data, CSV tables or pictures, "
+            "one file for each level."
+        )
     )
     parser.add_argument("result", help="result file with fields")
     parser.add_argument(

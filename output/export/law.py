@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 """A contact law for finite elements from a result file of rsc.
 
-    python3 output/export/law.py RESULT.nc --calculix           for an input deck of CalculiX, to standard output or -o FILE
-    python3 output/export/law.py RESULT.nc --abaqus             for an input deck of Abaqus
-    python3 output/export/law.py RESULT.nc --table              columns, with the scatter over realizations, for modules/example/uinter.f90
+    law.py RESULT.nc --calculix   for an input deck of CalculiX, to standard output or -o FILE
+    law.py RESULT.nc --abaqus     for an input deck of Abaqus
+    law.py RESULT.nc --table      columns with the scatter, for modules/example/uinter.f90
 
-A sphere or another indenter becomes a nonlinear spring, force against approach; two flats (boundary='periodic') pressure against overclosure. The
-law is the mean over realizations and increases from level to level; levels that did not converge, or at which it would decrease, are excluded and
-counted, as are with solids%hardness the levels after the first loading. Approach and overclosure begin where the first asperity touches; a comment states this separation. Needs numpy and
-netCDF4 (Debian: python3-numpy python3-netcdf4).
-"""
+A sphere or another indenter becomes a nonlinear spring, force against approach; two flats
+(boundary='periodic') pressure against overclosure. The law is the mean over realizations and
+increases from level to level; levels that did not converge, or at which it would decrease, are
+excluded and counted, as are with solids%hardness the levels after the first loading. Approach and
+overclosure begin where the first asperity touches; a comment states this separation. Needs numpy
+and netCDF4 (Debian: python3-numpy python3-netcdf4)."""
 
 import argparse
 import os
@@ -29,8 +30,9 @@ from table import GRAVITY, NOT_CONVERGED, Refused, open_result
 
 
 class Law:
-    """approach (from 0), load and load_std (force, or pressure of flats), area and area_std (contact area, or area fraction), arrays over the points; origin: the
-    separation where the approach is 0; numbers of excluded levels."""
+    """approach (from 0), load and load_std (force, or pressure of flats), area and area_std
+    (contact area, or area fraction), arrays over the points; origin: the separation where the
+    approach is 0; numbers of excluded levels."""
 
     def __init__(self, path):
         with open_result(path) as file:
@@ -47,16 +49,19 @@ class Law:
                     )
             if "pull_off_force" in variables:
                 raise Refused(
-                    f"{path!r} has adhesion (solids%adhesion): loading and unloading differ, and a table has only one curve"
+                    f"{path!r} has adhesion (solids%adhesion): loading and unloading differ, "
+                    "and a table has only one curve"
                 )
             self.flats = "pressure" in variables
             if "time" in variables and "energy_lost" in variables:
                 raise Refused(
-                    f"{path!r} has bodies that relax (solids%relaxation_time): the load depends on time, and a table has only one curve"
+                    f"{path!r} has bodies that relax (solids%relaxation_time): the load "
+                    "depends on time, and a table has only one curve"
                 )
             if not self.flats and getattr(file, "indenter", "") == "flat":
                 raise Refused(
-                    f"{path!r} is of two flats with a border: a law of an interface needs &indentation boundary='periodic'"
+                    f"{path!r} is of two flats with a border: a law of an interface needs "
+                    "&indentation boundary='periodic'"
                 )
             self.yields = "plastic_contacts" in variables
             load, area = ("pressure", "area_fraction") if self.flats else ("force", "contact_area")
@@ -106,7 +111,8 @@ class Law:
         )
 
     def _points(self, z, n, a):
-        """The mean curve: loads at given separations, or separations at given loads, as prescribed in the run."""
+        """The mean curve: loads at given separations, or separations at given loads, as prescribed
+        in the run."""
         spread = [
             np.std(v, axis=0, ddof=1) if np.any(np.ptp(v, axis=0) > 0) else np.zeros(v.shape[1])
             for v in (z, n, a)
@@ -154,20 +160,23 @@ class Law:
         lines = [
             f"{self.title or os.path.basename(self.path)}: {load} against {approach}, {many}",
             f"units: {load} {self.units['load']}, {approach} {self.units['approach']}",
-            f"{approach} = {self.origin:.9g} - separation of the {'mean planes' if self.flats else 'tip from the mean plane'}"
+            f"{approach} = {self.origin:.9g} - separation of the "
+            f"{'mean planes' if self.flats else 'tip from the mean plane'}"
             + (
                 f" (no level without contact: continued to zero {load} by its 2/3 power)"
                 if self.extrapolated
                 else f" (the last level without contact)"
             ),
-            f"{self.approach.size} points, {load} increasing; excluded: {self.unconverged} levels not converged, {self.not_increasing} not increasing"
+            f"{self.approach.size} points, {load} increasing; excluded: {self.unconverged} "
+            f"levels not converged, {self.not_increasing} not increasing"
             + (
                 f", {self.later} after the first loading (solids%hardness): unloading differs"
                 if self.yields
                 else ""
             ),
             f"status of the levels, the worst of the realizations: {self.statuses}",
-            f"beyond the last point, {approach} {self.approach[-1]:.6g}, nothing was computed: most programs keep the {load} constant there",
+            f"beyond the last point, {approach} {self.approach[-1]:.6g}, nothing was "
+            f"computed: most programs keep the {load} constant there",
         ]
         if self.realizations > 1:
             relative = (
@@ -176,7 +185,9 @@ class Law:
                 else self.separation_std[-1] / self.approach[-1]
             )
             lines.append(
-                f"scatter over realizations at the last point: {100 * relative:.2g} % of the {load if self.prescribed == 'separation' else approach} (standard deviation); "
+                f"scatter over realizations at the last point: {100 * relative:.2g} % of the "
+                f"{load if self.prescribed == 'separation' else approach} (standard "
+                "deviation); "
                 "all of it with --table"
             )
         lines.append(f"from {os.path.basename(self.path)}, {self.source}")
@@ -198,9 +209,11 @@ def _deck(law, name, comment):
         ]
         lines += [f"{p:.10g}, {c:.10g}" for c, p in zip(law.approach, law.load)]
     else:
-        # In compression elongation and force are negative, and the table is in order of increasing elongation.
+        # In compression elongation and force are negative, and the table is in order of increasing
+        # elongation.
         lines += [
-            "** a spring between the tip and the plane (element type SPRINGA), longer than the whole approach; without tensile force",
+            "** a spring between the tip and the plane (element type SPRINGA), longer than "
+            "the whole approach; without tensile force",
             f"*SPRING, ELSET={name}, NONLINEAR",
             "",
         ]
@@ -213,7 +226,8 @@ def _deck(law, name, comment):
 
 def calculix(law, name):
     faces = [
-        "the slave surface must be of element faces (*SURFACE, TYPE=ELEMENT): with one of nodes CalculiX gave 44 % more force"
+        "the slave surface must be of element faces (*SURFACE, TYPE=ELEMENT): with one of "
+        "nodes CalculiX gave 44 % more force"
     ]
     return _deck(law, name, law.comment() + (faces if law.flats else []))
 
@@ -252,7 +266,10 @@ def table(law, name):
 
 def main(words=None):
     parser = argparse.ArgumentParser(
-        description="A contact law for finite elements from a result file of rsc: an indenter as a nonlinear spring, flats as pressure against overclosure."
+        description=(
+            "A contact law for finite elements from a result file of rsc: an indenter "
+            "as a nonlinear spring, flats as pressure against overclosure."
+        )
     )
     parser.add_argument("result", help="result file (NetCDF)")
     kind = parser.add_mutually_exclusive_group(required=True)

@@ -1,16 +1,18 @@
 #!/usr/bin/env python3
-"""A table of loads from result files of rsc: force, area, separation, stiffness, resistance and contacts, with their errors.
+"""A table of loads from result files of rsc: force, area, separation, stiffness, resistance and
+contacts, with their errors.
 
-    python3 output/export/table.py RESULT.nc                     every level, as Markdown on a terminal and CSV otherwise
-    python3 output/export/table.py RESULT.nc --at 1,10,100       at these forces (pressures of two flats), in the unit of the file
-    python3 output/export/table.py RESULT.nc --at 0.01 --by separation
-    python3 output/export/table.py STUDY_manifest.nc --at 1      a row for every member and load
+    table.py RESULT.nc                 every level: Markdown on a terminal, otherwise CSV
+    table.py RESULT.nc --at 1,10,100   at these forces (pressures of two flats), in its unit
+    table.py RESULT.nc --at 0.01 --by separation
+    table.py STUDY_manifest.nc --at 1  a row for every member and load
 
-Values are means over the realizations that converged; *_stderr is the standard error of the mean, the standard deviation over sqrt(number);
-*_expected_error is the expected relative error of the model, if the file has it. Over several realizations permeability and hydraulic_gap are
-geometric means, exp(mean of ln), of those whose gap is open, percolates is the share of these, and *_ln_stderr the standard error of the mean of ln. Needs numpy and netCDF4 (Debian:
-python3-numpy python3-netcdf4).
-"""
+Values are means over the realizations that converged; *_stderr is the standard error of the mean,
+the standard deviation over sqrt(number); *_expected_error is the expected relative error of the
+model, if the file has it. Over several realizations permeability and hydraulic_gap are geometric
+means, exp(mean of ln), of those whose gap is open, percolates is the share of these, and
+*_ln_stderr the standard error of the mean of ln. Needs numpy and netCDF4 (Debian: python3-numpy
+python3-netcdf4)."""
 
 import argparse
 import csv
@@ -54,7 +56,8 @@ class Refused(Exception):
 
 
 class Table:
-    """columns: {name: values over the levels}; units: {name: unit}; load: the column of --at; status: the most serious of each level."""
+    """columns: {name: values over the levels}; units: {name: unit}; load: the column of --at;
+    status: the most serious of each level."""
 
     def __init__(self, path):
         self.path = path
@@ -62,7 +65,8 @@ class Table:
             variables = file.variables
             if "force" not in variables or "status" not in variables:
                 raise Refused(
-                    f"{path!r} is no result of indentation: it lacks the variable 'force' or 'status'"
+                    f"{path!r} is no result of indentation: it lacks the variable 'force' or "
+                    "'status'"
                 )
             self.meanings = variables["status"].flag_meanings.split()
             self.remembers = "path" in file.ncattrs()  # levels depend on the levels before
@@ -98,7 +102,8 @@ class Table:
         self.load = "pressure" if "pressure" in self.columns else "force"
 
     def _values(self, values, good):
-        """(realization, step), with NaN for levels that did not converge; and True if there are several realizations."""
+        """(realization, step), with NaN for levels that did not converge; and True if there are
+        several realizations."""
         many = values.ndim == 2 and values.shape[0] > 1
         return (
             np.where(
@@ -111,7 +116,8 @@ class Table:
         self.columns[name], self.units[name] = values, unit
 
     def loading(self, by):
-        """The levels by increasing load, so that every interpolation is unique; if levels depend on those before them, only the first loading."""
+        """The levels by increasing load, so that every interpolation is unique; if levels depend on
+        those before them, only the first loading."""
         load, depth = self.columns[self.load], -self.columns["separation"]
         levels = [k for k in range(load.size) if load[k] > 0 and np.isfinite(depth[k])]
         if not self.remembers:
@@ -126,14 +132,16 @@ class Table:
                 kept.append(k)
         if len(kept) < 2:
             raise Refused(
-                f"{self.path!r} has fewer than two levels of increasing load: nothing can be interpolated"
+                f"{self.path!r} has fewer than two levels of increasing load: nothing can be "
+                "interpolated"
             )
         return kept
 
     def at(self, wanted, by=None):
-        """The table at these values of the load, or of the separation, as (columns, status). Between levels positive quantities follow a power
-        law of the load (of the separation: an exponential), others a straight line in its logarithm; interpolated values are between
-        those of the two neighbours, and increasing quantities remain increasing."""
+        """The table at these values of the load, or of the separation, as (columns, status).
+        Between levels positive quantities follow a power law of the load (of the separation: an
+        exponential), others a straight line in its logarithm; interpolated values are between those
+        of the two neighbours, and increasing quantities remain increasing."""
         by = by or self.load
         levels = self.loading(by)
         known = self.columns[by][levels]
@@ -141,7 +149,8 @@ class Table:
         for value in wanted:  # a prescribed load is exact only to the solver's tolerance
             if not ends[0] - 1e-4 * abs(ends[0]) <= value <= ends[1] + 1e-4 * abs(ends[1]):
                 raise Refused(
-                    f"--at {value:g}: {self.path!r} has {by} from {ends[0]:.6g} to {ends[1]:.6g} {self.units[by]}; nothing is extrapolated"
+                    f"--at {value:g}: {self.path!r} has {by} from {ends[0]:.6g} to "
+                    f"{ends[1]:.6g} {self.units[by]}; nothing is extrapolated"
                 )
         wanted = np.asarray(wanted, float)
         x, at = (-known, -wanted) if by == "separation" else (np.log(known), np.log(wanted))
@@ -177,7 +186,8 @@ def open_result(path):
 
 
 def _mean(values):
-    """Mean and its standard error over the first axis without NaN; for fewer than two values the error is NaN."""
+    """Mean and its standard error over the first axis without NaN; for fewer than two values the
+    error is NaN."""
     there = np.isfinite(values)
     count = there.sum(axis=0)
     mean = np.where(there, values, 0.0).sum(axis=0) / np.where(count, count, np.nan)
@@ -210,7 +220,8 @@ def members(path):
 
 
 def rows(paths, at=None, by=None):
-    """(header, rows of texts) of the files, with studies replaced by their members; the first column is the file if there are several."""
+    """(header, rows of texts) of the files, with studies replaced by their members; the first
+    column is the file if there are several."""
     found = []
     for path in paths:
         found += members(path) or [(path, {})]
@@ -261,7 +272,10 @@ def numbers(text):
 
 def main(words=None):
     parser = argparse.ArgumentParser(
-        description="A table of loads from result files of rsc, with standard errors and expected errors."
+        description=(
+            "A table of loads from result files of rsc, with standard errors and "
+            "expected errors."
+        )
     )
     parser.add_argument(
         "result",

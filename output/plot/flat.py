@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Two pictures and a report of rough flats under a pressure, from the result files of input/flat/run.sh.
+"""Two pictures and a report of rough flats under a pressure, from the result files of
+input/flat/run.sh.
 
     python3 output/plot/flat.py [FOLDER]
 
 reads the result files in FOLDER (default output/flat) and writes flat_*.png and report.txt there.
-Needs numpy, scipy, matplotlib and netCDF4 (Debian: python3-scipy, python3-matplotlib, python3-netcdf4).
-"""
+Needs numpy, scipy, matplotlib and netCDF4 (Debian: python3-scipy, python3-matplotlib,
+python3-netcdf4)."""
 
 import argparse
 import os
@@ -74,24 +75,33 @@ def nayak(folder, report):
 
     report.heading("Area over load against Nayak's parameter (flat_kappa.png)")
     report.note(
-        f"kappa = A E* h'/N at p/(E* h') = {pressure}, h' the rms slope of each surface; mean of {runs[0].realizations} surfaces and its standard error. Areas of elements are corrected at borders."
+        f"kappa = A E* h'/N at p/(E* h') = {pressure}, h' the rms slope of each surface; mean "
+        f"of {runs[0].realizations} surfaces and its standard error. Areas of elements are "
+        "corrected at borders."
     )
     report.raw(
-        f"{'L/lambda_l':>12s} {'L/lambda_s':>12s} {'alpha':>8s} {'elements':>18s} {'asperities':>18s} {'difference':>12s}"
+        f"{'L/lambda_l':>12s} {'L/lambda_s':>12s} {'alpha':>8s} {'elements':>18s} "
+        f"{'asperities':>18s} {'difference':>12s}"
     )
     for k, r in enumerate(runs):
         e, a = values[k], of["asperities"][2][k]
         report.raw(
-            f"{r.number('surface%L_lambda_l'):12g} {r.number('surface%L_lambda_s'):12g} {alpha[k]:8.1f} {e[0]:9.3f} +- {e[1]:5.3f} {a[0]:9.3f} +- {a[1]:5.3f} {100 * (a[0] / e[0] - 1):+10.1f} %"
+            f"{r.number('surface%L_lambda_l'):12g} {r.number('surface%L_lambda_s'):12g} "
+            f"{alpha[k]:8.1f} {e[0]:9.3f} +- {e[1]:5.3f} {a[0]:9.3f} +- {a[1]:5.3f} "
+            f"{100 * (a[0] / e[0] - 1):+10.1f} %"
         )
     for model in of:
         _, _, points, fall, start = of[model]
         rest = points[:, 0] - start - fall * np.log10(alpha)
         report.note(
-            f"{model}: kappa = {start:.3f} {fall:+.3f} log10 alpha, to {np.sqrt(np.mean(rest**2)):.3f} rms (standard errors {np.sqrt(np.mean(points[:, 1] ** 2)):.3f})."
+            f"{model}: kappa = {start:.3f} {fall:+.3f} log10 alpha, to "
+            f"{np.sqrt(np.mean(rest**2)):.3f} rms (standard errors "
+            f"{np.sqrt(np.mean(points[:, 1] ** 2)):.3f})."
         )
     report.note(
-        "Yastrebov, Anciaux and Molinari (J. Mech. Phys. Solids 107, 2017, arXiv 1704.05650) found by elements that kappa falls with the logarithm of alpha, and is between Persson's theory, which is independent of alpha "
+        "Yastrebov, Anciaux and Molinari (J. Mech. Phys. Solids 107, 2017, arXiv 1704.05650) "
+        "found by elements that kappa falls with the logarithm of alpha, and is between "
+        "Persson's theory, which is independent of alpha "
         f"({PERSSON:.3f}), and the asymptote of Bush, Gibson and Thomas ({BUSH:.3f})."
     )
     report.finding("Elements say the same." if slope < 0 else "Elements do not fall here.")
@@ -184,11 +194,16 @@ def size(folder, report):
         )
     for waves, exponent, value, upto in found:
         report.note(
-            f"L/lambda_l = {waves:g}: K sigma/p = {value:.2f} at p/(E* h') = 0.005; K ~ p^{exponent:.2f} up to {upto:.1e} (a single self-affine contact: 1/(1 + H) = {1 / (1 + H):.3f}; many: 1)."
+            f"L/lambda_l = {waves:g}: K sigma/p = {value:.2f} at p/(E* h') = 0.005; K ~ "
+            f"p^{exponent:.2f} up to {upto:.1e} (a single self-affine contact: 1/(1 + H) = "
+            f"{1 / (1 + H):.3f}; many: 1)."
         )
     report.note(
-        "Akarapu, Sharp and Robbins (Phys. Rev. Lett. 106, 2011): stiffness proportional to load, K sigma/p near 2. Pastewka, Prodanov, Lorenz, Mueser, Robbins and Persson (Phys. Rev. E 87, 2013, arXiv 1210.4635): at small "
-        "pressures a finite surface is one contact around its highest summit, and K grows with a power below 1; this range moves to lower pressures for larger surfaces."
+        "Akarapu, Sharp and Robbins (Phys. Rev. Lett. 106, 2011): stiffness proportional to "
+        "load, K sigma/p near 2. Pastewka, Prodanov, Lorenz, Mueser, Robbins and Persson "
+        "(Phys. Rev. E 87, 2013, arXiv 1210.4635): at small "
+        "pressures a finite surface is one contact around its highest summit, and K grows "
+        "with a power below 1; this range moves to lower pressures for larger surfaces."
     )
     order = [K_of[0] for _, K_of, _ in rows]
     report.finding(
@@ -216,12 +231,14 @@ def main():
             sys.exit(f"flat.py: no results in {folder!r}; they are made by input/flat/run.sh")
         report.lines += ["Rough flats under a pressure", "============================"]
         report.note(
-            "Two periodic flats, H = 0.8; elements on every point of the surface with 8 points in the shortest wavelength, asperities by law 'fourth_order'."
+            "Two periodic flats, H = 0.8; elements on every point of the surface with 8 "
+            "points in the shortest wavelength, asperities by law 'fourth_order'."
         )
         report.full = runs[0].realizations >= 20
         if not report.full:
             report.note(
-                "This is the SHORTENED version: few small surfaces. It shows that the command works; its numbers are not verified."
+                "This is the SHORTENED version: few small surfaces. It shows that the command "
+                "works; its numbers are not verified."
             )
         nayak(folder, report)
         size(folder, report)

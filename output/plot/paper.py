@@ -4,8 +4,8 @@
     python3 output/plot/paper.py [FOLDER]
 
 reads the result files in FOLDER (default output/paper) and writes paper_*.png and report.txt there.
-Needs numpy, scipy, matplotlib and netCDF4 (Debian: python3-scipy, python3-matplotlib, python3-netcdf4).
-"""
+Needs numpy, scipy, matplotlib and netCDF4 (Debian: python3-scipy, python3-matplotlib,
+python3-netcdf4)."""
 
 import argparse
 import os
@@ -45,19 +45,24 @@ def preface(report, folder):
         "===================================",
     ]
     report.note(
-        "V. A. Yastrebov, The Elastic Contact of Rough Spheres Investigated Using a Deterministic Multi-Asperity Model, Journal of Multiscale Modelling (2018). "
+        "V. A. Yastrebov, The Elastic Contact of Rough Spheres Investigated Using a "
+        "Deterministic Multi-Asperity Model, Journal of Multiscale Modelling (2018). "
         + first.file.source
         + "."
     )
     report.note(
-        "Columns: quantity, the paper's number, ours, its standard error over realizations (or parts of a surface), ours minus the paper's. '-' in the first column: not stated in the paper; '-' in the "
+        "Columns: quantity, the paper's number, ours, its standard error over realizations "
+        "(or parts of a surface), ours minus the paper's. '-' in the first column: not stated "
+        "in the paper; '-' in the "
         "third: no sampling error. "
-        "No parameter is tuned; variants of what the paper does not state are tried, and those that agree are named."
+        "No parameter is tuned; variants of what the paper does not state are tried, and "
+        "those that agree are named."
     )
     report.full = first.realizations == 2000
     if not report.full:
         report.note(
-            "This is the SHORTENED version: few realizations on small grids. It shows that the command works; its numbers must not be compared with the paper's."
+            "This is the SHORTENED version: few realizations on small grids. It shows that "
+            "the command works; its numbers must not be compared with the paper's."
         )
 
 

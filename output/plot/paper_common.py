@@ -1,4 +1,5 @@
-"""Common parts of the pictures and the report of the paper: result files by name, rows of the report, styles."""
+"""Common parts of the pictures and the report of the paper: result files by name, rows of the
+report, styles."""
 
 import glob
 import os
@@ -34,7 +35,8 @@ def mean_and_error(values):
 
 
 def jackknife(count, estimate):
-    """estimate(keep) of all data, and its jackknife standard error, omitting one of `count` parts at a time. `keep` is a boolean mask."""
+    """estimate(keep) of all data, and its jackknife standard error, omitting one of `count` parts
+    at a time. `keep` is a boolean mask."""
     full = estimate(np.ones(count, bool))
     if count < 2:
         return full, np.full_like(full, np.nan)
@@ -58,7 +60,8 @@ def agrees(paper, ours, error):
 
 
 class Report:
-    """The report, by sections. A row: quantity, the paper's number, ours, its standard error, and a remark."""
+    """The report, by sections. A row: quantity, the paper's number, ours, its standard error, and a
+    remark."""
 
     def __init__(self):
         self.lines = []
@@ -80,7 +83,8 @@ class Report:
             d = float(ours) - paper
             difference = f"{text(d, 3)} ({100 * d / paper:+.1f} %)" if paper else text(d, 3)
         self.lines.append(
-            f"  {what:56s} {text(paper):>12s} {text(float(ours) if not isinstance(ours, str) else ours):>12s} "
+            f"  {what:56s} {text(paper):>12s} "
+            f"{text(float(ours) if not isinstance(ours, str) else ours):>12s} "
             f"{text(float(error), 2):>10s} {difference:>18s}".rstrip()
         )
         if remark:
@@ -102,7 +106,8 @@ class Report:
     def raw(self, line):
         self.lines.append("  " + line)
 
-    # The paper's numbers by kind: description, beginning of their rows, and reasons for agreement or disagreement.
+    # The paper's numbers by kind: description, beginning of their rows, and reasons for agreement
+    # or disagreement.
     KINDS = [
         (
             "the theory of the model",
@@ -112,30 +117,37 @@ class Report:
         (
             "area against load (beta, N*)",
             ("beta, mean", "N*/", "N*, A_I"),
-            "The most important difference. A = beta sqrt(2 pi) N/(sqrt(2 m2) E*) with the paper's beta = 0.2 fits no surface here, by asperities or by "
-            "elements, which give 0.7 to 1; the theories of Persson (0.64) and of Bush, Gibson and Thomas (1) agree with these. N* is proportional to 1/beta^3.",
+            "The most important difference. A = beta sqrt(2 pi) N/(sqrt(2 m2) E*) with the "
+            "paper's beta = 0.2 fits no surface here, by asperities or by "
+            "elements, which give 0.7 to 1; the theories of Persson (0.64) and of Bush, "
+            "Gibson and Thomas (1) agree with these. N* is proportional to 1/beta^3.",
         ),
         (
             "the gold surface: force, contacts, radius, slope",
             ("N at", "contacts at", "rms slope", "r_g = "),
-            "The paper does not state the grid, the plateau of the spectrum and the number of surfaces "
-            "counted. Its force indicates a plateau, its radius and slope none: no single surface gives all of them.",
+            "The paper does not state the grid, the plateau of the spectrum and the number of "
+            "surfaces "
+            "counted. Its force indicates a plateau, its radius and slope none: no single "
+            "surface gives all of them.",
         ),
         (
             "summits counted on a grid",
             ("asperities", "kappa1", "<kappa", "r_g sqrt", "grid error"),
-            "Four points in the shortest wavelength reduce the curvatures by an amount that depends on their definition, which the "
+            "Four points in the shortest wavelength reduce the curvatures by an amount that "
+            "depends on their definition, which the "
             "paper does not state. On finer grids rsc agrees with the theory.",
         ),
         (
             "distributions of pressure and spots",
             ("exponent", "Rayleigh", "mean spot"),
-            "Exponents depend on the weight of contacts (equal or by area) and on the range of the fit, which the paper does not state.",
+            "Exponents depend on the weight of contacts (equal or by area) and on the range "
+            "of the fit, which the paper does not state.",
         ),
         (
             "the paper's method",
             ("solves",),
-            "The number of solves for a level depends on the rule for reducing the regularisation, which the paper does not state.",
+            "The number of solves for a level depends on the rule for reducing the "
+            "regularisation, which the paper does not state.",
         ),
     ]
     # Statements of the paper in short, and the rows to compare with.
@@ -152,7 +164,8 @@ class Report:
     ]
 
     def verdict(self):
-        """Number of confirmed numbers of the paper, by kind and with the reason, and the nine most important ones."""
+        """Number of confirmed numbers of the paper, by kind and with the reason, and the nine most
+        important ones."""
         agree = sum(agrees(*row[1:]) for row in self.rows)
         same = [row for row in self.rows if row[0].startswith(self.KINDS[0][1])]
         met = sum(agrees(*row[1:]) for row in same)
@@ -165,15 +178,19 @@ class Report:
                     else f", but only {met} of {len(same)} numbers that follow from these "
                     "alone agree: that should not be. "
                 )
-                + "The one number important to users that does not agree is the paper's area under load (beta = 0.2): rsc, elements on the same surfaces and the theories "
-                "have three to five times as much. The other differences concern numbers for which the paper does not state grid, spectrum or fit; no choice gives all of them.",
+                + "The one number important to users that does not agree is the paper's "
+                "area under load (beta = 0.2): rsc, elements on the same surfaces and the theories "
+                "have three to five times as much. The other differences concern numbers for "
+                "which the paper does not state grid, spectrum or fit; no choice gives all of "
+                "them.",
                 width=110,
             )
             if self.full and same
             else []
         )
         lines += [
-            f"Verdict: of {len(self.rows)} numbers of the paper, {agree} agree (within 2.5 standard errors or 2 %), {len(self.rows) - agree} do not."
+            f"Verdict: of {len(self.rows)} numbers of the paper, {agree} agree (within 2.5 "
+            f"standard errors or 2 %), {len(self.rows) - agree} do not."
             + ("" if self.full else " SHORTENED: no verdict on the paper.")
         ]
         for kind, starts, why in self.KINDS:

@@ -12,7 +12,8 @@ ROOT = np.sqrt(2 * np.pi)
 
 
 class AreaMember:
-    """One member of the area studies, with beta fitted in the second regime and the radius of single contacts in the first."""
+    """One member of the area studies, with beta fitted in the second regime and the radius of
+    single contacts in the first."""
 
     def __init__(self, result):
         self.result = result
@@ -57,12 +58,14 @@ class AreaMember:
         return rf"$\sigma$ = {self.sigma:g} mm, $L/\lambda_s$ = {self.waves:.0f}"
 
     def crossing_formula(self):
-        """Crossing of A_I with r_g = 0.737/sqrt(m4) and A_II with the fitted beta, over m2^(3/2) E*/m4; and its error."""
+        """Crossing of A_I with r_g = 0.737/sqrt(m4) and A_II with the fitted beta, over m2^(3/2)
+        E*/m4; and its error."""
         value = 9 / 16 * 0.737**2 * np.pi**1.5 / self.beta**3
         return value, 3 * value * self.beta_error / self.beta
 
     def crossing_data(self):
-        """Crossing of the area of single contacts and A_II with the fitted beta, over m2^(3/2) E*/m4."""
+        """Crossing of the area of single contacts and A_II with the fitted beta, over m2^(3/2)
+        E*/m4."""
         value = (self.factor * self.slope * self.E / (self.beta * ROOT)) ** 3 / self.unit
         return value, 3 * value * np.hypot(
             self.beta_error / self.beta, self.factor_error / self.factor
@@ -84,17 +87,22 @@ def area(folder, report):
         0.2,
         betas.mean(),
         betas.std(ddof=1) / np.sqrt(6),
-        "A = beta sqrt(2 pi) N/(sqrt(2 m2) E*), fitted to the ratio of the means at the levels with "
-        "N > 10 N* of the fitted beta. The error is the scatter of the members; the single members:",
+        "A = beta sqrt(2 pi) N/(sqrt(2 m2) E*), fitted to the ratio of the means at the "
+        "levels with "
+        "N > 10 N* of the fitted beta. The error is the scatter of the members; the single "
+        "members:",
     )
     report.raw(
-        f"    {'sigma':>6s} {'L/ls':>5s} {'L/ll':>5s} {'R':>4s} {'beta':>8s} {'+-':>7s}  {'sqrt(2m2) E* A/N from .. to':28s} {'N*/unit: formula r_g':>22s} {'single contacts':>16s} {'N* [N]':>9s} {'paper [N]':>10s}"
+        f"    {'sigma':>6s} {'L/ls':>5s} {'L/ll':>5s} {'R':>4s} {'beta':>8s} {'+-':>7s}  "
+        f"{'sqrt(2m2) E* A/N from .. to':28s} {'N*/unit: formula r_g':>22s} "
+        f"{'single contacts':>16s} {'N* [N]':>9s} {'paper [N]':>10s}"
     )
     for m in everything:
         kappa = (m.A * m.slope * m.E / np.where(m.N > 0, m.N, np.nan))[m.range]
         formula, data = m.crossing_formula(), m.crossing_data()
         report.raw(
-            f"    {m.sigma:6g} {m.waves:5.0f} {m.low:5.0f} {m.R:4.1f} {m.beta:8.4f} {m.beta_error:7.4f}  {kappa[0]:8.3f} .. {kappa[-1]:6.3f}{'':12s} "
+            f"    {m.sigma:6g} {m.waves:5.0f} {m.low:5.0f} {m.R:4.1f} {m.beta:8.4f} "
+            f"{m.beta_error:7.4f}  {kappa[0]:8.3f} .. {kappa[-1]:6.3f}{'':12s} "
             f"{formula[0]:13.2f} +- {formula[1]:5.2f} "
             + (
                 f"{data[0]:8.2f} +- {data[1]:4.2f} {data[0] * m.unit:9.3g}"
@@ -104,8 +112,10 @@ def area(folder, report):
             + f" {212.66 * m.unit:10.4g}"
         )
     report.finding(
-        "beta is not 0.2 in any of them. sqrt(2 m2) E* A/N = beta sqrt(2 pi) near 2.1 is close to that of the same surfaces by elements (last section), and the "
-        "asymptotic Bush-Gibson-Thomas theory has beta = 1, Persson's beta = 2/pi = 0.64; 0.2 is far below all of them."
+        "beta is not 0.2 in any of them. sqrt(2 m2) E* A/N = beta sqrt(2 pi) near 2.1 is "
+        "close to that of the same surfaces by elements (last section), and the "
+        "asymptotic Bush-Gibson-Thomas theory has beta = 1, Persson's beta = 2/pi = 0.64; 0.2 "
+        "is far below all of them."
     )
     c = [m.crossing_formula()[0] for m in base]
     d = [m.crossing_data()[0] for m in base if np.isfinite(m.crossing_data()[0])]
@@ -114,7 +124,8 @@ def area(folder, report):
         212.66,
         np.mean(c),
         np.std(c, ddof=1) / np.sqrt(len(c)),
-        "212.66 = 1.7013/beta^3 with beta = 0.2: the formula is correct and contains 1/beta^3. With the beta of the data the transition lies "
+        "212.66 = 1.7013/beta^3 with beta = 0.2: the formula is correct and contains "
+        "1/beta^3. With the beta of the data the transition lies "
         f"{212.66 / np.mean(c):.0f} times lower.",
     )
     if d:
@@ -123,7 +134,9 @@ def area(folder, report):
             212.66,
             np.mean(d),
             np.std(d, ddof=1) / np.sqrt(len(d)),
-            "Single contacts are the highest summits, sharper than the mean one: their radius, not r_g, determines the first regime, and the mean over realizations of A(N) follows it only briefly, "
+            "Single contacts are the highest summits, sharper than the mean one: their "
+            "radius, not r_g, determines the first regime, and the mean over realizations of "
+            "A(N) follows it only briefly, "
             "because the probability of further contacts increases with the load.",
         )
     normalisations(base, report)
@@ -148,13 +161,15 @@ def surfaces_tried(folder, report):
             ),
         )
         report.raw(
-            f"    plateau {t.case['surface%plateau']:8s} n = {t.number('surface%n'):5.0f} curvature {t.case['asperities%curvature']:12s} R = {t.number('solids%R'):3g} "
+            f"    plateau {t.case['surface%plateau']:8s} n = {t.number('surface%n'):5.0f} "
+            f"curvature {t.case['asperities%curvature']:12s} R = {t.number('solids%R'):3g} "
             f"{beta[0]:8.4f} +- {error[0]:.4f} {beta[1]:8.4f} +- {error[1]:.4f}"
         )
 
 
 def normalisations(base, report):
-    """beta of these data with other normalisations: one that explains 0.2 must give it for all members."""
+    """beta of these data with other normalisations: one that explains 0.2 must give it for all
+    members."""
     E_young = 78.0e3
     tries = [
         ("as stated", lambda m: 1.0),
@@ -178,7 +193,8 @@ def normalisations(base, report):
         ("a quarter of the area, pi (a/2)^2", lambda m: 0.25),
     ]
     report.note(
-        "Normalisations tried, beta of the six members (smallest .. largest). A normalisation that explains the paper's value would give 0.2 for all six:"
+        "Normalisations tried, beta of the six members (smallest .. largest). A normalisation "
+        "that explains the paper's value would give 0.2 for all six:"
     )
     fits = []
     for name, factor in tries:
@@ -189,16 +205,21 @@ def normalisations(base, report):
         if good:
             fits.append(name)
         report.raw(
-            f"    {name:40s} {values.min():8.4f} .. {values.max():8.4f}{'   near 0.2 for all' if good else ''}"
+            f"    {name:40s} {values.min():8.4f} .. "
+            f"{values.max():8.4f}{'   near 0.2 for all' if good else ''}"
         )
     report.raw(f"    {'A and N over the same nominal area':40s}  does not change beta")
     if "no gradient at all" not in fits:
         report.finding(
-            "Without the gradient the members with sigma = 0.01 mm, the paper's surface, are near 0.2, but those with ten times less or more are not: a coincidence of the unit."
+            "Without the gradient the members with sigma = 0.01 mm, the paper's surface, are "
+            "near 0.2, but those with ten times less or more are not: a coincidence of the "
+            "unit."
         )
     if any(f.startswith("a quarter") for f in fits):
         report.note(
-            "Only a quarter of the area is close, as if the radius of a contact were taken as its diameter, pi a^2/4. But then single contacts would be four times below A_I, and nothing in the "
+            "Only a quarter of the area is close, as if the radius of a contact were taken as "
+            "its diameter, pi a^2/4. But then single contacts would be four times below A_I, "
+            "and nothing in the "
             "paper supports it. No other normalisation with a justification was found."
         )
     elif not fits:
@@ -259,7 +280,8 @@ def picture_area(folder, base):
     smallest = min(m.A[m.contacts.sum(axis=0) >= 5].min() for m in base)
     axes[0].set(ylabel="contact area $A$ [mm$^2$]", ylim=(smallest / 5, None))
     figure.suptitle(
-        f"Mean and standard deviation of {base[0].result.realizations} realizations, every third level",
+        f"Mean and standard deviation of {base[0].result.realizations} realizations, every "
+        "third level",
         fontsize=9,
     )
     save(figure, folder, "paper_area")
@@ -344,7 +366,8 @@ def picture_slope(folder, everything):
 
 
 def bezier_matrix(cells, per_cell):
-    """Cubic Bezier interpolation between cell centres, tangents of Catmull and Rom, at per_cell points a cell: a matrix."""
+    """Cubic Bezier interpolation between cell centres, tangents of Catmull and Rom, at per_cell
+    points a cell: a matrix."""
     s = (np.arange(cells * per_cell) + 0.5) / per_cell - 0.5
     matrix = np.zeros((s.size, cells))
     tangent = np.zeros((cells, cells))
@@ -405,7 +428,8 @@ def maps(folder, report):
     for axis in axes[:, 0]:
         axis.set_ylabel("$y$ [mm]")
     figure.suptitle(
-        f"Mean pressure of {result.realizations} realizations, bicubic Bezier smoothing; dashed: Hertz contact of the smooth sphere under the mean force",
+        f"Mean pressure of {result.realizations} realizations, bicubic Bezier smoothing; "
+        "dashed: Hertz contact of the smooth sphere under the mean force",
         fontsize=9,
     )
     save(figure, folder, "paper_maps")
@@ -424,13 +448,15 @@ def maps(folder, report):
     report.note(
         "Mean force at the levels of the maps [N], no plateau / plateau: "
         + ", ".join(
-            f"{z:.2f}: {text(mean_and_error(runs[0]['force'][:, runs[0].level(z)])[0])} / {text(mean_and_error(runs[1]['force'][:, runs[1].level(z)])[0])}"
+            f"{z:.2f}: {text(mean_and_error(runs[0]['force'][:, runs[0].level(z)])[0])} / "
+            f"{text(mean_and_error(runs[1]['force'][:, runs[1].level(z)])[0])}"
             for z in MAP_LEVELS
         )
         + "."
     )
     report.note(
-        f"Trials, N at 1.43: the mean of {result.realizations} plus the difference by each change on the same surfaces."
+        f"Trials, N at 1.43: the mean of {result.realizations} plus the difference by each "
+        "change on the same surfaces."
     )
     for trial in members(folder, "trials"):
         base = runs[".true." in trial.case["surface%plateau"]]
@@ -441,11 +467,16 @@ def maps(folder, report):
             trial["force"][:common, trial.level(10 / 7)] - reference[:common]
         )
         report.raw(
-            f"    plateau {trial.case['surface%plateau']:8s} n = {trial.number('surface%n'):5.0f} curvature {trial.case['asperities%curvature']:12s} sigma by {trial.case['surface%normalise']:12s} "
+            f"    plateau {trial.case['surface%plateau']:8s} n = "
+            f"{trial.number('surface%n'):5.0f} curvature "
+            f"{trial.case['asperities%curvature']:12s} sigma by "
+            f"{trial.case['surface%normalise']:12s} "
             f"{mean + change:8.2f} +- {np.hypot(error, change_error):.2f}"
         )
     report.finding(
-        "With the plateau the paper's force is reproduced to one or two per cent, best with sigma in expectation and n = 4096; without it is far off. So its force indicates a plateau, while its r_g and its rms slope (below) are "
+        "With the plateau the paper's force is reproduced to one or two per cent, best with "
+        "sigma in expectation and n = 4096; without it is far off. So its force indicates a "
+        "plateau, while its r_g and its rms slope (below) are "
         "those of a surface without: no single surface gives all three."
     )
     report.row(
@@ -459,11 +490,16 @@ def radial(folder, report):
     figure, axes = plt.subplots(1, 3, figsize=(14.4, 4.6), constrained_layout=True)
     report.heading("Radial pressure (paper_radial.png)")
     report.note(
-        "The paper states no numbers for these fits. Least squares of the radial means, no plateau: p = p0 sqrt(1 - r^2/a^2) and p = pg exp(-r^2/(2 s^2)); the Hertz contact of the smooth "
-        "sphere under the same force beside; d is the rms deviation from the data over the largest pressure."
+        "The paper states no numbers for these fits. Least squares of the radial means, no "
+        "plateau: p = p0 sqrt(1 - r^2/a^2) and p = pg exp(-r^2/(2 s^2)); the Hertz contact of "
+        "the smooth "
+        "sphere under the same force beside; d is the rms deviation from the data over the "
+        "largest pressure."
     )
     report.raw(
-        f"    {'Z0/sigma':>8s} {'N [N]':>9s} | {'Hertz a [mm]':>12s} {'p0 [MPa]':>9s} | {'fit a':>8s} {'p0':>9s} {'d':>6s} | {'Gauss s [mm]':>12s} {'pg [MPa]':>9s} {'d':>6s}"
+        f"    {'Z0/sigma':>8s} {'N [N]':>9s} | {'Hertz a [mm]':>12s} {'p0 [MPa]':>9s} | "
+        f"{'fit a':>8s} {'p0':>9s} {'d':>6s} | {'Gauss s [mm]':>12s} {'pg [MPa]':>9s} "
+        f"{'d':>6s}"
     )
     for (marker, line, colour), z in zip(STYLES, MAP_LEVELS + (10 / 7, 1.0)):
         step = result.level(z)
@@ -493,7 +529,8 @@ def radial(folder, report):
             np.sqrt(np.mean((f - p) ** 2)) / middle for f in (hertz(r, p0, a), gauss(r, pg, s))
         ]
         report.raw(
-            f"    {z:8.2f} {N:9.4g} | {a0:12.4f} {1.5 * N / (np.pi * a0**2):9.4g} | {a:8.4f} {p0:9.4g} {deviation[0]:6.3f} | {abs(s):12.4f} {pg:9.4g} {deviation[1]:6.3f}"
+            f"    {z:8.2f} {N:9.4g} | {a0:12.4f} {1.5 * N / (np.pi * a0**2):9.4g} | {a:8.4f} "
+            f"{p0:9.4g} {deviation[0]:6.3f} | {abs(s):12.4f} {pg:9.4g} {deviation[1]:6.3f}"
         )
         fine = np.linspace(0, r[-1], 400)
         shown = p > 0

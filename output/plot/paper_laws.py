@@ -1,4 +1,5 @@
-"""Beyond the paper: its contact solved by elements on all points of the same surfaces, compared with the contact laws of asperities."""
+"""Beyond the paper: its contact solved by elements on all points of the same surfaces, compared
+with the contact laws of asperities."""
 
 import numpy as np
 
@@ -54,8 +55,11 @@ def laws(folder, report):
     waves = max(map(waves_of, bare))
     report.heading("Beyond the paper: elements, and the laws of an asperity")
     report.note(
-        "model = 'elements' solves the contact of the surface itself: every point may be in contact, without asperities. The paper's asperity is a Hertz sphere; law = 'elliptic' uses both "
-        "curvatures of a summit, 'fourth_order' also its flattening. beta from A/N of the mean curves, with jackknife errors over realizations; the surfaces are "
+        "model = 'elements' solves the contact of the surface itself: every point may be in "
+        "contact, without asperities. The paper's asperity is a Hertz sphere; law = "
+        "'elliptic' uses both "
+        "curvatures of a summit, 'fourth_order' also its flattening. beta from A/N of the "
+        "mean curves, with jackknife errors over realizations; the surfaces are "
         "the same for all, so that the ratio to elements has a much smaller error than beta itself:"
     )
     betas(asperities, bare, report)
@@ -74,7 +78,9 @@ def laws(folder, report):
     truth = next(r for r in bare if waves_of(r) == waves)
     near, far = beta(truth, slice(None), [truth.level(1.0), truth.level(2.0)])
     report.note(
-        f"Elements, which are independent of asperities, give {far:.2f} at 2 sigma and {near:.2f} at 1 sigma: 0.2 is not due to the shape of asperities, nor to the asperity model. At the same load "
+        f"Elements, which are independent of asperities, give {far:.2f} at 2 sigma and "
+        f"{near:.2f} at 1 sigma: 0.2 is not due to the shape of asperities, nor to the "
+        "asperity model. At the same load "
         f"the paper's A_II has {100 * 0.2 / near:.0f} % of the true contact area. "
         + grid_and_range(asperities, waves)
     )
@@ -111,7 +117,8 @@ def betas(asperities, bare, report):
 
 
 def grid_and_range(asperities, waves):
-    """Text on the effect of half the points per shortest wavelength, and on the share of contacts beyond the range of fourth_order."""
+    """Text on the effect of half the points per shortest wavelength, and on the share of contacts
+    beyond the range of fourth_order."""
     part = [r for r in asperities if waves_of(r) == waves]
     many, few = max(map(points_of, part)), min(map(points_of, part))
 
@@ -124,15 +131,21 @@ def grid_and_range(asperities, waves):
     step = result.level(1.0)
     beyond = result["beyond_law"][:, step].sum() / result["contacts"][:, step].sum()
     return (
-        f"With {many:.0f} points to the shortest wave instead of {few:.0f}, beta at 1 sigma and L/lambda_s = {waves} changes by {change['hertz']:.4f} for hertz, whose summits are grid "
-        f"points, by {change['elliptic']:.4f} for elliptic and {change['fourth_order']:.4f} for fourth_order, which locate summits between them. There {100 * beyond:.0f} % of the contacts are beyond the range of fourth_order."
+        f"With {many:.0f} points to the shortest wave instead of {few:.0f}, beta at 1 sigma "
+        f"and L/lambda_s = {waves} changes by {change['hertz']:.4f} for hertz, whose summits "
+        "are grid "
+        f"points, by {change['elliptic']:.4f} for elliptic and {change['fourth_order']:.4f} "
+        f"for fourth_order, which locate summits between them. There {100 * beyond:.0f} % of "
+        "the contacts are beyond the range of fourth_order."
     )
 
 
 def distances(asperities, bare, report):
     """Each law minus elements on the same surfaces, of the sums over realizations."""
     report.note(
-        "Laws minus elements in per cent, with the most points per shortest wavelength, of the sums over the realizations: mean over the levels 2.5, 2, 1.5 and 1 sigma, in brackets the worst of these levels:"
+        "Laws minus elements in per cent, with the most points per shortest wavelength, of "
+        "the sums over the realizations: mean over the levels 2.5, 2, 1.5 and 1 sigma, in "
+        "brackets the worst of these levels:"
     )
     report.raw(f"    {'L/ls':>5s} {'law':18s} {'load N':>16s} {'area A':>16s} {'contacts':>16s}")
     for truth in bare:
@@ -153,7 +166,8 @@ def distances(asperities, bare, report):
 
 
 def paper_numbers(folder, elements, asperities, waves, report):
-    """The paper's force and its numbers of contacts, by elements and by asperities on the same surfaces."""
+    """The paper's force and its numbers of contacts, by elements and by asperities on the same
+    surfaces."""
     runs = {False: Result(f"{folder}/maps.nc"), True: Result(f"{folder}/maps_plateau.nc")}
     report.columns()
     counts = []
@@ -161,7 +175,8 @@ def paper_numbers(folder, elements, asperities, waves, report):
         plateau = ".true." in truth.case["surface%plateau"]
         name, run = ("plateau" if plateau else "no plateau"), runs[plateau]
         first = slice(0, min(truth.realizations, run.realizations))
-        # On the same surfaces the ratio of elements to the asperities of maps.nc has a small error; it is applied to their 2 000 surfaces.
+        # On the same surfaces the ratio of elements to the asperities of maps.nc has a small error;
+        # it is applied to their 2 000 surfaces.
         step, own = truth.level(10 / 7), run.level(10 / 7)
         ratio, ratio_error = jackknife(
             first.stop,
@@ -175,12 +190,17 @@ def paper_numbers(folder, elements, asperities, waves, report):
             116.6,
             mean * float(ratio),
             mean * float(ratio) * np.hypot(error / mean, float(ratio_error) / float(ratio)),
-            f"That of {run.realizations} realizations with the paper's asperities, times {float(ratio):.4f} +- {float(ratio_error):.4f}, elements over asperities on {first.stop} of these surfaces.",
+            f"That of {run.realizations} realizations with the paper's asperities, times "
+            f"{float(ratio):.4f} +- {float(ratio_error):.4f}, elements over asperities on "
+            f"{first.stop} of these surfaces.",
         )
         counts.append((name, truth, run, first))
     report.note(
-        "Numbers of contacts per surface, and numbers of realizations that would give the paper's three counts (320 000, 157 000, 39 000 at 2, 2.5 and 3 sigma). A contact of elements is a connected set of "
-        "points, in which several summits may have merged; hertz: the paper's asperities, four points to the shortest wave; both on the same surfaces:"
+        "Numbers of contacts per surface, and numbers of realizations that would give the "
+        "paper's three counts (320 000, 157 000, 39 000 at 2, 2.5 and 3 sigma). A contact of "
+        "elements is a connected set of "
+        "points, in which several summits may have merged; hertz: the paper's asperities, "
+        "four points to the shortest wave; both on the same surfaces:"
     )
     report.raw(
         f"    {'':26s} "
@@ -194,7 +214,9 @@ def paper_numbers(folder, elements, asperities, waves, report):
                 f"    {f'{name}, {what}':26s} "
                 + " ".join(f"{c:10.2f}" for c in found)
                 + "   "
-                + f"{', '.join(f'{n / c:.0f}' if c > 0 else '-' for n, c in zip(PAPER_COUNTS.values(), found)):>28s}"
+                + ", ".join(
+                    f"{n / c:.0f}" if c > 0 else "-" for n, c in zip(PAPER_COUNTS.values(), found)
+                ).rjust(28)
             )
     _, truth, run, first = counts[0]
     elements_found, hertz_found = (
@@ -203,8 +225,10 @@ def paper_numbers(folder, elements, asperities, waves, report):
     )
     fewer = 100 * (1 - elements_found / np.maximum(hertz_found, 1e-9))
     report.note(
-        f"Without plateau elements have {fewer[0]:.0f}, {fewer[1]:.0f} and {fewer[2]:.0f} % fewer contacts at these levels, because summits have merged."
+        f"Without plateau elements have {fewer[0]:.0f}, {fewer[1]:.0f} and {fewer[2]:.0f} % "
+        "fewer contacts at these levels, because summits have merged."
     )
     report.finding(
-        "The paper's three counts are no more consistent with them, and its force differs more: the disagreement is not due to asperities that do not merge."
+        "The paper's three counts are no more consistent with them, and its force differs "
+        "more: the disagreement is not due to asperities that do not merge."
     )

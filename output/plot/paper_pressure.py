@@ -1,4 +1,5 @@
-"""Figures of single contacts: mean pressure, hardness, full pressure density, spot areas; and the paper's own method."""
+"""Figures of single contacts: mean pressure, hardness, full pressure density, spot areas; and the
+paper's own method."""
 
 import numpy as np
 from scipy.optimize import minimize
@@ -67,12 +68,16 @@ def pressures(folder, report):
         f"{n / x:.0f}" if x > 0 else "-" for n, x in zip(PAPER_COUNTS.values(), v)
     )
     report.note(
-        f"The counts depend on the number of realizations, which the paper states for the maps only; their ratios do not: paper 1, {157 / 320:.3f}, {39 / 320:.3f}. Trials, contacts per surface; "
-        "ratios; numbers of realizations that would give the paper's three counts (three equal numbers if the surface is the paper's):"
+        "The counts depend on the number of realizations, which the paper states for the "
+        f"maps only; their ratios do not: paper 1, {157 / 320:.3f}, {39 / 320:.3f}. Trials, "
+        "contacts per surface; "
+        "ratios; numbers of realizations that would give the paper's three counts (three "
+        "equal numbers if the surface is the paper's):"
     )
     trials = [
         (
-            f"plateau {t.case['surface%plateau']}, n = {t.number('surface%n'):.0f}, {t.case['asperities%curvature']}, R = {t.number('solids%R'):g}",
+            f"plateau {t.case['surface%plateau']}, n = {t.number('surface%n'):.0f}, "
+            f"{t.case['asperities%curvature']}, R = {t.number('solids%R'):g}",
             t,
         )
         for t in members(folder, "trials") + members(folder, "trials_R5")
@@ -84,7 +89,8 @@ def pressures(folder, report):
     ] + trials
     trials += [
         (
-            f"area: sigma = {m.number('surface%sigma'):g}, L/lambda_s = {m.number('surface%L_lambda_s'):.0f}",
+            f"area: sigma = {m.number('surface%sigma'):g}, L/lambda_s = "
+            f"{m.number('surface%L_lambda_s'):.0f}",
             m,
         )
         for m in members(folder, "area")
@@ -106,12 +112,18 @@ def pressures(folder, report):
             )
         )
     report.note(
-        f"2 000 surfaces would have the paper's three numbers at Z0/sigma = {between[0]} without and {between[1]} with the plateau."
+        f"2 000 surfaces would have the paper's three numbers at Z0/sigma = {between[0]} "
+        f"without and {between[1]} with the plateau."
     )
     report.finding(
-        "Neither plateau, grid, curvature, sphere, sigma nor a shift of the level fits all three. The numbers at 2.5 and 3 are consistent on the paper's surface in all variants: they are those of some "
-        "2 900 realizations without and 4 100 with the plateau. The number at 2 is not consistent with them: it is that of two thirds to three quarters as many realizations (of 2 000 with n = 4096 and no plateau). "
-        "Ensembles of different sizes would explain all three; the paper does not state this, and no other reason was found."
+        "Neither plateau, grid, curvature, sphere, sigma nor a shift of the level fits all "
+        "three. The numbers at 2.5 and 3 are consistent on the paper's surface in all "
+        "variants: they are those of some "
+        "2 900 realizations without and 4 100 with the plateau. The number at 2 is not "
+        "consistent with them: it is that of two thirds to three quarters as many "
+        "realizations (of 2 000 with n = 4096 and no plateau). "
+        "Ensembles of different sizes would explain all three; the paper does not state this, "
+        "and no other reason was found."
     )
     for k, z, _ in levels_of(result):
         scale, error, ks = rayleigh(result, k)
@@ -121,11 +133,16 @@ def pressures(folder, report):
             None,
             scale,
             error,
-            f"Kolmogorov-Smirnov distance {ks:.4f} (sampling alone, 95 %: {1.36 / np.sqrt(total):.4f}); skewness {result.attribute('pressure_mean_pdf', 'skewness')[k]:.3f}, "
-            f"Rayleigh's 0.631; mean over scale {result.attribute('pressure_mean_pdf', 'mean')[k] / scale:.4f}, Rayleigh's 1.2533.",
+            f"Kolmogorov-Smirnov distance {ks:.4f} (sampling alone, 95 %: "
+            f"{1.36 / np.sqrt(total):.4f}); skewness "
+            f"{result.attribute('pressure_mean_pdf', 'skewness')[k]:.3f}, "
+            "Rayleigh's 0.631; mean over scale "
+            f"{result.attribute('pressure_mean_pdf', 'mean')[k] / scale:.4f}, Rayleigh's "
+            "1.2533.",
         )
     report.note(
-        "The Rayleigh form describes the main part of the density; the distance measures the deviation, which exceeds sampling if it is larger than the second number."
+        "The Rayleigh form describes the main part of the density; the distance measures the "
+        "deviation, which exceeds sampling if it is larger than the second number."
     )
 
 
@@ -143,7 +160,9 @@ def hardness(folder, report):
         1200.0,
         formula(H0, stated),
         0.0,
-        f"H0 sqrt(1 + 0.69 um/r) with H0 = {H0:.0f} N/mm2 gives 550; the printed 1.2 GPa would need H0 = {big:.0f} N/mm2, or r = {1e3 * length / ((1200 / H0) ** 2 - 1):.4f} um. Probably an error in the paper.",
+        f"H0 sqrt(1 + 0.69 um/r) with H0 = {H0:.0f} N/mm2 gives 550; the printed 1.2 GPa "
+        f"would need H0 = {big:.0f} N/mm2, or r = {1e3 * length / ((1200 / H0) ** 2 - 1):.4f} "
+        "um. Probably an error in the paper.",
     )
     run = Result(f"{folder}/maps.nc")
     plateau = Result(f"{folder}/maps_plateau.nc")
@@ -157,7 +176,8 @@ def hardness(folder, report):
             f"0.737/sqrt(m4) of the formulas is {737 / np.sqrt(float(r['m4_theory'])):.4f} um.",
         )
     report.finding(
-        "The paper's 0.18 um is that of summits found on 2048 x 2048 points without a plateau; four points to the shortest wave make curvatures 9 % too small."
+        "The paper's 0.18 um is that of summits found on 2048 x 2048 points without a "
+        "plateau; four points to the shortest wave make curvatures 9 % too small."
     )
     for k, z in enumerate(results[0]["separation_sigma"]):
         share = {"r of the spot": [], "r of the asperity": [], "550 N/mm2": [], "1200 N/mm2": []}
@@ -184,10 +204,13 @@ def hardness(folder, report):
                 100 * np.sqrt(max(q * (1 - q), 1 / n) / n),
             )
         report.raw(
-            f"      {total} contacts; errors correspond to at least one contact; the Rayleigh fit leaves {100 * (1 - np.exp(-(550 / result_scale(run, k, z)) ** 2 / 2)):.2g} % below 550 N/mm2"
+            f"      {total} contacts; errors correspond to at least one contact; the Rayleigh "
+            f"fit leaves {100 * (1 - np.exp(-(550 / result_scale(run, k, z)) ** 2 / 2)):.2g} "
+            "% below 550 N/mm2"
         )
     report.finding(
-        "Mean pressures are some 100 times the hardness: elastic contact at an rms slope of 4.6 is not realistic for gold. Nearly all contacts are beyond the hardness, for "
+        "Mean pressures are some 100 times the hardness: elastic contact at an rms slope of "
+        "4.6 is not realistic for gold. Nearly all contacts are beyond the hardness, for "
         "any interpretation of r."
     )
     yielding(folder, report)
@@ -197,8 +220,10 @@ def hardness(folder, report):
         4.7,
         value,
         error,
-        f"Formula {np.sqrt(2 * float(run['m2_theory'])):.3f} without, {np.sqrt(2 * float(plateau['m2_theory'])):.3f} with the plateau: "
-        "the paper's 4.7 is the formula without a plateau; discrete wavevectors in a square give slightly less.",
+        f"Formula {np.sqrt(2 * float(run['m2_theory'])):.3f} without, "
+        f"{np.sqrt(2 * float(plateau['m2_theory'])):.3f} with the plateau: "
+        "the paper's 4.7 is the formula without a plateau; discrete wavevectors in a square "
+        "give slightly less.",
     )
 
 
@@ -206,7 +231,9 @@ def yielding(folder, report):
     """Yielding contacts, and the remaining force."""
     elastic, yielding = members(folder, "yielding")
     report.note(
-        'The paper: "almost all contacting asperities would be deformed plastically". The same surfaces with pressures bounded by 250 N/mm2 sqrt(1 + 0.69 um/r), loaded level by level:'
+        'The paper: "almost all contacting asperities would be deformed plastically". '
+        "The same surfaces with pressures bounded by 250 N/mm2 sqrt(1 + 0.69 um/r), "
+        "loaded level by level:"
     )
     for z in (3.0, 2.5, 2.0, 10 / 7, 1.0):
         e, y = (r["force"][:, r.level(z)] for r in (elastic, yielding))
@@ -233,7 +260,9 @@ def yielding(folder, report):
             f"      yielding over elastic: N {y.sum() / e.sum():.4f}, A {areas[1] / areas[0]:.2f}"
         )
     report.finding(
-        "All contacts yield: the elastic force is 50 times (1 sigma) to 150 times (3 sigma) that of a yielding surface. Asperities flattened this much also overlap; for the accuracy of the model see the comparison with yielding elements (test/README)."
+        "All contacts yield: the elastic force is 50 times (1 sigma) to 150 times (3 sigma) "
+        "that of a yielding surface. Asperities flattened this much also overlap; for the "
+        "accuracy of the model see the comparison with yielding elements (test/README)."
     )
 
 
@@ -243,9 +272,11 @@ def result_scale(run, k, z):
 
 
 def each_contact_once(bins, counts, rng):
-    """Fitted exponents of the pressure density with equal weight for every contact instead of its area, with errors by resampling the contacts."""
+    """Fitted exponents of the pressure density with equal weight for every contact instead of its
+    area, with errors by resampling the contacts."""
     edges = np.linspace(0, 1.5 * (bins[-1] + bins[0]), 121)
-    # A contact of mean pressure q has 2 p/p0^2 on [0, p0], p0 = 1.5 q; each bin of q is represented by five values.
+    # A contact of mean pressure q has 2 p/p0^2 on [0, p0], p0 = 1.5 q; each bin of q is represented
+    # by five values.
     shares = np.array(
         [
             np.mean(
@@ -293,7 +324,8 @@ def full_pressure(folder, report):
     for k, z, (marker, line, colour) in levels_of(result):
         alpha, beta, delta, *_, ks = generalised_gamma(result, k)
         mean = result.attribute("pressure_pdf", "mean")[k] / 1e3
-        # The paper's exponents with the mean of the data: <p> = delta Gamma((a + 2)/b)/Gamma((a + 1)/b).
+        # The paper's exponents with the mean of the data: <p> = delta Gamma((a + 2)/b)/Gamma((a +
+        # 1)/b).
         fixed = mean * gamma_function((2 / 3 + 1) / 1.5) / gamma_function((2 / 3 + 2) / 1.5)
         law = (
             lambda p, a, b, d: b
@@ -350,7 +382,8 @@ def full_pressure(folder, report):
                 )
         report.raw(
             f"      Kolmogorov-Smirnov distance of the fit {text(ks, 2)}, no plateau; "
-            f"{result.attribute('pressure_pdf', 'independent_contacts')[k]:.0f} independent contacts"
+            f"{result.attribute('pressure_pdf', 'independent_contacts')[k]:.0f} independent "
+            "contacts"
         )
     for axis in axes:
         axis.set(
@@ -363,9 +396,15 @@ def full_pressure(folder, report):
     )
     save(figure, folder, "paper_pressure_full")
     report.finding(
-        "The fits are maximum likelihood over all bins; alpha and beta are strongly anticorrelated, and errors are for the effective number of independent contacts. Weighted by area the "
-        "density is proportional to p at small p, as for every Hertz contact, so alpha is near 1, and beta near the paper's 3/2. Equal weight for each contact gives more weight to the "
-        "small and lightly loaded ones and reduces alpha to 0.6, near the paper's 2/3, with beta below 3/2. The paper's alpha thus resembles that of equally weighted contacts, rounded; no interpretation "
+        "The fits are maximum likelihood over all bins; alpha and beta are strongly "
+        "anticorrelated, and errors are for the effective number of independent contacts. "
+        "Weighted by area the "
+        "density is proportional to p at small p, as for every Hertz contact, so alpha is "
+        "near 1, and beta near the paper's 3/2. Equal weight for each contact gives more "
+        "weight to the "
+        "small and lightly loaded ones and reduces alpha to 0.6, near the paper's 2/3, with "
+        "beta below 3/2. The paper's alpha thus resembles that of equally weighted contacts, "
+        "rounded; no interpretation "
         "gives both exponents."
     )
 
@@ -400,8 +439,11 @@ def spots(folder, report):
             None,
             scale,
             error,
-            f"Kolmogorov-Smirnov distance from the exponential {ks:.4f} (sampling alone, 95 %: {1.36 / np.sqrt(max(total, 1)):.4f}); "
-            f"standard deviation over mean {result.attribute('spot_area_pdf', 'standard_deviation')[k] * 1e6 / scale:.3f}, exponential 1.",
+            f"Kolmogorov-Smirnov distance from the exponential {ks:.4f} (sampling alone, 95 "
+            f"%: {1.36 / np.sqrt(max(total, 1)):.4f}); "
+            "standard deviation over mean "
+            f"{result.attribute('spot_area_pdf', 'standard_deviation')[k] * 1e6 / scale:.3f}, "
+            "exponential 1.",
         )
     axis.set(
         yscale="log",
@@ -419,8 +461,11 @@ def spots(folder, report):
     axis.legend(loc="upper right")
     save(figure, folder, "paper_spots")
     report.note(
-        "The paper states the exponential form, but no number. A ratio above 1 means that there are more very large spots than in the exponential distribution: summits that are nearly saddles, kappa2 near 0, "
-        "have unbounded r = 1/sqrt(kappa1 kappa2). With r of the algebraic mean the tail is shorter; the ratio at 2 sigma, same surfaces:"
+        "The paper states the exponential form, but no number. A ratio above 1 means that "
+        "there are more very large spots than in the exponential distribution: summits that "
+        "are nearly saddles, kappa2 near 0, "
+        "have unbounded r = 1/sqrt(kappa1 kappa2). With r of the algebraic mean the tail is "
+        "shorter; the ratio at 2 sigma, same surfaces:"
     )
     for t in members(folder, "trials"):
         if t.case["surface%normalise"] == "'sample'":
@@ -428,7 +473,8 @@ def spots(folder, report):
                 "spot_area_pdf", "mean"
             )
             report.raw(
-                f"    plateau {t.case['surface%plateau']:8s} n = {t.number('surface%n'):5.0f} curvature {t.case['asperities%curvature']:12s} {ratio[0]:.3f}"
+                f"    plateau {t.case['surface%plateau']:8s} n = {t.number('surface%n'):5.0f} "
+                f"curvature {t.case['asperities%curvature']:12s} {ratio[0]:.3f}"
             )
 
 
@@ -445,6 +491,9 @@ def paper_method(folder, report):
         12.0,
         high,
         np.nan,
-        f"Smallest {solves.min():.0f}, largest {solves.max():.0f}, median {np.median(solves):.0f}, mean {solves.mean():.1f} over {loaded.sum()} levels. All solves are counted; rsc's own are the rule for reducing the regularisation and the "
-        f"check of the true residual afterwards (at most {text(float(result['residual'][0][loaded].max()), 2)} here).",
+        f"Smallest {solves.min():.0f}, largest {solves.max():.0f}, median "
+        f"{np.median(solves):.0f}, mean {solves.mean():.1f} over {loaded.sum()} levels. All "
+        "solves are counted; rsc's own are the rule for reducing the regularisation and the "
+        "check of the true residual afterwards (at most "
+        f"{text(float(result['residual'][0][loaded].max()), 2)} here).",
     )

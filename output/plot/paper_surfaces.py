@@ -22,7 +22,8 @@ def asperities(folder, report):
     )
     report.heading("Asperities of three surfaces from the same noise (paper_asperities.png)")
     report.note(
-        "For this figure the paper states only the parameters of the surfaces, L/lambda_l = 4, L/lambda_s = 16, 32, 64 and sigma/L = 0.025, as in the case. Result:"
+        "For this figure the paper states only the parameters of the surfaces, L/lambda_l = "
+        "4, L/lambda_s = 16, 32, 64 and sigma/L = 0.025, as in the case. Result:"
     )
     for column, result in enumerate(results):
         waves = result.number("surface%L_lambda_s")
@@ -33,7 +34,8 @@ def asperities(folder, report):
             result["asperity_kappa2"],
             result["asperity_angle"],
         )
-        # The contour of the paraboloid at a depth h: half axes sqrt(2 h/kappa), h such that a typical one covers a sixth of the area per asperity.
+        # The contour of the paraboloid at a depth h: half axes sqrt(2 h/kappa), h such that a
+        # typical one covers a sixth of the area per asperity.
         depth = 1 / (6 * x.size * 2 * np.pi * np.median(1 / np.sqrt(k1 * k2)))
         for row, half in enumerate((0.5, 1.6 / np.sqrt(x.size) if x.size > 400 else 0.12)):
             axis = axes[row, column]
@@ -45,7 +47,8 @@ def asperities(folder, report):
                 interpolation="nearest",
             )
             figure.colorbar(image, ax=axis, shrink=0.85, label="height $z$ [mm]")
-            # For a nearly cylindrical summit the ellipse is longer than the range of the paraboloid: half axes are limited to three mean spacings.
+            # For a nearly cylindrical summit the ellipse is longer than the range of the
+            # paraboloid: half axes are limited to three mean spacings.
             long, short = np.minimum(2 * np.sqrt(2 * depth / k2), 6 / np.sqrt(x.size)), 2 * np.sqrt(
                 2 * depth / k1
             )
@@ -81,10 +84,12 @@ def asperities(folder, report):
             )
         axes[0, column].set_title(rf"$L/\lambda_s$ = {waves:.0f}: {x.size} asperities")
         report.raw(
-            f"L/lambda_s = {waves:.0f}: {x.size} asperities, {result['saddles'][0]:.0f} saddles excluded, formula {float(result['density_theory']):.0f}"
+            f"L/lambda_s = {waves:.0f}: {x.size} asperities, {result['saddles'][0]:.0f} "
+            f"saddles excluded, formula {float(result['density_theory']):.0f}"
         )
     figure.suptitle(
-        "The same noise, more short waves. Solid: contours of the summits' paraboloids; dashed: circles of equal geometric curvature",
+        "The same noise, more short waves. Solid: contours of the summits' paraboloids; "
+        "dashed: circles of equal geometric curvature",
         fontsize=9,
     )
     save(figure, folder, "paper_asperities")
@@ -94,7 +99,8 @@ def asperities(folder, report):
 
 
 def greenwood(k1, k2):
-    """Density of (kappa1, kappa2)/sqrt(m4) of summits, over both orders of the two (Greenwood 2006)."""
+    """Density of (kappa1, kappa2)/sqrt(m4) of summits, over both orders of the two (Greenwood
+    2006)."""
     return (
         27
         / (16 * np.sqrt(np.pi))
@@ -129,7 +135,8 @@ MIDDLE = (EDGES[1:] + EDGES[:-1]) / 2
 
 
 def mode_of(histogram):
-    """(kappa1, kappa2) of the maximum of Greenwood's density times the exponential of a cubic polynomial, fitted to the nonempty bins."""
+    """(kappa1, kappa2) of the maximum of Greenwood's density times the exponential of a cubic
+    polynomial, fitted to the nonempty bins."""
     k1, k2 = np.meshgrid(MIDDLE, MIDDLE, indexing="ij")
     formula = greenwood(k1, k2)
     used = (k1 > k2 + 0.1) & (k1 < 3.2) & (histogram >= 0.03 * histogram.max()) & (formula > 0)
@@ -153,7 +160,8 @@ def mode_of(histogram):
 
 
 def curvature_numbers(result):
-    """Number, mean of kappa_g' and kappa_a', ratio at the mode, each with its jackknife error over 64 square blocks of the surface."""
+    """Number, mean of kappa_g' and kappa_a', ratio at the mode, each with its jackknife error over
+    64 square blocks of the surface."""
     scale = np.sqrt(float(result["m4"][0]))
     k1, k2 = result["asperity_kappa1"] / scale, result["asperity_kappa2"] / scale
     block = np.minimum((result["asperity_x"] * 8).astype(int), 7) * 8 + np.minimum(
@@ -237,7 +245,8 @@ def curvatures(folder, report):
     )
     axes[2].legend()
     figure.suptitle(
-        "Principal curvatures of summits; cross: maximum of the formula; contours at 0.1, 0.3, 0.5, 0.7, 0.9 of it",
+        "Principal curvatures of summits; cross: maximum of the formula; contours at 0.1, "
+        "0.3, 0.5, 0.7, 0.9 of it",
         fontsize=9,
     )
     save(figure, folder, "paper_curvatures")
@@ -252,7 +261,8 @@ def curvatures(folder, report):
         number[0],
         number[1],
         (f"{judge(*number, 580000).capitalize()}. " if full else "")
-        + f"The formula gives {text(float(results[0]['density_theory']))}. Saddles excluded: {results[0]['saddles'][0]:.0f}; with them "
+        + f"The formula gives {text(float(results[0]['density_theory']))}. "
+        f"Saddles excluded: {results[0]['saddles'][0]:.0f}; with them "
         f"{text(number[0] + results[0]['saddles'][0])}. H is not stated: 0.8 here.",
     )
     report.row(
@@ -260,8 +270,10 @@ def curvatures(folder, report):
         2.214,
         ratio[0],
         ratio[1],
-        f"{judge(ratio[0], ratio[1], 2.214).capitalize()}: the grid, see below. 2.214 is the value of the formula: its maximum is at "
-        f"({mode[0]:.4f}, {mode[1]:.4f}), ratio {mode[0] / mode[1]:.4f} (the estimator used here gives {np.divide(*mode_of(exact)):.4f}).",
+        f"{judge(ratio[0], ratio[1], 2.214).capitalize()}: the grid, see below. 2.214 is the "
+        "value of the formula: its maximum is at "
+        f"({mode[0]:.4f}, {mode[1]:.4f}), ratio {mode[0] / mode[1]:.4f} (the estimator used "
+        f"here gives {np.divide(*mode_of(exact)):.4f}).",
     )
     report.row("value of Greenwood's formula itself", 2.214, mode[0] / mode[1], np.nan)
     report.row(
@@ -281,7 +293,9 @@ def curvatures(folder, report):
     )
     report.row("<kappa_a>/sqrt(m4), algebraic mean (Greenwood)", 8 / 3 / np.sqrt(np.pi), a[0], a[1])
     report.note(
-        "m4 is that of the modes. With m4 of the same second differences the mean is correct even on the coarse grid. Curvatures from second differences are too small with few points per shortest wavelength, as finer "
+        "m4 is that of the modes. With m4 of the same second differences the mean is correct "
+        "even on the coarse grid. Curvatures from second differences are too small with few "
+        "points per shortest wavelength, as finer "
         "ones show:"
     )
     for n, values in enumerate(found):
@@ -290,8 +304,10 @@ def curvatures(folder, report):
             factor = np.sqrt(float(results[n]["m4"][0]) / float(results[n]["m4_grid"][0]))
             differences = f"; by m4 of the differences <kappa_g'> = {values[1][0] * factor:.4f}"
         report.raw(
-            f"  {points[n]:2d} points a wave: {values[0][0]:.0f} asperities ({values[0][0] / float(results[n]['density_theory']):.3f} of the formula), "
-            f"<kappa_g'> = {values[1][0]:.4f} +- {values[1][1]:.4f}, mode ratio {values[3][0]:.3f} +- {values[3][1]:.3f}{differences}"
+            f"  {points[n]:2d} points a wave: {values[0][0]:.0f} asperities "
+            f"({values[0][0] / float(results[n]['density_theory']):.3f} of the formula), "
+            f"<kappa_g'> = {values[1][0]:.4f} +- {values[1][1]:.4f}, mode ratio "
+            f"{values[3][0]:.3f} +- {values[3][1]:.3f}{differences}"
         )
 
 
@@ -375,18 +391,24 @@ def density(folder, report):
             paper if fine == 125 and n == 4096 else None,
             abs(100 * (1 - d[3])),
             100 * d[1] / d[2],
-            f"Counted {d[0]:.0f}, formula {d[2]:.0f}: {'fewer' if d[3] < 1 else 'more'} than by the formula; {d[5]['saddles'].mean():.0f} saddles per surface excluded; with them the error is "
+            f"Counted {d[0]:.0f}, formula {d[2]:.0f}: {'fewer' if d[3] < 1 else 'more'} than "
+            f"by the formula; {d[5]['saddles'].mean():.0f} saddles per surface excluded; with "
+            "them the error is "
             f"{abs(100 * (1 - (d[0] + d[5]['saddles'].mean()) / d[2])):.1f} %"
             + (
-                f"; against the formula with m2 and m4 of the differences it is {abs(100 * (1 - d[0] / by_differences(d[5]))):.1f} %."
+                "; against the formula with m2 and m4 of the differences it is "
+                f"{abs(100 * (1 - d[0] / by_differences(d[5]))):.1f} %."
                 if "m4_grid" in d[5]
                 else "."
             ),
         )
     if n == 4096:
         report.finding(
-            "8 % and 15 % are near ours with the two Hurst exponents exchanged: the paper seems to have swapped them. The remaining one or two per cent are not explained by the saddles, and "
-            "maxima among four neighbours instead of eight would be 16 to 21 % too many instead of too few."
+            "8 % and 15 % are near ours with the two Hurst exponents exchanged: the paper "
+            "seems to have swapped them. The remaining one or two per cent are not explained "
+            "by the saddles, and "
+            "maxima among four neighbours instead of eight would be 16 to 21 % too many "
+            "instead of too few."
         )
     report.note("These surfaces on other grids, counted over formula:")
     for h in sorted({r.number("surface%hurst") for r in members(folder, "density_grid")}):
@@ -394,7 +416,8 @@ def density(folder, report):
         report.raw(
             f"  H = {h:g}: "
             + ", ".join(
-                f"n = {r.number('surface%n'):.0f}: {r['summits'].mean() / float(r['density_theory']):.4f}"
+                f"n = {r.number('surface%n'):.0f}: "
+                f"{r['summits'].mean() / float(r['density_theory']):.4f}"
                 for r in part
             )
         )
@@ -406,6 +429,9 @@ def density(folder, report):
     if off:
         worst = max(off, key=lambda k: abs(off[k][0]))
         report.note(
-            f"With at least 20 points a wave ({len(off)} of {len(data)} combinations) count and formula differ by {100 * np.mean([abs(v[0]) for v in off.values()]):.1f} % in the mean, "
-            f"at most {100 * off[worst][0]:+.1f} +- {100 * off[worst][1]:.1f} % (H = {worst[0]:g}, zeta = {worst[1]:g}; few modes and few summits on a surface)."
+            f"With at least 20 points a wave ({len(off)} of {len(data)} combinations) count "
+            f"and formula differ by {100 * np.mean([abs(v[0]) for v in off.values()]):.1f} % "
+            "in the mean, "
+            f"at most {100 * off[worst][0]:+.1f} +- {100 * off[worst][1]:.1f} % (H = "
+            f"{worst[0]:g}, zeta = {worst[1]:g}; few modes and few summits on a surface)."
         )

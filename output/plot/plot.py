@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 """Pictures of result files of rsc.
 
-    python3 output/plot/plot.py output/rsc.nc                     draws all pictures of the file, in its folder
-    python3 output/plot/plot.py a.nc b.nc                         both in one picture, labelled by the keys in which they differ
-    python3 output/plot/plot.py output/study_manifest.nc          the members of a study as curves, or as maps if two keys of numbers vary
-    python3 output/plot/plot.py FILE --format pdf --width single  for a journal (single, onehalf, double, or millimetres)
+    plot.py output/rsc.nc                     all pictures of the file, in its folder
+    plot.py a.nc b.nc                         both in one picture, labelled by keys that differ
+    plot.py output/study_manifest.nc          a study: curves, results against its keys
+    plot.py output/study_manifest.nc --at 10  the study at the force 10 (of two flats: pressure)
+    plot.py FILE --format pdf --width single  for a journal (single, onehalf, double, or mm)
 
-Unreliable levels (variable `status`) have a mark, explained in the legend; a band is the expected error, or the scatter over realizations. Needs numpy, matplotlib and netCDF4 (Debian: python3-matplotlib, python3-netcdf4); if this Python lacks them,
-another one of this machine that has them is used.
+Levels with doubts (variable `status`) have a mark, explained in the legend; a band is the expected
+error, or the scatter over realizations. Needs numpy, matplotlib and netCDF4 (Debian:
+python3-matplotlib, python3-netcdf4); if this Python lacks them, another one of this machine that
+has them is used.
 """
 
 import argparse
@@ -40,7 +43,8 @@ import plot_time
 from plot_results import Result, members_of_manifest
 from plot_style import WIDTHS, plt
 
-# To add a picture, write a function of (results, options) that returns a figure, or None if the results lack its data.
+# To add a picture, write a function of (results, options) that returns a figure, or None if the
+# results lack its data.
 PICTURES = {
     "load": plot_curves.load,
     "area": plot_area.area,
@@ -48,6 +52,7 @@ PICTURES = {
     "seal": plot_seal.seal,
     "flow": plot_seal.flow,
     "study": plot_study.study,
+    "pulloff": plot_study.pulloff,
     "map": plot_map.maps,
     "radial": plot_radial.radial,
     "line": plot_line.line,
@@ -61,6 +66,7 @@ PICTURES = {
     "loop": plot_friction.loop,
     "stick": plot_friction.stick,
     "time": plot_time.time,
+    "wear": plot_time.wear,
     "pull": plot_adhesion.pull,
     "stress": plot_stress.stress,
     "section": plot_stress.section,
@@ -68,8 +74,8 @@ PICTURES = {
 
 Options = namedtuple(
     "Options",
-    "width step say",
-    defaults=(180.0, None, lambda text: print(f"plot.py: {text}", file=sys.stderr)),
+    "width step say at",
+    defaults=(180.0, None, lambda text: print(f"plot.py: {text}", file=sys.stderr), None),
 )
 
 
@@ -102,7 +108,10 @@ def parse(words):
     )
     parser.add_argument(
         "--name",
-        help="beginning of the names of the pictures (default: the name of the file, or of the first and last)",
+        help=(
+            "beginning of the names of the pictures (default: the name of the file, or of "
+            "the first and last)"
+        ),
     )
     parser.add_argument(
         "--only",
@@ -116,6 +125,12 @@ def parse(words):
         type=int,
         metavar="N",
         help="draw maps, radial means, spots and friction of level N (from 1) only",
+    )
+    parser.add_argument(
+        "--at",
+        type=float,
+        metavar="LOAD",
+        help="draw the study at this force (of two flats: pressure), in the unit of the file",
     )
     parser.add_argument(
         "--format", choices=["png", "pdf", "svg"], default="png", help="png by default"
@@ -132,13 +147,17 @@ def parse(words):
         type=width,
         default=180.0,
         metavar="MM",
-        help="width of the pictures: single (85 mm), onehalf (130), double (175) or a number of mm (default 180)",
+        help=(
+            "width of the pictures: single (85 mm), onehalf (130), double (175) or a number "
+            "of mm (default 180)"
+        ),
     )
     return parser.parse_args(words)
 
 
 def open_results(paths):
-    """The results of all files, each once, with studies replaced by their members, and the beginning of the names of the pictures."""
+    """The results of all files, each once, with studies replaced by their members, and the
+    beginning of the names of the pictures."""
     opened, stems = {}, []  # results by their real path
     for path in paths:
         members = members_of_manifest(path)
@@ -147,11 +166,13 @@ def open_results(paths):
                 result = Result(path, in_si=True)
             except OSError as error:
                 sys.exit(
-                    f"plot.py: cannot read {path!r}: {error.strerror or error}; a result file of rsc (NetCDF) is expected"
+                    f"plot.py: cannot read {path!r}: {error.strerror or error}; a result file "
+                    "of rsc (NetCDF) is expected"
                 )
             if not getattr(result.file, "source", "").startswith("rsc"):
                 sys.exit(
-                    f"plot.py: {path!r} is no result file of rsc: its attribute 'source' is of another program"
+                    f"plot.py: {path!r} is no result file of rsc: its attribute 'source' is "
+                    "of another program"
                 )
             opened.setdefault(os.path.realpath(path), result)
             stems.append(os.path.splitext(os.path.basename(path))[0])
@@ -165,7 +186,7 @@ def open_results(paths):
 def main(words=None):
     arguments = parse(words)
     results, stem = open_results(arguments.result)
-    options = Options(arguments.width, arguments.step)
+    options = Options(arguments.width, arguments.step, at=arguments.at)
     if not results:
         sys.exit("plot.py: the study has no results yet")
     for result in results if arguments.step is not None else []:

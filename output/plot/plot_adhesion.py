@@ -2,36 +2,66 @@
 
 import numpy as np
 
-from plot_style import Page, STYLES, label
+from plot_results import Looks
+from plot_style import GREY, Page, STYLES, amount, label
+
+
+def jkr(result):
+    """(force, separation) of the smooth ball of Johnson, Kendall and Roberts from the pull-off on;
+    None for other indenters."""
+    if not result.is_ball():
+        return None
+    w = result.number("solids%adhesion") * result.factor("stiffness")
+    R, E = float(result["r_star"]), float(result["e_star"])
+    least = (9 * np.pi * w * R**2 / (8 * E)) ** (1 / 3)  # contact radius at pull-off
+    a = least * np.geomspace(1, 30, 2000)
+    pull = np.sqrt(8 * np.pi * w * E * a**3)
+    return 4 * E * a**3 / (3 * R) - pull, np.sqrt(2 * np.pi * w * a / E) - a**2 / R
 
 
 def pull(results, options):
-    """The force against the separation in the order of the levels: loading, and unloading with attached asperities; the area between is
-    the energy lost. All results are drawn, the loss is shaded for a single one."""
-    found = [result for result in results if "pull_off_force" in result and result.steps > 1]
+    """The force against the separation in the order of the levels: loading, and unloading with
+    attached asperities; the area between is the energy lost. All results are drawn; a single one
+    beside the smooth ball (JKR), its loss shaded."""
+    found = [r for r in results if r.pulls() and r.steps > 1]
     if not found:
         return None
-    page = Page(options)
+    page, looks = Page(options), Looks(found)
+    if looks.scale:
+        page.scale(looks.scale)
     axis = page.axes[0]
     axis.axhline(0, color="0.6", lw=0.6)
-    for k, result in enumerate(found):
+    markers = {line: marker for marker, line, _ in STYLES[3::-1]}
+    for result, (line, colour, name) in zip(found, looks.of):
+        # Lines tell loading from unloading, and markers the results.
+        few = dict(marker="." if len(found) == 1 else markers[line], ms=3)
         Z, N = result.mean("separation"), result.mean("force")
         turn = int(np.argmin(Z))
-        colour = STYLES[k % len(STYLES)][2]
-        name = "" if len(found) == 1 else f", $w$ = {result.number('solids%adhesion'):g}"
-        axis.plot(Z[: turn + 1], N[: turn + 1], "-", color=colour, label="down" + name)
-        axis.plot(Z[turn:], N[turn:], "--", color=colour, label="up" + name)
+        axis.plot(Z[: turn + 1], N[: turn + 1], "-", color=colour, **few)
+        axis.plot(Z[turn:], N[turn:], "--", color=colour, **few)
+        if name:
+            page.entry(name, color=colour, **few)
+        page.status(axis, Z, N, result, colour)
         if len(found) == 1 and turn + 1 < len(Z):
-            if abs(Z[-1] - Z[0]) > 1e-9 * np.ptp(
-                Z
-            ):  # an open loop is shaded where both branches exist
-                grid = np.linspace(Z[turn], min(Z[0], Z[-1]), 400)
-            else:
-                grid = np.union1d(Z[: turn + 1], Z[turn:])
-            down, up = np.interp(grid, Z[turn::-1], N[turn::-1]), np.interp(
-                grid, Z[turn:], N[turn:]
+            # An open loop is shaded where both branches exist.
+            grid = np.union1d(Z[: turn + 1], Z[turn:])
+            grid = grid[grid <= min(Z[0], Z[-1])]
+            down, up = (
+                np.interp(grid, *v) for v in ((Z[turn::-1], N[turn::-1]), (Z[turn:], N[turn:]))
             )
             axis.fill_between(grid, up, down, color=colour, alpha=0.15, lw=0, label="work lost")
+    colour = looks.of[0][1] if len(found) == 1 else "0.3"
+    page.entry("down", color=colour, ls="-")
+    page.entry("up", color=colour, ls="--")
+    smooth = jkr(found[0]) if len(found) == 1 else None
+    if smooth:
+        axis.autoscale_view()
+        limits = axis.axis()
+        axis.plot(smooth[1], smooth[0], ":", color=GREY, gid="jkr")
+        axis.axis(limits)  # far larger than the loop where roughness keeps the bodies apart
+        least = amount(abs(smooth[0].min()), found[0].dimension("force"))
+        page.entry(f"smooth ball (JKR), pull-off {least}", color=GREY, ls=":")
     label(axis, "x", "separation $Z_0$", found[0].dimension("separation"))
     label(axis, "y", "force $N$", found[0].dimension("force"))
-    return page.finish(found[0].heading("Approach and pull-off"))
+    what = "Approach and pull-off"
+    return page.finish(found[0].heading(what) if len(found) == 1 else what)

@@ -2,13 +2,14 @@
 
 import numpy as np
 
-from plot_curves import band, begin, curve, title
+from plot_curves import begin, curve, title
 from plot_style import GREY, amount, label
 
 
 def area(results, options):
-    """A(N). A single result is drawn with the smooth sphere (Hertz) and the two regimes of the paper with their crossing, two flats with the theories of
-    Persson, of Bush, Gibson and Thomas, of Greenwood and Williamson."""
+    """A(N). A single result is drawn with the smooth sphere or cylinder (Hertz) and the two regimes
+    of the paper with their crossing, two flats with the theories of Persson, of Bush, Gibson and
+    Thomas, of Greenwood and Williamson."""
     results = [
         r
         for r in results
@@ -30,9 +31,7 @@ def area(results, options):
             if not pulls:
                 _theories(page, result)
         force, values = result.mean("force"), result.mean("contact_area")
-        if alone and result.realizations > 2 and not pulls:
-            _scatter(page, axis, result, look[1])
-        curve(page, axis, result, look, force, values, error="contact_area", alone=alone)
+        curve(page, axis, result, look, force, values, "contact_area", "force", alone)
         if "compare_force" in result:
             axis.plot(
                 np.ravel(result["compare_force"]),
@@ -52,41 +51,23 @@ def area(results, options):
     return page.finish(title(results, "True contact area against force"))
 
 
-def _scatter(page, axis, result, colour):
-    """Two thirds of the realizations at given forces, with each curve interpolated between its levels."""
-    at = result.loaded()
-    force, curves = np.sort(result.mean("force")[at]), []
-    for n, a in zip(result["force"], result["contact_area"]):
-        good = (n > 0) & (a > 0)
-        if good.sum() < 2:
-            return
-        order = np.argsort(n[good])
-        curves.append(
-            np.interp(
-                np.log(force),
-                np.log(n[good][order]),
-                np.log(a[good][order]),
-                left=np.nan,
-                right=np.nan,
-            )
-        )
-    low, high = np.percentile(np.exp(curves), [16, 84], axis=0)
-    band(page, axis, force, low, high, colour)
-
-
 def _theories(page, result):
     axis, at = page.axes[0], result.loaded()
     order = at[np.argsort(result.mean("force")[at])]
     force = result.mean("force")[order]
+    widths = np.array([result.half_width(level) for level in order])
+    if np.isfinite(widths).all():
+        area = 2 * widths * force / result.mean("force_per_length")[order]
+        axis.plot(force, area, ":", color=GREY, lw=1.0, label="smooth cylinder (Hertz)")
+        return
     if not result.has_sphere():
         for name, line, text in (
             ("area_persson", "--", "Persson"),
             ("area_bgt", ":", "Bush, Gibson, Thomas"),
             ("area_gw", "-.", "Greenwood, Williamson"),
         ):
-            if (
-                name in result and np.isfinite(result.mean(name)[order]).any()
-            ):  # shares of the nominal area
+            if name in result and np.isfinite(result.mean(name)[order]).any():
+                # Shares of the nominal area.
                 nominal = result.mean("contact_area")[order] / result.mean("area_fraction")[order]
                 axis.plot(
                     force, nominal * result.mean(name)[order], line, color=GREY, lw=1.0, label=text
@@ -134,20 +115,21 @@ def _theories(page, result):
 
 
 def _elastic_until(page, axis, result):
-    """Onset of yielding: between the highest force without and the lowest force with a yielding contact."""
+    """Onset of yielding: between the highest force without and the lowest force with a yielding
+    contact."""
     if "plastic_contacts" not in result:
         return
     at, force, yields = result.loaded(), result.mean("force"), result.worst("plastic_contacts") > 0
     dimension, hardness = result.dimension("force"), result.case.get("solids%hardness", "")
     if not yields[at].any():
         page.entry(
-            f"elastic up to {amount(force[at].max(), dimension)}: pressures below the hardness {hardness}",
+            f"elastic up to {amount(force[at].max(), dimension)}: pressures below the "
+            f"hardness {hardness}",
             ls="none",
         )
         return
-    first = at[
-        np.argmax(yields[at])
-    ]  # in the order of the levels: a spot that yielded counts at lower forces after it too
+    # In the order of the levels: a spot that yielded counts at lower forces after it too.
+    first = at[np.argmax(yields[at])]
     begins, below = force[first], force[at[(at < first) & (force[at] < force[first])]]
     axis.axvspan(
         begins, axis.get_xlim()[1], color="#f2b400", alpha=0.15, lw=0, gid="yields", zorder=0

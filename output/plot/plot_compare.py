@@ -1,16 +1,17 @@
-"""Asperities against elements (&compare): contact spots of both models, pressures along a line, and the error at every compared level."""
+"""Asperities against elements (&compare): contact spots of both models, pressures along a line, and
+the error at every compared level."""
 
 import numpy as np
-from matplotlib.collections import EllipseCollection
 from matplotlib.colors import ListedColormap
 
 from plot_results import names
-from plot_spots import spots_of
+from plot_spots import ellipses, spots_of
 from plot_style import Page, STYLES, amount, label
 
 
 def along_line(spots, y, x0, x1):
-    """Hertz's pressures of the spots along the line at y from x0 to x1; in yielding spots the pressure is constant."""
+    """Hertz's pressures of the spots along the line at y from x0 to x1; in yielding spots the
+    pressure is constant."""
     x = np.linspace(x0, x1, 2000)
     p = np.zeros_like(x)
     for sx, sy, a, b, t, f, yields in zip(*spots):
@@ -33,7 +34,8 @@ def compare(results, options):
     result = having[0]
     if len(having) > 1:
         options.say(
-            f"compare: {names(results)[results.index(result)]} is drawn; plot the other files one by one"
+            f"compare: {names(results)[results.index(result)]} is drawn; plot the other files "
+            "one by one"
         )
     steps = result["compare_step"].astype(int) - 1
     step, pixels, spots = (
@@ -105,21 +107,8 @@ def compare(results, options):
     if spots is not None:
         x, y, a, b, angle = spots[:5]
         some = (abs(x - px[peak]) < n * hx + a) & (abs(y - py[peak]) < n * hy + a)
-        if some.any():
-            axis.add_collection(
-                EllipseCollection(
-                    2 * a[some],
-                    2 * b[some],
-                    np.degrees(angle)[some],
-                    units="xy",
-                    offsets=np.c_[x, y][some],
-                    transOffset=axis.transData,
-                    facecolors="none",
-                    edgecolors="#c1440e",
-                    linewidths=1.0,
-                    gid="spots",
-                )
-            )
+        looks = dict(facecolors="none", edgecolors="#c1440e", linewidths=1.0, gid="spots")
+        ellipses(axis, *(v[some] for v in (x, y, a, b, angle)), **looks)
         page.entry("asperities", color="#c1440e", ls="-", lw=1.0)
         line.plot(
             *along_line([v[some] for v in spots], py[peak], x0, x1), "-", color="#c1440e", lw=1.0

@@ -1,23 +1,24 @@
-"""Curves over the levels: force and number of contacts against separation, stiffness and resistance against force. Also draws the
-additions to all curves: marks of levels, scatter over realizations, expected error, unloading."""
+"""Curves over the levels: force and number of contacts against approach, stiffness and resistance
+against force. Also draws the additions to all curves: marks of levels, scatter over realizations,
+errors, unloading."""
 
 import numpy as np
 
 from plot_results import Looks
-from plot_style import FEW, Page, STYLES, label, plt
+from plot_style import FEW, GREY, Page, STYLES, label, plt
 
 
-def curve(page, axis, result, look, x, y, scatter=None, error=None, alone=True):
-    """Draws y over x, both over all levels, in the colour and line of `look`. scatter: name of the variable of which y is the mean; error:
-    name of the variable whose expected error is drawn, if the result is the only one; alone: True for a single result.
-    """
-    line, colour, name = look
-    status, meanings = result.level_status()
+def curve(page, axis, result, look, x, y, name=None, over=None, alone=True):
+    """Draws y over x, both over all levels, in the colour and line of `look`. name: the variable of
+    which y is the mean, or a multiple of it, for its scatter and error; over: the variable of which
+    x is the mean, if it differs between realizations; alone: True for a single result."""
+    line, colour, text = look
     drawn = (
         np.isfinite(x + y)
         & np.isin(np.arange(y.size), result.carrying())
         & ((y > 0) | (result.pulls() & (y < 0)))
     )
+    few = dict(marker=".", ms=4) if result.steps <= 30 else {}
     for at, parting in result.branches():
         at = at[drawn[at]]
         axis.plot(
@@ -27,6 +28,7 @@ def curve(page, axis, result, look, x, y, scatter=None, error=None, alone=True):
             color=colour,
             lw=0.9 if parting else None,
             gid="unloading" if parting else "curve",
+            **few,
         )
         if parting and at.size:
             page.entry(
@@ -35,43 +37,78 @@ def curve(page, axis, result, look, x, y, scatter=None, error=None, alone=True):
                 ls=(0, (2, 1.5)) if alone else ":",
                 lw=0.9,
             )
-        if alone and scatter and result.realizations > 2 and not parting:
-            low, high = np.nanpercentile(result[scatter][:, at], [16, 84], axis=0) * np.sign(
-                np.nansum(y * result.mean(scatter))
-            )
-            band(page, axis, x[at], np.minimum(low, high), np.maximum(low, high), colour)
-        if alone and error:
+        if not name or at.size == 0 or result[name].ndim < 2:
+            continue
+        errors = result.error(name)[at] * abs(y[at])
+        if result.realizations > 2 and not parting:
+            values = _realizations(result, name, over, x, y, at)
+            low, high = np.nanpercentile(values, [16, 84], axis=0)
+            if page.results <= FEW:  # bands of more would cover each other
+                band(page, axis, x[at], low, high, colour, 0.25 if alone else 0.12)
+            if not alone:
+                errors = result.standard_error(values)
+        if alone:
             error_band(
                 page,
                 axis,
                 x[at],
                 y[at],
-                result.error(error)[at],
+                errors,
                 "expected error of the model",
                 color="#c1440e",
                 alpha=0.18,
             )
-    if name:
-        page.entry(name, color=colour, ls=line)
-    page.status(axis, x, np.where(drawn, y, np.nan), status, meanings, colour)
+        elif (errors > 0.01 * abs(y[at])).any():
+            bars(page, axis, x[at], y[at], errors, result, colour)
+    if text:
+        page.entry(text, color=colour, ls=line)
+    page.status(axis, x, np.where(drawn, y, np.nan), result, colour)
 
 
-def band(page, axis, x, low, high, colour):
+def bars(page, axis, x, y, errors, result, colour):
+    """Error bars, of at most the value itself where axes are logarithmic."""
+    if axis.get_yscale() == "log":
+        errors = [np.minimum(errors, 0.9 * abs(y)), errors]
+    every = slice(None, None, -(-x.size // 15))
+    x, y, errors = x[every], y[every], np.atleast_2d(errors)[:, every]
+    looks = dict(ecolor=colour, elinewidth=0.8, capsize=1.5, gid="bars")
+    axis.errorbar(x, y, np.broadcast_to(errors, (2, x.size)), fmt="none", **looks)
+    what = "standard error of the mean" if result.realizations > 2 else "expected error"
+    page.entry("bars: " + what, marker="|", color=GREY, ls="none", ms=6)
+
+
+def _realizations(result, name, over, x, y, at):
+    """The values of y of every realization at these levels; where x differs between realizations,
+    moved to the mean of x along the tangent of the curve."""
+    mean = result.mean(name)[at]
+    values = result[name][:, at] * np.divide(y[at], mean, out=np.ones(at.size), where=mean != 0)
+    if over and at.size > 1 and (x[at] > 0).all() and (y[at] > 0).all():
+        apart = np.gradient(np.log(x[at]))
+        slope = np.gradient(np.log(y[at])) / np.where(apart != 0, apart, np.inf) * y[at] / x[at]
+        values = values - slope * (result[over][:, at] - x[at])
+    return np.where(np.isnan(values).all(axis=0), y[at], values)
+
+
+def band(page, axis, x, low, high, colour, alpha):
     """The scatter over realizations, if it is wide enough to be visible."""
     low = np.where(low != 0, low, np.nan)
+    if axis.get_yscale() == "log":
+        low = np.where(low > 0, low, np.nan)
     if (
         np.isfinite(low[1:] + low[:-1]).any()
         and np.nanmax((high - low) / abs(low), initial=0) > 0.06
     ):
-        _fill(axis, x, low, high, color=colour, alpha=0.25, gid="scatter")
+        _fill(axis, x, low, high, color=colour, alpha=alpha, gid="scatter")
         page.entry("two thirds of the realizations", color=colour, alpha=0.25, lw=5)
 
 
 def error_band(page, axis, x, y, off, text, **looks):
-    """The band of the relative error `off` of y. It extends the axes by y at most, so that curves remain visible beside larger errors."""
-    if off.max(initial=0) > 0.03:  # less is not visible
-        limits, size = axis.dataLim.frozen(), abs(y)
-        ends = np.maximum(y - off * size, -np.inf if (y < 0).any() else 0.02 * y), y + off * size
+    """The band of the error `off` of y. It extends the axes by y at most, so that curves remain
+    visible beside larger errors."""
+    size = abs(y)
+    if (off > 0.06 * size).any():  # less is not visible
+        limits = axis.dataLim.frozen()
+        ends = np.maximum(y - off, -np.inf if (y < 0).any() else 0.02 * y), y + off
         _fill(axis, x, *ends, gid="error", **looks)
         axis.dataLim.set(limits)
         for end in ends:
@@ -80,7 +117,8 @@ def error_band(page, axis, x, y, off, text, **looks):
 
 
 def _fill(axis, x, low, high, **looks):
-    """Fills between low and high; where x turns back, draws bars, because bands of two branches would overlap."""
+    """Fills between low and high; where x turns back, draws bars, because bands of two branches
+    would overlap."""
     if {-1, 1} <= set(np.sign(np.round(np.diff(x) / (np.ptp(x) or 1), 3))):
         axis.vlines(x, low, high, lw=4, **looks)
     else:
@@ -90,15 +128,16 @@ def _fill(axis, x, low, high, **looks):
 def begin(results, options, count=1, **how):
     """The page and the line styles of the results, with a colour scale for many results."""
     page, looks = Page(options, count, **how), Looks(results)
+    page.results = len(results)
     if looks.scale:
         page.scale(looks.scale)
     return page, looks.of
 
 
 def panel_looks(page, results, names):
-    """(marker, line, colour) of each of several sets of points with the given results and names, with their entries in the legend or their
-    colour scale: along the keys that differ for many results, along the levels for many levels of one.
-    """
+    """(marker, line, colour) of each of several sets of points with the given results and names,
+    with their entries in the legend or their colour scale: along the keys that differ for many
+    results, along the levels for many levels of one."""
     if len(results) <= FEW:
         for (marker, line, colour), name in zip(STYLES, names):
             page.entry(name, color=colour, marker=marker, ls=line, lw=1.0, mfc="none", ms=3)
@@ -132,47 +171,57 @@ def _many_decades(values):
     return values.size > 0 and values.max() > 8 * values.min()
 
 
+def hertz_force(result, approach):
+    """Force of the smooth ball at an approach, of which the mean plane is the origin."""
+    return 4 / 3 * result["e_star"] * np.sqrt(result["r_star"]) * np.maximum(approach, 0) ** 1.5
+
+
 def load(results, options):
-    """Force (for two flats nominal pressure) and number of contacts against separation."""
+    """Force (for two flats nominal pressure) and number of contacts against the approach, that of a
+    ball beside that of the smooth ball."""
     results = [r for r in results if "contacts" in r and r.loaded().size and r.load_varies()]
     if not results:
         return None
     flat = all("pressure" in r for r in results)
-    first, error = ("pressure", "nominal pressure $p$") if flat else ("force", "force $N$")
+    first, text = ("pressure", "nominal pressure $p$") if flat else ("force", "force $N$")
     page, looks = begin(results, options, 2)
-    alone = len(results) == 1
     for axis, name in zip(page.axes, (first, "contacts")):
+        loads = np.concatenate([r.mean(name)[r.carrying()] for r in results])
+        axis.set_yscale("log" if _many_decades([loads]) else "linear")
         for result, look in zip(results, looks):
+            approach = -result.mean("separation")
             curve(
                 page,
                 axis,
                 result,
                 look,
-                result.depth()[0],
+                approach,
                 result.mean(name),
-                scatter=name,
-                error="force" if name == first else None,
-                alone=alone,
+                name,
+                alone=len(results) == 1,
             )
-        axis.dataLim.update_from_data_x(
-            page.axes[0].dataLim.intervalx, ignore=False
-        )  # both over the same separations
-        axis.set_yscale(
-            "log" if _many_decades([r.mean(name)[r.carrying()] for r in results]) else "linear"
-        )
         if name == "contacts" and axis.get_yscale() == "linear":
+            axis.set_ylim(0, 1.1 * loads.max())
             axis.yaxis.get_major_locator().set_params(integer=True)
-        axis.invert_xaxis()  # the bodies approach from left to right
-        label(axis, "x", *results[0].depth()[1:])
-        label(
-            axis, "y", error if name == first else "number of contacts", results[0].dimension(name)
-        )
-    return page.finish(
-        title(results, f"{'Nominal pressure' if flat else 'Force'} and contacts against separation")
-    )
+    smooth = {(float(r["e_star"]), float(r["r_star"])): r for r in results if r.is_ball()}
+    deep = page.axes[0].dataLim.x1 > 0  # Hertz's force begins at the mean plane
+    if len(smooth) == 1 and deep and not any(r.pulls() for r in results):
+        page.axes[0].autoscale_view()  # Hertz's force vanishes at the origin
+        limits = page.axes[0].get_ylim()
+        x = np.linspace(0, page.axes[0].dataLim.x1, 300)[1:]
+        for result in smooth.values():
+            page.axes[0].plot(
+                x, hertz_force(result, x), ":", color=GREY, lw=1.0, label=result.smooth()
+            )
+        page.axes[0].set_ylim(limits)
+    for axis, words, name in zip(page.axes, (text, "number of contacts"), (first, "contacts")):
+        label(axis, "x", "approach of the mean planes $-Z_0$" if flat else "approach $-Z_0$", "m")
+        label(axis, "y", words, results[0].dimension(name))
+    what = "Nominal pressure" if flat else "Force"
+    return page.finish(title(results, f"{what} and contacts against approach"))
 
 
-def _against_force(results, options, name, sign, text, what):
+def _against_force(results, options, name, sign, text, what, theory=None):
     results = [
         r
         for r in results
@@ -182,23 +231,15 @@ def _against_force(results, options, name, sign, text, what):
         return None
     page, looks = begin(results, options)
     axis = page.axes[0]
-    for result, look in zip(results, looks):
-        curve(
-            page,
-            axis,
-            result,
-            look,
-            result.mean("force"),
-            sign * result.mean(name),
-            scatter=name,
-            alone=len(results) == 1,
-        )
     for which, values, by in (("x", "force", 1), ("y", name, sign)):
-        getattr(axis, f"set_{which}scale")(
-            "log"
-            if _many_decades([by * r.mean(values)[r.carrying()] for r in results])
-            else "linear"
-        )
+        decades = _many_decades([by * r.mean(values)[r.carrying()] for r in results])
+        getattr(axis, f"set_{which}scale")("log" if decades else "linear")
+    alone = len(results) == 1
+    for result, look in zip(results, looks):
+        y = sign * result.mean(name)
+        curve(page, axis, result, look, result.mean("force"), y, name, "force", alone)
+    if theory and alone:
+        theory(axis, results[0])
     label(axis, "x", "force $N$", results[0].dimension("force"))
     label(axis, "y", text, results[0].dimension(name))
     return page.finish(title(results, what))
@@ -216,6 +257,24 @@ def stiffness(results, options):
     )
 
 
+def _holm(axis, result):
+    """Holm's constriction rho/(2 a) of a single round spot of the true area, of that of the smooth
+    indenter, and of the area N/H of bodies that yield."""
+    at = result.loaded()
+    at = at[np.argsort(result.mean("force")[at])]
+    force = result.mean("force")[at]
+    both = float(np.nanmean((result.mean("resistance") * result.mean("conductance_length"))[at]))
+    areas = [(result.mean("contact_area")[at], "--", "one spot of the true area (Holm)")]
+    if result.has_sphere():
+        areas.append((result["area_hertz"][at], ":", result.smooth()))
+    hardness = result.hardness()
+    if np.isfinite(hardness):
+        areas.append((force / hardness, "-.", r"one spot of area $N/H$ (Holm)"))
+    for area, line, text in areas:
+        spot = 0.25 * both * np.sqrt(np.pi / area)
+        axis.plot(force, spot, line, color=GREY, lw=1.0, label=text)
+
+
 def resistance(results, options):
     """Constriction resistance against force, if resistivities are given."""
     return _against_force(
@@ -225,4 +284,5 @@ def resistance(results, options):
         1,
         "constriction resistance",
         "Constriction resistance against force",
+        _holm,
     )

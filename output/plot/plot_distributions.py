@@ -5,7 +5,7 @@ import numpy as np
 from plot_curves import panel_looks, title
 from plot_fits import exponential, generalised_gamma, rayleigh
 from plot_results import names
-from plot_style import Page, label
+from plot_style import FEW, Page, label
 
 # With fewer contacts a distribution of 60 bins has less than one contact per bin.
 ENOUGH = 60
@@ -59,23 +59,19 @@ def contacts_behind(result):
 
 
 def distributions(results, options):
-    """The three distributions over contacts: the levels of one result, or for several results the level with the most contacts; only with enough contacts."""
+    """The three distributions over contacts: the levels of one result, or for several results the
+    level with the most contacts; only with enough contacts."""
     results = [r for r in results if "spot_area_count" in r]
     shown = []
     for result, name in zip(results, names(results) if results else []):
         counts = contacts_behind(result)
-        distinct = np.unique(
-            np.where(result["pdf_step"] < 1, -np.arange(counts.size), result["pdf_step"]),
-            return_index=True,
-        )[
-            1
-        ]  # several pdf_levels may have the same nearest level
+        # Several pdf_levels may have the same nearest level; step 0: it differs between
+        # realizations.
+        steps = np.where(result["pdf_step"] < 1, -np.arange(counts.size), result["pdf_step"])
+        distinct = np.unique(steps, return_index=True)[1]
         levels = np.sort(distinct[counts[distinct] >= ENOUGH])
         for k in levels if len(results) == 1 else levels[np.argsort(counts[levels])[-1:]]:
-            step, z = (
-                int(result["pdf_step"][k]) - 1,
-                result["pdf_separation_sigma"][k],
-            )  # step -1: it differs between realizations
+            step, z = int(result["pdf_step"][k]) - 1, result["pdf_separation_sigma"][k]
             level = (
                 result.level_name(step) + result.warning(step)
                 if step >= 0
@@ -93,7 +89,8 @@ def distributions(results, options):
     if not shown:
         if results:
             options.say(
-                f"distributions: fewer than {ENOUGH} contacts at every level of &output pdf_levels: not drawn"
+                f"distributions: fewer than {ENOUGH} contacts at every level of output%pdf_levels: "
+                "not drawn"
             )
         return None
     page = Page(options, 3, aspect=1.0)
@@ -114,10 +111,11 @@ def distributions(results, options):
                 continue
             x = (np.geomspace if decades else np.linspace)(centre[0] / 10, centre[good].max(), 300)
             values = fit(result, k, x / result.factor(bins))[0]
-            axis.plot(
-                centre[good], density[good], marker, ms=2.5, mfc="none", mew=0.7, color=colour
-            )
-            if np.isfinite(values).all():
+            fitted = np.isfinite(values).all()
+            if len(shown) <= FEW or not fitted:  # points of many would hide the lines
+                points = dict(ms=2.5, mfc="none", mew=0.7, color=colour)
+                axis.plot(centre[good], density[good], marker, **points)
+            if fitted:
                 axis.plot(x, values * result.factor(name), line, color=colour, lw=1.0, gid="fit")
             end, smallest = max(end, centre[good].max()), min(smallest, density[good].min())
         axis.set_title(law)

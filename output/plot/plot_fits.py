@@ -1,5 +1,6 @@
-"""Fits to the distributions of a result, by maximum likelihood: Rayleigh, exponential, generalised gamma. Pressures and areas are in
-the units of the file; a fit is NaN where there is too little to fit."""
+"""Fits to the distributions of a result, by maximum likelihood: Rayleigh, exponential, generalised
+gamma. Pressures and areas are in the units of the file; a fit is NaN where there is too little to
+fit."""
 
 from collections import namedtuple
 
@@ -12,7 +13,8 @@ Gamma = namedtuple(
 
 
 def shares(result, k, weights, density):
-    """Edges of the bins, the shares of their weights and of the overflow, and the sum of all weights."""
+    """Edges of the bins, the shares of their weights and of the overflow, and the sum of all
+    weights."""
     values = np.asarray(result.file.variables[weights][k], float)
     total = np.append(values, result.attribute(weights, "overflow")[k])
     width = float(result.file.variables[density.replace("_pdf", "_bin")].bin_width)
@@ -44,9 +46,9 @@ def exponential(result, k):
 
 
 def generalised_gamma(result, k):
-    """Density factor p^alpha exp(-(p/delta)^beta) of the pressure, with the probabilities of whole bins; standard errors for the
-    effective number of independent contacts. NaN for fewer than 5 bins with weight or 10 contacts, and without scipy.
-    """
+    """Density factor p^alpha exp(-(p/delta)^beta) of the pressure, with the probabilities of whole
+    bins; standard errors for the effective number of independent contacts. NaN for fewer than 5
+    bins with weight or 10 contacts, and without scipy."""
     edges, share, _ = shares(result, k, "pressure_area", "pressure_pdf")
     return fit_gamma(
         edges,
@@ -81,7 +83,8 @@ def fit_gamma(edges, share, mean, independent):
             value = -np.sum(share[share > 0] * np.log(probabilities(t)[share > 0]))
         return value if np.isfinite(value) else 1e9
 
-    # Parameters log(alpha + 1), log(beta), log(delta/mean), from the paper's exponents and the delta that follows from the mean.
+    # Parameters log(alpha + 1), log(beta), log(delta/mean), from the paper's exponents and the
+    # delta that follows from the mean.
     start = np.log([5 / 3, 1.5, gamma(10 / 9) / gamma(16 / 9)])
     found = minimize(
         loss,

@@ -33,7 +33,7 @@ def flats(results, options):
                 ("area_bgt", ":", "Bush, Gibson, Thomas"),
                 ("area_gw", "-.", "Greenwood, Williamson"),
             ):
-                if name in result:
+                if name in result and np.isfinite(result.mean(name)[at]).any():
                     left.plot(
                         relative[at],
                         result.mean(name)[at] / relative[at],
@@ -50,10 +50,11 @@ def flats(results, options):
                 look,
                 relative,
                 result.mean("area_fraction") / relative,
-                error="contact_area",
+                "contact_area",
                 alone=len(results) == 1,
             )
-        curve(page, right, result, look, relative, result.depth()[0], alone=len(results) == 1)
+        name = "separation_sigma" if "separation_sigma" in result else "separation"
+        curve(page, right, result, look, relative, result.depth()[0], name, alone=len(results) == 1)
     for axis in page.axes:
         axis.set_xscale("log")
         label(axis, "x", r"nominal pressure $p/(E^*h')$")

@@ -1,14 +1,17 @@
-"""Friction: the loop of tangential force beside that of a smooth sphere under the same load, and the stick and slip regions of the spots."""
+"""Friction: the loop of tangential force beside that of a smooth sphere under the same load, and
+the stick and slip regions."""
 
 import numpy as np
-from matplotlib.collections import EllipseCollection
+from matplotlib.colors import to_rgba
 
-from plot_spots import spots_of
+from plot_results import edges
+from plot_spots import ellipses, spots_of, square
 from plot_style import Page, STYLES, amount, label
 
 
 def _level(results, options):
-    """The result and the level to draw: the requested level, otherwise the last with a loop; None if there is none."""
+    """The result and the level to draw: the requested level, otherwise the last with a loop; None
+    if there is none."""
     if len(results) != 1 or "tangential_force" not in results[0]:
         return None
     loops = np.flatnonzero(np.isfinite(results[0]["tangential_force"][:, -1]))
@@ -17,7 +20,8 @@ def _level(results, options):
 
 
 def _slide_per_depth(result, step):
-    """mu/m: the slide of full slip over the approach since first touch; m is the ratio of tangential to normal stiffness."""
+    """mu/m: the slide of full slip over the approach since first touch; m is the ratio of
+    tangential to normal stiffness."""
     return result.number("solids%friction") / (
         result["tangential_stiffness"][step]
         / -result["stiffness"].reshape(-1, result.steps)[0][step]
@@ -25,7 +29,8 @@ def _slide_per_depth(result, step):
 
 
 def loop(results, options):
-    """The loop of friction of a level, beside Mindlin's for a smooth sphere of the same radius, moduli and load."""
+    """The loop of friction of a level, beside Mindlin's for a smooth sphere of the same radius,
+    moduli and load."""
     found = _level(results, options)
     if not found:
         return None
@@ -53,49 +58,63 @@ def loop(results, options):
     return page.finish(result.heading(f"Friction at {result.level_name(step)}{force}"))
 
 
-def stick(results, options):
-    """Map of the stick and slip regions of the spots of a level at about half of the slide to full slip. The stick region is the spot of an earlier
-    level, Z0', with the slide (mu/m) (Z0' - Z0)."""
-    found = _level(results, options)
-    if not found or "contact_radius" not in found[0]:
+def _sticking(page, axis, result, step):
+    """Draws where a level by elements sticks and slips, from its fields; None without them."""
+    if "field_traction" not in result or "field_pressure" not in result:
         return None
-    result, step = found
+    at = np.flatnonzero(result["field_step"] == step + 1)
+    if not at.size:
+        return None
+    pressure, traction = (result.window("field_" + n, int(at[0])) for n in ("pressure", "traction"))
+    limit = result.number("solids%friction") * pressure
+    slips = (pressure > 0) & (traction > (1 - 1e-6) * limit)
+    kinds = [
+        ((0, 0, 0, 0), None),
+        (to_rgba(STYLES[0][2]), "sticks"),
+        (to_rgba(STYLES[1][2]), "slips"),
+    ]
+    image = np.array([colour for colour, _ in kinds])[(pressure > 0) * 1 + slips]
+    axis.imshow(image, extent=edges(result["field_x"], result["field_y"]))
+    for colour, text in kinds[1:]:
+        page.entry(text, marker="o", color=colour, ls="none")
+    return "slide 50 % of full slip"
+
+
+def _sticking_spots(page, axis, result, step):
+    """The same for asperities: the stick region is the spot of an earlier level, Z0', with the
+    slide (mu/m) (Z0' - Z0)."""
+    if "contact_radius" not in result or result.by_elements():
+        return None
     Z, count = result.mean("separation"), result["contact_count"].astype(int)
     full = result["tangential_displacement"][step].max()
     slides = _slide_per_depth(result, step) * (Z - Z[step])
     inner = int(np.argmin(abs(slides - 0.5 * full)))
     if not 0 < slides[inner] < full or count[step] == 0 or count[inner] == 0:
         return None
-    page = Page(options, aspect=0.85)
-    axis = page.axes[0]
     for level, colour, text in ((step, STYLES[1][2], "slips"), (inner, STYLES[0][2], "sticks")):
-        x, y, major, minor, angle = spots_of(result, level)[:5]
-        wide = 2 * major
-        axis.add_collection(
-            EllipseCollection(
-                wide,
-                2 * minor,
-                np.degrees(angle),
-                units="xy",
-                offsets=np.column_stack([x, y]),
-                transOffset=axis.transData,
-                facecolors=colour,
-                edgecolors="none",
-                gid=text,
-            )
-        )
+        x, y, major = spots_of(result, level)[:3]
+        looks = dict(facecolors=colour, edgecolors="none", gid=text)
+        ellipses(axis, *spots_of(result, level)[:5], **looks)
         page.entry(text, marker="o", color=colour, ls="none")
         if level == step:
-            half, cx, cy = (
-                0.55 * max(np.ptp(x) + wide.max(), np.ptp(y) + wide.max()),
-                (x.min() + x.max()) / 2,
-                (y.min() + y.max()) / 2,
-            )
-            axis.set(xlim=(cx - half, cx + half), ylim=(cy - half, cy + half), aspect="equal")
+            low = np.array([(x - major).min(), (y - major).min()])
+            high = np.array([(x + major).max(), (y + major).max()])
+            window = square(low, high, None)
+            axis.set(xlim=window[:2], ylim=window[2:], aspect="equal")
+    return f"slide {slides[inner] / full:.0%} of full slip"
+
+
+def stick(results, options):
+    """Map of the stick and slip regions of a level at about half of the slide to full slip."""
+    found = _level(results, options)
+    if not found:
+        return None
+    result, step = found
+    page = Page(options, aspect=0.85)
+    axis = page.axes[0]
+    slide = _sticking(page, axis, result, step) or _sticking_spots(page, axis, result, step)
+    if not slide:
+        return None
     for which in "xy":
-        label(axis, which, f"${which}$", result.dimension("asperity_" + which))
-    return page.finish(
-        result.heading(
-            f"Spots at {result.level_name(step)}, slide {slides[inner] / full:.0%} of full slip"
-        )
-    )
+        label(axis, which, f"${which}$", result.dimension("tip_" + which))
+    return page.finish(result.heading(f"Contact at {result.level_name(step)}, {slide}"))

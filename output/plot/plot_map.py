@@ -1,201 +1,177 @@
-"""Maps of the area fraction and of the pressure."""
+"""Maps of the contact and of the pressure."""
 
 import numpy as np
+from matplotlib.colors import PowerNorm
 
-from plot_results import names
-from plot_style import COLOURS, amount, colour_bar, label, plt, wrap_titles, wrapped
+from plot_curves import title
+from plot_results import edges, names
+from plot_spots import draw_pixels, draw_smooth, heights, with_smooth
+from plot_style import COLOURS, Page, amount, colour_bar, label
 
 MOST = 36  # maps of several results on one page
 
 
-def hertz_radius(result, step):
-    """Radius of the contact of the smooth indenter; NaN if it is no circle."""
-    return (
-        float(np.sqrt(result["area_hertz"][step] / np.pi))
-        if result.has_sphere() and result.shape() != "paraboloid"
-        else np.nan
-    )
-
-
 def shown(results, options):
-    """(result, level, name) of the panels: three levels of one result, or one level of each of several."""
+    """((result, level, name) of the panels, what is common to all names): three levels of one
+    result, or one level of each of several."""
     if len(results) == 1:
         count = 3 if options.width >= 120 else 2
-        return [
-            (results[0], level, results[0].level_name(level) + results[0].warning(level))
-            for level in results[0].chosen(count, options.step)
-        ]
+        levels = [(results[0], level) for level in results[0].chosen(count, options.step)]
+        named = [""] * len(levels)
+    else:
+        chosen = [(r, name, r.chosen(1, options.step)) for r, name in zip(results, names(results))]
+        levels = [(r, found[0]) for r, _, found in chosen if found]
+        named = [name for _, name, found in chosen if found]
+    texts = [r.level_name(level) + r.warning(level) for r, level in levels]
+    common = texts[0] if len(results) > 1 and len(set(texts)) == 1 else ""
     return [
-        (r, level, f"{name}, {r.level_name(level)}{r.warning(level)}")
-        for r, name in zip(results, names(results))
-        for level in r.chosen(1, options.step)
-    ]
+        (*panel, ", ".join(filter(None, (name, text if not common else ""))))
+        for panel, name, text in zip(levels, named, texts)
+    ], common
 
 
-def contact_window(x, y, field, side, whole, margin=0.15):
-    """(x0, x1, y0, y1) of the smallest square that contains the cells where `field` is not zero, with a margin, within `whole`."""
-    rows, columns = np.nonzero(field)
-    if rows.size == 0:
-        return whole
-    ends = np.array(
-        [
-            x[columns.min()] - side / 2,
-            x[columns.max()] + side / 2,
-            y[rows.min()] - side / 2,
-            y[rows.max()] + side / 2,
-        ]
-    )
-    half = max(ends[1] - ends[0], ends[3] - ends[2], 4 * side) * (0.5 + margin)
-    cx, cy = (ends[0] + ends[1]) / 2, (ends[2] + ends[3]) / 2
+def _field(result, level, name, fine):
+    """(values, extent) of a quantity: on the points of the fields, or in the cells of the map."""
+    if name == "map_pressure" and fine:
+        at = int(np.flatnonzero(result["field_step"] == level + 1)[0])
+        return result.window("field_pressure", at), edges(result["field_x"], result["field_y"])
+    return result.cells(name, level)[0], edges(result["x"], result["y"])
+
+
+def _window(panels):
+    """The smallest square that contains the contact of all panels, of a line contact across its
+    axis, within the surface."""
+    lows, highs, sides = [], [], panels[0][0].sides()
+    for result, level, _ in panels:
+        field, half = result.cells("map_pressure", level)[0], float(result["map_cell_side"]) / 2
+        places = [result[of][k] for of, k in zip("yx", np.nonzero(field))][::-1]
+        if places[0].size:
+            low, high = (np.array([f(v) for v in places]) for f in (np.min, np.max))
+            low, high = with_smooth(result, level, low - half, high + half)
+            lows.append(low)
+            highs.append(high)
+    if not lows:
+        return sides
+    low, high = np.min(lows, axis=0), np.max(highs, axis=0)
+    extent = high - low
+    if "force_per_length" in panels[0][0]:  # a part of the length
+        extent[1 if panels[0][0].along_y() else 0] = 0
+    half = 0.62 * max(extent)
+    centre = (low + high) / 2
     return (
-        max(cx - half, whole[0]),
-        min(cx + half, whole[1]),
-        max(cy - half, whole[2]),
-        min(cy + half, whole[3]),
+        max(centre[0] - half, sides[0]),
+        min(centre[0] + half, sides[1]),
+        max(centre[1] - half, sides[2]),
+        min(centre[1] + half, sides[3]),
     )
 
 
 def maps(results, options):
-    """Area fraction and pressure in the cells at some levels of one result, or the pressure of several results; cropped to the contact. The circle
-    is the contact of the smooth indenter under the same force."""
-    panels = shown([r for r in results if "map_pressure" in r], options)
+    """Contact and pressure at some levels of one result, or the pressure of several results, with
+    one colour scale, cropped to the contact. Dashed: the contact of the smooth indenter under the
+    same force."""
+    results = [r for r in results if "map_pressure" in r]
+    panels, common = shown(results, options)
     if not panels:
         return None
     if len(panels) > MOST:
         options.say(f"map: {MOST} of {len(panels)} results are drawn, evenly spaced")
         panels = [panels[k] for k in np.linspace(0, len(panels) - 1, MOST).round().astype(int)]
     one = len(results) == 1
-    quantities = (
-        [("map_area_fraction", "area fraction $A'$"), ("map_pressure", "pressure $p$")]
-        if one
-        else [("map_pressure", "pressure $p$")]
-    )
-    beside = one and len(panels) == 1 and options.width >= 120  # both quantities in one row
+    masked = all("mask_step" in r and level + 1 in r["mask_step"] for r, level, _ in panels)
+    first = "contact" if one and masked else "map_area_fraction"
+    quantities = [first, "map_pressure"] if one else ["map_pressure"]
     columns = (
-        2
-        if beside
-        else len(panels)
+        len(panels)
         if one
         else int(np.ceil(np.sqrt((1.0 if len(panels) <= 9 else 1.6) * len(panels))))
     )
-    rows = -(-len(panels) // columns)
+    if one and len(panels) == 1:
+        columns = 2  # both quantities in one row
     size = options.width / columns
-    small = size < 46 and not one  # too small for its own colour bar and axes
-    rows *= 1 if beside else len(quantities)
-    figure, axes = plt.subplots(
-        rows,
-        columns,
-        figsize=(
-            options.width / 25.4,
-            ((0.8 if not small else 1.05) * size * rows + (14 if one else 8 * rows)) / 25.4,
-        ),
-        constrained_layout=True,
-        squeeze=False,
+    small = size < 30  # no room for axes
+    same = len({tuple(np.round(r.sides(), 15)) for r, _, _ in panels}) == 1
+    window = _window(panels) if same else None
+    shape = (window[3] - window[2]) / (window[1] - window[0]) if same else 1.0
+    rows = -(-len(panels) * len(quantities) // columns)
+    title_room = (10 if one else 10 * rows) / rows
+    page = Page(
+        options, len(panels) * len(quantities), (0.8 * shape * size + title_room) / size, columns
     )
-    for axis in axes.ravel():
-        axis.set_visible(False)
-    images = []
-    for k, (result, level, name) in enumerate(panels):
-        for q, (variable, text) in enumerate(quantities):
-            axis = axes[0, q] if beside else axes[q if one else k // columns, k % columns]
-            axis.set_visible(True)
-            image = _map(axis, result, level, variable)
-            images.append(image)
-            axis.locator_params(nbins=4 if size >= 46 else 2)
-            if not small:
-                colour_bar(
-                    figure,
-                    image,
-                    axis,
-                    text,
-                    result.dimension(variable),
-                    extend=image.extend,
-                    fraction=0.06,
-                    pad=0.03,
-                    aspect=16,
-                )
-                label(axis, "y", "$y$", result.dimension("y"))
-                label(axis, "x", "$x$", result.dimension("x"))
+    grid = np.array(page.axes, dtype=object)
+    fine = all("field_pressure" in r and level + 1 in r["field_step"] for r, level, _ in panels)
+    for q, variable in enumerate(quantities):
+        axes = grid[q * len(panels) : (q + 1) * len(panels)]
+        fields = [
+            _field(r, level, variable, fine) for r, level, _ in panels if variable != "contact"
+        ]
+        image = None
+        for k, (axis, (result, level, name)) in enumerate(zip(axes, panels)):
+            if variable == "contact":
+                heights(result, axis, window, bright=0.8)
+                draw_pixels(page, axis, result, level)
             else:
-                axis.set(xticks=[], yticks=[])
-            if q == 0 or beside:
-                force = (
-                    f"\n$N$ = {amount(result.mean('force')[level], result.dimension('force'))}"
-                    if result.control() != "force" and not small
-                    else ""
-                )
-                axis.set_title(name + force, fontsize=7 if not small else 5.5)
-    if small:  # one scale for all
-        lows, highs = zip(*(image.get_clim() for image in images))
-        for image in images:
-            image.set(
-                cmap="coolwarm" if min(lows) < 0 else COLOURS,
-                clim=(-max(highs) if min(lows) < 0 else 0, max(highs)),
-            )
-        colour_bar(
-            figure,
-            images[0],
-            axes.ravel().tolist(),
-            "pressure $p$",
-            results[0].dimension("map_pressure"),
-            extend="both" if min(lows) < 0 else "max",
-            aspect=35,
-        )
-    smooth = sorted(
-        {result.smooth() for result, level, _ in panels if np.isfinite(hertz_radius(result, level))}
-    )
-    what = ("Area fraction and pressure" if one else "Pressure") + (
-        f"; dashed: {', '.join(smooth)} under the same force" if smooth else ""
-    )
-    figure.suptitle(
-        wrapped(
-            figure, results[0].heading(what) if one else what, options.width, "figure.titlesize"
-        )
-    )
-    wrap_titles(figure)
-    return figure
+                image = _image(axis, *fields[k], variable, [field for field, _ in fields])
+            draw_smooth(page, axis, result, level)
+            inside = window or _window([panels[k]])
+            axis.set(xlim=inside[:2], ylim=inside[2:], aspect="equal")
+            axis.dataLim.set_points(np.reshape(inside, (2, 2)).T)  # for the unit of the labels
+            if q == 0:
+                axis.set_title(_heading(result, level, name), fontsize=5.5 if small else 7)
+            lowest = q == len(quantities) - 1 and k + columns >= len(panels)
+            _axes(axis, result, small, same and k % columns > 0, same and not lowest)
+        if image is not None:
+            text = "area fraction $A'$" if variable == "map_area_fraction" else "pressure $p$"
+            dimension = panels[0][0].dimension(variable)
+            how = dict(extend=image.extend, pad=0.01, aspect=16 if one else 30, fraction=0.08)
+            beside = list(axes)
+            if first == "contact":  # the bar of all rows, so that they remain one below the other
+                beside, how["shrink"], how["anchor"] = page.axes, 0.9 / page.rows, (0, 0)
+            colour_bar(page.figure, image, beside, text, dimension, **how)
+    what = "Contact" if first == "contact" else "Area fraction"
+    what = f"{what} and pressure" if one else "Pressure"
+    what += f" at {common}" if common else ""
+    return page.finish(results[0].heading(what) if one else title(results, what))
 
 
-def _map(axis, result, level, name):
-    (field, ends), x, y, side = (
-        result.cells(name, level),
-        result["x"],
-        result["y"],
-        float(result["map_cell_side"]),
-    )
-    # One per cent of the cells may be above the end of the scale, because they would hide the variation of all others.
-    # Tension, with adhesion, is blue.
-    end = np.percentile(np.abs(field[field != 0]), 99) if field.any() else 1.0
-    pulls = field.min() < 0
-    if name == "map_area_fraction":
-        end = min(end, 1.0)  # above 1: a spot larger than the cell of its centre
+def _heading(result, level, name):
+    if result.control() == "force":
+        return name
+    return f"{name}\n$N$ = {amount(result.mean('force')[level], result.dimension('force'))}"
+
+
+def _axes(axis, result, small, inner, above):
+    """Labels at the left and below only, where all panels show the same window."""
+    if small:
+        axis.set(xticks=[], yticks=[])
+        return
+    axis.locator_params(nbins=4)
+    for which, hidden, side in (("x", above, "labelbottom"), ("y", inner, "labelleft")):
+        label(axis, which, "" if hidden else f"${which}$", result.dimension(which))
+        if hidden:
+            getattr(axis, f"set_{which}label")("")
+            axis.tick_params(**{side: False})
+
+
+def _image(axis, field, extent, variable, all_fields):
+    """One colour scale for all fields. One per cent of the pressures may be above its end, because
+    they would hide the variation of all others; tension, with adhesion, is blue."""
+    values = np.abs(np.concatenate([f[f != 0] for f in all_fields]))
+    if variable == "map_area_fraction":
+        end = min(values.max(initial=0), 1.0)  # above 1: a spot larger than the cell of its centre
+    else:
+        end = np.percentile(values, 99) if values.size else 1.0
+    pulls = min(f.min() for f in all_fields) < 0
+    tops = [f.max() for f in all_fields if f.max() > 0]
+    # Between panels of different magnitude colours follow the root.
+    gamma = 0.5 if tops and not pulls and max(tops) > 8 * min(tops) else 1.0
     image = axis.imshow(
         np.ma.masked_equal(field, 0),
-        extent=[x[0] - side / 2, x[-1] + side / 2, y[0] - side / 2, y[-1] + side / 2],
+        extent=extent,
         cmap="coolwarm" if pulls else COLOURS,
-        vmin=-end if pulls else 0,
-        vmax=end,
+        norm=PowerNorm(gamma, -end if pulls else 0, end or 1.0),
         interpolation="nearest",
     )
-    image.extend = (
-        ("both" if field.min() < -end else "max")
-        if field.max() > end
-        else "min"
-        if field.min() < -end
-        else "neither"
-    )
-    radius = hertz_radius(result, level)
-    if np.isfinite(radius):
-        axis.add_patch(
-            plt.Circle(
-                (float(result["tip_x"]), float(result["tip_y"])),
-                radius,
-                fill=False,
-                ls="--",
-                lw=1.0,
-                color="r",
-            )
-        )
-    window = contact_window(x, y, result.cells("map_pressure", level)[0], side, ends)
-    axis.set(xlim=window[:2], ylim=window[2:])
+    beyond = variable == "map_pressure" and values.max(initial=0) > end
+    image.extend = "both" if beyond and pulls else "max" if beyond else "neither"
     return image

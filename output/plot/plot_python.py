@@ -1,5 +1,5 @@
-"""Finds a Python that has the modules of a script. A python3 of pyenv, conda or a virtual environment often lacks them, while that of the
-system has them."""
+"""Finds a Python that has the modules of a script. A python3 of pyenv, conda or a virtual
+environment often lacks them, while that of the system has them."""
 
 import importlib.util
 import os
@@ -16,9 +16,9 @@ _DEBIAN = {
 
 
 def needs(*modules):
-    """Returns if this Python has the modules. Otherwise runs the script again with another Python of this machine that has them, and reports it;
-    ends with a message that lists the packages to install if there is none. To be called first in a script, before it imports them.
-    """
+    """Returns if this Python has the modules. Otherwise runs the script again with another Python
+    of this machine that has them, and reports it; ends with a message that lists the packages to
+    install if there is none. To be called first in a script, before it imports them."""
     missing = [name for name in modules if importlib.util.find_spec(name) is None]
     if not missing:
         return
@@ -44,7 +44,9 @@ def needs(*modules):
             sys.stderr.flush()
             os.execv(python, [python, *sys.argv])
     sys.exit(
-        f"{script}: {sys.executable} lacks {', '.join(missing)}, and no other Python here has them all. Install them with\n"
-        f"    sudo apt-get install {' '.join(_DEBIAN.get(name, name) for name in modules)}     (Debian, Ubuntu), or\n"
+        f"{script}: {sys.executable} lacks {', '.join(missing)}, and no other Python here has "
+        "them all. Install them with\n"
+        f"    sudo apt-get install {' '.join(_DEBIAN.get(name, name) for name in modules)}    "
+        " (Debian, Ubuntu), or\n"
         f"    {sys.executable} -m pip install {' '.join(missing)}"
     )

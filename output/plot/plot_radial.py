@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from plot_map import hertz_radius, shown
+from plot_map import shown
 from plot_curves import panel_looks, title
+from plot_spots import hertz_radius
 from plot_style import Page, amount, label
 
 
@@ -12,9 +13,10 @@ def _of_sphere(result, level):
 
 
 def radial(results, options):
-    """Radial mean of the pressure, linear and logarithmic, for a sphere with Hertz for the same force."""
+    """Radial mean of the pressure, linear and logarithmic, for a sphere with Hertz for the same
+    force."""
     results = [r for r in results if "radial_pressure" in r and r.has_tip()]
-    panels = shown(results, options)
+    panels, common = shown(results, options)
     if not panels:
         return None
     if len({name for _, _, name in panels}) < len(panels):  # levels of equal separation
@@ -67,6 +69,7 @@ def radial(results, options):
         title(
             results,
             "Radial mean of the pressure"
+            + (f" at {common}" if common else "")
             + ("; points: rsc, lines: smooth sphere (Hertz)" if lines else ""),
         )
     )

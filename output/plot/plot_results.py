@@ -1,4 +1,5 @@
-"""Result files for pictures: variables by name with missing values as NaN, keys of the case, and the keys that distinguish several results."""
+"""Result files for pictures: variables by name with missing values as NaN, keys of the case, and
+the keys that distinguish several results."""
 
 import os
 import re
@@ -35,8 +36,9 @@ _SYMBOLS = {
 
 
 class Result:
-    """One result file. result[name] is a variable as an array of doubles; name in result; result.mean(name) over realizations. With in_si
-    everything is in SI units, for any units of the file. OSError if there is no such file."""
+    """One result file. result[name] is a variable as an array of doubles; name in result;
+    result.mean(name) over realizations. With in_si everything is in SI units, for any units of the
+    file. OSError if there is no such file."""
 
     def __init__(self, path, in_si=False):
         self.path, self.in_si = path, in_si
@@ -67,8 +69,9 @@ class Result:
         ) * self.factor(name)
 
     def cells(self, name, level):
-        """A map at one level, 0 where it has no value, and the sides x0, x1, y0, y1 of the surface. The last row may extend beyond the surface: its
-        values are means over the part that does not."""
+        """A map at one level, 0 where it has no value, and the sides x0, x1, y0, y1 of the surface.
+        The last row may extend beyond the surface: its values are means over the part that does
+        not."""
         field, side, share = (
             np.nan_to_num(self.window(name, level)),
             float(self["map_cell_side"]),
@@ -83,7 +86,8 @@ class Result:
         )
 
     def mean(self, name):
-        """A variable over steps: its mean over the realizations that have a value, if it depends on realizations."""
+        """A variable over steps: its mean over the realizations that have a value, if it depends on
+        realizations."""
         values = self[name]
         if "realization" not in self.file.variables[name].dimensions:
             return values
@@ -98,7 +102,8 @@ class Result:
         return np.nan_to_num(self[name].reshape(-1, self.steps)).max(axis=0)
 
     def error(self, name):
-        """The largest expected error of a variable over realizations relative to its mean, for each step; 0 if the file has none."""
+        """The largest expected error of a variable over realizations relative to its mean, for each
+        step; 0 if the file has none."""
         of, mean = ("area" if name == "contact_area" else name) + "_error_expected", abs(
             self.mean(name)
         )
@@ -108,6 +113,14 @@ class Result:
             else 0 * mean
         )
         return np.divide(worst, mean, out=np.zeros(self.steps), where=mean > 0)
+
+    def standard_error(self, values):
+        """Of the mean over realizations, the first axis of values; 0 for fewer than three."""
+        there = np.isfinite(values)
+        count = there.sum(axis=0)
+        mean = np.where(there, values, 0).sum(axis=0) / np.maximum(count, 1)
+        squares = np.where(there, (values - mean) ** 2, 0).sum(axis=0)
+        return np.where(count > 2, np.sqrt(squares / np.maximum(count * (count - 1), 1)), 0)
 
     def unit(self, name):
         """The unit in the file; empty for a pure number."""
@@ -126,7 +139,8 @@ class Result:
         return np.where(values > 9e36, np.nan, values)
 
     def number(self, key):
-        """A key of the case as a number, in the units of the case; of several values the last (for R, that of the sphere)."""
+        """A key of the case as a number, in the units of the case; of several values the last (for
+        R, that of the sphere)."""
         return float(self.case[key].split(",")[-1])
 
     def level(self, z):
@@ -135,7 +149,8 @@ class Result:
         return int(np.argmin(distance)) if distance.min() < 0.02 else None
 
     def depth(self):
-        """The separation of each level for an axis, (values, label, dimension): in sigma if the file has it."""
+        """The separation of each level for an axis, (values, label, dimension): in sigma if the
+        file has it."""
         sigma = (
             self.mean("separation_sigma")
             if "separation_sigma" in self
@@ -150,7 +165,8 @@ class Result:
         return self.case.get("indentation%control", "separation").strip("'")
 
     def level_name(self, step):
-        """Name of a level: the separation, force or pressure of the case unless it is constant in time, and the time if the file has it."""
+        """Name of a level: the separation, force or pressure of the case unless it is constant in
+        time, and the time or the distance of sliding if the file has it."""
         values, text, dimension = self.depth()
         symbol = text.partition(" ")[2]
         if self.control() in ("force", "pressure") and self.control() in self:
@@ -160,9 +176,10 @@ class Result:
                 self.dimension(self.control()),
             )
         name = f"{symbol} = {amount(values[step], dimension)}"
-        if "time" not in self:
+        clock = next((c for c in ("time", "distance") if c in self), None)
+        if not clock:
             return name
-        time = f"$t$ = {amount(self['time'][step], self.dimension('time'))}"
+        time = f"${'t' if clock == 'time' else 's'}$ = {amount(self[clock][step], self.dimension(clock))}"
         # A prescribed load is exact only to the solver's tolerance.
         return (
             time
@@ -171,19 +188,30 @@ class Result:
         )
 
     def level_status(self):
-        """The worst status of each level over realizations, 0 without contact, and the names of the numbers."""
+        """The worst status of each level over realizations, 0 without contact."""
         if "status" not in self:
-            return np.zeros(self.steps, int), ["converged"]
-        grave = np.array([0, 3, 1, 2, 4])  # out of validity overrides overlapping and not unique
+            return np.zeros(self.steps, int)
+        grave = np.array([0, 3, 1, 2, 4])  # doubts override overlapping and not unique
         status = np.nan_to_num(self["status"].reshape(-1, self.steps)).astype(int)
-        return status[grave[status].argmax(axis=0), np.arange(self.steps)], [
-            name.replace("_", " ") for name in self.file.variables["status"].flag_meanings.split()
-        ]
+        return status[grave[status].argmax(axis=0), np.arange(self.steps)]
+
+    def causes(self, steps):
+        """What the status of these levels is, as a set of words: the doubts, or its name."""
+        words, status = set(), self.level_status()
+        for step in np.atleast_1d(steps):
+            value = status[step]
+            if value == 1 and "doubts" in self:
+                names = self.file.variables["doubts"].flag_meanings.split()
+                bits = np.bitwise_or.reduce(np.nan_to_num(self["doubts"][:, step]).astype(int))
+                words |= {name for k, name in enumerate(names) if bits >> k & 1}
+            elif value > 0:
+                words.add(self.file.variables["status"].flag_meanings.split()[value])
+        return {word.replace("_", " ") for word in words}
 
     def warning(self, step):
-        """Text of the status of a level, ' (overlapping)'; empty for a converged one."""
-        status, meanings = self.level_status()
-        return f" ({meanings[status[step]]})" if status[step] > 0 else ""
+        """The causes of a level, ' (few points)'; empty for a converged one."""
+        words = ", ".join(sorted(self.causes(step)))
+        return f" ({words})" if words else ""
 
     def loaded(self):
         """The levels with contact; with adhesion their forces may be negative."""
@@ -213,7 +241,8 @@ class Result:
         return force.size < 2 or bool(np.ptp(force) > 1e-3 * force.max())
 
     def chosen(self, count, step):
-        """The requested level, or `count` converged levels with contact, evenly spaced and ending with the last; none without contact."""
+        """The requested level, or `count` converged levels with contact, evenly spaced and ending
+        with the last; none without contact."""
         loaded = self.loaded()
         if step is not None:
             return [step - 1] if step - 1 in loaded else []
@@ -233,8 +262,9 @@ class Result:
         )
 
     def branches(self):
-        """The levels with a force as branches of loading or unloading, [(levels, unloading)]. If levels do not depend on the levels before,
-        the levels in order of their separation are one branch."""
+        """The levels with a force as branches of loading or unloading, [(levels, unloading)]. If
+        levels do not depend on the levels before, the levels in order of their separation are one
+        branch."""
         at, z = (
             self.carrying(),
             self.mean("separation") if "separation" in self else self.depth()[0],
@@ -243,6 +273,7 @@ class Result:
             self.case.get("solids%hardness", "Infinity") != "Infinity"
             or ("jumps" in self and self.worst("jumps").any())
             or ("time" in self and "energy_lost" in self)
+            or "worn_volume" in self
         )
         if not remembers or at.size < 2:
             return [(at[np.argsort(-z[at], kind="stable")], False)]
@@ -262,8 +293,17 @@ class Result:
         """True if the file has the contact of the smooth indenter."""
         return "area_hertz" in self and bool(np.isfinite(self["area_hertz"]).any())
 
+    def is_ball(self):
+        """True if the smooth indenter is a ball on a half-space (Hertz)."""
+        return self.has_sphere() and self.shape() == "sphere"
+
+    def hardness(self):
+        """The hardness in the unit of pressures; Infinity for elastic bodies."""
+        return float(self.case.get("solids%hardness", "Infinity")) * self.factor("map_pressure")
+
     def has_tip(self):
-        """True for a round indenter, also on layers and bodies that relax, where its smooth contact has no closed form."""
+        """True for a round indenter, also on layers and bodies that relax, where its smooth contact
+        has no closed form."""
         return self.has_sphere() or "r_star" in self and bool(np.isfinite(self["r_star"]))
 
     def shape(self):
@@ -275,11 +315,45 @@ class Result:
             " (Hertz)" if self.shape() in ("sphere", "paraboloid") else ""
         )
 
+    def half_width(self, step):
+        """Half the width of the contact of a smooth cylinder (Hertz); NaN for other contacts."""
+        if "force_per_length" not in self or self.shape() != "paraboloid":
+            return np.nan
+        radii = [float(radius) for radius in self.case["indenter%radii"].split(",")]
+        finite = [radius for radius in radii if np.isfinite(radius)]
+        if len(finite) != 1:
+            return np.nan
+        load = max(self.mean("force_per_length")[step], 0)
+        return 2 * np.sqrt(load * finite[0] * self.factor("separation") / np.pi / self["e_star"])
+
+    def along_y(self):
+        """True if the axis of a line contact is along y."""
+        return "periodic_y" in self.case.get("indentation%boundary", "")
+
+    def sides(self):
+        """The sides x0, x1, y0, y1 of the surface; None if the file has no map."""
+        return self.cells("map_area_fraction", 0)[1] if "map_area_fraction" in self else None
+
+    def pixels(self, step):
+        """(flags of contact_mask, extent) of a level by elements; None if the file has none."""
+        at = np.flatnonzero(self["mask_step"] == step + 1) if "mask_step" in self else []
+        if not len(at):
+            return None
+        mask = np.asarray(self.file.variables["contact_mask"][int(at[0])])
+        return mask, edges(self["mask_x"], self["mask_y"])
+
     def by_elements(self):
         model, source = (
             self.case.get(key, "").strip("'") for key in ("solver%model", "surface%source")
         )
         return "contact_x" in self or model == "elements" or model == "auto" and source == "heights"
+
+
+def edges(x, y):
+    """(x0, x1, y0, y1) of the pixels with these centres."""
+    dx, dy = ((v[-1] - v[0]) / max(v.size - 1, 1) / 2 for v in (x, y))
+    dx, dy = dx or dy, dy or dx  # a single column or row
+    return x[0] - dx, x[-1] + dx, y[0] - dy, y[-1] + dy
 
 
 def _keys(text):
@@ -316,14 +390,16 @@ def axis_label(key, result):
 
 
 def value_text(value):
-    """Short text of one or several values of a key: 'Infinity, 2.5' as 'inf, 2.5'; for a rigid or flat body only the other value."""
+    """Short text of one or several values of a key: 'Infinity, 2.5' as 'inf, 2.5'; for a rigid or
+    flat body only the other value."""
     parts = [part.strip() for part in value.split(",")]
     finite = [re.sub(r"\.0$", "", part) for part in parts if part != "Infinity"]
     return ", ".join(finite or ["inf"]).strip("'")
 
 
 def names(results):
-    """The name of each result in a legend: keys that vary between results, or their titles or file names if no key does."""
+    """The name of each result in a legend: keys that vary between results, or their titles or file
+    names if no key does."""
     if len(results) < 2:
         return [r.title or os.path.basename(r.path) for r in results]
     keys = differing_keys(results)
@@ -354,8 +430,9 @@ def names(results):
 
 
 class Looks:
-    """Line and colour of each of several results, and its entry in the legend: individual for up to six. More results are distinguished by a
-    colour scale along the key with the most values, and by line styles along a second key."""
+    """Line and colour of each of several results, and its entry in the legend: individual for up to
+    six. More results are distinguished by a colour scale along the key with the most values, and by
+    line styles along a second key."""
 
     def __init__(self, results):
         self.names = names(results)
@@ -413,7 +490,8 @@ def _in_order(text):
 
 
 def members_of_manifest(path):
-    """The results of a study from its manifest; None for another file. Missing members are reported and omitted."""
+    """The results of a study from its manifest; None for another file. Missing members are reported
+    and omitted."""
     try:
         with netCDF4.Dataset(path) as file:
             if "member" not in file.dimensions or "file" not in file.variables:
@@ -428,7 +506,8 @@ def members_of_manifest(path):
     missing = [p for p in paths if not os.path.exists(p)]
     if missing:
         print(
-            f"plot.py: {len(missing)} of {len(paths)} members have no result yet: {os.path.basename(missing[0])}, ...",
+            f"plot.py: {len(missing)} of {len(paths)} members have no result yet: "
+            f"{os.path.basename(missing[0])}, ...",
             file=sys.stderr,
         )
     return [p for p in paths if os.path.exists(p)]

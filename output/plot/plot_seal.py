@@ -4,7 +4,8 @@ import numpy as np
 from matplotlib.colors import LogNorm
 
 from plot_curves import begin, curve, title
-from plot_style import GREY, amount, label, plt
+from plot_results import edges
+from plot_style import GREY, Page, amount, label, plt
 
 CLOSED = 0.42  # A/A0 where gaps of isotropic surfaces close (Persson; Dapp and others 2012)
 
@@ -53,8 +54,9 @@ def seal(results, options):
 
 
 def constriction(gap):
-    """(row, column) of the narrowest point of the widest way along x around the periodic cell; None if there is none. Points are opened from the
-    widest gap on, until a set of neighbours meets itself one period further."""
+    """(row, column) of the narrowest point of the widest way along x around the periodic cell; None
+    if there is none. Points are opened from the widest gap on, until a set of neighbours meets
+    itself one period further."""
     ny, nx = gap.shape
     parent, period = {}, {}
 
@@ -90,52 +92,35 @@ def constriction(gap):
 
 
 def flow(results, options):
-    """The flux for a pressure gradient along x over the gap, at up to three levels of the first result with the fields."""
+    """The flux for a pressure gradient along x over the gap, at up to three levels of the first
+    result with the fields."""
     results = [r for r in results if "field_flow" in r and "field_gap" in r]
     if not results:
         return None
     result = results[0]
     steps = result["field_step"].astype(int) - 1
     drawn = np.unique(np.linspace(0, steps.size - 1, min(3, steps.size)).astype(int))
-    figure, axes = plt.subplots(
-        1,
-        drawn.size,
-        figsize=(options.width / 25.4, (options.width / drawn.size * 0.98 + 8) / 25.4),
-        constrained_layout=True,
-        squeeze=False,
-    )
-    colours = plt.get_cmap("plasma").copy()
-    colours.set_bad(alpha=0)
+    columns = drawn.size if options.width >= 120 else 1
+    page = Page(options, drawn.size, aspect=0.95, columns=columns)
     x, y = result["field_x"], result["field_y"]
-    dx, dy = (x[-1] - x[0]) / (x.size - 1) / 2, (y[-1] - y[0]) / (y.size - 1) / 2
-    extent = (x[0] - dx, x[-1] + dx, y[0] - dy, y[-1] + dy)
-    for axis, k in zip(axes[0], drawn):
-        gap, flux = result["field_gap"][k], result["field_flow"][k]
-        grey = plt.get_cmap("Greys_r").copy()
-        grey.set_bad("k")
-        lightest = 1.6 * gap.max()
-        axis.imshow(
-            np.where(gap > 0, gap, np.nan),
-            origin="lower",
-            extent=extent,
-            cmap=grey,
-            vmin=-lightest,
-            vmax=lightest / 1.6,
-        )
-        text = "closed"
+    gaps, fluxes, image = result["field_gap"][drawn], [], None
+    for k in drawn:
         mean = result["permeability"][0, steps[k], 0]
-        if mean > 0:
-            flux = flux / mean
+        fluxes.append(result["field_flow"][k] / mean if mean > 0 else None)
+    top = max((flux.max() for flux in fluxes if flux is not None), default=1)
+    grey = plt.get_cmap("Greys_r").copy()
+    grey.set_bad("k")
+    for k, (axis, gap, flux) in enumerate(zip(page.axes, gaps, fluxes)):
+        lightest = 1.6 * gap.max()
+        how = dict(extent=edges(x, y), interpolation="nearest")
+        shown = np.where(gap > 0, gap, np.nan)
+        axis.imshow(shown, cmap=grey, vmin=-lightest, vmax=lightest / 1.6, **how)
+        text = "closed"
+        if flux is not None:
+            norm = LogNorm(LEAST, top)
             image = axis.imshow(
-                np.where(flux > LEAST, flux, np.nan),
-                origin="lower",
-                extent=extent,
-                cmap=colours,
-                norm=LogNorm(LEAST, flux.max()),
+                np.where(flux > LEAST, flux, np.nan), cmap="plasma", norm=norm, **how
             )
-            bar = figure.colorbar(image, ax=axis, orientation="horizontal", shrink=0.9)
-            bar.set_label("flux over its mean along x", fontsize=7)
-            bar.ax.tick_params(labelsize=6)
             narrowest = constriction(gap)
             if narrowest:
                 row, column = narrowest
@@ -143,11 +128,14 @@ def flow(results, options):
                 text = "ring: " + amount(gap[row, column], result.dimension("field_gap"))
         label(axis, "x", "$x$", result.dimension("field_x"))
         label(axis, "y", "$y$", result.dimension("field_y"))
-        axis.set_title(f"{result.level_name(steps[k])}\n{text}", fontsize=7)
-    figure.suptitle(
-        result.heading(
-            "Flow along x through the gap (grey; black: contact; ring: critical constriction)"
-        ),
-        fontsize=8,
-    )
-    return figure
+        if k and columns > 1:
+            axis.set_ylabel("")
+            axis.tick_params(labelleft=False)
+        axis.set_title(f"{result.level_name(steps[drawn[k]])}\n{text}", fontsize=7)
+    if image is not None:
+        how = dict(pad=0.01, fraction=0.05, aspect=25)
+        page.figure.colorbar(image, ax=page.axes, label="flux over its mean along $x$", **how)
+    page.entry("contact", marker="s", color="k", ls="none")
+    page.entry("gap, light: wide", marker="s", color="0.7", ls="none")
+    page.entry("critical constriction", marker="o", mfc="none", color="#00a0ff", ls="none", ms=8)
+    return page.finish(result.heading("Flow along $x$ through the gap"))

@@ -1,4 +1,5 @@
-"""Stresses below the surface (output%stress_depths): the largest at each depth, and a vertical section through the worst point."""
+"""Stresses below the surface (output%stress_depths): the largest at each depth, and a vertical
+section through the worst point."""
 
 import numpy as np
 
@@ -12,7 +13,8 @@ KINDS = (
 
 
 def _level(result, options):
-    """The level to draw: the requested one, otherwise the last with stresses; None if there is none."""
+    """The level to draw: the requested one, otherwise the last with stresses; None if there is
+    none."""
     there = np.flatnonzero(np.isfinite(result["mises_max"]).any(axis=(0, 2)))
     if options.step is not None:
         return options.step - 1 if options.step - 1 in there else None
@@ -20,7 +22,8 @@ def _level(result, options):
 
 
 def hertz_axis(z, N, R, E, nu):
-    """von Mises's stress under the centre of a smooth ball, twice the shear stress there (Johnson 1985, section 3.4)."""
+    """von Mises's stress under the centre of a smooth ball, twice the shear stress there (Johnson
+    1985, section 3.4)."""
     a = (0.75 * N * R / E) ** (1 / 3)
     p0 = 1.5 * N / (np.pi * a**2)
     t = z / a
@@ -32,7 +35,8 @@ def hertz_axis(z, N, R, E, nu):
 
 
 def stress(results, options):
-    """The largest stresses at each depth at one level, beside those under a smooth ball of the same load."""
+    """The largest stresses at each depth at one level, beside those under a smooth ball of the same
+    load."""
     results = [r for r in results if "mises_max" in r]
     if len(results) != 1:
         return None
@@ -66,7 +70,8 @@ def stress(results, options):
 
 
 def section(results, options):
-    """von Mises's stress (or the first stress there is) in the vertical plane along x through the worst point, and in the worst plane."""
+    """von Mises's stress (or the first stress there is) in the vertical plane along x through the
+    worst point, and in the worst plane."""
     name = next(
         (k for k, _ in KINDS if len(results) == 1 and f"field_{k}" in results[0]),
         None,

@@ -1,10 +1,13 @@
-"""Results of the members of a study at one level against the keys that vary."""
+"""Results of the members of a study at one level or load against the keys that vary."""
+
+from collections import namedtuple
 
 import numpy as np
 
-from plot_curves import error_band, title
+from plot_adhesion import jkr
+from plot_curves import bars, error_band, title
 from plot_results import _in_order, axis_label, differing_keys, key_label, value_text
-from plot_style import FEW, Page, STYLES, colour_bar, label, short
+from plot_style import FEW, GREY, Page, STYLES, amount, colour_bar, label, short
 
 QUANTITIES = {
     "force": "force $N$",
@@ -13,12 +16,16 @@ QUANTITIES = {
     "separation": "separation $Z_0$",
     "contact_area": "true contact area $A$",
     "contacts": "number of contacts",
+    "pull_off_force": "pull-off force",
+    "energy_lost": "work lost",
 }
+# A quantity of every result: its name, values, standard errors, and expected errors of the model.
+Panel = namedtuple("Panel", "name values errors expected dimension")
 
 
 def common_level(results, step):
-    """The level common to all results, as indices, and its name: the requested one, or the last with the same
-    separation, force or pressure in all of them. None if there is no such level."""
+    """The level common to all results, as indices, and its name: the requested one, or the last
+    with the same separation, force or pressure in all of them. None if there is no such level."""
     named = [{r.level_name(k): k for k in r.loaded()} for r in results]
     if step is not None:
         at = [step - 1] * len(results)
@@ -33,38 +40,53 @@ def common_level(results, step):
         and relative == {"relative"}
         and len({r.steps for r in results}) == 1
     ):
-        ends = {r.case.get(key) for r in results for key in ("indentation%stop",)}
-        return [r.steps - 1 for r in results], f"$p/(E^*h')$ = {ends.pop()}" if len(
-            ends
-        ) == 1 and None not in ends else "the last level"
+        ends = {r.case.get("indentation%stop") for r in results}
+        named = len(ends) == 1 and None not in ends
+        return [r.steps - 1 for r in results], (
+            f"$p/(E^*h')$ = {ends.pop()}" if named else "the last level"
+        )
     return [r.steps - 1 for r in results], "the last level of each"
 
 
-def _curves(page, axis, quantity, results, values, levels, numbers, others):
-    """A quantity against the key of numbers, a curve for each set of values of the other keys, with the expected error as a band."""
-    shown = dict.fromkeys(others)
-    for (marker, line, colour), other in zip(STYLES, shown):
-        at = [k for k in np.argsort(numbers, kind="stable") if others[k] == other]
-        x, y = numbers[at], values[at]
-        axis.plot(x, y, marker, ls=line, color=colour, ms=3.5, label=other or None)
-        off = np.array([results[k].error(quantity)[levels[k]] for k in at])
-        error_band(
-            page,
-            axis,
-            x,
-            y,
-            off,
-            f"expected error{' of ' + other if len(shown) > 1 else ''}",
-            color=colour,
-            alpha=0.15,
-        )
+def _over_levels(result, name):
+    """Mean and standard error over the realizations, and expected error, at every level."""
+    values, mean = result[name], result.mean(name)
+    if values.ndim < 2 and name != "pull_off_force":
+        return mean, np.zeros(result.steps), np.zeros(result.steps)
+    expected = result.error(name) * abs(mean) if name in ("force", "contact_area") else 0 * mean
+    return mean, result.standard_error(values), expected
 
 
-def study(results, options):
-    """Area, contacts and force (separation under force control) at one level against the keys that vary: curves over one key of numbers (of
-    more than two keys that with the most values), one for each value of the others; maps for two keys of numbers, or of none.
-    """
-    results = [r for r in results if "force" in r and r.loaded().size]
+def _at_level(results, levels, name):
+    found = np.array([[v[k] for v in _over_levels(r, name)] for r, k in zip(results, levels)])
+    return Panel(name, *found.T, results[0].dimension(name))
+
+
+def _at_load(results, load, name):
+    """Between the levels of first loading, linear in the logarithm of the load; logarithms of
+    quantities that are positive."""
+    found = []
+    for result in results:
+        of = "pressure" if "pressure" in result else "force"
+        at = result.branches()[0][0]
+        known = result.mean(of)[at]
+        at, known = at[np.argsort(known)], np.sort(known)
+        wanted = load * result.factor(of)
+        if not known[0] > 0 or not known[0] <= wanted <= known[-1] * (1 + 1e-9):
+            found.append([np.nan] * 3)
+            continue
+        row = []
+        for values in _over_levels(result, name):
+            log = (values[at] > 0).all()
+            y = np.interp(np.log(wanted), np.log(known), np.log(values[at]) if log else values[at])
+            row.append(np.exp(y) if log else y)
+        found.append(row)
+    return Panel(name, *np.array(found, float).T, results[0].dimension(name))
+
+
+def _keys(results):
+    """(the keys that vary, their texts for each result, the key of numbers of curves or None, the
+    names of the other keys for each result); None if there is nothing to draw."""
     keys = differing_keys(results) if len(results) > 2 else []
     texts = [[r.case.get(key, "") for key in keys] for r in results]
     if not keys or len({tuple(t) for t in texts}) < len(texts):
@@ -72,87 +94,134 @@ def study(results, options):
     of_numbers = [i for i in range(len(keys)) if not any(_in_order(t[i])[0] for t in texts)]
     if len(keys) > 2:  # no map: curves over the key of numbers with the most values
         of_numbers = sorted(of_numbers, key=lambda i: -len({t[i] for t in texts}))[:1]
-    curves = len(of_numbers) == 1 and len({t[of_numbers[0]] for t in texts}) > 2
-    if curves:
-        key, marks = keys[of_numbers[0]], [t[of_numbers[0]] for t in texts]
-        x = np.array([_in_order(mark)[1] for mark in marks])
-        named = [
-            value_text
-            if _in_order(text)[0]
-            else lambda value, label=key_label(
-                name, results[0]
-            ): f"{label[0]} = {value_text(value)} {label[1]}".strip()
-            for name, text in zip(keys, texts[0])
-        ]
+    if len(of_numbers) == 1 and len({t[of_numbers[0]] for t in texts}) > 2:
+        along = of_numbers[0]
+        labels = [key_label(key, results[0]) for key in keys]
         others = [
-            ", ".join(named[i](text) for i, text in enumerate(t) if i != of_numbers[0])
+            ", ".join(
+                f"{labels[i][0]} = {value_text(text)} {labels[i][1]}".strip()
+                for i, text in enumerate(t)
+                if i != along
+            )
             for t in texts
         ]
-        curves = len(set(others)) <= FEW
-    if not curves and (len(keys) != 2 or len(results) < 4):
+        if len(set(others)) <= FEW:
+            return keys, texts, along, others
+    return (keys, texts, None, None) if len(keys) == 2 and len(results) >= 4 else None
+
+
+def _curves(page, axis, panel, results, keys, texts, along, others):
+    """A quantity against the key of numbers, a curve for each set of values of the other keys, with
+    the expected error as a band and the standard error as bars."""
+    numbers = np.array([_in_order(t[along])[1] for t in texts])
+    shown = dict.fromkeys(others)
+    for (marker, line, colour), other in zip(STYLES, shown):
+        at = [k for k in np.argsort(numbers, kind="stable") if others[k] == other]
+        x, y = numbers[at], panel.values[at]
+        axis.plot(x, y, marker, ls=line, color=colour, ms=3.5, label=other or None)
+        text = "expected error" + (f", {other}" if len(shown) > 1 else "")
+        error_band(page, axis, x, y, panel.expected[at], text, color=colour, alpha=0.15)
+        if panel.errors[at].any():
+            bars(page, axis, x, y, panel.errors[at], results[at[0]], colour)
+    values = sorted(set(numbers))
+    if values[0] > 0 and values[-1] > 8 * values[0] and len(values) > 2:
+        axis.set_xscale("log")
+    label(axis, "x", axis_label(keys[along], results[0]))
+    if len(values) <= 5:  # the values themselves
+        axis.minorticks_off()
+        texts_of = {_in_order(t[along])[1]: value_text(t[along]) for t in texts}
+        axis.set_xticks(values, [texts_of[value] for value in values])
+    label(axis, "y", QUANTITIES[panel.name], panel.dimension)
+
+
+def _table(page, axis, panel, results, keys, texts):
+    """A map of a quantity over two keys."""
+    ends = [sorted({t[i] for t in texts}, key=_in_order) for i in (0, 1)]
+    table = np.full((2, len(ends[0]), len(ends[1])), np.nan)
+    for (first, second), *pair in zip(texts, panel.values, panel.errors):
+        table[:, ends[0].index(first), ends[1].index(second)] = pair
+    image = axis.imshow(np.ma.masked_invalid(table[0]), cmap="cividis", aspect="auto")
+    low, high = np.nanmin(table[0]), np.nanmax(table[0])
+    if high - low < 1e-9 * abs(high):
+        image.set_clim(0.9 * low, 1.1 * high)
+    how = dict(location="bottom", pad=0.02, aspect=22)
+    bar = colour_bar(page.figure, image, axis, QUANTITIES[panel.name], panel.dimension, **how)
+    for (i, j), value in np.ndenumerate(table[0]):
+        if np.isfinite(value) and table[0].size <= 36:
+            error = table[1, i, j]
+            text = short(value / bar.size) + (f"\n± {short(error / bar.size, 2)}" if error else "")
+            dark = value <= (low + high) / 2
+            how = dict(ha="center", va="center", fontsize=7, color="w" if dark else "k")
+            axis.text(j, i, text, **how)
+    for key, shown, place, set_label in (
+        (keys[0], ends[0], axis.set_yticks, axis.set_ylabel),
+        (keys[1], ends[1], axis.set_xticks, axis.set_xlabel),
+    ):
+        shown = [value_text(t) for t in shown]
+        room = len(shown) if key == keys[0] else sum(map(len, shown)) // 2
+        every = -(-room // 14)  # as many as there is room for
+        place(range(0, len(shown), every), shown[::every])
+        set_label(axis_label(key, results[0]))
+
+
+def _page(results, options, found, panels):
+    keys, texts, along, others = found
+    page = Page(options, len(panels), aspect=0.9 if len(panels) > 1 else 0.72)
+    for axis, panel in zip(page.axes, panels):
+        if along is None:
+            _table(page, axis, panel, results, keys, texts)
+        else:
+            _curves(page, axis, panel, results, keys, texts, along, others)
+    return page
+
+
+def study(results, options):
+    """Area, contacts and force (separation under force control or at a chosen load) against the
+    keys that vary: curves over one key of numbers (of more than two keys that with the most
+    values), one for each value of the others; maps for two keys of numbers, or of none."""
+    results = [r for r in results if "force" in r and r.loaded().size]
+    found = _keys(results)
+    if not found:
         return None
-    levels, name = common_level(results, options.step)
-    given = {
-        "force": [
-            "separation_sigma" if all("separation_sigma" in r for r in results) else "separation"
-        ],
-        "pressure": ["separation_sigma"],
-    }.get(results[0].control(), ["force"])
-    quantities = given + ["contact_area", "contacts"]
-    page = Page(options, 3, aspect=0.9)
-    for axis, quantity in zip(page.axes, quantities):
-        values = np.array([r.mean(quantity)[level] for r, level in zip(results, levels)])
-        dimension = results[0].dimension(quantity)
-        if curves:
-            _curves(page, axis, quantity, results, values, levels, x, others)
-            if x.min() > 0 and x.max() > 8 * x.min() and len(set(x)) > 5:
-                axis.set_xscale("log")
-            label(axis, "x", axis_label(key, results[0]))
-            if len(set(x)) <= 5:  # the values themselves
-                axis.minorticks_off()
-                axis.set_xticks(
-                    sorted(set(x)),
-                    [value_text(marks[list(x).index(value)]) for value in sorted(set(x))],
-                )
-            label(axis, "y", QUANTITIES[quantity], dimension)
-            continue
-        ends = [sorted({t[i] for t in texts}, key=_in_order) for i in (0, 1)]
-        table = np.full((len(ends[0]), len(ends[1])), np.nan)
-        for (first, second), value in zip(texts, values):
-            table[ends[0].index(first), ends[1].index(second)] = value
-        image = axis.imshow(np.ma.masked_invalid(table), cmap="cividis", aspect="auto")
-        if np.nanmax(table) - np.nanmin(table) < 1e-9 * abs(np.nanmax(table)):
-            image.set_clim(0.9 * np.nanmin(table), 1.1 * np.nanmax(table))
-        bar = colour_bar(
-            page.figure,
-            image,
-            axis,
-            QUANTITIES[quantity],
-            dimension,
-            location="bottom",
-            pad=0.02,
-            aspect=22,
-        )
-        middle = np.nanmean([np.nanmin(table), np.nanmax(table)])
-        for (i, j), value in np.ndenumerate(table):
-            if np.isfinite(value) and table.size <= 36:
-                axis.text(
-                    j,
-                    i,
-                    short(value / bar.size),
-                    ha="center",
-                    va="center",
-                    color="k" if value > middle else "w",
-                    fontsize=7,
-                )
-        for key, shown, place, set_label in (
-            (keys[0], ends[0], axis.set_yticks, axis.set_ylabel),
-            (keys[1], ends[1], axis.set_xticks, axis.set_xlabel),
-        ):
-            shown = [value_text(t) for t in shown]
-            every = -(
-                -(len(shown) if key == keys[0] else sum(map(len, shown)) // 2) // 14
-            )  # as many as there is room for
-            place(range(0, len(shown), every), shown[::every])
-            set_label(axis_label(key, results[0]))
-    return page.finish(title(results, f"Study at {name}"))
+    in_sigma = all("separation_sigma" in r for r in results)
+    separation = "separation_sigma" if in_sigma else "separation"
+    if options.at is not None:
+        of = "pressure" if "pressure" in results[0] else "force"
+        load = options.at * results[0].factor(of)
+        name = f"${'p' if of == 'pressure' else 'N'}$ = {amount(load, results[0].dimension(of))}"
+        panels = [
+            _at_load(results, options.at, q) for q in (separation, "contact_area", "contacts")
+        ]
+        if not all(np.isfinite(panel.values).any() for panel in panels):
+            options.say(f"study: no result has levels around the load {options.at:g}")
+            return None
+    else:
+        levels, name = common_level(results, options.step)
+        first = "force" if results[0].control() == "separation" else separation
+        panels = [_at_level(results, levels, q) for q in (first, "contact_area", "contacts")]
+    return _page(results, options, found, panels).finish(title(results, f"Study at {name}"))
+
+
+def pulloff(results, options):
+    """Pull-off force and work lost against the keys that vary, beside the smooth ball (JKR)."""
+    results = [r for r in results if r.pulls() and r.carrying().size]
+    found = _keys(results)
+    if not found:
+        return None
+    values = -np.array([float(r.mean("pull_off_force")) for r in results])
+    errors = np.array([float(r.standard_error(r["pull_off_force"])) for r in results])
+    dimension = results[0].dimension("pull_off_force")
+    panels = [Panel("pull_off_force", values, errors, 0 * values, dimension)]
+    if all("energy_lost" in r for r in results):
+        panels.append(_at_level(results, [r.steps - 1 for r in results], "energy_lost"))
+    page = _page(results, options, found, panels)
+    smooth = {short(abs(curve[0].min())) for curve in map(jkr, results) if curve is not None}
+    if len(smooth) == 1 and found[2] is not None:
+        axis, least = page.axes[0], float(smooth.pop())
+        text = f"smooth ball (JKR): {amount(least, dimension)}"
+        if least < 3 * values.max():
+            axis.axhline(least, color=GREY, ls=":", label=text)
+        else:  # far above the results, which it would flatten
+            page.entry(text, ls="none")
+        label(axis, "y", QUANTITIES["pull_off_force"], dimension)
+    return page.finish(title(results, "Pull-off"))

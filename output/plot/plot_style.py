@@ -1,5 +1,6 @@
-"""Style of the pictures: colours, suitable units, marks of levels, legends beside the data. Data are drawn in SI units; axes and colour bars
-use the unit with short numbers (nm, um, mm; mN, N, kN; MPa, GPa)."""
+"""Style of the pictures: colours, suitable units, marks of levels, legends beside the data. Data
+are drawn in SI units; axes and colour bars use the unit with short numbers (nm, um, mm; mN, N, kN;
+MPa, GPa)."""
 
 import re
 
@@ -9,7 +10,13 @@ matplotlib.use("Agg")  # needs no display
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FuncFormatter, LogFormatterSciNotation, MaxNLocator
+from matplotlib.ticker import (
+    FixedLocator,
+    FuncFormatter,
+    LogFormatterSciNotation,
+    LogLocator,
+    MaxNLocator,
+)
 
 # Curves differ by line and marker as well as by colour, so that pictures are readable in grey.
 STYLES = [
@@ -27,6 +34,7 @@ FEW = 6  # maximum number of curves with individual colours
 GREY = "0.4"  # theories and laws drawn beside the results
 # The mark of a level by its status, from 1 on; larger ones are more serious.
 MARKS = ["", "o", "s", "^", "x"]
+STATUSES = ["", "with doubts", "with overlapping spots", "not unique", "not converged"]
 WIDTHS = {"single": 85.0, "onehalf": 130.0, "double": 175.0}  # columns of journals [mm]
 # Areas without contact are white.
 COLOURS = matplotlib.colormaps["viridis_r"].copy()
@@ -95,8 +103,8 @@ _BASES |= {
 
 
 def si(text):
-    """(factor to SI, dimension) of a unit of result files: 'N mm-2' is (1e6, 'N m-2'). An unknown unit is its own
-    dimension, with factor 1."""
+    """(factor to SI, dimension) of a unit of result files: 'N mm-2' is (1e6, 'N m-2'). An unknown
+    unit is its own dimension, with factor 1."""
     factor, powers = 1.0, {}
     for word in text.split():
         name, power = re.fullmatch(r"(.*?)(-?\d*)", word).groups()
@@ -132,7 +140,8 @@ def fitting(dimension, values):
 
 
 def middle(dimension, ends):
-    """The same for a logarithmic axis over decades: of the units within its ends the one nearest to its middle."""
+    """The same for a logarithmic axis over decades: of the units within its ends the one nearest to
+    its middle."""
     within = [unit for unit in _SHOWN.get(dimension, []) if 0 < ends[0] <= unit[0] <= ends[1]]
     return (
         min(within, key=lambda unit: abs(np.log(unit[0] ** 2 / (ends[0] * ends[1]))))
@@ -148,7 +157,8 @@ def amount(value, dimension, digits=3):
 
 
 def short(value, digits=3):
-    """A number with the given number of digits, without a power of ten up to a million: 49600, not 4.96e+04."""
+    """A number with the given number of digits, without a power of ten up to a million: 49600, not
+    4.96e+04."""
     return f"{float(f'{value:.{digits}g}'):.6g}"
 
 
@@ -211,7 +221,7 @@ def colour_bar(figure, image, axes, text, dimension="", **how):
         image,
         ax=axes,
         label=text + (f" [{unit}]" if unit else ""),
-        format=FuncFormatter(lambda v, _: _number(v / size, high / size)),
+        format=FuncFormatter(lambda v, _: _number(v / size, max(abs(low), abs(high)) / size)),
         ticks=MaxNLocator(5),
         **how,
     )
@@ -220,8 +230,9 @@ def colour_bar(figure, image, axes, text, dimension="", **how):
 
 
 class Page:
-    """A figure of `count` panels of one height with a title and one legend below all of them, outside the data. With one panel the page
-    is at most 130 mm wide. aspect: height over width of a panel; columns: number of columns."""
+    """A figure of `count` panels of one height with a title and one legend below all of them,
+    outside the data. With one panel the page is at most 130 mm wide. aspect: height over width of a
+    panel; columns: number of columns."""
 
     def __init__(self, options, count=1, aspect=0.72, columns=None, least=52.0):
         self.width = min(options.width, 130.0) if count == 1 else options.width
@@ -234,44 +245,30 @@ class Page:
         self.outer = self.figure.add_gridspec(2, 1, height_ratios=[1, 1e-3])
         grid = self.outer[0].subgridspec(self.rows, columns)
         self.axes = [self.figure.add_subplot(grid[k // columns, k % columns]) for k in range(count)]
-        self.columns, self.entries, self.met, self.meanings = columns, {}, set(), []
+        self.columns, self.entries, self.causes = columns, {}, set()
 
     def entry(self, text, **looks):
         """A line of the legend."""
         self.entries.setdefault(text, Line2D([], [], **looks))
 
-    def status(self, axis, x, y, status, meanings, colour):
-        """Marks levels by status, at most about 15 of a kind, but all that did not converge."""
-        for value in range(1, len(MARKS)):
-            at = np.flatnonzero((np.asarray(status) == value) & np.isfinite(x) & np.isfinite(y))
-            if at.size == 0:
+    def status(self, axis, x, y, result, colour):
+        """Marks the levels of a result by their status."""
+        status = result.level_status()
+        for value, text in enumerate(STATUSES):
+            at = np.flatnonzero((status == value) & np.isfinite(x) & np.isfinite(y))
+            if not value or at.size == 0:
                 continue
             last = value == len(MARKS) - 1
-            if not last:
-                at = at[:: -(-at.size // 15)]
-            axis.plot(
-                np.asarray(x)[at],
-                np.asarray(y)[at],
-                MARKS[value],
-                color="r" if last else colour,
-                mfc="w",
-                ms=5 if last else 3.5,
-                mew=0.8,
-                ls="none",
-                zorder=3,
-                gid="status",
-            )
-            self.entry(
-                "level " + meanings[value],
-                ls="none",
-                marker=MARKS[value],
-                mfc="w",
-                color="r" if last else "k",
-                ms=4,
-            )
+            looks = dict(ls="none", marker=MARKS[value], mfc="w", color="r" if last else colour)
+            size = 5 if last else 3.5
+            axis.plot(x[at], y[at], ms=size, mew=0.8, zorder=3, gid="status", **looks)
+            if value == 1:
+                self.causes |= result.causes(at)
+            self.entry("level " + text, **{**looks, "color": "r" if last else "k", "ms": 4})
 
     def scale(self, scale):
-        """The colour scale of many results, (name of the key, texts of its values, colours), right of all panels."""
+        """The colour scale of many results, (name of the key, texts of its values, colours), right
+        of all panels."""
         name, texts, colours = scale
         colours = matplotlib.colors.ListedColormap(colours)
         image = matplotlib.cm.ScalarMappable(
@@ -291,13 +288,21 @@ class Page:
         self.entries = dict(
             sorted(self.entries.items(), key=lambda entry: entry[0].startswith("level "))
         )
+        if self.causes:
+            doubts = self.entries.pop("level with doubts")
+            self.entries[f"level with doubts: {', '.join(sorted(self.causes))}"] = doubts
         self.figure.suptitle(wrapped(self.figure, title, self.width, "figure.titlesize"))
         strip, handles = 0.1, list(self.entries.values())
         if handles:
             below = self.figure.add_subplot(self.outer[1])
             below.axis("off")
             texts = [
-                wrapped(self.figure, text, self.width - 10, "legend.fontsize")
+                wrapped(
+                    self.figure,
+                    text,
+                    62 if text.startswith("level ") and len(self.entries) > 1 else self.width - 10,
+                    "legend.fontsize",
+                )
                 for text in self.entries
             ]
             for rows in range(1, len(texts) + 1):  # as few as fit the width
@@ -318,12 +323,13 @@ class Page:
             (self.body + strip + 4.2 * (1 + self.figure._suptitle.get_text().count("\n"))) / 25.4,
         )
         self.outer.set_height_ratios([self.body, strip])
-        wrap_titles(self.figure)
+        settle(self.figure)
         return self.figure
 
 
 def wrapped(figure, text, width, size):
-    """The text in lines of at most `width` millimetres; formulas are not broken. size: name of the font size in rcParams, or points."""
+    """The text in lines of at most `width` millimetres; formulas are not broken. size: name of the
+    font size in rcParams, or points."""
     probe = figure.text(0, 0, "", fontsize=plt.rcParams.get(size, size))
     lines = []
     for line in filter(None, text.split("\n")):
@@ -336,25 +342,45 @@ def wrapped(figure, text, width, size):
     return "\n".join(lines)
 
 
-def wrap_titles(figure):
-    """Wraps the titles of axes half way to the next axes or at the edge of the figure, and makes the figure higher by the lines that this adds."""
-    figure.draw_without_rendering()  # for the positions of the axes; the next drawing also uses the widths of the tick labels of this one
-    centres = {
-        axis: sum(axis.get_position().intervalx) / 2 for axis in figure.axes if axis.get_title()
-    }
+def settle(figure):
+    """Wraps the titles of axes half way to the next axes or at the edge of the figure, makes the
+    figure higher by the lines that this adds, and takes ticks away until their labels are apart."""
+    figure.draw_without_rendering()  # for the positions of the axes
+    titled = [
+        (axis, sum(axis.get_position().intervalx) / 2, axis.get_subplotspec().rowspan.start)
+        for axis in figure.axes
+        if axis.get_title()
+    ]
     added = {}  # lines of each row of axes
-    for axis, centre in centres.items():
-        half = min(
-            [centre, 1 - centre]
-            + [abs(centre - other) / 2 for other in centres.values() if abs(centre - other) > 0.05]
-        )
+    for axis, centre, row in titled:
+        beside = [abs(centre - x) / 2 for other, x, r in titled if other is not axis and r == row]
+        half = min([centre, 1 - centre, *beside])
         text = wrapped(
             figure,
             axis.get_title(),
-            2 * half * 25.4 * figure.get_figwidth(),
+            1.88 * half * 25.4 * figure.get_figwidth(),
             axis.title.get_fontsize(),
         )
-        row = axis.get_subplotspec().rowspan.start
         added[row] = max(added.get(row, 0), text.count("\n") - axis.get_title().count("\n"))
         axis.title.set_text(text)
     figure.set_figheight(figure.get_figheight() + sum(added.values()) * 3.4 / 25.4)
+    figure.draw_without_rendering()  # with the widths of the tick labels
+    for axis in figure.axes:
+        for side in (axis.xaxis, axis.yaxis):
+            _space(side)
+
+
+def _space(side):
+    """Takes ticks of an axis away until their labels are apart."""
+    log = side.get_scale() == "log"
+    for bins in (5, 4, 3, 2, 1):
+        texts = [text for text in side.get_ticklabels(which="both") if text.get_text()]
+        boxes = [text.get_window_extent().padded(0 if log else 1.5) for text in texts]
+        if not any(a.overlaps(b) for k, a in enumerate(boxes) for b in boxes[:k]):
+            return
+        if log:
+            side.set_minor_locator(LogLocator(subs=(2.0, 5.0) if bins == 5 else ()))
+            if bins < 5:
+                side.set_major_locator(LogLocator(numticks=bins))
+        elif not isinstance(side.get_major_locator(), FixedLocator):
+            side.set_major_locator(MaxNLocator(bins))

@@ -4,27 +4,28 @@ import numpy as np
 
 from plot_curves import title
 from plot_results import names
-from plot_spots import heights
+from plot_spots import height_names, heights
 from plot_style import Page, STYLES, amount, colour_bar, label
 
 
 def surface(results, options):
-    """Heights, spectrum and distribution of heights of the first result that has any of them; for comparison the heights of up to two further results
-    beside them (a map and its twins), the spectra of all, and all rms slopes in the legend."""
-    first = next((r for r in results if "height" in r or "psd" in r), None)
+    """Heights, spectrum and distribution of heights of the first result that has any of them; for
+    comparison the heights of up to two further results beside them (a map and its twins), the
+    spectra of all, and all rms slopes in the legend."""
+    first = next((r for r in results if height_names(r) or "psd" in r), None)
     if first is None:
         return None
     spectra = [r for r in results if "psd" in r and "wavenumber" in r]
-    maps = [(r, name) for r, name in zip(results, names(results)) if "height" in r][:3]
+    maps = [(r, name) for r, name in zip(results, names(results)) if height_names(r)][:3]
     drawn = ["map"] * len(maps) + [
         name
         for name, there in (
             ("spectrum", spectra),
-            ("distribution", "height_pdf" in first or "height" in first),
+            ("distribution", "height_pdf" in first or height_names(first)),
         )
         if there
     ]
-    page = Page(options, len(drawn), aspect=0.82 if len(drawn) > 1 else 0.72)
+    page = Page(options, len(drawn), aspect=0.92 if len(drawn) > 1 else 0.72)
     for axis, (result, name) in zip(page.axes, maps):
         _map(page, axis, result, f"{name}\n" if len(maps) > 1 else "")
     for axis, name in list(zip(page.axes, drawn))[len(maps) :]:
@@ -36,15 +37,21 @@ def surface(results, options):
     )
     for name, slope in slopes:
         page.entry(
-            f"{name}: rms slope {np.mean(slope):.3g}"
-            + (f" ± {np.std(slope, ddof=1):.2g} ({slope.size} surfaces)" if slope.size > 1 else ""),
+            f"{name}: rms slope {np.mean(slope):.3g}" + _scatter(slope),
             ls="none",
         )
     return page.finish(first.title if len(results) == 1 else title(results, "Surfaces"))
 
 
+def _scatter(values):
+    if values.size < 2:
+        return ""
+    return f" ± {np.std(values, ddof=1):.2g} ({values.size} surfaces)"
+
+
 def _map(page, axis, result, name):
-    image = heights(result, axis)
+    image, variable = heights(result, axis), height_names(result)[0]
+    dimension = result.dimension(variable)
     image.set_cmap("viridis")
     low, high = np.nanpercentile(np.ma.filled(image.get_array(), np.nan), [0.1, 99.9])
     image.set_clim(low, high)
@@ -53,7 +60,7 @@ def _map(page, axis, result, name):
         image,
         axis,
         "height",
-        result.dimension("height"),
+        dimension,
         fraction=0.06,
         pad=0.03,
         aspect=20,
@@ -61,16 +68,11 @@ def _map(page, axis, result, name):
     )
     axis.locator_params(nbins=5)
     for which in "xy":
-        label(
-            axis,
-            which,
-            f"${which}$",
-            result.dimension("height_" + which if "height_" + which in result else which),
-        )
-    sq = float(result["sq"]) if "sq" in result else float(np.nanstd(result["height"]))
+        label(axis, which, f"${which}$", dimension)
+    sq = float(result["sq"]) if "sq" in result else float(np.nanstd(result[variable]))
     filled = int(result["filled_points"]) if "filled_points" in result else 0
     axis.set_title(
-        f"{name}rms height {amount(sq, result.dimension('height'))}"
+        f"{name}rms height {amount(sq, dimension)}"
         + (f",\n{filled} points filled" if filled else "")
     )
 
@@ -133,17 +135,19 @@ def _distribution(page, axis, result, _):
         edges, sq = np.append(z, 2 * z[-1] - z[-2]) - (z[1] - z[0]) / 2, float(result["sq"])
         words = f"skewness {float(result['ssk']):.2f}, kurtosis {float(result['sku']):.2f}"
     else:
-        heights_ = result["height"][np.isfinite(result["height"])]
+        heights_ = result[height_names(result)[0]]
+        heights_ = heights_[np.isfinite(heights_)]
         heights_ = heights_ - heights_.mean()
         density, edges = np.histogram(heights_, 60, density=True)
         z, sq = (edges[1:] + edges[:-1]) / 2, heights_.std()
-        words = f"skewness {np.mean((heights_ / sq) ** 3):.2f}, kurtosis {np.mean((heights_ / sq) ** 4):.2f}"
+        third, fourth = (np.mean((heights_ / sq) ** power) for power in (3, 4))
+        words = f"skewness {third:.2f}, kurtosis {fourth:.2f}"
     axis.stairs(density, edges, fill=True, color=STYLES[0][2], alpha=0.4)
     axis.plot(z, np.exp(-(z**2) / (2 * sq**2)) / (np.sqrt(2 * np.pi) * sq), color=STYLES[1][2])
     page.entry("heights", color=STYLES[0][2], alpha=0.4, lw=5)
     page.entry("Gaussian of the same rms", color=STYLES[1][2])
     axis.set(ylim=(0, None), title=words)
     axis.locator_params(axis="x", nbins=5)
-    length = result.dimension("height_bin" if "height_bin" in result else "height")
+    length = result.dimension("height_bin" if "height_bin" in result else height_names(result)[0])
     label(axis, "x", "height about the mean", length)
     label(axis, "y", "probability density", length + "-1")

@@ -1,4 +1,5 @@
-"""The texture of a measured map: its spectrum by direction, and its curve of Abbott and Firestone."""
+"""The texture of a measured map: its spectrum by direction, and its curve of Abbott and
+Firestone."""
 
 import numpy as np
 from matplotlib.colors import LogNorm

@@ -1,4 +1,4 @@
-"""Relaxing bodies: levels against time."""
+"""Bodies that relax or wear: levels against time, or the distance of sliding."""
 
 import numpy as np
 
@@ -6,38 +6,80 @@ from plot_curves import begin, title
 from plot_style import label
 
 
-def time(results, options):
-    """Force and contact area (of two flats nominal pressure and area fraction) against the time since the first level on a logarithmic axis, the first
-    level as a dotted line; under force control the separation instead of the force."""
-    results = [r for r in results if "time" in r and "energy_lost" in r and r.steps > 2]
-    if not results:
-        return None
-    flat = all("pressure" in r for r in results)
-    carried = [("pressure", "nominal pressure $p$")] if flat else [("force", "force $N$")]
+def _carried(results, flat):
+    """What the levels do not prescribe, with its label."""
     if all(r.control() != "separation" for r in results):
-        carried = [("separation", "separation $Z_0$")]
-    page, looks = begin(results, options, 2)
-    for axis, (name, text) in zip(
-        page.axes,
-        carried
-        + [
-            ("area_fraction", "true contact area $A/A_0$")
-            if flat
-            else ("contact_area", "true contact area $A$")
-        ],
-    ):
+        return "separation", "separation $Z_0$"
+    return ("pressure", "nominal pressure $p$") if flat else ("force", "force $N$")
+
+
+def _area(flat):
+    if flat:
+        return "area_fraction", "true contact area $A/A_0$"
+    return "contact_area", "true contact area $A$"
+
+
+def _against(clock, text, results, options, panels, first, logarithmic=()):
+    """Panels of quantities against the clock since the first level on a logarithmic axis, the
+    first level as a dotted line."""
+    page, looks = begin(results, options, len(panels), columns=2)
+    for axis, (name, name_text) in zip(page.axes, panels):
         for result, (line, colour, called) in zip(results, looks):
-            t, y = result["time"] - result["time"][0], result.mean(name)
+            t, y = result[clock] - result[clock][0], result.mean(name)
             axis.plot(t[1:], y[1:], ls=line, color=colour, marker=".", ms=3, gid="curve")
             axis.axhline(y[0], ls=":", color=colour, lw=1)
             if called:
                 page.entry(called, color=colour, ls=line)
-            status, meanings = result.level_status()
-            page.status(axis, t, np.where(t > 0, y, np.nan), status, meanings, colour)
-        page.entry("first level, applied at once", color="0.3", ls=":")
+            page.status(axis, t, np.where(t > 0, y, np.nan), result, colour)
+        page.entry(first, color="0.3", ls=":")
         axis.set_xscale("log")
-        label(axis, "x", "time since the first level", results[0].dimension("time"))
-        label(axis, "y", text, results[0].dimension(name))
-    return page.finish(
-        title(results, f"{carried[0][1].split(' $')[0].capitalize()} and contact area against time")
+        axis.set_yscale("log" if name in logarithmic else "linear")
+        label(axis, "x", text, results[0].dimension(clock))
+        label(axis, "y", name_text, results[0].dimension(name))
+    return page
+
+
+def time(results, options):
+    """Force and contact area (of two flats nominal pressure and area fraction) against the time;
+    under force control the separation instead of the force."""
+    results = [r for r in results if "time" in r and "energy_lost" in r and r.steps > 2]
+    if not results:
+        return None
+    flat = all("pressure" in r for r in results)
+    panels = [_carried(results, flat), _area(flat)]
+    page = _against(
+        "time",
+        "time since the first level",
+        results,
+        options,
+        panels,
+        "first level, applied at once",
     )
+    return page.finish(
+        title(results, f"{panels[0][1].split(' $')[0].capitalize()} and contact area against time")
+    )
+
+
+def wear(results, options):
+    """Contact area, rms height, largest pressure and separation (or force) against the distance of
+    sliding."""
+    results = [r for r in results if "distance" in r and "worn_volume" in r and r.steps > 2]
+    if not results:
+        return None
+    flat = all("pressure" in r for r in results)
+    panels = [
+        _area(flat),
+        ("worn_rms", "rms height"),
+        ("pressure_max", "largest pressure"),
+        _carried(results, flat),
+    ]
+    page = _against(
+        "distance",
+        "distance of sliding",
+        results,
+        options,
+        panels,
+        "first level, without sliding",
+        (panels[0][0], "pressure_max"),
+    )
+    return page.finish(title(results, "Wear against the distance of sliding"))

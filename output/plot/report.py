@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
 """A self-contained HTML page on a result of rsc, with its pictures.
 
-    python3 output/plot/report.py output/first.nc                        output/first.html
-    python3 output/plot/report.py output/study_manifest.nc -o study.html    a study, or several results
+    report.py output/first.nc                        output/first.html
+    report.py output/study_manifest.nc -o study.html
 
-It contains the levels with status and errors, bodies and surface, the pictures of plot.py, the case, and the citation. Needs the packages
-of plot.py.
-"""
+It contains the levels with status and errors, bodies and surface, the pictures of plot.py, the
+case, and the citation. Needs the packages of plot.py."""
 
 import argparse
 import base64
@@ -31,7 +30,7 @@ import table  # noqa: E402
 
 STATUS = {
     "converged": "residual below the tolerance, at a locally unique minimum of the energy",
-    "out_of_validity": "N may be more than 10 % off (elements: more than 1 %), or contacts are at the border of the surface or on filled points of the map",
+    "with_doubts": "",
     "overlapping": "spots closer than the sum of their radii: spots that would merge count as two",
     "not_unique": "other solutions may exist; the solution is selected by a fixed rule",
     "not_converged": "not converged: do not use",
@@ -88,10 +87,21 @@ SOLIDS = [
     "relaxation_time",
 ]
 MOST_LEVELS = 12
-STYLE = """body{font:15px/1.45 sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222}h1{font-size:1.6rem;margin-bottom:.2rem}
-h2{font-size:1.15rem;border-bottom:1px solid #ccc;margin-top:2rem}table{border-collapse:collapse;font-size:.85rem}td,th{padding:.2rem .6rem;border-bottom:1px solid #ddd;text-align:right}
-th{vertical-align:bottom}td{white-space:nowrap}.text td{white-space:normal}td:first-child,th:first-child,.text td{text-align:left}img{max-width:100%;display:block;margin:1rem auto}pre{background:#f5f5f5;padding:.8rem;overflow-x:auto;font-size:.8rem}
-.verdict{padding:.6rem 1rem;border-left:5px solid #4b8b3b;background:#f2f7f0}.verdict.warn{border-color:#b08d00;background:#fbf7e8}.verdict.bad{border-color:#c1440e;background:#fbefe9}
+STYLE = """
+body{font:15px/1.45 sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222}
+h1{font-size:1.6rem;margin-bottom:.2rem}
+h2{font-size:1.15rem;border-bottom:1px solid #ccc;margin-top:2rem}
+table{border-collapse:collapse;font-size:.85rem}
+td,th{padding:.2rem .6rem;border-bottom:1px solid #ddd;text-align:right}
+th{vertical-align:bottom}
+td{white-space:nowrap}
+.text td{white-space:normal}
+td:first-child,th:first-child,.text td{text-align:left}
+img{max-width:100%;display:block;margin:1rem auto}
+pre{background:#f5f5f5;padding:.8rem;overflow-x:auto;font-size:.8rem}
+.verdict{padding:.6rem 1rem;border-left:5px solid #4b8b3b;background:#f2f7f0}
+.verdict.warn{border-color:#b08d00;background:#fbf7e8}
+.verdict.bad{border-color:#c1440e;background:#fbefe9}
 .scroll{overflow-x:auto}"""
 
 
@@ -127,25 +137,28 @@ def percent(values):
 
 def trust(results):
     """(class of the verdict, sentences) from the status and the expected errors of all levels."""
-    levels = [(r, s, r.level_status()) for r in results for s in r.loaded()]
-    counts, meanings = {}, list(STATUS)
-    for _, step, (status, _) in levels:
-        name = meanings[status[step]]
+    levels = [(r, s, list(STATUS)[r.level_status()[s]]) for r in results for s in r.loaded()]
+    counts = {}
+    for _, _, name in levels:
         counts[name] = counts.get(name, 0) + 1
     if not counts:
         return "warn", ["No level has contact."]
+    doubts = [word for r, s, name in levels if name == "with_doubts" for word in r.causes(s)]
+    doubts = [f"{word} ({doubts.count(word)})" for word in sorted(set(doubts))]
+    meaning = {**STATUS, "with_doubts": ", ".join(doubts)}
     said = [
-        f"{counts[name]} of {len(levels)} levels {name.replace('_', ' ')}: {STATUS[name]}."
+        f"{counts[name]} of {len(levels)} levels {name.replace('_', ' ')}: {meaning[name]}."
         for name in STATUS
         if name in counts
     ]
-    worst = {"not_converged": "bad", "out_of_validity": "warn"}
+    worst = {"not_converged": "bad", "with_doubts": "warn"}
     kind = next((worst[name] for name in worst if name in counts), "")
     for name, what in (("force_error_expected", "force"), ("area_error_expected", "contact area")):
         known = [r.worst(name)[r.loaded()] for r in results if name in r and r.loaded().size]
         if known and np.isfinite(np.concatenate(known)).any():
             said.append(
-                f"The error of the {what} is at most {percent(np.concatenate(known))}, depending on the level: bounds valid in nine of ten cases."
+                f"The error of the {what} is at most {percent(np.concatenate(known))}, "
+                "depending on the level: bounds valid in nine of ten cases."
             )
     for r in results:
         if "force_error" in r or "area_error" in r:
@@ -219,7 +232,8 @@ def known(result, names):
 
 
 def levels_of(results, keys):
-    """Header and rows: some levels of one result, or the last loaded level of each of several results."""
+    """Header and rows: some levels of one result, or the last loaded level of each of several
+    results."""
     if len(results) == 1:
         header, lines = table.rows([results[0].path])
         at = [
@@ -271,7 +285,7 @@ def pictures(results, width):
         drawn.append(
             (
                 name,
-                (draw.__doc__ or name).split("\n\n")[0].replace("\n", " ").strip(),
+                " ".join((draw.__doc__ or name).split("\n\n")[0].split()),
                 base64.b64encode(png.getvalue()).decode(),
             )
         )
@@ -291,7 +305,9 @@ def page(results):
     many = f"{len(results)} results, " if len(results) > 1 else ""
     of = f"{first.realizations} realizations" if first.realizations > 1 else "one realization"
     parts.append(
-        f"<p>{many}{getattr(first.file, 'indenter', '')}, by {'elements' if first.by_elements() else 'asperities'}, {of}, {first.steps} levels. {html.escape(first.file.source.split(',')[0])}.</p>"
+        f"<p>{many}{getattr(first.file, 'indenter', '')}, by "
+        f"{'elements' if first.by_elements() else 'asperities'}, {of}, {first.steps} levels. "
+        f"{html.escape(first.file.source.split(',')[0])}.</p>"
     )
     parts.append(f'<div class="verdict {kind}">' + "<br>".join(map(html.escape, said)) + "</div>")
     header, lines, which = levels_of(results, keys)
@@ -316,7 +332,8 @@ def page(results):
         and f"solids%{name}" not in keys
     ]
     parts += [
-        f"<h2>Bodies</h2><p>Body 1 is rough, body 2 presses: {html.escape(getattr(first.file, 'indenter', ''))}. Keys are in {units}.</p>",
+        "<h2>Bodies</h2><p>Body 1 is rough, body 2 presses: "
+        f"{html.escape(getattr(first.file, 'indenter', ''))}. Keys are in {units}.</p>",
         cells([], solids + known(first, BODIES), "text"),
     ]
     parts += [
@@ -326,19 +343,27 @@ def page(results):
     parts += [
         "<h2>Case</h2><p>The namelist that reproduces the result"
         + (" (that of the first result)" if len(results) > 1 else "")
-        + f".</p><details><summary>every key</summary><pre>{html.escape(first.file.case)}</pre></details>"
+        + (
+            ".</p><details><summary>every "
+            f"key</summary><pre>{html.escape(first.file.case)}</pre></details>"
+        )
     ]
     files = "\n".join(
         r.path + "  " + getattr(r.file, "history", "").split("\n")[0] for r in results[:20]
     ) + ("\n..." if len(results) > 20 else "")
     parts += [
-        f"<h2>Files and version</h2><pre>{html.escape(files)}\n{html.escape(first.file.source)}</pre>"
+        "<h2>Files and "
+        f"version</h2><pre>{html.escape(files)}\n{html.escape(first.file.source)}</pre>"
     ]
     parts += [
-        f"<h2>How to cite</h2><p>{html.escape(first.file.source.split(',')[0])}: rough spheres in contact (CITATION.cff), and the paper whose model it solves:<br>{html.escape(getattr(first.file, 'references', ''))}</p>"
+        f"<h2>How to cite</h2><p>{html.escape(first.file.source.split(',')[0])}: rough "
+        "spheres in contact (CITATION.cff), and the paper whose model it "
+        f"solves:<br>{html.escape(getattr(first.file, 'references', ''))}</p>"
     ]
     return (
-        f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>{html.escape(title)}</title><style>{STYLE}</style></head>\n<body>'
+        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width">'
+        f"<title>{html.escape(title)}</title><style>{STYLE}</style></head>\n<body>"
         + "\n".join(parts)
         + "</body></html>\n"
     )

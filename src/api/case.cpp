@@ -101,16 +101,15 @@ int32_t rsc_key_name(int64_t key, char* buffer, int64_t size, int64_t* length) {
     });
 }
 
-int32_t rsc_case_run(const rsc_case* a_case, int64_t* failed_levels) {
-    return rsc_case_run_watched(a_case, nullptr, nullptr, failed_levels);
-}
+namespace {
 
-int32_t rsc_case_run_watched(const rsc_case* a_case, rsc_watch watch, void* data,
-                             int64_t* failed_levels) {
+int32_t run(const rsc_case* a_case, bool resume, rsc_watch watch, void* data,
+            int64_t* failed_levels) {
     return on(a_case, "a_case", 1, [&] {
         rsc::require_valid(a_case->settings);
         rsc::RunOptions how;
-        how.command = "rsc_case_run";
+        how.command = resume ? "rsc_case_resume" : "rsc_case_run";
+        how.resume = resume;
         if (watch)
             how.report = [=](double done, double total) { return watch(done, total, data) != 0; };
         const long failed = rsc::run_case(a_case->settings, how);
@@ -120,4 +119,20 @@ int32_t rsc_case_run_watched(const rsc_case* a_case, rsc_watch watch, void* data
                 RSC_NOT_CONVERGED,
                 "some levels did not converge; their values are in the file with status = 4"};
     });
+}
+
+}  // namespace
+
+int32_t rsc_case_run(const rsc_case* a_case, int64_t* failed_levels) {
+    return run(a_case, false, nullptr, nullptr, failed_levels);
+}
+
+int32_t rsc_case_run_watched(const rsc_case* a_case, rsc_watch watch, void* data,
+                             int64_t* failed_levels) {
+    return run(a_case, false, watch, data, failed_levels);
+}
+
+int32_t rsc_case_resume(const rsc_case* a_case, rsc_watch watch, void* data,
+                        int64_t* failed_levels) {
+    return run(a_case, true, watch, data, failed_levels);
 }

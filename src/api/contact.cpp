@@ -267,9 +267,11 @@ int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* forc
         rsc::Path& path = contact->path;
         const rsc::Indenter& tip = path.indenter();
         const rsc::Vec2 place = path.place_of_level();
-        const bool same = path.level() && path.level()->separation == separation &&
-                          place.x == tip.x0 && place.y == tip.y0 && !path.pulls() &&
-                          (!path.relaxes() || path.level()->time == path.time());
+        const bool same =
+            path.level() && path.level()->separation == separation && place.x == tip.x0 &&
+            place.y == tip.y0 && !path.pulls() &&
+            (path.clock() == rsc::PathClock::none || path.level()->time == path.time() ||
+             path.level()->distance == path.time());
         if (!same)
             reach(*contact, false, [&](rsc::Path& p) { return p.at_separation(separation); });
         put(force, path.level()->force);
@@ -280,7 +282,14 @@ int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* forc
 int32_t rsc_contact_set_time(rsc_contact* contact, double time) {
     return on(contact, "contact", 2, [&] {
         require_finite(time, 2, "time");
-        contact->path.set_time(time);
+        if (contact->path.relaxes()) contact->path.set_time(time);
+    });
+}
+
+int32_t rsc_contact_set_distance(rsc_contact* contact, double distance) {
+    return on(contact, "contact", 2, [&] {
+        require_finite(distance, 2, "distance");
+        if (contact->path.clock() == rsc::PathClock::distance) contact->path.set_time(distance);
     });
 }
 

@@ -1,5 +1,5 @@
 # The libraries a program links, and what an installation holds: rsc.h, librsc shared and static, the Fortran module as source and compiled,
-# rsc.py, a CMake package (rsc::rsc, rsc::static, rsc::fortran) and pkg-config files.
+# the Python package, a CMake package (rsc::rsc, rsc::static, rsc::fortran) and pkg-config files.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -40,7 +40,7 @@ install(FILES ${PROJECT_BINARY_DIR}/rsc.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/ma
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/output/plot ${PROJECT_SOURCE_DIR}/output/export DESTINATION ${CMAKE_INSTALL_DATADIR}/rsc
         FILES_MATCHING PATTERN *.py PATTERN __pycache__ EXCLUDE)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/input ${PROJECT_SOURCE_DIR}/modules/example DESTINATION ${CMAKE_INSTALL_DOCDIR}
-        FILES_MATCHING PATTERN README PATTERN *.nml PATTERN *.sh PATTERN *.py PATTERN *.gwy PATTERN *.sdf PATTERN *.txt PATTERN *.nc
+        FILES_MATCHING PATTERN README PATTERN *.ipynb PATTERN *.nml PATTERN *.sh PATTERN *.py PATTERN *.gwy PATTERN *.sdf PATTERN *.txt PATTERN *.nc
         PATTERN *.f90 PATTERN *.f PATTERN *.c)
 install(FILES ${PROJECT_SOURCE_DIR}/README ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/CHANGELOG DESTINATION ${CMAKE_INSTALL_DOCDIR})
 foreach(room modules output src test)
@@ -88,7 +88,7 @@ target_link_libraries(rsc_77 PUBLIC rsc_shared PRIVATE $<BUILD_INTERFACE:rsc_war
 add_library(rsc::rsc77 ALIAS rsc_77)
 install(TARGETS rsc_77 EXPORT rscTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 
-install(CODE "set(SOURCE [[${PROJECT_SOURCE_DIR}/modules/rsc.py;${PROJECT_SOURCE_DIR}/modules/_rsc_h.py;${PROJECT_SOURCE_DIR}/modules/_rsc_cube.py]])")
+install(CODE "set(SOURCE [[${PROJECT_SOURCE_DIR}/modules/rsc]])")
 install(SCRIPT ${PROJECT_SOURCE_DIR}/modules/install_python.cmake)
 
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/rscConfig.cmake.in ${PROJECT_BINARY_DIR}/rscConfig.cmake

@@ -52,6 +52,7 @@ struct Case {
         double E[2] = {78.0e3, kInfinity}, nu[2] = {0.42, 0.0}, R[2] = {kInfinity, 2.5};
         double hardness = kInfinity, size_effect = 0.0, resistivity[2] = {0.0, 0.0}, friction = 0.0;
         double adhesion = 0.0, adhesion_range = 0.0;
+        double wear_coefficient = 0.0;
         std::vector<double> layer_thickness, layer_E, layer_nu;  // from the top; empty: none
         std::vector<double> relaxation_share,
             relaxation_time;  // g_k, tau_k of body 1; empty: elastic
@@ -103,8 +104,11 @@ struct Case {
         LevelUnit unit = LevelUnit::sigma;
         Spacing spacing = Spacing::linear;
         std::vector<double> levels;  // explicit list instead, in `unit`; empty: start, stop, steps
-        std::optional<double> duration;   // from the first to the last level
-        std::vector<double> times;        // explicit list instead
+        std::optional<double> duration;  // from the first to the last level
+        std::vector<double> times;       // explicit list instead
+        std::optional<double> sliding;   // distance from the first to the last level
+        std::vector<double> distances;   // explicit list instead
+        bool slides() const { return sliding || !distances.empty(); }
         std::optional<double> centre[2];  // default: the middle of the surface
         Selection selection = Selection::overlap;
         double selection_factor = 1.5;
@@ -161,6 +165,8 @@ struct ModelChoice {
 ModelChoice model_of(const Case& settings);
 // True if body 1 relaxes, i.e. a share is positive.
 bool relaxes(const Case& settings);
+// True if body 1 wears.
+inline bool wears(const Case& settings) { return settings.solids.wear_coefficient > 0; }
 // True if closed forms of areas and pressures hold: body 1 is an elastic half-space without layers,
 // and the only rough body.
 bool has_closed_forms(const Case& settings);

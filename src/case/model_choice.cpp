@@ -153,6 +153,7 @@ ModelChoice model_of(const Case& c) {
     if (const char* why = why_asperities(c); *why) return {ModelKind::asperities, why};
     if (c.surface.source == Source::heights)
         return {ModelKind::elements, "the heights are read from a file"};
+    if (wears(c)) return {ModelKind::elements, "solids%wear_coefficient needs them"};
     if (c.output.flow) return {ModelKind::elements, "output%flow needs them"};
     try {
         if (const char* why = why_elements(c); *why) return {ModelKind::elements, why};

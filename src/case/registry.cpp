@@ -140,6 +140,10 @@ std::vector<Key> make_registry() {
         number(RSC_KEY(solids, adhesion_range), "length", kNotNegative,
                "range z0 of the attraction, a constant traction w/z0 across gaps below z0 "
                "(Dugdale); 0: attraction of zero range (JKR)"),
+        number(RSC_KEY(solids, wear_coefficient), "length^2/force", kNotNegative,
+               "Archard's k: a pressure p that slides a distance ds wears off the depth k p ds, of "
+               "both bodies together if body 2 is smooth; for elements, with "
+               "indentation%sliding or distances"),
         list(RSC_KEY(solids, layer_thickness), kMostLayers, "length", kPositive, "none",
              "thicknesses of layers on body 1, top first; E(1) and nu(1) then belong to the body "
              "below them"),
@@ -284,6 +288,13 @@ std::vector<Key> make_registry() {
         list(RSC_KEY(indentation, times), 10000, "time", kAny, "none",
              "time of each level, increasing, instead of `duration`; separations, or forces, "
              "change linearly in between"),
+        number(RSC_KEY(indentation, sliding), "length", kPositive,
+               "for a body that wears, distance of sliding from the first to the last level, in "
+               "equal steps; the first level is reached without sliding",
+               "none"),
+        list(RSC_KEY(indentation, distances), 10000, "length", kNotNegative, "none",
+             "distance of sliding of each level, increasing, instead of `sliding`; separations, or "
+             "forces, change linearly in between"),
         number(RSC_KEY(indentation, centre), "length", kAny, "x and y of the tip of the indenter",
                "the middle of the surface"),
         choice(RSC_KEY(indentation, selection), kSelectionNames,
@@ -341,7 +352,8 @@ std::vector<Key> make_registry() {
                      "Elements: the pressure and gap of the solution. Asperities: "
                      "the pressure in their contact spots, and the gap that follows from it")),
         list(RSC_KEY(output, field_levels), 1000, "`unit` of the indentation", kAny,
-             "the last level", "levels whose fields are written, the nearest level to each"),
+             "the last level",
+             "levels whose fields are written, the nearest level to each; with sliding, distances"),
         number(RSC_KEY(output, field_window), "length", kAny,
                "x0, x1, y0, y1 of the region in which fields are written",
                "a region around the contact at these levels; two flats: the whole surface"),

@@ -139,7 +139,7 @@ private:
         const bool adhesion = s.adhesion > 0, range = s.adhesion_range > 0,
                    hard = std::isfinite(s.hardness), friction = s.friction > 0;
         const bool relaxes = rsc::relaxes(c_), layers = !s.layer_thickness.empty(),
-                   compare = c_.compare.listed();
+                   compare = c_.compare.listed(), wears = rsc::wears(c_);
         const bool dgesv = c_.solver.method == Method::dgesv,
                    paper = c_.indentation.selection == Selection::paper;
         const bool size_effect = hard && s.size_effect > 0,
@@ -173,6 +173,15 @@ private:
              "it is not for layers"},
             {resistivity && layers, "solids%resistivity", "solids%layer_thickness",
              "with layers the conductance does not follow from the stiffness"},
+            {wears && adhesion, "solids%wear_coefficient", "solids%adhesion", ""},
+            {wears && relaxes, "solids%wear_coefficient", "solids%relaxation_share", ""},
+            {wears && hard, "solids%wear_coefficient", "solids%hardness", ""},
+            {wears && layers, "solids%wear_coefficient", "solids%layer_thickness",
+             "wear would thin the layers"},
+            {wears && friction, "solids%wear_coefficient", "solids%friction",
+             "it is for surfaces that remain as they are"},
+            {wears && !elements_, "solids%wear_coefficient", "solver%model",
+             "points of the surface wear, not asperities; use model = 'elements'"},
             {relaxes && hard, "solids%relaxation_share", "solids%hardness", ""},
             {relaxes && friction, "solids%relaxation_share", "solids%friction", ""},
             {relaxes && layers, "solids%relaxation_share", "solids%layer_thickness", ""},
@@ -214,13 +223,24 @@ private:
 
     void check_times() {
         const Case::Indentation& i = c_.indentation;
-        if (i.times.empty()) return;
-        require(!i.duration, {"indentation%duration", "indentation%times"},
-                "times are given as well; give only one of the two");
-        require(static_cast<double>(i.times.size()) == levels_, {"indentation%times", by_},
-                std::to_string(i.times.size()) + " values for " + count(levels_) + " levels");
-        require(std::ranges::adjacent_find(i.times, std::ranges::greater_equal()) == i.times.end(),
-                {"indentation%times"}, "must increase from each level to the next");
+        check_steps("indentation%times", i.times, "indentation%duration", i.duration);
+        check_steps("indentation%distances", i.distances, "indentation%sliding", i.sliding);
+        require(!i.slides() || (i.times.empty() && !i.duration),
+                {i.sliding ? "indentation%sliding" : "indentation%distances",
+                 i.duration ? "indentation%duration" : "indentation%times"},
+                "levels have either a distance of sliding or a time");
+    }
+
+    // A list with a value for each level, or their `whole` instead.
+    void check_steps(const char* key, const std::vector<double>& list, const char* whole_key,
+                     const std::optional<double>& whole) {
+        if (list.empty()) return;
+        const std::string name = std::string(key).substr(std::string_view(key).find('%') + 1);
+        require(!whole, {whole_key, key}, name + " are given as well; give only one of the two");
+        require(static_cast<double>(list.size()) == levels_, {key, by_},
+                std::to_string(list.size()) + " values for " + count(levels_) + " levels");
+        require(std::ranges::adjacent_find(list, std::ranges::greater_equal()) == list.end(), {key},
+                "must increase from each level to the next");
     }
 
     void check_surface() {

@@ -97,6 +97,11 @@ struct Relaxation {
     }
 };
 
+// Archard's law: a pressure p that slides a distance ds lowers the surface by coefficient p ds.
+struct Wear {
+    double coefficient = 0;  // [length^2/force]; 0: none
+};
+
 // Points of a measured map that asperities do not represent.
 struct MapMarks {
     std::vector<std::array<double, 3>>
@@ -112,6 +117,7 @@ struct SolverOptions {
     Hardness hardness = {};
     Relaxation relaxation = {};
     Adhesion adhesion = {};
+    Wear wear = {};
     Interaction interaction = Interaction::point;
     Selection selection = Selection::overlap;
     double selection_factor = 1.5;

@@ -58,6 +58,7 @@ struct LevelValues {
     double area_fraction = kNotComputed;     // two flats: A/A0
     double force_per_length = kNotComputed;  // line contact: N/L [force/length]
     double residual = 0;  // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
+    double pressure_max = kNotComputed;  // boundary elements: largest pressure [force/length^2]
     // boundary elements: median pixels per contact, weighted by area
     double pixels_per_contact = kNotComputed;
     // Expected relative errors of N and A, and under a prescribed force the error of Z0 [length]
@@ -104,6 +105,14 @@ struct LevelValues {
     std::int32_t jumps = 0;             // number of jumps since the previous level
     std::int32_t plastic_contacts = 0;  // yielding contacts at this level
     double time = kNotComputed;         // time of the level, relaxing bodies [time]
+    // Bodies that wear: sliding distance of the level [length]; volume and largest depth that are
+    // worn off, rms height of the worn surface [length^3], [length]; error by the steps of the
+    // distance, of N, or under a force of the depth of the separation below first touch, relative
+    // to these.
+    double distance = kNotComputed;
+    double worn_volume = kNotComputed, wear_depth_max = kNotComputed, worn_rms = kNotComputed;
+    double sliding_error = kNotComputed;
+    double sliding_area_error = kNotComputed;  // likewise of the area, relative; not in files
     double energy_lost = kNotComputed;  // energy dissipated since the first level [force length]
     std::int32_t contacts = 0;
     std::int32_t candidates = 0;  // asperities or pixels passed to the solver

@@ -7,6 +7,7 @@
 #include "physics/adhesion/adhesive_elements.hpp"
 #include "physics/hardness/hardness.hpp"
 #include "physics/relaxation/relaxing_asperities.hpp"
+#include "physics/wear/wear.hpp"
 
 namespace rsc {
 namespace {
@@ -24,6 +25,7 @@ AsperityPhysics physics_of(const ContactBodies& bodies) {
 
 std::unique_ptr<Path> make_asperity_contact(const Asperities& asperities, const Indenter& indenter,
                                             const SolverOptions& options) {
+    require_no_wear(options);
     if (options.adhesion.work > 0)
         return std::make_unique<Path>(make_adhesive_asperities(asperities, indenter, options),
                                       options.tolerance);
@@ -34,11 +36,13 @@ std::unique_ptr<Path> make_asperity_contact(const Asperities& asperities, const 
 
 std::unique_ptr<Path> make_element_contact(const HeightMap& heights, const Indenter& indenter,
                                            const SolverOptions& options) {
+    std::unique_ptr<Lowering> wear = make_wear(options);
     if (options.adhesion.work > 0)
         return std::make_unique<Path>(
             make_adhesive_elements(require_elements(heights, indenter, options), indenter, options),
             options.tolerance);
-    return std::make_unique<Path>(make_elements(heights, indenter, options), options.tolerance);
+    return std::make_unique<Path>(make_elements(heights, indenter, options, std::move(wear)),
+                                  options.tolerance);
 }
 
 }  // namespace rsc

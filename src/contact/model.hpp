@@ -7,8 +7,11 @@
 
 namespace rsc {
 
+// What the levels of a body depend on beside their order: time, or the distance of sliding.
+enum class PathClock { none, time, distance };
+
 // What accepted levels leave in bodies whose levels depend on earlier ones: flattened asperities,
-// loads that relax, points that stick. Only a Path changes it.
+// loads that relax, points that stick, worn heights. Only a Path changes it.
 class History {
 public:
     virtual ~History() = default;
@@ -25,8 +28,19 @@ public:
     virtual double attraction() const { return -1; }
     // The shortest relaxation time; Infinity: levels do not depend on time.
     virtual double shortest_time() const { return kInfinity; }
-    // Relaxing bodies: following solutions end a time step dt that begins at the last accepted one.
-    virtual void step(double dt) { (void)dt; }
+    virtual PathClock clock() const {
+        return shortest_time() < kInfinity ? PathClock::time : PathClock::none;
+    }
+    // Bodies that wear: steps are halved until N, or the depth, changes by less than this share.
+    virtual double accuracy() const { return 0; }
+    // Removes the error of first order of the steps, for a history reached in steps half as long as
+    // those from `before` to `coarse`, both from write().
+    virtual void extrapolate(const std::vector<double>& before, const std::vector<double>& coarse) {
+        (void)before;
+        (void)coarse;
+    }
+    // With a clock: following solutions end a step that begins at the last accepted one.
+    virtual void step(double length) { (void)length; }
 
     // Relaxing bodies: the loads under which the instantaneous body has the present deflections,
     // where earlier loads last; empty for others. Their pixels, or their contacts, are those that

@@ -12,7 +12,8 @@ constexpr double kFarAbove = 100;   // relative to the requested force
 constexpr double kReleased = 1e-3;  // resolution of pulling off, relative to the range
 // Steps of the approach to a force: the most by which one is longer than the last.
 constexpr double kGrowth = 4;
-constexpr int kTrials = 2;  // number of failures after which no trials are used
+constexpr int kMostSteps = 64;      // of sliding to a level, the longer ones
+constexpr int kTrials = 2;          // number of failures after which no trials are used
 
 // Evaluation of a level at z: it is the solution (or failed), or lies above it; `next` is the next
 // separation by Newton's method, -Infinity: none.
@@ -165,15 +166,15 @@ Level Path::at_force(double N) {
     return in_steps(force_, N, &Path::to_force);
 }
 
-Level Path::in_steps(double from, double to, Level (Path::*reach)(double)) {
-    const double start = accepted_.value_or(time_), end = time_;
-    const double steps = std::isfinite(from) ? steps_of_time(end - start, shortest_time()) : 1.0;
+Level Path::in_steps(double from, double to, Reach reach) {
+    const double end = time_, length = end - accepted_.value_or(end);
+    const bool first = !std::isfinite(from), slides = clock() == PathClock::distance;
+    const int steps = first ? 1 : static_cast<int>(steps_of_time(length, shortest_time()));
+    const bool halved = slides && !first && length > 0;
     std::optional<State> before;
-    if (steps > 1) before = state();
+    if (steps > 1 || halved) before = state();
     level_.reset();
     solved_ = true;
-    std::int32_t iterations = 0;
-    std::int64_t products = 0;
     Level level;
     // A level that is not reached leaves the history before it.
     const auto take_back = [&] {
@@ -181,31 +182,86 @@ Level Path::in_steps(double from, double to, Level (Path::*reach)(double)) {
         time_ = end;
     };
     try {
-        for (double k = 1; k <= steps; ++k) {
-            time_ = k < steps ? start + k / steps * (end - start) : end;
-            level = (this->*reach)(k < steps ? from + k / steps * (to - from) : to);
-            iterations += level.iterations;
-            products += level.products;
-            if (!level.converged) break;
-        }
+        level = halved ? in_halved_steps(from, to, reach, *before)
+                       : in_equal_steps(steps, from, to, reach);
     } catch (...) {
         take_back();
         throw;
     }
-    level.iterations = iterations;
-    level.products = products;
     ++levels_since_move_;
-    if (before && !level.converged) {
-        take_back();
-        level.time = end;
-    }
+    if (before && !level.converged) take_back();
+    if (relaxes()) level.time = end;
+    if (slides) level.distance = end;
     level_ = level;
     level_place_ = {indenter().x0, indenter().y0};
     return level;
 }
 
+Level Path::in_equal_steps(int steps, double from, double to, Reach reach) {
+    const double end = time_, start = accepted_.value_or(end);
+    std::int32_t iterations = 0;
+    std::int64_t products = 0;
+    Level level;
+    for (int k = 1; k <= steps; ++k) {
+        const double part = static_cast<double>(k) / steps;
+        time_ = k < steps ? start + part * (end - start) : end;
+        level = (this->*reach)(k < steps ? from + part * (to - from) : to);
+        iterations += level.iterations;
+        products += level.products;
+        if (!level.converged) break;
+    }
+    level.iterations = iterations;
+    level.products = products;
+    return level;
+}
+
+// Steps of sliding are of first order. n steps and 2 n steps, over all of the way but a quarter of
+// a shorter one, are extrapolated to second order. The quarter that remains is a step of its own,
+// because the pressures on extrapolated heights are not smooth at the edges of contacts. n is
+// doubled, from a single step in all on, until the level changes by less than the accuracy. As N
+// may vanish when the surface is worn off, its change is relative to the larger one of both ends.
+Level Path::in_halved_steps(double from, double to, Reach reach, const State& before) {
+    const bool by_force = reach == &Path::to_force;
+    const double start = *accepted_, end = time_;
+    std::int32_t iterations = 0;
+    std::int64_t products = 0;
+    double last = kNotComputed, last_area = kNotComputed;
+    for (int n = 0;; n = std::max(2 * n, 1)) {
+        if (!std::isnan(last)) restore_history(before);
+        Level level;
+        level.converged = true;
+        const auto go = [&](int steps, double part) {
+            if (!level.converged) return;
+            const double now = *accepted_, begin = (now - start) / (end - start);
+            time_ = part < 1 ? start + part * (end - start) : end;
+            level =
+                in_equal_steps(steps, from + begin * (to - from), from + part * (to - from), reach);
+            level.iterations = iterations += level.iterations;
+            level.products = products += level.products;
+        };
+        if (n > 0) {
+            const double part = 1 - 0.125 / n;
+            go(n, part);
+            const std::vector<double> coarse = history()->write();
+            restore_history(before);
+            go(2 * n, part);
+            history()->extrapolate(before.history, coarse);
+        }
+        go(1, 1);
+        if (!level.converged) return level;
+        const double value = by_force ? level.separation : level.force;
+        const double whole = by_force ? first_touch() - value : std::max(value, before.force);
+        level.sliding_error = std::abs(value - last) / whole;
+        level.sliding_area_error = std::abs(1 - last_area / level.area);
+        if (n > 0 && (!(level.sliding_error > history()->accuracy()) || n == kMostSteps))
+            return level;
+        last = value;
+        last_area = level.area;
+    }
+}
+
 void Path::begin_step() {
-    if (relaxes()) history()->step(accepted_ ? time_ - *accepted_ : 0.0);
+    if (clock() != PathClock::none) history()->step(accepted_ ? time_ - *accepted_ : 0.0);
 }
 
 Level Path::to_separation(double Z0) {
@@ -246,7 +302,6 @@ void Path::finish(Level& level) {
     } else {
         level.energy = energy();
     }
-    if (relaxes()) level.time = time_;
     if (const Period& period = indenter().period; period.finite()) {
         level.pressure = level.force / period.area();
         level.area_fraction = level.area / period.area();
@@ -257,10 +312,10 @@ void Path::finish(Level& level) {
 
 void Path::set_time(double time) {
     if (!std::isfinite(time)) throw Error(Failure::bad_input, "the time must be finite");
-    if (relaxes() && accepted_ && time < *accepted_)
+    if (clock() != PathClock::none && accepted_ && time < *accepted_)
         throw Error(Failure::bad_input,
-                    format("a time of %.9g is earlier than that of the last level, %.9g", time,
-                           *accepted_));
+                    format("a %s of %.9g is before that of the last level, %.9g",
+                           relaxes() ? "time" : "sliding distance", time, *accepted_));
     time_ = time;
 }
 

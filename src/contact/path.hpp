@@ -40,19 +40,21 @@ public:
     // The tip of that level.
     Vec2 place_of_level() const { return level_place_; }
 
-    // Sets the time of the following levels, used only if relaxes(). The separation, or under force
-    // control the force, changes linearly from the last accepted level, in up to 16 steps; a tip
-    // that was moved is at its new place from the beginning of the first step. The first level is
-    // applied instantaneously. Throws Error(bad_input) if the time is not finite or earlier than
-    // that of the last level.
+    // Sets the time of the following levels, or their distance of sliding if that is the clock. The
+    // separation, or under force control the force, changes linearly from the last accepted level,
+    // in up to 16 steps of time, or in as many of sliding as its accuracy needs; a tip that was
+    // moved is at its new place from the beginning of the first step. The first level is applied
+    // instantaneously. Throws Error(bad_input) if the time is not finite or earlier than that of
+    // the last level.
     void set_time(double time);
     double time() const { return time_; }
+    PathClock clock() const { return history() ? history()->clock() : PathClock::none; }
 
     // True if a level depends on earlier ones. energy() is then the recoverable energy and
     // stiffness() the unloading stiffness; for relaxing bodies, the energy stored in their springs
     // and the instantaneous stiffness.
     bool path_dependent() const { return history() != nullptr; }
-    bool relaxes() const { return shortest_time() < kInfinity; }
+    bool relaxes() const { return clock() == PathClock::time; }
     // True if forces may be negative (adhesion).
     bool pulls() const { return history() && history()->attraction() >= 0; }
 
@@ -99,6 +101,10 @@ public:
     State state() const;
     // Throws Error(bad_input) if the state does not belong to these bodies.
     void restore(const State& state);
+    // Solves again at the restored level, from which later solutions then start.
+    void start_from_level() {
+        if (level_) solve_level_again();
+    }
 
 private:
     History* history() const { return model_->history(); }
@@ -107,9 +113,12 @@ private:
     void restore_history(const State& state);
     void solve_level_again();
 
-    // Reaches a level in steps of time, on which its separation, or its force, changes linearly
-    // `from` that of the last accepted level.
-    Level in_steps(double from, double to, Level (Path::*reach)(double));
+    // Reaches a level in steps, on which its separation, or its force, changes linearly `from` that
+    // of the last accepted level.
+    using Reach = Level (Path::*)(double);
+    Level in_steps(double from, double to, Reach reach);
+    Level in_equal_steps(int steps, double from, double to, Reach reach);
+    Level in_halved_steps(double from, double to, Reach reach, const State& before);
     Level to_separation(double Z0);  // as at_separation and at_force, in one step of time
     Level to_force(double N);
     Level search_force(double N);
@@ -131,7 +140,7 @@ private:
     bool solved_ = true;  // the model's last solution is that of the level
     double solved_force_ = 0;
 
-    double time_ = 0;
+    double time_ = 0;                 // of the clock, as in set_time()
     std::optional<double> accepted_;  // time of the last accepted level, and its values:
     double separation_ = kNotComputed, force_ = kNotComputed;
 

@@ -6,8 +6,8 @@ namespace rsc {
 namespace {
 
 constexpr int kRows = 8;  // that a thread takes at a time
-// Error above which the sets change so much that a round is made of two.
-constexpr double kUnsettled = 1e-3;
+// Error, and share of the free pixels beyond their bounds, above which a round has a second part.
+constexpr double kUnsettled = 1e-3, kMany = 0.02;
 // Later rounds of a stiffness reduce the residual to this part of its tolerance.
 constexpr double kEnough = 0.8;
 // Part of a stiffness that products inside a round, exact to some per cent, determine well enough.
@@ -54,6 +54,7 @@ void BoundedSolver::set_free(F&& of) {
 void BoundedSolver::evaluate(bool exact) {
     stopping_point();
     multiply(p_, w_, exact);
+    add_diagonal(p_, w_);
     if (wanted_) Z0_ = 0;
     each([&](std::size_t k) { w_[k] += Z0_ - z_[k]; });
     find_Z0();
@@ -115,6 +116,7 @@ void BoundedSolver::prepare_constant(bool plain) {
     punch_ = 0;
     if (wanted_ || plain) return;
     multiply_roughly(one_, image_);
+    add_diagonal(one_, image_);
     const double energy =
         sum_free([&](std::size_t k) { return free_[k] ? one_[k] * image_[k] : 0.0; });
     if (energy > 0) punch_ = 1 / energy;
@@ -156,6 +158,7 @@ double BoundedSolver::descend(int most_steps, double reduction) {
         });
         stopping_point();
         multiply_roughly(direction_, image_);
+        add_diagonal(direction_, image_);
         const double curvature = product(direction_, image_);
         if (!(curvature > 0)) break;
         const double alpha = ry / curvature;
@@ -194,18 +197,37 @@ bool BoundedSolver::bound() {
     return true;
 }
 
-// Clips the pressures, updates the gaps by an approximate product, and descends on the free pixels
-// that result.
-void BoundedSolver::descend_again(int most_steps) {
+// A round begins on all pixels that penetrate, which are more than those in contact: many end under
+// tension. They are released, and the others descend again before pixels are added. For a matrix
+// whose inverse has no positive element beside the diagonal, nearly the case of K, pixels released
+// in this way need not return (R. Chandrasekaran, Opsearch 7 (1970) 263). Where additions and
+// releases alternate in single steps, sets of many pixels may repeat without end.
+void BoundedSolver::release(int most_steps) {
     direction_ = p_;
     bound();
     each([&](std::size_t k) { direction_[k] = p_[k] - direction_[k]; });
     multiply_roughly(direction_, image_);
+    add_diagonal(direction_, image_);
     each([&](std::size_t k) { w_[k] += image_[k]; });
     find_Z0();
-    find_free();
+    const std::vector<char> before = free_;
+    set_free([&](std::size_t k) { return before[k] && p_[k] > 0 && p_[k] < highest_; });
     prepare_constant(most_steps == 1);
     descend(most_steps, manner_.reduction);
+}
+
+// Whether many of the free pixels are beyond their bounds.
+bool BoundedSolver::many_beyond() {
+    struct Count {
+        std::size_t beyond = 0, free = 0;
+        Count operator+(const Count& o) const { return {beyond + o.beyond, free + o.free}; }
+    };
+    const Count count = sum_with<Count>([&](Count& part, std::size_t k) {
+        if (!free_[k]) return;
+        ++part.free;
+        part.beyond += p_[k] < 0 || p_[k] > highest_;
+    });
+    return static_cast<double>(count.beyond) > kMany * static_cast<double>(count.free);
 }
 
 // Returns true if the last round lowered the energy; otherwise restores the best pressures along
@@ -267,7 +289,9 @@ ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool e
         if (manner_.repeats || outcome.iterations > manner_.quick) before_p_ = p_, before_w_ = w_;
         prepare_constant(steps == 1);
         descend(steps, manner_.reduction);
-        if (manner_.repeats && outcome.residual > kUnsettled) descend_again(steps);
+        // Rough solutions, which are only starting points, are not worth it.
+        if (tolerance < kUnsettled && outcome.residual > kUnsettled && many_beyond())
+            release(steps);
         bound();
         exact = exactly && judge_exactly(exact, outcome.residual, outcome.iterations);
         evaluate(exact);
@@ -306,6 +330,7 @@ double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, in
         }
         if (most_rounds > 1) {
             multiply(p_, w_, !manner_.repeats);
+            add_diagonal(p_, w_);
             each([&](std::size_t k) { w_[k] -= 1; });
             residual = rms();
         }
@@ -338,6 +363,11 @@ std::vector<std::pair<int, double>> BoundedSolver::press_out() {
         w_[k] = 0;
     }
     return depths;
+}
+
+void BoundedSolver::settle() {
+    each([&](std::size_t k) { z_[k] -= diagonal_ * p_[k]; });
+    diagonal_ = 0;
 }
 
 }  // namespace rsc

@@ -4,10 +4,14 @@
 // between periodic flats), so that p is the unique minimum of the energy p'Kp/2 - (z - Z0)'p within
 // the bounds.
 //
+// To K is added a `diagonal`: the deflection of a pixel by the pressure on itself alone, as by wear
+// in a step of sliding.
+//
 // Primal-dual active-set method: every round determines the free pixels (not held at a bound),
-// makes some steps of conjugate gradients on them and clips pressures at the bounds. If the sets do
-// not converge in some rounds, the energy is forced to decrease in every round, which excludes
-// cycles. Derived classes define K, the preconditioner and the set of pixels.
+// makes some steps of conjugate gradients on them, releases those beyond their bounds and makes
+// some steps on the others. If the sets do not converge in some rounds, the energy is forced to
+// decrease in every round, which excludes cycles. Derived classes define K, the preconditioner and
+// the set of pixels.
 #pragma once
 
 #include "base/parallel.hpp"
@@ -34,11 +38,9 @@ protected:
         int steps;         // largest number of conjugate-gradient steps in a round
         double reduction;  // reduction of the preconditioned residual that ends a round earlier
         int quick;  // rounds after which the energy is monitored; most sets converge in fewer
-        bool
-            // periodic surface: the set is renewed in every round, errors outside it are included,
-            // and a constant pressure
-            repeats;
-        // is a separate step
+        // Periodic surface: the set is renewed in every round, errors outside it are included, and
+        // a constant pressure is a separate step.
+        bool repeats;
     };
     BoundedSolver(double highest, Manner manner) : highest_(highest), manner_(manner) {}
 
@@ -78,6 +80,9 @@ protected:
     // Lowers the pixels at the highest pressure by their penetration. Returns their positions in
     // the set, and the depths.
     std::vector<std::pair<int, double>> press_out();
+    // Lowers each pixel by `diagonal` times its pressure and sets the diagonal to 0, for which the
+    // last solution remains valid.
+    void settle();
 
     void evaluate(bool exact);
     // Relative error: rms (per pixel under pressure) of w where 0 < p < highest and of penetrations
@@ -88,7 +93,8 @@ protected:
     // Returns the decrease of p'Kp - 2 (z - Z0)'p by its steps.
     double descend(int most_steps, double reduction);
     void prepare_constant(bool plain);
-    void descend_again(int most_steps);
+    void release(int most_steps);
+    bool many_beyond();
     bool bound();
     bool fell();
     static constexpr int kPixels = 4096;  // that a thread takes at a time
@@ -109,6 +115,7 @@ protected:
     void set_free(F&& of);
 
     double highest_;
+    double diagonal_ = 0;
     Manner manner_;
     std::optional<double> wanted_;  // given sum of p; absent: Z0 is given
     double Z0_ = 0;
@@ -121,6 +128,9 @@ protected:
 
 private:
     void find_free();
+    void add_diagonal(const std::vector<double>& x, std::vector<double>& Kx) {
+        if (diagonal_ > 0) each([&](std::size_t k) { Kx[k] += diagonal_ * x[k]; });
+    }
     std::vector<double> residual_, y_, direction_, image_, before_p_, before_w_;
     // Correction by a constant pressure on the free pixels, which is most effective near full
     // contact: K^-1 times 1 as the preconditioner has it, its sum, and 1/(one'K one).

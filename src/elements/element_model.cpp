@@ -23,8 +23,9 @@ bool before(const Pixel& a, const Pixel& b) { return a.y < b.y || (a.y == b.y &&
 
 class ElementModel final : public PixelModel {
 public:
-    ElementModel(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options)
-        : PixelModel(heights, indenter, options),
+    ElementModel(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options,
+                 std::unique_ptr<Lowering> lowering)
+        : PixelModel(heights, indenter, options, std::move(lowering)),
           body_(substrate_of(indenter)),
           products_(
               make_products(body_, indenter.period, heights, kInnerError, 0.1 * options.tolerance)),
@@ -43,7 +44,9 @@ public:
     }
 
     double stiffness(double) override {
-        const double slope = solver_.stiffness(1e-9, accepted_);
+        // The error of the answer is of second order in the tolerance.
+        constexpr double tolerance = 1e-5;
+        const double slope = solver_.stiffness(tolerance, accepted_);
         // that of the end of a step, or of a sudden change after it
         return 0.0 - pixel_area() * slope / (accepted_ ? 1.0 : scale());
     }
@@ -81,7 +84,11 @@ public:
 
 protected:
     void forget_solutions() override { past_.clear(); }
-    void step_changed() override { lowered_at_ = kUnknown; }
+    void step_changed() override {
+        lowered_at_ = kUnknown;
+        solver_.set_diagonal(rate());
+    }
+    void settle() override { solver_.settle(); }
     std::vector<std::pair<Pixel, double>> press_out() override { return solver_.press_out(); }
     void residual_changed() override { find_top(); }
     void start_from(double z, const Level& level) override {
@@ -112,6 +119,7 @@ private:
         return pixel_area() * std::accumulate(level.p.begin(), level.p.end(), 0.0);
     }
     double power_of_depth(double otherwise) const;
+    double wear_in_step() const;
     void solve_more(double tolerance, int iterations, std::optional<double> sum,
                     ElementsOutcome& all);
     bool solve_roughly(double N, double& power, ElementsOutcome& all);
@@ -312,6 +320,14 @@ double ElementModel::power_of_depth(double otherwise) const {
     return grown >= 1 ? grown : otherwise;
 }
 
+// Depth of wear in this step, expected from the mean of the last pressures, weighted by themselves.
+double ElementModel::wear_in_step() const {
+    if (!(rate() > 0)) return 0;
+    const std::vector<double>& p = past_[0].p;
+    return rate() * std::inner_product(p.begin(), p.end(), p.begin(), 0.0) /
+           std::accumulate(p.begin(), p.end(), 0.0);
+}
+
 void ElementModel::solve_more(double tolerance, int iterations, std::optional<double> sum,
                               ElementsOutcome& all) {
     const ElementsOutcome now = solver_.solve(pixels_, g0_, tolerance, iterations, p_, sum);
@@ -352,7 +368,7 @@ bool ElementModel::solve_roughly(double N, double& power, ElementsOutcome& all) 
 // exponent of the last two levels. Without earlier levels rough solutions at separations come
 // first.
 std::optional<Level> ElementModel::solve_under(double N) {
-    if (history()) return std::nullopt;
+    if (loads_ || yields()) return std::nullopt;
     const auto far = [&] {
         if (past_.empty()) return true;
         const double last = force(past_[0]);
@@ -374,7 +390,7 @@ std::optional<Level> ElementModel::solve_under(double N) {
     if (cold && (!solve_roughly(N, power, outcome) || far())) return std::nullopt;
     power = power_of_depth(power);
     const double depth = top_ - past_[0].separation;
-    double expected = top_ - depth * std::pow(N / force(past_[0]), 1 / power),
+    double expected = top_ - depth * std::pow(N / force(past_[0]), 1 / power) - wear_in_step(),
            lowest = expected - kMargin * std::abs(expected - past_[0].separation);
     if (cold) lowest -= kColdMargin * (top_ - expected);
     constexpr int trials = 4;
@@ -417,9 +433,11 @@ void ElementModel::remember(double Z0) {
 }  // namespace
 
 std::unique_ptr<Model> make_elements(const HeightMap& heights, const Indenter& indenter,
-                                     const SolverOptions& options) {
-    if (indenter.period.finite()) return make_periodic_elements(heights, indenter, options);
-    return std::make_unique<ElementModel>(heights, indenter, options);
+                                     const SolverOptions& options,
+                                     std::unique_ptr<Lowering> lowering) {
+    if (indenter.period.finite())
+        return make_periodic_elements(heights, indenter, options, std::move(lowering));
+    return std::make_unique<ElementModel>(heights, indenter, options, std::move(lowering));
 }
 
 }  // namespace rsc

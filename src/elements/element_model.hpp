@@ -11,6 +11,9 @@
 // gap due to earlier loads
 // (load_memory.hpp).
 //
+// For bodies that wear (pixel_model.hpp, Lowering) pixels deflect by their own pressure, too, by as
+// much as it lowers them in this step.
+//
 // The solution is unique (K is positive definite): earlier levels are starting points and affect it
 // only within the tolerance. Contacts and their areas: pixel_spots.hpp.
 //
@@ -26,11 +29,15 @@
 
 namespace rsc {
 
+class Lowering;  // pixel_model.hpp
+
 // The heights must outlive the model and are not changed; with periodic boundaries the map is the
 // period. The options used are the tolerance, the number of iterations, the hardness (without size
 // effect, because pixels have no radius) and relaxation. Throws Error(bad_input) for moduli, radii,
 // heights or options out of range.
+// `lowering`: bodies that wear.
 std::unique_ptr<Model> make_elements(const HeightMap& heights, const Indenter& indenter,
-                                     const SolverOptions& options);
+                                     const SolverOptions& options,
+                                     std::unique_ptr<Lowering> lowering = nullptr);
 
 }  // namespace rsc

@@ -28,7 +28,9 @@ constexpr double kChange = 0.05;
 }  // namespace
 
 ElementsSolver::ElementsSolver(PixelProducts& products, double highest)
-    : BoundedSolver(highest, {kSteps, kReduction, kQuick, false}), products_(products) {}
+    : BoundedSolver(highest, {kSteps, kReduction, kQuick, false}),
+      products_(products),
+      inverse_(products.inverse(0)) {}
 
 // Hertz-like pressures: the root of the overlap `over` above s, with the s and the scale of
 // smallest energy. `least` is the smallest energy so far, on entry and return. Returns the number
@@ -56,7 +58,8 @@ std::size_t ElementsSolver::guess(const std::vector<Pixel>& pixels, const std::v
         products_.set_pixels(some);
         products_.apply(q.data(), w.data(), Accuracy::inner);
         double a = 0, b = 0;
-        for (std::size_t k = 0; k < q.size(); ++k) a += q[k] * g[k], b += q[k] * w[k];
+        for (std::size_t k = 0; k < q.size(); ++k)
+            a += q[k] * g[k], b += q[k] * (w[k] + diagonal_ * q[k]);
         const double e = -0.5 * a * a / b;
         if (e < lowest) lowest = e, scale = a / b, best = s;
         return e;
@@ -91,7 +94,7 @@ void ElementsSolver::start(const std::vector<Pixel>& pixels, const std::vector<d
     std::vector<double> over(p.size());
     products_.set_pixels(pixels);
     products_.apply(p.data(), over.data(), Accuracy::inner);
-    for (std::size_t k = 0; k < p.size(); ++k) over[k] = g0[k] - over[k];
+    for (std::size_t k = 0; k < p.size(); ++k) over[k] = g0[k] - over[k] - diagonal_ * p[k];
     guess(pixels, g0, over, least, p);
 }
 
@@ -147,6 +150,7 @@ void ElementsSolver::draw(const std::vector<double>& p) {
     for (std::size_t k = part; k < size; k += part) rows_.push_back(k);
     rows_.push_back(size);
     if (!set_.empty()) products_.set_pixels(set_);
+    enclose();
 }
 
 // Pressures of all pixels.
@@ -190,10 +194,42 @@ void ElementsSolver::multiply_roughly(const std::vector<double>& x, std::vector<
     products_.apply(x.data(), Kx.data(), Accuracy::inner, free_.data());
 }
 
-void ElementsSolver::freed() { blocks_.assign(set_, free_list_, products_); }
+// Places the working set on a plane for the preconditioner. At opposite sides of the plane pixels
+// are farther apart than the stencil reaches.
+void ElementsSolver::enclose() {
+    plane_rows_.assign(1, 0);
+    column_.resize(set_.size());
+    if (set_.empty()) return;
+    int left = set_[0].x, right = left;
+    for (const Pixel& pixel : set_) {
+        left = std::min(left, pixel.x);
+        right = std::max(right, pixel.x);
+    }
+    const int reach = inverse_.reach(), low = set_.front().y,
+              rows = set_.back().y - low + 1 + reach;
+    plane_ = SparsePlane(right - left + 1 + reach, rows);
+    plane_rows_.resize(at(rows) + 1);
+    for (std::size_t k = 0; k < set_.size(); ++k) {
+        ++plane_rows_[at(set_[k].y - low) + 1];
+        column_[k] = set_[k].x - left;
+    }
+    std::partial_sum(plane_rows_.begin(), plane_rows_.end(), plane_rows_.begin());
+}
+
+void ElementsSolver::freed() {
+    if (std::exchange(inverse_of_, diagonal_) != diagonal_) inverse_ = products_.inverse(diagonal_);
+}
 
 void ElementsSolver::precondition(const std::vector<double>& r, std::vector<double>& y) {
-    blocks_.apply(r, y);
+    double unit = 0;  // for single precision
+    for (const double v : r) unit = std::max(unit, std::abs(v));
+    if (!(unit > 0)) return;
+    from_.resize(r.size());
+    to_.resize(r.size());
+    each([&](std::size_t k) { from_[k] = free_[k] ? static_cast<float>(r[k] / unit) : 0.0f; });
+    plane_.convolve(inverse_, {plane_rows_, column_}, from_.data(), to_.data(),
+                    threads_for(r.size()));
+    each([&](std::size_t k) { y[k] = free_[k] ? unit * static_cast<double>(to_[k]) : 0.0; });
 }
 
 bool ElementsSolver::judge_exactly(bool, double residual, int rounds) {

@@ -1,11 +1,10 @@
 // Boundary-element contact on a free surface: BoundedSolver on the pixels that may touch, with Z0
 // included in their penetrations. Pixels far from pressure are outside a working set and checked at
-// the end. The preconditioner is the inverse of K on each contact spot.
+// the end. The preconditioner is the inverse of K between near pixels.
 #pragma once
 
 #include "elements/bounded.hpp"
 #include "elements/pixel_products.hpp"
-#include "elements/spot_blocks.hpp"
 
 namespace rsc {
 
@@ -27,6 +26,10 @@ public:
                           std::optional<double> sum = std::nullopt);
     double rise() const { return Z0_; }
 
+    // Following solutions have this on the diagonal, added to K; settle() ends it.
+    void set_diagonal(double diagonal) { diagonal_ = diagonal; }
+    using BoundedSolver::settle;
+
     // Plastic residual of the last solution: the pixels at the highest pressure with w < 0, and -w,
     // row by row.
     std::vector<std::pair<Pixel, double>> press_out();
@@ -45,6 +48,7 @@ private:
     void multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) override;
     void multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) override;
     void precondition(const std::vector<double>& r, std::vector<double>& y) override;
+    void enclose();
     void freed() override;
     bool judge_exactly(bool exact, double residual, int rounds) override;
     bool complete(bool solved, double residual) override;
@@ -67,7 +71,13 @@ private:
     std::vector<double> full_p_, full_w_,
         step_;                       // last full product with this set, and the step since
     std::vector<double> elsewhere_;  // deflections of all pixels
-    SpotBlocks blocks_;
+    // Preconditioner: products.inverse() for a diagonal, and the set on a plane that encloses it.
+    PixelStencil inverse_;
+    double inverse_of_ = 0;
+    SparsePlane plane_{0, 0};
+    std::vector<std::size_t> plane_rows_;
+    std::vector<std::int32_t> column_;
+    std::vector<float> from_, to_;
 };
 
 }  // namespace rsc

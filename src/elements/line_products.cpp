@@ -83,7 +83,10 @@ public:
         : along_x_(period.along_x()),
           width_(along_x_ ? ny : nx),
           period_(along_x_ ? nx : ny),
-          half_(at(period_) / 2 + 1) {
+          half_(at(period_) / 2 + 1),
+          aspect_(dy / dx),
+          dx_(dx),
+          modulus_(substrate.modulus()) {
         if (substrate.smooth())
             throw Error(Failure::bad_input, "line contact is not available for bodies with layers");
         const double step = along_x_ ? dx : dy, across_step = along_x_ ? dy : dx,
@@ -125,6 +128,9 @@ public:
     void elsewhere(const double* p, const std::vector<Pixel>& pixels, double* w,
                    const char*) override {
         multiply(arrange(pixels), p, w, Accuracy::inner);
+    }
+    PixelStencil inverse(double diagonal) const override {
+        return inverse_stencil(aspect_, with_diagonal({}, diagonal * modulus_ / dx_));
     }
     double coefficient(int dx, int dy) const override {
         const int across = std::abs(along_x_ ? dy : dx), along = along_x_ ? dx : dy;
@@ -184,6 +190,7 @@ private:
     bool along_x_;
     int width_, period_;  // of the map across and along, in pixels
     std::size_t half_;
+    double aspect_, dx_, modulus_;
     double shift_ = 0;
     std::vector<double> coefficient_;  // [across][along], along at most half a period
     Set set_;

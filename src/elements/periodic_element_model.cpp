@@ -9,8 +9,8 @@ namespace {
 class PeriodicElementModel final : public PixelModel {
 public:
     PeriodicElementModel(const HeightMap& heights, const Indenter& indenter,
-                         const SolverOptions& options)
-        : PixelModel(heights, indenter, options),
+                         const SolverOptions& options, std::unique_ptr<Lowering> lowering)
+        : PixelModel(heights, indenter, options, std::move(lowering)),
           changed_(history() || !indenter.shape->flat() ? less_face() : HeightMap{}),
           solver_({heights.nx, heights.ny, heights.dx, heights.dy, present().data.get(),
                    present().stride},
@@ -26,7 +26,7 @@ public:
         return touches_ ? area() * solver_.energy() : 0;
     }
     void require_gap(double N) override {
-        if (!std::isfinite(options_.hardness.H0)) solver_.require_gap(N / area());
+        if (!yields()) solver_.require_gap(N / area());
     }
     void move_tip(double x0, double y0) override {
         indenter_.x0 = x0, indenter_.y0 = y0;
@@ -64,7 +64,10 @@ public:
 
 protected:
     void forget_solutions() override { touches_ = false; }  // solutions do not start from others
+    void settle() override { solver_.settle(); }
     void step_changed() override {
+        if (lowering_) solver_.set_diagonal(rate());
+        if (!loads_) return;
         lowered_ = loads_->places().empty() ? std::vector<double>()
                                             : solver_.deflections(loaded_pixels(), loads_->rest());
         set_heights();
@@ -129,8 +132,9 @@ private:
 }  // namespace
 
 std::unique_ptr<Model> make_periodic_elements(const HeightMap& heights, const Indenter& indenter,
-                                              const SolverOptions& options) {
-    return std::make_unique<PeriodicElementModel>(heights, indenter, options);
+                                              const SolverOptions& options,
+                                              std::unique_ptr<Lowering> lowering) {
+    return std::make_unique<PeriodicElementModel>(heights, indenter, options, std::move(lowering));
 }
 
 }  // namespace rsc

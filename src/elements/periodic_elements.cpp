@@ -9,7 +9,6 @@ namespace {
 
 constexpr int kThreads = 400000;  // number of pixels above which threads are used
 constexpr int kRows = 8;          // that a thread takes at a time
-constexpr int kReach = 6;         // of the preconditioner in pixels
 constexpr std::size_t kFew = 8;   // products are split if one of this many pixels is in the set
 // Largest number of conjugate-gradient steps in a round, and the reduction of the preconditioned
 // residual that ends a round earlier.
@@ -49,7 +48,7 @@ PeriodicElements::PeriodicElements(const Relief& relief, const Substrate& substr
       substrate_(substrate),
       hardness_(highest),
       aspect_(relief.dy / relief.dx),
-      inner_(relief.nx, relief.ny, 1, aspect_, share()),
+      inner_(relief.nx, relief.ny, 1, aspect_, share_of_modes(substrate_, relief_.dx)),
       plane_(relief.nx, relief.ny) {
     mean_ = zero_ = mean_height();
     double largest = 0;
@@ -74,40 +73,38 @@ PeriodicElements::PeriodicElements(const PeriodicElements& finer,
       hardness_(finer.hardness_),
       unit_(2 * finer.unit_),
       aspect_(finer.aspect_),
-      inner_(relief_.nx, relief_.ny, 1, aspect_, share()),
+      inner_(relief_.nx, relief_.ny, 1, aspect_, share_of_modes(substrate_, relief_.dx)),
       plane_(relief_.nx, relief_.ny) {
+    diagonal_ = finer.diagonal_;
     prepare();
 }
 
 void PeriodicElements::prepare() {
-    const int nx = relief_.nx, ny = relief_.ny;
-    const Share share = this->share();
-    rows_.assign(at(ny) + 1, 0);
-    // K^-1 by offset: |k|/2/(1 + share), multiplied by a window with a non-negative transform, so
-    // that the result is positive semidefinite as well.
-    inverse_ = PixelStencil(
-        kReach,
-        [&](double kx, double ky) {
-            const double k = std::hypot(kx, ky / aspect_);
-            return 0.5 * k / (share ? 1 + share(k) : 1);
-        },
-        [](int a) { return 1 - std::abs(a) / (kReach + 1.0); });
-    far_ = std::make_unique<BlockCorrection>(nx, ny, aspect_, inverse_, share);
-    if (SplitPixels::suits(nx, ny, aspect_, share))
-        split_ = std::make_unique<SplitPixels>(nx, ny, aspect_, share);
+    const Share share = share_of_modes(substrate_, relief_.dx);
+    rows_.assign(at(relief_.ny) + 1, 0);
+    prepare_inverse();
+    if (SplitPixels::suits(relief_.nx, relief_.ny, aspect_, share))
+        split_ = std::make_unique<SplitPixels>(relief_.nx, relief_.ny, aspect_, share);
+}
+
+void PeriodicElements::prepare_inverse() {
+    inverse_of_ = diagonal_;
+    const Share share = with_diagonal(share_of_modes(substrate_, relief_.dx), diagonal_ / unit_);
+    inverse_ = inverse_stencil(aspect_, share);
+    far_ = std::make_unique<BlockCorrection>(relief_.nx, relief_.ny, aspect_, inverse_, share);
+}
+
+void PeriodicElements::set_diagonal(double diagonal) {
+    diagonal_ = diagonal / (rms_ / pressure_unit_);
+    closes_ = true;
 }
 
 int PeriodicElements::threads() const { return relief_.nx >= kThreads / relief_.ny ? 0 : 1; }
 
-PeriodicElements::Share PeriodicElements::share() const {
-    if (!substrate_.smooth()) return {};
-    return [this](double k) { return substrate_.smooth()->share(k / relief_.dx); };
-}
-
 PeriodicPixels<double>& PeriodicElements::fine() {
     if (!fine_)
-        fine_ =
-            std::make_unique<PeriodicPixels<double>>(relief_.nx, relief_.ny, 1, aspect_, share());
+        fine_ = std::make_unique<PeriodicPixels<double>>(relief_.nx, relief_.ny, 1, aspect_,
+                                                         share_of_modes(substrate_, relief_.dx));
     return *fine_;
 }
 
@@ -260,7 +257,7 @@ void PeriodicElements::multiply_roughly(const std::vector<double>& x, std::vecto
     for (double& v : Kx) v *= unit_;
 }
 
-// y = K^-1, truncated to kReach pixels and with a correction for the farther ones, times r over the
+// y = K^-1, truncated to some pixels and with a correction for the farther ones, times r over the
 // free pixels.
 void PeriodicElements::precondition(const std::vector<double>& r, std::vector<double>& y) {
     from_.resize(r.size()), to_.resize(r.size());
@@ -292,6 +289,7 @@ void PeriodicElements::correct(std::vector<double>& y) {
 }
 
 void PeriodicElements::freed() {
+    if (inverse_of_ != diagonal_) prepare_inverse();
     far_is_set_ = far_->exists();
     from_.assign(free_.begin(), free_.end()), ones_.resize(free_.size());
     plane_.convolve(inverse_, {rows_, column_}, from_.data(), ones_.data(), threads());
@@ -355,7 +353,7 @@ ElementsOutcome PeriodicElements::press(double mean_pressure, double tolerance,
                                         int most_iterations) {
     const ElementsOutcome outcome =
         solve({true, mean_pressure / pressure_unit_}, tolerance, most_iterations, true);
-    if (pixels_.size() == at(relief_.nx) * at(relief_.ny))
+    if (!closes_ && pixels_.size() == at(relief_.nx) * at(relief_.ny))
         refuse_closing(mean_pressure, closing_pressure());
     return outcome;
 }
@@ -374,7 +372,7 @@ ElementsOutcome PeriodicElements::approach(double Z0, double tolerance, int most
 }
 
 double PeriodicElements::closed() const {
-    return highest_ < kInfinity ? -kInfinity : mean_ + kRounding * rms_;
+    return highest_ < kInfinity || diagonal_ > 0 ? -kInfinity : mean_ + kRounding * rms_;
 }
 
 std::vector<double> PeriodicElements::deflections(const std::vector<Pixel>& pixels,

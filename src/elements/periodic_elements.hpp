@@ -45,6 +45,11 @@ public:
     // remains valid. Returns these pixels and depths; the owner of the heights must lower them and
     // call heights_changed().
     std::vector<std::pair<Pixel, double>> press_out();
+    // Following solutions have this on the diagonal, added to K [length/pressure], for which there
+    // is a solution at full contact, too. settle() lowers the pixels by it times their pressures,
+    // for which the last solution remains valid, and sets it to 0; as after press_out().
+    void set_diagonal(double diagonal);
+    using BoundedSolver::settle;
     void heights_changed() { mean_ = mean_height(); }
 
     // K p at all points, row by row, for pressures p on some of them; its mean is 0.
@@ -73,6 +78,7 @@ private:
     PeriodicElements(const PeriodicElements& finer, const std::vector<double>& heights);
     std::vector<double> coarse_heights() const;
     void prepare();
+    void prepare_inverse();
 
     template <class F>
     double mean_of(F&& f) const;
@@ -82,8 +88,7 @@ private:
         return (relief_.z[j * relief_.stride + i] - zero_) * scale_;
     }
     double closing_pressure();  // mean pressure of full contact: -min of K^-1 z
-    Share share() const;
-    int threads() const;  // for loops over rows
+    int threads() const;        // for loops over rows
     PeriodicPixels<double>& fine();
 
     // Sets starting pressures: uniform, or Hertz-like where z > Z0; or those of a coarser grid.
@@ -115,8 +120,10 @@ private:
     // (both of the initial heights), pressures in units of E* rms/dx with the dx of the finest
     // grid. K is `unit_` times that of PeriodicPixels with dx = 1.
     double zero_ = 0, rms_ = 1, scale_ = 1, pressure_unit_ = 1, unit_ = 1;
-    double mean_ = 0;  // mean of the current heights
-    double aspect_;    // dy/dx
+    double mean_ = 0;        // mean of the current heights
+    double aspect_;          // dy/dx
+    bool closes_ = false;    // a diagonal was set
+    double inverse_of_ = 0;  // the diagonal for which the preconditioner is
     PeriodicPixels<float> inner_;
     std::unique_ptr<PeriodicPixels<double>> fine_;
     SparsePlane plane_;

@@ -1,5 +1,5 @@
 // Common part of the boundary-element models of element_model.hpp: what accepted levels leave
-// behind, a plastic residual or the loads on a relaxing body.
+// behind, a plastic residual, worn heights or the loads on a relaxing body.
 #pragma once
 
 #include "contact/model.hpp"
@@ -9,24 +9,43 @@
 
 namespace rsc {
 
+// How pressures lower the points of a map for good in the course of a path (physics/wear).
+class Lowering {
+public:
+    virtual ~Lowering() = default;
+    // The following levels end a step of this length.
+    virtual void step(double length) = 0;
+    // Depth by which a unit pressure lowers a point in this step [length/pressure].
+    virtual double rate() const = 0;
+    // Adds the quantities of the lowered map to an accepted level.
+    virtual void measure(Level& level, const HeightMap& map,
+                         const std::vector<double>& depths) const = 0;
+    // As History.
+    virtual PathClock clock() const = 0;
+    virtual double accuracy() const = 0;
+};
+
 class PixelModel : public Model, private History, protected CutMap {
 public:
     double first_touch() const final { return top_; }
     const Indenter& indenter() const final { return indenter_; }
-    History* history() final { return loads_ || yields() ? this : nullptr; }
+    History* history() final { return loads_ || lowering_ || yields() ? this : nullptr; }
     void solve_again(double z, const Level& level) final;
     void forget() final;
 
 protected:
-    PixelModel(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options);
+    PixelModel(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options,
+               std::unique_ptr<Lowering> lowering);
 
     bool yields() const { return std::isfinite(options_.hardness.H0); }
     // Pixels that penetrate at the hardness, and their penetration, by which they are lowered; the
     // same pressures then cause none.
     virtual std::vector<std::pair<Pixel, double>> press_out() = 0;
+    // Lowers the pixels of the last solution by rate() times their pressures.
+    virtual void settle() = 0;
     // Called when the residual has changed.
     virtual void residual_changed() = 0;
-    // The duration of the step of time has changed.
+    // The length of the step, of time or of the path, has changed.
     virtual void step_changed() = 0;
     // The solution at this level is the starting point of the next.
     virtual void start_from(double z, const Level& level) { (void)z, (void)level; }
@@ -37,12 +56,12 @@ protected:
 
     // Ratio of the pressures of the solver to the true ones (relaxing bodies).
     double scale() const { return loads_ ? loads_->compliance() : 1.0; }
+    double rate() const { return lowering_ ? lowering_->rate() : 0.0; }
     double pixel_area() const { return heights_.dx * heights_.dy; }
     // Height of a point of the map less its residual.
     double height(int column, int row) const {
-        const std::int32_t k = row * heights_.nx + column;
         return heights_(column, row) -
-               (!lowered_.empty() && lowered_[static_cast<std::size_t>(k)] ? residual_.at(k) : 0.0);
+               (residual_.empty() ? 0.0 : residual_[at(row) * at(heights_.nx) + at(column)]);
     }
     std::vector<Pixel> loaded_pixels() const;
     // The tip, the residual or the load memory has changed, and with them the highest point.
@@ -57,33 +76,39 @@ protected:
     double top_ = -kInfinity;  // highest point under the indenter
     // the last level is accepted: the contact is elastic until loaded further
     bool accepted_ = false;
-    std::optional<LoadMemory> loads_;  // relaxing bodies
+    std::optional<LoadMemory> loads_;     // relaxing bodies
+    std::unique_ptr<Lowering> lowering_;  // bodies that wear
 
 private:
     void accept(Level& level) final;
-    // Triples of column, row and residual depth of a yielded point, or loads on a relaxing body.
+    // Triples of column, row and residual depth of a yielded point, the worn depths of all points,
+    // or loads on a relaxing body.
     std::vector<double> write() const final;
     void read(const std::vector<double>& numbers) final;
+    PathClock clock() const final { return lowering_ ? lowering_->clock() : History::clock(); }
     double shortest_time() const final { return options_.relaxation.shortest(); }
-    void step(double dt) final {
-        loads_->step(dt);
+    double accuracy() const final { return lowering_ ? lowering_->accuracy() : 0.0; }
+    void step(double length) final {
+        if (loads_) loads_->step(length);
+        if (lowering_) lowering_->step(length);
         step_changed();
     }
+    void accept_loads(Level& level);
+    void extrapolate(const std::vector<double>& before, const std::vector<double>& coarse) final;
+    void read_depths(const std::vector<double>& numbers);
     std::optional<Level> lasting_loads(const Level& level) const final;
     ResidualProfile residual_profile() const final;
 
-    std::vector<std::pair<std::int32_t, double>> residual() const;  // row by row
+    // Lowers the pixels with which `visit` calls its argument, by the depths.
+    template <class Visit>
+    void lower_points(Visit&& visit);
 
-    using Depths = std::unordered_map<std::int32_t, double>;
-    void set_residual(Depths depths);
-
-    Depths residual_;  // depths by the index of the point on the map [length]
-    std::vector<bool>
-        lowered_;  // whether a point has a residual, which is looked up often; empty: none has
+    std::vector<double> residual_;  // depth of each point of the map [length]; empty: none
 };
 
 // Two rough flats: contact with periodic boundaries.
 std::unique_ptr<Model> make_periodic_elements(const HeightMap& heights, const Indenter& indenter,
-                                              const SolverOptions& options);
+                                              const SolverOptions& options,
+                                              std::unique_ptr<Lowering> lowering);
 
 }  // namespace rsc

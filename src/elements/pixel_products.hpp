@@ -2,6 +2,7 @@
 // (physics: Johnson 1985, section 3.4).
 #pragma once
 
+#include "elements/sparse_plane.hpp"
 #include "interaction/kernel.hpp"
 #include "surface/surface.hpp"
 
@@ -34,6 +35,10 @@ public:
 
     // K between two pixels dx columns and dy rows apart [length/pressure].
     virtual double coefficient(int dx, int dy) const = 0;
+
+    // Approximate inverse of K with `diagonal` added on its diagonal, between near pixels, to a
+    // constant factor.
+    virtual PixelStencil inverse(double diagonal) const = 0;
 
     // Constant by which K was raised for each unit force, so that no force raises other points
     // (Kernel::shift()) [length/force].

@@ -3,7 +3,7 @@
 #include "base/error.hpp"
 #include "base/format.hpp"
 #include "base/parallel.hpp"
-#include "elements/spot_blocks.hpp"
+#include "elements/connected_pixels.hpp"
 #include "interaction/kernel.hpp"
 
 namespace rsc {
@@ -100,7 +100,10 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
         s.py += (pressure[k] + tension) * d.y;
         s.own += pressure[k] * at_peak[k];
     }
-    if (!touching.empty()) level.pixels_per_contact = median_by_area(sums);
+    if (!touching.empty()) {
+        level.pixels_per_contact = median_by_area(sums);
+        level.pressure_max = *std::max_element(pressure.begin(), pressure.end());
+    }
     const auto inside = [](double column, int n) {
         return n > 0 ? column - n * std::floor(column / n) : column;
     };

@@ -247,6 +247,11 @@ public:
         product(others_layout_, inner_, pixels.size(), p, w, wanted);
     }
 
+    PixelStencil inverse(double diagonal) const override {
+        const Substrate& body = answer_.substrate;
+        return inverse_stencil(aspect_, with_diagonal(share_of_modes(body, answer_.dx),
+                                                      diagonal * body.modulus() / answer_.dx));
+    }
     double coefficient(int dx, int dy) const override {
         dx = std::abs(dx), dy = std::abs(dy);
         if (dx <= table_.reach_x && dy <= table_.reach_y)

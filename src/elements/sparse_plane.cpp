@@ -100,6 +100,34 @@ double PixelStencil::transform(double k) const {
     return all;
 }
 
+std::function<double(double)> share_of_modes(const Substrate& substrate, double dx) {
+    if (!substrate.smooth()) return {};
+    return [substrate, dx](double k) { return substrate.smooth()->share(k / dx); };
+}
+
+std::function<double(double)> with_diagonal(const std::function<double(double)>& share,
+                                            double diagonal) {
+    if (diagonal == 0) return share;
+    return [share, diagonal](double k) { return (share ? share(k) : 0.0) + 0.5 * diagonal * k; };
+}
+
+PixelStencil inverse_stencil(double aspect, const std::function<double(double)>& share) {
+    constexpr int reach = 6;
+    return PixelStencil(
+        reach,
+        [&](double kx, double ky) {
+            const double k = std::hypot(kx, ky / aspect);
+            return 0.5 * k / (share ? 1 + share(k) : 1);
+        },
+        // For layers much softer than the substrate only a window with a non-negative transform
+        // keeps the stencil positive semidefinite; for a half-space a flatter one does, and is
+        // closer to K^-1.
+        [&](int a) {
+            const double t = std::abs(a) / (reach + 1.0);
+            return share ? 1 - t : 1 - t * t;
+        });
+}
+
 SparsePlane::SparsePlane(int nx, int ny)
     : nx_(nx), ny_(ny), stride_(at(nx + 2 * kMargin + 7) / 8 * 8) {}
 

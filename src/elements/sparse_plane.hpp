@@ -4,6 +4,7 @@
 #pragma once
 
 #include "elements/periodic_pixels.hpp"
+#include "interaction/kernel.hpp"
 
 namespace rsc {
 
@@ -29,6 +30,17 @@ private:
     int reach_ = 0;
     std::vector<float> taps_;  // of the offsets a, b >= 0
 };
+
+// The share of a substrate (PeriodicPixels), by the wavenumber times dx; empty for a homogeneous
+// half-space.
+std::function<double(double)> share_of_modes(const Substrate& substrate, double dx);
+// The share of K with `diagonal` added on its diagonal, for PeriodicPixels with dx = 1.
+std::function<double(double)> with_diagonal(const std::function<double(double)>& share,
+                                            double diagonal);
+
+// Preconditioner: K^-1 of PeriodicPixels with dx = 1, of modes |k|/2/(1 + share), between pixels at
+// most six apart; positive semidefinite.
+PixelStencil inverse_stencil(double aspect, const std::function<double(double)>& share = {});
 
 class SparsePlane {
 public:

@@ -22,8 +22,8 @@ HeightMap read_gwy(const std::string& path, const std::string& channel,
 
 // Surface data files (.sdf) of ISO 25178-71, text and binary, and of its predecessor BCR. is_sdf()
 // is true for their first bytes: aISO-1.0, bISO-1.0, aBCR-1.0, ... The heights are converted from
-// metres to length_unit; missing points (BAD in a text, the least value of a signed integer type,
-// the largest of an unsigned one, NaN or the least double) are NaN. Rows and origin as in
+// metres to length_unit; missing points (BAD in a text, the least value of a signed type, the
+// largest of an unsigned one, in BCR the largest of any, NaN) are NaN. Rows and origin as in
 // read_gwy().
 bool is_sdf(const std::string& start);
 HeightMap read_sdf(const std::string& path, const std::string& length_unit);

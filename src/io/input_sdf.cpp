@@ -10,6 +10,8 @@ namespace {
 
 constexpr std::size_t kVersion = 8;
 
+bool is_bcr(const std::string& bytes) { return bytes.substr(1, 3) == "BCR"; }
+
 struct Header {
     std::size_t nx = 0, ny = 0;
     double dx = 0, dy = 0, scale = 0;  // [m]
@@ -36,20 +38,23 @@ HeightMap prepare(const std::string& path, const Header& h, const std::string& l
     return map;
 }
 
-// The value of a type for a missing point; NaN always means missing.
+// True for the value of a type that means a missing point: the least of a signed type, the largest
+// of an unsigned one and of every type of BCR, where both are met.
 template <class T>
-constexpr double missing_value() {
-    return static_cast<double>(std::is_unsigned_v<T> ? std::numeric_limits<T>::max()
-                                                     : std::numeric_limits<T>::lowest());
+bool is_missing(double value, bool bcr) {
+    using Limits = std::numeric_limits<T>;
+    const bool least = std::is_signed_v<T> && value == static_cast<double>(Limits::lowest());
+    const bool largest_counts = bcr || std::is_unsigned_v<T>;
+    return least || (largest_counts && value == static_cast<double>(Limits::max()));
 }
 
 template <class T>
-void take_values(ByteReader& in, HeightMap& map, double factor) {
+void take_values(ByteReader& in, HeightMap& map, double factor, bool bcr) {
     const std::size_t points = map.points();
     const char* const bytes = in.take(points, sizeof(T), "heights").data();
     for (std::size_t k = 0; k < points; ++k) {
         const auto value = static_cast<double>(ByteReader::value<T>(bytes + k * sizeof(T)));
-        map.data[k] = value == missing_value<T>() ? std::nan("") : factor * value;
+        map.data[k] = is_missing<T>(value, bcr) ? std::nan("") : factor * value;
     }
 }
 
@@ -84,15 +89,16 @@ HeightMap read_binary(const std::string& path, const std::string& bytes,
         ByteReader::value<std::uint32_t>(bytes.data() + in.at()) == 5 &&
         ByteReader::value<std::uint32_t>(bytes.data() + in.at() + 4) == 1)
         in.take(8, 1, "the header");
+    const bool bcr = is_bcr(bytes);
     switch (h.type) {
-        case 0: take_values<std::uint8_t>(in, map, factor); break;
-        case 1: take_values<std::uint16_t>(in, map, factor); break;
-        case 2: take_values<std::uint32_t>(in, map, factor); break;
-        case 3: take_values<float>(in, map, factor); break;
-        case 4: take_values<std::int8_t>(in, map, factor); break;
-        case 5: take_values<std::int16_t>(in, map, factor); break;
-        case 6: take_values<std::int32_t>(in, map, factor); break;
-        default: take_values<double>(in, map, factor); break;
+        case 0: take_values<std::uint8_t>(in, map, factor, bcr); break;
+        case 1: take_values<std::uint16_t>(in, map, factor, bcr); break;
+        case 2: take_values<std::uint32_t>(in, map, factor, bcr); break;
+        case 3: take_values<float>(in, map, factor, bcr); break;
+        case 4: take_values<std::int8_t>(in, map, factor, bcr); break;
+        case 5: take_values<std::int16_t>(in, map, factor, bcr); break;
+        case 6: take_values<std::int32_t>(in, map, factor, bcr); break;
+        default: take_values<double>(in, map, factor, bcr); break;
     }
     // A text trailer may follow; more bytes are heights that are not in the header.
     constexpr std::size_t longest = std::size_t{1} << 16;
@@ -157,9 +163,11 @@ HeightMap read_text(const std::string& path, std::string bytes, const std::strin
     double factor = 0;
     HeightMap map = prepare(path, h, length_unit, factor);
     // Some writers of integers also mark missing points by a number.
-    const double missing = h.type == 5   ? missing_value<std::int16_t>()
-                           : h.type == 6 ? missing_value<std::int32_t>()
-                                         : std::nan("");
+    const bool bcr = is_bcr(bytes);
+    const auto missing = [&](double height) {
+        return (h.type == 5 && is_missing<std::int16_t>(height, bcr)) ||
+               (h.type == 6 && is_missing<std::int32_t>(height, bcr));
+    };
     const std::size_t points = h.nx * h.ny;
     const std::string size = std::to_string(h.nx) + " x " + std::to_string(h.ny);
     const auto refuse = [&](const std::string& what) {
@@ -174,7 +182,7 @@ HeightMap read_text(const std::string& path, std::string bytes, const std::strin
         const auto value =
             namelist::lower_case(word) == "bad" ? std::nan("") : number_in_file(word);
         if (!value) refuse(shown(word) + " is not a number");
-        map.data[k] = *value == missing ? std::nan("") : factor * *value;
+        map.data[k] = missing(*value) ? std::nan("") : factor * *value;
     }
     if (in >> word && word[0] != '*')
         refuse(shown(word) + " after the last of " + size + " heights");

@@ -197,43 +197,82 @@ std::vector<CommentWord> words_of(std::string_view comment) {
     return words;
 }
 
-// Units of length named in a comment: `# Value units: m`, `# Width: 10 um` as Gwyddion writes them,
-// `# Exported image units: nm`, `# z [nm]`, ...
-void find_units(std::string_view comment, long line, std::vector<TextTable::UnitMention>& found) {
+// The lengths of a comment's `label` and of its value after a colon or `=`.
+struct LabelAndValue {
+    std::string_view label, value;
+};
+std::optional<LabelAndValue> label_and_value(std::string_view comment) {
+    constexpr std::string_view wide_colon = "\xef\xbc\x9a";  // of Japanese headers
+    const std::size_t plain = comment.find_first_of(":=");
+    const std::size_t wide = comment.find(wide_colon);
+    if (plain == wide) return {};  // there is neither
+    return plain < wide
+               ? LabelAndValue{comment.substr(0, plain), comment.substr(plain + 1)}
+               : LabelAndValue{comment.substr(0, wide), comment.substr(wide + wide_colon.size())};
+}
+
+// Gwyddion writes its header in the language of its user, but always the width, the height and the
+// unit of the values in three lines. True if the lines before `line` are the first two, in words
+// other than English.
+bool after_sides(const std::vector<TextTable::UnitMention>& found, long line) {
     using Mention = TextTable::UnitMention;
-    const std::size_t colon = comment.find_first_of(":=");
-    const std::string label = namelist::lower_case(comment.substr(0, colon));
-    const std::vector<CommentWord> words = words_of(comment);
-    if (colon != std::string_view::npos &&
-        (contains_word(label, "units") || contains_word(label, "unit"))) {
-        const std::vector<CommentWord> value = words_of(comment.substr(colon + 1));
-        if (value.empty()) return;
-        bool lateral = false;
-        for (const char* const word : {"x", "y", "xy", "lateral", "width", "scan", "pixel"})
-            lateral = lateral || contains_word(label, word);
-        found.push_back(
-            {lateral ? Mention::other : Mention::values,
-             as_unit(value[0].number && value.size() > 1 ? value[1].text : value[0].text), 0,
-             line});
+    const std::size_t n = found.size();
+    if (n < 2 || (found[n - 2].kind == Mention::width && found[n - 1].kind == Mention::height))
+        return false;
+    for (const std::size_t k : {n - 2, n - 1})
+        if (!(found[k].size > 0) || found[k].line != line - static_cast<long>(n - k)) return false;
+    return true;
+}
+
+// The unit of `# Value units: m`.
+void find_stated_unit(const LabelAndValue& stated, long line,
+                      std::vector<TextTable::UnitMention>& found) {
+    using Mention = TextTable::UnitMention;
+    const std::string label = namelist::lower_case(stated.label);
+    const std::vector<CommentWord> value = words_of(stated.value);
+    if (value.size() <= 1 && after_sides(found, line)) {
+        found[found.size() - 2].kind = Mention::width;
+        found[found.size() - 1].kind = Mention::height;
+        found.push_back({Mention::values, value.empty() ? "" : as_unit(value[0].text), 0, line});
         return;
     }
+    if (value.empty() || !(contains_word(label, "units") || contains_word(label, "unit"))) return;
+    bool lateral = false;
+    for (const char* const word : {"x", "y", "xy", "lateral", "width", "scan", "pixel"})
+        lateral = lateral || contains_word(label, word);
+    found.push_back({lateral ? Mention::other : Mention::values,
+                     as_unit(value[0].number && value.size() > 1 ? value[1].text : value[0].text),
+                     0, line});
+}
+
+// Units of length named in a comment: `# Value units: m`, `# Width: 10 um` as Gwyddion writes them,
+// `# Exported image units: nm`, `# z [nm]`, `# Einheit: m`, ...
+void find_units(std::string_view comment, long line, std::vector<TextTable::UnitMention>& found) {
+    using Mention = TextTable::UnitMention;
+    const auto stated = label_and_value(comment);
+    const std::size_t before = found.size();
+    if (stated) find_stated_unit(*stated, line, found);
+    if (found.size() > before) return;
+    std::vector<CommentWord> words = words_of(stated ? stated->label : comment);
+    const std::size_t of_label = stated ? words.size() : 0;
+    if (stated)
+        for (const CommentWord& word : words_of(stated->value)) words.push_back(word);
+    const bool alone = stated && words.size() == of_label + 1;
+    const bool side = stated && words.size() == of_label + 2 && words[of_label].number;
     for (std::size_t k = 0; k < words.size(); ++k) {
         const bool after_number = k > 0 && words[k - 1].number && words[k].text != "in";
         const std::string unit = as_unit(words[k].text);
-        if (words[k].number ||
-            !(always_a_length(words[k].text) || after_number || words[k].bracketed))
+        if (words[k].number || !(always_a_length(words[k].text) || after_number ||
+                                 words[k].bracketed || (alone && k == of_label)))
             continue;
         if (unit_factor(unit, "m") == 0) continue;
         Mention mention{Mention::other, unit, 0, line};
-        const bool side = k == 2 && after_number && colon != std::string_view::npos;
-        // Gwyddion writes them in the language of its user.
-        const auto is = [&](std::initializer_list<const char*> names) {
-            return side && std::ranges::any_of(
-                               names, [&](const char* name) { return contains_word(label, name); });
-        };
-        if (is({"width", "breite", "largeur"})) mention.kind = Mention::width;
-        if (is({"height", "h\xc3\xb6he", "hauteur"})) mention.kind = Mention::height;
-        if (side) mention.size = *words[k - 1].number;
+        if (side && k == of_label + 1) {
+            const std::string label = namelist::lower_case(stated->label);
+            if (contains_word(label, "width")) mention.kind = Mention::width;
+            if (contains_word(label, "height")) mention.kind = Mention::height;
+            mention.size = *words[of_label].number;
+        }
         found.push_back(mention);
     }
 }
@@ -273,7 +312,8 @@ static bool begins_with_word(std::string_view text) {
     text = text.substr(std::min(text.find_first_not_of(" \t\""), text.size()));
     const std::string_view word = text.substr(0, text.find_first_of(" \t,;=:\r\""));
     return !word.empty() &&
-           (std::isalpha(static_cast<unsigned char>(word[0])) || word[0] == '\\') &&
+           (std::isalpha(static_cast<unsigned char>(word[0])) || word[0] == '\\' ||
+            word[0] == '[') &&
            !number_in_file(word);
 }
 
@@ -284,10 +324,11 @@ static void refuse_heading(const std::string& path, std::istream& file, std::str
     long last = line;
     std::string text;
     bool binary = false;
+    bool heading = true;
     while (std::getline(file, text)) {
         binary = binary || text.find('\0') != std::string::npos;
-        if (!begins_with_word(text)) break;
-        ++last;
+        heading = heading && begins_with_word(text);
+        if (heading) ++last;
     }
     if (first.substr(0, 2) == "\\*" || binary)
         refuse(path, line, "the head of an instrument's file. " + gwyddion_advice(path));

@@ -188,14 +188,19 @@ HeightMap read_text_points(const std::string& path, const TextTable& table, std:
     check_grid(path, table.columns, table.rows);
     HeightMap map = allocate_map(table.columns, table.rows);
     std::copy(table.values.begin(), table.values.end(), map.data.get());
-    map.dx = map.dy = text.pixel ? *text.pixel : L ? *L / map.nx : *width / map.nx;
-    if (!L && !text.pixel && height) map.dy = *height / map.ny;
+    map.dx = text.pixel ? *text.pixel : L ? *L / map.nx : *width / map.nx;
+    map.dy = text.pixel || !height ? map.dx : *height / map.ny;
     if (text.pixel) check_given_L(path, "x", map.nx, map.dx, L);
-    constexpr double kSameWidth = 0.01;  // relative; a header is rounded
-    if (width && !(std::abs(map.Lx() - *width) <= kSameWidth * *width))
-        bad_input(path + ":" + std::to_string(table.mention(TextTable::UnitMention::width)->line) +
-                  ": a comment says that the map is " + text_of(*width) + " " + length_unit +
-                  " wide, but surface%pixel or surface%L makes it " + text_of(map.Lx()));
+    constexpr double kSameSide = 0.01;  // relative; a header is rounded
+    const auto check_side = [&](TextTable::UnitMention::Kind kind, std::optional<double> stated,
+                                double side, const char* extent) {
+        if (!stated || std::abs(side - *stated) <= kSameSide * *stated) return;
+        bad_input(path + ":" + std::to_string(table.mention(kind)->line) +
+                  ": a comment says that the map is " + text_of(*stated) + " " + length_unit +
+                  extent + ", but surface%pixel or surface%L makes it " + text_of(side));
+    };
+    check_side(TextTable::UnitMention::width, width, map.Lx(), " wide");
+    check_side(TextTable::UnitMention::height, height, map.Ly(), " high");
     return map;
 }
 

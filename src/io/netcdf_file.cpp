@@ -172,6 +172,7 @@ std::vector<std::size_t> chunks(const std::vector<std::size_t>& shape) {
 // first.
 bool mostly_zero(const NetcdfVariable& v, const std::vector<std::size_t>& shape) {
     std::size_t zeros = 0;
+    if (v.bytes) return true;
     const auto count = [&](std::span<const double> values) {
         zeros += static_cast<std::size_t>(std::ranges::count(values, 0.0));
     };
@@ -249,7 +250,7 @@ void NetcdfFile::check_values(const NetcdfVariable& v) const {
         finite = std::none_of(doubles->begin(), doubles->end(), bad);
     } else if (const auto* integers = std::get_if<std::vector<std::int32_t>>(&v.values)) {
         fits = integers->size() == size;
-    } else if (const auto* rows = std::get_if<RowFiller>(&v.values)) {
+    } else if (const auto* rows = std::get_if<RowFiller>(&v.values); rows && !v.bytes) {
         for_each_row(*rows, lengths, [&](std::size_t, std::span<const double> row) {
             finite = finite && std::ranges::none_of(row, bad);
         });
@@ -279,7 +280,8 @@ void NetcdfFile::define_and_put(int ncid, Format format, int compression,
         std::vector<int> ids(v.dimensions.size());
         for (std::size_t d = 0; d < ids.size(); ++d)
             check(nc_inq_dimid(ncid, v.dimensions[d].c_str(), &ids[d]), path);
-        const nc_type type = std::holds_alternative<std::vector<std::int32_t>>(v.values) ? NC_INT
+        const nc_type type = v.bytes                                                       ? NC_BYTE
+                             : std::holds_alternative<std::vector<std::int32_t>>(v.values) ? NC_INT
                              : std::holds_alternative<std::vector<std::string>>(v.values)
                                  ? NC_CHAR
                                  : NC_DOUBLE;
@@ -321,7 +323,7 @@ void NetcdfFile::write(const std::string& path, Format format, int compression) 
 
     double bytes = 0;
     for (const NetcdfVariable& v : variables_)
-        bytes += 8 * static_cast<double>(values_of(shape(v)));
+        bytes += (v.bytes ? 1 : 8) * static_cast<double>(values_of(shape(v)));
     // The image of the file is copied when it grows, and once more for reading.
     require_memory(3 * bytes + (32 << 20), "for '" + path + "'",
                    "; write less (&output contacts, heights, map_cells)");

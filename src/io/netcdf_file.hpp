@@ -16,7 +16,7 @@ struct NetcdfVariable {
     std::string name;
     std::vector<std::string> dimensions;  // slowest first; none for a scalar
     std::string units, long_name;
-    // Texts: two dimensions, the last one their longest length in bytes (shorter ones end in zeros).
+    // Texts: two dimensions, the last one their longest length in bytes; shorter ones end in zeros.
     std::variant<std::vector<double>, std::vector<std::int32_t>, RowFiller,
                  std::vector<std::string>>
         values;
@@ -26,6 +26,7 @@ struct NetcdfVariable {
     // Incompressible numbers: deflate saves a quarter at most and takes ten times as long as
     // writing.
     bool disorder = false;
+    bool bytes = false;  // rows of flags, stored in one byte each
 };
 
 class NetcdfFile {

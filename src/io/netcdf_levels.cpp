@@ -37,12 +37,15 @@ void ResultTable::global_attributes(const std::string& history) {
                     "reproduces this file, "
                     "except for the attribute `history`.");
     if (r_.path_dependent())
-        file_.attribute("path", relaxes(r_.settings)
-                                    ? "each level depends on the previous ones: the response of a "
-                                      "relaxing body depends on the history of loads"
-                                    : "each level depends on the previous ones: points that "
-                                      "yielded (solids hardness) remain lowered, attached spots "
-                                      "(solids adhesion) remain attached until pull-off");
+        file_.attribute(
+            "path",
+            wears(r_.settings)     ? "each level depends on the previous ones: the surface remains "
+                                     "as it is worn"
+            : relaxes(r_.settings) ? "each level depends on the previous ones: the response of a "
+                                     "relaxing body depends on the history of loads"
+                                   : "each level depends on the previous ones: points that "
+                                     "yielded (solids hardness) remain lowered, attached spots "
+                                     "(solids adhesion) remain attached until pull-off");
     file_.attribute("case", r_.case_text);
     if (r_.settings.run.seed >= std::numeric_limits<std::int32_t>::min() &&
         r_.settings.run.seed <= std::numeric_limits<std::int32_t>::max())

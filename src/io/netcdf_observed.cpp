@@ -255,6 +255,58 @@ void ResultTable::contacts() {
             "1 if the contact yields at this level, 0 if it is elastic", c.yields);
 }
 
+// The smallest rectangle that contains the pixels of all levels.
+void ResultTable::contact_mask() {
+    std::vector<std::int32_t> steps;
+    std::int32_t left = INT32_MAX, right = -1, bottom = INT32_MAX, top = -1;
+    for (std::size_t s = 0; s < r_.pixels.size(); ++s) {
+        const LevelPixels& p = r_.pixels[s];
+        if (p.index.empty() && p.cohesive.empty()) continue;
+        steps.push_back(static_cast<std::int32_t>(s));
+        for (const auto* pixels : {&p.index, &p.cohesive})
+            for (const std::int32_t k : *pixels) {
+                left = std::min(left, k % p.columns);
+                right = std::max(right, k % p.columns);
+                bottom = std::min(bottom, k / p.columns);
+                top = std::max(top, k / p.columns);
+            }
+    }
+    if (steps.empty()) return;
+    const LevelPixels& grid = r_.pixels[static_cast<std::size_t>(steps[0])];
+    const int columns = right - left + 1, rows = top - bottom + 1;
+    file_.dimension("mask_step", steps.size());
+    file_.dimension("mask_y", static_cast<std::size_t>(rows));
+    file_.dimension("mask_x", static_cast<std::size_t>(columns));
+    add("mask_step", {"mask_step"}, "1", "number of the level of contact_mask", from_one(steps),
+        {kFromOne});
+    add("mask_y", {"mask_y"}, unit(1), "y of the pixels of contact_mask",
+        each_of(rows, [&](int j) { return grid.y_of((bottom + j) * grid.columns); }));
+    add("mask_x", {"mask_x"}, unit(1), "x of the pixels of contact_mask",
+        each_of(columns, [&](int i) { return grid.x_of(left + i); }));
+    const auto fill = [=, this](std::size_t k, std::span<double> row) {
+        std::ranges::fill(row, 0);
+        const LevelPixels& p = r_.pixels[static_cast<std::size_t>(steps[k])];
+        const auto at = [&](std::int32_t pixel) -> double& {
+            const int i = pixel % p.columns - left, j = pixel / p.columns - bottom;
+            return row[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
+                       static_cast<std::size_t>(i)];
+        };
+        for (std::size_t n = 0; n < p.index.size(); ++n)
+            at(p.index[n]) = p.pressure[n] >= r_.settings.solids.hardness ? 2 : 1;
+        for (const std::int32_t pixel : p.cohesive) at(pixel) = 3;
+    };
+    constexpr std::array<const char*, 4> kinds = {"apart", "contact", "yielding", "attracted"};
+    file_.variable({"contact_mask",
+                    {"mask_step", "mask_y", "mask_x"},
+                    "1",
+                    "pixels in contact, at the hardness, or attracted without contact",
+                    RowFiller(fill),
+                    flags(kinds),
+                    false,
+                    false,
+                    true});
+}
+
 void ResultTable::residual_profile() {
     const ResidualProfile& p = r_.residual_profile;
     if (p.depth.empty()) return;
@@ -337,7 +389,8 @@ void ResultTable::heights() {
     file_.variable({"height",
                     {"height_y", "height_x"},
                     unit(1),
-                    "height of the surface",
+                    wears(r_.settings) ? "height of the worn surface after the last level"
+                                       : "height of the surface",
                     RowFiller([&h](std::size_t j, std::span<double> row) {
                         std::copy_n(h.data.get() + static_cast<std::ptrdiff_t>(j) * h.stride,
                                     row.size(), row.begin());
@@ -401,8 +454,8 @@ void ResultTable::fields() {
         if (const std::vector<double>& values = f.*q.field; !values.empty())
             add_disorder(std::string("field_") + q.name, planes, unit(-2, 1), q.meaning, values);
     if (!f.heights.empty())
-        add_disorder("field_height", {"field_y", "field_x"}, unit(1),
-                     "height of the surface without load", f.heights);
+        add_disorder("field_height", wears(r_.settings) ? dims : Names{"field_y", "field_x"},
+                     unit(1), "height of the surface without load", f.heights);
 }
 
 }  // namespace rsc

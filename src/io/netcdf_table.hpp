@@ -91,6 +91,7 @@ public:
         stresses();
         asperities();
         contacts();
+        contact_mask();
         residual_profile();
         compared();
         heights();
@@ -149,6 +150,7 @@ private:
     void stresses();
     void asperities();
     void contacts();
+    void contact_mask();
     void residual_profile();
     void compared();
     void heights();

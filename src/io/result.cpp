@@ -63,11 +63,11 @@ Result make_result(const Case& c, std::string case_text, const Indenter& indente
     return result;
 }
 
-void keep_contacts(Result& result, const std::vector<Level>& levels, Contacts keep) {
+void keep_contacts(Result& result, std::vector<Level>& levels, Contacts keep) {
     PackedContacts packed;
     if (keep == Contacts::none || keep == Contacts::automatic) return;
     for (std::size_t s = 0; s < levels.size(); ++s) {
-        const Level& level = levels[s];
+        Level& level = levels[s];
         const bool kept = keep == Contacts::all || s + 1 == levels.size();
         const std::size_t count = kept ? level.asperity.size() : 0;
         if (packed.force.size() + count >
@@ -94,6 +94,8 @@ void keep_contacts(Result& result, const std::vector<Level>& levels, Contacts ke
         }
         if (std::isfinite(result.settings.solids.hardness))
             packed.yields.insert(packed.yields.end(), level.yields.begin(), level.yields.end());
+        result.pixels.resize(levels.size());
+        result.pixels[s] = std::move(level.pixels);
     }
     result.contacts = std::move(packed);
 }

@@ -66,6 +66,7 @@ struct Result {
         residual_depth;                // of each asperity after the last level; empty: not written
     ResidualProfile residual_profile;  // of elements after the last level; empty: not written
     PackedContacts contacts;           // empty: not written
+    std::vector<LevelPixels> pixels;   // [step], elements; empty where they are not written
     FrictionLoops friction;
     std::optional<HeightMap> heights;          // none: not written
     Fields fields;                             // empty: not written
@@ -74,7 +75,7 @@ struct Result {
 
     // Levels depend on the levels before.
     bool path_dependent() const {
-        return relaxes(settings) || std::isfinite(settings.solids.hardness) ||
+        return relaxes(settings) || wears(settings) || std::isfinite(settings.solids.hardness) ||
                settings.solids.adhesion > 0;
     }
     // The separation of a level differs between realizations.
@@ -98,19 +99,17 @@ double typical_sqrt_m4(const Asperities& asperities);
 Result make_result(const Case& c, std::string case_text, const Indenter& indenter, double sigma,
                    std::optional<Moments> theory, Observations observations);
 
-// Packs the contacts of all levels, of the last one only, or of no level.
-void keep_contacts(Result& result, const std::vector<Level>& levels, Contacts keep);
+// Packs the contacts of all levels, of the last one only, or of no level, and takes their pixels.
+void keep_contacts(Result& result, std::vector<Level>& levels, Contacts keep);
 
 // The moments for drawing the regimes: the closed forms, otherwise the means of m2 and m4 over the
 // realizations; NaN if there are none.
 Moments regime_moments(const Result& result);
 
 // Reads the sums over realizations from the result file of a campaign, so that realizations can be
-// added.
-
-// The sums at the time of writing, within rounding; `options` and `steps` are those of the case. Throws
-// Error(bad_input) with the name of the file if it lacks the sums (it has one realization, or is of
-// an earlier version), has other bins, map or levels, or is damaged.
+// added: the sums at the time of writing, within rounding. `options` and `steps` are those of the
+// case. Throws Error(bad_input) with the name of the file if it lacks the sums (it has one
+// realization, or is of an earlier version), has other bins, map or levels, or is damaged.
 Accumulators read_sums(const std::string& path, const ObserveOptions& options, std::size_t steps);
 
 // Levels of all realizations in a result, and how many of them did not converge. None if the file

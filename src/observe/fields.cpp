@@ -254,6 +254,18 @@ ResidualProfile lowered_summits(const HeightMap& map, bool repeats, const Asperi
     return lowered;
 }
 
+HeightMap lowered_map(const HeightMap& map, const ResidualProfile& lowered) {
+    HeightMap now = map.copy();
+    const auto index = [](double x, double first, double step, int n) {
+        const int k = static_cast<int>(std::round((x - first) / step));
+        return (k % n + n) % n;
+    };
+    for (std::size_t k = 0; k < lowered.depth.size(); ++k)
+        now.row(index(lowered.y[k], map.y0, map.dy,
+                      map.ny))[index(lowered.x[k], map.x0, map.dx, map.nx)] -= lowered.depth[k];
+    return now;
+}
+
 Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction interaction,
                  const std::vector<FieldLevel>& levels, const FieldsAsked& asked) {
     Fields f;
@@ -278,12 +290,18 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
     for (int j = rows.first; j <= rows.last; ++j) f.y.push_back(map.y(j));
     const std::size_t points = f.x.size() * f.y.size();
     if (asked.stresses()) f.depth = asked.depths;
-    if (asked.heights)
-        for (int j = rows.first; j <= rows.last; ++j)
-            f.heights.insert(f.heights.end(), map.row(j) + columns.first,
-                             map.row(j) + columns.last + 1);
+    const auto add_heights = [&](const HeightMap& of) {
+        for (int j = rows.first; j <= rows.last && asked.heights; ++j)
+            f.heights.insert(f.heights.end(), of.row(j) + columns.first,
+                             of.row(j) + columns.last + 1);
+    };
+    if (!asked.worn) add_heights(map);
     for (std::size_t s = 0; s < levels.size(); ++s) {
         const Level& level = *levels[s].level;
+        const ResidualProfile& depths = levels[s].lowered;
+        const HeightMap changed = depths.depth.empty() ? HeightMap{} : lowered_map(map, depths);
+        const HeightMap& lowered = changed.data ? changed : map;
+        if (asked.worn) add_heights(lowered);
         std::vector<double> p(asked.pressure ? points : 0, 0.0);
         std::vector<std::int32_t> touches(points, 0);
         for (const auto& [point, load] : pressures[s]) {
@@ -302,19 +320,10 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
                                   lasting ? pressures_of(map, repeats, *lasting) : pressures[s],
                                   columns, rows);
             }
-            const ResidualProfile& lowered = levels[s].lowered;
-            for (std::size_t k = 0; k < lowered.depth.size(); ++k) {
-                const int i =
-                    static_cast<int>(std::round((lowered.x[k] - map.x0) / map.dx)) - columns.first;
-                const int j =
-                    static_cast<int>(std::round((lowered.y[k] - map.y0) / map.dy)) - rows.first;
-                if (i >= 0 && i < columns.size() && j >= 0 && j < rows.size())
-                    gap[at(j) * f.x.size() + at(i)] += lowered.depth[k];
-            }
             for (std::size_t k = 0; k < points; ++k) {
                 const std::size_t i = k % f.x.size(), j = k / f.x.size();
                 const double z =
-                    map(columns.first + static_cast<int>(i), rows.first + static_cast<int>(j));
+                    lowered(columns.first + static_cast<int>(i), rows.first + static_cast<int>(j));
                 gap[k] += level.separation - indenter.clearance(f.x[i], f.y[j], z);
                 gap[k] = touches[k] ? 0
                          : std::isfinite(gap[k])

@@ -21,6 +21,7 @@ struct FieldsAsked {
     bool pressure = false, gap = false, contact = false, heights = false, flow = false;
     bool mises = false, shear = false, tension = false;
     bool traction = false;
+    bool worn = false;  // heights are those after each level
     bool stresses() const { return mises || shear || tension; }
     bool any() const {
         return pressure || gap || contact || heights || flow || traction || stresses();
@@ -42,7 +43,8 @@ struct Fields {
     std::vector<double> pressure,
         gap;  // [step][y][x] [force/length^2], [length; NaN where there is no indenter above]
     std::vector<std::int32_t> contact;  // [step][y][x] 1 in contact, otherwise 0
-    std::vector<double> heights;        // [y][x] of the undeformed surface [length]
+    std::vector<double>
+        heights;  // [y][x], or if worn [step][y][x], of the undeformed surface [length]
     // [step][y][x] magnitude of the flux times viscosity for a mean pressure gradient 1 along x
     std::vector<double> flow;  // [length^3]
     // [step][y][x] of first sliding, kTractionSlide of the way to full slip [force/length^2]
@@ -68,6 +70,9 @@ inline constexpr StressQuantity kStressQuantities[] = {
 // residual depth [length]. `repeats`: the surface is periodic.
 ResidualProfile lowered_summits(const HeightMap& map, bool repeats, const Asperities& asperities,
                                 const std::vector<double>& depths);
+
+// The map without what was permanently lowered.
+HeightMap lowered_map(const HeightMap& map, const ResidualProfile& lowered);
 
 // A level whose fields are requested. `lowered`: plastic residual after the level; `lasting`:
 // Path::lasting_loads().

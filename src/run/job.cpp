@@ -3,6 +3,7 @@
 #include "asperities/ranking.hpp"
 #include "base/error.hpp"
 #include "base/format.hpp"
+#include "base/parallel.hpp"
 #include "case/registry.hpp"
 #include "contact/answers.hpp"
 #include "contact/make.hpp"
@@ -17,12 +18,13 @@
 namespace rsc {
 namespace {
 
-// The times of the levels; empty if the case has none.
+// The times, or distances of sliding, of the levels; empty if the case has none.
 std::vector<double> times_of(const Case::Indentation& keys, std::size_t levels) {
-    if (!keys.duration) return keys.times;
+    const std::optional<double>& whole = keys.slides() ? keys.sliding : keys.duration;
+    if (!whole) return keys.slides() ? keys.distances : keys.times;
     std::vector<double> times(levels, 0.0);
     for (std::size_t k = 1; k < levels; ++k)
-        times[k] = *keys.duration * static_cast<double>(k) / static_cast<double>(levels - 1);
+        times[k] = *whole * static_cast<double>(k) / static_cast<double>(levels - 1);
     return times;
 }
 
@@ -99,7 +101,7 @@ std::string key_of_largest(const Case::Indentation& keys) {
 // are in full contact, nor below it.
 void require_open(const Job& job) {
     if (!job.indenter.period.finite() || std::isfinite(job.settings.solids.hardness) ||
-        job.levels.empty())
+        wears(job.settings) || job.levels.empty())
         return;
     double mean = 0;  // that of a synthetic surface
     for (int j = 0; job.given && job.given_heights && j < job.given_heights->ny; ++j) {
@@ -126,8 +128,10 @@ std::vector<std::int32_t> steps_of_fields(const Job& job) {
     const auto& keys = job.settings.output;
     if (keys.fields.empty()) return {};
     std::vector<std::int32_t> steps;
+    const bool slides = job.settings.indentation.slides();
     for (const double wanted : keys.field_levels)
-        steps.push_back(nearest_level(job.levels, wanted * job.level_unit));
+        steps.push_back(slides ? nearest_level(job.times, wanted)
+                               : nearest_level(job.levels, wanted * job.level_unit));
     if (steps.empty()) steps.push_back(static_cast<std::int32_t>(job.levels.size()) - 1);
     return steps;
 }
@@ -149,12 +153,114 @@ FieldsAsked fields_asked(const Job& job) {
     asked.shear = has(Field::shear);
     asked.tension = has(Field::tension);
     asked.traction = has(Field::traction);
+    asked.worn = wears(settings);
     asked.friction = settings.solids.friction;
     asked.depths = job.observe.stress_depths;
     asked.body = stressed_body(job);
     if (w[0]) asked.window = {*w[0], *w[1], *w[2], *w[3]};
     return asked;
 }
+
+// A contact and the judge of its levels.
+struct Pressed {
+    std::unique_ptr<Path> contact;
+    Judge judge;
+};
+using MakePressed = std::function<Pressed()>;
+
+// Solves level k of the case. `complete` adds what its status depends on.
+Level press(const Job& job, std::size_t k, Pressed& pressed,
+            const std::function<void(Level&)>& complete) {
+    const bool by_force = job.settings.indentation.control != Control::separation;
+    Path& contact = *pressed.contact;
+    if (!job.times.empty()) contact.set_time(job.times[k]);
+    Level level = by_force ? contact.at_force(job.levels[k]) : contact.at_separation(job.levels[k]);
+    if (!job.times.empty())
+        (job.settings.indentation.slides() ? level.distance : level.time) = job.times[k];
+    add_answers(contact, level, job.settings.solids.resistivity);
+    complete(level);
+    pressed.judge.judge(level, contact, by_force);
+    return level;
+}
+
+// Whether levels are solved in groups: first the first ones of all groups, one from another, then
+// the others, which begin with the first of their group. The loops of levels with few points are
+// too short to be shared by many threads. The groups, and with them the results, are the same for
+// any number of threads.
+bool independent_levels(const Job& job, const Path& contact) {
+    return by_elements(job.settings) && job.times.empty() && !contact.path_dependent() &&
+           !(job.settings.solids.friction > 0) && job.levels.size() >= kFewestGroups * kGroup;
+}
+
+class LevelGroups {
+public:
+    // Calls take(k, level) for all levels in their order, on this thread, soon after they are
+    // known.
+    LevelGroups(const Job& job, Pressed& first, const MakePressed& make,
+                std::function<void(std::size_t, Level)> take)
+        : job_(job), first_(first), make_(make), take_(std::move(take)) {}
+
+    void press_all(int threads) {
+        std::int32_t points = 0;
+        for (std::size_t g = 0; g < groups_; ++g) {
+            Level& level = levels_[g * kGroup].emplace(press(job_, g * kGroup, first_, none));
+            points = std::max(points, level.candidates);
+            begin_[g] = {first_.contact->state(), first_.judge.state()};
+        }
+        if (points > kFewPoints) {
+            for (std::size_t g = 0; g < groups_; ++g) press_group(g, first_), take_solved();
+            return;
+        }
+        std::vector<std::optional<Pressed>> of_worker(most_threads(threads));
+        parallel_pieces(groups_, threads, [&](std::size_t g, std::size_t worker) {
+            if (!of_worker[worker]) of_worker[worker].emplace(make_());
+            press_group(g, *of_worker[worker]);
+            if (worker == 0) take_solved();
+        });
+        take_solved();
+    }
+
+private:
+    static void none(Level&) {}
+
+    void press_group(std::size_t g, Pressed& pressed) {
+        pressed.contact->forget();
+        pressed.contact->restore(begin_[g].contact);
+        pressed.contact->start_from_level();
+        pressed.judge.restore(begin_[g].judge, pressed.contact->indenter());
+        for (std::size_t k = g * kGroup + 1; k < std::min(levels_.size(), (g + 1) * kGroup); ++k)
+            levels_[k] = press(job_, k, pressed, none);
+        const std::lock_guard lock(mutex_);
+        begin_[g] = {};
+        solved_[g] = 1;
+    }
+
+    void take_solved() {
+        const auto next_is_solved = [&] {
+            const std::lock_guard lock(mutex_);
+            return taken_ < levels_.size() && solved_[taken_ / kGroup];
+        };
+        for (; next_is_solved(); ++taken_) {
+            take_(taken_, std::move(*levels_[taken_]));
+            levels_[taken_].reset();
+        }
+    }
+
+    const Job& job_;
+    Pressed& first_;
+    const MakePressed& make_;
+    std::function<void(std::size_t, Level)> take_;
+    std::vector<std::optional<Level>> levels_ =
+        std::vector<std::optional<Level>>(job_.levels.size());
+    std::size_t groups_ = (levels_.size() + kGroup - 1) / kGroup, taken_ = 0;
+    struct Begin {
+        Path::State contact;
+        std::optional<Path::State> judge;
+    };
+    std::vector<Begin> begin_ = std::vector<Begin>(groups_);
+    std::vector<char> solved_ = std::vector<char>(groups_, 0);
+    std::mutex mutex_;
+};
 
 }  // namespace
 
@@ -217,6 +323,10 @@ Job prepare(const Case& settings) {
             "indentation%duration: solids%relaxation_share lets body 1 relax, and the levels have "
             "no times; give "
             "duration or times");
+    if (wears(settings) && !indentation.slides())
+        bad_input(
+            "indentation%sliding: body 1 wears (solids%wear_coefficient), and the levels have no "
+            "distances of sliding; give sliding or distances");
     if (indentation.control == Control::separation && indentation.unit == LevelUnit::sigma)
         job.level_unit = job.sigma;
     if (indentation.control == Control::pressure) {
@@ -265,10 +375,9 @@ Job prepare(const Case& settings) {
 }
 
 Realization realize(const Job& job, std::int64_t number, int threads,
-                    const std::function<bool(std::size_t, const Level&)>& on_level) {
+                    const std::function<void(std::size_t, const Level&)>& on_level) {
     Realization r;
     const auto& settings = job.settings;
-    std::unique_ptr<Path> contact;
     JudgedSurface judged;
     const HeightMap* map = nullptr;  // of elements
     std::shared_ptr<const Measured> measured = job.given ? job.measured : nullptr;
@@ -285,7 +394,6 @@ Realization realize(const Job& job, std::int64_t number, int threads,
             r.heights = std::move(surface.map);
         }
         map = job.given ? &*job.given_heights : &*r.heights;
-        contact = make_element_contact(*map, job.indenter, job.solver);
         judged.map = map;
         judged.second_grid = true;
         if (job.theory) judged.curvature = curvature_at_unit_height(*job.theory);
@@ -306,14 +414,13 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         r.asperities = std::move(model.asperities);
         r.statistics = model.statistics;
         solver.gentlest_slope = model.domain.gentlest_slope;
-        contact = make_asperity_contact(r.asperities, job.indenter, solver);
     }
+    const auto make_contact = [&] {
+        return map ? make_element_contact(*map, job.indenter, job.solver)
+                   : make_asperity_contact(r.asperities, job.indenter, solver);
+    };
     std::optional<FrictionLevels> friction;
-    if (settings.solids.friction > 0)
-        friction.emplace(settings, [&] {
-            return map ? make_element_contact(*map, job.indenter, job.solver)
-                       : make_asperity_contact(r.asperities, job.indenter, solver);
-        });
+    if (settings.solids.friction > 0) friction.emplace(settings, make_contact);
     r.levels.reserve(job.levels.size());
     const std::vector<std::int32_t> field_steps = steps_of_fields(job);
     judged.filled = filled_points(measured.get(), job.domain.x0, job.domain.y0, job.indenter);
@@ -321,28 +428,21 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         judged.scattered =
             static_cast<double>(measured->missing - std::ranges::count(measured->filled, 1)) /
             static_cast<double>(measured->points());
-    Judge judge(solver, std::move(judged));
+    const MakePressed make = [&] { return Pressed{make_contact(), Judge(solver, judged)}; };
+    Pressed pressed = make();
+    std::unique_ptr<Path>& contact = pressed.contact;
     std::vector<FieldLevel> fields;
     if (settings.indentation.control != Control::separation &&
         !job.levels.empty())  // before the levels below it are solved
         try {
-            contact->require_gap(*std::max_element(job.levels.begin(), job.levels.end()));
+            contact->require_gap(wears(settings) ? job.levels.front()
+                                                 : std::ranges::max(job.levels));
         } catch (const Error& error) {
             if (error.kind() != Failure::bad_input) throw;
             bad_input(key_of_largest(settings.indentation) + error.what() + "; give smaller ones");
         }
-    for (std::size_t k = 0; k < job.levels.size(); ++k) {
-        if (!job.times.empty()) contact->set_time(job.times[k]);
-        if (settings.indentation.control != Control::separation) {
-            r.levels.push_back(contact->at_force(job.levels[k]));
-        } else {
-            r.levels.push_back(contact->at_separation(job.levels[k]));
-        }
-        Level& level = r.levels.back();
-        if (!job.times.empty()) level.time = job.times[k];
-        add_answers(*contact, level, settings.solids.resistivity);
-        if (friction && !friction->add(level, r.friction)) level.converged = false;
-        judge.judge(level, *contact, settings.indentation.control != Control::separation);
+    const auto take = [&](std::size_t k, Level solved) {
+        Level& level = r.levels.emplace_back(std::move(solved));
         const bool field = std::find(field_steps.begin(), field_steps.end(),
                                      static_cast<std::int32_t>(k)) != field_steps.end();
         std::vector<double> flow;
@@ -363,8 +463,15 @@ Realization realize(const Job& job, std::int64_t number, int threads,
                 fields.back().stuck = friction->stuck(level, kTractionSlide);
         }
         add_stresses(r.stresses, job, map, level);
-        if (on_level && !on_level(k, r.levels.back())) break;
-    }
+        if (on_level) on_level(k, level);
+    };
+    if (independent_levels(job, *contact))
+        LevelGroups(job, pressed, make, take).press_all(threads);
+    else
+        for (std::size_t k = 0; k < job.levels.size(); ++k)
+            take(k, press(job, k, pressed, [&](Level& level) {
+                     if (friction && !friction->add(level, r.friction)) level.converged = false;
+                 }));
     r.residual_depth = contact->residual_depths();
     r.residual_profile = contact->residual_profile();
     if (!fields.empty())
@@ -378,6 +485,10 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     }
     contact.reset();
     if (!settings.output.heights) r.heights.reset();
+    if (wears(settings)) {
+        if (settings.output.heights) r.heights = lowered_map(*map, r.residual_profile);
+        r.residual_profile = {};
+    }
     return r;
 }
 

@@ -82,6 +82,7 @@ double points_of_elements(const Job& job, double points_per_wave) {
 // is higher.
 double share_in_contact(const Job& job, double level, bool is_force) {
     const double area = job.domain.Lx * job.domain.Ly;
+    if (wears(job.settings)) return 1;
     if (!is_force) return std::min(1.0, 0.4 * area_under(job, level) / area);
     const double slope = job.theory ? job.theory->rms_slope() : job.solver.gentlest_slope;
     return slope > 0 ? std::erf(1.86 * level / area / (job.indenter.E_star * slope)) : 1.0;
@@ -151,10 +152,13 @@ double expected_megabytes(const Job& job, double workers) {
     // point under the indenter or in contact, from the peaks of some 40 runs; a single realization
     // keeps the pixels of all its levels, and the result some numbers a level.
     constexpr double program = 40e6, tables = 15e6, table = 1500, under = 170, adhesion = 49,
-                     yielding = 5, flats = 28, touching = 150, pixel = 24, record = 0.3e6;
+                     lowered = 8, states = 50, flats = 28, touching = 150, pixel = 24,
+                     record = 0.3e6;
     const double sticking = job.settings.solids.adhesion > 0 ? adhesion : 0;
-    const double heights =
-        8.4 + sticking + (std::isfinite(job.settings.solids.hardness) ? yielding : 0.0);
+    // Depths of lowered points, and with wear those of the level before.
+    const double lowering = (std::isfinite(job.settings.solids.hardness) ? lowered : 0.0) +
+                            (wears(job.settings) ? lowered + states : 0.0);
+    const double heights = 8.4 + sticking + lowering;
     // Of the heights that can touch whole pages are kept, after the modes were: of waves that are 8
     // points long, most in a row of 4096 points.
     constexpr double in_pages = 32 * 8, row = 4096, modes = 8;
@@ -167,11 +171,16 @@ double expected_megabytes(const Job& job, double workers) {
     constexpr double of_gap = 80;
     const double gap =
         of_gap * points + (job.settings.output.flow ? permeability_bytes(points) : 0);
+    // Groups of levels side by side (job.hpp): a contact and its second grid for each thread.
+    const double groups = static_cast<double>((job.levels.size() + kGroup - 1) / kGroup),
+                 beside = groups < kFewestGroups || job.settings.run.realizations > 1
+                              ? 0.0
+                              : std::min(workers, groups) - 1;
     double most = 0, kept = 0;
     for (const double level : job.levels) {
         if (job.indenter.period.finite()) {
             const double share = share_in_contact(job, level, force);
-            most = std::max(most, points * (flats + sticking + touching * share) + gap);
+            most = std::max(most, points * (flats + sticking + lowering + touching * share) + gap);
             if (job.settings.run.realizations == 1) kept += pixel * share * points;
             continue;
         }
@@ -181,7 +190,8 @@ double expected_megabytes(const Job& job, double workers) {
                  : heights * points;
         most = std::max(
             {most, high ? modes / job.settings.elements.points_per_wave * points : 0.0,
-             std::min(tables, table * below) + stored + (under + deep * below / points) * below});
+             std::min(tables, table * below) + stored + (under + deep * below / points) * below +
+                 (below > kFewPoints ? 0.0 : beside * ((1 + 0.25) * under * below + stored / 4))});
     }
     return 1e-6 * (program + record * static_cast<double>(job.levels.size()) + kept +
                    most * contacts_at_once);

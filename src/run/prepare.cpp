@@ -258,7 +258,8 @@ bool reads_high_points(const Case& c) {
            c.indentation.control == Control::separation &&
            std::all_of(levels.begin(), levels.end(), [](double level) { return level > 0; }) &&
            c.indenter.file.empty() && !std::isfinite(c.solids.hardness) &&
-           !(c.solids.adhesion > 0) && !relaxes(c) && !c.output.heights && c.output.fields.empty();
+           !(c.solids.adhesion > 0) && !relaxes(c) && !wears(c) && !c.output.heights &&
+           c.output.fields.empty();
 }
 
 Surface make_element_surface(const Case& settings, std::int64_t number, int threads,

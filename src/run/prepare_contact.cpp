@@ -90,6 +90,7 @@ SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
                               compliance(0) / (compliance(0) + compliance(1))};
     }
     options.adhesion = {settings.solids.adhesion, settings.solids.adhesion_range};
+    options.wear = {settings.solids.wear_coefficient};
     options.interaction = settings.solver.interaction;
     options.selection = settings.indentation.selection;
     options.selection_factor = settings.indentation.selection_factor;

@@ -47,16 +47,21 @@ std::string remedy_of_grid(const Job& job) {
                         : "; the map has too few points for its contacts";
 }
 
-// `advice` where the surface is known beyond a list of asperities, so that elements can solve it.
-std::string to_elements(const Job& job, const char* advice) {
-    return job.settings.surface.source == Source::asperities ? "" : advice;
+// Advice where the surface is known beyond a list of asperities, so that elements can solve it.
+std::string to_elements(const Job& job, const char* reason = " solves the surface itself") {
+    if (job.settings.surface.source == Source::asperities) return "";
+    const auto& solids = job.settings.solids;
+    const bool ranged = solids.adhesion > 0 && solids.adhesion_range == 0;
+    return std::string("; solver%model = 'elements'") +
+           (ranged ? " with a solids%adhesion_range" : "") + reason;
 }
 
 std::string remedy_of(Cause cause, const Job& job, bool elements) {
+    if (cause == Cause::filled_points) return "";
+    if (cause == Cause::border) return job.spectrum ? "; enlarge surface%L" : "";
     if (elements)
         return cause == Cause::grid || cause == Cause::missed_contact ? remedy_of_grid(job) : "";
-    if (cause == Cause::border || cause == Cause::filled_points) return "";
-    return to_elements(job, "; solver%model = 'elements' solves the surface itself");
+    return to_elements(job);
 }
 
 void print_doubts(std::ostream& out, std::span<const LevelValues> levels, const Job& job,
@@ -87,26 +92,22 @@ void print_failures(std::ostream& out, std::span<const LevelValues> levels, cons
                     "the smallest force, where the bodies part under a dead load; give separations "
                     "(indentation%control = 'separation') to go beyond");
     const auto jump = [](const LevelValues& l) { return l.fallback == Fallback::jump; };
-    levels_with.say(jump,
-                    failure +
-                        "the force asked for is inside a jump of N(Z0), so that no separation has "
-                        "it. The level is a state at one side of the jump; prescribe separations "
-                        "there, or another force" +
-                        (elements ? ""
-                                  : to_elements(job,
-                                                "; solver%model = 'elements' has no such jumps "
-                                                "between close contacts")));
+    levels_with.say(
+        jump, failure +
+                  "the force asked for is inside a jump of N(Z0), so that no separation has "
+                  "it. The level is a state at one side of the jump; prescribe separations "
+                  "there, or another force" +
+                  (elements ? "" : to_elements(job, " has no such jumps between close contacts")));
     const auto failed = [&](const LevelValues& l) { return !l.converged && !held(l) && !jump(l); };
     const bool flats = job.settings.indentation.boundary == Boundary::periodic;
     std::string remedy = "raise solver%max_iterations or the tolerance";
     if (!elements && solids.adhesion > 0)
-        remedy = "contacts overlap too much to follow their path" +
-                 to_elements(job, "; use solver%model = 'elements'");
+        remedy = "contacts overlap too much to follow their path" + to_elements(job);
     else if (!elements && (!solids.layer_thickness.empty() || flats))
         remedy =
             "with contacts wider than the top layer, or between flats pressed deep, the "
             "asperity model may have no solution" +
-            to_elements(job, "; use solver%model = 'elements'");
+            to_elements(job);
     else if (elements && !solids.relaxation_share.empty() && flats)
         remedy = "bodies that relax may have closed the gap between flats; otherwise " + remedy;
     levels_with.say(
@@ -123,9 +124,8 @@ void print_statuses(std::ostream& out, std::span<const LevelValues> levels, cons
             return std::isnan(l.stiffness) && l.contacts > 0 && l.converged;
         },
         std::string("stiffness, conductance and resistance are missing: ") +
-            (elements ? "their iteration did not converge"
-                      : "contacts overlap too much for them" +
-                            to_elements(job, "; use solver%model = 'elements'")));
+            (elements ? "their iteration did not converge, or the gap of worn flats is closed"
+                      : "contacts overlap too much for them" + to_elements(job)));
     levels_with.say([](const LevelValues& l) { return l.status == LevelStatus::overlapping; },
                     "overlapping - pairs of contact spots closer than the sum of their radii: "
                     "spots that would merge are counted as two");
@@ -161,15 +161,23 @@ void print_bounds(std::ostream& out, std::span<const LevelValues> levels, const 
                   first.c_str(), area.c_str());
 }
 
-// The summary of plastic contacts for cases with hardness, and of the energy lost in bodies that
-// relax.
-void print_yielding(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
+// The summary of plastic contacts for cases with hardness, of what is worn off, and of the energy
+// lost in bodies that relax.
+void print_changes(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
     if (relaxes(job.settings) && !levels.empty() && job.settings.run.realizations == 1)
         out << format(
             "  %.4g %s %s of the work done are lost by relaxation. Levels depend on the levels "
             "before.\n",
             levels.back().energy_lost, job.settings.run.force_unit.c_str(),
             job.settings.run.length_unit.c_str());
+    if (wears(job.settings) && !levels.empty() && job.settings.run.realizations == 1) {
+        const char* const l = job.settings.run.length_unit.c_str();
+        const LevelValues& last = levels.back();
+        out << format(
+            "  %.4g %s3 are worn off, up to %.4g %s deep, and the surface has the rms height %.4g "
+            "%s. Levels depend on the levels before.\n",
+            last.worn_volume, l, last.wear_depth_max, l, last.worn_rms, l);
+    }
     if (!std::isfinite(job.settings.solids.hardness) || levels.empty()) return;
     const auto most = std::max_element(levels.begin(), levels.end(),
                                        [](const LevelValues& p, const LevelValues& q) {
@@ -310,7 +318,7 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
             "stays elastic at such pressures; solids%%hardness "
             "limits them.\n",
             100 * extreme->extreme_area_fraction, extreme->separation / job.sigma);
-    print_yielding(out, levels, job);
+    print_changes(out, levels, job);
     print_sticking(out, levels, job);
     print_words(out, job, elements);
     std::int64_t crowded = 0;

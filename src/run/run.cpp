@@ -204,8 +204,8 @@ static std::string write_twins(const Job& job, const std::string& result) {
             ? ""
             : " and these heights; not kept: which waves carry the skewness: some 10 % of N, and a "
               "factor of several in A where few summits touch";
-    return "twins: " + path + " (surfaces with this spectrum" + kept + ": rsc < " + path + ")" +
-           other_slopes(*job.measured);
+    return "twins: " + path + " (surfaces with this spectrum" + kept + ": " + program_command() +
+           " " + shell_word(path) + ")" + other_slopes(*job.measured);
 }
 
 RunSummary run_realization(const Case& settings, const RunOptions& options) {
@@ -236,7 +236,6 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
                         done = static_cast<double>(k + 1);
                         progress.show(done, total);
                         go_on();
-                        return true;
                     });
     }
     Accumulators sums(job.observe, job.levels.size());
@@ -260,7 +259,7 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     result.compared = std::move(compared);
     result.fields = std::move(r.fields);
     if (settings.output.heights)
-        result.heights = std::move(job.given_heights ? job.given_heights : r.heights);
+        result.heights = std::move(r.heights ? r.heights : job.given_heights);
     write_result(result, settings.output.file,
                  {settings.output.format, settings.output.compression, options.command});
 

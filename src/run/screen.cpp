@@ -34,7 +34,9 @@ bool shown(const LevelQuantity& q, const Job& job) {
     if (!q.heading) return false;
     if (q.always) return true;
     if (q.of_flow) return job.settings.output.flow;
-    if (q.of_step) return !job.times.empty();
+    if (q.of_step)
+        return !job.times.empty() && job.settings.indentation.slides() == (q.unit == nullptr);
+    if (q.member == LevelQuantity::Member(&LevelValues::worn_volume)) return wears(job.settings);
     const bool line = q.member == LevelQuantity::Member(&LevelValues::force_per_length);
     return line ? job.indenter.period.line() : job.indenter.period.finite();
 }
@@ -226,7 +228,7 @@ void print_heading(std::ostream& out, const Job& job) {
         std::string heading = q.heading;
         if (q.length_power != 0 || q.force_power != 0)
             heading += " [" + unit_of(l, q.length_power, f, q.force_power) + "]";
-        if (q.of_step) heading += " [" + job.settings.run.time_unit + "]";
+        if (q.of_step && q.unit) heading += " [" + job.settings.run.time_unit + "]";
         out << format(" %*s", q.width, heading.c_str());
     }
     out << '\n';
@@ -271,9 +273,29 @@ static std::string plot_script() {
     return here;
 }
 
+std::string shell_word(const std::string& path) {
+    const bool plain = std::ranges::all_of(path, [](unsigned char c) {
+        return std::isalnum(c) || c >= 0x80 || std::strchr("_-+=%@:,./", c) != nullptr;
+    });
+    if (plain && !path.empty()) return path;
+    std::string quoted = "'";
+    for (const char c : path) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+    return quoted + "'";
+}
+
+std::string program_command() {
+    std::error_code error;
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    if (!program.filename().string().starts_with("rsc")) return "rsc";
+    if (program.parent_path() == fs::current_path(error))
+        return "./" + shell_word(program.filename().string());
+    return shell_word(program.string());
+}
+
 void print_result(std::ostream& out, const std::string& file, bool replaces) {
     out << "result: " << file << (replaces ? " (replaces an earlier result)" : "")
-        << "\npicture: python3 " << plot_script() << ' ' << file << std::endl;
+        << "\npicture: python3 " << shell_word(plot_script()) << ' ' << shell_word(file)
+        << std::endl;
 }
 
 std::string duration(double seconds) {

@@ -31,10 +31,16 @@ void tell_unreached_heights(std::ostream& out, std::span<const SurfaceStatistics
 // The last lines: the result file, a note if it replaced another one, and the command for pictures.
 void print_result(std::ostream& out, const std::string& file, bool replaces);
 
-// A share in percent with two digits, and without exponent: "0.015 %", "4.2 %", "120 %".
+// A path as a word of a shell command, in quotes if it needs them.
+std::string shell_word(const std::string& path);
+
+// The running program as a shell command: its path, or `rsc` where a library runs.
+std::string program_command();
+
 // One unit of pressure of a case in Pa; 0: its units are not known.
 double pascals(const Case& settings);
 
+// A share in percent with two digits, and without exponent: "0.015 %", "4.2 %", "120 %".
 std::string percent(double share);
 
 // "12.3 s", "4 min 10 s", ...

@@ -5,12 +5,14 @@ namespace rsc {
 std::string sentence(Cause cause, bool elements) {
     switch (cause) {
         case Cause::border:
-            return "contacts, or their attraction, within <d> of the border of the surface: what "
-                   "lies beyond it is missing, |N| is too small";
+            return "contacts, or their attraction, closer to the border of the surface than the "
+                   "mean distance of summits: what lies beyond it is missing";
         case Cause::filled_points:
             return "the contact may lie on missing points of the map, which are filled smoothly "
                    "(filled_share): N is too small";
-        case Cause::grid: return "a finer grid may change N by more than 1 %, with adhesion 10 %";
+        case Cause::grid:
+            return "a finer grid may change N at this separation by more than 1 %, with adhesion "
+                   "10 %";
         case Cause::slope_ratio:
             return "the indenter is too steep beside the surface (slope_ratio above 0.2), which "
                    "it touches beside the summits";
@@ -31,7 +33,10 @@ std::string sentence(Cause cause, bool elements) {
             return elements ? "the bodies may touch between the points of the grid, so that N "
                               "need not be 0"
                             : "the bodies may touch beside the summits, so that N need not be 0";
-        case Cause::model_error: return "N may differ from that of elements by more than 10 %";
+        case Cause::model_error:
+            return "N may differ from that of elements at this separation by more than 10 %";
+        case Cause::sliding_steps:
+            return "the steps of sliding may change N by more than 1 %: give closer distances";
     }
     return "";
 }
@@ -46,11 +51,12 @@ std::string words_of_doubts(std::int32_t doubts) {
 }
 
 void conclude(LevelValues& level, std::span<const Doubt> doubts, bool by_force) {
-    double force = 0, area = 0;
+    double force = 0, area = 0, separation = 0;
     level.doubts = 0;
     for (const Doubt& doubt : doubts) {
         force += doubt.force;
         area += doubt.area;
+        separation += doubt.separation;
         if (doubt.serious) level.doubts |= bit(doubt.cause);
     }
     level.status = !level.converged              ? LevelStatus::not_converged
@@ -63,7 +69,7 @@ void conclude(LevelValues& level, std::span<const Doubt> doubts, bool by_force) 
     level.area_error_expected = known ? area + (by_force ? force : 0.0) : kNotComputed;
     level.separation_error_expected =
         known && by_force && level.stiffness < 0
-            ? force * std::abs(level.force) / std::abs(level.stiffness)
+            ? separation + force * std::abs(level.force) / std::abs(level.stiffness)
             : kNotComputed;
 }
 

@@ -17,12 +17,13 @@ enum class Cause {
     adhesion_range,
     outside_calibration,
     missed_contact,
-    model_error
+    model_error,
+    sliding_steps
 };
 inline constexpr std::array kCauseNames = {
-    "border",     "filled_points", "grid",           "slope_ratio",         "beyond_law",
-    "few_points", "layer",         "adhesion_range", "outside_calibration", "missed_contact",
-    "model_error"};
+    "border",      "filled_points", "grid",           "slope_ratio",         "beyond_law",
+    "few_points",  "layer",         "adhesion_range", "outside_calibration", "missed_contact",
+    "model_error", "sliding_steps"};
 constexpr std::int32_t bit(Cause cause) { return std::int32_t{1} << static_cast<int>(cause); }
 
 // Explanation for the screen, without the remedy. `elements`: the level was solved by elements.
@@ -32,11 +33,13 @@ std::string sentence(Cause cause, bool elements);
 std::string words_of_doubts(std::int32_t doubts);
 
 // One doubt, with the relative errors of N and A at the separation of the level that it may cause:
-// NaN if they are not known.
+// NaN if they are not known. An error of the `separation` under a prescribed force [length] that is
+// none of N is stated by itself.
 struct Doubt {
     Cause cause;
     double force = kNotComputed, area = kNotComputed;
     bool serious = true;  // raises the status
+    double separation = 0;
 };
 
 // Sets status, doubts and expected errors of a level: the errors are the sums over all doubts, and

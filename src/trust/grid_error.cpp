@@ -149,7 +149,7 @@ SecondGrid::SecondGrid(const HeightMap& map, const Indenter& indenter, const Sol
 std::optional<GridError> SecondGrid::error(const LevelValues& level, Path& contact, bool by_force) {
     const Indenter &here = contact.indenter(), &there = contact_->indenter();
     if (here.x0 != there.x0 || here.y0 != there.y0) contact_->move_tip(here.x0, here.y0);
-    if (contact_->relaxes()) contact_->set_time(level.time);
+    contact_->set_time(contact.time());
     Level other;
     try {
         other = by_force && level.force > 0 ? contact_->at_force(level.force)

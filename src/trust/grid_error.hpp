@@ -45,6 +45,13 @@ public:
     // under the same force; those of the force as an error of N at the separation. None if the
     // solver does not converge on that grid.
     std::optional<GridError> error(const LevelValues& level, Path& contact, bool by_force);
+    Path::State state() const { return contact_->state(); }
+    void forget() { contact_->forget(); }
+    void start_from(const Path::State& state) {
+        forget();
+        contact_->restore(state);
+        contact_->start_from_level();
+    }
 
 private:
     HeightMap map_;

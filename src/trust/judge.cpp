@@ -159,6 +159,11 @@ std::vector<Doubt> Judge::of_elements(Level& level, Path& contact, bool by_force
         doubts.push_back({Cause::adhesion_range});
     if (surface_.second_grid || options_.adhesion.work > 0)
         doubts.push_back(grid(level, contact, by_force));
+    if (const double error = level.sliding_error; !std::isnan(error)) {
+        const double depth = contact.first_touch() - level.separation;
+        doubts.push_back({Cause::sliding_steps, by_force ? 0.0 : error, level.sliding_area_error,
+                          error > kUnresolved, by_force ? error * depth : 0.0});
+    }
     if (surface_.scattered > 0) {
         const double share = kScattered * surface_.scattered;
         doubts.push_back({Cause::filled_points, share, share, share > kUnresolved});
@@ -184,6 +189,18 @@ double Judge::touch_between(const Path& contact) {
                                   (std::abs(c.xx) * dx * dx + std::abs(c.yy) * dy * dy);
 }
 
+SecondGrid& Judge::second_grid(const Indenter& indenter) {
+    if (!second_) second_.emplace(*surface_.map, indenter, options_, !surface_.curvature);
+    return *second_;
+}
+
+void Judge::restore(const std::optional<Path::State>& state, const Indenter& indenter) {
+    if (state)
+        second_grid(indenter).start_from(*state);
+    else if (second_)
+        second_->forget();
+}
+
 // The error by the grid, with adhesion by the resolution of the edges, too.
 Doubt Judge::grid(const Level& level, Path& contact, bool by_force) {
     const Indenter& indenter = contact.indenter();
@@ -192,8 +209,7 @@ Doubt Judge::grid(const Level& level, Path& contact, bool by_force) {
     if (options_.adhesion.work > 0) return edges_of_adhesion(level, indenter, map, read, options_);
     Doubt doubt{Cause::grid};
     if (std::min(map.nx, map.ny) < kFewestPoints) return doubt;
-    if (!second_) second_.emplace(map, indenter, options_, read);
-    const auto error = second_->error(level, contact, by_force);
+    const auto error = second_grid(indenter).error(level, contact, by_force);
     if (!error) return doubt;
     const double stiffness = std::isnan(level.stiffness) ? contact.stiffness() : level.stiffness;
     const GridError crests = error_of_crests(level, stiffness, map, indenter, surface_.curvature);

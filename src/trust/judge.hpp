@@ -35,11 +35,18 @@ public:
     // Judges a level of `contact`, which must be at that level. `by_force`: the level was found for
     // a prescribed force.
     void judge(Level& level, Path& contact, bool by_force);
+    // State of the second grid, for another judge of the same bodies: solutions there start from
+    // its level. Empty: it has none yet.
+    std::optional<Path::State> state() const {
+        return second_ ? std::optional(second_->state()) : std::nullopt;
+    }
+    void restore(const std::optional<Path::State>& state, const Indenter& indenter);
 
 private:
     std::vector<Doubt> of_asperities(Level& level, const Path& contact) const;
     std::vector<Doubt> of_elements(Level& level, Path& contact, bool by_force);
     double touch_between(const Path& contact);
+    SecondGrid& second_grid(const Indenter& indenter);
     Doubt grid(const Level& level, Path& contact, bool by_force);
 
     SolverOptions options_;

@@ -1,4 +1,4 @@
-"""Makes the calls of calls.txt through the C interface, rsc.py, rsc.f90 and rsc77.c, and compares what comes back: every value to the
+"""Makes the calls of calls.txt through the C interface, Python, rsc.f90 and rsc77.c, and compares what comes back: every value to the
 last bit, every status, every message.
 
     calls.py generate fortran|77 FILE    writes the program that makes the calls in that language
@@ -32,6 +32,7 @@ NOT_CALLED = {
     "lock",
     "unlock",
     "case_run_watched",
+    "case_resume",
     "contacts_step",
 } | {f"{kind}_destroy" for kind in generate.KINDS}
 FUNCTIONS = {f.short: f for f in generate.read_header("rsc.h")[0]}
@@ -304,7 +305,7 @@ def by_python(calls, arrays):
             one.tip = rest
             return []
         if name == "case_set":
-            one[rest[0]] = rsc._python_value(rest[1])
+            one[rest[0]] = rsc._case._python_value(rest[1])
             return []
         if name == "case_get":
             return namelist(one[rest[0]])

@@ -52,6 +52,9 @@ test_levels() {
     run 0 result.nc -o result.nc <<< "&surface source='asperities', file='$data/two_asperities.txt', sigma=0.01, L=20 / $flats
 &indentation levels=0.0, unit='length', boundary='periodic' /"
     err ''; out '\| +1 +0 +0.00000 [^|]*  overlapping\|.*1 of 1 levels: overlapping - '
+    # Names with blanks are quoted in the commands for the next step.
+    run 0 "it's one.nc" -o "it's one.nc" <<< "&surface n=64, L_lambda_l=2, L_lambda_s=8 / &indentation steps=2 /"
+    out "picture: python3 [^ ]*plot.py 'it'.''s one.nc'"
     run 1 result.nc -o result.nc <<< "&surface n=64, L_lambda_l=2, L_lambda_s=16 / &indentation levels=0.5, 0.0, -1.0 / &solver max_iterations=1 / &compare levels='none' /"
     err '[1-3] of 3 levels did not converge'; out '[1-3] of 3 levels: '
 }

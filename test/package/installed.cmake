@@ -105,22 +105,22 @@ foreach(compiler ${FORTRAN_COMPILER} ${FLANG})
   endif()
 endforeach()
 
-# rsc.py from the installation, far from its source: it finds the library beside it.
-file(GLOB_RECURSE module ${prefix}/lib/python*/rsc.py)
+# The Python package from the installation, far from its source: it finds the library beside it.
+file(GLOB module ${prefix}/lib/python*/*/rsc/__init__.py)
 foreach(python python3 /usr/bin/python3)
   execute_process(COMMAND ${python} -c "import numpy" RESULT_VARIABLE status ERROR_QUIET)
   if(module AND status EQUAL 0 AND NOT DEFINED ENV{ASAN_OPTIONS})
-    get_filename_component(folder ${module} DIRECTORY)
+    get_filename_component(folder ${module}/../.. ABSOLUTE)
     run(${CMAKE_COMMAND} -E env PYTHONPATH=${folder} PYTHONDONTWRITEBYTECODE=1 ${python} -c "import rsc
-print(rsc._library_path, rsc.version())")
+print(rsc._library.library_path, rsc.version())")
     if(NOT output MATCHES "^${libraries}/librsc.so ${VERSION}")
-      message(FATAL_ERROR "rsc.py: ${output}")
+      message(FATAL_ERROR "Python: ${output}")
     endif()
     break()
   endif()
 endforeach()
 if(NOT module)
-  message(FATAL_ERROR "rsc.py is not installed")
+  message(FATAL_ERROR "the Python package is not installed")
 endif()
 
 # The tree stands alone: what README sends to is there, a case finds its data, and the line that it prints for the picture works elsewhere.

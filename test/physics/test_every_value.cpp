@@ -44,8 +44,8 @@ void check_file(const Scene& scene, const std::string& path, const Case& setting
         distributions(f, t);
     else
         CHECK(!f.has("pdf_level") && !f.has("bin"));
-    asperities(f, t), contacts(f, t), heights(f, t), friction(f, t), measured(f, t, scene.as_read),
-        compared(f, t, scene.compare_path);
+    asperities(f, t), contacts(f, t), contact_mask(f, t), heights(f, t), friction(f, t),
+        measured(f, t, scene.as_read), compared(f, t, scene.compare_path);
     f.finish();
     if (check::failures > before)
         std::printf("%s: %d failures\n", scene.name.c_str(), check::failures - before);

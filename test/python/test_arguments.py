@@ -1,4 +1,5 @@
-"""Bad input from Python: each of these is refused with a message that names the argument, and nothing crashes."""
+"""Bad input from Python: each of these is refused with a message that names the argument, and
+nothing crashes."""
 import copy
 import math
 import pickle
@@ -164,7 +165,8 @@ class Arguments(unittest.TestCase):
                 kind()
         with self.assertRaisesRegex(
             TypeError,
-            "^rsc.Case cannot be pickled, because it belongs to this process; pickle the text of its case or its arrays$",
+            "^rsc.Case cannot be pickled, because it belongs to this process; "
+            "pickle the text of its case or its arrays$",
         ):
             pickle.dumps(rsc.Case())
         self.assertIsNot(copy.copy(indented()), copy.deepcopy(indented()))

@@ -1,9 +1,10 @@
-"""The cases of input/ set what the paper, their comments and the READMEs say; what the READMEs of input/ and output/ say of a run and of the pictures is so.
+"""The cases of input/ set what the paper, their comments and the READMEs say; what the READMEs of
+input/ and output/ say of a run and of the pictures is so.
 
-usage: test_cases.py PROJECT        (RSC_PROGRAM in the environment)
-"""
+usage: test_cases.py PROJECT        (RSC_PROGRAM in the environment)"""
 import functools
 import glob
+import io
 import os
 import re
 import subprocess
@@ -16,6 +17,11 @@ RSC = os.path.abspath(os.environ["RSC_PROGRAM"])
 sys.path[:0] = [os.path.join(PROJECT, "output", "plot"), os.path.join(PROJECT, "output", "export")]
 import law  # noqa: E402
 import plot  # noqa: E402
+
+try:
+    import docutils.core
+except ImportError:
+    docutils = None
 
 
 def read(*names):
@@ -44,7 +50,8 @@ class Cases(unittest.TestCase):
     maxDiff = None
 
     def test_paper(self):
-        """The numbers of the paper, in every case of input/paper that is of its gold surface, and the levels it has."""
+        """The numbers of the paper, in every case of input/paper that is of its gold surface, and
+        the levels it has."""
         gold = {
             "solids%E": "78000.0, Infinity",
             "solids%nu": "0.42, 0.0",
@@ -61,7 +68,8 @@ class Cases(unittest.TestCase):
             )
 
     def test_taken(self):
-        """Every case is one that rsc takes, and a study script shortens each of its own to fewer realizations."""
+        """Every case is one that rsc takes, and a study script shortens each of its own to fewer
+        realizations."""
         files = sorted(glob.glob(os.path.join(PROJECT, "input", "**", "*.nml"), recursive=True))
         self.assertGreater(len(files), 20)
         for file in files:
@@ -90,14 +98,36 @@ class Readme(unittest.TestCase):
     def test_pictures(self):
         """output/README explains every picture of plot.py once, and no other."""
         text = read("output", "README")
-        block = text[text.index("    load  ") : text.index("A picture is drawn")]
+        block = text[text.index("\nload  ") : text.index("A picture is drawn")]
         named = [
             word
             for line in block.splitlines()
-            for name in re.findall(r"^    ([a-z]+(?:, [a-z]+)*)  ", line)
+            for name in re.findall(r"^([a-z]+(?:, [a-z]+)*)  ", line)
             for word in name.split(", ")
         ]
         self.assertEqual(sorted(named), sorted(plot.PICTURES))
+
+    def test_pages(self):
+        """Every page is reStructuredText without errors, no line longer than 80 columns."""
+        pages = glob.glob(os.path.join(PROJECT, "*", "README"))
+        for page in [*pages, *(os.path.join(PROJECT, p) for p in ("README", "CHANGELOG"))]:
+            text = read(page)
+            self.assertEqual([line for line in text.splitlines() if len(line) > 80], [], page)
+            if docutils:
+                told = io.StringIO()
+                settings = {"warning_stream": told, "report_level": 2}
+                docutils.core.publish_doctree(text, settings_overrides=settings)
+                self.assertEqual(told.getvalue(), "", page)
+
+    def test_files(self):
+        """Every file that src/README names exists."""
+        rooms = "|".join(d for d in os.listdir(os.path.join(PROJECT, "src")) if "." not in d)
+        names = re.findall(rf"(?<![\w/])((?:{rooms})/[a-z_0-9/]+)(?![\w/])", read("src", "README"))
+        self.assertGreater(len(names), 60)
+        gone = [
+            n for n in names if not glob.glob(os.path.join(PROJECT, "src", n.rstrip("/")) + "*")
+        ]
+        self.assertEqual(gone, [])
 
     def test_commands(self):
         """The commands of output/README are ones that plot.py and law.py take."""

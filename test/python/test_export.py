@@ -66,7 +66,7 @@ class Tables(InFolder):
         np.testing.assert_array_equal(status, [0, 2, 1])
         # Over realizations the gravest: 4 before 1 before 3 before 2.
         path = result(self.folder, "grave", [(1, 2, 0, 3), (2, 3, 1, 4)], area=np.ones((2, 4)))
-        for worst in (table.Table(path).status, plot_results.Result(path).level_status()[0]):
+        for worst in (table.Table(path).status, plot_results.Result(path).level_status()):
             np.testing.assert_array_equal(worst, [1, 3, 1, 4])
         self.assertTrue(
             np.all(
@@ -226,7 +226,7 @@ class Studies(InFolder):
             text, "https?:"
         )  # nothing is fetched; pictures in base64 may contain "http", but no colon
         self.assertGreater(text.count("data:image/png;base64,iVBOR"), 2)
-        for word in ("out of validity", "Yastrebov", "rsc 0.", "0.02"):
+        for word in ("with doubts: ", "Yastrebov", "rsc 0.", "0.02"):
             self.assertIn(word, text)
 
 

@@ -20,7 +20,8 @@ class Guest(InFolder):
     def test_interrupt(self):
         # Levels of elements that would take minutes.
         case = rsc.Case(
-            "&surface L_lambda_l=2 L_lambda_s=16 / &solver model='elements' tolerance=1e-9 / &elements points_per_wave=8 / &indentation start=2 stop=-2 steps=20000 /"
+            "&surface L_lambda_l=2 L_lambda_s=16 / &solver model='elements' tolerance=1e-9 /"
+            "&elements points_per_wave=8 / &indentation start=2 stop=-2 steps=20000 /"
         )
         seen = []
 
@@ -33,8 +34,9 @@ class Guest(InFolder):
             case.run(self.path("long.nc"), progress)
         self.assertEqual(os.listdir(self.folder), [])
 
-        # Also while nothing else happens; the call of the library has ended then, not only the waiting for it.
-        ended, call = [], rsc._call
+        # Also while nothing else happens; the call of the library has ended then, not only the
+        # waiting for it.
+        ended, call = [], rsc._case._call
 
         def noted(function, *values):
             try:
@@ -43,7 +45,7 @@ class Guest(InFolder):
                 ended.append(function)
 
         threading.Timer(1, os.kill, (os.getpid(), signal.SIGINT)).start()
-        with unittest.mock.patch("rsc._call", noted), self.assertRaises(KeyboardInterrupt):
+        with unittest.mock.patch("rsc._case._call", noted), self.assertRaises(KeyboardInterrupt):
             case.run(self.path("long.nc"))
         self.assertIn("rsc_case_run_watched", ended)
 

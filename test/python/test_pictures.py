@@ -1,7 +1,8 @@
-"""The pictures of plot.py: the numbers that they hand to matplotlib, computed here from the variables of the file; and that every picture is drawn.
+"""The pictures of plot.py: the numbers that they hand to matplotlib, computed here from the
+variables of the file; and that every picture is drawn.
 
-usage: test_pictures.py FOLDER_OF_PLOT        (RSC_PROGRAM in the environment: the program that makes the results)
-"""
+usage: test_pictures.py FOLDER_OF_PLOT        (RSC_PROGRAM in the environment: the program that
+makes the results) """
 import contextlib
 import functools
 import io
@@ -21,9 +22,11 @@ import numpy as np
 PLOT = sys.argv.pop(1)
 sys.path.insert(0, PLOT)
 import plot  # noqa: E402
+import plot_adhesion  # noqa: E402
 import plot_compare  # noqa: E402
 import plot_curves  # noqa: E402
 import plot_python  # noqa: E402
+import plot_spots  # noqa: E402
 import plot_style  # noqa: E402
 from plot_results import Looks, Result, names  # noqa: E402
 from plot_style import plt  # noqa: E402
@@ -34,7 +37,10 @@ SMALL = "&surface n=128 L_lambda_l=4 L_lambda_s=16 sigma=0.01 / "
 CASES = {
     "one": SURFACE
     + BALL
-    + "&indentation centre=500.0,680.0 start=5.0 stop=0.0 steps=26 / &output map_cells=23 heights=.true. pdf_levels=0.0,0.6 /",
+    + (
+        "&indentation centre=500.0,680.0 start=5.0 stop=0.0 steps=26 / &output map_cells=23 "
+        "heights=.true. pdf_levels=0.0,0.6 /"
+    ),
     "many": SURFACE.replace("REALIZATIONS", "realizations=5")
     + BALL
     + "&indentation start=3.5 stop=0.5 steps=13 / &output map_cells=21 /",
@@ -42,34 +48,73 @@ CASES = {
     + BALL.replace("resistivity", "friction=0.3 resistivity")
     + "&indentation centre=500.0,680.0 start=3.0 stop=1.0 steps=41 /",
     "back": SMALL
-    + "&solver model='asperities' / &solids hardness=1.5e4 / &indentation levels=2.5,2,1.5,1,1.2,1.4,1.6,1.8 /",
+    + (
+        "&solver model='asperities' / &solids hardness=1.5e4 / &indentation "
+        "levels=2.5,2,1.5,1,1.2,1.4,1.6,1.8 /"
+    ),
     "compared": SMALL
-    + "&asperities law='fourth_order' / &indentation levels=2.0,1.5,1.0 / &compare levels=2.0,1.0 /",
+    + (
+        "&asperities law='fourth_order' / &indentation levels=2.0,1.5,1.0 / &compare "
+        "levels=2.0,1.0 /"
+    ),
     "above": SMALL + "&indentation levels=9.0 / &compare levels=9.0 /",
     "elements": SMALL
-    + "&solver model='elements' / &indentation control='force' start=1.0 stop=20.0 steps=3 spacing='log' /",
+    + "&solids hardness=2e3 / &solver model='elements' / &output fields='contact','heights' /"
+    "&indentation control='force' start=1.0 stop=20.0 steps=3 spacing='log' /",
+    "tiles": SMALL + "&solver model='elements' / &solids R=Infinity,Infinity friction=0.2 /"
+    "&indentation boundary='periodic' control='pressure' unit='relative' levels=0.02,0.2 /",
+    "line": SMALL + "&indenter shape='paraboloid' radii=5.0,Infinity / &solver model='elements' /"
+    "&indentation boundary='periodic_y' control='force' levels=5,50 / &solids friction=0.1 /"
+    "&output fields='pressure','traction' field_levels=50 /",
+    "pulled": SMALL.replace("0.01", "0.0001") + "&run realizations=3 /"
+    "&solids E=2,Infinity R=Infinity,5 adhesion=2e-5 / &indentation levels=3,1,0,1,3,9 /"
+    "&study surface%sigma=1e-4,2e-4,4e-4 /",
     "pressed": "&surface n=128 L_lambda_l=4 L_lambda_s=32 sigma=0.0009 / &solids R=Infinity,Infinity / &run realizations=3 /"
     "&indentation boundary='periodic' control='pressure' unit='relative' levels=0.001,0.004,0.01 /",
     "study": SURFACE
     + BALL
-    + "&indentation start=2.0 stop=0.5 steps=4 / &study surface%sigma=5.0,10.0,20.0 surface%hurst=0.5,0.8 /",
+    + (
+        "&indentation start=2.0 stop=0.5 steps=4 / &study surface%sigma=5.0,10.0,20.0 "
+        "surface%hurst=0.5,0.8 /"
+    ),
     "laws": SURFACE
     + BALL
-    + "&indentation levels=1.0,0.5 / &study asperities%law='hertz','fourth_order' surface%sigma=5.0,10.0,20.0 /",
+    + (
+        "&indentation levels=1.0,0.5 / &study asperities%law='hertz','fourth_order' "
+        "surface%sigma=5.0,10.0,20.0 /"
+    ),
     "forced": SMALL
     + "&indentation control='force' levels=1.0,10.0 / &study run%seed=1,2,3,4,5,6,7,8,9,10,11,12 /",
     "cone": SMALL
-    + "&solids hardness=1.5e4 / &indenter shape='cone' slope=0.05 / &indentation control='force' levels=0.1,1,10,1 /",
+    + (
+        "&solids hardness=1.5e4 / &indenter shape='cone' slope=0.05 / &indentation "
+        "control='force' levels=0.1,1,10,1 /"
+    ),
     "creep": SMALL
-    + "&solids relaxation_share=0.5 relaxation_time=1.0 / &indentation control='force' levels=1,1,1,1 times=0,1,10,100 /",
+    + (
+        "&solids relaxation_share=0.5 relaxation_time=1.0 / &indentation control='force' "
+        "levels=1,1,1,1 times=0,1,10,100 /"
+    ),
     "keys": SMALL
-    + "&indentation levels=1.0 / &study surface%sigma=0.01,0.02,0.03 surface%hurst=0.5,0.8 asperities%law='hertz','elliptic' /",
+    + (
+        "&indentation levels=1.0 / &study surface%sigma=0.01,0.02,0.03 surface%hurst=0.5,0.8 "
+        "asperities%law='hertz','elliptic' /"
+    ),
     "stuck": SMALL.replace("0.01", "0.001")
-    + "&solids E=2,Infinity R=Infinity,Infinity adhesion=2e-5 / &indentation boundary='periodic' levels=3.5,3,2.5,2,1.5,2,2.5,3,3.5 /",
+    + (
+        "&solids E=2,Infinity R=Infinity,Infinity adhesion=2e-5 / &indentation "
+        "boundary='periodic' levels=3.5,3,2.5,2,1.5,2,2.5,3,3.5 /"
+    ),
     "attracted": SMALL.replace("0.01", "0.001")
-    + "&solids E=2,Infinity R=Infinity,5 adhesion=1e-5 adhesion_range=0.02 / &solver model='elements' / &indentation levels=3,2,1,0 / &run realizations=3 /",
+    + (
+        "&solids E=2,Infinity R=Infinity,5 adhesion=1e-5 adhesion_range=0.02 / &solver "
+        "model='elements' / &indentation levels=3,2,1,0 / &run realizations=3 /"
+    ),
     "worn": SMALL.replace("0.01", "0.001")
-    + "&solids E=210e3,Infinity nu=0.3,0.0 R=Infinity,Infinity hardness=3e3 / &asperities law='fourth_order' / &indentation boundary='periodic' levels=2,1.2,1.5,2 /",
+    + (
+        "&solids E=210e3,Infinity nu=0.3,0.0 R=Infinity,Infinity hardness=3e3 / &asperities "
+        "law='fourth_order' / &indentation boundary='periodic' levels=2,1.2,1.5,2 /"
+    ),
     "map": "&surface source='heights' file='HEIGHTS' / &solids R=Infinity,9000.0 / &indentation levels=1.5,1.0,0.5 / &output heights=.true. /",
 }
 TO_SI = {
@@ -123,7 +168,8 @@ def setUpModule():
 
 @functools.cache
 def raw(name):
-    """{variable: doubles in SI units} of a file, and {(variable, attribute): value} as it stands there."""
+    """{variable: doubles in SI units} of a file, and {(variable, attribute): value} as it stands
+    there."""
     with netCDF4.Dataset(path(name)) as file:
         values = {}
         for key, v in file.variables.items():
@@ -174,7 +220,8 @@ class Drawn(unittest.TestCase):
         return figure
 
     def check_texts(self, figure):
-        """All texts that are drawn and the legends are within the figure, and no two texts overlap; a pixel of the rounded boxes is allowed."""
+        """All texts that are drawn and the legends are within the figure, and no two texts overlap;
+        a pixel of the rounded boxes is allowed."""
         texts = []
 
         def draw(text, renderer):
@@ -234,14 +281,10 @@ class Numbers(Drawn):
         for name in ("one", "many"):
             v, _ = raw(name)
             at = np.flatnonzero(v["force"].mean(axis=0) > 0)
-            z, force, area = (
-                v["separation_sigma"],
-                v["force"].mean(axis=0),
-                v["contact_area"].mean(axis=0),
-            )
+            force, area = v["force"].mean(axis=0), v["contact_area"].mean(axis=0)
             load = self.figure("load", name)
             for quantity in ("force", "contacts"):
-                self.has_curve(load, z[at], v[quantity].mean(axis=0)[at])
+                self.has_curve(load, -v["separation"][at], v[quantity].mean(axis=0)[at])
             self.has_curve(self.figure("area", name), force[at], area[at])
             if name == "many":  # the band
                 ends = (
@@ -249,7 +292,7 @@ class Numbers(Drawn):
                     .get_paths()[0]
                     .vertices
                 )
-                drawn = ends[np.isclose(ends[:, 0], z[at[-1]])][:, 1]
+                drawn = ends[np.isclose(ends[:, 0], -v["separation"][at[-1]])][:, 1]
                 self.assertTrue(
                     np.allclose(
                         [drawn.min(), drawn.max()], np.percentile(v["force"][:, at[-1]], [16, 84])
@@ -309,7 +352,8 @@ class Numbers(Drawn):
         )
 
     def test_cone(self):
-        """A smooth cone carries the mean pressure E* slope/2; Hertz' pressures are of spheres. Levels before yielding have smaller forces."""
+        """A smooth cone carries the mean pressure E* slope/2; Hertz' pressures are of spheres.
+        Levels before yielding have smaller forces."""
         v, _ = raw("cone")
         area = self.figure("area", "cone")
         x, y = next(
@@ -340,7 +384,8 @@ class Numbers(Drawn):
         )
 
     def test_names_of_levels(self):
-        """Levels under one force are told apart by their times; members of a study by all keys that vary."""
+        """Levels under one force are told apart by their times; members of a study by all keys that
+        vary."""
         texts = [
             text.get_text()
             for text in self.figure("radial", "creep").axes[-1].get_legend().get_texts()
@@ -380,7 +425,7 @@ class Numbers(Drawn):
         v, _ = raw("attracted")
         self.assertTrue((v["force"] < 0).all() and not v["contact_area"][:, 0].any())
         figure = self.figure("load", "attracted")
-        self.has_curve(figure, v["separation_sigma"], v["force"].mean(axis=0))
+        self.has_curve(figure, -v["separation"], v["force"].mean(axis=0))
         ends = (
             next(c for c in figure.axes[0].collections if c.get_gid() == "scatter")
             .get_paths()[0]
@@ -394,12 +439,13 @@ class Numbers(Drawn):
         )
 
     def test_errors(self):
-        """Where the abscissa turns back, errors are bars. An error of many times the value goes out of the picture."""
+        """Where the abscissa turns back, errors are bars. An error of many times the value goes out
+        of the picture."""
         page = types.SimpleNamespace(entry=lambda *words, **looks: None)
         x, y = np.array([0.0, -1.0, 2.0, 3.0]), np.array([1.0, 2.0, 4.0, 5.0])
         figure, (back, large) = plt.subplots(1, 2)
         self.addCleanup(plt.close, figure)
-        plot_curves.error_band(page, back, x, y, np.full(4, 0.5), "error", color="r")
+        plot_curves.error_band(page, back, x, y, 0.5 * y, "error", color="r")
         self.assertTrue(
             np.allclose(
                 back.collections[0].get_segments(),
@@ -407,7 +453,7 @@ class Numbers(Drawn):
             )
         )
         large.plot(np.sort(x), y)
-        plot_curves.error_band(page, large, np.sort(x), y, np.full(4, 5.0), "error", color="r")
+        plot_curves.error_band(page, large, np.sort(x), y, 5 * y, "error", color="r")
         end = large.collections[0].get_paths()[0].vertices[:, 1].max()
         self.assertTrue(y.max() < large.get_ylim()[1] < 2.2 * y.max() < end)
 
@@ -517,11 +563,87 @@ class Numbers(Drawn):
             (yields, v["contact_count"][3] - yields),
         )
 
+    def test_pixels(self):
+        """The contact of elements is drawn at its own pixels, those that yield in another colour;
+        the windows are within the surface, and the largest spot is in the right one."""
+        v, _ = raw("elements")
+        mask = v["contact_mask"][2] > 0
+        i, j = (np.searchsorted(v["field_" + a], v["mask_" + a] - 1e-12) for a in "xy")
+        field = v["field_contact"][0]
+        self.assertEqual(field.sum(), mask.sum())
+        pixel = np.prod([v["mask_" + a][1] - v["mask_" + a][0] for a in "xy"])
+        self.assertAlmostEqual(mask.sum() * pixel / v["contact_area_pixels"][0, 2], 1, 9)
+        self.assertTrue((field[np.ix_(j, i)] == mask).all())
+        yields = v["contact_mask"][2] == 2
+        self.assertTrue(0 < yields.sum() < mask.sum())
+        for picture in ("spots", "map"):
+            figure = self.figure(picture, "elements")
+            image = [
+                image.get_array()
+                for axis in figure.axes
+                for image in axis.get_images()
+                if image.get_gid() == "pixels"
+            ][-1]
+            colours = [plt.matplotlib.colors.to_rgba(c) for c in ("#d62728", "#f2b400")]
+            for colour, pixels in zip(colours, (mask & ~yields, yields)):
+                self.assertTrue(((image == colour).all(axis=-1) == pixels).all())
+        for name in ("elements", "tiles", "line"):
+            w, _ = raw(name)
+            side, cell = 1e-3, float(w["mask_x"][1] - w["mask_x"][0]) * 1e-3
+            for axis in self.figure("spots", name).axes[:2]:
+                for low, high in (axis.get_xlim(), axis.get_ylim()):
+                    self.assertTrue(-1e-9 < low < high < side + 1e-9, (name, low, high))
+        # Three spots, of which the ring is the largest and the one inside nearest to its centre.
+        drawn = np.zeros((12, 20), int)
+        drawn[2:9, 3:10], drawn[3:8, 4:9], drawn[5, 6], drawn[1:4, 15:17] = 1, 0, 2, 1
+        rows, columns = plot_spots.spot_at(drawn, 24, 5.4, 6.4)
+        self.assertEqual(rows.size, 24)
+        self.assertEqual([rows.min(), rows.max(), columns.min(), columns.max()], [2, 8, 3, 9])
+
+    def test_smooth_bodies(self):
+        """Hertz beside the load, Holm beside the resistance, JKR beside the pull-off, and the half
+        width of a smooth cylinder, by their closed forms."""
+        v, _ = raw("one")
+        R, E = float(v["r_star"]), float(v["e_star"])
+        result = results("one")[0]
+        a = np.sqrt(R * 1e-6)  # the contact radius at an approach of 1 um
+        self.assertAlmostEqual(
+            plot_curves.hertz_force(result, 1e-6) / (4 * E * a**3 / (3 * R)), 1, delta=1e-12
+        )
+        at = np.flatnonzero(v["force"][0] > 0)
+        spot = np.sqrt(v["contact_area"][0, at] / np.pi)
+        holm = 5.0e-5 * 1e-6 / (4 * spot)
+        self.has_curve(self.figure("resistance", "one"), v["force"][0, at], holm)
+        w, ball = 2e-5 * 1e3, results(*members("pulled", 3))[0]
+        force, _ = plot_adhesion.jkr(ball)
+        self.assertAlmostEqual(-force.min() / (1.5 * np.pi * w * float(ball["r_star"])), 1, 5)
+        line, u = results("line")[0], raw("line")[0]
+        b = np.sqrt(4 * 50e3 * 5e-3 / (np.pi * float(u["e_star"])))
+        self.assertAlmostEqual(line.half_width(1) / b, 1, delta=1e-3)
+        marks = [
+            axis_line.get_xdata()[0]
+            for axis_line in self.figure("spots", "line").axes[0].get_lines()
+            if axis_line.get_linestyle() == "--"
+        ]
+        self.assertAlmostEqual((marks[1] - marks[0]) / (2 * b), 1, delta=1e-3)
+        self.figure("stick", "line")
+
+    def test_pull_off(self):
+        files = members("pulled", 3)
+        figure = self.figure("pulloff", *files)
+        found = [raw(name)[0]["pull_off_force"] for name in files]
+        self.has_curve(figure, np.array([1e-4, 2e-4, 4e-4]), -np.array([f.mean() for f in found]))
+        bars = next(c for c in figure.axes[0].collections if c.get_gid() == "bars")
+        spread = [np.ptp(segment[:, 1]) / 2 for segment in bars.get_segments()]
+        self.assertTrue(np.allclose(spread, [f.std(ddof=1) / np.sqrt(3) for f in found]))
+        self.figure("pull", *files)
+
     def test_friction(self):
         v, _ = raw("slid")
         figure = self.figure("loop", "slid", step=40)
         self.has_curve(figure, v["tangential_displacement"][39], v["tangential_force"][39])
-        # The smooth sphere by Mindlin: full slip at (mu N/k)(3/2), k the tangential stiffness of its contact.
+        # The smooth sphere by Mindlin: full slip at (mu N/k)(3/2), k the tangential stiffness of
+        # its contact.
         N, R, E = v["force_mean"][39], float(v["r_star"]), float(v["e_star"])
         m = (
             ((1 - 0.42**2) / 78 + (1 - 0.3**2) / 200)
@@ -537,7 +659,8 @@ class Numbers(Drawn):
         )
 
     def test_not_converged(self):
-        """Maps and radial means have nothing of a level that did not converge: the last one that did is drawn."""
+        """Maps and radial means have nothing of a level that did not converge: the last one that
+        did is drawn."""
         shutil.copy(path("one"), path("failed"))
         with netCDF4.Dataset(path("failed"), "a") as file:
             file["status"][:, -2:] = 4
@@ -653,6 +776,14 @@ class Numbers(Drawn):
             np.array([0.01, 0.02, 0.03]),
             np.array([raw(file)[0]["force"][0, -1] for file in members("keys", 12)[1::4]]),
         )
+        at_load = plot.PICTURES["study"](
+            results(*members("forced", 12)), plot.Options(180.0, at=10.0, say=print)
+        )
+        self.addCleanup(plt.close, at_load)
+        seeds = np.arange(1.0, 13.0)
+        for name in ("contact_area", "contacts"):  # 10 N is the second level
+            values = [raw(file)[0][name][0, 1] for file in members("forced", 12)]
+            self.has_curve(at_load, seeds, np.array(values))
         forced = self.figure(
             "study", *members("forced", 12)
         )  # the force is the same everywhere: the separation is drawn instead
@@ -766,7 +897,8 @@ class Command(unittest.TestCase):
             )
 
     def test_python_without_modules(self):
-        """-S leaves out where the modules are: the script goes on with a Python that has them; where there is none it names the packages."""
+        """-S leaves out where the modules are: the script goes on with a Python that has them;
+        where there is none it names the packages."""
         words = [
             sys.executable,
             "-S",

@@ -1,7 +1,8 @@
-"""Runs every example of a README: the blocks indented by four spaces that begin as a Python, Fortran or C program does.
+"""Runs every example of modules/README: the blocks indented by four spaces that begin as a Python,
+Fortran or C program does. Its table names every procedure of rsc.f90 and subroutine of rsc77.c.
 
-usage: test_readme.py README          in a folder of its own; RSC_FORTRAN, RSC_C in the environment: how to compile, with the flags
-"""
+usage: test_readme.py README          in a folder of its own; RSC_FORTRAN, RSC_C in the environment:
+how to compile, with the flags"""
 import os
 import re
 import shlex
@@ -48,6 +49,19 @@ def commands(language, program, folder):
     return [[compiler, path, "-o", binary, *flags], [binary]]
 
 
+def unnamed(readme, text):
+    """Calls of the Fortran modules that the table does not have."""
+    folder = os.path.dirname(readme)
+    sources = ""
+    for name in ("rsc.f90", "rsc77.c", "generated/rsc77.inc"):
+        with open(os.path.join(folder, name), encoding="utf-8") as file:
+            sources += file.read()
+    table = text[text.index("\nAll calls\n") :]
+    names = re.findall(r"^    (?:procedure|generic) :: (\w+) => ", sources, re.M)
+    names += [name.upper() for name in re.findall(r"^RSC_API void (rsc\w+)_\(", sources, re.M)]
+    return sorted({name for name in names if not re.search(rf"\b{name}\(", table)})
+
+
 def main():
     failed, count = 0, {}
     with open(sys.argv[1], encoding="utf-8") as readme:
@@ -59,7 +73,8 @@ def main():
         with tempfile.TemporaryDirectory() as folder:
             for command in commands(language, program, folder):
                 done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-                # An example shows something: it prints, nothing that is no number, and no messages of HDF5.
+                # An example shows something: it prints, nothing that is no number, and no messages
+                # of HDF5.
                 shown = done.stdout.strip() or command[0] != command[-1] and language != "python"
                 made = len(os.listdir(folder)) > 1
                 if (
@@ -69,12 +84,14 @@ def main():
                     or "HDF5" in done.stderr
                 ):
                     print(
-                        f"line {number}, {language}: status {done.returncode}\n{done.stdout}{done.stderr}"
+                        f"line {number}, {language}: status {done.returncode}\n"
+                        f"{done.stdout}{done.stderr}"
                     )
                     failed += 1
                     break
-    print(f"examples run: {count}; {failed} failed")
-    sys.exit(1 if failed or count.get("python", 0) < 8 else 0)
+    missing = unnamed(sys.argv[1], text)
+    print(f"examples run: {count}; {failed} failed; calls not in the table: {missing}")
+    sys.exit(1 if failed or missing or count.get("python", 0) < 8 else 0)
 
 
 main()

@@ -1,4 +1,5 @@
-"""What rsc.py has beyond the calls of the C interface (test/calls): arrays, curves, lifetimes, threads, studies, result files, documentation."""
+"""What the Python package has beyond the calls of the C interface (test/calls): arrays, curves,
+lifetimes, threads, studies, result files, documentation."""
 import gc
 import math
 import os
@@ -67,6 +68,7 @@ class Values(unittest.TestCase):
             contact.tpi = (0.0, 1.0)
         contact.close()
         self.assertIn("closed", repr(contact))
+        self.assertIn("no result", repr(one_asperity()))
         self.assertEqual(rsc.__version__, rsc.version())
 
     def test_cases(self):
@@ -134,6 +136,18 @@ class Values(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "separations"):
             contact.curve()
 
+    def test_deflection_is_broadcast(self):
+        """Rows and columns make the map that their full grids make."""
+        contact = one_asperity()
+        contact.indent(-U)
+        x, y = np.linspace(-0.1, 0.1, 5), np.linspace(-0.2, 0.2, 3)
+        whole = contact.deflection(*(np.ascontiguousarray(a) for a in np.meshgrid(x, y)))
+        self.assertTrue(np.array_equal(contact.deflection(x[None, :], y[:, None]), whole))
+        self.assertTrue(np.array_equal(contact.deflection(x, 0.2), whole[2]))
+        self.assertEqual(contact.deflection(0.0, 0.0), whole[1, 2])
+        with self.assertRaisesRegex(ValueError, "y: "):
+            contact.deflection(x, y)
+
 
 class Lifetimes(unittest.TestCase):
     def test_close(self):
@@ -157,7 +171,8 @@ class Lifetimes(unittest.TestCase):
                 use()
 
     def test_garbage(self):
-        """What nobody holds is given back: the number of live handles, not the machine's memory, which other tests share."""
+        """What nobody holds is given back: the number of live handles, not the machine's memory,
+        which other tests share."""
         before = sum(isinstance(o, rsc.Asperities) for o in gc.get_objects())
         for _ in range(50):
             rsc.Contact.from_case(rsc.Asperities.take([0.0], [0.0], [0.0], [1.0])).indent(-0.1)
@@ -166,8 +181,9 @@ class Lifetimes(unittest.TestCase):
 
 class Threads(unittest.TestCase):
     def test_readers_and_writers(self):
-        """On one object, calls that read are in the library together, and one that changes it is there alone."""
-        contact, library = one_asperity(), rsc._library
+        """On one object, calls that read are in the library together, and one that changes it
+        is there alone."""
+        contact, library = one_asperity(), rsc._library.library
         contact.indent(-U)
         meeting = threading.Barrier(2, timeout=30)
         inside, alone = [0], []
@@ -197,7 +213,7 @@ class Threads(unittest.TestCase):
             except Exception as error:
                 wrong.append(error)
 
-        rsc._library = Watched()
+        rsc._library.library = Watched()
         try:
             threads = [
                 threading.Thread(target=guarded, args=(work, 5))
@@ -218,7 +234,7 @@ class Threads(unittest.TestCase):
             for t in threads[:1] + threads[3:]:
                 t.join()
         finally:
-            rsc._library = library
+            rsc._library.library = library
         self.assertEqual(wrong, [])
         self.assertEqual(alone, [True] * 10)
 
@@ -260,6 +276,31 @@ class Files(InFolder):
         self.assertTrue(np.array_equal(data["force"].values, plain["force"]))
         self.assertIn("separation", data.coords)
         self.assertIn("case", data.attrs)
+
+    def test_resumed(self):
+        """A campaign that is stopped and resumed, or extended, has the forces of one run."""
+        self.case.update({"run": {"realizations": 60, "threads": 1}, "surface%n": 1024})
+        whole = rsc.read(self.case.run(self.path("whole.nc")), xarray=False)
+
+        def stop(done, total):
+            if done >= 1:
+                raise InterruptedError
+
+        with self.assertRaises(InterruptedError):
+            self.case.run(self.path("part.nc"), stop)
+        self.assertTrue(os.path.exists(self.path("part.nc.checkpoint")))
+        part = rsc.read(self.case.run(self.path("part.nc"), resume=True), xarray=False)
+        self.assertTrue(np.array_equal(part["force"], whole["force"]))
+        case = rsc.Case(self.path_of_case())
+        case["run%realizations"] = 62
+        more = rsc.read(case.run(self.path("whole.nc"), resume=True), xarray=False)
+        self.assertEqual(more["force"].shape[0], 62)
+        self.assertTrue(np.array_equal(more["force"][:60], whole["force"]))
+
+    def path_of_case(self):
+        with open(self.path("case.nml"), "w") as file:
+            file.write(str(self.case))
+        return self.path("case.nml")
 
     def test_failures(self):
         with self.assertRaises(rsc.Error) as unread:

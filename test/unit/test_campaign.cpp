@@ -248,8 +248,8 @@ std::string other_value(const Key& key, const std::string& value) {
     if (std::string(key.name) == "force_unit") return "'kN'";
     if (std::string(key.name) == "time_unit") return "'ms'";
     if (std::string(key.name) == "height_unit") return "'um'";
-    if (std::string(key.name) == "times" || std::string(key.name) == "stress_depths")
-        return "1.25, 2.75";
+    for (const std::string_view rises : {"times", "distances", "stress_depths"})
+        if (key.name == rises) return "1.25, 2.75";
     if (std::string(key.name) == "relaxation_share") return "0.25, 0.375";
     if (key.type == Type::string || key.type == Type::choice) return "'another'";
     if (key.type != Type::real)

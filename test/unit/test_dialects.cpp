@@ -57,6 +57,44 @@ TEST(test_sides_in_comments) {
     REFUSED(text_map(header + kRows, {"", 0.5}), "a comment says that the map is 0.006 um wide");
 }
 
+// Gwyddion writes its header in the language of its user. The unit of the heights (m) is another
+// than that of the sides (um), which is the unit of the case.
+TEST(test_headers_in_other_languages) {
+    const std::array<std::array<const char*, 3>, 5> languages = {{
+        {"Breite:", "H\xc3\xb6he:", "Einheiten:"},
+        {"Largeur :", "Hauteur :", "Unit\xc3\xa9s :"},
+        {"Larghezza:", "Altezza:", "unit\xc3\xa0 valore:"},
+        {"\xe5\xb9\x85:", "\xe9\xab\x98\xe3\x81\x95\xef\xbc\x9a",
+         "\xe5\x80\xa4\xe3\x81\xae\xe5\x8d\x98\xe4\xbd\x8d:"},
+        {"\xd0\xa8\xd0\xb8\xd1\x80\xd0\xb8\xd0\xbd\xd0\xb0:",
+         "\xd0\x92\xd1\x8b\xd1\x81\xd0\xbe\xd1\x82\xd0\xb0:",
+         "\xd0\x95\xd0\xb4\xd0\xb8\xd0\xbd\xd0\xb8\xd1\x86\xd1\x8b:"},
+    }};
+    for (const auto& [width, height, unit] : languages) {
+        const auto header = [&](const char* value) {
+            return std::string("# Kanal: Topography\n# ") + width + " 10.00 \xc2\xb5m\n# " +
+                   height + " 6.00 \xc2\xb5m\n# " + unit + value + "\n" + kRows;
+        };
+        const HeightMap map = text_map(header(" m"), {});
+        CHECK(map(0, 0) == 1e6);
+        CHECK_RELATIVE(map.dx, 2, 1e-12);
+        CHECK_RELATIVE(map.dy, 2, 1e-12);
+        for (const char* const other : {" V", ""})
+            REFUSED(text_map(header(other), {}), "is no unit of length");
+    }
+    // A unit alone after a colon is not passed over either, whatever stands before.
+    const std::string alone = std::string("# Einheit: m\n") + kRows;
+    REFUSED(text_map(alone), "surface%height_unit, the unit of the heights, must be given");
+    CHECK(text_map(alone, {"um", 0.5})(0, 0) == 1);
+    // The height of the map counts also where its width is given, and contradicts square points.
+    const std::string high = "# Width: 5 um\n# Height: 6 um\n# Value units: um\n";
+    const HeightMap map = read_heights(folder.write("t", high + kRows), 5.0, "um", "",
+                                       Missing::refuse, TextMap{}, nullptr);
+    CHECK_RELATIVE(map.dx, 1, 1e-12);
+    CHECK_RELATIVE(map.dy, 2, 1e-12);
+    REFUSED(text_map(high + kRows, {"", 1.0}), "a comment says that the map is 6 um high");
+}
+
 TEST(test_empty_cells) {
     const auto missing = [](const std::string& text) {
         const HeightMap map = text_map(text, {"", 0.5}, Missing::fill);

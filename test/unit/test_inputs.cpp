@@ -140,6 +140,9 @@ TEST(heights_from_text) {
             "and give an ESRI grid's cellsize as surface%pixel");
     REFUSED(read_heights(write("t", "\\*File list\r\n\\Version: 7\r\n"), 1.0),
             "t:1: the head of an instrument's file. Gwyddion reads");
+    const std::string late = std::string(3000, '\n') + "1 2 3\n" + std::string(3, '\0');
+    REFUSED(read_heights(write("t", "[DataSet]\n" + std::string(3000, '\n') + late), 1.0),
+            "t:1: the head of an instrument's file. Gwyddion reads");
     CHECK(read_heights(write("t", "nan 2 3 4 5\n4 5 6 7 8\n7 8 9 1 2\n"), 1.0, "um", "",
                        Missing::fill)(2, 2) == 9);
     REFUSED(read_heights(write("t", "1 2 3 1\n4 5 6 1\n7 8 9 1\n"), 1.0),

@@ -203,6 +203,14 @@ TEST(sdf) {
     check_sample(
         in_micrometres(write("t.sdf", sdf_binary(map, 5, 1e-9, i16, "bBCR-1.0") + "a trailer")),
         -1);
+    // BCR also marks a missing point by the largest value; in ISO this is a height.
+    for (const std::int16_t mark : {std::int16_t{-32768}, std::int16_t{32767}})
+        for (const char* const version : {"bBCR-1.0", "bISO-1.0"}) {
+            const auto values = values_of<std::int16_t>(map, 1e-9, mark, true);
+            const std::string path = write("t.sdf", sdf_binary(map, 5, 1e-9, values, version));
+            const bool missing = mark < 0 || version[1] == 'B';
+            CHECK(std::isnan(in_micrometres(path, "", Missing::fill)(4, 2)) == missing);
+        }
     // Olympus: eight bytes more in the header.
     std::string olympus = sdf_binary(map, 5, 1e-9, i16);
     olympus.insert(81, bytes(std::uint32_t{5}) + bytes(std::uint32_t{1}));

@@ -156,7 +156,8 @@ TEST(test_edges) {
     Accumulators sums(options, 2);
     sums.add(observe(options, 1, {}, {Level{}, Level{}}));
     Result r = make_result(c, "", flat, 0, std::nullopt, sums.finish());
-    keep_contacts(r, {Level{}, Level{}}, Contacts::all);
+    std::vector<Level> levels{Level{}, Level{}};
+    keep_contacts(r, levels, Contacts::all);
     write_result(r, folder / "empty.nc", {});
     const Reader file(folder / "empty.nc");
     CHECK(file.values("contact_count") == (std::vector<double>{0, 0}) &&

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/format.hpp"
 #include "base/parallel.hpp"
+#include "elements/connected_pixels.hpp"
 #include "elements/pixel_spots.hpp"
 #include "physics/adhesion/adhesive_elements.hpp"
 

@@ -95,6 +95,36 @@ inline void contacts(CheckedFile& f, const Truth& t) {
         }
 }
 
+// The pixels in contact at every stored level, with those that yield, and no others.
+inline void contact_mask(CheckedFile& f, const Truth& t) {
+    if (!f.has("contact_mask")) {
+        for (const Contacts2& c : t.contacts[0])
+            CHECK(t.M > 1 || t.c.output.contacts != Contacts::automatic || c.pixels.empty());
+        return;
+    }
+    const Vector x = f.values("mask_x"), y = f.values("mask_y"), mask = f.values("contact_mask");
+    const Vector steps = f.values("mask_step");
+    const auto place = [](const Vector& centres, double at) {
+        const auto next = std::ranges::upper_bound(centres, at) - centres.begin();
+        const auto near = std::max<std::ptrdiff_t>(next - 1, 0);
+        const bool above =
+            next < std::ssize(centres) && centres[static_cast<std::size_t>(next)] - at <
+                                              at - centres[static_cast<std::size_t>(near)];
+        return static_cast<std::size_t>(above ? next : near);
+    };
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+        const Contacts2& c = t.contacts[0][static_cast<std::size_t>(steps[k]) - 1];
+        const auto level = std::span(mask).subspan(k * x.size() * y.size(), x.size() * y.size());
+        std::size_t touching = 0;
+        for (const double flag : level) touching += flag == 1 || flag == 2;
+        CHECK(touching == c.pixels.size());
+        for (const Pixel2& p : c.pixels) {
+            const double flag = level[place(y, p.y) * x.size() + place(x, p.x)];
+            CHECK(flag == (p.p >= t.c.solids.hardness ? 2 : 1));
+        }
+    }
+}
+
 inline void heights(CheckedFile& f, const Truth& t) {
     if (!t.c.output.heights) return CHECK(!f.has("height"));
     const Grid& g = t.heights[0];

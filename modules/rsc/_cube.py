@@ -1,4 +1,5 @@
-"""A study as one cube: its manifest and its members become arrays along the keys that vary. For rsc.py and output/export/cube.py."""
+"""A study as one cube: its manifest and its members become arrays along the keys that vary. For
+rsc.read and output/export/cube.py."""
 
 import os
 from collections import namedtuple
@@ -6,7 +7,8 @@ from collections import namedtuple
 import netCDF4
 import numpy as np
 
-# variables: {name: (dimensions, values, attributes)}; keys: names of the variables with the values of the keys.
+# variables: {name: (dimensions, values, attributes)}; keys: names of the variables with the values
+# of the keys.
 Cube = namedtuple("Cube", "variables keys attributes")
 
 
@@ -24,9 +26,10 @@ def attributes_of(variable):
 
 
 def cube(path, check=lambda path: None):
-    """The Cube of a manifest. Members without a result yet are NaN. Variables of different shape in the members are omitted, as are lists of
-    asperities and contacts; a coordinate that differs between members is stored under its name with '_values'. check is called with the
-    path of each member before it is opened. Raises OSError."""
+    """The Cube of a manifest. Members without a result yet are NaN. Variables of different shape in
+    the members are omitted, as are lists of asperities and contacts; a coordinate that differs
+    between members is stored under its name with '_values'. check is called with the path of each
+    member before it is opened. Raises OSError."""
     with netCDF4.Dataset(path) as file:
         keys = {
             name: (
