@@ -178,6 +178,7 @@ void visit_arrays(Level& level, Visit&& visit) {
     visit("attached_pressed", t.pressed);
     visit("attached_pulled", t.pulled);
     visit("pixel_cohesive", level.pixels.cohesive);
+    visit("pixel_attraction", level.pixels.attraction);
 }
 
 void put_state(Entries& to, const std::string& prefix, const Path::State& state) {
@@ -196,7 +197,7 @@ void put_state(Entries& to, const std::string& prefix, const Path::State& state)
         to.numbers[prefix + "level." + name] = {values.begin(), values.end()};
     });
     const LevelPixels& p = level.pixels;
-    to.numbers[prefix + "level.pixels"] = {double(p.columns), p.x0, p.y0, p.dx, p.dy, p.tension};
+    to.numbers[prefix + "level.pixels"] = {double(p.columns), p.x0, p.y0, p.dx, p.dy};
 }
 
 // Files of version 0.3 have one array in place of "accepted" and "history".
@@ -251,7 +252,8 @@ Path::State get_state(const Entries& from, const std::string& prefix, const rsc_
     level.pixels.y0 = pixels[2];
     level.pixels.dx = pixels[3];
     level.pixels.dy = pixels[4];
-    if (pixels.size() == 6) level.pixels.tension = pixels[5];
+    if (pixels.size() == 6 && level.pixels.attraction.empty())  // version 0.3
+        level.pixels.attraction.assign(level.pixels.cohesive.size(), pixels[5]);
     const auto& points = contact.on->points;
     const int places =
         points ? points->nx * points->ny : static_cast<int>(contact.path.asperities()->size());
@@ -264,7 +266,7 @@ Path::State get_state(const Entries& from, const std::string& prefix, const rsc_
         std::any_of(level.asperity.begin(), level.asperity.end(), outside) ||
         std::any_of(level.pixels.index.begin(), level.pixels.index.end(), outside) ||
         level.x.size() != n || level.y.size() != n || level.f.size() != n || level.a.size() != n ||
-        level.u.size() != n)
+        level.u.size() != n || level.pixels.attraction.size() != level.pixels.cohesive.size())
         bad_input(kBroken);
     if (known.size() == 8) level.energy = known[3];  // version 0.3
     state.level = std::move(level);

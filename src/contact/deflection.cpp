@@ -65,7 +65,8 @@ double deflection(const Level& level, const Kernel& kernel, double x, double y) 
     };
     for (std::size_t k = 0; k < pixels.index.size(); ++k)
         add_pixel(pixels.index[k], pixels.pressure[k]);
-    for (const std::int32_t k : pixels.cohesive) add_pixel(k, pixels.tension);
+    for (std::size_t k = 0; k < pixels.cohesive.size(); ++k)
+        add_pixel(pixels.cohesive[k], pixels.attraction[k]);
     if (!pixels.index.empty()) return sum;
     const auto add_spot = [&](double at_x, double at_y, double force, auto&& own) {
         const double dx = period.nearest_x(x - at_x), dy = period.nearest_y(y - at_y),

@@ -140,9 +140,9 @@ struct LevelPixels {
     std::vector<std::int32_t> index;    // row * columns + column, 0-based
     std::vector<std::int32_t> contact;  // index of the contact to which it belongs
     std::vector<double> pressure;       // [force/length^2]
-    std::vector<std::int32_t>
-        cohesive;        // adhesion: pixels that are attracted without contact, row by row
-    double tension = 0;  // their traction [force/length^2]
+    // Adhesion: pixels that are attracted without contact, row by row, and their negative pressure.
+    std::vector<std::int32_t> cohesive;
+    std::vector<double> attraction;  // [force/length^2]
     double x_of(std::int32_t pixel) const { return x0 + pixel % columns * dx; }
     double y_of(std::int32_t pixel) const { return y0 + pixel / columns * dy; }
     double x(std::size_t k) const { return x_of(index[k]); }

@@ -23,8 +23,8 @@ public:
     virtual std::vector<double> write() const = 0;
     virtual void read(const std::vector<double>& numbers) = 0;
 
-    // Range of the attraction of the bodies [length], 0: of contacts only; negative: they do not
-    // attract.
+    // Length over which the attraction of the bodies acts, or which they are pulled out when they
+    // part [length]; negative: they do not attract.
     virtual double attraction() const { return -1; }
     // The shortest relaxation time; Infinity: levels do not depend on time.
     virtual double shortest_time() const { return kInfinity; }

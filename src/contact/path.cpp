@@ -10,6 +10,8 @@ namespace {
 constexpr double kUnresolved = 1e-6;
 constexpr double kFarAbove = 100;   // relative to the requested force
 constexpr double kReleased = 1e-3;  // resolution of pulling off, relative to the range
+// Steps of the approach to a force: the most by which one is longer than the last.
+constexpr double kGrowth = 4;
 constexpr int kMostSteps = 64;      // of sliding to a level, the longer ones
 constexpr int kTrials = 2;          // number of failures after which no trials are used
 
@@ -23,50 +25,68 @@ struct Verdict {
 // Near N = 0 the force of bodies that attract is the difference of pressure and attraction, and no
 // more exact than these.
 bool has_force(const Level& level, double N, double tolerance) {
-    const double pulled = std::abs(level.pixels.tension) * (level.area + level.cohesive_area);
+    double traction = 0, pulled = 0;
+    for (const double p : level.pixels.attraction) traction = std::max(traction, -p);
+    if (traction > 0) pulled = traction * (level.area + level.cohesive_area);
+    for (const double force : level.tractions.pulled) pulled += std::abs(force);
     return std::abs(level.force - N) <= tolerance * std::max(std::abs(N), pulled);
 }
 
 // The separations that bodies that attract try for a force N, away from the first level or towards
-// the surface: in growing steps until the force is beyond N or nothing attracts any more, then
-// between, by the secant through the last two levels.
+// the surface: by interpolation of the last three levels, at most kGrowth times as far as before,
+// until the force is beyond N or nothing attracts any more, then between.
 struct Approach {
     double N;
     bool down;
     double range, lowest;  // no separation is below
-    double step = 0.25 * range, z = 0, force = 0, beyond = kNotComputed, secant = kNotComputed;
+    double step = 0.25 * range, z = 0, force = 0, beyond = kNotComputed, guess = kNotComputed;
     bool free = false, released = false;  // nothing attracts at z, or beyond
-    int secants = 0;
+    int guesses = 0;
+    std::vector<std::array<double, 2>> last = {};  // separations and forces, at most three
 
-    static bool is_free(const Level& l) { return l.contacts == 0 && l.cohesive_area == 0; }
-    void begin(const Level& level) {
-        z = level.separation;
-        force = level.force;
-        free = is_free(level);
-    }
+    static bool is_free(const Level& l) { return l.contacts == 0 && !(l.cohesive_area > 0); }
     bool nearer(const Level& level) const {
         return (down || !is_free(level)) && (level.force < N) == down;
     }
     // Absent: there is none left.
     std::optional<double> next() {
         if (!down && free) return std::nullopt;
-        if (std::isnan(beyond)) return down ? std::max(z - step, lowest) : z + step;
-        const double width = beyond - z, share = (secant - z) / width;
+        if (std::isnan(beyond)) {
+            const double length = down ? z - guess : guess - z;
+            step = length > 0 ? std::min(length, kGrowth * step) : 1.4 * step;
+            return down ? std::max(z - step, lowest) : z + step;
+        }
+        const double width = beyond - z, share = (guess - z) / width;
         if (released && std::abs(width) < kReleased * range) return std::nullopt;
-        const bool inside = !released && ++secants % 4 != 0 && share > 1e-3 && share < 1 - 1e-3;
+        const bool inside = !released && ++guesses % 4 != 0 && share > 0 && share < 1;
         const double middle = z + (inside ? share : 0.5) * width;
         if (middle == z || middle == beyond) return std::nullopt;
         return middle;
     }
     void note(const Level& level) {
-        secant =
-            level.separation + (N - level.force) * (level.separation - z) / (level.force - force);
-        if (nearer(level)) {
-            begin(level);
-            step *= 1.4;
+        last.push_back({level.separation, level.force});
+        if (last.size() > 3) last.erase(last.begin());
+        interpolate();
+        if (last.size() == 1 || nearer(level)) {
+            z = level.separation;
+            force = level.force;
+            free = is_free(level);
         } else {
             beyond = level.separation;
             released = !down && is_free(level);
+        }
+    }
+
+private:
+    // The separation with the force N as a polynomial of the force.
+    void interpolate() {
+        if (last.size() < 2) return;
+        guess = 0;
+        for (std::size_t i = 0; i < last.size(); ++i) {
+            double share = 1;
+            for (std::size_t j = 0; j < last.size(); ++j)
+                if (j != i) share *= (N - last[j][1]) / (last[i][1] - last[j][1]);
+            guess += share * last[i][0];
         }
     }
 };
@@ -527,10 +547,19 @@ Level Path::search_force(double N) {
 // N is larger than the present force, otherwise away. If no level has it, the result is that of the
 // smallest force, with Fallback::held.
 Level Path::follow_to_force(double N) {
+    // Where the smallest force is reached, less than this share from it.
+    constexpr double near_least = 1e-7;
     const State before = state();
     const auto take_back = [&] { restore_history(before); };
     try {
         Level level = approach_force(N);
+        if (level.fallback == Fallback::held &&
+            level.force > (1 - near_least) * level.least_force) {
+            take_back();
+            level = approach_force((1 - near_least) * level.least_force);
+            level.fallback = Fallback::held;
+            level.converged = false;
+        }
         if (!level.converged && level.fallback != Fallback::held) take_back();
         return level;
     } catch (...) {
@@ -539,11 +568,12 @@ Level Path::follow_to_force(double N) {
     }
 }
 
-// Accepts the levels on the way but the last one.
+// Accepts the levels on the way but the last one, if the model has followed its path to them.
 Level Path::approach_force(double N) {
     const double range = history()->attraction();
     std::int32_t iterations = 0, jumps = 0;
     std::int64_t products = 0;
+    double least_on_path = 0;
     const auto solve = [&](double z, bool trial) {
         Level there = model_->solve(z, trial);
         there.iterations = iterations += there.iterations;
@@ -554,38 +584,52 @@ Level Path::approach_force(double N) {
     const auto ends = [&](const Level& there) {
         return !there.converged || has_force(there, N, tolerance_);
     };
-    Level level = solve(std::isfinite(separation_) ? separation_ : first_touch() + range, false);
-    if (ends(level)) return level;
+    // Begins at the last level, or where nothing attracts yet.
+    const bool first = !std::isfinite(separation_);
+    Level level;
+    level.separation = first ? first_touch() + range : separation_;
+    level.force = first ? 0.0 : force_;
+    level.contacts = level.force != 0;
+    if (std::abs(level.force - N) <= tolerance_ * std::abs(N) || levels_since_move_ == 0 ||
+        (!first && level.force == 0)) {
+        level = solve(level.separation, false);
+        if (ends(level)) return level;
+        if (!first) history()->accept(level);
+        jumps = level.jumps;
+    }
     Approach way{N, level.force < N, range, model_->closed() + 1e-6 * range};
-    way.begin(level);
-    history()->accept(level);
-    jumps = level.jumps;
-    double least = level.force, separation_of_least = level.separation;
-    std::vector<double> history_of_least = history()->write();
-    for (;;) {
-        const std::optional<double> z = way.next();
-        if (!z) {
-            history()->read(history_of_least);
-            level = solve(separation_of_least, false);
-            level.fallback = Fallback::held;
-            level.converged = false;
-            return level;
-        }
+    way.note(level);
+    if (const double slope = model_->stiffness(Model::kForNewton); slope < 0)
+        way.guess = way.z + (N - way.force) / slope;
+    State least;
+    const auto compare = [&] {
+        if (std::isfinite(least.force) && level.force >= least.force) return;
+        least.force = level.force;
+        least.separation = level.separation;
+        least.history = history()->write();
+    };
+    compare();
+    while (const std::optional<double> z = way.next()) {
         level = solve(*z, true);
         const bool nearer = way.nearer(level);
-        if (level.provisional && (nearer || ends(level))) level = solve(*z, false);
+        if (level.provisional && ends(level)) level = solve(*z, false);
         if (ends(level)) return level;
         if (nearer && *z == way.lowest) refuse_closing(N, level);
         way.note(level);
+        least_on_path = level.least_force;
         if (!nearer) continue;
-        history()->accept(level);
-        jumps = level.jumps;
-        if (level.force < least) {
-            least = level.force;
-            separation_of_least = level.separation;
-            history_of_least = history()->write();
+        if (!level.provisional) {
+            history()->accept(level);
+            jumps = level.jumps;
         }
+        compare();
     }
+    history()->read(least.history);
+    level = solve(least.separation, false);
+    level.least_force = least_on_path;
+    level.fallback = Fallback::held;
+    level.converged = false;
+    return level;
 }
 
 }  // namespace rsc

@@ -87,7 +87,8 @@ Pressures pressures_of(const HeightMap& map, bool repeats, const Level& level) {
     Pressures all;
     for (std::size_t k = 0; k < level.pixels.index.size(); ++k)  // row by row
         all.emplace_hint(all.end(), level.pixels.index[k], Load{level.pixels.pressure[k], true});
-    for (const std::int32_t k : level.pixels.cohesive) all[k] = {level.pixels.tension, false};
+    for (std::size_t k = 0; k < level.pixels.cohesive.size(); ++k)
+        all[level.pixels.cohesive[k]] = {level.pixels.attraction[k], false};
     if (!all.empty()) return all;
     const auto hertz = [](double t) { return std::sqrt(t); };
     const LevelTractions& at = level.tractions;

@@ -97,8 +97,9 @@ MapLevel map_level(const MapGrid& grid, const Level& level) {
                       pixels.pressure[k]);
     }
     // With adhesion, places also attract without contact.
-    for (const std::int32_t k : pixels.cohesive)
-        add_pixel(pixels.x_of(k), pixels.y_of(k), 0, pixels.tension);
+    for (std::size_t k = 0; k < pixels.cohesive.size(); ++k)
+        add_pixel(pixels.x_of(pixels.cohesive[k]), pixels.y_of(pixels.cohesive[k]), 0,
+                  pixels.attraction[k]);
     for (std::size_t k = 0; k < t.x.size(); ++k)
         add_spot(t.x[k], t.y[k], 0, t.pressed[k] + t.pulled[k]);
     std::stable_sort(entries.begin(), entries.end(),

@@ -63,9 +63,9 @@ HeightMap paraboloid(double side, int n) {
 
 SolverOptions attracting(double w, double range) { return {.adhesion = {w, range}}; }
 
-// The relative error of the pull-off force, and the energy lost; forces at given penetrations on
+// The relative error of the pull-off force; forces at given penetrations on
 // the way up are checked on the way.
-std::pair<double, double> pull_off_error(double lambda, double resolution) {
+double pull_off_error(double lambda, double resolution) {
     const Sphere truth{{1, 0.01, lambda, 1}};
     const double h = truth.range() / resolution,
                  widest = 1.05 * truth.pressed(0).c + 3 * truth.range() / resolution;
@@ -105,23 +105,19 @@ std::pair<double, double> pull_off_error(double lambda, double resolution) {
     level = contact->at_separation(2 * reach);
     jumps += level.jumps;
     CHECK(jumps == (truth.lost() > 0 ? 1 : 0));
-    CHECK(level.contacts == 0 && level.force == 0 && level.energy_lost > 0);
+    CHECK(level.contacts == 0 && level.force == 0);
+    // Maugis's loop: edges that move from pixel to pixel lose nothing.
+    CHECK_CLOSE(level.energy_lost, truth.lost(), 0.01 * truth.lost());
     CHECK_CLOSE(contact->energy(), 0.0, 0.0);
-    return {least / truth.pull_off() - 1, level.energy_lost};
+    return least / truth.pull_off() - 1;
 }
 
 TEST(test_sphere) {
     for (double lambda : {0.3, 1.0}) {
-        const auto [coarse, more] = pull_off_error(lambda, 2);
-        const auto [fine, less] = pull_off_error(lambda, 4);
-        // First order in h/z0 (0.15 h/z0 measured): half the pixels, half the error, but for where
-        // the edge happens to rest.
-        CHECK(std::abs(coarse) < 0.16 / 2);
-        CHECK(std::abs(fine) < 0.7 * std::abs(coarse) + 0.005);
-        // So are the losses of edges that move from pixel to pixel; without them it is Maugis's
-        // loop, here by 20 levels.
-        const double unit = pi * 0.01 * 0.1;
-        CHECK_CLOSE(2 * less - more, (Sphere{{1, 0.01, lambda, 1}}.lost()), 0.08 * unit);
+        const double coarse = pull_off_error(lambda, 2), fine = pull_off_error(lambda, 4);
+        // Half the pixels, half the error at least, but for where the edge happens to rest.
+        CHECK(std::abs(coarse) < 0.01);
+        CHECK(std::abs(fine) < 0.5 * std::abs(coarse) + 0.001);
     }
 }
 

@@ -72,11 +72,10 @@ TEST(test_cycle) {
         forces.push_back(there.level.force),
             losses.push_back(back.level.energy_lost - begin.level.energy_lost);
         CHECK_RELATIVE(forces.back(), forces.front(), 1e-9);
-        if (steps == 32) CHECK_RELATIVE(there.work + back.work, losses.back(), 1e-3);
+        // Edges move continuously: nothing jumps here.
+        if (steps == 32) CHECK_CLOSE(there.work + back.work, losses.back(), 1e-4 * kWork);
     }
-    for (const double loss : losses)
-        CHECK_RELATIVE(loss, losses.back(),
-                       0.03);  // pieces that do not see where within them a point jumps
+    for (const double loss : losses) CHECK(loss == losses.back());
 }
 
 // Over the border of a surface that repeats the tip takes the short way, as over the middle of a
@@ -98,7 +97,7 @@ TEST(test_border) {
         CHECK_RELATIVE(a.force, b.force, 1e-9);
         CHECK_RELATIVE(a.energy_lost, b.energy_lost, 1e-6);
         first = first > 0 ? first : a.energy_lost - lost;
-        CHECK(first > 0 && a.energy_lost - lost < 2 * first);
+        CHECK(a.energy_lost - lost <= 2 * first);
         lost = a.energy_lost;
         CHECK_RELATIVE(lateral_force(one->indenter(), a).x, lateral_force(two->indenter(), b).x,
                        1e-6);

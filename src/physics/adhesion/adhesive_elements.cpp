@@ -6,7 +6,7 @@
 namespace rsc {
 namespace {
 
-constexpr std::size_t kKept = 8;  // numbers of write() before the points
+constexpr std::size_t kKept = 7;  // numbers of write() before the points
 
 class AdhesiveElements final : public Model, private History {
 public:
@@ -21,7 +21,7 @@ public:
                    ? -state_.heights.Lx() * state_.heights.Ly() * state_.flats->stiffness(false)
                    : -state_.pixel * state_.spots->stiffness(1e-9, false);
     }
-    double energy() const override { return state_.energy; }
+    double energy() const override { return state_.now.energy; }
     double first_touch() const override { return state_.top; }
     const Indenter& indenter() const override { return state_.indenter; }
     History* history() override { return this; }
@@ -43,43 +43,46 @@ private:
         const AdhesivePixels::Past& past = state_.accepted;
         if (past.separation == kInfinity) return {};
         const Indenter& tip = state_.indenter;
-        std::vector<double> numbers = {past.separation,  past.force, past.work,
-                                       past.least_force, past.lost,  double(past.jumps),
-                                       tip.x0,           tip.y0};
-        numbers.insert(numbers.end(), past.attracting.begin(), past.attracting.end());
+        std::vector<double> numbers = {past.separation, past.force,         past.least_force,
+                                       past.lost,       double(past.jumps), tip.x0,
+                                       tip.y0};
+        for (std::size_t k = 0; k < past.attracting.size(); ++k)
+            numbers.insert(numbers.end(), {double(past.attracting[k]), past.share[k]});
         return numbers;
     }
 
     void read(const std::vector<double>& numbers) override {
+        const auto points = static_cast<double>(state_.clearance.size());
+        const bool any = !numbers.empty();
+        bool sound =
+            !any || (numbers.size() >= kKept && (numbers.size() - kKept) % 2 == 0 &&
+                     numbers[4] >= 0 && numbers[4] <= std::numeric_limits<std::int32_t>::max());
+        for (const double value : numbers) sound = sound && std::isfinite(value);
         AdhesivePixels::Past past;
-        bool sound = numbers.empty() || numbers.size() >= kKept;
-        for (std::size_t k = 0; k < numbers.size() && sound; ++k)
-            sound = std::isfinite(numbers[k]) &&
-                    (k < kKept || (numbers[k] >= 0 &&
-                                   numbers[k] < static_cast<double>(state_.clearance.size())));
-        sound =
-            sound && (numbers.empty() ||
-                      (numbers[5] >= 0 && numbers[5] <= std::numeric_limits<std::int32_t>::max()));
+        for (std::size_t k = kKept; k < numbers.size() && sound; k += 2) {
+            sound = numbers[k] >= 0 && numbers[k] < points;
+            past.attracting.push_back(static_cast<std::int32_t>(numbers[k]));
+            past.share.push_back(numbers[k + 1]);
+        }
         if (!sound)
             throw Error(Failure::bad_input, "this is not the state of a contact of this surface");
-        if (!numbers.empty())
-            past = {numbers[0], numbers[1], numbers[2],
-                    numbers[3], numbers[4], static_cast<std::int32_t>(numbers[5]),
-                    {}};
-        for (std::size_t k = kKept; k < numbers.size(); ++k)
-            past.attracting.push_back(static_cast<std::int32_t>(numbers[k]));
         forget();
-        if (!numbers.empty() &&
-            (numbers[6] != state_.indenter.x0 || numbers[7] != state_.indenter.y0)) {
-            state_.indenter.move(numbers[6], numbers[7]);
+        if (!any) return;
+        past.separation = numbers[0];
+        past.force = numbers[1];
+        past.least_force = numbers[2];
+        past.lost = numbers[3];
+        past.jumps = static_cast<std::int32_t>(numbers[4]);
+        if (numbers[5] != state_.indenter.x0 || numbers[6] != state_.indenter.y0) {
+            state_.indenter.move(numbers[5], numbers[6]);
             state_.set_clearances();
         }
         state_.accepted = std::move(past);
-        if (state_.accepted.separation < kInfinity &&
-            !state_.solve(state_.accepted.separation, false).converged)
+        if (!state_.step(state_.accepted.separation).converged)
             throw Error(
                 Failure::bad_input,
                 "the state of the contact cannot be reached again: the solver does not converge");
+        state_.accepted.energy = state_.now.energy;
         state_.keep();
     }
 

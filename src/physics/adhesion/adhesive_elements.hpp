@@ -1,16 +1,14 @@
 // Adhesive boundary elements, free or periodic: the Maugis-Dugdale traction s0 = w/z0 acts across
 // all gaps below z0, where w is the work of adhesion (Maugis, J. Colloid Interface Sci. 150, 1992).
 //
-// A pixel is in contact (gap w = 0, p >= -s0), cohesive (0 < w < z0, p = -s0) or free (p = 0). For
-// a given set C of attracting pixels, q = p + s0 >= 0 solves the problem without adhesion for
-// heights raised by s0 K 1_C: one convex solve. C is renewed, starting from that of the last
-// accepted level, until it contains exactly the pixels with gaps below z0. The state thus follows
-// the previous one at a given separation; if there is none nearby, the contact jumps: pixels enter
-// or leave C in an avalanche.
+// The traction acts where the gap, linear between the points, is below z0; a point carries the share
+// of s0 that follows from the energy of this area. For a given attraction p, q >= 0 solves the
+// problem without adhesion for heights raised by K p: one convex solve. The attraction is renewed,
+// starting from that of the last accepted level, until it is that of the gaps. The state thus
+// follows the previous one at a given separation; if there is none nearby, the contact jumps.
 //
-// The error is of first order in h, the side of a pixel: relative to z0 for long ranges, and for
-// short ones relative to E* z0^2/w, the length in which the traction acts at an edge of contact. A
-// range below two pixels causes a warning, below half a pixel an error.
+// The error of the pull-off force of smooth spheres is 1 % where the length E* z0^2/w, in which the
+// traction acts at an edge of contact, is one to two pixels, and falls faster than the pixel.
 #pragma once
 
 #include "contact/model.hpp"
@@ -33,24 +31,18 @@ void require_resolved(double E_star, const Adhesion& adhesion, double step);
 // Error(bad_input) for options that are not available with adhesion, and for a range below half a
 // pixel. Of the functions of Model:
 //   energy()      elastic energy minus s0 (z0 - w) integrated over the attracting points;
-//   energy_lost of a level is the work done since the
-//                 first level minus the change of the energy. The work is trapezoidal; steps
-//                 between separations are divided where it is
-//                 uncertain, mostly by a jump (stiffness() does not help: sets of attracting points
-//                 change within the step)
+//   energy_lost of a level: a step between separations that seems to lose energy, its work minus
+//                 the change of the energy, is divided until it does not or is so short that it is
+//                 a jump. Less than a thousandth of w times the area that attracts is not seen
 //   stiffness()   dN/dZ0 for fixed attracting points
 //   move_tip()    follows the state along the straight (on a surface that repeats, the shortest)
 //   way of the tip at the last separation, in
 //                 pieces of at most a quarter of a pixel; the work of a piece is that of the mean
 //                 pressures of its ends. stiffness() and
-//                 energy() are then those of the new position. Edges of contact that move from
-//                 pixel to pixel dissipate about 0.3 (h/z0) w
-//                 of the area that comes off (test/README). Throws Error(bad_input) if points near
+//                 energy() are then those of the new position. Throws Error(bad_input) if points near
 //                 the edge of a body (a punch) attract,
 //                 Error(not_converged) if the path is lost; the tip and the state are then as
 //                 before
-//   memory()      separation, force, work done, smallest force, dissipated energy, jumps since the
-//   last level, tip, then the attracting points
 std::unique_ptr<Model> make_adhesive_elements(const HeightMap& heights, const Indenter& indenter,
                                               const SolverOptions& options);
 

@@ -12,19 +12,128 @@ namespace {
 
 // Smallest ratio of the cohesive length to the side of a pixel, and that of accurate forces.
 constexpr double kCoarsest = 0.5, kFine = 4;
-// Largest error of the work of a step, relative to w times the area that attracts: beyond it the
-// step is divided, at once into this number of pieces at most, and never below this share of a
-// level's way.
-constexpr double kWorkShare = 0.003, kMostPieces = 8, kShortest = 1.0 / 4096;
-constexpr double kJump = 0.1;  // least dissipated energy of a jump, relative to w times its area
-constexpr double kFewest = 8;  // and least number of its points
+// Energy that a step between separations may seem to lose, relative to w times the area that
+// attracts: if it seems to lose more, it contains a jump or its trapezoidal work is not accurate,
+// and it is divided until it is this share of a level's way.
+constexpr double kLossShare = 1e-3, kShortest = 1.0 / 4096;
+constexpr std::size_t kFewest = 8;    // least number of points of a jump, if there are several
 constexpr double kInnerError = 1e-3;  // error of products in iterations
-// Number of renewals after which pixels no longer leave the attracting set, so that the iteration
-// ends; and largest number.
-constexpr int kQuick = 200, kMost = 2000;
+constexpr double kEarly = 0.1;        // error of pressures relative to the change of the attraction
+constexpr double kFar = 1e6;          // largest gap relative to the range
+constexpr double kFinest = 1e-9;      // smallest tolerance
+constexpr double kSettled = 0.3;      // last change of the attraction relative to the tolerance
+constexpr double kProductError = 0.3;  // error of products relative to that of pressures
+constexpr int kMost = 2000;            // renewals of the attraction
 // Longest piece of a way of the tip: change of the clearances of attracting points relative to z0,
 // and number of pixel sides.
 constexpr double kPiece = 0.25, kPieceSides = 0.25;
+
+// Integral of the positive part of a linear function over a triangle of unit area, from its values
+// at the corners, and the derivatives with respect to these.
+struct Linear {
+    double integral = 0;
+    std::array<double, 3> share{};
+};
+Linear positive_part(const std::array<double, 3>& d) {
+    const auto positive = std::count_if(d.begin(), d.end(), [](double value) { return value > 0; });
+    Linear whole{(d[0] + d[1] + d[2]) / 3, {1.0 / 3, 1.0 / 3, 1.0 / 3}};
+    if (positive == 0) return {};
+    if (positive == 3) return whole;
+    // The part of one corner, which has another sign than the others.
+    std::size_t alone = 0;
+    while ((d[alone] > 0) != (positive == 1)) ++alone;
+    const std::size_t next = (alone + 1) % 3, last = (alone + 2) % 3;
+    const double a = d[alone] / (d[alone] - d[next]), b = d[alone] / (d[alone] - d[last]);
+    Linear part{a * b * d[alone] / 3, {}};
+    part.share[alone] = a * b * (3 - a - b) / 3;
+    part.share[next] = a * b * a / 3;
+    part.share[last] = a * b * b / 3;
+    if (positive == 1) return part;
+    for (std::size_t k = 0; k < 3; ++k) whole.share[k] -= part.share[k];
+    whole.integral -= part.integral;
+    return whole;
+}
+
+// Iterates of a map x -> f(x), accelerated by combining the last ones so that f(x) - x is smallest
+// (Anderson, J. ACM 12, 1965). Where this grows nevertheless, the combination begins anew. Where it
+// stays above its smallest value, there is no fixed point nearby, and the iterates are f(x) until it
+// has become smaller.
+class Iterates {
+public:
+    // Sets x to the next iterate.
+    void advance(const std::vector<double>& fx, std::vector<double>& x) {
+        constexpr std::size_t most = 5;
+        constexpr int patience = 6;
+        constexpr double growth = 1.5, fresh = 1e-8, calmer = 0.1;
+        std::vector<double> r(x.size());
+        double size = 0;
+        for (std::size_t i = 0; i < x.size(); ++i) {
+            r[i] = fx[i] - x[i];
+            size += r[i] * r[i];
+        }
+        since_best_ = size < best_ ? 0 : since_best_ + 1;
+        if (size < (alone_ ? calmer : 1.0) * best_) {
+            best_ = size;
+            alone_ = false;
+        }
+        alone_ = alone_ || since_best_ == patience;
+        if (alone_ || size > growth * size_) {
+            dr_.clear();
+            dfx_.clear();
+        } else if (!r_.empty()) {
+            for (std::size_t i = 0; i < x.size(); ++i) {
+                r_[i] = r[i] - r_[i];
+                fx_[i] = fx[i] - fx_[i];
+            }
+            dr_.push_back(std::move(r_));
+            dfx_.push_back(std::move(fx_));
+        }
+        if (dr_.size() > most) {
+            dr_.erase(dr_.begin());
+            dfx_.erase(dfx_.begin());
+        }
+        x = fx;
+        // Gram and Schmidt, from the latest difference on.
+        std::vector<std::vector<double>> q, p;
+        std::vector<double> rest = r;
+        for (std::size_t j = dr_.size(); j-- > 0;) {
+            std::vector<double> v = dr_[j], w = dfx_[j];
+            const double whole = product(v, v);
+            for (std::size_t k = 0; k < q.size(); ++k) {
+                const double along = product(v, q[k]);
+                add(v, -along, q[k]);
+                add(w, -along, p[k]);
+            }
+            const double norm2 = product(v, v);
+            if (!(norm2 > fresh * whole)) continue;
+            const double per = 1 / std::sqrt(norm2);
+            for (double& value : v) value *= per;
+            for (double& value : w) value *= per;
+            const double share = product(rest, v);
+            add(rest, -share, v);
+            add(x, -share, w);
+            q.push_back(std::move(v));
+            p.push_back(std::move(w));
+        }
+        for (double& value : x) value = std::clamp(value, 0.0, 1.0);
+        r_ = std::move(r);
+        fx_ = fx;
+        size_ = size;
+    }
+
+private:
+    static double product(const std::vector<double>& a, const std::vector<double>& b) {
+        return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+    }
+    static void add(std::vector<double>& to, double factor, const std::vector<double>& of) {
+        for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * of[i];
+    }
+    double size_ = kInfinity, best_ = kInfinity;
+    int since_best_ = 0;
+    bool alone_ = false;
+    std::vector<double> r_, fx_;
+    std::vector<std::vector<double>> dr_, dfx_;
+};
 
 }  // namespace
 
@@ -93,36 +202,52 @@ void AdhesivePixels::set_clearances() {
 
 // No level, and no point attracts.
 void AdhesivePixels::forget() {
-    accepted = {};
+    accepted = now = {};
     tried.reset();
     margin = bulged = 0;
-    for (std::vector<double>* values : {&q, &gap_before, &p_before})
+    for (std::vector<double>* values : {&q, &share, &gap_before, &p_before})
         values->assign(clearance.size(), 0.0);
-    on.assign(clearance.size(), 0);
 }
 
 // Selects the points whose gap can be below z0 if points are raised by at most the margin and
-// `bulged`; for periodic flats all points.
+// `bulged`, and their neighbours, between which the gap is interpolated; for periodic flats all
+// points.
 void AdhesivePixels::gather(double Z) {
     reach.clear();
+    std::vector<char> wanted(clearance.size(), flats ? 1 : 0);
+    const auto include = [&](int i, int j) {
+        for (int y = std::max(j - 1, 0); y <= std::min(j + 1, heights.ny - 1); ++y)
+            for (int x = std::max(i - 1, 0); x <= std::min(i + 1, heights.nx - 1); ++x)
+                wanted[at(place({x, y}))] = 1;
+    };
+    for (int j = 0; j < heights.ny && !flats; ++j)
+        for (int i = 0; i < heights.nx; ++i) {
+            const std::size_t k = at(place({i, j}));
+            if (share[k] > 0 || clearance[k] > Z - z0 - margin - bulged) include(i, j);
+        }
     std::vector<Pixel> pixels;
     for (int j = 0; j < heights.ny; ++j)
         for (int i = 0; i < heights.nx; ++i) {
             const std::int32_t k = place({i, j});
-            if (flats || on[at(k)] || clearance[at(k)] > Z - z0 - margin - bulged)
-                reach.push_back(k), pixels.push_back({i, j});
-            else
-                q[at(k)] = 0;
+            q[at(k)] = wanted[at(k)] ? q[at(k)] : 0.0;
+            if (!wanted[at(k)]) continue;
+            reach.push_back(k);
+            pixels.push_back({i, j});
         }
     if (field && !pixels.empty()) field->set_pixels(pixels);
 }
 
-// K p at the points within reach.
-std::vector<double> AdhesivePixels::deflections(const std::vector<double>& p) {
+// K p at the points within reach, for pressures of this tolerance.
+std::vector<double> AdhesivePixels::deflections(const std::vector<double>& p, double tolerance) {
     std::vector<double> u(p.size());
     if (p.empty()) return u;
     if (!flats) {
-        field->apply(p.data(), u.data(), PixelProducts::Accuracy::full);
+        using enum PixelProducts::Accuracy;
+        const double most = kProductError * tolerance;
+        field->apply(p.data(), u.data(),
+                     field->error(inner) <= most     ? inner
+                     : field->error(between) <= most ? between
+                                                     : full);
         return u;
     }
     std::vector<Pixel> where;
@@ -132,14 +257,60 @@ std::vector<double> AdhesivePixels::deflections(const std::vector<double>& p) {
     return flats->deflections(where, some);
 }
 
-// Solves for q with fixed attracting points. Returns false if it does not converge.
-bool AdhesivePixels::press(double Z, Level& level) {
+// The traction s0 acts where the gap, linear between the points, is below z0. Returns s0^-1 times
+// the integral of the attraction over the area, in pixels: of the positive part of z0 - gap; and the
+// shares of the points, its derivatives with respect to z0 - gap there. Of the two ways in which
+// four points make two triangles the mean is taken, so that mirrored maps have mirrored results.
+double AdhesivePixels::attraction(std::vector<double>& shares) const {
+    shares.assign(gap.size(), 0.0);
+    double sum = 0;
+    const auto index = [&](int i, int j) {
+        const auto inside = [&](int k, int n) {
+            if (flats) return k < 0 ? k + n : k >= n ? k - n : k;
+            return std::clamp(k, 0, n - 1);
+        };
+        return at(place({inside(i, heights.nx), inside(j, heights.ny)}));
+    };
+    const int first = flats ? 0 : -1;
+    const auto beyond = [&](int k, int n) { return !flats && (k < 0 || k == n - 1); };
+    for (int j = first; j < heights.ny; ++j)
+        for (int i = first; i < heights.nx; ++i) {
+            const std::array corner = {index(i, j), index(i + 1, j), index(i, j + 1),
+                                       index(i + 1, j + 1)};
+            std::array<double, 4> d;
+            for (std::size_t c = 0; c < 4; ++c)
+                d[c] = std::max(z0 - gap[corner[c]], -kFar * z0);  // beyond the edge of a body
+            const auto [least, most] = std::minmax_element(d.begin(), d.end());
+            if (!(*most > 0)) continue;
+            // Half of a pixel at the border lies beyond the last points.
+            const double part_of_cell =
+                0.25 * (beyond(i, heights.nx) ? 0.5 : 1.0) * (beyond(j, heights.ny) ? 0.5 : 1.0);
+            if (*least >= 0) {
+                for (std::size_t c = 0; c < 4; ++c) {
+                    shares[corner[c]] += part_of_cell;
+                    sum += part_of_cell * d[c];
+                }
+                continue;
+            }
+            for (const auto& [a, b, c] : {std::array{0, 1, 2}, {1, 3, 2}, {0, 1, 3}, {0, 3, 2}}) {
+                const std::array where = {corner[at(a)], corner[at(b)], corner[at(c)]};
+                const Linear part = positive_part({d[at(a)], d[at(b)], d[at(c)]});
+                sum += part_of_cell * part.integral;
+                for (std::size_t k = 0; k < 3; ++k)
+                    shares[where[k]] += part_of_cell * part.share[k];
+            }
+        }
+    return sum;
+}
+
+// Solves for q under a fixed attraction. Returns false if it does not converge.
+bool AdhesivePixels::press(double Z, double tolerance, Level& level) {
     ElementsOutcome outcome;
     if (flats) {
         for (std::size_t k = 0; k < reach.size(); ++k)
             raised.row(reach[k] / heights.nx)[reach[k] % heights.nx] = clearance[k] + lift[k];
         flats->heights_changed();
-        outcome = flats->approach(Z, options.tolerance, options.max_iterations);
+        outcome = flats->approach(Z, tolerance, options.max_iterations);
         std::fill(q.begin(), q.end(), 0.0);
         for (std::size_t k = 0; k < flats->pixels().size(); ++k)
             q[at(flats->pixels()[k].y) * at(heights.nx) + at(flats->pixels()[k].x)] =
@@ -154,7 +325,7 @@ bool AdhesivePixels::press(double Z, Level& level) {
                 pixels.push_back(pixel_at(reach[k])), g0.push_back(g), p.push_back(here);
             here = 0;
         }
-        outcome = spots->solve(pixels, g0, options.tolerance, options.max_iterations, p);
+        outcome = spots->solve(pixels, g0, tolerance, options.max_iterations, p);
         for (std::size_t k = 0; k < p.size(); ++k) q[at(place(pixels[k]))] = p[k];
     }
     level.iterations += outcome.iterations;
@@ -163,22 +334,28 @@ bool AdhesivePixels::press(double Z, Level& level) {
     return outcome.converged;
 }
 
-// Finds the state at Z by renewing the attracting points, starting from the present ones. Returns
-// false if it does not converge.
+// Finds the state at Z by renewing the attraction from the present one. As a stronger attraction
+// only closes gaps and so becomes stronger still, the states on the way are all on one side of the
+// nearest equilibrium if the separation has changed, and do not pass it. Returns false if it does
+// not converge.
 bool AdhesivePixels::renew(double Z, Level& level) {
     gather(Z);
+    std::vector<double> next;
+    Iterates iterates;
+    const double aim = std::max(options.tolerance, kFinest);
+    double tolerance = std::max(aim, kEarly * kEarly);
     for (int round = 0; round < kMost; ++round) {
         stopping_point();
         std::vector<double> p(reach.size());
-        for (std::size_t k = 0; k < reach.size(); ++k) p[k] = on[at(reach[k])] ? s0 : 0.0;
-        lift = deflections(p);
+        for (std::size_t k = 0; k < reach.size(); ++k) p[k] = s0 * share[at(reach[k])];
+        lift = deflections(p, tolerance);
         const double most = lift.empty() ? 0.0 : *std::max_element(lift.begin(), lift.end());
         if (!flats && most > margin) {
             margin = 1.5 * most;
             gather(Z);
             continue;
         }
-        if (!press(Z, level)) return false;
+        if (!press(Z, tolerance, level)) return false;
         if (const double most_bulged = bulge * pixel * std::accumulate(q.begin(), q.end(), 0.0);
             most_bulged > bulged) {
             bulged = 1.5 * most_bulged;
@@ -186,25 +363,26 @@ bool AdhesivePixels::renew(double Z, Level& level) {
             continue;
         }
         for (std::size_t k = 0; k < reach.size(); ++k) p[k] = q[at(reach[k])];
-        p = deflections(p);
-        long changed = 0;
-        for (std::size_t k = 0; k < reach.size(); ++k) {
-            const std::size_t i = at(reach[k]);
-            gap[i] = p[k] - (lift[k] + clearance[i] - Z);
-            char& attracts = on[i];
-            const char next = gap[i] < z0 || (round > kQuick && attracts);
-            changed += next != attracts;
-            attracts = next;
+        p = deflections(p, tolerance);
+        for (std::size_t k = 0; k < reach.size(); ++k)
+            gap[at(reach[k])] = p[k] - (lift[k] + clearance[at(reach[k])] - Z);
+        attracted = attraction(next);
+        double change = 0, sum = 0;
+        for (const std::int32_t i : reach) {
+            change += std::abs(next[at(i)] - share[at(i)]);
+            sum += next[at(i)];
         }
-        if (changed == 0) return true;
+        if (change <= kSettled * aim * sum && tolerance <= aim) return true;
+        tolerance = sum > 0 ? std::clamp(kEarly * change / sum, aim, tolerance) : aim;
+        iterates.advance(next, share);
     }
     return false;
 }
 
-Level AdhesivePixels::step(double Z) {
+// The level at Z next to the accepted state, or next to the attraction of another one.
+Level AdhesivePixels::step(double Z, const Past* start) {
     now = accepted;
-    std::fill(on.begin(), on.end(), char(0));
-    for (const std::int32_t k : accepted.attracting) on[at(k)] = 1;
+    restore(start ? *start : accepted);
     Level level;
     level.separation = Z;
     level.method = Method::automatic;
@@ -214,145 +392,145 @@ Level AdhesivePixels::step(double Z) {
     level.candidates = static_cast<std::int32_t>(reach.size());
     now.separation = Z;
     now.attracting.clear();
+    now.share.clear();
     std::vector<Pixel> touching;
     std::vector<double> pressures;
-    double twice = 0, attraction = 0, tension = 0;
-    long cohesive = 0;
+    double twice = 0, cohesive = 0;
+    std::vector<std::int32_t> sorted = reach;
+    std::sort(sorted.begin(), sorted.end());
+    for (std::size_t k = 0; k < sorted.size() && converged; ++k)
+        if (const std::size_t i = at(sorted[k]); share[i] > 0) {
+            now.attracting.push_back(sorted[k]);
+            now.share.push_back(share[i]);
+        }
     for (std::size_t k = 0; k < reach.size() && converged; ++k) {
         const std::size_t i = at(reach[k]);
         const Pixel here = pixel_at(reach[k]);
         twice += pressure(i) * (gap[i] + clearance[i] - Z);
-        if (q[i] > 0) touching.push_back(here), pressures.push_back(pressure(i));
-        if (!on[i]) continue;
-        now.attracting.push_back(reach[k]);
-        attraction += s0 * (z0 - gap[i]);
-        if (!(q[i] > 0))
-            tension += s0, ++cohesive,
-                level.pixels.cohesive.push_back(here.y * heights.nx + here.x);
+        if (q[i] > 0) {
+            touching.push_back(here);
+            pressures.push_back(pressure(i));
+        } else if (share[i] > 0) {
+            cohesive += share[i];
+            level.pixels.cohesive.push_back(here.y * heights.nx + here.x);
+            level.pixels.attraction.push_back(-s0 * share[i]);
+        }
     }
-    std::sort(now.attracting.begin(), now.attracting.end());
     add_pixels(level, frame, indenter, kInfinity, touching, std::move(pressures), s0);
     number_by_map(level);
-    level.pixels.tension = -s0;
-    level.force -= pixel * tension;
-    level.cohesive_area = pixel * static_cast<double>(cohesive);
+    level.force -= pixel * s0 * cohesive;
+    level.cohesive_area = pixel * cohesive;
     level.cohesive_resolution = resolution();
-    energy = pixel * (0.5 * twice - attraction);
-    if (accepted.separation < kInfinity)
-        now.work += 0.5 * (accepted.force + level.force) * (accepted.separation - Z);
-    else
-        now.work = energy;
+    now.energy = pixel * (0.5 * twice - s0 * attracted);
     now.force = level.force;
     now.least_force = std::min(now.least_force, level.force);
     level.least_force = now.least_force;
-    level.energy_lost = now.lost = now.work - energy;
-    if (converged) level.jumps = accepted.jumps + count_jumps();
+    level.jumps = accepted.jumps;
+    level.energy_lost = accepted.lost;
     level.converged = converged;
-    if (!converged) level.residual = 1;  // no state: Contact::finish() leaves no values
+    if (!converged) level.residual = 1;  // no state: Path::finish() leaves no values
     return level;
 }
 
-// By point i between the accepted state and this one, per unit of area; see count_jumps().
-double AdhesivePixels::dissipated(std::size_t i) const {
-    const auto psi = [&](double w) { return -s0 * std::max(z0 - w, 0.0); };
-    return -0.5 * (p_before[i] + pressure(i)) * (gap[i] - gap_before[i]) -
-           (psi(gap[i]) - psi(gap_before[i]));
+// Energy that a step may seem to lose without a jump, or that the place of a jump in it may change.
+double AdhesivePixels::negligible() const {
+    return kLossShare * options.adhesion.work * pixel *
+           std::max(std::accumulate(now.share.begin(), now.share.end(), 0.0),
+                    std::accumulate(accepted.share.begin(), accepted.share.end(), 0.0));
 }
 
-// Largest error of the trapezoidal work of the step: what points that changed their state seem to
-// have dissipated, an artefact unless they jumped, or what the place of a jump within the step can
-// change.
-double AdhesivePixels::work_error() const {
-    const double width = std::abs(accepted.separation - now.separation);
-    if (!(width < kInfinity)) return 0;
-    double sum = 0;
-    for (const std::int32_t k : reach) sum += std::abs(dissipated(at(k)));
-    return std::min(pixel * sum, 0.5 * width * std::abs(now.force - accepted.force));
+// The work of the step from the accepted state, by the trapezoidal rule, minus the change of the
+// energy.
+double AdhesivePixels::lost_in_step() const {
+    if (!(accepted.separation < kInfinity)) return 0;
+    return 0.5 * (accepted.force + now.force) * (accepted.separation - now.separation) -
+           (now.energy - accepted.energy);
 }
 
-// In as many steps as the work needs. The error of a step falls with the third power of its length,
-// but in proportion to it if there is a jump.
+// Divides the step from the accepted state to this level, if it seems to lose energy, until it does
+// not, or is so short that it is a jump. Where Simpson's rule shows that it loses none, the state at
+// its end is the right one. If a part does not converge, `level` is that of the part.
+void AdhesivePixels::divide(Level& level, double shortest) {
+    const auto parts = [&](auto&& add) {
+        const std::int32_t iterations = level.iterations;
+        const std::int64_t products = level.products;
+        add();
+        level.iterations += iterations;
+        level.products += products;
+    };
+    const double lost = lost_in_step(), most = negligible(), Z = now.separation,
+                 length = std::abs(Z - accepted.separation);
+    if (!level.converged || std::abs(lost) <= most) return;
+    if (length <= shortest || 0.5 * length * std::abs(now.force - accepted.force) <= most) {
+        now.lost += std::max(lost, 0.0);
+        level.energy_lost = now.lost;
+        level.jumps += count_jumps();
+        return;
+    }
+    const Past end = now;
+    parts([&] { level = step(0.5 * (accepted.separation + Z)); });
+    if (!level.converged) return;
+    const double work =
+        (accepted.force + 4 * now.force + end.force) * (accepted.separation - Z) / 6;
+    if (std::abs(work - (end.energy - accepted.energy)) <= most) {
+        parts([&] { level = step(Z, &end); });
+        return;
+    }
+    divide(level, shortest);
+    if (!level.converged) return;
+    accepted = now;
+    accepted.jumps = level.jumps;
+    keep();
+    parts([&] { level = step(Z); });
+    divide(level, shortest);
+}
+
+// A trial starts from the last one; its state may be another one than that which the path reaches.
 Level AdhesivePixels::solve(double Z, bool trial) {
-    std::optional<Level> done = std::exchange(tried, std::nullopt);
-    const bool completes = !trial && done && done->separation == Z;
-    Level level = completes ? std::move(*done) : step(Z);
-    if (completes) level.iterations = 0, level.products = 0;
+    const std::optional<Past> last = std::exchange(tried, std::nullopt);
+    Level level = step(Z, trial && last ? &*last : nullptr);
     if (trial) {
-        tried = level;
+        if (level.converged) tried = now;
         level.provisional = true;
         return level;
     }
-    const double shortest = kShortest * std::abs(Z - accepted.separation);
-    const auto pieces = [&] {
-        const double most =
-            kWorkShare * options.adhesion.work * pixel *
-            static_cast<double>(std::max(now.attracting.size(), accepted.attracting.size()));
-        const double error = !level.converged ? 0 : work_error();
-        if (!(error > most) || !(std::abs(now.separation - accepted.separation) > shortest))
-            return 1;
-        return static_cast<int>(std::ceil(std::min(std::sqrt(error / most), kMostPieces)));
-    };
-    if (pieces() == 1) return level;
+    if (!level.converged) return level;
     const Past before = accepted;
     const std::vector<double> gaps = gap_before, pressures = p_before;
-    std::vector<double> ends = {Z};  // of steps, the next one last
-    std::int32_t iterations = level.iterations;
-    std::int64_t products = level.products;
-    const auto restore = [&] { accepted = before, gap_before = gaps, p_before = pressures; };
+    const auto take_back = [&] {
+        accepted = before;
+        gap_before = gaps;
+        p_before = pressures;
+    };
     try {
-        while (true) {
-            if (const int n = pieces(); n > 1) {
-                const double end = ends.back(), way = accepted.separation - end;
-                for (int k = 1; k < n; ++k) ends.push_back(end + way * k / n);
-            } else {
-                if (!level.converged) {  // in one step it converges
-                    restore();
-                    return step(Z);
-                }
-                ends.pop_back();
-                if (ends.empty()) break;
-                accepted = now, accepted.jumps = level.jumps;
-                keep();
-            }
-            level = step(ends.back());
-            iterations += level.iterations, products += level.products;
-        }
+        divide(level, kShortest * std::abs(Z - accepted.separation));
     } catch (...) {
-        restore();
+        take_back();
         throw;
     }
-    restore();
-    level.iterations = iterations, level.products = products;
-    return level;
+    take_back();
+    return level.converged ? level : step(Z);  // in one step it converges
 }
 
-// Number of connected sets of points that began or ceased to attract since the accepted level and
-// dissipated energy by it. Between two states point k dissipates -(p + p')(w' - w)/2 - (psi' - psi)
-// a unit area, where psi = -s0 (z0 - w) if it attracts and 0 otherwise: with trapezoidal work these
-// add up exactly to energy_lost, because deflections are linear in the pressures. A point that
-// crosses z0 smoothly dissipates at most half of s0 times the change of its gap, in the middle of a
-// step nothing. Sets of fewer points, or of less dissipation per area than kJump w, are not
-// counted: edges advance and recede from pixel to pixel in small jumps.
+// Number of connected sets of points that began or ceased to attract in the step: 1, or that of the
+// sets of at least kFewest points if this is larger.
 std::int32_t AdhesivePixels::count_jumps() const {
-    if (!(accepted.separation < kInfinity)) return 0;
     std::vector<Pixel> where;
-    std::vector<double> lost;
-    for (const std::int32_t k : reach) {
-        const std::size_t i = at(k);
-        if ((p_before[i] != 0) == on[i]) continue;
-        where.push_back(pixel_at(k));
-        lost.push_back(dissipated(i));
-    }
+    for (const std::int32_t k : reach)
+        if ((p_before[at(k)] != 0) != (pressure(at(k)) != 0)) where.push_back(pixel_at(k));
     std::vector<int> set;
     const int sets = connected_sets(where, set, flats ? heights.nx : 0, flats ? heights.ny : 0);
-    std::vector<double> sum(at(sets)), points(at(sets));
-    for (std::size_t c = 0; c < where.size(); ++c)
-        sum[at(set[c])] += lost[c], points[at(set[c])] += 1;
-    const double least = kJump * options.adhesion.work;
-    std::int32_t jumps = 0;
-    for (std::size_t c = 0; c < sum.size(); ++c)
-        jumps += points[c] >= kFewest && sum[c] > least * points[c];
-    return jumps;
+    std::vector<std::size_t> points(at(sets));
+    for (const int of : set) ++points[at(of)];
+    const auto large =
+        std::count_if(points.begin(), points.end(), [](std::size_t n) { return n >= kFewest; });
+    return std::max(1, static_cast<std::int32_t>(large));
+}
+
+void AdhesivePixels::restore(const Past& past) {
+    std::fill(share.begin(), share.end(), 0.0);
+    for (std::size_t k = 0; k < past.attracting.size(); ++k)
+        share[at(past.attracting[k])] = past.share[k];
 }
 
 // Stores gaps and pressures of the last level, the accepted one.
@@ -432,7 +610,7 @@ void AdhesivePixels::follow() {
             throw Error(Failure::bad_input,
                         "a body with an edge cannot be moved while points attract near its edge: "
                         "pull it off first");
-    const Level level = solve(accepted.separation, false);
+    Level level = step(accepted.separation);
     if (!level.converged)
         throw Error(Failure::not_converged,
                     "the path of the attracting points to the new position of the tip is lost; the "
@@ -441,8 +619,11 @@ void AdhesivePixels::follow() {
     for (std::size_t i = 0; i < before.size(); ++i)
         if (const double p = p_before[i] + pressure(i); p != 0)
             twice += p * (clearance[i] - before[i]);
-    now.work += 0.5 * pixel * twice;
-    now.lost = now.work - energy;
+    if (const double lost = 0.5 * pixel * twice - (now.energy - accepted.energy);
+        lost > negligible()) {
+        now.lost += lost;
+        level.jumps += count_jumps();
+    }
     now.jumps = level.jumps;
     accepted = now;
     keep();

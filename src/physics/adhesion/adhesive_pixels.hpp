@@ -12,9 +12,10 @@ namespace rsc {
 struct AdhesivePixels : CutMap {
     // State left by accepted levels.
     struct Past {
-        double separation = kInfinity, force = 0, work = 0, least_force = 0, lost = 0;
+        double separation = kInfinity, force = 0, energy = 0, least_force = 0, lost = 0;
         std::int32_t jumps = 0;                // on the way of the tip since the last level
         std::vector<std::int32_t> attracting;  // increasing
+        std::vector<double> share;             // of the traction s0 on these points
     };
 
     const HeightMap& heights;
@@ -26,10 +27,9 @@ struct AdhesivePixels : CutMap {
     std::unique_ptr<PixelProducts> products, field;
     std::optional<ElementsSolver> spots;
 
-    // For all points of the map: clearance under the indenter, pressure + s0, and whether the point
-    // attracts.
-    std::vector<double> clearance, q;
-    std::vector<char> on;
+    // For all points of the map: clearance under the indenter, the share of s0 that acts on the
+    // point (attraction()), and the pressure without this attraction.
+    std::vector<double> clearance, share, q;
     double top = -kInfinity;
     // Gaps of all points (out of reach those without deformation); of the accepted state, gaps and
     // pressures.
@@ -42,7 +42,7 @@ struct AdhesivePixels : CutMap {
     double margin = 0, bulge = 0, bulged = 0;
 
     Past accepted, now;
-    double energy = 0;
+    double attracted = 0;  // of attraction()
 
     AdhesivePixels(const HeightMap& heights_, const Indenter& indenter_,
                    const SolverOptions& options_);
@@ -51,22 +51,25 @@ struct AdhesivePixels : CutMap {
         return cohesive_length(indenter.E_star, options.adhesion) /
                std::max(heights.dx, heights.dy);
     }
-    double pressure(std::size_t i) const { return q[i] - (on[i] ? s0 : 0.0); }
+    double pressure(std::size_t i) const { return q[i] - s0 * share[i]; }
     void set_clearances();
     void forget();
     void gather(double Z);
+    double attraction(std::vector<double>& shares) const;
     bool renew(double Z, Level& level);
-    bool press(double Z, Level& level);
+    bool press(double Z, double tolerance, Level& level);
     std::int32_t count_jumps() const;
     void keep();
+    void restore(const Past& past);
     void move(double x0, double y0);
     void follow();
-    std::vector<double> deflections(const std::vector<double>& p);
-    Level step(double Z);
-    double dissipated(std::size_t i) const;
-    double work_error() const;
+    std::vector<double> deflections(const std::vector<double>& p, double tolerance);
+    Level step(double Z, const Past* start = nullptr);
+    double negligible() const;
+    void divide(Level& level, double shortest);
+    double lost_in_step() const;
     Level solve(double Z, bool trial);
-    std::optional<Level> tried;  // the present state is that of a trial from the accepted one
+    std::optional<Past> tried;  // the state of the last trial since a level was accepted
 };
 
 }  // namespace rsc

@@ -85,7 +85,8 @@ void load(Planes& planes, const LevelPixels& pixels, const GridWindow& where, do
         planes.pressure.row(j)[i] = factor * pressure;
     };
     for (std::size_t k = 0; k < pixels.index.size(); ++k) put(pixels.index[k], pixels.pressure[k]);
-    for (const std::int32_t k : pixels.cohesive) put(k, pixels.tension);
+    for (std::size_t k = 0; k < pixels.cohesive.size(); ++k)
+        put(pixels.cohesive[k], pixels.attraction[k]);
     planes.to_modes(planes.pressure);
 }
 
