@@ -12,8 +12,8 @@ constexpr double kFarAbove = 100;   // relative to the requested force
 constexpr double kReleased = 1e-3;  // resolution of pulling off, relative to the range
 // Steps of the approach to a force: the most by which one is longer than the last.
 constexpr double kGrowth = 4;
-constexpr int kMostSteps = 64;      // of sliding to a level, the longer ones
-constexpr int kTrials = 2;          // number of failures after which no trials are used
+constexpr int kMostSteps = 64;  // of sliding to a level, the longer ones
+constexpr int kTrials = 2;      // number of failures after which no trials are used
 
 // Evaluation of a level at z: it is the solution (or failed), or lies above it; `next` is the next
 // separation by Newton's method, -Infinity: none.
