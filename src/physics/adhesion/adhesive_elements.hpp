@@ -1,11 +1,11 @@
 // Adhesive boundary elements, free or periodic: the Maugis-Dugdale traction s0 = w/z0 acts across
 // all gaps below z0, where w is the work of adhesion (Maugis, J. Colloid Interface Sci. 150, 1992).
 //
-// The traction acts where the gap, linear between the points, is below z0; a point carries the share
-// of s0 that follows from the energy of this area. For a given attraction p, q >= 0 solves the
-// problem without adhesion for heights raised by K p: one convex solve. The attraction is renewed,
-// starting from that of the last accepted level, until it is that of the gaps. The state thus
-// follows the previous one at a given separation; if there is none nearby, the contact jumps.
+// The traction acts where the gap, linear between the points, is below z0; a point carries the
+// share of s0 that follows from the energy of this area. For a given attraction p, q >= 0 solves
+// the problem without adhesion for heights raised by K p: one convex solve. The attraction is
+// renewed, starting from that of the last accepted level, until it is that of the gaps. The state
+// thus follows the previous one at a given separation; if there is none nearby, the contact jumps.
 //
 // The error of the pull-off force of smooth spheres is 1 % where the length E* z0^2/w, in which the
 // traction acts at an edge of contact, is one to two pixels, and falls faster than the pixel.
@@ -39,8 +39,8 @@ void require_resolved(double E_star, const Adhesion& adhesion, double step);
 //   way of the tip at the last separation, in
 //                 pieces of at most a quarter of a pixel; the work of a piece is that of the mean
 //                 pressures of its ends. stiffness() and
-//                 energy() are then those of the new position. Throws Error(bad_input) if points near
-//                 the edge of a body (a punch) attract,
+//                 energy() are then those of the new position. Throws Error(bad_input) if points
+//                 near the edge of a body (a punch) attract,
 //                 Error(not_converged) if the path is lost; the tip and the state are then as
 //                 before
 std::unique_ptr<Model> make_adhesive_elements(const HeightMap& heights, const Indenter& indenter,

@@ -56,8 +56,8 @@ Linear positive_part(const std::array<double, 3>& d) {
 
 // Iterates of a map x -> f(x), accelerated by combining the last ones so that f(x) - x is smallest
 // (Anderson, J. ACM 12, 1965). Where this grows nevertheless, the combination begins anew. Where it
-// stays above its smallest value, there is no fixed point nearby, and the iterates are f(x) until it
-// has become smaller.
+// stays above its smallest value, there is no fixed point nearby, and the iterates are f(x) until
+// it has become smaller.
 class Iterates {
 public:
     // Sets x to the next iterate.
@@ -258,9 +258,10 @@ std::vector<double> AdhesivePixels::deflections(const std::vector<double>& p, do
 }
 
 // The traction s0 acts where the gap, linear between the points, is below z0. Returns s0^-1 times
-// the integral of the attraction over the area, in pixels: of the positive part of z0 - gap; and the
-// shares of the points, its derivatives with respect to z0 - gap there. Of the two ways in which
-// four points make two triangles the mean is taken, so that mirrored maps have mirrored results.
+// the integral of the attraction over the area, in pixels: of the positive part of z0 - gap; and
+// the shares of the points, its derivatives with respect to z0 - gap there. Of the two ways in
+// which four points make two triangles the mean is taken, so that mirrored maps have mirrored
+// results.
 double AdhesivePixels::attraction(std::vector<double>& shares) const {
     shares.assign(gap.size(), 0.0);
     double sum = 0;
@@ -448,8 +449,8 @@ double AdhesivePixels::lost_in_step() const {
 }
 
 // Divides the step from the accepted state to this level, if it seems to lose energy, until it does
-// not, or is so short that it is a jump. Where Simpson's rule shows that it loses none, the state at
-// its end is the right one. If a part does not converge, `level` is that of the part.
+// not, or is so short that it is a jump. Where Simpson's rule shows that it loses none, the state
+// at its end is the right one. If a part does not converge, `level` is that of the part.
 void AdhesivePixels::divide(Level& level, double shortest) {
     const auto parts = [&](auto&& add) {
         const std::int32_t iterations = level.iterations;
