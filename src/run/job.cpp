@@ -208,6 +208,7 @@ public:
             Level& level = levels_[g * kGroup].emplace(press(job_, g * kGroup, first_, none));
             points = std::max(points, level.candidates);
             begin_[g] = {first_.contact->state(), first_.judge.state()};
+            if (g == 0) take_(taken_++, std::move(level));
         }
         if (points > kFewPoints) {
             for (std::size_t g = 0; g < groups_; ++g) {

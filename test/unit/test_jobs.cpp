@@ -327,4 +327,34 @@ TEST(exchanged_maps) {
     }
 }
 
+// Levels of elements solved in groups side by side: each equals the level solved alone, to the
+// tolerance, they are handed on in their order, and the number of threads changes no bit.
+TEST(groups_of_levels) {
+    Case c = synthetic();
+    c.solver.model = ModelKind::elements;
+    c.solver.tolerance = 1e-9;
+    c.compare.levels = {};
+    for (int k = 0; k < 37; ++k) c.indentation.levels.push_back(2.5 - 0.05 * k);
+    const Job job = prepare(c);
+    std::vector<std::size_t> order;
+    const auto note = [&](std::size_t k, const Level&) { order.push_back(k); };
+    const std::vector<Level> one = realize(job, 1, 1, note).levels,
+                             three = realize(job, 1, 3).levels;
+    CHECK(order.size() == one.size() && std::ranges::is_sorted(order));
+    for (std::size_t k = 0; k < one.size(); ++k) {
+        CHECK(one[k].force == three[k].force && one[k].area == three[k].area);
+        CHECK(one[k].stiffness == three[k].stiffness && one[k].doubts == three[k].doubts);
+        CHECK(one[k].separation_error_expected == three[k].separation_error_expected ||
+              std::isnan(three[k].separation_error_expected));
+    }
+    for (const std::size_t k : {std::size_t{9}, one.size() - 1}) {
+        Case alone = c;
+        alone.indentation.levels = {c.indentation.levels[k]};
+        const Level level = realize(prepare(alone), 1, 1).levels[0];
+        CHECK_RELATIVE(one[k].force, level.force, 1e-7);
+        if (!std::isnan(level.force_error_expected))
+            CHECK_RELATIVE(one[k].force_error_expected, level.force_error_expected, 1e-3);
+    }
+}
+
 }  // namespace
