@@ -132,7 +132,7 @@ def _load():
     return library, path
 
 
-library, library_path = _load()
+shared_object, shared_object_path = _load()
 
 
 _Watch = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_double, ctypes.c_double, ctypes.c_void_p)
@@ -203,7 +203,7 @@ class _Object:
             self._lock.acquire(shared=False)
             try:
                 if self._handle:
-                    getattr(library, f"rsc_{self._kind}_destroy")(ctypes.byref(self._handle))
+                    getattr(shared_object, f"rsc_{self._kind}_destroy")(ctypes.byref(self._handle))
             finally:
                 self._lock.release(shared=False)
 
@@ -381,7 +381,7 @@ def _call(function: str, *values: Any) -> None:
         for value, _, name in objects:
             if not value._handle:
                 _refuse(name, "this object is closed")
-        status = getattr(library, function)(*[_handles(v) for v in converted])
+        status = getattr(shared_object, function)(*[_handles(v) for v in converted])
     finally:
         for value, const in held:
             value._lock.release(const)

@@ -132,11 +132,6 @@ public:
     PixelStencil inverse(double diagonal) const override {
         return inverse_stencil(aspect_, with_diagonal({}, diagonal * modulus_ / dx_));
     }
-    double coefficient(int dx, int dy) const override {
-        const int across = std::abs(along_x_ ? dy : dx), along = along_x_ ? dx : dy;
-        const int folded = std::abs(along) % period_;
-        return coefficient_[at(across) * half_ + at(std::min(folded, period_ - folded))];
-    }
     double shift() const override { return shift_; }
     double error(Accuracy accuracy) const override {
         constexpr double in_single = 2e-6, in_double = 1e-14;

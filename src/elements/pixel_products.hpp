@@ -33,9 +33,6 @@ public:
     virtual void elsewhere(const double* p, const std::vector<Pixel>& pixels, double* w,
                            const char* wanted = nullptr) = 0;
 
-    // K between two pixels dx columns and dy rows apart [length/pressure].
-    virtual double coefficient(int dx, int dy) const = 0;
-
     // Approximate inverse of K with `diagonal` added on its diagonal, between near pixels, to a
     // constant factor.
     virtual PixelStencil inverse(double diagonal) const = 0;

@@ -299,14 +299,6 @@ public:
         return inverse_stencil(aspect_, with_diagonal(share_of_modes(body, answer_.dx),
                                                       diagonal * body.modulus() / answer_.dx));
     }
-    double coefficient(int dx, int dy) const override {
-        dx = std::abs(dx);
-        dy = std::abs(dy);
-        if (dx <= table_.reach_x && dy <= table_.reach_y)
-            return near_[at((dy + table_.reach_y) * table_.stride + dx + table_.reach_x)];
-        return answer_(dx, dy * aspect_);
-    }
-
     double error(Accuracy accuracy) const override { return of(accuracy).error(); }
     double shift() const override { return shift_; }
 

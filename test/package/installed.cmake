@@ -112,7 +112,7 @@ foreach(python python3 /usr/bin/python3)
   if(module AND status EQUAL 0 AND NOT DEFINED ENV{ASAN_OPTIONS})
     get_filename_component(folder ${module}/../.. ABSOLUTE)
     run(${CMAKE_COMMAND} -E env PYTHONPATH=${folder} PYTHONDONTWRITEBYTECODE=1 ${python} -c "import rsc
-print(rsc._library.library_path, rsc.version())")
+print(rsc._library.shared_object_path, rsc.version())")
     if(NOT output MATCHES "^${libraries}/librsc.so ${VERSION}")
       message(FATAL_ERROR "Python: ${output}")
     endif()

@@ -183,7 +183,7 @@ class Threads(unittest.TestCase):
     def test_readers_and_writers(self):
         """On one object, calls that read are in the library together, and one that changes it
         is there alone."""
-        contact, library = one_asperity(), rsc._library.library
+        contact, library = one_asperity(), rsc._library.shared_object
         contact.indent(-U)
         meeting = threading.Barrier(2, timeout=30)
         inside, alone = [0], []
@@ -213,7 +213,7 @@ class Threads(unittest.TestCase):
             except Exception as error:
                 wrong.append(error)
 
-        rsc._library.library = Watched()
+        rsc._library.shared_object = Watched()
         try:
             threads = [
                 threading.Thread(target=guarded, args=(work, 5))
@@ -234,7 +234,7 @@ class Threads(unittest.TestCase):
             for t in threads[:1] + threads[3:]:
                 t.join()
         finally:
-            rsc._library.library = library
+            rsc._library.shared_object = library
         self.assertEqual(wrong, [])
         self.assertEqual(alone, [True] * 10)
 

@@ -11,7 +11,7 @@ import tempfile
 SCRIPT = """
 import math, os, rsc
 folder = os.path.dirname(rsc.__file__)
-assert rsc._library.library_path.startswith(folder), rsc._library.library_path
+assert rsc._library.shared_object_path.startswith(folder), rsc._library.shared_object_path
 assert os.path.exists(os.path.join(folder, "py.typed"))
 contact = rsc.Contact(rsc.Asperities.take([0.0], [0.0], [0.0], [0.3]), 2e5, math.inf)
 print(contact.indent(-1e-3) / (4 / 3 * 2e5 * math.sqrt(0.3) * 1e-3**1.5) - 1)
