@@ -65,8 +65,10 @@ void add_answers(Path& contact, Level& level, const double (&resistivity)[2]) {
     const Indenter& indenter = contact.indenter();
     level.stiffness = contact.stiffness();
     const Vec2 force = lateral_force(indenter, level), moment = tip_moment(indenter, level);
-    level.lateral_x = force.x, level.lateral_y = force.y;
-    level.moment_x = moment.x, level.moment_y = moment.y;
+    level.lateral_x = force.x;
+    level.lateral_y = force.y;
+    level.moment_x = moment.x;
+    level.moment_y = moment.y;
     level.conductance_length = conductance_length(contact, level.stiffness);
     level.resistance = constriction_resistance(level.conductance_length, resistivity);
 }

@@ -42,7 +42,8 @@ struct Samples {
     Samples() {
         for (std::size_t k = 0; k < count; ++k) {
             t[k] = kStart + 2 * pi * static_cast<double>(k) / (count - 1);
-            c[k] = std::cos(t[k]), s[k] = std::sin(t[k]);
+            c[k] = std::cos(t[k]);
+            s[k] = std::sin(t[k]);
         }
     }
 };
@@ -70,7 +71,8 @@ public:
         std::array<double, Samples::count> values, slopes;
         for (std::size_t k = 0; k < Samples::count; ++k) {
             const Answer a = ask({at.c[k], at.s[k]});
-            values[k] = a.f, slopes[k] = a.half_slope;
+            values[k] = a.f;
+            slopes[k] = a.half_slope;
         }
         const auto value = [](const Answer& a) { return Vector{a.f, 2 * a.half_slope}; };
         const auto slope = [](const Answer& a) { return Vector{a.half_slope, a.half_second}; };
@@ -164,7 +166,9 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
     std::vector<double> x(n), y(n), reach(n);
     double area = 0;
     for (std::size_t i = 0; i < n; ++i) {
-        x[i] = spots[i].x, y[i] = spots[i].y, reach[i] = spots[i].minor > 0 ? spots[i].major : 0;
+        x[i] = spots[i].x;
+        y[i] = spots[i].y;
+        reach[i] = spots[i].minor > 0 ? spots[i].major : 0;
         area += pi * spots[i].major * spots[i].minor;
     }
     struct Near {

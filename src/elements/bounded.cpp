@@ -86,7 +86,9 @@ double BoundedSolver::error() {
                          : p_[k] > 0       ? w_[k]
                                            : std::min(w_[k], 0.0);
         part.inside += e * e;
-        part.touching += p_[k] > 0, part.weight += p_[k], part.overlap += p_[k] * (z_[k] - Z0_);
+        part.touching += p_[k] > 0;
+        part.weight += p_[k];
+        part.overlap += p_[k] * (z_[k] - Z0_);
     });
     const double bad = sums.inside + outside();
     if (sums.touching == 0) return bad > 0 ? kInfinity : 0.0;
@@ -134,7 +136,8 @@ double BoundedSolver::descend(int most_steps, double reduction) {
     const bool plain = most_steps == 1, constant = manner_.repeats || wanted_;
     for (auto* v : {&residual_, &y_, &direction_}) v->resize(n);
     const auto set_residual = [&](std::size_t k) {
-        residual_[k] = free_[k] * (0 - w_[k]), y_[k] = 0;
+        residual_[k] = free_[k] * (0 - w_[k]);
+        y_[k] = 0;
     };
     each(set_residual);
     double last = 0, first = 0, decrease = 0;
@@ -163,7 +166,8 @@ double BoundedSolver::descend(int most_steps, double reduction) {
         if (!(curvature > 0)) break;
         const double alpha = ry / curvature;
         each([&](std::size_t k) {
-            p_[k] += alpha * direction_[k], w_[k] += alpha * image_[k];
+            p_[k] += alpha * direction_[k];
+            w_[k] += alpha * image_[k];
             set_residual(k);
         });
         decrease += alpha * ry;
@@ -286,7 +290,10 @@ ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool e
         ++outcome.iterations;
         renew();
         find_free();
-        if (manner_.repeats || outcome.iterations > manner_.quick) before_p_ = p_, before_w_ = w_;
+        if (manner_.repeats || outcome.iterations > manner_.quick) {
+            before_p_ = p_;
+            before_w_ = w_;
+        }
         prepare_constant(steps == 1);
         descend(steps, manner_.reduction);
         // Rough solutions, which are only starting points, are not worth it.
@@ -318,14 +325,18 @@ double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, in
     };
     prepare_constant(false);
     if (const double c = whole_ * punch_; manner_.repeats && c > 0)  // the first step is known
-        for (std::size_t k = 0; k < n; ++k) p_[k] = c * one_[k], w_[k] = c * image_[k] - 1;
+        for (std::size_t k = 0; k < n; ++k) {
+            p_[k] = c * one_[k];
+            w_[k] = c * image_[k] - 1;
+        }
     double residual = 0, answer = 0;
     for (int round = 0; round < most_rounds && count > 0; ++round) {
         const double decrease =
             descend(most_steps,
                     round == 0 ? reduction : std::max(reduction, kEnough * tolerance / residual));
         if (manner_.repeats && round > 0 && decrease <= kSmall * answer && rms() <= tolerance) {
-            residual = tolerance, answer += decrease;
+            residual = tolerance;
+            answer += decrease;
             break;
         }
         if (most_rounds > 1) {

@@ -58,10 +58,16 @@ std::size_t ElementsSolver::guess(const std::vector<Pixel>& pixels, const std::v
         products_.set_pixels(some);
         products_.apply(q.data(), w.data(), Accuracy::inner);
         double a = 0, b = 0;
-        for (std::size_t k = 0; k < q.size(); ++k)
-            a += q[k] * g[k], b += q[k] * (w[k] + diagonal_ * q[k]);
+        for (std::size_t k = 0; k < q.size(); ++k) {
+            a += q[k] * g[k];
+            b += q[k] * (w[k] + diagonal_ * q[k]);
+        }
         const double e = -0.5 * a * a / b;
-        if (e < lowest) lowest = e, scale = a / b, best = s;
+        if (e < lowest) {
+            lowest = e;
+            scale = a / b;
+            best = s;
+        }
         return e;
     };
     double step = top / 8;
@@ -143,7 +149,9 @@ void ElementsSolver::draw(const std::vector<double>& p) {
     set_.resize(size), z_.resize(size), p_.resize(size);
     each([&](std::size_t k) {
         const std::size_t l = at(position_[k]);
-        set_[k] = pixels[l], z_[k] = (*g0_)[l], p_[k] = p[l];
+        set_[k] = pixels[l];
+        z_[k] = (*g0_)[l];
+        p_[k] = p[l];
     });
     constexpr std::size_t part = 512;
     rows_ = {0};
@@ -186,7 +194,8 @@ void ElementsSolver::multiply(const std::vector<double>& x, std::vector<double>&
         }
     }
     products_.apply(x.data(), Kx.data(), Accuracy::full);
-    full_p_ = x, full_w_ = Kx;
+    full_p_ = x;
+    full_w_ = Kx;
 }
 
 void ElementsSolver::multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) {
@@ -277,7 +286,9 @@ ElementsOutcome ElementsSolver::solve(const std::vector<Pixel>& pixels,
                                       int most_iterations, std::vector<double>& p,
                                       std::optional<double> sum) {
     const long before = products_.count();
-    pixels_ = &pixels, g0_ = &g0, answer_ = &p;
+    pixels_ = &pixels;
+    g0_ = &g0;
+    answer_ = &p;
     tolerance_ = tolerance;
     wanted_ = sum;
     Z0_ = 0;
