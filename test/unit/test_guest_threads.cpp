@@ -145,7 +145,10 @@ void test_fork() {
     const double before = height(c);  // the pool's threads are there now
     CHECK(in_child([&] { return height(c) == before ? 0 : 1; }) == 0);
     CHECK(height(c) == before);
-    // While another thread is in the library.
+#ifndef __SANITIZE_ADDRESS__
+    // While another thread is in the library. Not under the address sanitizer of g++ 12: its
+    // allocator, unlike glibc's, may be locked for ever in the child if another thread was allocating
+    // at the fork.
     std::atomic<bool> done{false};
     std::thread other([&] {
         while (!done) height(c);
@@ -153,6 +156,7 @@ void test_fork() {
     for (int k = 0; k < 5; ++k) CHECK(in_child([&] { return height(c) == before ? 0 : 1; }) == 0);
     done = true;
     other.join();
+#endif
 }
 
 void test_lock() {
