@@ -18,7 +18,7 @@ import sys
 import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-MODULES = os.path.join(HERE, "..", "..", "modules")
+MODULES = os.path.join(HERE, "..", "..", "..", "modules")
 sys.path.insert(0, MODULES)
 import generate  # noqa: E402
 

@@ -3,7 +3,7 @@
 # Usage: sh test/door/package/legacy.sh /path/to/rsc        (minutes: `cmake --build build --target check_legacy`)
 set -eu
 other=$1
-top=$(cd "$(dirname "$0")/../.." && pwd)
+top=$(cd "$(dirname "$0")/../../.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cp -r "$top/src" "$top/test" "$top/Makefile.legacy" "$work"
