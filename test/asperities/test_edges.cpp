@@ -19,7 +19,7 @@ const Method kMethods[] = {Method::direct, Method::dgesv, Method::mesh, Method::
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 SolverOptions options(Method method, double tolerance = 1e-10) {
-    return {.method = method, .sigma = 0.01, .tolerance = tolerance};
+    return {.method = method, .tolerance = tolerance, .surface = {.sigma = 0.01}};
 }
 
 Asperities set_of(std::vector<double> x, std::vector<double> y, std::vector<double> z,

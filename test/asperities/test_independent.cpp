@@ -16,7 +16,7 @@ constexpr double kFlat = std::numeric_limits<double>::infinity();
 constexpr double kTolerance = 1e-10;
 
 SolverOptions options(Method method, LawKind law = LawKind::hertz) {
-    return {.method = method, .law = law, .sigma = 0.01, .tolerance = 1e-13};
+    return {.method = method, .law = law, .tolerance = 1e-13, .surface = {.sigma = 0.01}};
 }
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }

@@ -13,7 +13,7 @@ constexpr double kE = 1.0;
 constexpr double kTolerance = 1e-8;  // of the loads; each level is asked for a residual of 1e-11
 
 SolverOptions options(Method method) {
-    return {.method = method, .sigma = 0.01, .tolerance = 1e-11};
+    return {.method = method, .tolerance = 1e-11, .surface = {.sigma = 0.01}};
 }
 
 // Where the energy has several minima too: asperities in clusters, alone and within a series of

@@ -14,7 +14,7 @@ constexpr double kInfinity = Period{}.x;
 constexpr double kSelf = -3.900264920001955886982;  // of the square lattice (test_lattice.cpp)
 
 SolverOptions options(Method method, double tolerance = 1e-11, LawKind law = LawKind::hertz) {
-    return {.method = method, .law = law, .sigma = 0.01, .tolerance = tolerance};
+    return {.method = method, .law = law, .tolerance = tolerance, .surface = {.sigma = 0.01}};
 }
 
 Indenter flats(double L) { return {kE, kInfinity, 0, 0, {L, L}}; }

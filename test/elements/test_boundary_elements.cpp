@@ -76,8 +76,9 @@ TEST(all_boundary_elements) {
         const Asperities a =
             make_asperities(spectrum, 2048, Normalise::sample, seed, 1, Curvature::geometric,
                             nullptr, nullptr, 1, Detail::subgrid);
-        Path contact = asperity_path(a, {E_star, 2.5, 0.5, 0.5},
-                                     {.law = LawKind::fourth_order, .sigma = spectrum.sigma});
+        Path contact =
+            asperity_path(a, {E_star, 2.5, 0.5, 0.5},
+                          {.law = LawKind::fourth_order, .surface = {.sigma = spectrum.sigma}});
         CHECK(levels.size() == 5);
         for (const Row& row : levels) {
             const Level level = contact.at_separation(row.separation * spectrum.sigma);

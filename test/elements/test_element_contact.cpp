@@ -133,7 +133,7 @@ TEST(between_points) {
     const double x = (0.5 * n + 0.31) * h, y = (0.5 * n - 0.17) * h;
     const auto touches = [&](const HeightMap& map, const Indenter& tip) {
         SolverOptions o = options(1e-8);
-        o.sigma = h * h / R;
+        o.surface.sigma = h * h / R;
         const auto contact = make_element_contact(map, tip, o);
         CHECK(contact->first_touch() < 0);  // the top is at 0
         const double above = touch_between_points(map, tip);

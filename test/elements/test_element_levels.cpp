@@ -89,7 +89,7 @@ struct Truth {
 
     // p and w at a separation; false: the conditions of contact were not met.
     bool press(double Z0) {
-        const double H = options.hardness.H0;
+        const double H = options.physics.hardness.H0;
         std::vector<int> state(n());  // 0 without pressure, 1 free, 2 at the hardness
         for (std::size_t k = 0; k < n(); ++k) state[k] = height(k) > Z0;
         for (int round = 0; round < 200; ++round) {
@@ -131,7 +131,8 @@ struct Truth {
     // The level stays: what penetrates at the hardness is gone.
     void accept() {
         for (std::size_t k = 0; k < n(); ++k)
-            if (p[k] >= options.hardness.H0 && w[k] < 0) pressed[k] -= w[k], z[k] += w[k], w[k] = 0;
+            if (p[k] >= options.physics.hardness.H0 && w[k] < 0)
+                pressed[k] -= w[k], z[k] += w[k], w[k] = 0;
     }
 
     double energy() const {
@@ -172,7 +173,7 @@ void same(double value, double truth, double scale, const char* what) {
 // Contacts, their areas and what follows of them are computed once more from the pixels in
 // test_every_value.
 void whole_level(const Level& level, const Truth& t, double Z0) {
-    const double H = t.options.hardness.H0, pixel = t.pixel(), sigma = 0.01;
+    const double H = t.options.physics.hardness.H0, pixel = t.pixel(), sigma = 0.01;
     std::vector<std::size_t> touching;
     double force = 0, pressed = 0, most = 0;
     long candidates = 0;
@@ -228,11 +229,11 @@ void whole_level(const Level& level, const Truth& t, double Z0) {
 
 void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, const char* name) {
     const int before = check::failures;
-    SolverOptions options{.hardness = {.H0 = hardness},
-                          .tolerance = kTolerance,
-                          .max_iterations = 500,
-                          .mean_spacing = 0.1,
-                          .surface = {map.x0, map.y0, map.Lx(), map.Ly()}};
+    SolverOptions options{
+        .tolerance = kTolerance,
+        .max_iterations = 500,
+        .physics = {.hardness = {.H0 = hardness}},
+        .surface = {.mean_spacing = 0.1, .extent = {map.x0, map.y0, map.Lx(), map.Ly()}}};
     const auto contact = make_element_contact(map, tip, options);
     Truth t(map, tip, options);
     const auto kernel = make_kernel(Interaction::point, kE, tip.period);

@@ -305,7 +305,7 @@ TEST(limits) {
 TEST(methods) {
     const Asperities asperities = random_asperities(1200, 0.005, 0.01, 2e-3, 0.5, 3);
     const Indenter tip = layered(body_of({{0.1, 3, 0.4}, {0.1, 9, 0.2}}, 1, 0.3), 100.0, 0.5, 0.5);
-    SolverOptions options{.method = Method::direct, .sigma = 0.01, .tolerance = 1e-9};
+    SolverOptions options{.method = Method::direct, .tolerance = 1e-9, .surface = {.sigma = 0.01}};
     Path direct = asperity_path(asperities, tip, options);
     const Level truth = judged(direct.at_separation(0.012), direct, options);
     CHECK(truth.contacts > 50 && truth.wide_contacts == 0);
@@ -322,10 +322,10 @@ TEST(methods) {
     const Level deep = judged(wide.at_separation(0.012), wide, options);
     CHECK(deep.wide_contacts > 0 && deep.wide_contacts <= 1 && (deep.doubts & bit(Cause::layer)));
     // The hardness is that of what lies on top: no contact bears more.
-    options.hardness.H0 = 1e-2 * truth.force / truth.area;
+    options.physics.hardness.H0 = 1e-2 * truth.force / truth.area;
     const Level yields = asperity_path(asperities, tip, options).at_separation(0.012);
     CHECK(yields.force > 0 && yields.force < truth.force &&
-          yields.force <= options.hardness.H0 * yields.area * (1 + 1e-9));
+          yields.force <= options.physics.hardness.H0 * yields.area * (1 + 1e-9));
     // The same table for the same body, as long as it is in use.
     CHECK(layers_of(tip.layers, tip.E_star) == layers_of(tip.layers, tip.E_star));
 }
@@ -350,7 +350,7 @@ TEST(repeating) {
         CHECK(lattice.at(x, y) >= lattice.least());
     }
     const Asperities asperities = random_asperities(800, 0.005, 0.01, 2e-3, 0.5, 3);
-    SolverOptions options{.sigma = 0.01, .tolerance = 1e-9};
+    SolverOptions options{.tolerance = 1e-9, .surface = {.sigma = 0.01}};
     const auto between_flats = [&](const LayeredBody& of, Method method) {
         Indenter tip = layered(of, kInfinity, 0.5, 0.5);
         tip.period = {1, 1};

@@ -32,7 +32,7 @@ inline RandomAsperities random_asperities(int n, unsigned seed, double apart) {
 }
 
 inline rsc::SolverOptions sticky(double w, double range) {
-    return {.adhesion = {w, range}, .tolerance = 1e-12};
+    return {.tolerance = 1e-12, .physics = {.adhesion = {w, range}}};
 }
 
 // Maugis (1992) on a sphere of radius r by m = c/a: the contact radius from its equation, a

@@ -73,7 +73,7 @@ TEST(own_areas) {
 // is no border of its own, and says so.
 TEST(borders) {
     const HeightMap map = height_map(20, 16, 0.1, 0.1, [](int, int) { return 0.0; });
-    SolverOptions options{.surface = {0, 0, 2.0, 1.6}};
+    SolverOptions options{.surface = {.extent = {0, 0, 2.0, 1.6}}};
     const auto contact = make_element_contact(map, {1e3, 1e4, 1.0, 0.8}, options);
     Level level = contact->at_separation(-0.1);
     Judge(options, {&map}).judge(level, *contact, false);
@@ -262,12 +262,12 @@ TEST(doubts_combined_once) {
 struct Sound {
     Asperities asperities;
     SolverOptions options{.law = LawKind::fourth_order,
-                          .sigma = 1e-3,
-                          .mean_spacing = 0.1,
-                          .points_per_wave = 8,
-                          .grid_step = 0.01,
-                          .gentlest_slope = 0.1,
-                          .surface = {0, 0, 1, 1}};
+                          .surface = {.sigma = 1e-3,
+                                      .mean_spacing = 0.1,
+                                      .points_per_wave = 8,
+                                      .grid_step = 0.01,
+                                      .gentlest_slope = 0.1,
+                                      .extent = {0, 0, 1, 1}}};
     Indenter indenter{1e3, 10, 0.5, 0.5};
     double Z0 = -1e-4;
     Sound() {
@@ -300,7 +300,7 @@ TEST(each_doubt) {
     CHECK(raises(border, [](Sound& s) { s.asperities.x[0] = s.indenter.x0 = 0.05; }));
     CHECK(raises(slope_ratio, [](Sound& s) { s.indenter.x0 = 0.28, s.Z0 = -3e-3; }));
     CHECK(!(Sound().judged().slope_ratio > 0));
-    CHECK(raises(few_points, [](Sound& s) { s.options.points_per_wave = 2; }));
+    CHECK(raises(few_points, [](Sound& s) { s.options.surface.points_per_wave = 2; }));
     CHECK(raises(layer, [](Sound& s) {
         s.indenter.layers.count = 1;
         s.indenter.layers.layer[0] = {0.04, 1e3, 0.3};
@@ -309,7 +309,8 @@ TEST(each_doubt) {
     CHECK(raises(outside_calibration, [](Sound& s) { s.options.interaction = Interaction::none; }));
     const auto flat = [](Sound& s) { s.indenter.shape = Shape(HUGE_VAL), s.Z0 = -1e-5; };
     CHECK(!raises(outside_calibration, flat));
-    CHECK(raises(outside_calibration, [&](Sound& s) { flat(s), s.options.measured = true; }));
+    CHECK(
+        raises(outside_calibration, [&](Sound& s) { flat(s), s.options.surface.measured = true; }));
     // The tip is beside the summit. A paraboloid of curvature 1 touches the ball at Z0 = -0.1^2/2 *
     // 5/6 = -0.0042, farther from the summit than it is moved.
     CHECK(raises(missed_contact, [](Sound& s) {
@@ -318,7 +319,7 @@ TEST(each_doubt) {
     // A list of asperities is its own surface: no error is stated, and only an indenter as curved as
     // they are is a doubt.
     Sound listed;
-    listed.options.gentlest_slope = 0;
+    listed.options.surface.gentlest_slope = 0;
     CHECK(listed.judged().status == LevelStatus::converged && listed.judged().force > 0 &&
           std::isnan(listed.judged().force_error_expected));
     listed.indenter.shape = Shape(1.0);
@@ -327,11 +328,11 @@ TEST(each_doubt) {
     above.Z0 = 1e-3;
     CHECK(above.judged().doubts == 0);
     Sound wide;
-    wide.options.mean_spacing = 0.01;
+    wide.options.surface.mean_spacing = 0.01;
     CHECK(has(wide.judged(), beyond_law) && std::isnan(wide.judged().force_error_expected));
     // Other heights than isotropic Gaussian ones have no smaller error, nor has law 'hertz'.
     Sound measured, hertz;
-    measured.options.measured = true, hertz.options.law = LawKind::hertz;
+    measured.options.surface.measured = true, hertz.options.law = LawKind::hertz;
     CHECK(measured.judged().force_error_expected >= sound.force_error_expected);
     CHECK(hertz.judged().force_error_expected > sound.force_error_expected);
 }
@@ -341,7 +342,7 @@ TEST(marks_of_a_map) {
     Sound map;
     auto marks = std::make_shared<MapMarks>();
     marks->reach = 0.01;
-    map.options.marks = marks;
+    map.options.surface.marks = marks;
     marks->border = {{0, 0.5, 0}};  // the ball is 0.0125 above it
     CHECK(!has(map.judged(), Cause::border));
     marks->border = {{0, 0.5, 0.02}, {0, 0.51, 0.02}, {0, 0.8, 0.05}};

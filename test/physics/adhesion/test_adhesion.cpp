@@ -41,7 +41,7 @@ double root(const std::function<double(double)>& rising, double low) {
 }
 
 SolverOptions sticky(double w, LawKind law = LawKind::hertz) {
-    return {.law = law, .adhesion = {.work = w}, .tolerance = 1e-12};
+    return {.law = law, .tolerance = 1e-12, .physics = {.adhesion = {.work = w}}};
 }
 
 // The whole loop of one asperity: it attaches where it touches and lets go at u_c, neither sooner
@@ -374,7 +374,7 @@ TEST(test_lost) {
     for (double range : {0.0, 0.003}) {
         const RandomAsperities system = random_asperities(8, 9, 0.03);
         SolverOptions options = sticky(system.w);
-        options.adhesion.range = range;
+        options.physics.adhesion.range = range;
         const auto contact =
             make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, options);
         const Level lost = contact->at_separation(0);

@@ -61,7 +61,7 @@ HeightMap paraboloid(double side, int n) {
     });
 }
 
-SolverOptions attracting(double w, double range) { return {.adhesion = {w, range}}; }
+SolverOptions attracting(double w, double range) { return {.physics = {.adhesion = {w, range}}}; }
 
 // The relative error of the pull-off force; forces at given penetrations on
 // the way up are checked on the way.
@@ -229,7 +229,7 @@ TEST(test_cut_body) {
         Indenter tip{100.0, kFlat, 0.6, 0.6};
         tip.shape = make_shape(shape_number("map"), keys);
         SolverOptions options = attracting(0.02, 0.15);
-        options.surface = {0, 0, 1.2, 1.2};
+        options.surface.extent = {0, 0, 1.2, 1.2};
         const auto contact = make_element_contact(map, tip, options);
         // attracts without contact
         const Level level =

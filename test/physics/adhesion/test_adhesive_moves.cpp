@@ -56,7 +56,7 @@ double work_of_move(Path& contact, double Z, double end, int& jumps) {
 TEST(test_cycle) {
     for (const double range : {0.0, 0.002}) {
         const RandomAsperities system = random_asperities(6, 31, 0.2);
-        SolverOptions options{.adhesion = {system.w, range}, .tolerance = 1e-12};
+        SolverOptions options{.tolerance = 1e-12, .physics = {.adhesion = {system.w, range}}};
         const auto contact =
             make_asperity_contact(system.asperities, {5.0, 5.0, 0.1, 0.5}, options);
         const double Z = 0.006;
@@ -77,7 +77,9 @@ TEST(test_cycle) {
 // level is that of a new contact there.
 TEST(test_lets_go) {
     const Asperities one{{0.5}, {0.5}, {0.0}, {0.05}, {20.0}, {20.0}, {0.0}, {0.0}};
-    SolverOptions options{.law = LawKind::elliptic, .adhesion = {1e-3, 0}, .gentlest_slope = 0.1};
+    SolverOptions options{.law = LawKind::elliptic,
+                          .physics = {.adhesion = {1e-3, 0}},
+                          .surface = {.gentlest_slope = 0.1}};
     const auto held = make_asperity_contact(one, {5.0, 0.1, 0.5, 0.5}, options);
     const double Z = held->first_touch() + 1e-4;
     (void)held->at_separation(Z - 1e-3);

@@ -131,7 +131,7 @@ TEST(conductance) {
     for (const double range : {0.0, 2e-3}) {
         SolverOptions options = tight();
         options.tolerance = 1e-9;
-        options.adhesion = {2.0, range};
+        options.physics.adhesion = {2.0, range};
         const auto sticking = make_asperity_contact(a, {kE, 2.5, 0.5, 0.5}, options);
         for (double Z0 : {0.012, 0.006, 0.003, 0.008, 0.011}) {
             const Level level = sticking->at_separation(Z0);

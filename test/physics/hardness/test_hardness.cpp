@@ -49,7 +49,7 @@ Asperities one(double r) {
 }
 
 SolverOptions options_with(double H0, double length = 0) {
-    return {.hardness = {H0, length}, .tolerance = 1e-13};
+    return {.tolerance = 1e-13, .physics = {.hardness = {H0, length}}};
 }
 
 // Of every law: force, area and work continuous where yielding begins, slope and work the
@@ -208,7 +208,7 @@ TEST(test_independent) {
                               : system % 3 == 1 ? Method::direct
                                                 : Method::mesh;
         SolverOptions options = options_with(H0, length);
-        options.sigma = 0.01, options.method = method;
+        options.surface.sigma = 0.01, options.method = method;
         if (method == Method::mesh) options.tolerance = 1e-11;
         Path contact = asperity_path(a, {kE, kFlat, 0.5, 0.5}, options);
         std::vector<Yielding> laws;

@@ -18,7 +18,7 @@ constexpr double kSigma = 0.01;
 const Indenter kTip{kE, 2.5, 0.47, 0.52};
 
 SolverOptions options(double H0, double tolerance = 1e-10) {
-    return {.hardness = {.H0 = H0}, .tolerance = tolerance, .max_iterations = 400};
+    return {.tolerance = tolerance, .max_iterations = 400, .physics = {.hardness = {.H0 = H0}}};
 }
 
 HeightMap rough(int n, double L_lambda_s, std::int64_t seed) {
@@ -49,9 +49,9 @@ TEST(test_limits) {
         CHECK_RELATIVE(s.area, s.area_pixels, 1e-12);
     }
     SolverOptions scaled = options(1000);
-    scaled.hardness.length = 1e-3;
+    scaled.physics.hardness.length = 1e-3;
     CHECK_THROWS(make_element_contact(map, kTip, scaled), Error);
-    scaled.hardness.H0 = kInfinity;
+    scaled.physics.hardness.H0 = kInfinity;
     CHECK(make_element_contact(map, kTip, scaled)->at_separation(kSigma).force > 0);
 }
 

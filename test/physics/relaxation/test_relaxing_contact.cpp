@@ -49,7 +49,7 @@ std::unique_ptr<Path> make(const Kind& model, const Relaxation& body) {
         a.angle = {0, 1, 2, 0.5, 0.3, 0.1}, a.biharmonic = {20, 30, 10, 40, 5, 9};
         return a;
     }();
-    SolverOptions options{.law = model.law, .relaxation = body, .tolerance = 1e-11};
+    SolverOptions options{.law = model.law, .tolerance = 1e-11, .physics = {.relaxation = body}};
     Indenter indenter{kE, model.periodic ? kFlat : 4.0, 0.5, 0.5,
                       model.periodic ? Period{1, 1} : Period{}};
     if (model.elements) return make_element_contact(map, indenter, options);

@@ -20,7 +20,7 @@ const double pi = std::numbers::pi;
 SolverOptions wearing(double k, double tolerance = 1e-7) {
     SolverOptions options;
     options.tolerance = tolerance;
-    options.wear.coefficient = k;
+    options.physics.wear.coefficient = k;
     return options;
 }
 
@@ -240,9 +240,9 @@ TEST(refused) {
     const HeightMap map = flat_map(16, 16, 0.01, 0.01);
     const Indenter ball{1e3, 1.0, 0.075, 0.075};
     SolverOptions hard = wearing(1e-4), sticky = hard, soft = hard;
-    hard.hardness.H0 = 10;
-    sticky.adhesion = {1e-3, 1e-4};
-    soft.relaxation = {{0.5}, {1.0}};
+    hard.physics.hardness.H0 = 10;
+    sticky.physics.adhesion = {1e-3, 1e-4};
+    soft.physics.relaxation = {{0.5}, {1.0}};
     for (const SolverOptions& options : {hard, sticky, soft, wearing(-1), wearing(kInfinity)})
         CHECK_THROWS(make_element_contact(map, ball, options), Error);
     Asperities one;
