@@ -103,7 +103,7 @@ typedef struct rsc_friction rsc_friction;     /* a contact with friction, and it
 
 /* The version of this header. rsc_version returns that of the library at run time. */
 #define RSC_VERSION_MAJOR 0
-#define RSC_VERSION_MINOR 3
+#define RSC_VERSION_MINOR 4
 #define RSC_VERSION_PATCH 0
 
 /* The version of the library, "major.minor.patch".

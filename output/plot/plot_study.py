@@ -6,7 +6,7 @@ import numpy as np
 
 from plot_adhesion import jkr
 from plot_curves import bars, error_band, title
-from plot_results import _in_order, axis_label, differing_keys, key_label, value_text
+from plot_results import _in_order, axis_label, differing_keys, key_label, value_text, with_unit
 from plot_style import FEW, GREY, Page, STYLES, amount, colour_bar, label, short
 
 QUANTITIES = {
@@ -96,10 +96,10 @@ def _keys(results):
         of_numbers = sorted(of_numbers, key=lambda i: -len({t[i] for t in texts}))[:1]
     if len(of_numbers) == 1 and len({t[of_numbers[0]] for t in texts}) > 2:
         along = of_numbers[0]
-        labels = [key_label(key, results[0]) for key in keys]
+        symbols = [key_label(key, results[0])[0] for key in keys]
         others = [
             ", ".join(
-                f"{labels[i][0]} = {value_text(text)} {labels[i][1]}".strip()
+                f"{symbols[i]} = {with_unit(keys[i], text, results[0])}"
                 for i, text in enumerate(t)
                 if i != along
             )

@@ -15,7 +15,7 @@ constexpr double kCoarsest = 0.5, kFine = 4;
 // Energy that a step between separations may seem to lose, relative to w times the area that
 // attracts: if it seems to lose more, it contains a jump or its trapezoidal work is not accurate,
 // and it is divided until it is this share of a level's way.
-constexpr double kLossShare = 1e-3, kShortest = 1.0 / 4096;
+constexpr double kLossShare = kAdhesiveLossShare, kShortest = 1.0 / 4096;
 constexpr std::size_t kFewest = 8;    // least number of points of a jump, if there are several
 constexpr double kInnerError = 1e-3;  // error of products in iterations
 constexpr double kEarly = 0.1;        // error of pressures relative to the change of the attraction

@@ -78,7 +78,7 @@ class Cases(unittest.TestCase):
         for study in ("paper", "flat"):
             script = read("input", study, "run.sh")
             shorten = script[script.index("shorten() {") : script.index("\n}\n") + 3]
-            for case in re.search(r"^cases='(.*)'$", script, re.M)[1].split():
+            for case in re.search(r"^cases='([^']*)'", script, re.M)[1].split():
                 text = read("input", study, case + ".nml")
                 short = subprocess.run(
                     ["sh", "-c", f"{shorten}shorten {case}"],

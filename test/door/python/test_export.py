@@ -56,14 +56,22 @@ def result(folder, name="power", status=(0, 0, 2, 1), force=FORCE, area=None, mo
 class Tables(InFolder):
     def test_exact_at_levels_and_a_power_law_between(self):
         read = table.Table(result(self.folder))
-        columns, status = read.at(FORCE)
+        columns, words = read.at(FORCE)
         for name, values in read.columns.items():
             np.testing.assert_array_equal(columns[name], values, name)
-        np.testing.assert_array_equal(status, [0, 0, 2, 1])
+        self.assertEqual(words, ["converged", "converged", "overlapping", "out_of_validity"])
         between = np.array([2.0, 10.0, 50.0])
-        columns, status = read.at(between)
+        columns, words = read.at(between)
         np.testing.assert_allclose(columns["contact_area"], 0.3 * between**0.9, rtol=1e-12)
-        np.testing.assert_array_equal(status, [0, 2, 1])
+        self.assertEqual(words, ["converged", "overlapping", "out_of_validity"])
+        path = result(self.folder, "doubted", (0, 1, 0, 1))
+        with netCDF4.Dataset(path, "a") as file:
+            doubts = file.createVariable("doubts", "i4", ("realization", "step"))
+            doubts[:] = [[0, 3, 0, 2]]
+            doubts.flag_masks, doubts.flag_meanings = np.array([1, 2], "i4"), "few_points grid"
+        self.assertEqual(
+            table.Table(path).words, ["converged", "few points, grid", "converged", "grid"]
+        )
         # Over realizations the gravest: 4 before 1 before 3 before 2.
         path = result(self.folder, "grave", [(1, 2, 0, 3), (2, 3, 1, 4)], area=np.ones((2, 4)))
         for worst in (table.Table(path).status, plot_results.Result(path).level_status()):
