@@ -25,7 +25,7 @@ std::string sentence(Cause cause, bool elements) {
             return "spots with a radius above a fifth of the thickness of the top layer";
         case Cause::adhesion_range:
             return "the attraction at edges of contact acts across less than four pixels "
-                   "(cohesive_resolution): the pull-off force is too high; use more points or a "
+                   "(cohesive_resolution): the error of N may be large; use more points or a "
                    "larger adhesion_range";
         case Cause::outside_calibration:
             return "such surfaces or bodies were not compared with elements, so that no error is "
