@@ -92,7 +92,7 @@ class Table:
                         continue
                     mean, stderr = _mean(values)
                     self._add(name + axis, mean, unit)
-                    if many:
+                    if many and (stderr > 1e-9 * abs(mean)).any():  # not a prescribed load
                         self._add(name + axis + "_stderr", stderr, unit)
                 if EXPECTED.get(name) in variables:
                     self._add(

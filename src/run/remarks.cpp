@@ -23,7 +23,7 @@ void print_methods(std::ostream& out, std::span<const LevelValues> levels) {
     out << "method:";
     const char* before = " ";
     for (const auto& [how, count] : counts) {
-        out << before << name_of(how.first) << " (" << count << " levels"
+        out << before << name_of(how.first) << " (" << count << (count == 1 ? " level" : " levels")
             << (how.second == Fallback::none ? "" : ": ") << fallback_text(how.second) << ")";
         before = ", ";
     }
@@ -81,12 +81,13 @@ void print_doubts(std::ostream& out, std::span<const LevelValues> levels, const 
                         words_of_doubts(bit(cause)) + " - " + sentence(cause, elements) +
                             remedy_of(cause, job, elements));
     }
-    if (std::isfinite(job.points_touch) &&
-        std::all_of(levels.begin(), levels.end(), [](const auto& l) { return l.force == 0; }))
-        out << format(
-            "  no level reaches contact: the first point of the map touches at Z0 = %g (%g "
-            "sigma).\n",
-            job.points_touch, job.points_touch / job.sigma);
+    if (std::ranges::any_of(levels, [](const LevelValues& l) { return l.force != 0; })) return;
+    out << "  no level reaches contact: ";
+    if (std::isfinite(job.points_touch))
+        out << format("the first point of the map touches at Z0 = %g (%g sigma).\n",
+                      job.points_touch, job.points_touch / job.sigma);
+    else
+        out << "give smaller separations.\n";
 }
 
 void print_failures(std::ostream& out, std::span<const LevelValues> levels, const Job& job,

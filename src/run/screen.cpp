@@ -111,7 +111,7 @@ void print_unlikely_units(std::ostream& out, const Job& job) {
     if (const double a = smooth_radius(job); 2 * a > L)
         out << format(
             "warning: a smooth contact would be %.4g %s wide at the largest load, the "
-            "surface is %.4g %s: solids%%R, surface%%L or indentation%%levels?\n",
+            "surface is %.4g %s: solids%%E, solids%%R, surface%%L or indentation%%levels?\n",
             2 * a, l, L, l);
 }
 
