@@ -10,7 +10,8 @@ namespace {
 
 thread_local int loop_threads = 0;     // number set by LoopThreads
 thread_local bool in_a_piece = false;  // true in a piece of a shared loop
-std::atomic<bool> forked{false};       // true in a forked child, which has no pool threads
+thread_local LoopProfile* profile = nullptr;
+std::atomic<bool> forked{false};  // true in a forked child, which has no pool threads
 
 // Number of processors that this process may use: batch systems bind jobs, and MPI its ranks, to
 // some of those of the machine.
@@ -138,6 +139,10 @@ LoopThreads::~LoopThreads() { loop_threads = before_; }
 
 void parallel_pieces(std::size_t count, int threads,
                      const std::function<void(std::size_t, std::size_t)>& body) {
+    if (profile) {
+        profile->run(count, body);
+        return;
+    }
     const std::size_t team = std::min(count, most_threads(threads));
     if (team < 2 || in_a_piece || forked || (omp_in_parallel && omp_in_parallel())) {
         for (std::size_t k = 0; k < count; ++k) body(k, 0);
@@ -165,6 +170,43 @@ void parallel_pieces(std::size_t count, int threads,
     pool.left.wait(lock, [&] { return job.inside == 0; });
     lock.unlock();
     if (job.thrown) std::rethrow_exception(job.thrown);
+}
+
+LoopProfile::LoopProfile(std::vector<int> cores)
+    : cores_(std::move(cores)), shared_(cores_.size(), 0.0) {
+    profile = this;
+}
+LoopProfile::~LoopProfile() { profile = nullptr; }
+
+void LoopProfile::run(std::size_t count,
+                      const std::function<void(std::size_t, std::size_t)>& body) {
+    // Processor time: on a busy machine the time on the wall tells nothing.
+    const auto now = [] {
+        timespec t{};
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+        return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+    };
+    profile = nullptr;  // loops within pieces are part of them
+    std::vector<double> pieces(count);
+    try {
+        double start = now();
+        for (std::size_t k = 0; k < count; ++k) {
+            body(k, 0);
+            pieces[k] = -std::exchange(start, now());
+            pieces[k] += start;
+        }
+    } catch (...) {
+        profile = this;
+        throw;
+    }
+    profile = this;
+    ++loops_;
+    seconds_ += std::accumulate(pieces.begin(), pieces.end(), 0.0);
+    for (std::size_t c = 0; c < cores_.size(); ++c) {
+        std::vector<double> busy(static_cast<std::size_t>(cores_[c]), 0.0);
+        for (const double piece : pieces) *std::ranges::min_element(busy) += piece;
+        shared_[c] += std::ranges::max(busy);
+    }
 }
 
 namespace {

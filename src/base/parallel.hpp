@@ -73,6 +73,29 @@ void find_all(std::size_t n, int grain, int threads, Test&& test, std::vector<in
     found.erase(to, found.end());
 }
 
+// Counts the outermost parallel loops of this thread during its lifetime, which it runs on this
+// thread, and what they would take on more cores if each were alone there: the time until the last
+// piece is done, when each core takes the next piece as soon as it is free.
+class LoopProfile {
+public:
+    explicit LoopProfile(std::vector<int> cores);
+    LoopProfile(const LoopProfile&) = delete;
+    LoopProfile& operator=(const LoopProfile&) = delete;
+    ~LoopProfile();
+    long loops() const { return loops_; }
+    double seconds() const { return seconds_; }  // on this thread
+    // On the k-th number of cores.
+    double seconds(std::size_t k) const { return shared_[k]; }
+
+    void run(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body);
+
+private:
+    std::vector<int> cores_;
+    std::vector<double> shared_;
+    long loops_ = 0;
+    double seconds_ = 0;
+};
+
 // Long loops check regularly whether they must stop.
 
 // During its lifetime, stopping_point() on this thread calls `ask` at most every 50 ms; `ask`
