@@ -92,7 +92,7 @@ void profile(const ScalingCase& one, const std::string& file) {
     const std::vector<int> cores{2, 4, 8, 16, 32, 64};
     const double start = now(), own = of_this_thread();
     LoopProfile loops(cores);
-    run(one, 1, file);
+    run(one, 16, file);  // as many shares as for many threads
     const double all = now() - start, outside = of_this_thread() - own - loops.seconds(),
                  tasks = all - outside - loops.seconds();
     std::printf("  one thread %.2f s, %.2f s outside loops; %ld loops of %.0f us; by count on", all,
