@@ -219,8 +219,8 @@ public:
         }
         std::vector<std::optional<Pressed>> of_worker(most_threads(threads));
         parallel_pieces(groups_, threads, [&](std::size_t g, std::size_t worker) {
-            if (!of_worker[worker]) of_worker[worker].emplace(make_());
-            press_group(g, *of_worker[worker]);
+            if (worker > 0 && !of_worker[worker]) of_worker[worker].emplace(make_());
+            press_group(g, worker > 0 ? *of_worker[worker] : first_);
             if (worker == 0) take_solved();
         });
         take_solved();

@@ -126,6 +126,57 @@ void test_pieces() {
     }
 }
 
+// Threads without a piece of the outer loop take part in those inside its pieces, and never more
+// work at a time than were asked for.
+void test_loops_inside_pieces() {
+    constexpr int threads = 4, outer = 2, inner = 8;
+    std::mutex mutex;
+    std::set<std::thread::id> who;
+    int busy = 0, most = 0;
+    std::vector<int> runs(outer * inner, 0);
+    const auto work = [&](int k) {
+        {
+            const std::lock_guard lock(mutex);
+            who.insert(std::this_thread::get_id());
+            most = std::max(most, ++busy);
+            ++runs[static_cast<std::size_t>(k)];
+        }
+        usleep(5000);
+        const std::lock_guard lock(mutex);
+        --busy;
+    };
+    rsc::parallel_for(outer, 1, threads, [&](int i) {
+        rsc::parallel_for(inner, 1, threads, [&](int j) { work(i * inner + j); });
+    });
+    CHECK(runs == std::vector<int>(outer * inner, 1));
+    CHECK(who.size() > outer && most <= threads);
+    const auto refuse = [&](int i) {
+        rsc::parallel_for(inner, 1, threads, [&](int j) {
+            if (i == 1 && j == 5) throw std::domain_error("5");
+        });
+    };
+    CHECK_THROWS(rsc::parallel_for(outer, 1, threads, refuse), std::domain_error);
+}
+
+// Of two pieces, one of which is a loop of eight: two cores take half of all, four share the loop.
+void test_profile_of_loops() {
+    const auto spend = [] {
+        const std::clock_t end = std::clock() + CLOCKS_PER_SEC / 50;
+        while (std::clock() < end) {
+        }
+    };
+    rsc::LoopProfile profile({1, 2, 4});
+    rsc::parallel_for(2, 1, 0, [&](int i) {
+        if (i == 0) return spend();
+        rsc::parallel_for(8, 1, 0, [&](int) { spend(); });
+    });
+    CHECK(profile.loops() == 1);
+    CHECK(std::abs(profile.seconds(0) / profile.seconds() - 1) < 1e-9);
+    CHECK(profile.seconds(1) < 0.75 * profile.seconds());
+    CHECK(profile.seconds(2) < 0.4 * profile.seconds());
+    CHECK(profile.seconds(2) > 0.24 * profile.seconds());
+}
+
 void test_more_threads_than_work() {
     const CaseHandle c = small_case("");
     AsperitiesHandle asperities;
@@ -183,6 +234,8 @@ TEST(guest_threads) {
 #ifndef __SANITIZE_THREAD__                    // which ends without memory
     CHECK(in_child(with_little_memory) <= 1);
 #endif
+    test_loops_inside_pieces();
+    test_profile_of_loops();
     test_more_threads_than_work();
     test_fork();
     test_lock();
