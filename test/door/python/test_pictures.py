@@ -526,6 +526,7 @@ class Numbers(Drawn):
         pixel = np.prod([v["mask_" + a][1] - v["mask_" + a][0] for a in "xy"])
         self.assertTrue((pressure[v["contact_mask"][2] == 0] == 0).all())
         self.assertAlmostEqual(pressure.sum() * pixel / v["force"][0, 2], 1, delta=0.03)
+        self.assertLess(pressure.max(), 2e9 * (1 + 1e-6))  # the hardness
 
     def test_smooth_cylinder(self):
         """Hertz's line of a roller is what elements find for a smooth one."""
