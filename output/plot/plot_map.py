@@ -53,8 +53,9 @@ def _of_cells(result, level):
 
 def _overlap(x, step, first, side, count):
     """The share of each of `count` cells along an axis that each pixel covers, [cell, pixel]; what
-    lies outside the map belongs to its first or last cell."""
-    low, high = ((x + sign * step / 2 - first) / side for sign in (-1, 1))
+    lies outside the map belongs to its first or last cell. In the map a pixel begins at its
+    point."""
+    low, high = (x - first) / side, (x + step - first) / side
     begin = np.arange(float(count))[:, None]
     end = begin + 1
     begin[0], end[-1] = -np.inf, np.inf
@@ -76,8 +77,8 @@ def _at_pixels(result, level):
     share[-1] /= float(getattr(result.file["y"], "share_of_last_row", 1.0))
 
     def between(values):
-        rows = np.array([np.interp(x, result["x"], row) for row in values])
-        return np.array([np.interp(y, result["y"], column) for column in rows.T]).T
+        rows = np.array([np.interp(x + dx / 2, result["x"], row) for row in values])
+        return np.array([np.interp(y + dy / 2, result["y"], column) for column in rows.T]).T
 
     share = between(share)
     found = np.divide(between(pressure), share, out=np.zeros(mask.shape), where=share > 0)
