@@ -321,7 +321,7 @@ constexpr LevelQuantity kQuantities[] = {
      .meaning = "error by the steps in which the level was reached",
      .comment = "change of N, relative to the larger N of the two levels, by halving the steps; "
                 "under a force that of the separation, relative to its depth below first touch of "
-                "the worn surface",
+                "the worn surface; without the errors of earlier levels",
      .always = false},
     {.name = "energy_lost",
      .member = &V::energy_lost,

@@ -73,16 +73,19 @@ TEST(levels) {
         const Screen screen = run(text, path);
         const Reader file(path);
         const auto rows = screen.table("level ");
-        const bool flats = file.has("pressure");
         Vector Z = file.values("separation"), over_sigma = Z;
         for (double& z : over_sigma) z /= file.values("sigma_reference")[0];
-        column(rows, 1, Z, 1e-5), column(rows, 2, over_sigma, 1e-4);
-        column(rows, 3, file.values("force"), 1e-7),
-            column(rows, 4, file.values("contact_area"), 1e-7);
-        if (flats)
-            column(rows, 5, file.values("pressure"), 1e-5),
-                column(rows, 6, file.values("area_fraction"), 1e-5);
-        std::size_t next = flats ? 7 : 5;
+        std::size_t next = 1;
+        column(rows, next++, Z, 1e-5);
+        // a ball under a force is not placed by rms heights
+        if (text.find("control='force'") == std::string::npos)
+            column(rows, next++, over_sigma, 1e-4);
+        column(rows, next++, file.values("force"), 1e-7);
+        column(rows, next++, file.values("contact_area"), 1e-7);
+        if (file.has("pressure")) {
+            column(rows, next++, file.values("pressure"), 1e-5);
+            column(rows, next++, file.values("area_fraction"), 1e-5);
+        }
         for (const char* name : {"contacts", "candidates", "iterations"})
             column(rows, next++, file.values(name), 0);
         column(rows, next, file.values("residual"), 0.05);

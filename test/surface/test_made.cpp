@@ -41,20 +41,6 @@ TEST(directions) {
     CHECK(difference(made(model(5, 20), 192), made(model(5, 70), 192), 1, true) == 0);
     CHECK(difference(made(model(5, 20), 192), made(model(5, 20), 192, nullptr, 3)) == 0);
     CHECK(difference(made(model(5, 20), 192), made(model(5, 20), 384), 2) < 1e-12 * 0.01);
-    // Along diagonals the heights are those by rows, on grids of whole and of cut blocks of lines:
-    // rounding of sums over some thousand modes.
-    for (const double direction : {38.0, 45.0, 50.0, 132.0, 135.0, -40.0})
-        for (const int n : {192, 250, 256}) {
-            const Spectrum s = model(8, direction);
-            RowSource source(s, n, Normalise::sample, 3, 7, 1);
-            RowSource::Scratch scratch(source);
-            HeightMap rows;
-            rows.allocate(n, n, (n + 7) / 8 * 8);
-            source.rows(0, n, rows.row(0), rows.stride, scratch);
-            const HeightMap map = made(s, n, nullptr, 3);
-            CHECK(difference(map, rows, 1, source.exchanged()) < 1e-12 * 0.01);
-            CHECK(difference(map, made(s, n)) == 0);
-        }
     REFUSED(made(model(16, 0), 254),
             "256");  // waves across the lay are four times as short as L_lambda_s says
 }
