@@ -39,6 +39,7 @@ PICTURES = {
     "relax": ["time"],
     "running_in": ["wear"],
     "adhesion": ["pull"],
+    "pulloff": ["pulloff"],
     "campaign": ["area", "radial"],
     "map": ["surface", "spots"],
 }

@@ -379,10 +379,13 @@ def _space(side):
         boxes = [text.get_window_extent().padded(0 if log else 1.5) for text in texts]
         if not any(a.overlaps(b) for k, a in enumerate(boxes) for b in boxes[:k]):
             return
-        if log:
+        if isinstance(side.get_major_locator(), FixedLocator):  # every second one, with the last
+            ticks, words = side.get_majorticklocs(), [t.get_text() for t in side.get_ticklabels()]
+            side.set_ticks(ticks[::-2][::-1], labels=words[: len(ticks)][::-2][::-1])
+        elif log:
             side.set_minor_locator(LogLocator(subs=(2.0, 5.0) if bins == 5 else ()))
             side.get_minor_formatter().all_of_them = True
             if bins < 5:
                 side.set_major_locator(LogLocator(numticks=bins))
-        elif not isinstance(side.get_major_locator(), FixedLocator):
+        else:
             side.set_major_locator(MaxNLocator(bins))

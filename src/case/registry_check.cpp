@@ -203,8 +203,8 @@ private:
         const auto as_many = [&](const std::vector<double>& values, std::size_t wanted,
                                  const char* key, const char* other) {
             require(values.size() == wanted, {key, other},
-                    std::to_string(values.size()) + " values for the " + std::to_string(wanted) +
-                        " of " + other);
+                    std::string("needs as many values as ") + other + " (" +
+                        std::to_string(wanted) + "), found " + std::to_string(values.size()));
         };
         as_many(s.layer_E, layers, "solids%layer_E", "solids%layer_thickness");
         as_many(s.layer_nu, layers, "solids%layer_nu", "solids%layer_thickness");
