@@ -25,7 +25,8 @@ inline double worse(double worst, std::initializer_list<double> errors) {
 
 template <class Type, class Act>
 bool throws(Act&& act) try {
-    return act(), false;
+    act();
+    return false;
 } catch (const Type&) {
     return true;
 }

@@ -76,7 +76,9 @@ void test_stopping() {
     for (const int kind :
          {0, 1, 2, 3}) {  // the solvers: Newton's method, dgesv, elements, adhesion
         rsc::Case c;
-        c.surface.n = 256, c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 32;
+        c.surface.n = 256;
+        c.surface.L_lambda_l = 4;
+        c.surface.L_lambda_s = 32;
         if (kind == 1) c.solver.method = rsc::Method::dgesv;
         if (kind == 2) c.solver.model = rsc::ModelKind::elements;
         if (kind == 3) c.solids.adhesion = 0.01;

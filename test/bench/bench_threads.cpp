@@ -32,7 +32,10 @@ public:
     Busy(const Busy&) = delete;
     Busy& operator=(const Busy&) = delete;
     ~Busy() {
-        for (const pid_t child : children_) kill(child, SIGKILL), waitpid(child, nullptr, 0);
+        for (const pid_t child : children_) {
+            kill(child, SIGKILL);
+            waitpid(child, nullptr, 0);
+        }
     }
 
 private:

@@ -20,7 +20,8 @@ TEST(all_elongated) {
             return 0.5 * height *
                    (wave((i - half) * step) + wave(narrow * (j - short_half) * step));
         });
-        map.x0 = -half * step, map.y0 = -short_half * step;
+        map.x0 = -half * step;
+        map.y0 = -short_half * step;
         const Asperities summit =
             find_asperities(map, Curvature::geometric, nullptr, 1, Detail::subgrid);
         CHECK(summit.size() == 1);
@@ -52,8 +53,10 @@ TEST(mirrored) {
                                        128, Normalise::sample, seed, 1);
         const auto force = [&](bool mirrored) {
             Case c;
-            c.solver.tolerance = 1e-12, c.solids.R[1] = 5;
-            c.asperities.law = LawKind::fourth_order, c.solver.model = ModelKind::asperities;
+            c.solver.tolerance = 1e-12;
+            c.solids.R[1] = 5;
+            c.asperities.law = LawKind::fourth_order;
+            c.solver.model = ModelKind::asperities;
             Surface surface;
             surface.map = height_map(97, 99, 0.01, 0.01,
                                      [&](int i, int j) { return z(mirrored ? 96 - i : i, j); });

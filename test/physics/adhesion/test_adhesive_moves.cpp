@@ -62,7 +62,8 @@ TEST(test_cycle) {
         const double Z = 0.006;
         (void)contact->at_separation(Z);
         int jumps = 0;
-        (void)work_of_move(*contact, Z, 0.9, jumps), (void)work_of_move(*contact, Z, 0.1, jumps);
+        (void)work_of_move(*contact, Z, 0.9, jumps);
+        (void)work_of_move(*contact, Z, 0.1, jumps);
         const double energy = contact->energy(), lost = contact->at_separation(Z).energy_lost;
         jumps = 0;
         const double work =

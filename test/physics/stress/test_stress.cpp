@@ -60,7 +60,10 @@ LargestStress largest(const PointGrid& grid, const LevelPixels& pixels, const St
 std::pair<double, double> over_depths(const std::function<double(double)>& at) {
     double most = 0, where = 0;
     for (double z = 0.40; z < 0.86; z += 0.01)
-        if (const double value = at(z); value > most) most = value, where = z;
+        if (const double value = at(z); value > most) {
+            most = value;
+            where = z;
+        }
     return {most, where};
 }
 
@@ -104,7 +107,10 @@ TEST(hertz_sphere_of_elements) {
         for (double z = 0.3; z < 0.7; z += 0.002) {
             const double zz = -1 / (1 + z * z);
             const double rr = -(1 + nu) * (1 - z * std::atan(1 / z)) + 0.5 / (1 + z * z);
-            if (const double shear = 0.5 * (rr - zz); shear > most) most = shear, where = z;
+            if (const double shear = 0.5 * (rr - zz); shear > most) {
+                most = shear;
+                where = z;
+            }
         }
         const LargestStress there = largest(grid, pixels, {nu, {}, {}}, where);
         // 50 pixels over the radius: 4e-5 of p0
