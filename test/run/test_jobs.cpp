@@ -353,8 +353,9 @@ TEST(exchanged_maps) {
         if (model == ModelKind::elements) {
             CHECK_RELATIVE(level[0].area, level[1].area, 1e-9);
             CHECK_RELATIVE(level[0].separation, level[1].separation, 1e-8);
-        } else
+        } else {
             for (const Level& one : level) CHECK(one.doubts & bit(Cause::outside_calibration));
+        }
     }
 }
 

@@ -216,8 +216,9 @@ private:
                 if ((now > 0) != (value > 0)) {
                     last = end;
                     here = value;
-                } else
+                } else {
                     here *= 0.5;
+                }
                 end = middle;
                 value = now;
             }
