@@ -281,8 +281,8 @@ TEST(test_watched) {
 }
 
 // Where the indenter is steep, a contact that is moved before its first load is one made at that
-// place, and a trial there is undone by a rollback; the results of a level outlast a move, also those
-// of bodies with a memory.
+// place, and a trial there is undone by a rollback; the results of a level outlast a move, also
+// those of bodies with a memory.
 void test_steep(const std::string& memory) {
     const std::string text =
         "&surface n=128 L_lambda_l=4 L_lambda_s=16 sigma=1e-4 / &solids R=Infinity,0.5 E=1e5,1e5 " +

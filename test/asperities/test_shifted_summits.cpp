@@ -43,8 +43,8 @@ Surface measured(const HeightMap& map) {
     return surface;
 }
 
-// The shifted summit is the highest point of z - z'' d''d/2 - s(d) for the paraboloids of both bodies
-// within the range of the summit: found by a search over the directions and distances.
+// The shifted summit is the highest point of z - z'' d''d/2 - s(d) for the paraboloids of both
+// bodies within the range of the summit: found by a search over the directions and distances.
 TEST(shift_is_the_highest_point) {
     constexpr double kSame = 1e-12;
     std::mt19937_64 random(2);

@@ -149,8 +149,8 @@ void test_fork() {
     CHECK(height(c) == before);
 #ifndef __SANITIZE_ADDRESS__
     // While another thread is in the library. Not under the address sanitizer of g++ 12: its
-    // allocator, unlike glibc's, may be locked for ever in the child if another thread was allocating
-    // at the fork.
+    // allocator, unlike glibc's, may be locked for ever in the child if another thread was
+    // allocating at the fork.
     std::atomic<bool> done{false};
     std::thread other([&] {
         while (!done) height(c);

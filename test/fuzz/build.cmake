@@ -1,5 +1,6 @@
-# The fuzzers, built by CLANG with FLAGS from SOURCE in FOLDER. The checks of null and misaligned pointers are left out: they are a third of
-# the work of building, and the address sanitizer sees what they are about.
+# The fuzzers, built by CLANG with FLAGS from SOURCE in FOLDER. The checks of null and misaligned
+# pointers are left out: they are a third of the work of building, and the address sanitizer sees
+# what they are about.
 set(flags "${FLAGS} -fno-sanitize=null,alignment,object-size,vptr")
 string(REPLACE "clang++" "clang" clang_c "${CLANG}")
 foreach(step "-S;${SOURCE};-B;${FOLDER};-DCMAKE_C_COMPILER=${clang_c};-DCMAKE_CXX_COMPILER=${CLANG};-DCMAKE_BUILD_TYPE=Release;-DCMAKE_CXX_FLAGS_RELEASE=${flags};-DRSC_FORTRAN=OFF;-DRSC_MPI=OFF;-DRSC_SANITIZE=fuzzer,address,undefined"

@@ -1,5 +1,6 @@
 # Runs FUZZER for SECONDS from a copy of CORPUS. Fails on a crash, a broken promise of the harness,
-# an input that takes more than a minute (slow as these builds are), a single allocation of more than 256 MB, or more than 1 GB altogether.
+# an input that takes more than a minute (slow as these builds are), a single allocation of more
+# than 256 MB, or more than 1 GB altogether.
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER}/found)
 set(options -max_total_time=${SECONDS} -seed=1 -timeout=60 -malloc_limit_mb=256 -rss_limit_mb=1024 -max_len=4096 -print_final_stats=1 -print_funcs=0

@@ -100,8 +100,8 @@ std::string refusal(const std::string& path, const ObserveOptions& options, std:
     return ::refusal([&] { read_sums(path, options, steps); });
 }
 
-// Sums read back are those that were written, within rounding; a file whose axes are others is not taken for one of
-// the case.
+// Sums read back are those that were written, within rounding; a file whose axes are others is not
+// taken for one of the case.
 TEST(test_sums) {
     const Folder folder;
     const Result r = sample::result(3);
@@ -192,8 +192,8 @@ TEST(test_failed_comparison) {
     CHECK(file.values("force").size() == sample::kSteps);
 }
 
-// Numbers that are not finite never reach a file. Obstacles of the file system: test/door/cli/faults.sh,
-// files.sh.
+// Numbers that are not finite never reach a file. Obstacles of the file system:
+// test/door/cli/faults.sh, files.sh.
 TEST(test_not_finite) {
     const Folder folder;
     const std::string path = folder / "never.nc";

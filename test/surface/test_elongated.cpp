@@ -40,8 +40,8 @@ TEST(all_elongated) {
     }
 }
 
-// Maps with a lay carry what their mirror images carry, a contact that has reached the trough of its
-// profile (seed 2), too: there a rounding error of the argument was one of 1e-8 of the force.
+// Maps with a lay carry what their mirror images carry, a contact that has reached the trough of
+// its profile (seed 2), too: there a rounding error of the argument was one of 1e-8 of the force.
 TEST(mirrored) {
     for (const int seed : {1, 2, 3}) {
         const HeightMap z = synthesize({.L = 1.28,

@@ -345,8 +345,8 @@ TEST(each_doubt) {
         s.Z0 = -6e-3;
         s.indenter.shape = Shape(0.2);
     }));
-    // A list of asperities is its own surface: no error is stated, and only an indenter as curved as
-    // they are is a doubt.
+    // A list of asperities is its own surface: no error is stated, and only an indenter as curved
+    // as they are is a doubt.
     Sound listed;
     listed.options.surface.gentlest_slope = 0;
     CHECK(listed.judged().status == LevelStatus::converged && listed.judged().force > 0 &&

@@ -23,7 +23,8 @@ sys.path.insert(0, MODULES)
 import generate  # noqa: E402
 
 CASE = "&surface n=64, L=1.5, L_lambda_l=2, L_lambda_s=8, sigma=0.03125 /\n&indentation levels=2, 0, -1 /\n&solver max_iterations=1, tolerance=1e-14 /\n&output file='calls.nc' /\n"
-# Functions that calls.txt cannot have: called by the runners themselves, or told in other ways by the languages.
+# Functions that calls.txt cannot have: called by the runners themselves, or told in other ways by
+# the languages.
 NOT_CALLED = {
     "message",
     "status_text",
@@ -110,7 +111,7 @@ class Rows(collections.defaultdict):
 accepts_null = []  # what does not refuse NULL, and names no argument then
 
 
-# ---- C -------------------------------------------------------------------------------------------------------------------------
+# ---- C
 C_TYPES = {"double": ctypes.c_double, "int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64}
 
 
@@ -242,7 +243,7 @@ def by_c(calls, arrays):
     return rows
 
 
-# ---- Python --------------------------------------------------------------------------------------------------------------------
+# ---- Python
 def namelist(value):
     if isinstance(value, tuple):
         return ", ".join(map(namelist, value))
@@ -370,7 +371,7 @@ def by_python(calls, arrays):
     return rows
 
 
-# ---- Fortran -------------------------------------------------------------------------------------------------------------------
+# ---- Fortran
 HEAD = """  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_positive_inf
   implicit none
@@ -859,7 +860,7 @@ def in_77(calls, arrays):
     )
 
 
-# ---- comparing -----------------------------------------------------------------------------------------------------------------
+# ---- comparing
 def rows_of(program_path):
     rows, repeated = {}, []
     for line in (

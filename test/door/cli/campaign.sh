@@ -1,5 +1,6 @@
 #!/bin/bash
-# Campaigns and studies from outside: bash campaign.sh TEST RSC RSC_MPI FOLDER, RSC_MPI empty where it is not built.
+# Campaigns and studies from outside: bash campaign.sh TEST RSC RSC_MPI FOLDER, RSC_MPI empty where
+# it is not built.
 test=$1 rsc=$2 rsc_mpi=$3 folder=$4
 . "$(dirname "$0")/common.sh"
 
@@ -8,7 +9,8 @@ ranks() {
     shift
     local root=
     [ "$(id -u)" -eq 0 ] && root=--allow-run-as-root
-    # --foreground: a signal comes once. Told twice, mpirun leaves at once and its ranks behind, at work.
+    # --foreground: a signal comes once. Told twice, mpirun leaves at once and its ranks behind, at
+    # work.
     local run=(timeout --foreground 100 mpirun $root --oversubscribe -n "$n" "$rsc_mpi" "$@")
     if [ "$BASHPID" = $$ ]; then "${run[@]}"; else exec "${run[@]}"; fi
 }
@@ -46,7 +48,8 @@ test_threads() {
     done
 }
 
-# The same bits whatever the number of ranks, and an interrupted job is finished by another number of them.
+# The same bits whatever the number of ranks, and an interrupted job is finished by another number
+# of them.
 test_ranks() {
     campaign 60
     expect 0 in_folder one "$rsc" -s run%threads=1 ../case.nml
@@ -75,7 +78,8 @@ test_ranks() {
     diff -r study1/out study3/out || fail "the study differs"
 }
 
-# A signal leaves a state, says how to go on, and has its exit status; one realization leaves nothing (faults.sh).
+# A signal leaves a state, says how to go on, and has its exit status; one realization leaves
+# nothing (faults.sh).
 test_signals() {
     campaign 20000
     for signal in TERM INT; do
@@ -89,8 +93,8 @@ test_signals() {
     done
 }
 
-# Starts the command and kills it as soon as some work is in its state, however slow the machine is. What a kill at any byte leaves:
-# test_campaign.
+# Starts the command and kills it as soon as some work is in its state, however slow the machine is.
+# What a kill at any byte leaves: test_campaign.
 kill_with_state() {
     "$@" &
     until_state 20000 $!
@@ -142,7 +146,8 @@ test_refused() {
     says "is complete"
 }
 
-# A finished campaign grows: the realizations there are not computed again, and the file is that of the whole, within rounding.
+# A finished campaign grows: the realizations there are not computed again, and the file is that of
+# the whole, within rounding.
 test_grow() {
     campaign 30
     expect 0 in_folder whole "$rsc" -q ../case.nml
@@ -172,7 +177,8 @@ test_grow() {
     silent_on "are finished"
 }
 
-# Parts of a campaign are put together into the file of the whole; what does not belong together is refused by name.
+# Parts of a campaign are put together into the file of the whole; what does not belong together is
+# refused by name.
 test_merge() {
     campaign 30
     expect 0 in_folder whole "$rsc" -q ../case.nml
@@ -217,7 +223,8 @@ test_merge() {
     expect 2 "$rsc" --merge a/out.nc b/out.nc -o b/out.nc; says "input of the run"
 }
 
-# A study in one go and as an array of jobs: the same files. A bad member is refused before anything runs.
+# A study in one go and as an array of jobs: the same files. A bad member is refused before anything
+# runs.
 test_study() {
     study
     expect 0 in_folder one "$rsc" ../case.nml
@@ -249,7 +256,8 @@ test_study() {
     diff -r one array || fail "a member of another case was taken"
 }
 
-# No room for the state: the work so far is kept, and goes on once there is room. Here the limit of file sizes stands for the disk.
+# No room for the state: the work so far is kept, and goes on once there is room. Here the limit of
+# file sizes stands for the disk.
 test_limit() {
     campaign 300
     expect 0 in_folder whole "$rsc" -q -s run%realizations=310 ../case.nml

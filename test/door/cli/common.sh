@@ -1,5 +1,5 @@
-# Shared by the scripts of this folder: . common.sh after test, rsc and folder are set. Works in an empty folder. Exit status of a
-# script: 0 passed, 77 skipped, anything else failed.
+# Shared by the scripts of this folder: . common.sh after test, rsc and folder are set. Works in an
+# empty folder. Exit status of a script: 0 passed, 77 skipped, anything else failed.
 set -u
 export SOURCE_DATE_EPOCH=1700000000   # files are equal to the last byte then
 umask 022
@@ -29,8 +29,9 @@ alike() {
 }
 # left FOLDER NAMES: what is there, and nothing else.
 left() { [ "$(ls -A "$1" | tr '\n' ' ')" = "${2:+$2 }" ] || fail "left in $1: $(ls -A "$1"); expected: $2"; }
-# shortened NAME PICTURES...: input/NAME/run.sh --short from beginning to end leaves these pictures, and a report without "not a number" that says it is
-# the shortened one; its output is log.txt. 77 where Python lacks its modules.
+# shortened NAME PICTURES...: input/NAME/run.sh --short from beginning to end leaves these pictures,
+# and a report without "not a number" that says it is the shortened one; its output is log.txt. 77
+# where Python lacks its modules.
 shortened() {
     local name=$1
     shift
@@ -44,5 +45,6 @@ shortened() {
     grep -q 'SHORTENED' "$report" || fail "the report does not say that it is the shortened one"
     ! grep -n -w -i nan "$report" || fail "not a number in the report"
 }
-# in_folder NAME command...: in a folder of that name, so that the result file can have one name everywhere.
+# in_folder NAME command...: in a folder of that name, so that the result file can have one name
+# everywhere.
 in_folder() { mkdir -p "$1" && (cd "$1" && shift && "$@"); }

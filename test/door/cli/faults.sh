@@ -1,6 +1,7 @@
 #!/bin/bash
-# Faults from outside: bash faults.sh TEST RSC FOLDER. Each must end in the right exit status and a message that says what to do, with
-# nothing under the final name and no work in progress left behind.
+# Faults from outside: bash faults.sh TEST RSC FOLDER. Each must end in the right exit status and a
+# message that says what to do, with nothing under the final name and no work in progress left
+# behind.
 test=$1 rsc=$2 folder=$3
 . "$(dirname "$0")/common.sh"
 
@@ -52,7 +53,8 @@ test_file_limit() {
     left work ""
 }
 
-# Lines of a run of some time: the reason is that of the write, not that of a later call. The file is complete.
+# Lines of a run of some time: the reason is that of the write, not that of a later call. The file
+# is complete.
 test_full_output() {
     [ -c /dev/full ] || exit 77
     expect 1 bash -c 'exec "$0" -o out.nc case.nml > /dev/full' "$rsc"
@@ -113,7 +115,8 @@ running() { kill -0 "$1" 2> /dev/null && [ "$(cut -d' ' -f3 "/proc/$1/stat" 2> /
 # Memory the process has, in KiB.
 has() { sed -n 's/^VmRSS:[ \t]*\([0-9]*\) kB/\1/p' "/proc/$1/status" 2> /dev/null || echo 0; }
 
-# stopped SIGNAL WHEN command...: the signal comes as soon as `WHEN` succeeds; the command ends by it.
+# stopped SIGNAL WHEN command...: the signal comes as soon as `WHEN` succeeds; the command ends by
+# it.
 stopped() {
     local signal=$1 when=$2 number
     shift 2

@@ -1,6 +1,6 @@
 #!/bin/bash
-# What a run does to files, and what it refuses because of files, surfaces and places, with status 2 and nothing written:
-# bash files.sh TEST RSC FOLDER.
+# What a run does to files, and what it refuses because of files, surfaces and places, with status 2
+# and nothing written: bash files.sh TEST RSC FOLDER.
 test=$1 rsc=$2 folder=$3
 . "$(dirname "$0")/common.sh"
 
@@ -97,7 +97,8 @@ test_newer_input() {
     expect 0 "$rsc" case.nml --resume; says "replaces"
 }
 
-# A study: its manifest says what each member is, in the units of the case; what is in the way is refused.
+# A study: its manifest says what each member is, in the units of the case; what is in the way is
+# refused.
 test_study() {
     printf "&study surface%%sigma = 0.01, 0.02  solids%%R(2) = 2, Infinity /\n" >> case.nml
     echo mine > out_manifest.nc; refused "out_manifest.nc.*no manifest of rsc"
@@ -123,7 +124,8 @@ test_study() {
     expect 2 "$rsc" --member 5 case.nml; says "4 members"
 }
 
-# --check does all that can fail before the first level, runs nothing, and says the memory that elements take.
+# --check does all that can fail before the first level, runs nothing, and says the memory that
+# elements take.
 test_check() {
     for threads in 1 2; do
         expect 0 "$rsc" --check case.nml -s run%threads=$threads -s "solver%model='elements'"; says "[0-9] MB .* $threads thread"
@@ -204,7 +206,8 @@ test_surfaces() {
     taken -s surface%sigma=0.01
 }
 
-# Results that are no part of a campaign, told where --resume would go on with them; and parts that are not of one whole.
+# Results that are no part of a campaign, told where --resume would go on with them; and parts that
+# are not of one whole.
 test_parts() {
     sed -i "s/steps = 4/levels = 3, 2/" case.nml before.nml
     expect 0 "$rsc" case.nml -q -s run%realizations=2 -s "output%format='classic'"

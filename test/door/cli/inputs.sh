@@ -1,5 +1,6 @@
 #!/bin/bash
-# What input/ offers, run as its comments say, smaller where it would take long: bash inputs.sh TEST RSC PROJECT FOLDER.
+# What input/ offers, run as its comments say, smaller where it would take long:
+# bash inputs.sh TEST RSC PROJECT FOLDER.
 # Exit status 0: passed, 77: something that is no part of rsc is missing, anything else: failed.
 test=$1 rsc=$2 project=$3 folder=$4
 . "$(dirname "$0")/common.sh"
@@ -28,7 +29,8 @@ test_cases() {
     [ "$(pictures)" -ge 1 ] || fail "plot.py has made no picture: $(ls output)"
 }
 
-# The newcomer's script from end to end; what installs and builds is replaced by what only puts the program in place.
+# The newcomer's script from end to end; what installs and builds is replaced by what only puts the
+# program in place.
 test_first() {
     draws || exit 77
     rm rsc
@@ -55,8 +57,8 @@ test_parallel() {
     for k in 1 2 3 4 5 6; do same output/study_00$k.nc ../output/study_00$k.nc; done
 }
 
-# The scripts for Slurm, with its variables set as sbatch sets them: the array leaves what a study in one go leaves, and is complete when
-# submitted again; the ranks get their number and the case.
+# The scripts for Slurm, with its variables set as sbatch sets them: the array leaves what a study
+# in one go leaves, and is complete when submitted again; the ranks get their number and the case.
 test_slurm() {
     sed 's/realizations = 20/realizations = 2/; s/steps = 50/steps = 4/' input/study.nml > small.nml
     for again in '' complete; do

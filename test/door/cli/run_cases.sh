@@ -1,6 +1,7 @@
 #!/bin/sh
-# run_cases.sh PROJECT FOLDER: input/run_cases.sh by way of input/flat/run.sh, with a program and a Python that only write down what they
-# are asked for: which cases, in which order, what is kept, what is refused.
+# run_cases.sh PROJECT FOLDER: input/run_cases.sh by way of input/flat/run.sh, with a program and a
+# Python that only write down what they are asked for: which cases, in which order, what is kept,
+# what is refused.
 set -u
 project=$1
 folder=$2
@@ -52,7 +53,8 @@ refused 2 shortened rsc other
 refused 2 mine rsc mine
 [ "$(cat mine/x.nc)" = precious ] && [ ! -e calls.txt ] || fail 'a refused run has done something'
 
-# A run that breaks off has the status of the program and goes on; with another program, or once it is through, it starts anew.
+# A run that breaks off has the status of the program and goes on; with another program, or once it
+# is through, it starts anew.
 echo size_elements > breaks
 sh "$run" rsc broken > said.txt 2>&1
 [ $? -eq 5 ] && grep -q '2 of 4' said.txt || fail "a run that breaks off: $(cat said.txt)"

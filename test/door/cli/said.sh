@@ -1,6 +1,7 @@
 #!/bin/bash
-# Where main() puts what it says: refusals with status 2 and warnings on standard error, what was asked for on standard output, and no file but
-# the result: bash said.sh TEST RSC DATA FOLDER. What is refused and told in which words: test_refusals.
+# Where main() puts what it says: refusals with status 2 and warnings on standard error, what was
+# asked for on standard output, and no file but the result: bash said.sh TEST RSC DATA FOLDER. What
+# is refused and told in which words: test_refusals.
 test=$1 rsc=$2 data=$3 folder=$4
 . "$(dirname "$0")/common.sh"
 
@@ -42,8 +43,9 @@ test_asked() {
     run 0 "" --version; err ''; out '^rsc [0-9.]+\|$'
 }
 
-# Alone under the tip on a flat of E* = 1 an asperity of radius 1 pressed in by 0.01 carries N = (4/3) 0.01^(3/2) on A = 0.01 pi. Two whose spots
-# overlap (a = 0.01 each but for their interaction, 0.015 apart) have one solution: above (2/pi) a.
+# Alone under the tip on a flat of E* = 1 an asperity of radius 1 pressed in by 0.01 carries
+# N = (4/3) 0.01^(3/2) on A = 0.01 pi. Two whose spots overlap (a = 0.01 each but for their
+# interaction, 0.015 apart) have one solution: above (2/pi) a.
 test_levels() {
     flats="&solids E=1, Infinity, nu=0, 0, R=Infinity, Infinity /"
     run 0 result.nc -o result.nc <<< "&surface source='asperities', file='$data/one_asperity.txt', sigma=0.01, L=1 / $flats

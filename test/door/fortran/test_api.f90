@@ -1,4 +1,5 @@
-! The Fortran module: what only Fortran has. Values by every type, failures told and not told, copies, finalisers.
+! The Fortran module: what only Fortran has. Values by every type, failures told and not told,
+! copies, finalisers.
 program test_api
   use rsc
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
@@ -63,7 +64,8 @@ contains
     call other%free()
   end subroutine
 
-  ! Objects created, created again and released: a leak or a double release shows under valgrind or AddressSanitizer.
+  ! Objects created, created again and released: a leak or a double release shows under valgrind or
+  ! AddressSanitizer.
   subroutine lifetimes()
     integer :: k
     do k = 1, 50

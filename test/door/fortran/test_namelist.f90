@@ -1,5 +1,6 @@
-! rsc and this compiler's runtime read the same namelists: what both take has the same values, bit for bit. The runtime is the judge of
-! the syntax; rsc may refuse more (a key given twice, a misspelt group), and a few things it takes the runtime does not.
+! rsc and this compiler's runtime read the same namelists: what both take has the same values, bit
+! for bit. The runtime is the judge of the syntax; rsc may refuse more (a key given twice, a
+! misspelt group), and a few things it takes the runtime does not.
 program test_namelist
   use rsc
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan

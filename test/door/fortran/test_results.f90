@@ -1,4 +1,5 @@
-! rsc_results reads what rsc wrote: `test_results OTHER RESULT...`, a file that is no result, and results of the program.
+! rsc_results reads what rsc wrote: `test_results OTHER RESULT...`, a file that is no result, and
+! results of the program.
 program test_results
   use rsc_results
   use netcdf
@@ -25,7 +26,8 @@ contains
 
   include 'check.inc'
 
-  ! Every variable of numbers, value by value and extent by extent, against netcdf-fortran reading it as one list.
+  ! Every variable of numbers, value by value and extent by extent, against netcdf-fortran reading
+  ! it as one list.
   subroutine every_variable(file)
     character(*), intent(in) :: file
     type(rsc_result) :: r

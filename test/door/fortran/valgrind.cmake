@@ -1,4 +1,5 @@
-# The Fortran programs under valgrind: no invalid access, no use of what was never set, nothing lost.
+# The Fortran programs under valgrind: no invalid access, no use of what was never set, nothing
+# lost.
 find_program(RSC_VALGRIND valgrind)
 if(NOT RSC_VALGRIND OR RSC_SANITIZE)
   return()

@@ -1,5 +1,5 @@
-# Installs the build, moves the installation, then builds and runs consumers in C and Fortran against it. Stops at the first thing that
-# goes wrong.
+# Installs the build, moves the installation, then builds and runs consumers in C and Fortran
+# against it. Stops at the first thing that goes wrong.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -83,7 +83,8 @@ if(FORTRAN_COMPILER)
   must_run(${FOLDER}/own_fortran)
 endif()
 
-# A project in Fortran alone: static and shared library, the reader of results; and with a compiler that cannot read the .mod.
+# A project in Fortran alone: static and shared library, the reader of results; and with a compiler
+# that cannot read the .mod.
 find_program(FLANG NAMES flang-new-19 flang-new flang)
 foreach(compiler ${FORTRAN_COMPILER} ${FLANG})
   get_filename_component(name ${compiler} NAME)
@@ -123,7 +124,8 @@ if(NOT module)
   message(FATAL_ERROR "the Python package is not installed")
 endif()
 
-# The tree stands alone: what README sends to is there, a case finds its data, and the line that it prints for the picture works elsewhere.
+# The tree stands alone: what README sends to is there, a case finds its data, and the line that it
+# prints for the picture works elsewhere.
 file(GLOB doc ${prefix}/share/doc/*)
 foreach(name README CHANGELOG LICENSE input/README input/first.nml input/map/map.sdf input/map/map.gwy modules/README output/README src/README
         test/README example/fixed.f)

@@ -1,6 +1,8 @@
 #!/bin/sh
-# Makefile.legacy makes the same program: builds ./rsc in a copy of the tree by plain make and compares its loads with another rsc's.
-# Usage: sh test/door/package/legacy.sh /path/to/rsc        (minutes: `cmake --build build --target check_legacy`)
+# Makefile.legacy makes the same program: builds ./rsc in a copy of the tree by plain make and
+# compares its loads with another rsc's.
+# Usage: sh test/door/package/legacy.sh /path/to/rsc
+# It takes minutes: `cmake --build build --target check_legacy`.
 set -eu
 other=$1
 top=$(cd "$(dirname "$0")/../../.." && pwd)

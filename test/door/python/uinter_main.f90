@@ -1,6 +1,7 @@
-! Calls the user subroutine as a finite-element code would: a spring of stiffness k per area between the interface and a moved end, solved
-! by Newton's method with the slope that uinter gives. Reads from standard input: the number of properties, the properties, k, the number
-! of displacements, the displacements; prints for each: overclosure, pressure, slope, Newton iterations.
+! Calls the user subroutine as a finite-element code would: a spring of stiffness k per area between
+! the interface and a moved end, solved by Newton's method with the slope that uinter gives. Reads
+! from standard input: the number of properties, the properties, k, the number of displacements, the
+! displacements; prints for each: overclosure, pressure, slope, Newton iterations.
 program uinter_main
   implicit none
   integer, parameter :: dp = kind(1.0d0)

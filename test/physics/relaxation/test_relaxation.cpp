@@ -11,7 +11,6 @@ using namespace rsc;
 constexpr double kRadius = 0.3, kE = 2.5, kFactor = 4.0 / 3 * kE;
 
 // --- creep
-// ----------------------------------------------------------------------------------------------------------------------------
 
 // J(t)/J(0) from its transform soft/(s e(s)) + (1 - soft)/s, e(s) = s times that of the relaxation
 // function, by Talbot's contour (Abate and
@@ -65,7 +64,6 @@ TEST(test_creep) {
 }
 
 // --- one asperity
-// ---------------------------------------------------------------------------------------------------------------------
 
 struct One {
     Asperities asperities;

@@ -172,8 +172,8 @@ TEST(tension_at_the_rim_of_a_hertz_contact) {
 
 TEST(hertz_line_between_flats) {
     // A line of half-width 1 along y in a period of 40: shear 0.300 p0 at 0.786 b (Johnson 1985,
-    // section 4.2). The mean pressure m presses body and images sideways by nu/(1 - nu) m, where the
-    // modes of a line alone would by m.
+    // section 4.2). The mean pressure m presses body and images sideways by nu/(1 - nu) m, where
+    // the modes of a line alone would by m.
     const double nu = 0.3, mean = 0.5 * pi / 40, more = 0.5 * (1 - nu / (1 - nu)) * mean;
     PointGrid grid = square_grid(1600, 0.025);
     grid.ny = 8;
@@ -194,9 +194,9 @@ TEST(hertz_line_between_flats) {
 }
 
 TEST(the_period_is_forgotten_as_it_grows) {
-    // Under a contact that is small beside the period the stresses are those of a free surface. What
-    // the images and the mean pressure add falls with the area of the period; what is left is the
-    // difference between uniform and band-limited pressures, of second order in the pixel.
+    // Under a contact that is small beside the period the stresses are those of a free surface.
+    // What the images and the mean pressure add falls with the area of the period; what is left is
+    // the difference between uniform and band-limited pressures, of second order in the pixel.
     const double step = 0.25;
     std::vector<StressPlane> planes;
     const SlidingTraction sliding{0.3, -0.2};
@@ -226,8 +226,9 @@ TEST(the_period_is_forgotten_as_it_grows) {
 }
 
 TEST(hertz_line_that_repeats_along_its_axis) {
-    // On a free surface 8 wide: shear 0.300 p0 at 0.786 b, and 2 mu p0 tension behind a sliding line
-    // on the surface (Johnson 1985, sections 4.2 and 7.1), along y and along x, for several periods.
+    // On a free surface 8 wide: shear 0.300 p0 at 0.786 b, and 2 mu p0 tension behind a sliding
+    // line on the surface (Johnson 1985, sections 4.2 and 7.1), along y and along x, for several
+    // periods.
     const double nu = 0.3, mu = 0.3;
     for (const int n : {16, 61}) {
         PointGrid grid = square_grid(161, 0.05);

@@ -86,7 +86,8 @@ def solve(operator, overlap, start, tolerance=1e-6, most=1000):
         else:
             gap = operator(new) - overlap
         p = new
-        # Complementarity: penetrations left and gaps under pressure, in the mean, over the mean overlap of the contact.
+        # Complementarity: penetrations left and gaps under pressure, in the mean, over the mean
+        # overlap of the contact.
         bad = np.where(p > 0, np.abs(gap), np.maximum(-gap, 0.0))
         scale = np.sum(p * overlap) / np.sum(p)
         error = np.sqrt(np.sum(bad * bad) / max(1, np.count_nonzero(p))) / scale

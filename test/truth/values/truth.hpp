@@ -25,7 +25,6 @@ inline std::size_t at(long k) { return static_cast<std::size_t>(k); }
 inline double number(std::size_t n) { return static_cast<double>(n); }
 
 // --- Surfaces
-// --------------------------------------------------------------------------------------------------------------------
 
 struct Moments4 {
     double m0 = kNone, m2 = kNone, m4 = kNone;
@@ -148,7 +147,6 @@ inline Moments4 closed_forms(const Case& c) {
 }
 
 // --- Contacts
-// --------------------------------------------------------------------------------------------------------------------
 
 struct Spot2 {
     double x = 0, y = 0, f = 0, area = 0;
@@ -266,7 +264,6 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
 }
 
 // --- A case, and what it means
-// -----------------------------------------------------------------------------------------------------
 
 struct Truth {
     Case c;
