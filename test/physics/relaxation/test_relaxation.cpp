@@ -13,8 +13,8 @@ constexpr double kRadius = 0.3, kE = 2.5, kFactor = 4.0 / 3 * kE;
 // --- creep
 
 // J(t)/J(0) from its transform soft/(s e(s)) + (1 - soft)/s, e(s) = s times that of the relaxation
-// function, by Talbot's contour (Abate and
-// Valko, Int. J. Numer. Meth. Eng. 60, 2004).
+// function, by Talbot's contour (Abate and Valko,
+// Int. J. Numer. Meth. Eng. 60, 2004).
 double talbot(const Relaxation& body, double t) {
     using C = std::complex<long double>;
     constexpr int terms = 28;
