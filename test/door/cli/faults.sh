@@ -33,8 +33,10 @@ test_full_disk() {
         left disk ""
     done
     # A file that was there stays as it was.
-    expect 0 "$rsc" -s output%heights=F -s output%map_cells=1 -s indentation%steps=1 -s "output%contacts='none'" -s output%radial_bins=1 \
-        -s output%pdf_bins=1 -s "output%format='classic'" -s "compare%levels='none'" -o disk/out.nc case.nml
+    expect 0 "$rsc" -s output%heights=F -s output%map_cells=1 -s indentation%steps=1 \
+        -s "output%contacts='none'" -s output%radial_bins=1 \
+        -s output%pdf_bins=1 -s "output%format='classic'" -s "compare%levels='none'" \
+        -o disk/out.nc case.nml
     cp disk/out.nc before.nc
     expect 1 "$rsc" -o disk/out.nc case.nml
     cmp before.nc disk/out.nc || fail "the file that was there is not what it was"
@@ -69,8 +71,12 @@ test_read_only() {
         setpriv --version > /dev/null 2>&1 || exit 77
         # Nobody may go everywhere that root's build is.
         open=$(mktemp -d) && trap 'rm -rf "$open"; chmod 0755 "$folder/work"' EXIT
-        cp "$rsc" case.nml "$open" && chmod 0755 "$open" && mkdir "$open/work" && chmod 0555 "$open/work"
-        nobody() { (cd "$open" && setpriv --reuid=65534 --regid=65534 --clear-groups ./rsc "$@" case.nml < /dev/null); }
+        cp "$rsc" case.nml "$open" && chmod 0755 "$open" && mkdir "$open/work" &&
+            chmod 0555 "$open/work"
+        nobody() {
+            (cd "$open" && setpriv --reuid=65534 --regid=65534 --clear-groups \
+                ./rsc "$@" case.nml < /dev/null)
+        }
         at=$open
     else
         nobody() { "$rsc" "$@" case.nml; }
@@ -85,7 +91,8 @@ test_read_only() {
     # What may not be read.
     chmod 0777 "$at"
     echo "1 2 3" > "$at/secret" && chmod 0000 "$at/secret"
-    expect 2 nobody -s "surface%source='heights'" -s "surface%file='secret'" -s surface%L=1 -o "$at/secret.nc"
+    expect 2 nobody -s "surface%source='heights'" -s "surface%file='secret'" -s surface%L=1 \
+        -o "$at/secret.nc"
     says "secret: Permission denied"
 }
 
@@ -94,12 +101,16 @@ test_memory() {
     bash -c 'ulimit -v 4000000; exec "$0" --version' "$rsc" > /dev/null 2>&1 || exit 77
     mkdir work
     local least=20000 refused=0 done=0   # what the program needs to exist, in KiB: its libraries
-    limited() { bash -c 'ulimit -v "$1"; shift; OPENBLAS_NUM_THREADS=1 exec "$0" "$@"' "$rsc" "$@" > said 2>&1; }
+    limited() {
+        bash -c 'ulimit -v "$1"; shift; OPENBLAS_NUM_THREADS=1 exec "$0" "$@"' "$rsc" "$@" \
+            > said 2>&1
+    }
     until limited $least --version; do
         least=$((least + 4000))
         [ $least -lt 2000000 ] || exit 77
     done
-    for more in 0 4000 8000 12000 16000 24000 32000 48000 64000 96000 128000 192000 256000 384000; do
+    for more in 0 4000 8000 12000 16000 24000 32000 48000 64000 96000 128000 192000 256000 \
+        384000; do
         rm -f work/out.nc
         limited $((least + more)) -s run%threads=2 -s surface%n=1024 -o work/out.nc case.nml
         case $? in
@@ -140,7 +151,8 @@ test_signal_reading() {
     mkfifo pipe
     exec 3<> pipe
     for signal in TERM INT; do
-        stopped $signal 'grep -q rsc "/proc/$process/cmdline" && sleep 0.2' env --default-signal=INT \
+        stopped $signal 'grep -q rsc "/proc/$process/cmdline" && sleep 0.2' \
+            env --default-signal=INT \
             bash -c 'exec "$0" -o work/out.nc < pipe' "$rsc"
         [ $got -eq "$(status_of $signal)" ] || { cat said; fail "exit status $got"; }
         left work ""
@@ -160,7 +172,8 @@ ends_without_trace() { # ends_without_trace WHEN arguments...
 }
 test_signal_surface() {
     slow "steps = 2" ""
-    ends_without_trace '[ "$(has $process)" -gt 150000 ]' -s surface%n=8192 -s surface%L_lambda_s=3000
+    ends_without_trace '[ "$(has $process)" -gt 150000 ]' -s surface%n=8192 \
+        -s surface%L_lambda_s=3000
 }
 test_signal_levels() {
     slow "steps = 4000" ""
@@ -172,7 +185,8 @@ test_signal_writing() {
     slow "steps = 2" "heights = .true.  compression = 9"
     for signal in TERM INT; do
         rm -f work/*
-        stopped $signal 'ls work | grep -q part' env --default-signal=INT "$rsc" -s surface%n=1024 -s surface%L_lambda_s=256 case.nml
+        stopped $signal 'ls work | grep -q part' env --default-signal=INT \
+            "$rsc" -s surface%n=1024 -s surface%L_lambda_s=256 case.nml
         [ $got -eq 0 ] || { cat said; fail "exit status $got"; }
         left work out.nc
         ncdump -h work/out.nc > /dev/null || fail "the file is not whole"

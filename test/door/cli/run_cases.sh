@@ -24,15 +24,21 @@ END
 chmod +x rsc python
 PYTHON=$folder/work/python
 export PYTHON
-called() { [ "$(sed 's|.*/\([a-z_]*\)\.nml.*|\1|' calls.txt | tr '\n' ' ')" = "$* " ] || fail "called for: $(cat calls.txt); expected: $*"; rm calls.txt; }
+called() {
+    [ "$(sed 's|.*/\([a-z_]*\)\.nml.*|\1|' calls.txt | tr '\n' ' ')" = "$* " ] ||
+        fail "called for: $(cat calls.txt); expected: $*"
+    rm calls.txt
+}
 
 # Whole, and shortened: each in a folder of its own.
 sh "$run" > said.txt 2>&1 || fail "$(cat said.txt)"
 called $cases
-[ "$(cat output/flat/kind.txt)" = full ] && [ -s output/flat/report.txt ] && [ -s output/flat/times.txt ] || fail "output/flat: $(ls output/flat)"
+[ "$(cat output/flat/kind.txt)" = full ] && [ -s output/flat/report.txt ] &&
+    [ -s output/flat/times.txt ] || fail "output/flat: $(ls output/flat)"
 sh "$run" --short > said.txt 2>&1 || fail "$(cat said.txt)"
 called $cases
-grep -q 'realizations = 3' output/flat_short/size_elements.nml || fail 'the shortened case is not shortened'
+grep -q 'realizations = 3' output/flat_short/size_elements.nml ||
+    fail 'the shortened case is not shortened'
 sh "$run" rsc --short other > said.txt 2>&1 || fail "$(cat said.txt)"  # options anywhere
 called $cases
 
@@ -66,7 +72,8 @@ called size_elements size_asperities
 touch broken/flat_kappa.png broken/old.nc broken/mine.txt
 sh "$run" rsc broken > said.txt 2>&1
 called $cases
-[ ! -e broken/flat_kappa.png ] && [ ! -e broken/old.nc ] && [ -e broken/mine.txt ] || fail "what is left of the run before: $(ls broken)"
+[ ! -e broken/flat_kappa.png ] && [ ! -e broken/old.nc ] && [ -e broken/mine.txt ] ||
+    fail "what is left of the run before: $(ls broken)"
 echo alpha_asperities > breaks
 sh "$run" rsc broken > said.txt 2>&1
 rm breaks calls.txt
