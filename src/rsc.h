@@ -461,7 +461,7 @@ RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
 RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
 
 /* Stores the state for rsc_contact_rollback: the tip, the last level and the loading history
- * (solids%hardness, solids%adhesion). A new contact is committed when it is created. For codes that
+ * (solids%hardness, solids%adhesion). The first state of a new contact is committed. For codes that
  * try a step and may have to repeat it.
  *     contact: the contact.
  * Errors: -1 null; RSC_NO_MEMORY. */
@@ -487,8 +487,8 @@ RSC_API int32_t rsc_contact_first_touch(const rsc_contact* contact, double* sepa
 
 /* Computes the contact at a separation. The result depends, within the tolerance, on the bodies,
  * the place of the tip, the separation and, with solids%hardness, solids%relaxation_share or
- * solids%adhesion, the state left by the levels before, on nothing else: not on earlier calls nor
- * on the way of the tip. A level near the last one is computed faster; the last one itself is not
+ * solids%adhesion, the loading history; on nothing else, neither earlier calls nor the way of the
+ * tip. A level near the last one is computed faster; the last one itself is not
  * computed again, except with adhesion.
  *     contact: the contact;
  *     separation: Z0, height of the tip above z = 0 [length];

@@ -8,9 +8,12 @@ extern "C" int omp_in_parallel() __attribute__((weak));  // defined if the progr
 namespace rsc {
 namespace {
 
-thread_local int loop_threads = 0;     // number set by LoopThreads
-thread_local bool in_a_piece = false;  // true in a piece of a shared loop
-std::atomic<bool> forked{false};       // true in a forked child, which has no pool threads
+struct Job;
+
+thread_local int loop_threads = 0;        // number set by LoopThreads
+thread_local const Job* piece = nullptr;  // the loop of which this thread runs a piece
+thread_local LoopProfile* profile = nullptr;
+std::atomic<bool> forked{false};  // true in a forked child, which has no pool threads
 
 // Number of processors that this process may use: batch systems bind jobs, and MPI its ranks, to
 // some of those of the machine.
@@ -34,10 +37,17 @@ int default_threads() {
     return count;
 }
 
+// What an outermost loop and the loops inside its pieces share.
+struct Tree {
+    std::atomic<std::size_t> helpers;  // number that may still join any of them
+    int threads;                       // loop_threads of the thread that began
+};
+
 struct Job {
     std::size_t count;
     const std::function<void(std::size_t, std::size_t)>& body;
-    std::size_t wanted;  // number of helpers that may still join
+    std::size_t wanted;  // number of helpers that may still join this loop
+    Tree& tree;
     std::size_t joined = 0;
     std::atomic<std::size_t> inside{0}, next{0};
     std::exception_ptr thrown{};
@@ -69,6 +79,7 @@ struct Pool {
     }
 
     void work(Job& job, std::size_t worker) noexcept {
+        const Job* const before = std::exchange(piece, &job);
         for (std::size_t k; (k = job.next.fetch_add(1)) < job.count;) {
             try {
                 job.body(k, worker);
@@ -78,14 +89,15 @@ struct Pool {
                 if (!job.thrown || worker == 0) job.thrown = std::current_exception();
             }
         }
+        piece = before;
     }
 
     void help() {
-        in_a_piece = true;
         std::unique_lock lock(mutex);
         for (;;) {
+            // Outer loops come before those inside their pieces.
             const auto found = std::find_if(jobs.begin(), jobs.end(), [](const Job* job) {
-                return job->wanted > 0 && job->next < job->count;
+                return job->wanted > 0 && job->tree.helpers > 0 && job->next < job->count;
             });
             if (found == jobs.end()) {
                 const std::size_t last = posted;
@@ -99,11 +111,14 @@ struct Pool {
             }
             Job& job = **found;
             --job.wanted;
+            --job.tree.helpers;
             ++job.inside;
             const std::size_t worker = ++job.joined;
             lock.unlock();
+            loop_threads = job.tree.threads;
             work(job, worker);
             lock.lock();
+            ++job.tree.helpers;
             if (--job.inside == 0) left.notify_all();
         }
     }
@@ -138,23 +153,29 @@ LoopThreads::~LoopThreads() { loop_threads = before_; }
 
 void parallel_pieces(std::size_t count, int threads,
                      const std::function<void(std::size_t, std::size_t)>& body) {
+    if (profile) {
+        profile->run(count, body);
+        return;
+    }
     const std::size_t team = std::min(count, most_threads(threads));
-    if (team < 2 || in_a_piece || forked || (omp_in_parallel && omp_in_parallel())) {
+    if (team < 2 || (piece && piece->tree.helpers == 0) || forked ||
+        (omp_in_parallel && omp_in_parallel())) {
         for (std::size_t k = 0; k < count; ++k) body(k, 0);
         return;
     }
     Pool& pool = Pool::get();
-    Job job{count, body, team - 1};
+    Tree own{most_threads(threads) - 1, loop_threads};
+    Tree& tree = piece ? piece->tree : own;
+    Job job{count, body, team - 1, tree};
     std::unique_lock lock(pool.mutex);
-    pool.start(team - 1);
+    if (!piece) pool.start(own.helpers);
     pool.jobs.push_back(&job);
     ++pool.posted;
-    const std::size_t looking = pool.looking;
+    const std::size_t looking = pool.looking, free = tree.helpers;
     lock.unlock();
-    for (std::size_t k = 1 + looking; k < team; ++k) pool.wake.notify_one();
-    in_a_piece = true;
+    for (std::size_t k = looking, end = std::min(team - 1, free); k < end; ++k)
+        pool.wake.notify_one();
     pool.work(job, 0);
-    in_a_piece = false;
     lock.lock();
     std::erase(pool.jobs, &job);
     if (job.inside > 0) {
@@ -165,6 +186,45 @@ void parallel_pieces(std::size_t count, int threads,
     pool.left.wait(lock, [&] { return job.inside == 0; });
     lock.unlock();
     if (job.thrown) std::rethrow_exception(job.thrown);
+}
+
+LoopProfile::LoopProfile(std::vector<int> cores)
+    : cores_(std::move(cores)), sums_{0, std::vector<double>(cores_.size(), 0.0)} {
+    profile = this;
+}
+LoopProfile::~LoopProfile() { profile = nullptr; }
+
+void LoopProfile::run(std::size_t count,
+                      const std::function<void(std::size_t, std::size_t)>& body) {
+    // Processor time: on a busy machine the time on the wall tells nothing.
+    const auto now = [] {
+        timespec t{};
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+        return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+    };
+    const Sums zero{0, std::vector<double>(cores_.size(), 0.0)};
+    Sums outer = std::exchange(sums_, zero);
+    std::vector<double> pieces(count), longest(cores_.size(), 0.0);
+    loops_ += depth_++ == 0;
+    double start = now();
+    for (std::size_t k = 0; k < count; ++k) {
+        body(k, 0);
+        const double end = now();
+        pieces[k] = end - std::exchange(start, end);
+        for (std::size_t c = 0; c < cores_.size(); ++c)
+            longest[c] = std::max(longest[c], pieces[k] - sums_.seconds + sums_.shared[c]);
+        sums_ = zero;
+    }
+    --depth_;
+    const double all = std::accumulate(pieces.begin(), pieces.end(), 0.0);
+    outer.seconds += all;
+    for (std::size_t c = 0; c < cores_.size(); ++c) {
+        std::vector<double> busy(static_cast<std::size_t>(cores_[c]), 0.0);
+        for (const double piece : pieces) *std::ranges::min_element(busy) += piece;
+        // Cores without a piece share the loops inside those of others.
+        outer.shared[c] += std::min(std::ranges::max(busy), std::max(all / cores_[c], longest[c]));
+    }
+    sums_ = std::move(outer);
 }
 
 namespace {

@@ -30,8 +30,9 @@ private:
 // below the number of threads and unique among concurrent pieces, so that it can index buffers. The
 // assignment of pieces to threads is random: results must depend only on the pieces. If a piece
 // throws, pieces not yet begun are skipped, and one exception is rethrown here, preferably that of
-// this thread. All pieces run on this thread inside a piece of another loop, inside an OpenMP
-// region of the caller, and after a fork.
+// this thread. A loop inside a piece of another loop is shared with threads that the outer loop has
+// no pieces for. All pieces run on this thread inside an OpenMP region of the caller and after a
+// fork.
 void parallel_pieces(std::size_t count, int threads,
                      const std::function<void(std::size_t piece, std::size_t worker)>& body);
 
@@ -72,6 +73,33 @@ void find_all(std::size_t n, int grain, int threads, Test&& test, std::vector<in
         to = std::copy(found.data() + piece * each, found.data() + ends[piece], to);
     found.erase(to, found.end());
 }
+
+// Counts the parallel loops of this thread during its lifetime, which it runs on this thread, and
+// what they would take on more cores if nothing else limited them: each core takes the next piece
+// as soon as it is free, and shares the loops inside pieces when there is none. A loop must not
+// throw.
+class LoopProfile {
+public:
+    explicit LoopProfile(std::vector<int> cores);
+    LoopProfile(const LoopProfile&) = delete;
+    LoopProfile& operator=(const LoopProfile&) = delete;
+    ~LoopProfile();
+    long loops() const { return loops_; }                            // the outermost ones
+    double seconds() const { return sums_.seconds; }                 // on this thread
+    double seconds(std::size_t k) const { return sums_.shared[k]; }  // on the k-th number of cores
+
+    void run(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body);
+
+private:
+    struct Sums {
+        double seconds;
+        std::vector<double> shared;
+    };
+    std::vector<int> cores_;
+    Sums sums_;
+    long loops_ = 0;
+    int depth_ = 0;
+};
 
 // Long loops check regularly whether they must stop.
 

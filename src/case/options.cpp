@@ -156,29 +156,28 @@ Options parse_options(int argc, const char* const* argv) {
 }
 
 std::string usage_text() {
-    return "usage: rsc [options] < case.nml      run a case; also: rsc [options] case.nml, or a "
-           "result file, to run its case again\n"
-           "  -o, --output FILE                write the result to FILE instead of &output file\n"
-           "  -s, --set 'group%key=value'      override one key; a word needs no quotes, and "
-           "nothing after '=' is the default; repeatable\n"
-           "      --check                      read and check the case, print it with every "
-           "default, run nothing\n"
+    return "usage: rsc [options] case.nml      run a case, or the case of a result file\n"
+           "       rsc [options] < case.nml    the same\n"
+           "  -o, --output FILE                write the result to FILE\n"
+           "  -s, --set 'group%key=value'      override one key (repeats); a word needs no\n"
+           "                                   quotes, nothing after '=' is the default\n"
+           "      --check                      read and check the case, print it with every\n"
+           "                                   default, run nothing\n"
            "      --case FILE.nc               print the case inside a result file\n"
-           "      --describe [group[%key]]     describe keys: type, unit, default, bounds, "
-           "meaning\n"
+           "      --describe [group[%key]]     describe keys: type, unit, default, bounds,\n"
+           "                                   meaning\n"
            "      --list                       list the members of a &study\n"
            "      --member K                   run only member K of a &study\n"
-           "      --resume                     resume an interrupted campaign, or add realizations "
-           "to a finished one\n"
-           "      --merge FILE.nc FILE.nc ...  merge results of parts of a campaign into the FILE "
-           "of --output\n"
-           "      --progress auto|always|never show progress on stderr (auto: on a terminal)\n"
+           "      --resume                     resume an interrupted campaign, or add\n"
+           "                                   realizations to a finished one\n"
+           "      --merge FILE.nc FILE.nc ...  merge parts of a campaign into --output\n"
+           "      --progress auto|always|never show progress on stderr (auto: terminal)\n"
            "  -q, --quiet                      no table on stdout\n"
            "  -h, --help                       print this text\n"
            "      --man                        print the manual page: rsc --man | man -l -\n"
            "      --version                    print the version\n"
-           "Exit status: 0 success, 1 failed while running, 2 refused before running, 130/143 "
-           "stopped by a signal.\n";
+           "Exit status: 0 success, 1 failed while running, 2 refused before running,\n"
+           "130 or 143 stopped by a signal.\n";
 }
 
 std::string version_text() { return "rsc " RSC_VERSION "\n"; }

@@ -93,6 +93,12 @@ public:
     // Solves at the separation z of a level accepted earlier, at the history after it; later
     // solutions then start from there.
     virtual void solve_again(double z, const Level& level) = 0;
+    // Later solutions start from this level at the separation z, as from one solved here, if the
+    // model starts from earlier ones.
+    virtual void start_from(double z, const Level& level) {
+        (void)z;
+        (void)level;
+    }
     // Earlier solutions are no longer starting points, and there is no history.
     virtual void forget() = 0;
 

@@ -101,9 +101,9 @@ public:
     State state() const;
     // Throws Error(bad_input) if the state does not belong to these bodies.
     void restore(const State& state);
-    // Solves again at the restored level, from which later solutions then start.
-    void start_from_level() {
-        if (level_) solve_level_again();
+    // Later solutions start from this level as from one solved here, where there is no history.
+    void start_from(const Level& level) {
+        model_->start_from(level.separation - model_->shift() * level.force, level);
     }
 
 private:

@@ -15,6 +15,7 @@ constexpr double kFilter = 0.25;
 // save steps on pixels.
 constexpr double kReduction = 0.01;
 constexpr int kSteps = 60;
+constexpr int kBlockRows = 16;  // that a thread takes at a time
 
 }  // namespace
 
@@ -67,33 +68,49 @@ void BlockCorrection::multiply(const std::vector<float>& x, std::vector<float>& 
 void BlockCorrection::subtract(const PixelSet& set, const float* r, float* y, int threads) {
     // Solves (1 + D^1/2 F D^1/2) z = D^-1/2 P' M r. The wanted field is then F D^1/2 z.
     std::vector<float> residual = sums(set, r, threads), z(residual.size(), 0.0f), direction, image;
-    const auto product = [](const std::vector<float>& a, const std::vector<float>& b) {
-        double sum = 0;
-        for (std::size_t i = 0; i < a.size(); ++i)
-            sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
-        return sum;
+    // The sum of add(i), which also changes the vectors.
+    std::vector<double> partial(at(my_));
+    const auto sum = [&](auto&& add) {
+        parallel_for(my_, kBlockRows, threads, [&](int J) {
+            double part = 0;
+            for (std::size_t i = at(J) * at(mx_); i < at(J + 1) * at(mx_); ++i) part += add(i);
+            partial[at(J)] = part;
+        });
+        return std::accumulate(partial.begin(), partial.end(), 0.0);
     };
-    const auto divide = [&](std::vector<float>& x) {
-        for (std::size_t i = 0; i < x.size(); ++i) x[i] = root_[i] > 0 ? x[i] / root_[i] : 0.0f;
+    const auto product = [](float a, float b) {
+        return static_cast<double>(a) * static_cast<double>(b);
     };
-    divide(residual);
-    direction = residual;
-    double square = product(residual, residual);
+    const auto divided = [&](float x, std::size_t i) { return root_[i] > 0 ? x / root_[i] : 0.0f; };
+    direction.resize(residual.size());
+    double square = sum([&](std::size_t i) {
+        direction[i] = residual[i] = divided(residual[i], i);
+        return product(residual[i], residual[i]);
+    });
     const double wanted = kReduction * kReduction * square;
     for (int step = 0; step < kSteps && square > wanted; ++step) {
         multiply(direction, image);
-        for (std::size_t i = 0; i < image.size(); ++i) image[i] += direction[i];
-        const auto alpha = static_cast<float>(square / product(direction, image));
-        for (std::size_t i = 0; i < z.size(); ++i) {
-            z[i] += alpha * direction[i];
-            residual[i] -= alpha * image[i];
-        }
-        const double last = std::exchange(square, product(residual, residual));
+        const double curvature = sum([&](std::size_t i) {
+            image[i] += direction[i];
+            return product(direction[i], image[i]);
+        });
+        const auto alpha = static_cast<float>(square / curvature);
+        const double last = std::exchange(square, sum([&](std::size_t i) {
+                                              z[i] += alpha * direction[i];
+                                              residual[i] -= alpha * image[i];
+                                              return product(residual[i], residual[i]);
+                                          }));
         const auto beta = static_cast<float>(square / last);
-        for (std::size_t i = 0; i < z.size(); ++i) direction[i] = residual[i] + beta * direction[i];
+        sum([&](std::size_t i) {
+            direction[i] = residual[i] + beta * direction[i];
+            return 0.0;
+        });
     }
     multiply(z, image);
-    divide(image);
+    sum([&](std::size_t i) {
+        image[i] = divided(image[i], i);
+        return 0.0;
+    });
     parallel_for(my_, 1, threads, [&](int J) {
         const float* const field = image.data() + at(J) * at(mx_);
         for (std::size_t k = set.rows[at(J * side_)]; k < set.rows[at((J + 1) * side_)]; ++k)

@@ -5,7 +5,6 @@
 namespace rsc {
 namespace {
 
-constexpr int kRows = 8;  // that a thread takes at a time
 // Error, and share of the free pixels beyond their bounds, above which a round has a second part.
 constexpr double kUnsettled = 1e-3, kMany = 0.02;
 // Later rounds of a stiffness reduce the residual to this part of its tolerance.
@@ -15,18 +14,6 @@ constexpr double kSmall = 5e-5;
 
 }  // namespace
 
-template <class Sum, class F>
-Sum BoundedSolver::sum_with(F&& add) {
-    const int rows = static_cast<int>(rows_.size()) - 1;
-    std::vector<Sum> partial(at(rows));
-    parallel_for(rows, kRows, threads_for(p_.size()), [&](int j) {
-        Sum part{};
-        for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) add(part, k);
-        partial[at(j)] = part;
-    });
-    return std::accumulate(partial.begin(), partial.end(), Sum{});
-}
-
 template <class F>
 double BoundedSolver::sum(F&& of) {
     return sum_with<double>([&](double& part, std::size_t k) { part += of(k); });
@@ -35,9 +22,15 @@ double BoundedSolver::sum(F&& of) {
 template <class F>
 double BoundedSolver::sum_free(F&& of) {
     if (manner_.repeats) return sum(of);
-    double sum = 0;
-    for (const int k : free_list_) sum += of(at(k));
-    return sum;
+    const std::size_t n = free_list_.size();
+    std::vector<double> partial((n + kPixels - 1) / kPixels);
+    parallel_for(partial.size(), 1, threads_for(n), [&](std::size_t piece) {
+        double part = 0;
+        for (std::size_t k = piece * kPixels; k < std::min(n, (piece + 1) * kPixels); ++k)
+            part += of(at(free_list_[k]));
+        partial[piece] = part;
+    });
+    return std::accumulate(partial.begin(), partial.end(), 0.0);
 }
 
 template <class F>
@@ -63,10 +56,18 @@ void BoundedSolver::evaluate(bool exact) {
 // If the sum of p is given, sets Z0 such that the mean of w over the pixels under pressure is 0.
 void BoundedSolver::find_Z0() {
     if (!wanted_) return;
-    const auto touching = std::count_if(p_.begin(), p_.end(), [](double p) { return p > 0; });
-    if (touching == 0) return;
-    const double shift = -sum([&](std::size_t k) { return p_[k] > 0 ? w_[k] : 0.0; }) /
-                         static_cast<double>(touching);
+    struct Sums {
+        std::size_t touching = 0;
+        double w = 0;
+        Sums operator+(const Sums& o) const { return {touching + o.touching, w + o.w}; }
+    };
+    const Sums sums = sum_with<Sums>([&](Sums& part, std::size_t k) {
+        if (!(p_[k] > 0)) return;
+        ++part.touching;
+        part.w += w_[k];
+    });
+    if (sums.touching == 0) return;
+    const double shift = -sums.w / static_cast<double>(sums.touching);
     Z0_ += shift;
     each([&](std::size_t k) { w_[k] += shift; });
 }
@@ -103,8 +104,13 @@ void BoundedSolver::find_free() {
 }
 
 void BoundedSolver::precondition_ones(std::vector<double>& y) {
-    y.assign(free_.size(), 0.0);
-    precondition(std::vector<double>(free_.begin(), free_.end()), y);
+    std::vector<double> ones(free_.size());
+    y.resize(free_.size());
+    each([&](std::size_t k) {
+        ones[k] = free_[k];
+        y[k] = 0;
+    });
+    precondition(ones, y);
 }
 
 // Leaves K one_ in image_ where it computes punch_.
@@ -187,15 +193,18 @@ bool BoundedSolver::bound() {
     if (!wanted_) return cut;
     constexpr int most = 50;
     for (int i = 0; i < most; ++i) {
-        double all = 0, room = 0;
-        for (std::size_t k = 0; k < p_.size(); ++k) {
-            all += p_[k];
-            room += p_[k] > 0 ? one_[k] : 0.0;
-        }
-        const double missing = *wanted_ - all;
-        if (std::abs(missing) <= 1e-14 * *wanted_ || !(room > 0)) break;
+        struct Sums {
+            double all = 0, room = 0;
+            Sums operator+(const Sums& o) const { return {all + o.all, room + o.room}; }
+        };
+        const Sums sums = sum_with<Sums>([&](Sums& part, std::size_t k) {
+            part.all += p_[k];
+            part.room += p_[k] > 0 ? one_[k] : 0.0;
+        });
+        const double missing = *wanted_ - sums.all;
+        if (std::abs(missing) <= 1e-14 * *wanted_ || !(sums.room > 0)) break;
         each([&](std::size_t k) {
-            if (p_[k] > 0) p_[k] = std::max(p_[k] + missing / room * one_[k], 0.0);
+            if (p_[k] > 0) p_[k] = std::max(p_[k] + missing / sums.room * one_[k], 0.0);
         });
     }
     return true;
@@ -237,15 +246,18 @@ bool BoundedSolver::many_beyond() {
 // Returns true if the last round lowered the energy; otherwise restores the best pressures along
 // the step.
 bool BoundedSolver::fell() {
-    double slope = 0, curvature = 0;
-    for (std::size_t k = 0; k < p_.size(); ++k) {
+    struct Sums {
+        double slope = 0, curvature = 0;
+        Sums operator+(const Sums& o) const { return {slope + o.slope, curvature + o.curvature}; }
+    };
+    const auto [slope, curvature] = sum_with<Sums>([&](Sums& part, std::size_t k) {
         const double d = p_[k] - before_p_[k];
-        slope += d * before_w_[k];
-        curvature += d * (w_[k] - before_w_[k]);
-    }
+        part.slope += d * before_w_[k];
+        part.curvature += d * (w_[k] - before_w_[k]);
+    });
     if (slope + 0.5 * curvature <= 0) return true;
     const double t = slope < 0 && curvature > 0 ? std::min(1.0, -slope / curvature) : 0.5;
-    for (std::size_t k = 0; k < p_.size(); ++k) p_[k] = before_p_[k] + t * (p_[k] - before_p_[k]);
+    each([&](std::size_t k) { p_[k] = before_p_[k] + t * (p_[k] - before_p_[k]); });
     return false;
 }
 
@@ -311,11 +323,12 @@ double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, in
     // Solves K q = 1 by the same iteration; the solution of the level is restored afterwards.
     const std::vector<double> p = p_, w = w_;
     const std::optional<double> wanted = std::exchange(wanted_, std::nullopt);
-    const std::size_t n = p_.size();
     set_free([&](std::size_t k) { return p_[k] > 0 && (back || p_[k] < highest_); });
     const double count = sum_free([&](std::size_t k) { return free_[k] ? 1.0 : 0.0; });
-    std::fill(p_.begin(), p_.end(), 0.0);
-    std::fill(w_.begin(), w_.end(), -1.0);
+    each([&](std::size_t k) {
+        p_[k] = 0;
+        w_[k] = -1;
+    });
     const auto rms = [&] {
         return std::sqrt(sum_free([&](std::size_t k) { return free_[k] ? w_[k] * w_[k] : 0.0; }) /
                          count);
@@ -325,10 +338,10 @@ double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, in
     };
     prepare_constant(false);
     if (const double c = whole_ * punch_; manner_.repeats && c > 0)  // the first step is known
-        for (std::size_t k = 0; k < n; ++k) {
+        each([&](std::size_t k) {
             p_[k] = c * one_[k];
             w_[k] = c * image_[k] - 1;
-        }
+        });
     double residual = 0, answer = 0;
     for (int round = 0; round < most_rounds && count > 0; ++round) {
         const double decrease =
@@ -359,10 +372,9 @@ double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, in
 }
 
 double BoundedSolver::energy() const {
-    double twice = 0;
-    for (std::size_t k = 0; k < p_.size(); ++k)
-        twice += p_[k] * (z_[k] - Z0_ + (p_[k] < highest_ ? -w_[k] : w_[k]));
-    return 0.5 * twice;
+    return 0.5 * sum_with<double>([&](double& part, std::size_t k) {
+               part += p_[k] * (z_[k] - Z0_ + (p_[k] < highest_ ? -w_[k] : w_[k]));
+           });
 }
 
 std::vector<std::pair<int, double>> BoundedSolver::press_out() {

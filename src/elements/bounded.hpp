@@ -97,7 +97,7 @@ protected:
     bool many_beyond();
     bool bound();
     bool fell();
-    static constexpr int kPixels = 4096;  // that a thread takes at a time
+    static constexpr int kPixels = 4096, kRows = 8;  // that a thread takes at a time
     static int threads_for(std::size_t pixels) { return pixels >= 16384 ? 0 : 1; }
     // Over the positions in the set, independent of the number of threads: calls, sums, and sums of
     // what is 0 where it is not free.
@@ -106,7 +106,7 @@ protected:
         parallel_for(p_.size(), kPixels, threads_for(p_.size()), of);
     }
     template <class Sum, class F>
-    Sum sum_with(F&& add);  // add(part, k) adds to a part of the sum
+    Sum sum_with(F&& add) const;  // add(part, k) adds to a part of the sum
     template <class F>
     double sum(F&& of);
     template <class F>
@@ -137,5 +137,17 @@ private:
     std::vector<double> one_;
     double whole_ = 0, punch_ = 0;
 };
+
+template <class Sum, class F>
+Sum BoundedSolver::sum_with(F&& add) const {
+    const int rows = static_cast<int>(rows_.size()) - 1;
+    std::vector<Sum> partial(at(rows));
+    parallel_for(rows, kRows, threads_for(p_.size()), [&](int j) {
+        Sum part{};
+        for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) add(part, k);
+        partial[at(j)] = part;
+    });
+    return std::accumulate(partial.begin(), partial.end(), Sum{});
+}
 
 }  // namespace rsc

@@ -98,7 +98,7 @@ protected:
         Past past{z, {}, level.pixels.pressure};
         for (const std::int32_t index : level.pixels.index)
             past.pixels.push_back({index % heights_.nx, index / heights_.nx});
-        past_.push_front(std::move(past));
+        keep(std::move(past));
     }
     std::vector<double> deflections(const std::vector<Pixel>& where,
                                     const std::vector<double>& q) override;
@@ -110,6 +110,10 @@ private:
         std::vector<Pixel> pixels;
         std::vector<double> p;
     };
+    void keep(Past last) {
+        past_.push_front(std::move(last));
+        if (past_.size() > 2) past_.pop_back();
+    }
 
     double clearance(int i, int j) const {
         return indenter_.clearance(x(i), y(j), height(column(i), row(j)));
@@ -439,8 +443,7 @@ void ElementModel::remember(double Z0) {
         now.pixels[l] = pixels_[at(pressed[l])];
         now.p[l] = p_[at(pressed[l])];
     }
-    past_.push_front(std::move(now));
-    if (past_.size() > 2) past_.pop_back();
+    keep(std::move(now));
     accepted_ = false;
 }
 

@@ -163,7 +163,7 @@ void ElementsSolver::draw(const std::vector<double>& p) {
 
 // Pressures of all pixels.
 void ElementsSolver::spread(std::vector<double>& p) {
-    std::fill(p.begin(), p.end(), 0.0);
+    parallel_for(p.size(), kPixels, threads_for(p.size()), [&](std::size_t k) { p[k] = 0; });
     each([&](std::size_t k) { p[at(position_[k])] = p_[k]; });
 }
 
@@ -209,20 +209,24 @@ void ElementsSolver::enclose() {
     plane_rows_.assign(1, 0);
     column_.resize(set_.size());
     if (set_.empty()) return;
-    int left = set_[0].x, right = left;
-    for (const Pixel& pixel : set_) {
-        left = std::min(left, pixel.x);
-        right = std::max(right, pixel.x);
-    }
+    struct Width {
+        int left = std::numeric_limits<int>::max(), right = std::numeric_limits<int>::min();
+        Width operator+(const Width& o) const {
+            return {std::min(left, o.left), std::max(right, o.right)};
+        }
+    };
+    const auto [left, right] = sum_with<Width>([&](Width& part, std::size_t k) {
+        part = part + Width{set_[k].x, set_[k].x};
+    });
     const int reach = inverse_.reach(), low = set_.front().y,
               rows = set_.back().y - low + 1 + reach;
     plane_ = SparsePlane(right - left + 1 + reach, rows);
     plane_rows_.resize(at(rows) + 1);
-    for (std::size_t k = 0; k < set_.size(); ++k) {
-        ++plane_rows_[at(set_[k].y - low) + 1];
-        column_[k] = set_[k].x - left;
-    }
-    std::partial_sum(plane_rows_.begin(), plane_rows_.end(), plane_rows_.begin());
+    for (int row = 0; row <= rows; ++row)
+        plane_rows_[at(row)] = static_cast<std::size_t>(
+            std::ranges::lower_bound(set_, low + row, {}, &Pixel::y) - set_.begin());
+    const int first = left;
+    each([&](std::size_t k) { column_[k] = set_[k].x - first; });
 }
 
 void ElementsSolver::freed() {
@@ -230,8 +234,14 @@ void ElementsSolver::freed() {
 }
 
 void ElementsSolver::precondition(const std::vector<double>& r, std::vector<double>& y) {
-    double unit = 0;  // for single precision
-    for (const double v : r) unit = std::max(unit, std::abs(v));
+    struct Largest {
+        double value = 0;
+        Largest operator+(const Largest& o) const { return {std::max(value, o.value)}; }
+    };
+    const double unit =  // for single precision
+        sum_with<Largest>([&](Largest& part, std::size_t k) {
+            part.value = std::max(part.value, std::abs(r[k]));
+        }).value;
     if (!(unit > 0)) return;
     from_.resize(r.size());
     to_.resize(r.size());

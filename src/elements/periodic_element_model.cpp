@@ -1,10 +1,13 @@
 #include "base/error.hpp"
 #include "base/format.hpp"
+#include "base/parallel.hpp"
 #include "elements/periodic_elements.hpp"
 #include "elements/pixel_model.hpp"
 
 namespace rsc {
 namespace {
+
+constexpr int kRows = 16;  // that a thread takes at a time
 
 class PeriodicElementModel final : public PixelModel {
 public:
@@ -94,19 +97,21 @@ private:
             subtract(changed_);
             solver_.heights_changed();
         }
-        double top = -kInfinity;
-        for (int j = 0; j < heights_.ny; ++j)
-            top =
-                std::max(top, *std::max_element(present().row(j), present().row(j) + heights_.nx));
-        set_top(top);
+        std::vector<double> tops(at(heights_.ny));
+        parallel_for(heights_.ny, kRows, 0, [&](int j) {
+            const double* const row = present().row(j);
+            tops[at(j)] = *std::max_element(row, row + heights_.nx);
+        });
+        set_top(std::ranges::max(tops));
     }
     void subtract(HeightMap& changed) const {
-        for (int j = 0; j < heights_.ny; ++j)
+        parallel_for(heights_.ny, kRows, 0, [&](int j) {
             for (int i = 0; i < heights_.nx; ++i) {
                 double& z = changed.row(j)[i];
                 z = indenter_.clearance(x(i), y(j), height(i, j));
                 if (!lowered_.empty()) z -= lowered_[static_cast<std::size_t>(place({i, j}))];
             }
+        });
     }
     // The heights that the solver takes its units from, so that body 1 may be smooth.
     HeightMap less_face() const {

@@ -8,7 +8,6 @@ namespace rsc {
 namespace {
 
 constexpr int kThreads = 400000;  // number of pixels above which threads are used
-constexpr int kRows = 8;          // that a thread takes at a time
 constexpr std::size_t kFew = 8;   // products are split if one of this many pixels is in the set
 // Largest number of conjugate-gradient steps in a round, and the reduction of the preconditioned
 // residual that ends a round earlier.
@@ -29,13 +28,13 @@ constexpr double kRounding = 1e-12;  // rounding error of separations, in rms he
 // Mean of a function of the heights.
 template <class F>
 double PeriodicElements::mean_of(F&& f) const {
-    double all = 0;
-    for (int j = 0; j < relief_.ny; ++j) {
+    std::vector<double> means(at(relief_.ny));
+    parallel_for(relief_.ny, kRows, threads(), [&](int j) {
         double row = 0;
         for (int i = 0; i < relief_.nx; ++i) row += f(relief_.z[j * relief_.stride + i]);
-        all += row / relief_.nx;
-    }
-    return all / relief_.ny;
+        means[at(j)] = row / relief_.nx;
+    });
+    return std::accumulate(means.begin(), means.end(), 0.0) / relief_.ny;
 }
 
 double PeriodicElements::mean_height() const {
@@ -51,8 +50,13 @@ PeriodicElements::PeriodicElements(const Relief& relief, const Substrate& substr
       inner_(relief.nx, relief.ny, 1, aspect_, share_of_modes(substrate_, relief_.dx)),
       plane_(relief.nx, relief.ny) {
     mean_ = zero_ = mean_height();
-    double largest = 0;
-    mean_of([&](double z) { return largest = std::max(largest, std::abs(z - mean_)); });
+    std::vector<double> farthest(at(relief_.ny), 0.0);
+    parallel_for(relief_.ny, kRows, threads(), [&](int j) {
+        for (int i = 0; i < relief_.nx; ++i)
+            farthest[at(j)] =
+                std::max(farthest[at(j)], std::abs(relief_.z[j * relief_.stride + i] - mean_));
+    });
+    const double largest = std::ranges::max(farthest);
     if (!(largest > 0))
         throw Error(Failure::bad_input, "the surface is flat: two smooth flats touch everywhere");
     rms_ = largest * std::sqrt(mean_of([&](double z) {
@@ -121,21 +125,34 @@ std::vector<double> PeriodicElements::coarse_heights() const {
 }
 
 void PeriodicElements::start(const PeriodicElements& coarse) {
-    column_.clear();
-    p_.clear();
-    z_.clear();
-    for (int j = 0; j < relief_.ny; ++j) {
-        rows_[at(j)] = p_.size();
+    const auto pressed = coarse.pressed_by_row();
+    for (int j = 0; j < relief_.ny; ++j)
+        rows_[at(j) + 1] = rows_[at(j)] + 2 * (pressed[at(j / 2) + 1] - pressed[at(j / 2)]);
+    column_.resize(rows_.back());
+    p_.resize(rows_.back());
+    z_.resize(rows_.back());
+    parallel_for(relief_.ny, kRows, threads(), [&](int j) {
+        std::size_t next = rows_[at(j)];
         for (std::size_t k = coarse.rows_[at(j / 2)]; k < coarse.rows_[at(j / 2) + 1]; ++k) {
             if (!(coarse.p_[k] > 0)) continue;
             for (int i : {2 * coarse.column_[k], 2 * coarse.column_[k] + 1}) {
-                column_.push_back(i);
-                p_.push_back(coarse.p_[k]);
-                z_.push_back(height(j, i));
+                column_[next] = i;
+                p_[next] = coarse.p_[k];
+                z_[next++] = height(j, i);
             }
         }
-    }
-    rows_.back() = p_.size();
+    });
+}
+
+// The numbers of pixels under pressure in the rows before each.
+std::vector<std::size_t> PeriodicElements::pressed_by_row() const {
+    std::vector<std::size_t> before(at(relief_.ny) + 1, 0);
+    parallel_for(relief_.ny, kRows, threads(), [&](int j) {
+        for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k)
+            before[at(j) + 1] += p_[k] > 0 ? 1 : 0;
+    });
+    std::partial_sum(before.begin(), before.end(), before.begin());
+    return before;
 }
 
 void PeriodicElements::start(Given given) {
@@ -272,7 +289,7 @@ void PeriodicElements::renew() {
 void PeriodicElements::multiply_roughly(const std::vector<double>& x, std::vector<double>& Kx) {
     if (!split_ || x.size() > at(relief_.nx) * at(relief_.ny) / kFew) return multiply(x, Kx, false);
     split_->multiply(plane_, {rows_, column_}, x, Kx, threads());
-    for (double& v : Kx) v *= unit_;
+    each([&](std::size_t k) { Kx[k] *= unit_; });
 }
 
 // y = K^-1, truncated to some pixels and with a correction for the farther ones, times r over the
@@ -280,8 +297,7 @@ void PeriodicElements::multiply_roughly(const std::vector<double>& x, std::vecto
 void PeriodicElements::precondition(const std::vector<double>& r, std::vector<double>& y) {
     from_.resize(r.size());
     to_.resize(r.size());
-    for (std::size_t k = 0; k < r.size(); ++k)
-        from_[k] = free_[k] ? static_cast<float>(r[k]) : 0.0f;
+    each([&](std::size_t k) { from_[k] = free_[k] ? static_cast<float>(r[k]) : 0.0f; });
     plane_.convolve(inverse_, {rows_, column_}, from_.data(), to_.data(), threads());
     correct(y);
 }
@@ -296,11 +312,10 @@ void PeriodicElements::precondition_ones(std::vector<double>& y) {
 void PeriodicElements::correct(std::vector<double>& y) {
     if (far_is_set_) far_->subtract({rows_, column_}, from_.data(), to_.data(), threads());
     y.resize(to_.size());
-    double product = 0;
-    for (std::size_t k = 0; k < y.size(); ++k) {
+    const double product = sum_with<double>([&](double& part, std::size_t k) {
         y[k] = free_[k] ? static_cast<double>(to_[k]) : 0.0;
-        product += static_cast<double>(from_[k]) * y[k];
-    }
+        part += static_cast<double>(from_[k]) * y[k];
+    });
     if (!far_is_set_ || product > 0) return;
     far_is_set_ = false;  // the correction is not proved to be positive definite
     plane_.convolve(inverse_, {rows_, column_}, from_.data(), to_.data(), threads());
@@ -314,8 +329,8 @@ void PeriodicElements::freed() {
     ones_.resize(free_.size());
     plane_.convolve(inverse_, {rows_, column_}, from_.data(), ones_.data(), threads());
     if (!far_is_set_) return;
-    std::vector<float> m = ones_;
-    for (std::size_t k = 0; k < m.size(); ++k) m[k] = free_[k] ? std::max(m[k], 0.0f) : 0.0f;
+    std::vector<float> m(ones_.size());
+    each([&](std::size_t k) { m[k] = free_[k] ? std::max(ones_[k], 0.0f) : 0.0f; });
     far_->set({rows_, column_}, std::move(m), threads());
 }
 
@@ -345,14 +360,17 @@ ElementsOutcome PeriodicElements::solve(Given given, double tolerance, int most_
     ElementsOutcome outcome = iterate(tolerance, most_iterations, finest);
     outcome.products = products_ - before;
     if (!finest) return outcome;
-    const std::vector<Pixel> all = set();
-    pixels_.clear();
-    pressures_.clear();
-    for (std::size_t k = 0; k < all.size(); ++k)
-        if (p_[k] > 0) {
-            pixels_.push_back(all[k]);
-            pressures_.push_back(p_[k] >= highest_ ? hardness_ : p_[k] * pressure_unit_);
+    const auto pressed = pressed_by_row();
+    pixels_.resize(pressed.back());
+    pressures_.resize(pressed.back());
+    parallel_for(relief_.ny, kRows, threads(), [&](int j) {
+        std::size_t next = pressed[at(j)];
+        for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) {
+            if (!(p_[k] > 0)) continue;
+            pixels_[next] = {column_[k], j};
+            pressures_[next++] = p_[k] >= highest_ ? hardness_ : p_[k] * pressure_unit_;
         }
+    });
     return outcome;
 }
 

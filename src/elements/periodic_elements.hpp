@@ -98,6 +98,7 @@ private:
     // Iterates until error() is below the tolerance, in single precision; on the finest grid the
     // error is computed in double precision.
     ElementsOutcome solve(Given given, double tolerance, int most_iterations, bool finest);
+    std::vector<std::size_t> pressed_by_row() const;
     std::vector<Pixel> set() const;  // the pixels under pressure and some others, row by row
 
     void multiply(const std::vector<double>& x, std::vector<double>& Kx, bool exact) override;

@@ -47,11 +47,6 @@ protected:
     virtual void residual_changed() = 0;
     // The length of the step, of time or of the path, has changed.
     virtual void step_changed() = 0;
-    // The solution at this level is the starting point of the next.
-    virtual void start_from(double z, const Level& level) {
-        (void)z;
-        (void)level;
-    }
     virtual void forget_solutions() = 0;
     // K q at some pixels, for pressures q on the points of the load memory.
     virtual std::vector<double> deflections(const std::vector<Pixel>& where,

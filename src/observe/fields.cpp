@@ -1,6 +1,7 @@
 #include "observe/fields.hpp"
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "elements/periodic_pixels.hpp"
 #include "elements/pixel_products.hpp"
 #include "interaction/kernel.hpp"
@@ -8,12 +9,14 @@
 namespace rsc {
 namespace {
 
-// Pressures by point index, row * nx + column.
 struct Load {
     double pressure = 0;
     bool touches = false;
 };
-using Pressures = std::map<std::int64_t, Load>;
+// By point index, row * nx + column, in its order.
+using Pressures = std::vector<std::pair<std::int64_t, Load>>;
+using PressureMap = std::map<std::int64_t, Load>;
+constexpr int kRows = 16;  // that a thread takes at a time
 
 // Columns and rows first .. last.
 struct Range {
@@ -37,7 +40,7 @@ Range points_within(double origin, double step, int n, double low, double high) 
 // `whole`, the integral of the shape over the spot, is positive, points with t < edge share equally
 // what the others leave of it.
 template <class Shape>
-void add_spot(Pressures& all, const HeightMap& map, bool repeats, const Spot& s, double force,
+void add_spot(PressureMap& all, const HeightMap& map, bool repeats, const Spot& s, double force,
               double beside, Shape&& shape, double whole = 0, double edge = 0) {
     const auto range = [&](double origin, double step, int n, double centre, double along,
                            double across) {
@@ -49,7 +52,7 @@ void add_spot(Pressures& all, const HeightMap& map, bool repeats, const Spot& s,
     const double cosine = std::cos(s.angle), sine = std::sin(s.angle);
     const Range columns = range(map.x0, map.dx, map.nx, s.x, cosine, sine),
                 rows = range(map.y0, map.dy, map.ny, s.y, sine, cosine);
-    Pressures spot;
+    PressureMap spot;
     double sum = 0;
     std::vector<Load*> outermost;
     for (int j = rows.first; j <= rows.last; ++j)
@@ -83,13 +86,20 @@ void add_spot(Pressures& all, const HeightMap& map, bool repeats, const Spot& s,
     }
 }
 
-Pressures pressures_of(const HeightMap& map, bool repeats, const Level& level) {
-    Pressures all;
-    for (std::size_t k = 0; k < level.pixels.index.size(); ++k)  // row by row
-        all.emplace_hint(all.end(), level.pixels.index[k], Load{level.pixels.pressure[k], true});
-    for (std::size_t k = 0; k < level.pixels.cohesive.size(); ++k)
-        all[level.pixels.cohesive[k]] = {level.pixels.attraction[k], false};
-    if (!all.empty()) return all;
+Pressures pressures_of(const LevelPixels& pixels) {
+    Pressures all(pixels.index.size());
+    parallel_for(all.size(), 4096, 0, [&](std::size_t k) {
+        all[k] = {pixels.index[k], {pixels.pressure[k], true}};
+    });
+    if (pixels.cohesive.empty()) return all;
+    PressureMap with_tension(all.begin(), all.end());
+    for (std::size_t k = 0; k < pixels.cohesive.size(); ++k)
+        with_tension[pixels.cohesive[k]] = {pixels.attraction[k], false};
+    return {with_tension.begin(), with_tension.end()};
+}
+
+PressureMap pressures_of_spots(const HeightMap& map, bool repeats, const Level& level) {
+    PressureMap all;
     const auto hertz = [](double t) { return std::sqrt(t); };
     const LevelTractions& at = level.tractions;
     for (std::size_t k = 0; k < at.x.size(); ++k) {
@@ -120,6 +130,13 @@ Pressures pressures_of(const HeightMap& map, bool repeats, const Level& level) {
     return all;
 }
 
+Pressures pressures_of(const HeightMap& map, bool repeats, const Level& level) {
+    if (!level.pixels.index.empty() || !level.pixels.cohesive.empty())
+        return pressures_of(level.pixels);
+    const PressureMap all = pressures_of_spots(map, repeats, level);
+    return {all.begin(), all.end()};
+}
+
 // Deflections caused by the pressures at the points of a window, row by row.
 std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
                                 const Pressures& pressures, Range columns, Range rows) {
@@ -134,7 +151,8 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
             [&](int j, double* row) {
                 std::fill_n(row, map.nx, 0.0);
                 const std::int64_t begin = std::int64_t{j} * map.nx;
-                for (auto k = pressures.lower_bound(begin);
+                for (auto k = std::ranges::lower_bound(pressures, begin, {},
+                                                       [](const auto& p) { return p.first; });
                      k != pressures.end() && k->first < begin + map.nx; ++k)
                     row[k->first - begin] = k->second.pressure / body.modulus();
             },
@@ -317,24 +335,31 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
         }
         if (asked.contact) f.contact.insert(f.contact.end(), touches.begin(), touches.end());
         if (asked.gap) {
-            std::vector<double> gap(points, 0.0);
-            if (interaction != Interaction::none) {
+            std::vector<double> gap;
+            if (interaction == Interaction::none) {
+                gap.assign(points, 0.0);
+            } else {
                 const std::optional<Level>& lasting = levels[s].lasting;
                 gap = deflections(map, indenter,
                                   lasting ? pressures_of(map, repeats, *lasting) : pressures[s],
                                   columns, rows);
             }
-            for (std::size_t k = 0; k < points; ++k) {
-                const std::size_t i = k % f.x.size(), j = k / f.x.size();
-                const double z =
-                    lowered(columns.first + static_cast<int>(i), rows.first + static_cast<int>(j));
-                gap[k] += level.separation - indenter.clearance(f.x[i], f.y[j], z);
-                gap[k] = touches[k] ? 0
-                         : std::isfinite(gap[k])
-                             ? std::max(gap[k], 0.0)
-                             : kNotComputed;  // NaN outside a map of the indenter
-            }
-            f.gap.insert(f.gap.end(), gap.begin(), gap.end());
+            parallel_for(rows.size(), kRows, 0, [&](int j) {
+                for (int i = 0; i < columns.size(); ++i) {
+                    const std::size_t k = at(j) * f.x.size() + at(i);
+                    gap[k] += level.separation -
+                              indenter.clearance(f.x[at(i)], f.y[at(j)],
+                                                 lowered(columns.first + i, rows.first + j));
+                    gap[k] = touches[k] ? 0
+                             : std::isfinite(gap[k])
+                                 ? std::max(gap[k], 0.0)
+                                 : kNotComputed;  // NaN outside a map of the indenter
+                }
+            });
+            if (f.gap.empty())
+                f.gap = std::move(gap);
+            else
+                f.gap.insert(f.gap.end(), gap.begin(), gap.end());
         }
         if (asked.pressure) f.pressure.insert(f.pressure.end(), p.begin(), p.end());
         if (asked.traction) add_tractions(f, map, levels[s], columns, rows, asked.friction);

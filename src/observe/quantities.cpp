@@ -220,8 +220,8 @@ constexpr LevelQuantity kQuantities[] = {
     {.name = "filled_share",
      .member = &V::filled_share,
      .unit = "1",
-     .meaning = "share of the contact area in holes of the map (missing points, except near "
-                "measured ones), as it is or, if larger, as Gaussian heights would have it there",
+     .meaning = "share of the contact area on filled points of the map (far from measured ones), "
+                "or, if larger, the share expected there for Gaussian heights",
      .always = false},
     {.name = "large_contacts",
      .member = &V::large_contacts,
@@ -321,7 +321,7 @@ constexpr LevelQuantity kQuantities[] = {
      .meaning = "error by the steps in which the level was reached",
      .comment = "change of N, relative to the larger N of the two levels, by halving the steps; "
                 "under a force that of the separation, relative to its depth below first touch of "
-                "the worn surface",
+                "the worn surface; without the errors of earlier levels",
      .always = false},
     {.name = "energy_lost",
      .member = &V::energy_lost,

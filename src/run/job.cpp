@@ -232,12 +232,15 @@ private:
     void press_group(std::size_t g, Pressed& pressed) {
         pressed.contact->forget();
         pressed.contact->restore(begin_[g].contact);
-        pressed.contact->start_from_level();
         pressed.judge.restore(begin_[g].judge, pressed.contact->indenter());
+        // The second level starts from those between which it lies.
+        for (std::size_t from = std::min(g + 2, groups_); from-- > g;) {
+            if (const auto& level = begin_[from].contact.level) pressed.contact->start_from(*level);
+            pressed.judge.start_from(begin_[from].judge);
+        }
         for (std::size_t k = g * kGroup + 1; k < std::min(levels_.size(), (g + 1) * kGroup); ++k)
             levels_[k] = press(job_, k, pressed, none);
         const std::lock_guard lock(mutex_);
-        begin_[g] = {};
         solved_[g] = 1;
     }
 

@@ -1,6 +1,7 @@
 #include "surface/subgrid.hpp"
 
 #include "base/dispatch.hpp"
+#include "base/parallel.hpp"
 
 namespace rsc {
 namespace {
@@ -369,9 +370,8 @@ long drop_repeated(RefinedSummits& s, int nx, int ny, bool periodic) {
             s.from.begin(), s.from.end(), std::pair(row, column),
             [](const From& f, std::pair<int, int> at) { return std::pair(f.row, f.column) < at; });
     };
-    std::vector<std::size_t> kept;
-    long maxima = 0;
-    for (const From& e : s.from) {
+    const auto is_best = [&](std::size_t k) {
+        const From& e = s.from[k];
         bool keep = true;
         const int u = static_cast<int>(e.u), v = static_cast<int>(e.v);
         const auto look = [&](int row, int first, int last) {
@@ -385,13 +385,18 @@ long drop_repeated(RefinedSummits& s, int nx, int ny, bool periodic) {
             if (periodic && first < 0) look(row, std::max(nx + first, 0), nx - 1);
             if (periodic && last >= nx) look(row, 0, std::min(last - nx, nx - 1));
         }
-        if (keep) kept.push_back(static_cast<std::size_t>(&e - s.from.data()));
-        maxima += !keep && e.maximum;
-    }
+        return keep;
+    };
+    const auto maxima = [&] { return std::ranges::count(s.from, true, &From::maximum); };
+    constexpr int kStarts = 256;  // that a thread takes at a time
+    std::vector<int> best;
+    find_all(s.from.size(), kStarts, 0, is_best, best);
+    const auto before = maxima();
+    const std::vector<std::size_t> kept(best.begin(), best.end());
     for (std::size_t k = 0; k < kept.size(); ++k) s.from[k] = s.from[kept[k]];
     s.from.resize(kept.size());
     s.found = selected(s.found, kept);
-    return maxima;
+    return before - maxima();
 }
 
 }  // namespace rsc

@@ -1,6 +1,7 @@
 #include "trust/grid_error.hpp"
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "contact/make.hpp"
 #include "surface/summits.hpp"
 
@@ -33,6 +34,8 @@ constexpr double kTolerance = 2e-5;
 // sqrt(q): the width of a contact in points is proportional to 1/sqrt(q).
 constexpr double kCrest = 0.35, kCrestArea = 0.8;
 
+constexpr int kRows = 16;  // that a thread takes at a time
+
 double edge_share(const Indenter& indenter, double side) {
     const double edge = indenter.shape->edge(side);
     return edge > 0 ? kEdgeShare * side / edge : 0;
@@ -48,18 +51,20 @@ void clearances(const HeightMap& map, const Indenter& indenter, int row,
 
 // Column and row of the highest point under the indenter.
 std::array<int, 2> highest_point(const HeightMap& map, const Indenter& indenter) {
-    std::array<int, 2> place{0, 0};
-    double highest = -kInfinity;
-    std::vector<double> line;
-    for (int j = 0; j < map.ny; ++j) {
+    struct Top {
+        double z;
+        int column;
+    };
+    std::vector<Top> tops(static_cast<std::size_t>(map.ny));
+    parallel_for(map.ny, kRows, 0, [&](int j) {
+        std::vector<double> line;
         clearances(map, indenter, j, line);
-        const auto top = std::max_element(line.begin(), line.end());
-        if (*top > highest) {
-            highest = *top;
-            place = {static_cast<int>(top - line.begin()), j};
-        }
-    }
-    return place;
+        const auto top = std::ranges::max_element(line);
+        tops[static_cast<std::size_t>(j)] = {std::isnan(*top) ? -kInfinity : *top,
+                                             static_cast<int>(top - line.begin())};
+    });
+    const auto highest = std::ranges::max_element(tops, {}, &Top::z);
+    return {highest->column, static_cast<int>(highest - tops.begin())};
 }
 
 // Along an axis that repeats the points of the coarse map are evenly spaced over the period,
@@ -92,8 +97,9 @@ HeightMap coarser_period(const HeightMap& map, const Period& period, std::array<
     coarse.x0 = map.x(x.first);
     coarse.y0 = map.y(y.first);
     coarse.periodic = map.periodic;
-    for (int j = 0; j < y.points; ++j)
+    parallel_for(y.points, kRows, 0, [&](int j) {
         for (int i = 0; i < x.points; ++i) coarse.row(j)[i] = map(x.at(i), y.at(j));
+    });
     return coarse;
 }
 

@@ -47,11 +47,8 @@ public:
     std::optional<GridError> error(const LevelValues& level, Path& contact, bool by_force);
     Path::State state() const { return contact_->state(); }
     void forget() { contact_->forget(); }
-    void start_from(const Path::State& state) {
-        forget();
-        contact_->restore(state);
-        contact_->start_from_level();
-    }
+    void restore(const Path::State& state) { contact_->restore(state); }
+    void start_from(const Level& level) { contact_->start_from(level); }
 
 private:
     HeightMap map_;

@@ -198,10 +198,12 @@ SecondGrid& Judge::second_grid(const Indenter& indenter) {
 }
 
 void Judge::restore(const std::optional<Path::State>& state, const Indenter& indenter) {
-    if (state)
-        second_grid(indenter).start_from(*state);
-    else if (second_)
-        second_->forget();
+    if (second_) second_->forget();
+    if (state) second_grid(indenter).restore(*state);
+}
+
+void Judge::start_from(const std::optional<Path::State>& state) {
+    if (second_ && state && state->level) second_->start_from(*state->level);
 }
 
 // The error by the grid, with adhesion by the resolution of the edges, too.

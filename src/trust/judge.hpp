@@ -41,6 +41,8 @@ public:
         return second_ ? std::optional(second_->state()) : std::nullopt;
     }
     void restore(const std::optional<Path::State>& state, const Indenter& indenter);
+    // The second grid starts from the level of this state, too.
+    void start_from(const std::optional<Path::State>& state);
 
 private:
     std::vector<Doubt> of_asperities(Level& level, const Path& contact) const;

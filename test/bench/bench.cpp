@@ -208,6 +208,7 @@ const Part kParts[] = {
     {"calls", bench::calls},
     {"elements", bench::elements},
     {"element_flats", bench::element_flats, true},
+    {"scaling", bench::scaling, true},
     {"threads", bench::threads, true},
 };
 

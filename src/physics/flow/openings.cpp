@@ -1,14 +1,37 @@
 #include "physics/flow/openings.hpp"
 
+#include "base/parallel.hpp"
+
 namespace rsc {
+
+// Rows are linked in bands that share no points, then the bands with each other.
 
 Openings::Openings(const GapMap& map, const Linked& open)
     : node_(map.points()), winds_(map.points(), 0) {
-    for (std::size_t k = 0; k < node_.size(); ++k) node_[k].parent = static_cast<std::uint32_t>(k);
-    for (std::size_t k = 0; k < node_.size(); ++k) {
-        const std::size_t right = map.right_of(k), above = map.above(k);
-        if (open(k, right)) link(k, right, right <= k ? 1 : 0, 0);
-        if (open(k, above)) link(k, above, 0, above <= k ? 1 : 0);
+    constexpr int kBand = 64;
+    const auto nx = static_cast<std::size_t>(map.nx);
+    const int bands = (map.ny + kBand - 1) / kBand;
+    std::vector<std::uint8_t> winding(static_cast<std::size_t>(bands), 0);
+    const auto link_above = [&](std::size_t k) -> std::uint8_t {
+        const std::size_t above = map.above(k);
+        return open(k, above) ? link(k, above, 0, above <= k ? 1 : 0) : 0;
+    };
+    parallel_for(bands, 1, 0, [&](int band) {
+        const std::size_t first = static_cast<std::size_t>(band) * kBand * nx,
+                          end = std::min(first + kBand * nx, node_.size());
+        std::uint8_t& all = winding[static_cast<std::size_t>(band)];
+        for (std::size_t k = first; k < end; ++k) node_[k].parent = static_cast<std::uint32_t>(k);
+        for (std::size_t k = first; k < end; ++k) {
+            const std::size_t right = map.right_of(k);
+            if (open(k, right)) all |= link(k, right, right <= k ? 1 : 0, 0);
+            if (k + nx < end) all |= link_above(k);
+        }
+    });
+    for (const std::uint8_t ways : winding) all_ |= ways;
+    for (int band = 0; band < bands; ++band) {
+        const std::size_t end =
+            std::min(static_cast<std::size_t>(band + 1) * kBand * nx, node_.size());
+        for (std::size_t k = end - nx; k < end; ++k) all_ |= link_above(k);
     }
 }
 
@@ -36,7 +59,7 @@ std::size_t Openings::root(std::size_t k) {
 
 // The point l lies `period_x`, `period_y` periods beyond its place in the cell if it is reached
 // from k.
-void Openings::link(std::size_t k, std::size_t l, int period_x, int period_y) {
+std::uint8_t Openings::link(std::size_t k, std::size_t l, int period_x, int period_y) {
     const std::size_t a = root(k), b = root(l);
     const std::int32_t x = (a == k ? 0 : node_[k].x) + period_x - (b == l ? 0 : node_[l].x);
     const std::int32_t y = (a == k ? 0 : node_[k].y) + period_y - (b == l ? 0 : node_[l].y);
@@ -49,7 +72,7 @@ void Openings::link(std::size_t k, std::size_t l, int period_x, int period_y) {
         node_[from] = {static_cast<std::uint32_t>(into), sign * x, sign * y};
         winds_[into] |= winds_[from];
     }
-    all_ |= winds_[into];
+    return winds_[into];
 }
 
 }  // namespace rsc

@@ -46,7 +46,8 @@ public:
     std::size_t root(std::size_t k);
 
 private:
-    void link(std::size_t k, std::size_t l, int period_x, int period_y);
+    // Returns the ways in which the set winds, as winds_ has them.
+    std::uint8_t link(std::size_t k, std::size_t l, int period_x, int period_y);
 
     // Each point refers to another one of its set, the root to itself, and knows in which period
     // relative to that one it lies.

@@ -1,0 +1,142 @@
+// Whole cases on 1, 2, 4, ... threads up to all processors, each run in a process of its own, and
+// where the time of one thread goes: how much of it lies outside parallel loops, how many of those
+// there are and how long they take, and what this lets expect of more cores if memory were no
+// limit. Run it on an idle machine.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/parallel.hpp"
+#include "bench.hpp"
+#include "case/read_case.hpp"
+#include "run/run.hpp"
+
+namespace bench {
+namespace {
+
+using namespace rsc;
+
+struct ScalingCase {
+    const char* name;
+    const char* text;
+};
+
+const ScalingCase kCases[] = {
+    {"elements, default surface, 100 levels",
+     "&solver model = 'elements' / &indentation start = 4, stop = 1, steps = 100 /"},
+    {"elements, two flats of 4096^2, one pressure",
+     "&solids R = Infinity, Infinity / &surface L_lambda_s = 512 / &solver model = 'elements' /"
+     "&indentation boundary = 'periodic', control = 'pressure', unit = 'relative', levels = 0.05 "
+     "/"},
+    {"elements, ball of 5 mm on 2048^2, 13 forces",
+     "&solids E = 210e3, 210e3, nu = 0.3, 0.3, R = Infinity, 5 /"
+     "&surface L_lambda_s = 256, sigma = 2e-4 / &solver model = 'elements' /"
+     "&indentation control = 'force', start = 1, stop = 100, steps = 13, spacing = 'log' /"},
+    {"fourth_order on 8192^2, 20 levels",
+     "&surface n = 8192, L_lambda_s = 1024 / &asperities law = 'fourth_order' /"
+     "&solver model = 'asperities' / &indentation start = 3, stop = 1, steps = 20 /"},
+    {"2000 realizations of 512^2, 10 levels",
+     "&run realizations = 2000 / &surface n = 512, L_lambda_l = 8, L_lambda_s = 64 /"
+     "&solver model = 'asperities' / &indentation start = 3, stop = 0, steps = 10 /"},
+    {"200 realizations of 2048^2, 10 levels",
+     "&run realizations = 200 / &surface n = 2048, L_lambda_s = 256 /"
+     "&solver model = 'asperities' / &indentation start = 3, stop = 1, steps = 10 /"},
+    {"elements on 8192^2, one level",
+     "&surface n = 8192, L_lambda_s = 1024 / &solver model = 'elements' / &indentation levels = 1 "
+     "/"},
+};
+
+double on_wall() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+double of_this_thread() {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+void run(const ScalingCase& one, int threads, const std::string& file) {
+    Case settings = read_case_text(std::string(one.text) +
+                                       "&compare levels = 'none' /"
+                                       "&output contacts = 'none' /\n",
+                                   "bench.nml")
+                        .settings;
+    settings.run.threads = threads;
+    settings.output.file = file;
+    run_case(settings, {});
+}
+
+// Runs `work` in a process of its own. Returns false if it failed.
+bool apart(const std::function<void()>& work, rusage& used) {
+    std::fflush(stdout);
+    const pid_t child = fork();
+    if (child == 0) {
+        try {
+            work();
+        } catch (const std::exception& error) {
+            std::printf("  failed: %s\n", error.what());
+            std::fflush(stdout);
+            _exit(1);
+        }
+        std::fflush(stdout);
+        _exit(0);
+    }
+    int status = 0;
+    return wait4(child, &status, 0, &used) == child && status == 0;
+}
+
+// One thread: the time outside parallel loops is that of the first thread without its loops;
+// realizations run on other threads, and count as evenly shared.
+void profile(const ScalingCase& one, const std::string& file) {
+    const std::vector<int> cores{2, 4, 8, 16, 32, 64};
+    const double start = now(), own = of_this_thread();
+    LoopProfile loops(cores);
+    run(one, 16, file);  // as many shares as for many threads
+    const double all = now() - start, outside = of_this_thread() - own - loops.seconds(),
+                 tasks = all - outside - loops.seconds();
+    std::printf("  one thread %.2f s, %.2f s outside loops; %ld loops of %.0f us; by count on", all,
+                outside, loops.loops(),
+                1e6 * loops.seconds() / static_cast<double>(std::max(1L, loops.loops())));
+    for (std::size_t k = 0; k < cores.size(); ++k)
+        std::printf(" %d: %.1f", cores[k], all / (outside + loops.seconds(k) + tasks / cores[k]));
+    std::printf(" times as fast\n");
+}
+
+}  // namespace
+
+void scaling() {
+    std::printf(
+        "\nscaling: threads, time on the wall [s], times as fast as one, processor time [s], that "
+        "of one = 1, memory [MB]\n");
+    const std::string file = "bench_scaling_" + std::to_string(getpid()) + ".nc";
+    const int most = static_cast<int>(std::thread::hardware_concurrency());
+    std::vector<int> counts;
+    for (int threads = 1; threads < most; threads *= 2) counts.push_back(threads);
+    counts.push_back(most);
+    for (const ScalingCase& one : kCases) {
+        std::printf("%s\n", one.name);
+        double wall_of_one = 0, work_of_one = 0;
+        rusage used{};
+        for (const int threads : counts) {
+            const double start = on_wall();
+            if (!apart([&] { run(one, threads, file); }, used)) break;
+            const double wall = on_wall() - start;
+            const auto seconds = [](const timeval& t) {
+                return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+            };
+            const double work = seconds(used.ru_utime) + seconds(used.ru_stime);
+            if (threads == 1) {
+                wall_of_one = wall;
+                work_of_one = work;
+            }
+            std::printf("  %3d  %8.2f  %6.2f  %8.2f  %5.2f  %6.0f\n", threads, wall,
+                        wall_of_one / wall, work, work / work_of_one,
+                        static_cast<double>(used.ru_maxrss) / 1024);
+        }
+        apart([&] { profile(one, file); }, used);
+    }
+    std::remove(file.c_str());
+}
+
+}  // namespace bench
