@@ -1,5 +1,6 @@
 // The whole test framework: checks that say what failed and go on, and a summary as the exit
-// status. `test_rooms NAME` runs every TEST(what) { ... } of the file test_NAME.cpp, in their order.
+// status. `test_rooms NAME` runs every TEST(what) { ... } of the file test_NAME.cpp, in their
+// order.
 #pragma once
 
 #include <iterator>
@@ -25,7 +26,8 @@ inline double worse(double worst, std::initializer_list<double> errors) {
 
 template <class Type, class Act>
 bool throws(Act&& act) try {
-    return act(), false;
+    act();
+    return false;
 } catch (const Type&) {
     return true;
 }

@@ -36,7 +36,10 @@ int main(int argc, char** argv) {
     int run = 0;
     for (const auto& [file, tests] : check::tests())
         for (auto* test : tests)
-            if (name.empty() || name == file) test(), ++run;
+            if (name.empty() || name == file) {
+                test();
+                ++run;
+            }
     std::printf("%d checks, %d failed\n", check::checks.load(), check::failures.load());
     if (run == 0) std::printf("no tests named %s here\n", name.c_str());
     return run == 0 ? 2 : check::failures == 0 ? 0 : 1;

@@ -42,7 +42,8 @@ Answer work(int number) {
     answer.ok(std::strstr(text, value.c_str()));
     answer.ok(rsc_contact_destroy(&k) == 0 && rsc_asperities_destroy(&a) == 0 &&
               rsc_case_destroy(&c) == 0);
-    answer.values.assign(more, more + 5), answer.values.push_back(N);
+    answer.values.assign(more, more + 5);
+    answer.values.push_back(N);
     return answer;
 }
 

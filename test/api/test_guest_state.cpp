@@ -83,7 +83,8 @@ void test_copied_between_levels(const std::string& keys) {
     Made made(kSurface + keys + " / &compare levels='none' /");
     at(made.contact, 0, 0.01);
     const double stiffness = value(made.contact, "stiffness");
-    at(made.contact, 1, 0.0098), at(made.contact, 1, 0.01);
+    at(made.contact, 1, 0.0098);
+    at(made.contact, 1, 0.01);
     OK(rsc_contact_move_tip(made.contact, 0.53, 0.47));
     OK(rsc_contact_set_time(made.contact, 10));
     ContactHandle copy;
@@ -116,7 +117,8 @@ void test_asked_later(const std::string& keys) {
         const auto now = lateral(at_once.contact);
         CHECK(now[0] != 0 && now[1] != 0);
         OK(rsc_contact_commit(later.contact));
-        (void)value(later.contact, "stiffness"), (void)value(later.contact, "energy");
+        (void)value(later.contact, "stiffness");
+        (void)value(later.contact, "energy");
         for (const double x : {place + 1e-5, place + 0.2}) {
             OK(rsc_contact_move_tip(later.contact, x, 0.9));
             OK(rsc_contact_copy(&copy, later.contact));
@@ -254,7 +256,8 @@ struct Watched {
 };
 std::int32_t watch(double done, double total, void* data) {
     auto& w = *static_cast<Watched*>(data);
-    w.done = done, w.total = total;
+    w.done = done;
+    w.total = total;
     return ++w.calls >= w.until;
 }
 
@@ -278,8 +281,8 @@ TEST(test_watched) {
 }
 
 // Where the indenter is steep, a contact that is moved before its first load is one made at that
-// place, and a trial there is undone by a rollback; the results of a level outlast a move, also those
-// of bodies with a memory.
+// place, and a trial there is undone by a rollback; the results of a level outlast a move, also
+// those of bodies with a memory.
 void test_steep(const std::string& memory) {
     const std::string text =
         "&surface n=128 L_lambda_l=4 L_lambda_s=16 sigma=1e-4 / &solids R=Infinity,0.5 E=1e5,1e5 " +
@@ -287,8 +290,8 @@ void test_steep(const std::string& memory) {
     Made moved(text), there(text + "&indentation centre=0.45,0.52 /");
     OK(rsc_contact_move_tip(moved.contact, 0.45, 0.52));
     double touch = 0, touch_there = 0;
-    OK(rsc_contact_first_touch(moved.contact, &touch)),
-        OK(rsc_contact_first_touch(there.contact, &touch_there));
+    OK(rsc_contact_first_touch(moved.contact, &touch));
+    OK(rsc_contact_first_touch(there.contact, &touch_there));
     CHECK(touch == touch_there);
     CHECK_RELATIVE(force_at(moved.contact, touch - 1e-4), force_at(there.contact, touch - 1e-4),
                    kTolerance);

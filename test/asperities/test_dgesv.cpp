@@ -123,7 +123,10 @@ TEST(says_what_it_did) {
           uncut.products == plain.products + 1);
     // Two asperities so close that the solution the iteration finds is a saddle of the energy.
     Asperities pair;
-    pair.x = {0.499, 0.501}, pair.y = {0.5, 0.5}, pair.z = {0.01, 0.01}, pair.radius = {1e-2, 1e-2};
+    pair.x = {0.499, 0.501};
+    pair.y = {0.5, 0.5};
+    pair.z = {0.01, 0.01};
+    pair.radius = {1e-2, 1e-2};
     options.delta_cut = 5;
     options.delta0 = 0.01;
     const Level saddle = asperity_path(pair, {1.0, 1e9, 0.5, 0.5}, options).at_separation(0.0);
@@ -140,7 +143,8 @@ TEST(regularisation_leaves_no_trace) {
     const auto force = [&](double delta0, double cut, double tolerance) {
         SolverOptions options{
             .method = Method::dgesv, .tolerance = tolerance, .surface = {.sigma = 0.01}};
-        options.delta0 = delta0, options.delta_cut = cut;
+        options.delta0 = delta0;
+        options.delta_cut = cut;
         return asperity_path(a, {1.0, 2.5, 0.5, 0.5}, options).at_separation(0.005).force;
     };
     const double reference = force(0.01, 5, 1e-11);

@@ -26,7 +26,9 @@ Asperities set_of(std::vector<double> x, std::vector<double> y, std::vector<doub
                   double radius) {
     Asperities a;
     a.radius.assign(x.size(), radius);
-    a.x = std::move(x), a.y = std::move(y), a.z = std::move(z);
+    a.x = std::move(x);
+    a.y = std::move(y);
+    a.z = std::move(z);
     return a;
 }
 

@@ -12,8 +12,14 @@ constexpr double kE = 94.0e3;
 
 Asperities summit(double kappa1, double kappa2, double biharmonic) {
     Asperities a;
-    a.x = {0}, a.y = {0}, a.z = {0}, a.radius = {1 / std::sqrt(kappa1 * kappa2)};
-    a.kappa1 = {kappa1}, a.kappa2 = {kappa2}, a.angle = {0}, a.biharmonic = {biharmonic};
+    a.x = {0};
+    a.y = {0};
+    a.z = {0};
+    a.radius = {1 / std::sqrt(kappa1 * kappa2)};
+    a.kappa1 = {kappa1};
+    a.kappa2 = {kappa2};
+    a.angle = {0};
+    a.biharmonic = {biharmonic};
     return a;
 }
 
@@ -51,8 +57,10 @@ TEST(ellipse_against_quadrature) {
         // The integrands peak at pi/2 when e is near 1: split there.
         const auto whole = [&](auto f) {
             double sum = 0, left = 0;
-            for (double piece : {0.8, 1.3, 1.5, 1.56, 0.5 * std::numbers::pi})
-                sum += integrate(left, piece, f), left = piece;
+            for (double piece : {0.8, 1.3, 1.5, 1.56, 0.5 * std::numbers::pi}) {
+                sum += integrate(left, piece, f);
+                left = piece;
+            }
             return sum;
         };
         const double K = whole([&](double t) { return 1 / root(t); }), E = whole(root);
@@ -95,8 +103,11 @@ TEST(ellipse_limits) {
 TEST(everything_of_every_law) {
     Asperities s = summit(9000, 4000, 0);
     for (auto* v : {&s.x, &s.y, &s.z}) v->push_back(1);
-    s.radius.push_back(1 / 300.0), s.kappa1.push_back(900), s.kappa2.push_back(100),
-        s.angle.push_back(1), s.biharmonic.push_back(0);
+    s.radius.push_back(1 / 300.0);
+    s.kappa1.push_back(900);
+    s.kappa2.push_back(100);
+    s.angle.push_back(1);
+    s.biharmonic.push_back(0);
     const std::vector<int> both = {0, 1};
     for (LawKind kind : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order})
         for (double flattening : {-4e11, -1e7, 0.0, 1e7, 2e11, 3e12}) {

@@ -20,7 +20,10 @@ using namespace rsc;
 Case polished(double sigma, const char* model) {
     Case c;
     c.run.threads = 1;
-    c.surface.n = 256, c.surface.L_lambda_l = 8, c.surface.L_lambda_s = 32, c.surface.sigma = sigma;
+    c.surface.n = 256;
+    c.surface.L_lambda_l = 8;
+    c.surface.L_lambda_s = 32;
+    c.surface.sigma = sigma;
     c.asperities.law = LawKind::fourth_order;
     c.solver.model = model[0] == 'e' ? ModelKind::elements : ModelKind::asperities;
     return c;
@@ -40,8 +43,8 @@ Surface measured(const HeightMap& map) {
     return surface;
 }
 
-// The shifted summit is the highest point of z - z'' d''d/2 - s(d) for the paraboloids of both bodies
-// within the range of the summit: found by a search over the directions and distances.
+// The shifted summit is the highest point of z - z'' d''d/2 - s(d) for the paraboloids of both
+// bodies within the range of the summit: found by a search over the directions and distances.
 TEST(shift_is_the_highest_point) {
     constexpr double kSame = 1e-12;
     std::mt19937_64 random(2);
@@ -49,14 +52,19 @@ TEST(shift_is_the_highest_point) {
     int inside = 0, border = 0;
     for (int k = 0; k < 60; ++k) {
         ShapeKeys keys;
-        keys.radii[0] = 1 + 5 * uniform(random), keys.radii[1] = 1 + 5 * uniform(random);
+        keys.radii[0] = 1 + 5 * uniform(random);
+        keys.radii[1] = 1 + 5 * uniform(random);
         keys.angle = 3 * uniform(random);
         const Indenter tip{1e5, make_shape(shape_number("paraboloid"), keys), 0.1, -0.2};
         const double high = 1 + 20 * uniform(random), low = high * uniform(random),
                      angle = uniform(random) - 0.5;
         Asperities one;
-        one.x = {uniform(random)}, one.y = {uniform(random)}, one.z = {0.01};
-        one.kappa1 = {high}, one.kappa2 = {low}, one.angle = {angle};
+        one.x = {uniform(random)};
+        one.y = {uniform(random)};
+        one.z = {0.01};
+        one.kappa1 = {high};
+        one.kappa2 = {low};
+        one.angle = {angle};
         one.radius = {1 / std::sqrt(high * low)};
         const double farthest = 0.02 + 0.1 * uniform(random);
         ShiftedSummits shifts(one, tip, farthest);
@@ -74,7 +82,10 @@ TEST(shift_is_the_highest_point) {
             for (int r = 1; r <= out; ++r) {
                 const double t = 2 * std::numbers::pi * a / around, d = farthest * r / out,
                              here = clearance(d * std::cos(t), d * std::sin(t));
-                if (here > best) best = here, far = d;
+                if (here > best) {
+                    best = here;
+                    far = d;
+                }
             }
         const double dx = found.x[0] - one.x[0], dy = found.y[0] - one.y[0],
                      top = tip.clearance(found.x[0], found.y[0], found.z[0]);
@@ -98,19 +109,24 @@ TEST(no_history) {
     for (const LawKind law : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order})
         for (const char* shape : {"sphere", "cone", "map"}) {
             Case c = polished(3e-4, "asperities");
-            c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16;
-            c.solver.tolerance = kTolerance, c.asperities.law = law;
+            c.surface.L_lambda_l = 4;
+            c.surface.L_lambda_s = 16;
+            c.solver.tolerance = kTolerance;
+            c.asperities.law = law;
             const SurfaceModel model = make_surface_model(c, 1, 1);
             ShapeKeys keys;
-            keys.R = 6, keys.slope = 0.008;
+            keys.R = 6;
+            keys.slope = 0.008;
             auto map = std::make_shared<HeightMap>(
                 make_surface(polished(1e-4, "elements"), 7, 1).map.copy());
-            map->periodic = false, keys.map = std::move(map);
+            map->periodic = false;
+            keys.map = std::move(map);
             Indenter tip = indenter_of(c, model.domain);
             tip.shape = make_shape(shape_number(shape), keys);
             const SolverOptions options = solver_of(c, model.domain);
             Indenter there = tip;
-            there.x0 += 0.031, there.y0 -= 0.017;
+            there.x0 += 0.031;
+            there.y0 -= 0.017;
             Path fresh = asperity_path(model.asperities, there, options);
             const double touch = fresh.first_touch(), Z0 = touch - 4e-4;
             const Level truth = fresh.at_separation(Z0);
@@ -140,9 +156,10 @@ TEST(summits_of_maps) {
     for (const bool flat : {false, true}) {
         Case c = polished(1e-3, "asperities");
         c.surface.n = 128;  // four points in the shortest wave
-        if (flat)
-            c.solids.R[1] = std::numeric_limits<double>::infinity(),
+        if (flat) {
+            c.solids.R[1] = std::numeric_limits<double>::infinity();
             c.indentation.boundary = Boundary::periodic;
+        }
         c.asperities.law = LawKind::elliptic;
         const SurfaceModel between = make_surface_model(c, 1, 1);
         const double top =
@@ -187,7 +204,10 @@ TEST(summits_of_maps) {
                         clean(i, j) > 5e-4 && n++ % 10 == 0)
                         map.row(j)[i + 1] -= 1e-2;
         if (what[0] == 'g')
-            for (int k = 0; k < 256; ++k) map.row(k)[100] -= 8e-3, map.row(140)[k] -= 8e-3;
+            for (int k = 0; k < 256; ++k) {
+                map.row(k)[100] -= 8e-3;
+                map.row(140)[k] -= 8e-3;
+            }
         if (what[0] == 's')
             for (int j = 0; j < 256; ++j)
                 for (int i = 128; i < 256; ++i) map.row(j)[i] -= 4e-3;
@@ -214,7 +234,8 @@ TEST(summits_of_maps) {
             kBump = 50,
             kDeep = 1e-6,
             kHertz = 1e-3;  // deeper is wider than the paraboloids of the ball and of the map
-        c.solids.R[1] = 1, c.asperities.law = LawKind::elliptic,
+        c.solids.R[1] = 1;
+        c.asperities.law = LawKind::elliptic;
         c.solver.model = ModelKind::asperities;
         const SurfaceModel bump = make_surface_model(
             measured(height_map(64, 64, 1.0 / 64, 1.0 / 64,
@@ -268,25 +289,36 @@ TEST(lateral_force_is_the_gradient) {
             for (const LawKind law : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order}) {
                 const std::string of = body;
                 Case c = polished(3e-4, "asperities");
-                c.run.seed = 3, c.surface.n = 128, c.surface.L_lambda_l = 4,
-                c.surface.L_lambda_s = 16, c.solver.tolerance = 1e-11;
+                c.run.seed = 3;
+                c.surface.n = 128;
+                c.surface.L_lambda_l = 4;
+                c.surface.L_lambda_s = 16;
+                c.solver.tolerance = 1e-11;
                 c.asperities.law = law;
-                if (of == "layers")
-                    c.solids.layer_thickness = {0.1}, c.solids.layer_E = {4e4},
+                if (of == "layers") {
+                    c.solids.layer_thickness = {0.1};
+                    c.solids.layer_E = {4e4};
                     c.solids.layer_nu = {0.3};
+                }
                 if (of == "hardness") c.solids.hardness = 200;
-                if (of == "relaxation")
-                    c.solids.relaxation_share = {0.5, 0.3}, c.solids.relaxation_time = {1, 10};
+                if (of == "relaxation") {
+                    c.solids.relaxation_share = {0.5, 0.3};
+                    c.solids.relaxation_time = {1, 10};
+                }
                 if (of == "adhesion") c.solids.adhesion = 1e-4;
                 const SurfaceModel model = make_surface_model(c, 1, 1);
                 ShapeKeys keys;
-                keys.R = 6, keys.radii[0] = 4, keys.radii[1] = 9, keys.angle = 0.4;
+                keys.R = 6;
+                keys.radii[0] = 4;
+                keys.radii[1] = 9;
+                keys.angle = 0.4;
                 Indenter tip = indenter_of(c, model.domain);
                 tip.shape = make_shape(shape_number(name), keys);
                 const SolverOptions options = solver_of(c, model.domain);
                 const auto made = [&](double dx, double dy) {
                     Indenter there = tip;
-                    there.x0 += dx, there.y0 += dy;
+                    there.x0 += dx;
+                    there.y0 += dy;
                     return make_contact(model, there, options);
                 };
                 const auto contact = made(0, 0);

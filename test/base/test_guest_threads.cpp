@@ -76,7 +76,9 @@ void test_stopping() {
     for (const int kind :
          {0, 1, 2, 3}) {  // the solvers: Newton's method, dgesv, elements, adhesion
         rsc::Case c;
-        c.surface.n = 256, c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 32;
+        c.surface.n = 256;
+        c.surface.L_lambda_l = 4;
+        c.surface.L_lambda_s = 32;
         if (kind == 1) c.solver.method = rsc::Method::dgesv;
         if (kind == 2) c.solver.model = rsc::ModelKind::elements;
         if (kind == 3) c.solids.adhesion = 0.01;
@@ -198,8 +200,8 @@ void test_fork() {
     CHECK(height(c) == before);
 #ifndef __SANITIZE_ADDRESS__
     // While another thread is in the library. Not under the address sanitizer of g++ 12: its
-    // allocator, unlike glibc's, may be locked for ever in the child if another thread was allocating
-    // at the fork.
+    // allocator, unlike glibc's, may be locked for ever in the child if another thread was
+    // allocating at the fork.
     std::atomic<bool> done{false};
     std::thread other([&] {
         while (!done) height(c);

@@ -7,7 +7,7 @@
 
 #include <random>
 
-#include "../paths.hpp"
+#include "support/paths.hpp"
 #include "base/parallel.hpp"
 #include "interaction/pairs.hpp"
 #include "surface/detection.hpp"

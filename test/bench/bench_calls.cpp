@@ -42,8 +42,10 @@ void calls(const char* law, double step, bool force) {
                     : rsc_contact_indent(contact, Z0 * share, &now));
         times.push_back(1e6 * (thread_time() - start));
         double one = 0;
-        check(rsc_contact_value(contact, "products", &one)), products += one / count;
-        check(rsc_contact_value(contact, "iterations", &one)), iterations += one / count;
+        check(rsc_contact_value(contact, "products", &one));
+        products += one / count;
+        check(rsc_contact_value(contact, "iterations", &one));
+        iterations += one / count;
     }
     std::sort(times.begin(), times.end());
     std::printf(

@@ -5,7 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "../paths.hpp"
+#include "support/paths.hpp"
 #include "base/parallel.hpp"
 #include "bench.hpp"
 #include "case/read_case.hpp"
@@ -32,7 +32,10 @@ public:
     Busy(const Busy&) = delete;
     Busy& operator=(const Busy&) = delete;
     ~Busy() {
-        for (const pid_t child : children_) kill(child, SIGKILL), waitpid(child, nullptr, 0);
+        for (const pid_t child : children_) {
+            kill(child, SIGKILL);
+            waitpid(child, nullptr, 0);
+        }
     }
 
 private:

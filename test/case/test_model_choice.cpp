@@ -87,7 +87,9 @@ TEST(auto_model) {
 
     // A lay and skewed heights need elements.
     Case lay = flats(0.01), skewed = flats(0.01);
-    lay.surface.aspect = 3, skewed.surface.skewness = -0.5, skewed.surface.kurtosis = 3.4;
+    lay.surface.aspect = 3;
+    skewed.surface.skewness = -0.5;
+    skewed.surface.kurtosis = 3.4;
     CHECK(elements(lay) && elements(skewed));
 
     // Layers: thick ones leave the choice as it is, thin ones need elements.
@@ -101,7 +103,8 @@ TEST(auto_model) {
 
     // What only asperities have keeps them.
     Case yielding = ball(1e-4, 10);
-    yielding.solids.hardness = 3e3, yielding.solids.size_effect = 1e-3;
+    yielding.solids.hardness = 3e3;
+    yielding.solids.size_effect = 1e-3;
     CHECK(!elements(yielding));
 }
 

@@ -57,9 +57,11 @@ bool says(const std::string& messages, const std::string& expected) {
         if (!message.starts_with(row.substr(0, word)) ||
             message.find(row.substr(word + 3)) == std::string::npos)
             return false;
-        at = messages.find('\n', at), place = expected.find(" ;; ", place);
+        at = messages.find('\n', at);
+        place = expected.find(" ;; ", place);
         if (at == std::string::npos || place == std::string::npos) return at == place;
-        at += 1, place += 4;
+        at += 1;
+        place += 4;
     }
 }
 

@@ -61,20 +61,31 @@ void bounds_of(const Key& key, const std::string& name) {
     const auto next = [&](double v, double to) {
         return whole ? v + (to > v ? 1 : -1) : std::nextafter(v, to);
     };
-    if (!std::isfinite(b.low))
-        taken(-1e50), refused(std::nextafter(-1e50, -infinity)), refused(-infinity);
-    else if (!b.open)
-        taken(b.low), refused(next(b.low, -infinity));
-    else if (b.low == 0)
-        refused(0), taken(1e-50), refused(9.99e-51);
-    else
-        refused(b.low), taken(std::nextafter(b.low, infinity));
-    if (!std::isfinite(b.high))
-        taken(1e50), refused(std::nextafter(1e50, infinity));
-    else if (whole && b.high == std::numeric_limits<int>::max())
-        taken(b.high), expect(name, "2147483648", "32 bits");
-    else
-        taken(b.high), refused(next(b.high, infinity));
+    if (!std::isfinite(b.low)) {
+        taken(-1e50);
+        refused(std::nextafter(-1e50, -infinity));
+        refused(-infinity);
+    } else if (!b.open) {
+        taken(b.low);
+        refused(next(b.low, -infinity));
+    } else if (b.low == 0) {
+        refused(0);
+        taken(1e-50);
+        refused(9.99e-51);
+    } else {
+        refused(b.low);
+        taken(std::nextafter(b.low, infinity));
+    }
+    if (!std::isfinite(b.high)) {
+        taken(1e50);
+        refused(std::nextafter(1e50, infinity));
+    } else if (whole && b.high == std::numeric_limits<int>::max()) {
+        taken(b.high);
+        expect(name, "2147483648", "32 bits");
+    } else {
+        taken(b.high);
+        refused(next(b.high, infinity));
+    }
     if (whole) return;
     if (name == "solids%E(1)")  // body 2 is rigid already
         expect(name, "Infinity", "rigid");

@@ -102,7 +102,7 @@ TEST(every_variable) {
         double largest = 0, worst = 0;
         for (std::size_t k = 0; k < std::min(one.size(), other.size()); ++k) {
             if (one[k] == NC_FILL_DOUBLE && other[k] == NC_FILL_DOUBLE) continue;
-            largest = std::max(largest, std::abs(other[k])),
+            largest = std::max(largest, std::abs(other[k]));
             worst = check::worse(worst, std::abs(other[k] - factor * one[k]));
         }
         const bool same = um.text(name, "units") == wanted && one.size() == other.size() &&

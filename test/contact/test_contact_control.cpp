@@ -89,7 +89,8 @@ TEST(control) {
                 CHECK(level.converged && model.accepted == ++levels && level.plastic_work == 42);
                 CHECK(level.iterations == model.iterations() - iterations &&
                       level.products == model.products() - products);
-                iterations = model.iterations(), products = model.products();
+                iterations = model.iterations();
+                products = model.products();
                 CHECK((shift > 0) == std::isfinite(level.pressure) &&
                       (shift > 0) == std::isfinite(level.area_fraction));
                 if (shift > 0) CHECK_RELATIVE(level.pressure, level.force / 8, 1e-15);
@@ -156,7 +157,8 @@ TEST(curves) {
     CHECK(curve.level(2.5).force == 0 || std::abs(curve.level(2.5).force - 8) < 1e-6);
     other.fails = one.fails = true;
     const long before = curve.levels();
-    curve.load(-0.2), curve.approach(3.0);
+    curve.load(-0.2);
+    curve.approach(3.0);
     CHECK(curve.levels() == before + 2 && curve.failed() == 2);
     curve.forget();
     curve.load(-0.2);

@@ -71,7 +71,10 @@ TEST(of_two_the_first_met_carries) {
         for (double larger : {0.3, 1.0, 4.0}) {
             const double r = 1e-2, g = 0.01;
             Asperities a;
-            a.x = {0.5, 0.5005}, a.y = {0.5, 0.5}, a.z = {lower * g, g}, a.radius = {larger * r, r};
+            a.x = {0.5, 0.5005};
+            a.y = {0.5, 0.5};
+            a.z = {lower * g, g};
+            a.radius = {larger * r, r};
             for (Method method : {Method::direct, Method::dgesv, Method::mesh}) {
                 const Level level =
                     asperity_path(a, {kE, HUGE_VAL, 0.5, 0.5}, options(method)).at_separation(0);
@@ -91,11 +94,14 @@ TEST(auto_chooses) {
         Asperities a;
         const int side = static_cast<int>(std::sqrt(n));
         for (int i = 0; i < side * side; ++i) {
-            a.x.push_back((i % side + 0.5) / side), a.y.push_back((i / side + 0.5) / side);
-            a.z.push_back(i == 0 ? 1e-2 : 1e-9), a.radius.push_back(1e-3);
+            a.x.push_back((i % side + 0.5) / side);
+            a.y.push_back((i / side + 0.5) / side);
+            a.z.push_back(i == 0 ? 1e-2 : 1e-9);
+            a.radius.push_back(1e-3);
         }
         SolverOptions o = options(method);
-        o.tolerance = 1e-4, o.interaction = interaction;
+        o.tolerance = 1e-4;
+        o.interaction = interaction;
         const Level level = asperity_path(a, {kE, HUGE_VAL, 0.5, 0.5, period}, o).at_separation(0);
         CHECK(level.candidates == side * side && level.converged);
         CHECK(level.fallback == (method == Method::mesh && level.method != method

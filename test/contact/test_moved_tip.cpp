@@ -18,7 +18,10 @@ TEST(test_way) {
                              {0.5005, 0.5005}, {0.5005, 0.502},  {0.503, 0.502},   {0.501, 0.502},
                              {0.7, 0.3},       {0.7, 0.3},       {0.71, 0.3},      {0.72, 0.3}};
     for (const double R : {2.0, std::numeric_limits<double>::infinity(), 0.3}) {
-        if (R < 1) asperities.x[17] = asperities.y[17] = 0.49, asperities.z[17] = 0.05;
+        if (R < 1) {
+            asperities.x[17] = asperities.y[17] = 0.49;
+            asperities.z[17] = 0.05;
+        }
         const Indenter tip{1, R, 0.5, 0.5};
         const auto moving = make_asperity_contact(asperities, tip, options);
         for (const bool forces : {false, true})
@@ -65,7 +68,8 @@ TEST(forces_far_apart) {
     const Asperities asperities = random_asperities(800, 0.01, 0.01, 0.05, 0.3, 7);
     const auto contact = make_asperity_contact(asperities, {1, 2, 0.5, 0.5}, {});
     const double deep = contact->at_separation(-0.02).force;
-    (void)contact->at_force(0.9 * deep), (void)contact->at_force(0.8 * deep);
+    (void)contact->at_force(0.9 * deep);
+    (void)contact->at_force(0.8 * deep);
     const Level shallow = contact->at_separation(contact->first_touch() - 1e-6);
     CHECK(shallow.contacts == 1 && contact->at_force(10 * shallow.force).products < 30);
 }
@@ -89,7 +93,9 @@ TEST(not_unique) {
 TEST(one_of_two) {
     constexpr double between = 0.001, Z0 = -1e-4, step = 1e-4, late = 3e-3;
     Asperities pair;
-    pair.x = {0.5 - 0.5 * between, 0.5 + 0.5 * between}, pair.y = {0.5, 0.5}, pair.z = {0, 0},
+    pair.x = {0.5 - 0.5 * between, 0.5 + 0.5 * between};
+    pair.y = {0.5, 0.5};
+    pair.z = {0, 0};
     pair.radius = {1, 1};
     const auto at = [&](Path& contact, double x, bool force, double value) {
         contact.move_tip(x, 0.5);

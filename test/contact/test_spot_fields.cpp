@@ -48,8 +48,8 @@ TEST(test_one_spot) {
 TEST(test_fields) {
     const double E_star = 7e4;
     Level level;
-    level.add_contact(0, 0.3, 0.9, 2.0, 0.02, 1e-3),
-        level.add_contact(1, 1.9, 0.05, 1.0, 0.01, 1e-3);
+    level.add_contact(0, 0.3, 0.9, 2.0, 0.02, 1e-3);
+    level.add_contact(1, 1.9, 0.05, 1.0, 0.01, 1e-3);
     const auto free = make_kernel(Interaction::point, E_star, {});
     const auto kernel = make_kernel(Interaction::point, E_star, Period{2, 1});
     const Lattice lattice({2, 1});

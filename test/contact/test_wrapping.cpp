@@ -106,7 +106,8 @@ void test_contact(const std::string& keys, bool elastic) {
 void test_path(const std::string& keys) {
     const Round round(keys);
     const ContactHandle one = round.contact(0), other = round.contact(1);
-    press(one, 0, 0.9375, 0.01), press(other, 0.5, 0.4375, 0.01);
+    press(one, 0, 0.9375, 0.01);
+    press(other, 0.5, 0.4375, 0.01);
     CHECK(value(one, "plastic_work") > 0);
     for (const double x : {0.25, 0.5, 0.75}) press(one, x, 0.5, 0.03);  // too high to touch
     CHECK_RELATIVE(press(one, 1, -0.0625, 0.0105), press(other, 0.5, 0.4375, 0.0105), kTolerance);

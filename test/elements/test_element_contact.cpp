@@ -125,8 +125,8 @@ TEST(tolerances) {
 }
 
 // A sphere whose top lies between points, on the surface or above it, and a cone with its tip
-// there, touch above the highest point: there N = 0 is in doubt. Above the upper bound of where they
-// touch between points it is not.
+// there, touch above the highest point: there N = 0 is in doubt. Above the upper bound of where
+// they touch between points it is not.
 TEST(between_points) {
     const double R = 10, h = 0.01;
     const int n = 40;

@@ -105,7 +105,8 @@ struct Truth {
                 for (std::size_t j = 0; j < free.size(); ++j) A[i][j] = K[free[i]][free[j]];
             }
             const Vector q = solved(A, b);
-            p.assign(n(), 0.0), w.assign(n(), 0.0);
+            p.assign(n(), 0.0);
+            w.assign(n(), 0.0);
             for (std::size_t i = 0; i < free.size(); ++i) p[free[i]] = q[i];
             for (std::size_t k = 0; k < n(); ++k)
                 if (state[k] == 2) p[k] = H;
@@ -131,8 +132,11 @@ struct Truth {
     // The level stays: what penetrates at the hardness is gone.
     void accept() {
         for (std::size_t k = 0; k < n(); ++k)
-            if (p[k] >= options.physics.hardness.H0 && w[k] < 0)
-                pressed[k] -= w[k], z[k] += w[k], w[k] = 0;
+            if (p[k] >= options.physics.hardness.H0 && w[k] < 0) {
+                pressed[k] -= w[k];
+                z[k] += w[k];
+                w[k] = 0;
+            }
     }
 
     double energy() const {
@@ -156,8 +160,10 @@ struct Truth {
         double sum = 0;
         for (std::size_t k = 0; k < n(); ++k) {
             double dx = px - x(k), dy = py - y(k);
-            if (repeats())
-                dx = std::remainder(dx, tip.period.x), dy = std::remainder(dy, tip.period.y);
+            if (repeats()) {
+                dx = std::remainder(dx, tip.period.x);
+                dy = std::remainder(dy, tip.period.y);
+            }
             sum += p[k] * love(dx, dy, map.dx / 2, map.dy / 2);
             if (repeats()) sum += p[k] * pixel() * (lattice->at(dx, dy) - 1 / std::hypot(dx, dy));
         }
@@ -182,7 +188,8 @@ void whole_level(const Level& level, const Truth& t, double Z0) {
         pressed += t.pressed[k];
         if (!(t.p[k] > 0)) continue;
         touching.push_back(k);
-        force += t.p[k] * pixel, most = std::max(most, t.p[k]);
+        force += t.p[k] * pixel;
+        most = std::max(most, t.p[k]);
     }
     CHECK(touching.size() > 10);
     CHECK(level.pixels.columns == t.nx() && level.pixels.dx == t.map.dx &&
@@ -195,8 +202,8 @@ void whole_level(const Level& level, const Truth& t, double Z0) {
     std::vector<std::size_t> peak(at(level.contacts), t.n());
     for (std::size_t k = 0; k < touching.size(); ++k) {
         same(level.pixels.pressure[k], t.p[touching[k]], most, "pressure of a pixel");
-        same(level.pixels.x(k), t.x(touching[k]), 1, "x of a pixel"),
-            same(level.pixels.y(k), t.y(touching[k]), 1, "y of a pixel");
+        same(level.pixels.x(k), t.x(touching[k]), 1, "x of a pixel");
+        same(level.pixels.y(k), t.y(touching[k]), 1, "y of a pixel");
         std::size_t& top = peak[at(level.pixels.contact[k])];
         if (top == t.n() || t.p[touching[k]] > t.p[top]) top = touching[k];
     }
@@ -205,18 +212,22 @@ void whole_level(const Level& level, const Truth& t, double Z0) {
         for (std::size_t k = 0; k < touching.size(); ++k) {
             if (at(level.pixels.contact[k]) != c) continue;
             double dx = t.x(touching[k]) - t.x(peak[c]), dy = t.y(touching[k]) - t.y(peak[c]);
-            if (t.repeats())
-                dx = std::remainder(dx, t.tip.period.x), dy = std::remainder(dy, t.tip.period.y);
+            if (t.repeats()) {
+                dx = std::remainder(dx, t.tip.period.x);
+                dy = std::remainder(dy, t.tip.period.y);
+            }
             alone += t.p[touching[k]] * love(dx, dy, t.map.dx / 2, t.map.dy / 2) / (pi * kE);
         }
         CHECK(level.asperity[c] == static_cast<int>(peak[c]));
         SAME(u[c], alone, sigma);
     }
-    SAME(separation, Z0, sigma), SAME(force, force, force);
+    SAME(separation, Z0, sigma);
+    SAME(force, force, force);
     // A contact that repeats answers with its stiffness to the square of 1e-5 times the condition
     // of its matrix.
     const double S = t.stiffness(), W = t.energy(), loose = t.repeats() ? 1e-6 / kSame : 1;
-    SAME(stiffness, S, loose * S), SAME(energy, W, W);
+    SAME(stiffness, S, loose * S);
+    SAME(energy, W, W);
     CHECK(level.candidates == candidates && level.residual <= kTolerance && level.iterations > 0 &&
           level.products > 0);
     CHECK(level.method == Method::automatic && level.fallback == Fallback::none &&
@@ -250,7 +261,8 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
         double top = -kFlat;
         for (std::size_t k = 0; k < t.n(); ++k) top = std::max(top, t.height(k));
         same(contact->first_touch(), top, 0.01, "first touch");
-        deepest = level.force, large = std::max(large, level.contacts),
+        deepest = level.force;
+        large = std::max(large, level.contacts);
         hard = std::max(hard, level.plastic_contacts);
     }
     CHECK(large > 1 && (hard > 0) == std::isfinite(hardness));
@@ -261,8 +273,8 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
         if (!(t.pressed[k] > 0)) continue;
         CHECK(next < profile.depth.size());
         if (next == profile.depth.size()) break;
-        same(profile.x[next], t.x(k), 1, "x of the profile"),
-            same(profile.y[next], t.y(k), 1, "y of the profile");
+        same(profile.x[next], t.x(k), 1, "x of the profile");
+        same(profile.y[next], t.y(k), 1, "y of the profile");
         same(profile.depth[next++], t.pressed[k], 0.01, "depth of the profile");
     }
     CHECK(next == profile.depth.size());
@@ -275,7 +287,8 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
     same(level.force, N, N, "force asked for");
     whole_level(level, t, level.separation);
     contact->move_tip(0.5, 0.12);
-    t.tip.x0 = 0.5, t.tip.y0 = 0.12;
+    t.tip.x0 = 0.5;
+    t.tip.y0 = 0.12;
     level = contact->at_separation(0.005);
     add_answers(*contact, level, kResistivity);
     CHECK(t.press(0.005));
@@ -294,7 +307,8 @@ TEST(element_levels) {
                 0.03 / (a + std::abs(b)) * std::cos(2 * pi * (a * i / 20.0 + b * j / 13.0) + phase);
         return z;
     });
-    map.x0 = 0.2, map.y0 = -0.15;
+    map.x0 = 0.2;
+    map.y0 = -0.15;
     const Indenter sphere{kE, 20.0, 0.47, 0.07, {}}, flat{kE, kFlat, 0.47, 0.07, {}},
         repeating{kE, kFlat, 0.47, 0.07, {map.Lx(), map.Ly()}};
     for (const double hardness : {kFlat, 0.35}) {

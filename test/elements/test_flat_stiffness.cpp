@@ -32,7 +32,10 @@ double by_conjugate_gradients(const HeightMap& map, const std::vector<std::int32
                     if (pixels[k] / map.nx == j) image[k] = K.unit() / kE * row[pixels[k] % map.nx];
             });
         const double alpha = square / product(d, image);
-        for (std::size_t k = 0; k < q.size(); ++k) q[k] += alpha * d[k], r[k] -= alpha * image[k];
+        for (std::size_t k = 0; k < q.size(); ++k) {
+            q[k] += alpha * d[k];
+            r[k] -= alpha * image[k];
+        }
         const double last = std::exchange(square, product(r, r));
         for (std::size_t k = 0; k < q.size(); ++k) d[k] = r[k] + square / last * d[k];
     }

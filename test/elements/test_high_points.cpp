@@ -10,7 +10,8 @@ using namespace rsc;
 
 Case pressed() {
     Case c;
-    c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 32;
+    c.surface.L_lambda_l = 4;
+    c.surface.L_lambda_s = 32;
     c.solver.model = ModelKind::elements;
     c.indentation.levels = {1.5, 0.5, 1.0};
     return c;
@@ -22,7 +23,8 @@ TEST(test_levels) {
         Case c = pressed();
         c.solids.R[1] = 1;  // few contacts at the border
         c.elements.points_per_wave = points;
-        c.indentation.centre[0] = 0.3, c.indentation.centre[1] = 0.65;
+        c.indentation.centre[0] = 0.3;
+        c.indentation.centre[1] = 0.65;
         CHECK(reads_high_points(c));
         Case all = c;
         all.output.heights = true;
@@ -68,7 +70,8 @@ TEST(test_heights) {
                 };
                 CHECK(some(i, j) == all(i, j) || (some(i, j) == 0 && clearance(all) <= levels[0]));
                 missing += some(i, j) != all(i, j);
-                top = std::max(top, clearance(some)), top_all = std::max(top_all, clearance(all));
+                top = std::max(top, clearance(some));
+                top_all = std::max(top_all, clearance(all));
             }
         CHECK(top == top_all && missing > all.nx * all.ny / 2);
     }
@@ -76,7 +79,10 @@ TEST(test_heights) {
     // are kept.
     int i = 0, j = 0;
     for (int k = 0; k < all.nx * all.ny; ++k)
-        if (all(k % all.nx, k / all.nx) < all(i, j)) i = k % all.nx, j = k / all.nx;
+        if (all(k % all.nx, k / all.nx) < all(i, j)) {
+            i = k % all.nx;
+            j = k / all.nx;
+        }
     Case sharp = c;
     sharp.indenter.slope = 100;
     sharp.indenter.shape = shape_number("cone");

@@ -68,8 +68,8 @@ TEST(images_along_a_line) {
 
 TEST(hertz_line) {
     // b = 2 sqrt(P R/(pi E*)), p0 = 2 P/(pi b); a surface as wide as 6 b. The centre is lowered by
-    // -(2 P/(pi E*)) [ln(b/(4 L)) - 1/2 + gamma], the line load's -(2/(pi E*)) [ln(x/(2 L)) + gamma]
-    // averaged over the pressure.
+    // -(2 P/(pi E*)) [ln(b/(4 L)) - 1/2 + gamma], the line load's
+    // -(2/(pi E*)) [ln(x/(2 L)) + gamma] averaged over the pressure.
     const double R = 12, E = 1.1e5, P = 50, L = 1;
     const double b = 2 * std::sqrt(P * R / (pi * E)), p0 = 2 * P / (pi * b);
     const double Z0 = 2 * P / (pi * E) * (std::log(b / (4 * L)) - 0.5 + std::numbers::egamma);

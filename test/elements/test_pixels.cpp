@@ -87,7 +87,10 @@ std::vector<Pixel> clusters(int spots, int radius, int extent, unsigned seed) {
 
 double difference(const std::vector<double>& a, const std::vector<double>& b) {
     double d = 0, s = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) d += (a[k] - b[k]) * (a[k] - b[k]), s += b[k] * b[k];
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        d += (a[k] - b[k]) * (a[k] - b[k]);
+        s += b[k] * b[k];
+    }
     return std::sqrt(d / s);
 }
 

@@ -30,8 +30,10 @@ Spots spots(int nx, int ny) {
     Spots all;
     for (int j = 0; j < ny; ++j) {
         for (int i = 0; i < nx; ++i)
-            if (const double p = plane[static_cast<std::size_t>(j * nx + i)]; p > 0)
-                all.column.push_back(i), all.p.push_back(p);
+            if (const double p = plane[static_cast<std::size_t>(j * nx + i)]; p > 0) {
+                all.column.push_back(i);
+                all.p.push_back(p);
+            }
         all.rows.push_back(all.p.size());
     }
     return all;
@@ -113,9 +115,10 @@ void split(int nx, int ny, double aspect, double tolerance,
     fast.multiply(plane, {set.rows, set.column}, set.p, Kx, 1);
     fast.multiply(plane, {set.rows, set.column}, set.p, again, 3);
     double worst = 0, largest = 0;
-    for (std::size_t k = 0; k < truth.size(); ++k)
-        worst = std::max(worst, std::abs(Kx[k] - truth[k])),
+    for (std::size_t k = 0; k < truth.size(); ++k) {
+        worst = std::max(worst, std::abs(Kx[k] - truth[k]));
         largest = std::max(largest, std::abs(truth[k]));
+    }
     CHECK(worst < tolerance * largest);
     CHECK(again == Kx);
 }

@@ -20,8 +20,11 @@ class Session {
 public:
     Session(const std::uint8_t* data, std::size_t size) : in_(data, size) {}
     ~Session() {
-        hold(case_, nullptr), hold(surface_, nullptr), hold(asperities_, nullptr),
-            hold(contacts_[0], nullptr), hold(contacts_[1], nullptr);
+        hold(case_, nullptr);
+        hold(surface_, nullptr);
+        hold(asperities_, nullptr);
+        hold(contacts_[0], nullptr);
+        hold(contacts_[1], nullptr);
     }
     void run() {
         for (int calls = 0; calls < 40 && in_.remaining_bytes() > 0; ++calls) call();

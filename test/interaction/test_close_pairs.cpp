@@ -94,7 +94,8 @@ TEST(repeating) {
     for (int set = 0; set < 60; ++set) {
         Vector x, y, reach;
         for (int i = 0; i < 80; ++i) {
-            x.push_back(uniform(random) + (i % 5 - 2)), y.push_back(0.7 * uniform(random));
+            x.push_back(uniform(random) + (i % 5 - 2));
+            y.push_back(0.7 * uniform(random));
             reach.push_back(i % 9 == 0 ? 0
                                        : (set % 3 == 0 && i == 4 ? 0.3 : 0.05) * uniform(random));
         }

@@ -61,8 +61,9 @@ TEST(lattice_sums) {
         double worst = std::abs(lattice.self() - ewald(0, 0, Lx, Ly, 1.4)) * size;
         std::vector<double> x, y, f, phi(1);
         for (int k = 0; k < 150; ++k) {
-            x.push_back(Lx * uniform(random)), y.push_back(Ly * uniform(random)),
-                f.push_back(uniform(random));
+            x.push_back(Lx * uniform(random));
+            y.push_back(Ly * uniform(random));
+            f.push_back(uniform(random));
             const double exact = ewald(x.back(), y.back(), Lx, Ly, k % 2 ? 1.4 : 2.6);
             const double scale = std::max(1.0, std::abs(exact) * size);
             worst = check::worse(
@@ -73,7 +74,8 @@ TEST(lattice_sums) {
         }
         CHECK_CLOSE(worst, 0, kSum);
         // The sum over many sources, one of them at the target.
-        x[77] = 5.125 * Lx, y[77] = 0.25 * Ly;
+        x[77] = 5.125 * Lx;
+        y[77] = 0.25 * Ly;
         const double xt = 0.125 * Lx, yt = 2.25 * Ly;
         double sum = f[77] * lattice.self();
         for (std::size_t k = 0; k < f.size(); ++k)
@@ -102,7 +104,8 @@ TEST(spots_wrap) {
         const double area = union_area(spots);
         const double mx = uniform(random), my = uniform(random);
         for (Spot& s : spots) {
-            s.x += mx, s.y += my;
+            s.x += mx;
+            s.y += my;
             if (s.x > 1) s.x -= 1;
             if (s.y > 1) s.y -= 1;
         }

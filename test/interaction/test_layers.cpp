@@ -24,7 +24,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity(), kPi = std:
 LayeredBody body_of(const std::vector<Layer>& layers, double E, double nu) {
     LayeredBody body;
     for (const Layer& layer : layers) body.layer[static_cast<std::size_t>(body.count++)] = layer;
-    body.E = E, body.nu = nu;
+    body.E = E;
+    body.nu = nu;
     return body;
 }
 
@@ -61,7 +62,7 @@ double by_boundary_conditions(const LayeredBody& body, double wavenumber) {
         if (l == 0) {
             for (int c = 0; c < 4; ++c) {
                 const State s = state(below, c, 0);
-                A[0][static_cast<std::size_t>(c)] = s.normal,
+                A[0][static_cast<std::size_t>(c)] = s.normal;
                 A[1][static_cast<std::size_t>(c)] = s.shear;
             }
             b[0] = -1;
@@ -186,7 +187,8 @@ Pressed axisymmetric(const LayeredBody& body, double R, double a) {
             t.push_back(0.5 * a * (1 + side * Gauss::abscissa()[i]));
             weight.push_back(0.5 * a * Gauss::weights()[i]);
         }
-    t.push_back(a), weight.push_back(0);
+    t.push_back(a);
+    weight.push_back(0);
     std::vector<double> k, rest;  // nodes over k, and (T - 1) times their weights
     const double step = std::min(0.25 / h, 2 / a);
     for (double from = 0; from < 20 / h; from += step)
@@ -208,7 +210,8 @@ Pressed axisymmetric(const LayeredBody& body, double R, double a) {
         }
     std::vector<double> flat(n + 1, E / kPi), curved;
     for (double x : t) curved.push_back(E / kPi * x * x / R);
-    flat = solved(A, flat), curved = solved(A, curved);
+    flat = solved(A, flat);
+    curved = solved(A, curved);
     const double depth = curved[n] / flat[n];
     double force = 0;
     for (std::size_t i = 0; i < n; ++i)

@@ -19,8 +19,10 @@ Points uniform_points(std::size_t n, unsigned seed, double length_x = 1, double 
     std::mt19937_64 engine(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
     Points p{Vector(n), Vector(n)};
-    for (std::size_t i = 0; i < n; ++i)
-        p.x[i] = length_x * uniform(engine), p.y[i] = length_y * uniform(engine);
+    for (std::size_t i = 0; i < n; ++i) {
+        p.x[i] = length_x * uniform(engine);
+        p.y[i] = length_y * uniform(engine);
+    }
     return p;
 }
 
@@ -31,7 +33,7 @@ Points clustered_points(std::size_t n, unsigned seed) {
     Points p = uniform_points(n, seed);
     for (std::size_t i = 0; i < n - n / 10; ++i) {
         const double cluster = static_cast<double>(i % 9);
-        p.x[i] = std::cos(cluster) + 0.01 * normal(engine),
+        p.x[i] = std::cos(cluster) + 0.01 * normal(engine);
         p.y[i] = std::sin(2 * cluster) + 0.01 * normal(engine);
     }
     return p;
@@ -100,11 +102,14 @@ TEST(shapes) {
 
     // A hundred places with ten points each, and a point far from the others.
     Points twice = uniform_points(4000, 9);
-    for (std::size_t i = 100; i < 1000; ++i)
-        twice.x[i] = twice.x[i % 100], twice.y[i] = twice.y[i % 100];
+    for (std::size_t i = 100; i < 1000; ++i) {
+        twice.x[i] = twice.x[i % 100];
+        twice.y[i] = twice.y[i % 100];
+    }
     check_errors(twice, "coincident");
     Points far = uniform_points(2000, 10);
-    far.x[77] = 30, far.y[77] = -20;
+    far.x[77] = 30;
+    far.y[77] = -20;
     check_errors(far, "far point");
 }
 

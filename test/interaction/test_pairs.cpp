@@ -122,9 +122,15 @@ TEST(sizes_and_shapes) {
 // all.
 TEST(coincident) {
     Points p = random_points(100, 9);
-    for (std::size_t i = 0; i < 40; ++i) p.x[i + 50] = p.x[i], p.y[i + 50] = p.y[i];
+    for (std::size_t i = 0; i < 40; ++i) {
+        p.x[i + 50] = p.x[i];
+        p.y[i + 50] = p.y[i];
+    }
     check_all_products(p, "coincident pairs");
-    for (std::size_t i = 0; i < p.size(); ++i) p.x[i] = 0.1, p.y[i] = -7;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        p.x[i] = 0.1;
+        p.y[i] = -7;
+    }
     check_all_products(p, "one place");
     PairSums sums(unit_kernel());
     sums.assign(100, p.x.data(), p.y.data());
@@ -143,9 +149,10 @@ TEST(instruction_sets) {
     std::vector<std::int32_t> x(n), y(n);
     std::vector<float> f(p.f.begin(), p.f.end());
     const double unit = 0x1p30;
-    for (std::size_t i = 0; i < n; ++i)
-        x[i] = static_cast<std::int32_t>(p.x[i] * unit),
+    for (std::size_t i = 0; i < n; ++i) {
+        x[i] = static_cast<std::int32_t>(p.x[i] * unit);
         y[i] = static_cast<std::int32_t>(p.y[i] * unit);
+    }
     int found = 0;
     for (const char* name : {"generic", "sse2", "avx2", "avx512"}) {
         const PairKernels* k = pair_kernels(name);
@@ -204,7 +211,8 @@ TEST(bad_coordinates) {
     sums.assign(5, p.x.data(), p.x.data());
     CHECK_THROWS(sums.onto(false, 5, p.x.data(), p.y.data(), p.f.data(), phi.data()), Error);
     // A force that is not a number does not vanish on the way.
-    p.y[3] = 0.5, p.f[2] = std::nan("");
+    p.y[3] = 0.5;
+    p.f[2] = std::nan("");
     sums.assign(5, p.x.data(), p.y.data());
     sums.among(false, p.f.data(), phi.data());
     CHECK(std::isnan(phi[0]) && std::isnan(phi[4]));

@@ -13,8 +13,10 @@ constexpr double kE = 3.0, kWide = 1.2, kHigh = 0.5;
 
 double error_of(const Vector& value, const Vector& truth) {
     double d = 0, s = 0;
-    for (std::size_t k = 0; k < truth.size(); ++k)
-        d += std::pow(value[k] - truth[k], 2), s += truth[k] * truth[k];
+    for (std::size_t k = 0; k < truth.size(); ++k) {
+        d += std::pow(value[k] - truth[k], 2);
+        s += truth[k] * truth[k];
+    }
     return s > 0 ? std::sqrt(d / s) : std::sqrt(d);
 }
 
@@ -35,14 +37,17 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
     std::uniform_real_distribution<double> uniform(0, 1);
     const auto size = static_cast<std::size_t>(n), others = size / 3 + 7;
     Vector x, y, force, xo, yo;
-    for (std::size_t k = 0; k < size; ++k)
-        x.push_back(5 + kWide * uniform(random)), y.push_back(-3 + kHigh * uniform(random)),
-            force.push_back(uniform(random) + 0.1);
+    for (std::size_t k = 0; k < size; ++k) {
+        x.push_back(5 + kWide * uniform(random));
+        y.push_back(-3 + kHigh * uniform(random));
+        force.push_back(uniform(random) + 0.1);
+    }
     for (std::size_t k = 5; k < size; k += 5)
         x[k] = x[k - 1];  // as points of a grid have the same x
-    for (std::size_t k = 0; k < others; ++k)
-        xo.push_back(4.9 + 1.2 * kWide * uniform(random)),
-            yo.push_back(-3.05 + kHigh * uniform(random));
+    for (std::size_t k = 0; k < others; ++k) {
+        xo.push_back(4.9 + 1.2 * kWide * uniform(random));
+        yo.push_back(-3.05 + kHigh * uniform(random));
+    }
     Kind kinds[] = {
         {"direct", make_direct_products(kernel), 1e-13, 1e-6, 1e-5},
         {"mesh", make_mesh_products(kernel, 1e-7, 1e-3), 1e-7, 1e-3, 1e-5},

@@ -62,7 +62,10 @@ ssize_t pwrite(int fd, const void* bytes, size_t n, off_t offset) {
 }
 int rename(const char* from, const char* to) noexcept {
     note(std::string("rename ") + from + " > " + to);
-    if (refuse_renames) return errno = ENOSPC, -1;
+    if (refuse_renames) {
+        errno = ENOSPC;
+        return -1;
+    }
     return static_cast<int>(::syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
 }
 int unlink(const char* path) noexcept {

@@ -164,7 +164,10 @@ TEST(test_missing_values) {
 TEST(test_netcdf_layouts) {
     std::vector<double> heights, mask;
     for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 3; ++j) heights.push_back(10 * i + j), mask.push_back(i == 2 && j == 1);
+        for (int j = 0; j < 3; ++j) {
+            heights.push_back(10 * i + j);
+            mask.push_back(i == 2 && j == 1);
+        }
     const std::vector<std::pair<std::string, std::string>> nm = {{"unit", "nm"}};
     const std::vector<Variable> all = {{"x", NC_DOUBLE, {"x"}, {0, 2, 4, 6}, nm},
                                        {"y", NC_DOUBLE, {"y"}, {0, 3, 6}, nm},

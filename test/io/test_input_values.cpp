@@ -102,7 +102,8 @@ TEST(types) {
     // stored.
     for (const bool own : {false, true}) {
         std::vector<double> z = heights();
-        z[6] = NC_FILL_SHORT, z[7] = 12;
+        z[6] = NC_FILL_SHORT;
+        z[7] = 12;
         Variable v{"height", NC_SHORT, {"y", "x"}, z, {}, {{"scale_factor", {3}}}};
         if (own) v.numbers.push_back({"_FillValue", {12}});
         const HeightMap m =
@@ -131,7 +132,8 @@ TEST(types) {
         read_heights(netcdf("t.nc", {{"y", 3}, {"x", 4}}, {v}), 2.0, "mm", "", Missing::fill);
     CHECK(std::isnan(packed(3, 2)) && !std::isnan(packed(2, 2)) && packed(0, 0) == 5);
     Values z = heights();
-    z[5] = -25536, z[6] = -1;
+    z[5] = -25536;
+    z[6] = -1;
     const HeightMap u = read_heights(
         netcdf(
             "t.nc", {{"y", 3}, {"x", 4}},

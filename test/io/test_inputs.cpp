@@ -89,9 +89,11 @@ TEST(bad_heights_from_netcdf) {
     int id = -1, dims[2], v = -1;  // an empty file may announce anything
     const std::size_t chunks[] = {100, 100};
     ok(nc_create((folder / "absurd").c_str(), NC_CLOBBER | NC_NETCDF4, &id));
-    ok(nc_def_dim(id, "y", 2000000000, &dims[0])), ok(nc_def_dim(id, "x", 2000000000, &dims[1]));
-    ok(nc_def_var(id, "height", NC_DOUBLE, 2, dims, &v)),
-        ok(nc_def_var_chunking(id, v, NC_CHUNKED, chunks)), ok(nc_close(id));
+    ok(nc_def_dim(id, "y", 2000000000, &dims[0]));
+    ok(nc_def_dim(id, "x", 2000000000, &dims[1]));
+    ok(nc_def_var(id, "height", NC_DOUBLE, 2, dims, &v));
+    ok(nc_def_var_chunking(id, v, NC_CHUNKED, chunks));
+    ok(nc_close(id));
     REFUSED(read_heights(folder / "absurd", 1.0),
             ": a height map of 2000000000 x 2000000000 points needs 3.2e+10 GB; this machine has ");
 }

@@ -50,7 +50,8 @@ HeightMap in_micrometres(const std::string& path, const std::string& channel = "
 TEST(gwy) {
     const Map map = sample();
     Map in_own_units = map;
-    in_own_units.dx *= 1e3, in_own_units.dy *= 1e3;
+    in_own_units.dx *= 1e3;
+    in_own_units.dy *= 1e3;
     for (double& z : in_own_units.z) z *= 1e9;
     check_sample(in_micrometres(write("one.gwy", gwy_file(gwy_channel(0, "Topography", map)))), -1);
     CHECK_RELATIVE(read_heights(write("one.gwy", gwy_file(gwy_channel(0, "T", map))), std::nullopt,
@@ -104,7 +105,8 @@ TEST(gwy) {
     REFUSED(in_micrometres(with_hole), "1 of 24 points are missing or masked, the");
     Map mask = map;
     for (double& z : mask.z) z = 0;
-    mask.z[6 + 4] = 0.25, mask.z[0] = -1;  // above 0 is masked
+    mask.z[6 + 4] = 0.25;
+    mask.z[0] = -1;  // above 0 is masked
     std::string masked = gwy_channel(0, "T", map);
     gwy_component(masked, "/0/mask", 'o', gwy_field(mask, "m", ""));
     check_sample(in_micrometres(write("mask.gwy", gwy_file(masked)), "", Missing::fill), 4);
@@ -137,14 +139,17 @@ TEST(gwy) {
     wrong.nx = 7;
     REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))),
             "w.gwy: channel 'T': 24 values for 7 x 4 points");
-    wrong.nx = 2000000000, wrong.ny = 2000000000;
+    wrong.nx = 2000000000;
+    wrong.ny = 2000000000;
     REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))),
             "GB; this machine has");
-    wrong = map, wrong.ny = -4;
+    wrong = map;
+    wrong.ny = -4;
     REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))),
             ": /0/data yres = -4: must be positive");
     Map small = map;
-    small.ny = 3, small.z.resize(18);
+    small.ny = 3;
+    small.z.resize(18);
     std::string badly = gwy_channel(0, "T", map);
     gwy_component(badly, "/0/mask", 'o', gwy_field(small, "m", ""));
     REFUSED(in_micrometres(write("w.gwy", gwy_file(badly))),

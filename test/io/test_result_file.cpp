@@ -100,8 +100,8 @@ std::string refusal(const std::string& path, const ObserveOptions& options, std:
     return ::refusal([&] { read_sums(path, options, steps); });
 }
 
-// Sums read back are those that were written, within rounding; a file whose axes are others is not taken for one of
-// the case.
+// Sums read back are those that were written, within rounding; a file whose axes are others is not
+// taken for one of the case.
 TEST(test_sums) {
     const Folder folder;
     const Result r = sample::result(3);
@@ -151,7 +151,9 @@ TEST(test_edges) {
     c.run.length_unit = "1e-6 m";
     c.run.seed = 1234567890123;
     Indenter flat;
-    flat.E_star = 1, flat.shape = Case::kInfinity, flat.x0 = 3;
+    flat.E_star = 1;
+    flat.shape = Case::kInfinity;
+    flat.x0 = 3;
     const ObserveOptions options = observe_options(c, {0, 0, 1, 0.5}, flat, 0, 0);
     Accumulators sums(options, 2);
     sums.add(observe(options, 1, {}, {Level{}, Level{}}));
@@ -190,8 +192,8 @@ TEST(test_failed_comparison) {
     CHECK(file.values("force").size() == sample::kSteps);
 }
 
-// Numbers that are not finite never reach a file. Obstacles of the file system: test/door/cli/faults.sh,
-// files.sh.
+// Numbers that are not finite never reach a file. Obstacles of the file system:
+// test/door/cli/faults.sh, files.sh.
 TEST(test_not_finite) {
     const Folder folder;
     const std::string path = folder / "never.nc";

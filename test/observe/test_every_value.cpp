@@ -39,13 +39,23 @@ void check_file(const Scene& scene, const std::string& path, const Case& setting
     const int before = check::failures;
     const Truth t(settings);
     CheckedFile f(scene.name, path);
-    header(f, t), levels(f, t), separations(f, t), surfaces(f, t), regimes(f, t), maps(f, t);
+    header(f, t);
+    levels(f, t);
+    separations(f, t);
+    surfaces(f, t);
+    regimes(f, t);
+    maps(f, t);
     if (!settings.output.pdf_levels.empty())
         distributions(f, t);
     else
         CHECK(!f.has("pdf_level") && !f.has("bin"));
-    asperities(f, t), contacts(f, t), contact_mask(f, t), heights(f, t), friction(f, t),
-        measured(f, t, scene.as_read), compared(f, t, scene.compare_path);
+    asperities(f, t);
+    contacts(f, t);
+    contact_mask(f, t);
+    heights(f, t);
+    friction(f, t);
+    measured(f, t, scene.as_read);
+    compared(f, t, scene.compare_path);
     f.finish();
     if (check::failures > before)
         std::printf("%s: %d failures\n", scene.name.c_str(), check::failures - before);
@@ -71,7 +81,10 @@ void run_and_check(const Scene& scene, const Folder& folder) {
 HeightMap measured_map() {
     HeightMap map;
     map.allocate(60, 42, 60);
-    map.dx = 0.1, map.dy = 0.07, map.x0 = 2, map.y0 = -1;
+    map.dx = 0.1;
+    map.dy = 0.07;
+    map.x0 = 2;
+    map.y0 = -1;
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i) {
             const double x = map.dx * i, y = map.dy * j;

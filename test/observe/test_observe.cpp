@@ -42,10 +42,14 @@ TEST(test_borders_of_cells) {
 TEST(test_oblong_maps) {
     const double dx = 0.3, dy = 0.2, p = 2.5;
     Level level;
-    level.pixels.columns = 30, level.pixels.dx = dx, level.pixels.dy = dy;
-    for (int k = 0; k < 30 * 17; ++k)
-        level.pixels.index.push_back(k), level.pixels.contact.push_back(0),
-            level.pixels.pressure.push_back(p);
+    level.pixels.columns = 30;
+    level.pixels.dx = dx;
+    level.pixels.dy = dy;
+    for (int k = 0; k < 30 * 17; ++k) {
+        level.pixels.index.push_back(k);
+        level.pixels.contact.push_back(0);
+        level.pixels.pressure.push_back(p);
+    }
     const double Lx = 30 * dx, Ly = 17 * dy, force = p * Lx * Ly;
     level.add_contact(0, 0.5 * Lx, 0.99 * Ly, force, std::sqrt(Lx * Ly / pi), 1);
     for (const int cells : {1, 2, 3, 4, 7, 30, 45}) {
@@ -107,7 +111,8 @@ __extension__ using Wide = __int128;
 TEST(test_tension) {
     Level level;
     level.least_force = -1;
-    level.add_contact(0, 0, 0, 1, 1, 0), level.add_contact(1, 0, 0, -0.1, 0.5, 0);
+    level.add_contact(0, 0, 0, 1, 1, 0);
+    level.add_contact(1, 0, 0, -0.1, 0.5, 0);
     const PdfBins bins = make_pdf_bins(10, 1, 1, 1, 1);
     const ShownDistributions fit = shown_distributions(bins, distributions_of(bins, level, 0));
     CHECK_RELATIVE(fit.spot_area_moments.mean, std::numbers::pi * 1.25 / 2, 1e-14);

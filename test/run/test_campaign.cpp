@@ -231,7 +231,10 @@ TEST(test_rewrite) {
     // It outgrows the sums after some 16 MB.
     const std::string large(std::size_t{1} << 20, 'x');
     int appended = 0;
-    while (!checkpoint.wants_rewrite() && appended < 40) checkpoint.append(large), ++appended;
+    while (!checkpoint.wants_rewrite() && appended < 40) {
+        checkpoint.append(large);
+        ++appended;
+    }
     CHECK(appended > 10 && appended < 40);
     checkpoint.remove();
     CHECK(folder.files() == 0);

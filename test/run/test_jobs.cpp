@@ -26,10 +26,16 @@ std::string write(const std::string& name, const std::string& content) {
 
 Case synthetic() {
     Case c;
-    c.surface.L = 3, c.surface.n = 64, c.surface.L_lambda_l = 3, c.surface.L_lambda_s = 16,
+    c.surface.L = 3;
+    c.surface.n = 64;
+    c.surface.L_lambda_l = 3;
+    c.surface.L_lambda_s = 16;
     c.surface.sigma = 0.02;
     c.surface.hurst = 0.6;
-    c.solids.E[1] = 31e3, c.solids.nu[0] = 0.35, c.solids.nu[1] = 0.21, c.solids.R[0] = 4;
+    c.solids.E[1] = 31e3;
+    c.solids.nu[0] = 0.35;
+    c.solids.nu[1] = 0.21;
+    c.solids.R[0] = 4;
     return c;
 }
 
@@ -61,7 +67,8 @@ Case of_map(const std::string& file) {
 // A duration is spread evenly over the levels, both ends included.
 TEST(times) {
     Case c = synthetic();
-    c.indentation.levels = {3, 2, 1, 0}, c.indentation.duration = 6;
+    c.indentation.levels = {3, 2, 1, 0};
+    c.indentation.duration = 6;
     CHECK((prepare(c).times == std::vector<double>{0, 2, 4, 6}));
 }
 
@@ -95,7 +102,9 @@ TEST(places) {
     // without L the smallest one.
     const auto list = [](std::vector<double> x, std::vector<double> y, std::vector<double> z) {
         Asperities a;
-        a.x = std::move(x), a.y = std::move(y), a.z = std::move(z),
+        a.x = std::move(x);
+        a.y = std::move(y);
+        a.z = std::move(z);
         a.radius.assign(a.x.size(), 0.1);
         return a;
     };
@@ -124,8 +133,9 @@ TEST(places) {
 // Several maps: each realization its own, brought to the place of the first; sizes that differ are
 // refused.
 TEST(maps) {
-    map_file("p1.txt", -3, 7), map_file("p2.txt", 11, -5, 0.5, 0.25, 1.5),
-        map_file("p3.txt", 0, 0, 0.5, 0.25, 0.5);
+    map_file("p1.txt", -3, 7);
+    map_file("p2.txt", 11, -5, 0.5, 0.25, 1.5);
+    map_file("p3.txt", 0, 0, 0.5, 0.25, 0.5);
     Case c = of_map(folder / "p?.txt");
     c.run.realizations = 3;
     c.indentation.levels = {1.0};
@@ -161,10 +171,12 @@ TEST(maps) {
     CHECK_CLOSE(prepare(c).domain.x0, 11, 1e-9);
     CHECK(!accepted([&] { make_surface(c, 0, 1); }) && !accepted([&] { make_surface(c, 4, 1); }) &&
           accepted([&] { make_surface(c, 3, 1); }));
-    c.run.realizations = 1, c.run.first_realization = 3;
+    c.run.realizations = 1;
+    c.run.first_realization = 3;
     CHECK(prepare(c).given.has_value());
     // Sides that differ by more than a millionth, along x or y.
-    c.run.realizations = 2, c.run.first_realization = 1;
+    c.run.realizations = 2;
+    c.run.first_realization = 1;
     for (const auto& [dx, dy, allowed] : {std::tuple{0.5000004, 0.25, true},
                                           {0.5, 0.2500002, true},
                                           {0.500001, 0.25, false},
@@ -196,7 +208,8 @@ TEST(maps) {
         CHECK(same == 600);
     }
     Case made = synthetic();
-    made.solver.model = ModelKind::elements, made.elements.points_per_wave = 6.1;
+    made.solver.model = ModelKind::elements;
+    made.elements.points_per_wave = 6.1;
     CHECK(make_surface_model(made, 1, 1).points->nx == 98 &&
           make_surface_model(made, 1, 1).points->ny == 98);
     // Of two sizes the message names both.
@@ -205,7 +218,7 @@ TEST(maps) {
     REFUSED(prepare(c), "15 x 5");
     // A flat list has no sigma: the levels need one.
     Case list;
-    list.surface.source = Source::asperities,
+    list.surface.source = Source::asperities;
     list.surface.file = write("list.txt", "1 1 2 0.5\n3 1 2 0.25\n");
     CHECK(!accepted([&] { prepare(list); }));
     list.surface.sigma = 0.5;
@@ -221,10 +234,14 @@ TEST(maps) {
 TEST(pressures) {
     for (const double direction : {0.0, 90.0, 25.0}) {
         Case c = synthetic();
-        c.surface.n = 128, c.surface.aspect = 4, c.surface.direction = direction;
+        c.surface.n = 128;
+        c.surface.aspect = 4;
+        c.surface.direction = direction;
         c.solids.R[0] = HUGE_VAL;
-        c.indentation.boundary = Boundary::periodic, c.indentation.control = Control::pressure;
-        c.indentation.unit = LevelUnit::relative, c.indentation.levels = {0.01};
+        c.indentation.boundary = Boundary::periodic;
+        c.indentation.control = Control::pressure;
+        c.indentation.unit = LevelUnit::relative;
+        c.indentation.levels = {0.01};
         const Job job = prepare(c);
         const double m2 = make_surface(c, 1, 1).sampled->m2;
         CHECK_RELATIVE(job.levels[0], 0.01 * job.indenter.E_star * std::sqrt(2 * m2) * 3 * 3,
@@ -250,14 +267,18 @@ TEST(pressures) {
 // are solved.
 TEST(closed_flats) {
     Case c = synthetic();
-    c.solids.R[0] = c.solids.R[1] = HUGE_VAL, c.solver.model = ModelKind::elements;
-    c.indentation.boundary = Boundary::periodic, c.indentation.levels = {2, 1, 0.1};
+    c.solids.R[0] = c.solids.R[1] = HUGE_VAL;
+    c.solver.model = ModelKind::elements;
+    c.indentation.boundary = Boundary::periodic;
+    c.indentation.levels = {2, 1, 0.1};
     CHECK(accepted([&] { prepare(c); }));
     c.indentation.levels = {2, 1, 0};
     REFUSED(prepare(c), "that of full contact, 0 ");
     Case hard = c;
-    hard.indentation.control = Control::pressure, hard.indentation.unit = LevelUnit::pressure;
-    hard.solids.hardness = 100, hard.indentation.levels = {99.9};
+    hard.indentation.control = Control::pressure;
+    hard.indentation.unit = LevelUnit::pressure;
+    hard.solids.hardness = 100;
+    hard.indentation.levels = {99.9};
     (void)prepare(hard);
     hard.indentation.levels = {100};
     REFUSED(prepare(hard), "hardness");
@@ -273,14 +294,18 @@ TEST(punch_on_plane) {
     for (int j = 0; j < n; ++j, text += '\n')
         for (int i = 0; i < n; ++i) text += (i * 7 + j * 3) % 5 == 0 ? " 1e-12" : " 0";
     Case c = of_map(write("plane.txt", text));
-    c.surface.L = 0.4, c.surface.detrend = Detrend::none, c.output.pdf_levels = {},
+    c.surface.L = 0.4;
+    c.surface.detrend = Detrend::none;
+    c.output.pdf_levels = {};
     c.solver.model = ModelKind::elements;
     c.indenter.shape = shape_number("punch");
-    c.indentation.control = Control::force, c.indentation.levels = {1};
+    c.indentation.control = Control::force;
+    c.indentation.levels = {1};
     for (const double a : {0.05, 0.1}) {
         int outside = 0;
         for (int k = 0; k < kPlaces; ++k) {
-            c.indenter.radius = a, c.indentation.centre[0] = 0.2 + 0.0007 * k,
+            c.indenter.radius = a;
+            c.indentation.centre[0] = 0.2 + 0.0007 * k;
             c.indentation.centre[1] = 0.2 - 0.0011 * k;
             const Job job = prepare(c);
             const Level level = realize(job, 1, 1).levels[0];
@@ -311,19 +336,26 @@ TEST(exchanged_maps) {
         Level level[2];
         for (const int first : {0, 1}) {
             Case c = of_map(files[first]);
-            c.surface.pixel = 1.0 / n, c.surface.detrend = Detrend::none, c.output.pdf_levels = {};
-            c.solver.model = model, c.solver.tolerance = 1e-10;
+            c.surface.pixel = 1.0 / n;
+            c.surface.detrend = Detrend::none;
+            c.output.pdf_levels = {};
+            c.solver.model = model;
+            c.solver.tolerance = 1e-10;
             c.solids.R[0] = c.solids.R[1] = HUGE_VAL;
-            c.indenter.file = files[1 - first], set_key(c, "indenter%shape", "'map'");
-            c.indentation.boundary = Boundary::periodic, c.indentation.control = Control::pressure;
-            c.indentation.unit = LevelUnit::relative, c.indentation.levels = {0.005};
+            c.indenter.file = files[1 - first];
+            set_key(c, "indenter%shape", "'map'");
+            c.indentation.boundary = Boundary::periodic;
+            c.indentation.control = Control::pressure;
+            c.indentation.unit = LevelUnit::relative;
+            c.indentation.levels = {0.005};
             level[first] = realize(prepare(c), 1, 1).levels[0];
         }
         if (model == ModelKind::elements) {
             CHECK_RELATIVE(level[0].area, level[1].area, 1e-9);
             CHECK_RELATIVE(level[0].separation, level[1].separation, 1e-8);
-        } else
+        } else {
             for (const Level& one : level) CHECK(one.doubts & bit(Cause::outside_calibration));
+        }
     }
 }
 

@@ -103,11 +103,13 @@ TEST(twins_with_a_second_map) {
 TEST(smooth_on_rough) {
     std::string wave, zero;
     for (int j = 0; j < 32; ++j) {
-        for (int i = 0; i < 32; ++i)
+        for (int i = 0; i < 32; ++i) {
             wave += format("%.17g ", 1e-3 * std::cos(std::numbers::pi * i / 8) *
-                                         std::cos(std::numbers::pi * j / 16)),
-                zero += "0 ";
-        wave += "\n", zero += "\n";
+                                         std::cos(std::numbers::pi * j / 16));
+            zero += "0 ";
+        }
+        wave += "\n";
+        zero += "\n";
     }
     const auto level = [&](const std::string& first, const std::string& second) {
         const Case c = read_case_text(

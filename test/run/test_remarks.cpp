@@ -19,9 +19,14 @@ TEST(thresholds) {
     using V = LevelValues;
     const auto remarks = [&](const std::function<void(V&)>& change) {
         std::vector<V> levels(2);
-        for (V& level : levels)
-            level.contacts = 10, level.area = 1, level.nominal_area = 2, level.plastic_work = 0.25,
-            level.separation = 1, level.stiffness = -1;
+        for (V& level : levels) {
+            level.contacts = 10;
+            level.area = 1;
+            level.nominal_area = 2;
+            level.plastic_work = 0.25;
+            level.separation = 1;
+            level.stiffness = -1;
+        }
         change(levels[1]);
         std::ostringstream out;
         print_remarks(out, levels, job);
@@ -49,14 +54,20 @@ TEST(thresholds) {
     CHECK(remarks([](V&) {}).find("-3.5") != std::string::npos);
     CHECK(remarks([](V& v) { v.force = 1; }).find("-3.5") == std::string::npos);
     // A list of asperities has no heights that elements could solve.
-    const auto all_wrong = [](V& v) { v.doubts = ~0, v.stiffness = kNotComputed; };
+    const auto all_wrong = [](V& v) {
+        v.doubts = ~0;
+        v.stiffness = kNotComputed;
+    };
     CHECK(said("'elements'", all_wrong));
     job.settings.surface.source = Source::asperities;
     CHECK(!said("'elements'", all_wrong));
     job.settings.surface.source = Source::synthetic;
     job.settings.solids.hardness = 100;
-    CHECK(said("1 of 7 contacts yield",
-               [](V& v) { v.plastic_contacts = 1, v.plastic_work = 0.5, v.contacts = 7; }));
+    CHECK(said("1 of 7 contacts yield", [](V& v) {
+        v.plastic_contacts = 1;
+        v.plastic_work = 0.5;
+        v.contacts = 7;
+    }));
     CHECK(std::string(slope_remark(0.5)).empty() &&
           !std::string(slope_remark(std::nextafter(0.5, 1.0))).empty());
 }
@@ -88,8 +99,12 @@ TEST(heights_missed) {
     job.spectrum.emplace();
     const auto remark = [&](double skewness, double kurtosis) {
         std::vector<SurfaceStatistics> surfaces(2);
-        for (auto& s : surfaces) s.skewness = -1, s.kurtosis = 4;
-        surfaces[1].skewness = skewness, surfaces[1].kurtosis = kurtosis;
+        for (auto& s : surfaces) {
+            s.skewness = -1;
+            s.kurtosis = 4;
+        }
+        surfaces[1].skewness = skewness;
+        surfaces[1].kurtosis = kurtosis;
         std::ostringstream out;
         tell_unreached_heights(out, surfaces, job);
         return out.str();
@@ -107,7 +122,8 @@ TEST(sticks) {
     Job job;
     job.indenter = {100.0, 1.0};
     job.theory.emplace();
-    job.theory->m2 = 0.02, job.theory->m4 = 30;
+    job.theory->m2 = 0.02;
+    job.theory->m4 = 30;
     job.settings.solids.adhesion_range = 1e-3;
     const double slope = 0.2, curvature = std::sqrt(80.0);  // rms of the gradient; of the Laplacian
     const double needed = 100.0 * slope * 1e-3 / (2 * std::numbers::pi) *

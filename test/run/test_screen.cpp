@@ -23,7 +23,10 @@ struct Screen {
         std::istringstream lines(text);
         bool inside = false;
         for (std::string line; std::getline(lines, line);) {
-            if (line.starts_with(head)) inside = true, rows.clear();
+            if (line.starts_with(head)) {
+                inside = true;
+                rows.clear();
+            }
             if (!inside || line.starts_with(head)) continue;
             Vector row;
             std::istringstream words(line);
@@ -37,10 +40,13 @@ struct Screen {
 
 Screen run(const std::string& text, const std::string& file) {
     Case settings = read_case_text(text, "case.nml").settings;
-    settings.output.file = file, settings.run.threads = 1;
+    settings.output.file = file;
+    settings.run.threads = 1;
     std::ostringstream table, messages;
     RunOptions options;
-    options.table = &table, options.messages = &messages, options.progress = Progress::never;
+    options.table = &table;
+    options.messages = &messages;
+    options.progress = Progress::never;
     const long failed = run_case(settings, options);
     return {table.str(), messages.str(), failed};
 }

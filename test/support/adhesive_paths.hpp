@@ -25,8 +25,10 @@ inline RandomAsperities random_asperities(int n, unsigned seed, double apart) {
         for (std::size_t k = 0; k < a.x.size(); ++k)
             close = close || std::hypot(px - a.x[k], py - a.y[k]) < apart;
         if (close) continue;
-        a.x.push_back(px), a.y.push_back(py), a.z.push_back(0.02 * uniform(generator)),
-            a.radius.push_back(0.1 + 0.3 * uniform(generator));
+        a.x.push_back(px);
+        a.y.push_back(py);
+        a.z.push_back(0.02 * uniform(generator));
+        a.radius.push_back(0.1 + 0.3 * uniform(generator));
     }
     return {a, std::pow(10.0, -3.5 + 1.5 * uniform(generator))};
 }
@@ -129,7 +131,10 @@ public:
     void go_to(double end, double step) {
         const int steps = static_cast<int>(std::ceil(std::abs(end - Z) / step));
         const double from = Z;
-        for (int k = 1; k <= steps; ++k) Z = from + (end - from) * k / steps, relax();
+        for (int k = 1; k <= steps; ++k) {
+            Z = from + (end - from) * k / steps;
+            relax();
+        }
     }
     double force() {
         solve();
@@ -199,7 +204,8 @@ private:
             }
             double value = growth(i, next);
             if ((value > 0) == grows) {
-                last = next, here = value;
+                last = next;
+                here = value;
                 continue;
             }
             double end = next;
@@ -207,11 +213,14 @@ private:
                 const double middle = (last * value - end * here) / (value - here),
                              now = growth(i, middle);
                 if (now == 0) break;
-                if ((now > 0) != (value > 0))
-                    last = end, here = value;
-                else
+                if ((now > 0) != (value > 0)) {
+                    last = end;
+                    here = value;
+                } else {
                     here *= 0.5;
-                end = middle, value = now;
+                }
+                end = middle;
+                value = now;
             }
             return std::abs(radius_[i] - begin);
         }

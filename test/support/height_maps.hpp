@@ -9,7 +9,8 @@ template <class Height>
 rsc::HeightMap height_map(int nx, int ny, double dx, double dy, Height&& z) {
     rsc::HeightMap map;
     map.allocate(nx, ny, nx + 3);
-    map.dx = dx, map.dy = dy;
+    map.dx = dx;
+    map.dy = dy;
     for (int j = 0; j < ny; ++j)
         for (int i = 0; i < nx; ++i) map.row(j)[i] = z(i, j);
     return map;

@@ -85,11 +85,16 @@ std::string sdf_binary(const Map& map, int type, double scale, const std::vector
                        const std::string& version = "bISO-1.0") {
     std::string f = version + "rsc       " + "010120240000" + "010120240000";
     if (version[5] >= '2') {
-        put(f, static_cast<std::uint32_t>(map.nx)), put(f, static_cast<std::uint32_t>(map.ny));
+        put(f, static_cast<std::uint32_t>(map.nx));
+        put(f, static_cast<std::uint32_t>(map.ny));
     } else {
-        put(f, static_cast<std::uint16_t>(map.nx)), put(f, static_cast<std::uint16_t>(map.ny));
+        put(f, static_cast<std::uint16_t>(map.nx));
+        put(f, static_cast<std::uint16_t>(map.ny));
     }
-    put(f, map.dx), put(f, map.dy), put(f, scale), put(f, -1.0);
+    put(f, map.dx);
+    put(f, map.dy);
+    put(f, scale);
+    put(f, -1.0);
     f += '\0';
     f += static_cast<char>(type);
     f += '\0';

@@ -41,7 +41,8 @@ public:
         for (const std::string& d : dimensions(name)) {
             int dim = 0;
             std::size_t n = 0;
-            nc_inq_dimid(id_, d.c_str(), &dim), nc_inq_dimlen(id_, dim, &n);
+            nc_inq_dimid(id_, d.c_str(), &dim);
+            nc_inq_dimlen(id_, dim, &n);
             size *= n;
         }
         std::vector<double> out(size);

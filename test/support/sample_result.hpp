@@ -78,7 +78,10 @@ inline double height(int i, int j) {
 inline Result result(int realizations) {
     const Case c = make_case(realizations);
     Indenter indenter;
-    indenter.E_star = kEStar, indenter.shape = kSphere, indenter.x0 = 0.5, indenter.y0 = 0.45;
+    indenter.E_star = kEStar;
+    indenter.shape = kSphere;
+    indenter.x0 = 0.5;
+    indenter.y0 = 0.45;
     const Moments theory{kSigma * kSigma, 0.02, 0.543169 / (kRadius * kRadius), {}, {}};
     const ObserveOptions options =
         observe_options(c, {0, 0, 1, 1}, indenter, kSigma, std::sqrt(theory.m4));
@@ -88,8 +91,11 @@ inline Result result(int realizations) {
         const Asperities a = asperities(k);
         last = levels(a);
         SurfaceStatistics surface;
-        surface.sigma = kSigma, surface.m2 = 0.02 + 0.001 * k, surface.m4 = theory.m4,
-        surface.summits = kAsperities, surface.saddles = k;
+        surface.sigma = kSigma;
+        surface.m2 = 0.02 + 0.001 * k;
+        surface.m4 = theory.m4;
+        surface.summits = kAsperities;
+        surface.saddles = k;
         sums.add(observe(options, k, surface,
                          last));  // m2_grid, m4_grid and the mean curvatures stay absent
     }

@@ -13,7 +13,11 @@ constexpr double kPi = std::numbers::pi;
 HeightMap make_map(int nx, int ny, bool periodic, int stride) {
     HeightMap map;
     map.allocate(nx, ny, stride);
-    map.dx = 0.5, map.dy = 0.25, map.x0 = -1, map.y0 = 2, map.periodic = periodic;
+    map.dx = 0.5;
+    map.dy = 0.25;
+    map.x0 = -1;
+    map.y0 = 2;
+    map.periodic = periodic;
     return map;
 }
 
@@ -56,8 +60,9 @@ TEST(against_brute_force) {
                     }
                     const double root = std::sqrt(trace * trace / 4 - determinant);
                     summits.push_back({i, j});
-                    k1.push_back(-trace / 2 + root), k2.push_back(-trace / 2 - root),
-                        kg.push_back(std::sqrt(determinant));
+                    k1.push_back(-trace / 2 + root);
+                    k2.push_back(-trace / 2 - root);
+                    kg.push_back(std::sqrt(determinant));
                 }
             SummitCount count;
             const Asperities found = find_asperities(map, Curvature::geometric, &count);
@@ -74,7 +79,8 @@ TEST(against_brute_force) {
                      std::abs(found.z[s] - z(i, j)), std::abs(found.kappa1[s] / k1[s] - 1),
                      std::abs(found.kappa2[s] - k2[s]) / k1[s],
                      std::abs(found.radius[s] * kg[s] - 1)});
-                sum_g += kg[s], sum_a += (k1[s] + k2[s]) / 2;
+                sum_g += kg[s];
+                sum_a += (k1[s] + k2[s]) / 2;
             }
             CHECK_CLOSE(worst, 0, 1e-12);
             if (!summits.empty()) {
@@ -137,7 +143,10 @@ TEST(against_theory) {
     }
     const auto compare = [&](const std::vector<double>& values, double truth) {
         double sum = 0, square = 0;
-        for (const double v : values) sum += v, square += v * v;
+        for (const double v : values) {
+            sum += v;
+            square += v * v;
+        }
         const double n = static_cast<double>(values.size()), mean = sum / n,
                      error = std::sqrt((square / n - mean * mean) / (n - 1));
         CHECK_CLOSE(mean, truth, 4 * error + bias * truth);

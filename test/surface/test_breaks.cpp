@@ -25,8 +25,10 @@ TEST(all_breaks) {
         const int at[4][2] = {{20, 30}, {60, 61}, {90, 1}, {100, 100}};
         for (const auto& [i, j] : at) map.row(j)[i] -= 10 * sigma;
         map.row(50)[70] -= 20 * sigma;
-        for (int k = 0; k < n; ++k)
-            map.row(k)[40] -= 8 * sigma, map.row(110)[k] -= 8 * sigma;  // grooves that cross
+        for (int k = 0; k < n; ++k) {  // grooves that cross
+            map.row(k)[40] -= 8 * sigma;
+            map.row(110)[k] -= 8 * sigma;
+        }
         const Breaks breaks = find_breaks(map, 0);
         CHECK(breaks.found[Breaks::pit].points == 5 + 2 * n - 1 &&
               breaks.found[Breaks::spike].points == 0);

@@ -20,7 +20,8 @@ TEST(all_elongated) {
             return 0.5 * height *
                    (wave((i - half) * step) + wave(narrow * (j - short_half) * step));
         });
-        map.x0 = -half * step, map.y0 = -short_half * step;
+        map.x0 = -half * step;
+        map.y0 = -short_half * step;
         const Asperities summit =
             find_asperities(map, Curvature::geometric, nullptr, 1, Detail::subgrid);
         CHECK(summit.size() == 1);
@@ -39,8 +40,8 @@ TEST(all_elongated) {
     }
 }
 
-// Maps with a lay carry what their mirror images carry, a contact that has reached the trough of its
-// profile (seed 2), too: there a rounding error of the argument was one of 1e-8 of the force.
+// Maps with a lay carry what their mirror images carry, a contact that has reached the trough of
+// its profile (seed 2), too: there a rounding error of the argument was one of 1e-8 of the force.
 TEST(mirrored) {
     for (const int seed : {1, 2, 3}) {
         const HeightMap z = synthesize({.L = 1.28,
@@ -52,8 +53,10 @@ TEST(mirrored) {
                                        128, Normalise::sample, seed, 1);
         const auto force = [&](bool mirrored) {
             Case c;
-            c.solver.tolerance = 1e-12, c.solids.R[1] = 5;
-            c.asperities.law = LawKind::fourth_order, c.solver.model = ModelKind::asperities;
+            c.solver.tolerance = 1e-12;
+            c.solids.R[1] = 5;
+            c.asperities.law = LawKind::fourth_order;
+            c.solver.model = ModelKind::asperities;
             Surface surface;
             surface.map = height_map(97, 99, 0.01, 0.01,
                                      [&](int i, int j) { return z(mirrored ? 96 - i : i, j); });

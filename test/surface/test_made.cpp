@@ -164,9 +164,11 @@ TEST(circle) {
 // (Johnson 1949).
 TEST(distributions) {
     std::vector<double> score, symmetric, lognormal;
-    for (double u = -6; u <= 6; u += 0.01)
-        score.push_back(u), symmetric.push_back(std::sinh(u / 2)),
-            lognormal.push_back(std::exp(u / 4));
+    for (double u = -6; u <= 6; u += 0.01) {
+        score.push_back(u);
+        symmetric.push_back(std::sinh(u / 2));
+        lognormal.push_back(std::exp(u / 4));
+    }
     const double w = std::exp(0.25), v = std::exp(1.0 / 16);
     const auto kurtosis = [](double x) { return ((x + 2) * x + 3) * x * x - 3; };
     const HeightShape even = HeightDistribution::of_quantiles(score, symmetric).shape(),
@@ -222,7 +224,8 @@ TEST(heights) {
 TEST(tabulated) {
     for (const double shortest : {20.0, 40.0}) {
         Spectrum s = model(4, 30);
-        s.L_lambda_s = shortest, s.shape = {-0.8, 4};
+        s.L_lambda_s = shortest;
+        s.shape = {-0.8, 4};
         constexpr std::size_t angles = 360;
         std::vector<double> rings, psd;
         for (double q = 1; q <= 100; q *= 1.01) {
@@ -238,9 +241,10 @@ TEST(tabulated) {
         const HeightMap stretched = made(s, 256), same = made(table, 256);
         double product = 0, squares = 0;
         for (int j = 0; j < same.ny; ++j)
-            for (int i = 0; i < same.nx; ++i)
-                product += stretched(i, j) * same(i, j),
-                    squares += stretched(i, j) * stretched(i, j);
+            for (int i = 0; i < same.nx; ++i) {
+                product += stretched(i, j) * same(i, j);
+                squares += stretched(i, j) * stretched(i, j);
+            }
         CHECK(product > 0.98 * squares);
     }
 }

@@ -99,9 +99,10 @@ TEST(forms) {
                 ball.row(7)[9] = std::nan("");
                 double span = 0, lowest = HUGE_VAL, highest = -HUGE_VAL;
                 for (int j = 0; j < 50; ++j)
-                    for (int i = 0; i < 80; ++i)
-                        lowest = std::fmin(lowest, ball(i, j)),
+                    for (int i = 0; i < 80; ++i) {
+                        lowest = std::fmin(lowest, ball(i, j));
                         highest = std::fmax(highest, ball(i, j));
+                    }
                 span = highest - lowest;
                 const Form s = detrend(ball, Detrend::sphere);
                 CHECK_CLOSE(largest(ball), 0.0, kRemoved * span);
@@ -158,17 +159,20 @@ TEST(missing_points) {
         for (int j = 0; j < map.ny; ++j)
             for (int i = 0; i < map.nx; ++i) {
                 const bool ring = std::hypot(i - 30, j - 22) < 12 && std::hypot(i - 30, j - 22) > 5;
-                if (ring || (i == 3 && j == 4) || (i > 50 && i < 56 && j > 2 && j < 40))
-                    map.row(j)[i] = std::nan(""), ++holes;
+                if (ring || (i == 3 && j == 4) || (i > 50 && i < 56 && j > 2 && j < 40)) {
+                    map.row(j)[i] = std::nan("");
+                    ++holes;
+                }
             }
         CHECK(count_missing(map) == holes);
         const auto filled = fill_missing(map);
         CHECK(filled.size() == 60u * 45u && filled[4 * 60 + 3] == 1 && filled[0] == 0);
         double error = 0, span = 0;
         for (int j = 0; j < map.ny; ++j)
-            for (int i = 0; i < map.nx; ++i)
-                error = std::fmax(error, std::abs(map(i, j) - truth(i, j))),
+            for (int i = 0; i < map.nx; ++i) {
+                error = std::fmax(error, std::abs(map(i, j) - truth(i, j)));
                 span = std::fmax(span, std::abs(truth(i, j) - truth(0, 0)));
+            }
         CHECK_CLOSE(error, 0.0, tolerance * span);
     };
     check(cubic, 0.1, 0.1, 1e-10);
@@ -203,7 +207,8 @@ TEST(filtering) {
     const Spectrum spectrum{.L = 4, .L_lambda_l = 2, .L_lambda_s = 16, .sigma = 1};
     HeightMap map = synthesize(spectrum, 40, Normalise::sample, 2, 1);
     map.periodic = false;
-    map.ny = 31, map.dy = 0.13;
+    map.ny = 31;
+    map.dy = 0.13;
     const HeightMap before = map.copy();
     const double cutoff = 2.4,
                  alpha = std::sqrt(std::log(2.0) /
@@ -222,7 +227,8 @@ TEST(filtering) {
                     const double r2 = (a * map.dx * a * map.dx + b * map.dy * b * map.dy) /
                                       (alpha * alpha * cutoff * cutoff);
                     const double w = std::exp(-kPi * r2);
-                    sum += w * before(reflected(i + a, 40), reflected(j + b, 31)), weight += w;
+                    sum += w * before(reflected(i + a, 40), reflected(j + b, 31));
+                    weight += w;
                 }
             error = std::fmax(error, std::abs(map(i, j) - sum / weight));
         }
@@ -252,8 +258,9 @@ TEST(circle) {
                     HeightMap map = synthesize(s, 384, Normalise::ensemble, 5, k);
                     map.periodic = false;
                     const SelfAffineFit fit = fit_self_affine(measure_spectrum(map));
-                    mean_hurst += fit.hurst.value / kSurfaces,  // lambda_l, or a bound on it.
-                        mean_kl += (fit.kl_seen ? fit.kl.value / step : low) / kSurfaces;
+                    mean_hurst += fit.hurst.value / kSurfaces;
+                    // The wavenumber of lambda_l, or a bound on it.
+                    mean_kl += (fit.kl_seen ? fit.kl.value / step : low) / kSurfaces;
                     CHECK(fit.kl_seen || fit.kl.value / step >= low);
                     mean_ks += fit.ks.value / step / kSurfaces;
                     // Phi0 belongs to kl: compared in the middle of the band, where the two do not

@@ -23,10 +23,12 @@ std::string screen(const Folder& folder, int n, const Heights& heights) {
                                        "' / &indentation levels=2 /",
                                    "case.nml")
                         .settings;
-    settings.output.file = folder / "measured.nc", settings.run.threads = 1;
+    settings.output.file = folder / "measured.nc";
+    settings.run.threads = 1;
     std::ostringstream table;
     RunOptions options;
-    options.table = &table, options.progress = Progress::never;
+    options.table = &table;
+    options.progress = Progress::never;
     CHECK(run_case(settings, options) == 0);
     return table.str();
 }
@@ -59,7 +61,8 @@ TEST(measured_slopes) {
         double slope = 0, height = 0;
         for (int k = 1; k <= 8; ++k) {
             const Moments made = grid_moments(make_surface(settings, k, 1).map);
-            slope += 2 * made.m2, height += made.m0;
+            slope += 2 * made.m2;
+            height += made.m0;
         }
         const Moments of_map = grid_moments(map);
         constexpr double kEightSurfaces = 0.04;

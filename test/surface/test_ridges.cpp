@@ -17,14 +17,17 @@ constexpr double pi = std::numbers::pi;
 // against the same on a grid four times as fine.
 TEST(lay) {
     Case c;
-    c.surface.L_lambda_l = 2, c.surface.L_lambda_s = 6, c.surface.aspect = 30,
+    c.surface.L_lambda_l = 2;
+    c.surface.L_lambda_s = 6;
+    c.surface.aspect = 30;
     c.surface.sigma = 1e-3;
     c.solids.R[1] = 10;
     c.solver.model = ModelKind::elements;
     for (int k = 0; k < 20; ++k) c.indentation.levels.push_back(2.9 - 0.1 * k);
     int levels = 0, force = 0, area = 0;
     for (const bool campaign : {false, true}) {
-        c.surface.direction = campaign ? 90 : 0, c.run.realizations = campaign ? 2 : 1;
+        c.surface.direction = campaign ? 90 : 0;
+        c.run.realizations = campaign ? 2 : 1;
         for (const int seed : {1, 2}) {
             c.run.seed = seed;
             const auto pressed = [&](double points) {
@@ -33,14 +36,16 @@ TEST(lay) {
             };
             const std::vector<Level> coarse = pressed(5), fine = pressed(20);
             Case kept = c;  // with all heights, also those that elements do not read
-            kept.output.heights = true, kept.elements.points_per_wave = 5;
+            kept.output.heights = true;
+            kept.elements.points_per_wave = 5;
             const std::vector<Level> all = realize(prepare(kept), 1, 1).levels;
             for (std::size_t k = 0; k < coarse.size(); ++k) {
                 if (!(coarse[k].force > 0)) continue;
                 CHECK(all[k].force_error_expected == coarse[k].force_error_expected);
                 const double dN = std::abs(coarse[k].force - fine[k].force),
                              dA = std::abs(coarse[k].area - fine[k].area);
-                ++levels, force += dN <= coarse[k].force_error_expected * coarse[k].force;
+                ++levels;
+                force += dN <= coarse[k].force_error_expected * coarse[k].force;
                 area += dA <= coarse[k].area_error_expected * coarse[k].area;
                 CHECK(coarse[k].status == LevelStatus::out_of_validity ||
                       dN < 0.01 * fine[k].force);
@@ -64,8 +69,10 @@ TEST(ridges) {
         for (const double beside : {0.0, 0.2, 0.5}) {
             const int n = points * waves;
             Case c;
-            c.surface.source = Source::heights, c.surface.file = folder / "ridges.txt",
-            c.surface.L = 1.0, c.surface.detrend = Detrend::none;
+            c.surface.source = Source::heights;
+            c.surface.file = folder / "ridges.txt";
+            c.surface.L = 1.0;
+            c.surface.detrend = Detrend::none;
             std::ofstream file(c.surface.file);
             for (int j = 0; j < n; ++j)
                 for (int i = 0; i < n; ++i)
@@ -73,7 +80,8 @@ TEST(ridges) {
                          << (i + 1 < n ? ' ' : '\n');
             file.close();
             c.solids.R[0] = c.solids.R[1] = HUGE_VAL;
-            c.indentation.boundary = Boundary::periodic, c.indentation.unit = LevelUnit::length;
+            c.indentation.boundary = Boundary::periodic;
+            c.indentation.unit = LevelUnit::length;
             const double share[] = {1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.2};
             for (const double s : share)
                 c.indentation.levels.push_back(Delta * (1 - s + s * std::log(s)));
@@ -83,7 +91,8 @@ TEST(ridges) {
                 const Level& level = found[k];
                 const double N = share[k] * pi * job.indenter.E_star * Delta * waves,
                              A = 2 / pi * std::asin(std::sqrt(share[k]));
-                ++levels, touching += level.force > 0;
+                ++levels;
+                touching += level.force > 0;
                 force += std::abs(N - level.force) <= level.force_error_expected * level.force;
                 area += std::abs(A - level.area) <= level.area_error_expected * level.area;
                 if (level.force > 0)

@@ -164,9 +164,12 @@ TEST(tables) {
                                          ? std::pow(q2, -(1 + of.hurst))
                                      : of.plateau ? std::pow(of.L_lambda_l, -2 * (1 + of.hurst))
                                                   : 0;
-                m0 += power, m20 += power * x * x, m02 += power * y * y;
-                m40 += power * x * x * x * x, m04 += power * y * y * y * y,
-                    m22 += power * x * x * y * y;
+                m0 += power;
+                m20 += power * x * x;
+                m02 += power * y * y;
+                m40 += power * x * x * x * x;
+                m04 += power * y * y * y * y;
+                m22 += power * x * x * y * y;
             }
         const Moments d = discrete_moments(of);
         const double scale = of.sigma * of.sigma / m0;

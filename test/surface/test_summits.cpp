@@ -46,7 +46,9 @@ struct Waves {
     HeightMap map(int nx, int ny) const {
         HeightMap map;
         map.allocate(nx, ny, nx);
-        map.dx = L / nx, map.dy = L / ny, map.periodic = true;
+        map.dx = L / nx;
+        map.dy = L / ny;
+        map.periodic = true;
         for (int j = 0; j < ny; ++j)
             for (int i = 0; i < nx; ++i) map.row(j)[i] = derivative(i * map.dx, j * map.dy, 0, 0);
         return map;
@@ -178,7 +180,10 @@ TEST(polynomial) {
     for (const bool round : {false, true}) {
         HeightMap map;
         map.allocate(25, 21, 25);
-        map.dx = 0.1, map.dy = 0.2, map.x0 = 3, map.y0 = -1;
+        map.dx = 0.1;
+        map.dy = 0.2;
+        map.x0 = 3;
+        map.y0 = -1;
         const double x0 = 4.23, y0 = 0.87;
         for (int j = 0; j < 21; ++j)
             for (int i = 0; i < 25; ++i) {

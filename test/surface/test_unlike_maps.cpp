@@ -22,20 +22,26 @@ HeightMap rough(int nx, int ny, double dx = 0.3, double dy = 0.2, double noise =
                0.6 * std::cos(0.7 * i - 1.1 * j + 0.3) + 0.3 * std::sin(0.2 * i * 1.7 + 1.6 * j) +
                noise * (static_cast<double>(random()) / 4294967296.0 - 0.5);
     });
-    map.x0 = -1.3, map.y0 = 2.1;
+    map.x0 = -1.3;
+    map.y0 = 2.1;
     return map;
 }
 
 HeightMap like(const HeightMap& from, int nx, int ny,
                const std::function<double(int, int)>& height) {
     HeightMap map = height_map(nx, ny, from.dx, from.dy, height);
-    map.x0 = from.x0, map.y0 = from.y0, map.periodic = from.periodic;
+    map.x0 = from.x0;
+    map.y0 = from.y0;
+    map.periodic = from.periodic;
     return map;
 }
 
 HeightMap transposed(const HeightMap& m) {
     HeightMap t = like(m, m.ny, m.nx, [&](int i, int j) { return m(j, i); });
-    t.dx = m.dy, t.dy = m.dx, t.x0 = m.y0, t.y0 = m.x0;
+    t.dx = m.dy;
+    t.dy = m.dx;
+    t.x0 = m.y0;
+    t.y0 = m.x0;
     return t;
 }
 
@@ -47,7 +53,10 @@ HeightMap mirrored(const HeightMap& m) {  // x -> -x
 
 HeightMap rescaled(const HeightMap& m, double lengths) {
     HeightMap t = like(m, m.nx, m.ny, [&](int i, int j) { return lengths * m(i, j); });
-    t.dx *= lengths, t.dy *= lengths, t.x0 *= lengths, t.y0 *= lengths;
+    t.dx *= lengths;
+    t.dy *= lengths;
+    t.x0 *= lengths;
+    t.y0 *= lengths;
     return t;
 }
 
@@ -67,8 +76,11 @@ TEST(spectra) {
             };
             double mean = 0, weight = 0, squares = 0;
             for (int j = 0; j < ny; ++j)
-                for (int i = 0; i < nx; ++i)
-                    mean += w(i, j) * map(i, j), weight += w(i, j), squares += w(i, j) * w(i, j);
+                for (int i = 0; i < nx; ++i) {
+                    mean += w(i, j) * map(i, j);
+                    weight += w(i, j);
+                    squares += w(i, j) * w(i, j);
+                }
             mean /= weight;
             const double sx = 2 * kPi / (nx * dx), sy = 2 * kPi / (ny * dy),
                          ring = std::min(sx, sy);
@@ -84,8 +96,10 @@ TEST(spectra) {
                                                         static_cast<double>(q * j) / ny));
                     const auto r =
                         static_cast<std::size_t>(std::lround(std::hypot(sx * p, sy * q) / ring));
-                    if (r < power.size())
-                        power[r] += std::norm(sum) / (nx * ny * squares * sx * sy), modes[r] += 1;
+                    if (r < power.size()) {
+                        power[r] += std::norm(sum) / (nx * ny * squares * sx * sy);
+                        modes[r] += 1;
+                    }
                 }
             const MeasuredSpectrum s = measure_spectrum(map);
             std::size_t k = 0;
@@ -115,31 +129,53 @@ struct Value {
 std::vector<Value> everything(const Measured& m, bool transpose = false) {
     std::vector<Value> v;
     const auto two = [&](double x, double y, int power) {
-        v.push_back({transpose ? y : x, power}), v.push_back({transpose ? x : y, power});
+        v.push_back({transpose ? y : x, power});
+        v.push_back({transpose ? x : y, power});
     };
     const auto one = [&](double x, int power) { v.push_back({x, power}); };
-    two(m.nx, m.ny, 0), two(m.dx, m.dy, 1), one(static_cast<double>(m.missing), 0),
-        one(m.missing_share, 0);
-    one(m.form.level, 1), two(m.form.slope_x, m.form.slope_y, 0), two(m.form.zxx, m.form.zyy, -1),
-        one(m.form.zxy, -1);
-    one(m.form.radius, 1), one(m.form.rms, 1), one(m.filter_cutoff, 1);
+    two(m.nx, m.ny, 0);
+    two(m.dx, m.dy, 1);
+    one(static_cast<double>(m.missing), 0);
+    one(m.missing_share, 0);
+    one(m.form.level, 1);
+    two(m.form.slope_x, m.form.slope_y, 0);
+    two(m.form.zxx, m.form.zyy, -1);
+    one(m.form.zxy, -1);
+    one(m.form.radius, 1);
+    one(m.form.rms, 1);
+    one(m.filter_cutoff, 1);
     for (const Roughness& r : {m.as_read, m.without_form, m.filtered}) {
         one(r.height, 1);
-        v.push_back({r.slope, 0, true}), v.push_back({r.curvature, -1, true});
+        v.push_back({r.slope, 0, true});
+        v.push_back({r.curvature, -1, true});
     }
-    one(m.parameters.sq, 1), one(m.parameters.ssk, 0), one(m.parameters.sku, 0), one(m.isotropy, 0);
+    one(m.parameters.sq, 1);
+    one(m.parameters.ssk, 0);
+    one(m.parameters.sku, 0);
+    one(m.isotropy, 0);
     v.push_back({m.parameters.sdq, 0, true});
-    one(m.height_bin, 1), one(m.shortest_wave, 1), one(m.points_per_wave(), 0);
-    for (std::size_t k = 0; k < m.spectrum.psd.size(); ++k)
-        one(m.spectrum.wavenumber[k], -1), one(m.spectrum.psd[k], 4), one(m.spectrum.modes[k], 0);
+    one(m.height_bin, 1);
+    one(m.shortest_wave, 1);
+    one(m.points_per_wave(), 0);
+    for (std::size_t k = 0; k < m.spectrum.psd.size(); ++k) {
+        one(m.spectrum.wavenumber[k], -1);
+        one(m.spectrum.psd[k], 4);
+        one(m.spectrum.modes[k], 0);
+    }
     CHECK(m.fit.has_value());
     if (m.fit) {
-        one(m.fit->hurst.value, 0), one(m.fit->hurst.error, 0), one(m.fit->Phi0.value, 4),
-            one(m.fit->Phi0.error, 4);
-        one(m.fit->kl.value, -1), one(m.fit->kl.error, -1), one(m.fit->ks.value, -1),
-            one(m.fit->ks.error, -1);
-        one(m.fit->plateau, 0), one(m.fit->ks_seen, 0), one(m.fit->kl_seen, 0),
-            one(m.fit->plateau_seen, 0);
+        one(m.fit->hurst.value, 0);
+        one(m.fit->hurst.error, 0);
+        one(m.fit->Phi0.value, 4);
+        one(m.fit->Phi0.error, 4);
+        one(m.fit->kl.value, -1);
+        one(m.fit->kl.error, -1);
+        one(m.fit->ks.value, -1);
+        one(m.fit->ks.error, -1);
+        one(m.fit->plateau, 0);
+        one(m.fit->ks_seen, 0);
+        one(m.fit->kl_seen, 0);
+        one(m.fit->plateau_seen, 0);
     }
     return v;
 }
@@ -165,7 +201,8 @@ TEST(symmetries) {
             std::vector<Value> c = everything(r);
             constexpr std::size_t kSlopeX = 7, kZxy = 11;
             CHECK(c[kSlopeX].value == r.form.slope_x && c[kZxy].value == r.form.zxy);
-            c[kSlopeX].value = -c[kSlopeX].value, c[kZxy].value = -c[kZxy].value;
+            c[kSlopeX].value = -c[kSlopeX].value;
+            c[kZxy].value = -c[kZxy].value;
             CHECK(a.size() == b.size() && a.size() == c.size() && a.size() == d.size());
             for (std::size_t k = 0; k < std::min({a.size(), b.size(), c.size(), d.size()}); ++k) {
                 const double size =

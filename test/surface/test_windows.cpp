@@ -13,7 +13,9 @@ constexpr int kPoints = 128, kTimes = 4;  // of a window's side; sides of the su
 
 HeightMap window(const Spectrum& of_window, int number, bool tilted) {
     Spectrum s = of_window;
-    s.L *= kTimes, s.L_lambda_l *= kTimes, s.L_lambda_s *= kTimes;
+    s.L *= kTimes;
+    s.L_lambda_l *= kTimes;
+    s.L_lambda_s *= kTimes;
     const HeightMap whole = synthesize(s, kPoints * kTimes, Normalise::ensemble, 11, number);
     HeightMap map = height_map(kPoints, kPoints, whole.dx, whole.dy, [&](int i, int j) {
         return whole((i + 37 * number) % whole.nx, (j + 91 * number) % whole.ny);

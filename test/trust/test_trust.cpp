@@ -59,7 +59,10 @@ TEST(own_areas) {
     std::vector<double> own;
     const double area = union_area(spots, nullptr, {}, &own);
     double sum = 0, least = 1;
-    for (const double a : own) sum += a, least = std::min(least, a);
+    for (const double a : own) {
+        sum += a;
+        least = std::min(least, a);
+    }
     CHECK(own.size() == spots.size());
     CHECK_RELATIVE(sum, area, 1e-10);
     CHECK(least > -1e-12);
@@ -105,8 +108,12 @@ TEST(mirrored) {
             const HeightMap a = coarser_map(map, flat), b = coarser_map(other, flat);
             std::vector<double> left, right;
             for (int j = 0; j < a.ny; ++j)
-                for (int i = 0; i < a.nx; ++i) left.push_back(a(i, j)), right.push_back(b(i, j));
-            std::ranges::sort(left), std::ranges::sort(right);
+                for (int i = 0; i < a.nx; ++i) {
+                    left.push_back(a(i, j));
+                    right.push_back(b(i, j));
+                }
+            std::ranges::sort(left);
+            std::ranges::sort(right);
             CHECK(a.nx == b.nx && (flats ? a.Lx() == n : a.dx == 2));
             if (n % 2 == 0 || !flats) CHECK(left == right);
         }
@@ -124,7 +131,8 @@ TEST(filled) {
     level = {};
     level.add_contact(0, 3, 3, 1, 0.5, 0);
     CHECK(share_on_filled(level, {&map, 1}, ball, low) == 0);
-    level = {}, ball.x0 = ball.y0 = 1;  // no contact, because the ball is over the hole
+    level = {};
+    ball.x0 = ball.y0 = 1;  // no contact, because the ball is over the hole
     CHECK(share_on_filled(level, {&map, 1}, ball, low) == 1);
     // The same points on body 2, whose middle is above the tip: a cap with a hole at its top.
     const Folder folder;
@@ -136,15 +144,18 @@ TEST(filled) {
         return folder / name;
     };
     Case c;
-    c.surface.source = Source::heights,
+    c.surface.source = Source::heights;
     c.surface.file = write("flat.txt", [](double) { return "0.0"; });
-    c.surface.pixel = 1.0, c.surface.sigma = 1e-3, c.surface.missing = Missing::fill,
+    c.surface.pixel = 1.0;
+    c.surface.sigma = 1e-3;
+    c.surface.missing = Missing::fill;
     c.surface.detrend = Detrend::none;
     c.indenter.file = write("cap.txt", [](double r) {
         return r < 2 ? std::string("nan") : std::to_string(-0.5e-3 * r * r);
     });
     set_key(c, "indenter%shape", "'map'");
-    c.indentation.unit = LevelUnit::length, c.indentation.levels = {-0.01};
+    c.indentation.unit = LevelUnit::length;
+    c.indentation.levels = {-0.01};
     for (const Level& pressed : realize(prepare(c), 1, 1).levels)
         CHECK(pressed.filled_share > 0.1 && has(pressed, Cause::filled_points));
 }
@@ -195,7 +206,9 @@ TEST(resolution) {
 // the same with 32, at levels away from the border. (Under a larger ball no level is.)
 TEST(finer) {
     Case c;
-    c.surface.L_lambda_l = 4, c.surface.L_lambda_s = 16, c.surface.hurst = 1,
+    c.surface.L_lambda_l = 4;
+    c.surface.L_lambda_s = 16;
+    c.surface.hurst = 1;
     c.surface.sigma = 2.4e-3;
     c.solids.R[1] = 31;
     c.solver.model = ModelKind::elements;
@@ -229,7 +242,8 @@ std::vector<Level> pressed(Case c, ModelKind model) {
 // status, which says the gravest thing.
 TEST(doubts_combined_once) {
     Level level;
-    level.force = 2, level.stiffness = -10;
+    level.force = 2;
+    level.stiffness = -10;
     const Doubt small{Cause::model_error, 0.03, 0.05, false},
         spikes{Cause::few_points, 0.2, 0.1, true}, border{Cause::border};
     conclude(level, std::array{small}, false);
@@ -271,8 +285,12 @@ struct Sound {
     Indenter indenter{1e3, 10, 0.5, 0.5};
     double Z0 = -1e-4;
     Sound() {
-        asperities.x = {0.5}, asperities.y = {0.5}, asperities.z = {0}, asperities.radius = {1};
-        asperities.kappa1 = asperities.kappa2 = {1}, asperities.angle = {0};
+        asperities.x = {0.5};
+        asperities.y = {0.5};
+        asperities.z = {0};
+        asperities.radius = {1};
+        asperities.kappa1 = asperities.kappa2 = {1};
+        asperities.angle = {0};
         asperities.biharmonic = {100};
     }
     Level judged() const {
@@ -298,26 +316,37 @@ TEST(each_doubt) {
     };
     using enum Cause;
     CHECK(raises(border, [](Sound& s) { s.asperities.x[0] = s.indenter.x0 = 0.05; }));
-    CHECK(raises(slope_ratio, [](Sound& s) { s.indenter.x0 = 0.28, s.Z0 = -3e-3; }));
+    CHECK(raises(slope_ratio, [](Sound& s) {
+        s.indenter.x0 = 0.28;
+        s.Z0 = -3e-3;
+    }));
     CHECK(!(Sound().judged().slope_ratio > 0));
     CHECK(raises(few_points, [](Sound& s) { s.options.surface.points_per_wave = 2; }));
     CHECK(raises(layer, [](Sound& s) {
         s.indenter.layers.count = 1;
         s.indenter.layers.layer[0] = {0.04, 1e3, 0.3};
-        s.indenter.layers.E = 1e3, s.indenter.layers.nu = 0.3;
+        s.indenter.layers.E = 1e3;
+        s.indenter.layers.nu = 0.3;
     }));
     CHECK(raises(outside_calibration, [](Sound& s) { s.options.interaction = Interaction::none; }));
-    const auto flat = [](Sound& s) { s.indenter.shape = Shape(HUGE_VAL), s.Z0 = -1e-5; };
+    const auto flat = [](Sound& s) {
+        s.indenter.shape = Shape(HUGE_VAL);
+        s.Z0 = -1e-5;
+    };
     CHECK(!raises(outside_calibration, flat));
-    CHECK(
-        raises(outside_calibration, [&](Sound& s) { flat(s), s.options.surface.measured = true; }));
+    CHECK(raises(outside_calibration, [&](Sound& s) {
+        flat(s);
+        s.options.surface.measured = true;
+    }));
     // The tip is beside the summit. A paraboloid of curvature 1 touches the ball at Z0 = -0.1^2/2 *
     // 5/6 = -0.0042, farther from the summit than it is moved.
     CHECK(raises(missed_contact, [](Sound& s) {
-        s.indenter.x0 = 0.4, s.Z0 = -6e-3, s.indenter.shape = Shape(0.2);
+        s.indenter.x0 = 0.4;
+        s.Z0 = -6e-3;
+        s.indenter.shape = Shape(0.2);
     }));
-    // A list of asperities is its own surface: no error is stated, and only an indenter as curved as
-    // they are is a doubt.
+    // A list of asperities is its own surface: no error is stated, and only an indenter as curved
+    // as they are is a doubt.
     Sound listed;
     listed.options.surface.gentlest_slope = 0;
     CHECK(listed.judged().status == LevelStatus::converged && listed.judged().force > 0 &&
@@ -332,7 +361,8 @@ TEST(each_doubt) {
     CHECK(has(wide.judged(), beyond_law) && std::isnan(wide.judged().force_error_expected));
     // Other heights than isotropic Gaussian ones have no smaller error, nor has law 'hertz'.
     Sound measured, hertz;
-    measured.options.surface.measured = true, hertz.options.law = LawKind::hertz;
+    measured.options.surface.measured = true;
+    hertz.options.law = LawKind::hertz;
     CHECK(measured.judged().force_error_expected >= sound.force_error_expected);
     CHECK(hertz.judged().force_error_expected > sound.force_error_expected);
 }
@@ -358,7 +388,10 @@ TEST(marks_of_a_map) {
 // realizations; on odd and on small maps errors are stated as well.
 TEST(alike_in_every_order) {
     Case c;
-    c.surface.L_lambda_l = 2, c.surface.L_lambda_s = 8, c.surface.sigma = 1e-3, c.surface.n = 64;
+    c.surface.L_lambda_l = 2;
+    c.surface.L_lambda_s = 8;
+    c.surface.sigma = 1e-3;
+    c.surface.n = 64;
     c.solids.R[1] = 10;
     c.indentation.levels = {1.5, 1, 0.5, 0};
     const std::vector<Level> down = pressed(c, ModelKind::elements);
@@ -376,8 +409,10 @@ TEST(alike_in_every_order) {
     for (const int n : {15, 33})
         for (const bool flats : {false, true}) {
             Case m;
-            m.surface.source = Source::heights, m.surface.file = folder / "map.txt";
-            m.surface.L = 1.0, m.surface.detrend = Detrend::none;
+            m.surface.source = Source::heights;
+            m.surface.file = folder / "map.txt";
+            m.surface.L = 1.0;
+            m.surface.detrend = Detrend::none;
             std::ofstream file(m.surface.file);
             for (int j = 0; j < n; ++j)
                 for (int i = 0; i < n; ++i)
@@ -386,7 +421,8 @@ TEST(alike_in_every_order) {
             file.close();
             if (flats) m.indentation.boundary = Boundary::periodic;
             m.solids.R[1] = flats ? HUGE_VAL : 3;
-            m.indentation.unit = LevelUnit::length, m.indentation.levels = {flats ? 2e-4 : -2e-3};
+            m.indentation.unit = LevelUnit::length;
+            m.indentation.levels = {flats ? 2e-4 : -2e-3};
             const Level level = pressed(m, ModelKind::elements).front();
             CHECK(level.force > 0 && level.force_error_expected > 0);
         }
@@ -395,12 +431,16 @@ TEST(alike_in_every_order) {
 // Under a prescribed force the separation is uncertain, by the error of N over the stiffness.
 TEST(under_a_force) {
     Case c;
-    c.surface.L_lambda_l = 2, c.surface.L_lambda_s = 8, c.surface.sigma = 1e-3, c.surface.n = 64;
+    c.surface.L_lambda_l = 2;
+    c.surface.L_lambda_s = 8;
+    c.surface.sigma = 1e-3;
+    c.surface.n = 64;
     c.solids.R[1] = 10;
     c.asperities.law = LawKind::fourth_order;
     c.indentation.levels = {0.5};
     const Level at_separation = pressed(c, ModelKind::asperities).front();
-    c.indentation.control = Control::force, c.indentation.levels = {at_separation.force};
+    c.indentation.control = Control::force;
+    c.indentation.levels = {at_separation.force};
     const Level level = pressed(c, ModelKind::asperities).front();
     CHECK(level.doubts == at_separation.doubts && std::isnan(level.force_error_expected));
     if (at_separation.force_error_expected > 0)

@@ -1,10 +1,11 @@
-"""Makes the calls of calls.txt through the C interface, Python, rsc.f90 and rsc77.c, and compares what comes back: every value to the
-last bit, every status, every message.
+"""Makes the calls of calls.txt through the C interface, Python, rsc.f90 and rsc77.c, and compares
+what comes back: every value to the last bit, every status, every message.
 
     calls.py generate fortran|77 FILE    writes the program that makes the calls in that language
     calls.py compare [fortran=PROGRAM] [77=PROGRAM] [python]
 
-The C interface is called through ctypes as src/rsc.h declares it. RSC_LIBRARY in the environment: librsc.so.
+The C interface is called through ctypes as src/rsc.h declares it. RSC_LIBRARY in the environment:
+librsc.so.
 """
 import collections
 import ctypes
@@ -22,8 +23,14 @@ MODULES = os.path.join(HERE, "..", "..", "..", "modules")
 sys.path.insert(0, MODULES)
 import generate  # noqa: E402
 
-CASE = "&surface n=64, L=1.5, L_lambda_l=2, L_lambda_s=8, sigma=0.03125 /\n&indentation levels=2, 0, -1 /\n&solver max_iterations=1, tolerance=1e-14 /\n&output file='calls.nc' /\n"
-# Functions that calls.txt cannot have: called by the runners themselves, or told in other ways by the languages.
+CASE = (
+    "&surface n=64, L=1.5, L_lambda_l=2, L_lambda_s=8, sigma=0.03125 /\n"
+    "&indentation levels=2, 0, -1 /\n"
+    "&solver max_iterations=1, tolerance=1e-14 /\n"
+    "&output file='calls.nc' /\n"
+)
+# Functions that calls.txt cannot have: called by the runners themselves, or told in other ways by
+# the languages.
 NOT_CALLED = {
     "message",
     "status_text",
@@ -110,7 +117,7 @@ class Rows(collections.defaultdict):
 accepts_null = []  # what does not refuse NULL, and names no argument then
 
 
-# ---- C -------------------------------------------------------------------------------------------------------------------------
+# ---- C
 C_TYPES = {"double": ctypes.c_double, "int32_t": ctypes.c_int32, "int64_t": ctypes.c_int64}
 
 
@@ -242,7 +249,7 @@ def by_c(calls, arrays):
     return rows
 
 
-# ---- Python --------------------------------------------------------------------------------------------------------------------
+# ---- Python
 def namelist(value):
     if isinstance(value, tuple):
         return ", ".join(map(namelist, value))
@@ -290,7 +297,7 @@ def by_python(calls, arrays):
         return getattr(kinds[kind], {"create_from_case": "from_case"}.get(verb, verb))(*v)
 
     def call(name, f, v):
-        """What the language gives back, as {output: value} or values in the order of the outputs."""
+        """What the language gives back: {output: value}, or values in the order of the outputs."""
         if not f.kind:
             return {
                 "version": rsc.version,
@@ -370,7 +377,7 @@ def by_python(calls, arrays):
     return rows
 
 
-# ---- Fortran -------------------------------------------------------------------------------------------------------------------
+# ---- Fortran
 HEAD = """  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_positive_inf
   implicit none
@@ -388,7 +395,8 @@ TAIL = """  ! A row: number of the call, what it is, its values, reals bit by bi
     integer, intent(in) :: k
     character(*), intent(in) :: what
     real(dp), intent(in) :: v(:)
-    if (stat == 0 .or. stat == 1) print '(i0,1x,a,*(1x,z16.16))', k, what, transfer(v, [0_c_int64_t])
+    if (stat == 0 .or. stat == 1) &
+      print '(i0,1x,a,*(1x,z16.16))', k, what, transfer(v, [0_c_int64_t])
   end subroutine
   subroutine put_i(k, what, v)
     integer, intent(in) :: k, v(:)
@@ -518,10 +526,11 @@ def in_fortran(calls, arrays):
         if name == "contact_result":
             lines = []
             for m, what in enumerate(("separation", "force", "area", "contacts")):
+                letter = "i" if what == "contacts" else "r"
                 lines += [
-                    f"{'i' if what == 'contacts' else 'r'}({m + 1}) = {words[0]}%{what}(stat, msg)",
+                    f"{letter}({m + 1}) = {words[0]}%{what}(stat, msg)",
                     f"call told({k})",
-                    f"call put_{'i' if what == 'contacts' else 'r'}({k}, '{what}', [{'i' if what == 'contacts' else 'r'}({m + 1})])",
+                    f"call put_{letter}({k}, '{what}', [{letter}({m + 1})])",
                 ]
             body.append(lines)
             continue
@@ -572,11 +581,8 @@ def in_fortran(calls, arrays):
             if "(:)" in kind:
                 variable = f"a{next(reallocated)}"
                 if "allocatable" not in kind:
-                    size = (
-                        f"size({[w for w in words if w in arrays and w not in ('nan', 'inf', 'None')][0]}_)"
-                        if any(w in arrays and w not in ("nan", "inf", "None") for w in words)
-                        else "n"
-                    )
+                    lists = [w for w in words if w in arrays and w not in ("nan", "inf", "None")]
+                    size = f"size({lists[0]}_)" if lists else "n"
                     if size == "n" and "n = " not in " ".join(before):
                         before.append(f"n = {asperities_of.get(words[0], '')}%count()")
                     before.extend(
@@ -628,10 +634,8 @@ def in_fortran(calls, arrays):
                 printed = len(puts)
                 arguments.append(f"{dummy}={output(dummy, c, a)}")
                 single.append((arguments[-1], puts[printed:], list(before)))
-        target = (
-            FREE.get(name)
-            or f"{call(words[0])}%{'of_contact' if name == 'contact_asperities' else name.split('_', 1)[1]}"
-        )
+        method = "of_contact" if name == "contact_asperities" else name.split("_", 1)[-1]
+        target = FREE.get(name) or f"{call(words[0])}%{method}"
         tail = [] if name == "version" else ["stat=stat", "errmsg=msg"]
         if result:
             a = next(
@@ -705,7 +709,8 @@ made_in_77 = set()  # numbers of the calls that FORTRAN 77 makes
 
 
 def in_77(calls, arrays):
-    """The calls whose function has a name in FORTRAN 77; every one with handles is tried with one that is none first."""
+    """The calls whose function has a name in FORTRAN 77; every one with handles is tried with one
+    that is none first."""
     names = {
         words.split()[0]: (name, words.split()[1:]) for name, words in generate.NAMES_77.items()
     }
@@ -785,9 +790,8 @@ def in_77(calls, arrays):
         if name == "surface_copy":
             before.append(f"points({made[words[0]]}) = points({made[words[1]]})")
         if name in ("surface_take", "surface_synthesize"):
-            before.append(
-                f"points({made[words[0]]}) = {int(words[1]) * int(words[2]) if name == 'surface_take' else 64 * 64}"
-            )
+            size = int(words[1]) * int(words[2]) if name == "surface_take" else 64 * 64
+            before.append(f"points({made[words[0]]}) = {size}")
         made_in_77.add(k)
         lines = []
         if called not in tried:
@@ -827,7 +831,8 @@ def in_77(calls, arrays):
     character(*), intent(in) :: name
     integer, intent(in) :: position
     call rscmsg(msg)
-    if (stat /= -position .or. index(msg, 'handle') == 0) print '(i0,4a)', 0, ' ', name, ' takes a number that is no handle: ', trim(msg)
+    if (stat /= -position .or. index(msg, 'handle') == 0) &
+      print '(i0,4a)', 0, ' ', name, ' takes a number that is no handle: ', trim(msg)
     stat = 0
   end subroutine
 """
@@ -859,7 +864,7 @@ def in_77(calls, arrays):
     )
 
 
-# ---- comparing -----------------------------------------------------------------------------------------------------------------
+# ---- comparing
 def rows_of(program_path):
     rows, repeated = {}, []
     for line in (
@@ -910,7 +915,8 @@ def main():
                     reference[k, one.name] == reference[k, other.name] for k in places
                 ):
                     wrong.append(
-                        f"{f.name}: {one.name} and {other.name} are alike wherever calls.txt asks for them"
+                        f"{f.name}: {one.name} and {other.name} are alike wherever calls.txt "
+                        "asks for them"
                     )
         for language, path in languages.items():
             if language == "python":
@@ -945,12 +951,14 @@ def main():
                 if wanted.get((k, what)) != rows.get((k, what)):
                     call = f"{calls[k][0]}({', '.join(calls[k][1])})"
                     wrong.append(
-                        f"{language}: {call}, {what}: {str(rows.get((k, what)))[:200]}; by rsc.h: {str(wanted.get((k, what)))[:200]}"
+                        f"{language}: {call}, {what}: {str(rows.get((k, what)))[:200]}; "
+                        f"by rsc.h: {str(wanted.get((k, what)))[:200]}"
                     )
         os.chdir("/")
     print("\n".join(wrong))
     print(
-        f"{len(calls)} calls, {len(reference)} values by rsc.h, {compared} compared, {len(wrong)} wrong"
+        f"{len(calls)} calls, {len(reference)} values by rsc.h, {compared} compared, "
+        f"{len(wrong)} wrong"
     )
     sys.exit(1 if wrong or (languages and compared < 200) else 0)
 

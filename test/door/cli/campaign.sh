@@ -1,5 +1,6 @@
 #!/bin/bash
-# Campaigns and studies from outside: bash campaign.sh TEST RSC RSC_MPI FOLDER, RSC_MPI empty where it is not built.
+# Campaigns and studies from outside: bash campaign.sh TEST RSC RSC_MPI FOLDER, RSC_MPI empty where
+# it is not built.
 test=$1 rsc=$2 rsc_mpi=$3 folder=$4
 . "$(dirname "$0")/common.sh"
 
@@ -8,7 +9,8 @@ ranks() {
     shift
     local root=
     [ "$(id -u)" -eq 0 ] && root=--allow-run-as-root
-    # --foreground: a signal comes once. Told twice, mpirun leaves at once and its ranks behind, at work.
+    # --foreground: a signal comes once. Told twice, mpirun leaves at once and its ranks behind, at
+    # work.
     local run=(timeout --foreground 100 mpirun $root --oversubscribe -n "$n" "$rsc_mpi" "$@")
     if [ "$BASHPID" = $$ ]; then "${run[@]}"; else exec "${run[@]}"; fi
 }
@@ -33,7 +35,10 @@ END
 
 # until_state SIZE PROCESS: until the state is larger, or the process has ended.
 until_state() {
-    while kill -0 "$2" 2> /dev/null && [ "$(stat -c %s out.nc.checkpoint 2> /dev/null || echo 0)" -le "$1" ]; do sleep 0.01; done
+    while kill -0 "$2" 2> /dev/null &&
+        [ "$(stat -c %s out.nc.checkpoint 2> /dev/null || echo 0)" -le "$1" ]; do
+        sleep 0.01
+    done
 }
 
 # The same bits whatever the number of threads.
@@ -46,7 +51,8 @@ test_threads() {
     done
 }
 
-# The same bits whatever the number of ranks, and an interrupted job is finished by another number of them.
+# The same bits whatever the number of ranks, and an interrupted job is finished by another number
+# of them.
 test_ranks() {
     campaign 60
     expect 0 in_folder one "$rsc" -s run%threads=1 ../case.nml
@@ -75,7 +81,8 @@ test_ranks() {
     diff -r study1/out study3/out || fail "the study differs"
 }
 
-# A signal leaves a state, says how to go on, and has its exit status; one realization leaves nothing (faults.sh).
+# A signal leaves a state, says how to go on, and has its exit status; one realization leaves
+# nothing (faults.sh).
 test_signals() {
     campaign 20000
     for signal in TERM INT; do
@@ -89,8 +96,8 @@ test_signals() {
     done
 }
 
-# Starts the command and kills it as soon as some work is in its state, however slow the machine is. What a kill at any byte leaves:
-# test_campaign.
+# Starts the command and kills it as soon as some work is in its state, however slow the machine is.
+# What a kill at any byte leaves: test_campaign.
 kill_with_state() {
     "$@" &
     until_state 20000 $!
@@ -111,9 +118,11 @@ test_refused() {
     says "run%seed: 1 there, 2 now"
     expect 2 "$rsc" --resume case.nml
     says "run%realizations: 30000 there, 300 now"
-    head -c "$(stat -c %s out.nc.checkpoint)" before | cmp - out.nc.checkpoint || fail "a refusal has changed the state"
+    head -c "$(stat -c %s out.nc.checkpoint)" before | cmp - out.nc.checkpoint ||
+        fail "a refusal has changed the state"
     # A torn frame at the end may be cut off, nothing else.
-    [ $(($(stat -c %s before) - $(stat -c %s out.nc.checkpoint))) -lt 20000 ] || fail "a refusal has taken from the state"
+    [ $(($(stat -c %s before) - $(stat -c %s out.nc.checkpoint))) -lt 20000 ] ||
+        fail "a refusal has taken from the state"
     [ ! -e out.nc ] || fail "a refusal has written"
     # Two at a time.
     "$rsc" -q --resume -s run%threads=1 long.nml 2> /dev/null &
@@ -125,7 +134,8 @@ test_refused() {
     # Another spectrum in the file that the case names.
     rm out.nc.checkpoint
     printf '6.3 1e-5\n200 1e-9\n' > table.txt
-    sed "s/&surface/\&surface source = 'spectrum' file = 'table.txt'/; s/ *L_lambda_[ls] *= *[0-9]*//g; s/ hurst *= *[0-9.]*//" long.nml > table.nml
+    sed -e "s/&surface/\&surface source = 'spectrum' file = 'table.txt'/" \
+        -e 's/ *L_lambda_[ls] *= *[0-9]*//g' -e 's/ hurst *= *[0-9.]*//' long.nml > table.nml
     kill_with_state "$rsc" -q table.nml
     expect 2 "$rsc" --resume -s run%realizations=10 table.nml
     says "run%realizations"
@@ -142,7 +152,8 @@ test_refused() {
     says "is complete"
 }
 
-# A finished campaign grows: the realizations there are not computed again, and the file is that of the whole, within rounding.
+# A finished campaign grows: the realizations there are not computed again, and the file is that of
+# the whole, within rounding.
 test_grow() {
     campaign 30
     expect 0 in_folder whole "$rsc" -q ../case.nml
@@ -163,7 +174,10 @@ test_grow() {
     "$rsc" --resume long.nml > said 2>&1 &
     until_state "$(stat -c %s out.nc.checkpoint)" $!
     kill -s KILL $! && wait $!
-    [ "$(sed -n 's/.*; \([0-9]*\) of them are finished/\1/p' said)" -ge 30 ] || { cat said; fail "what the result had is lost"; }
+    [ "$(sed -n 's/.*; \([0-9]*\) of them are finished/\1/p' said)" -ge 30 ] || {
+        cat said
+        fail "what the result had is lost"
+    }
     rm -f out.nc.checkpoint before long.nml
     # Another case, or fewer: told, and computed.
     expect 0 "$rsc" -q ../case.nml
@@ -172,11 +186,15 @@ test_grow() {
     silent_on "are finished"
 }
 
-# Parts of a campaign are put together into the file of the whole; what does not belong together is refused by name.
+# Parts of a campaign are put together into the file of the whole; what does not belong together is
+# refused by name.
 test_merge() {
     campaign 30
     expect 0 in_folder whole "$rsc" -q ../case.nml
-    part() { expect 0 in_folder "$1" "$rsc" -q -s run%first_realization="$2" -s run%realizations="$3" "${@:4}" ../case.nml; }
+    part() {
+        expect 0 in_folder "$1" "$rsc" -q -s run%first_realization="$2" -s run%realizations="$3" \
+            "${@:4}" ../case.nml
+    }
     part a 3 11
     part b 14 3
     part c 17 16
@@ -186,7 +204,8 @@ test_merge() {
     alike ../whole/out.nc out.nc
     cd ..
     # Times of levels are the same in all realizations.
-    local relaxing=(-s solids%relaxation_share=0.5 -s solids%relaxation_time=1.0 -s indentation%duration=2.0)
+    local relaxing=(-s solids%relaxation_share=0.5 -s solids%relaxation_time=1.0
+        -s indentation%duration=2.0)
     part soft 1 4 "${relaxing[@]}"
     part soft_a 1 2 "${relaxing[@]}"
     part soft_b 3 2 "${relaxing[@]}"
@@ -201,7 +220,13 @@ test_merge() {
     study
     expect 0 in_folder study "$rsc" -q ../case.nml
     echo text > text.nc
-    refused() { local word=$1; shift; expect 2 "$rsc" --merge "$@" -o new.nc; says "$word"; [ ! -e new.nc ] || fail "a refusal has written"; }
+    refused() {
+        local word=$1
+        shift
+        expect 2 "$rsc" --merge "$@" -o new.nc
+        says "$word"
+        [ ! -e new.nc ] || fail "a refusal has written"
+    }
     refused "asperities%law: 'hertz' in 'a/out.nc', 'elliptic' in 'law/out.nc'" a/out.nc law/out.nc
     refused "one/out.nc.*single" a/out.nc one/out.nc
     refused "rsc_manifest.nc.*manifest" a/out.nc study/out/rsc_manifest.nc
@@ -217,7 +242,8 @@ test_merge() {
     expect 2 "$rsc" --merge a/out.nc b/out.nc -o b/out.nc; says "input of the run"
 }
 
-# A study in one go and as an array of jobs: the same files. A bad member is refused before anything runs.
+# A study in one go and as an array of jobs: the same files. A bad member is refused before anything
+# runs.
 test_study() {
     study
     expect 0 in_folder one "$rsc" ../case.nml
@@ -241,7 +267,8 @@ test_study() {
     expect 0 "$rsc" --resume ../case.nml
     says "member 2 .*is complete"
     cd ..
-    [ "$(find array/out -name 'rsc_00*.nc' -newermt @1000000001 | wc -l)" -eq 1 ] || fail "one member should have been made"
+    [ "$(find array/out -name 'rsc_00*.nc' -newermt @1000000001 | wc -l)" -eq 1 ] ||
+        fail "one member should have been made"
     diff -r one array || fail "the resumed study differs"
     # One from another case is made again.
     cp one/out/rsc_001.nc array/out/rsc_002.nc
@@ -249,7 +276,8 @@ test_study() {
     diff -r one array || fail "a member of another case was taken"
 }
 
-# No room for the state: the work so far is kept, and goes on once there is room. Here the limit of file sizes stands for the disk.
+# No room for the state: the work so far is kept, and goes on once there is room. Here the limit of
+# file sizes stands for the disk.
 test_limit() {
     campaign 300
     expect 0 in_folder whole "$rsc" -q -s run%realizations=310 ../case.nml

@@ -1,6 +1,7 @@
 #!/bin/bash
-# Faults from outside: bash faults.sh TEST RSC FOLDER. Each must end in the right exit status and a message that says what to do, with
-# nothing under the final name and no work in progress left behind.
+# Faults from outside: bash faults.sh TEST RSC FOLDER. Each must end in the right exit status and a
+# message that says what to do, with nothing under the final name and no work in progress left
+# behind.
 test=$1 rsc=$2 folder=$3
 . "$(dirname "$0")/common.sh"
 
@@ -32,8 +33,10 @@ test_full_disk() {
         left disk ""
     done
     # A file that was there stays as it was.
-    expect 0 "$rsc" -s output%heights=F -s output%map_cells=1 -s indentation%steps=1 -s "output%contacts='none'" -s output%radial_bins=1 \
-        -s output%pdf_bins=1 -s "output%format='classic'" -s "compare%levels='none'" -o disk/out.nc case.nml
+    expect 0 "$rsc" -s output%heights=F -s output%map_cells=1 -s indentation%steps=1 \
+        -s "output%contacts='none'" -s output%radial_bins=1 \
+        -s output%pdf_bins=1 -s "output%format='classic'" -s "compare%levels='none'" \
+        -o disk/out.nc case.nml
     cp disk/out.nc before.nc
     expect 1 "$rsc" -o disk/out.nc case.nml
     cmp before.nc disk/out.nc || fail "the file that was there is not what it was"
@@ -52,7 +55,8 @@ test_file_limit() {
     left work ""
 }
 
-# Lines of a run of some time: the reason is that of the write, not that of a later call. The file is complete.
+# Lines of a run of some time: the reason is that of the write, not that of a later call. The file
+# is complete.
 test_full_output() {
     [ -c /dev/full ] || exit 77
     expect 1 bash -c 'exec "$0" -o out.nc case.nml > /dev/full' "$rsc"
@@ -67,8 +71,12 @@ test_read_only() {
         setpriv --version > /dev/null 2>&1 || exit 77
         # Nobody may go everywhere that root's build is.
         open=$(mktemp -d) && trap 'rm -rf "$open"; chmod 0755 "$folder/work"' EXIT
-        cp "$rsc" case.nml "$open" && chmod 0755 "$open" && mkdir "$open/work" && chmod 0555 "$open/work"
-        nobody() { (cd "$open" && setpriv --reuid=65534 --regid=65534 --clear-groups ./rsc "$@" case.nml < /dev/null); }
+        cp "$rsc" case.nml "$open" && chmod 0755 "$open" && mkdir "$open/work" &&
+            chmod 0555 "$open/work"
+        nobody() {
+            (cd "$open" && setpriv --reuid=65534 --regid=65534 --clear-groups \
+                ./rsc "$@" case.nml < /dev/null)
+        }
         at=$open
     else
         nobody() { "$rsc" "$@" case.nml; }
@@ -83,7 +91,8 @@ test_read_only() {
     # What may not be read.
     chmod 0777 "$at"
     echo "1 2 3" > "$at/secret" && chmod 0000 "$at/secret"
-    expect 2 nobody -s "surface%source='heights'" -s "surface%file='secret'" -s surface%L=1 -o "$at/secret.nc"
+    expect 2 nobody -s "surface%source='heights'" -s "surface%file='secret'" -s surface%L=1 \
+        -o "$at/secret.nc"
     says "secret: Permission denied"
 }
 
@@ -92,12 +101,16 @@ test_memory() {
     bash -c 'ulimit -v 4000000; exec "$0" --version' "$rsc" > /dev/null 2>&1 || exit 77
     mkdir work
     local least=20000 refused=0 done=0   # what the program needs to exist, in KiB: its libraries
-    limited() { bash -c 'ulimit -v "$1"; shift; OPENBLAS_NUM_THREADS=1 exec "$0" "$@"' "$rsc" "$@" > said 2>&1; }
+    limited() {
+        bash -c 'ulimit -v "$1"; shift; OPENBLAS_NUM_THREADS=1 exec "$0" "$@"' "$rsc" "$@" \
+            > said 2>&1
+    }
     until limited $least --version; do
         least=$((least + 4000))
         [ $least -lt 2000000 ] || exit 77
     done
-    for more in 0 4000 8000 12000 16000 24000 32000 48000 64000 96000 128000 192000 256000 384000; do
+    for more in 0 4000 8000 12000 16000 24000 32000 48000 64000 96000 128000 192000 256000 \
+        384000; do
         rm -f work/out.nc
         limited $((least + more)) -s run%threads=2 -s surface%n=1024 -o work/out.nc case.nml
         case $? in
@@ -113,7 +126,8 @@ running() { kill -0 "$1" 2> /dev/null && [ "$(cut -d' ' -f3 "/proc/$1/stat" 2> /
 # Memory the process has, in KiB.
 has() { sed -n 's/^VmRSS:[ \t]*\([0-9]*\) kB/\1/p' "/proc/$1/status" 2> /dev/null || echo 0; }
 
-# stopped SIGNAL WHEN command...: the signal comes as soon as `WHEN` succeeds; the command ends by it.
+# stopped SIGNAL WHEN command...: the signal comes as soon as `WHEN` succeeds; the command ends by
+# it.
 stopped() {
     local signal=$1 when=$2 number
     shift 2
@@ -137,7 +151,8 @@ test_signal_reading() {
     mkfifo pipe
     exec 3<> pipe
     for signal in TERM INT; do
-        stopped $signal 'grep -q rsc "/proc/$process/cmdline" && sleep 0.2' env --default-signal=INT \
+        stopped $signal 'grep -q rsc "/proc/$process/cmdline" && sleep 0.2' \
+            env --default-signal=INT \
             bash -c 'exec "$0" -o work/out.nc < pipe' "$rsc"
         [ $got -eq "$(status_of $signal)" ] || { cat said; fail "exit status $got"; }
         left work ""
@@ -157,7 +172,8 @@ ends_without_trace() { # ends_without_trace WHEN arguments...
 }
 test_signal_surface() {
     slow "steps = 2" ""
-    ends_without_trace '[ "$(has $process)" -gt 150000 ]' -s surface%n=8192 -s surface%L_lambda_s=3000
+    ends_without_trace '[ "$(has $process)" -gt 150000 ]' -s surface%n=8192 \
+        -s surface%L_lambda_s=3000
 }
 test_signal_levels() {
     slow "steps = 4000" ""
@@ -169,7 +185,8 @@ test_signal_writing() {
     slow "steps = 2" "heights = .true.  compression = 9"
     for signal in TERM INT; do
         rm -f work/*
-        stopped $signal 'ls work | grep -q part' env --default-signal=INT "$rsc" -s surface%n=1024 -s surface%L_lambda_s=256 case.nml
+        stopped $signal 'ls work | grep -q part' env --default-signal=INT \
+            "$rsc" -s surface%n=1024 -s surface%L_lambda_s=256 case.nml
         [ $got -eq 0 ] || { cat said; fail "exit status $got"; }
         left work out.nc
         ncdump -h work/out.nc > /dev/null || fail "the file is not whole"

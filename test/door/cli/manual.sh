@@ -1,5 +1,6 @@
 #!/bin/sh
-# manual.sh RSC: groff finds nothing wrong with the page of rsc --man, and shows its sections. That every key is there is a unit test.
+# manual.sh RSC: groff finds nothing wrong with the page of rsc --man, and shows its sections. That
+# every key is there is a unit test.
 set -u
 command -v groff > /dev/null 2>&1 || exit 77
 page=$("$1" --man) || exit 1

@@ -1,6 +1,7 @@
 #!/bin/sh
-# run_cases.sh PROJECT FOLDER: input/run_cases.sh by way of input/flat/run.sh, with a program and a Python that only write down what they
-# are asked for: which cases, in which order, what is kept, what is refused.
+# run_cases.sh PROJECT FOLDER: input/run_cases.sh by way of input/flat/run.sh, with a program and a
+# Python that only write down what they are asked for: which cases, in which order, what is kept,
+# what is refused.
 set -u
 project=$1
 folder=$2
@@ -23,15 +24,21 @@ END
 chmod +x rsc python
 PYTHON=$folder/work/python
 export PYTHON
-called() { [ "$(sed 's|.*/\([a-z_]*\)\.nml.*|\1|' calls.txt | tr '\n' ' ')" = "$* " ] || fail "called for: $(cat calls.txt); expected: $*"; rm calls.txt; }
+called() {
+    [ "$(sed 's|.*/\([a-z_]*\)\.nml.*|\1|' calls.txt | tr '\n' ' ')" = "$* " ] ||
+        fail "called for: $(cat calls.txt); expected: $*"
+    rm calls.txt
+}
 
 # Whole, and shortened: each in a folder of its own.
 sh "$run" > said.txt 2>&1 || fail "$(cat said.txt)"
 called $cases
-[ "$(cat output/flat/kind.txt)" = full ] && [ -s output/flat/report.txt ] && [ -s output/flat/times.txt ] || fail "output/flat: $(ls output/flat)"
+[ "$(cat output/flat/kind.txt)" = full ] && [ -s output/flat/report.txt ] &&
+    [ -s output/flat/times.txt ] || fail "output/flat: $(ls output/flat)"
 sh "$run" --short > said.txt 2>&1 || fail "$(cat said.txt)"
 called $cases
-grep -q 'realizations = 3' output/flat_short/size_elements.nml || fail 'the shortened case is not shortened'
+grep -q 'realizations = 3' output/flat_short/size_elements.nml ||
+    fail 'the shortened case is not shortened'
 sh "$run" rsc --short other > said.txt 2>&1 || fail "$(cat said.txt)"  # options anywhere
 called $cases
 
@@ -52,7 +59,8 @@ refused 2 shortened rsc other
 refused 2 mine rsc mine
 [ "$(cat mine/x.nc)" = precious ] && [ ! -e calls.txt ] || fail 'a refused run has done something'
 
-# A run that breaks off has the status of the program and goes on; with another program, or once it is through, it starts anew.
+# A run that breaks off has the status of the program and goes on; with another program, or once it
+# is through, it starts anew.
 echo size_elements > breaks
 sh "$run" rsc broken > said.txt 2>&1
 [ $? -eq 5 ] && grep -q '2 of 4' said.txt || fail "a run that breaks off: $(cat said.txt)"
@@ -64,7 +72,8 @@ called size_elements size_asperities
 touch broken/flat_kappa.png broken/old.nc broken/mine.txt
 sh "$run" rsc broken > said.txt 2>&1
 called $cases
-[ ! -e broken/flat_kappa.png ] && [ ! -e broken/old.nc ] && [ -e broken/mine.txt ] || fail "what is left of the run before: $(ls broken)"
+[ ! -e broken/flat_kappa.png ] && [ ! -e broken/old.nc ] && [ -e broken/mine.txt ] ||
+    fail "what is left of the run before: $(ls broken)"
 echo alpha_asperities > breaks
 sh "$run" rsc broken > said.txt 2>&1
 rm breaks calls.txt

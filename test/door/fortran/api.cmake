@@ -8,7 +8,8 @@ add_executable(test_api_stop test_api_stop.f90)
 target_link_libraries(test_api_stop PRIVATE rsc::fortran)
 set_tests_properties(fortran.api PROPERTIES LABELS fortran TIMEOUT 60)
 add_test(NAME fortran.api_stop COMMAND test_api_stop)
-set_tests_properties(fortran.api_stop PROPERTIES LABELS fortran TIMEOUT 60 PASS_REGULAR_EXPRESSION "ERROR STOP rsc: [^\n]*sigma"
+set_tests_properties(fortran.api_stop PROPERTIES LABELS fortran TIMEOUT 60
+                     PASS_REGULAR_EXPRESSION "ERROR STOP rsc: [^\n]*sigma"
                      FAIL_REGULAR_EXPRESSION "went on after a failure")
 
 # Objects inside types and threads, optimised: there a compiler uses every freedom it has.

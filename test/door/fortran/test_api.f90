@@ -1,4 +1,5 @@
-! The Fortran module: what only Fortran has. Values by every type, failures told and not told, copies, finalisers.
+! The Fortran module: what only Fortran has. Values by every type, failures told and not told,
+! copies, finalisers.
 program test_api
   use rsc
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
@@ -63,7 +64,8 @@ contains
     call other%free()
   end subroutine
 
-  ! Objects created, created again and released: a leak or a double release shows under valgrind or AddressSanitizer.
+  ! Objects created, created again and released: a leak or a double release shows under valgrind or
+  ! AddressSanitizer.
   subroutine lifetimes()
     integer :: k
     do k = 1, 50
@@ -99,7 +101,8 @@ contains
     call surface%take(z, 0.5_dp, dy=2.0_dp, x0=1.0_dp, y0=-3.0_dp, periodic=.true.)
     call surface%grid(n(1), n(2), g(1), g(2), g(3), g(4), periodic)
     call surface%heights(back)
-    call check(all(n == [3, 4]) .and. all(abs(g - [0.5_dp, 2.0_dp, 1.0_dp, -3.0_dp]) <= 0) .and. periodic, 'the grid of a surface')
+    call check(all(n == [3, 4]) .and. all(abs(g - [0.5_dp, 2.0_dp, 1.0_dp, -3.0_dp]) <= 0) .and. &
+               periodic, 'the grid of a surface')
     call check(all(abs(back - z) <= 0), 'its heights')
     call surface%free()
   end subroutine

@@ -1,5 +1,6 @@
-! rsc and this compiler's runtime read the same namelists: what both take has the same values, bit for bit. The runtime is the judge of
-! the syntax; rsc may refuse more (a key given twice, a misspelt group), and a few things it takes the runtime does not.
+! rsc and this compiler's runtime read the same namelists: what both take has the same values, bit
+! for bit. The runtime is the judge of the syntax; rsc may refuse more (a key given twice, a
+! misspelt group), and a few things it takes the runtime does not.
 program test_namelist
   use rsc
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan, ieee_is_nan
@@ -20,16 +21,22 @@ program test_namelist
   character(*), parameter :: texts(*) = [character(100) :: &
     '&surface sigma = 2d-2 hurst=.75, n = 4096; plateau = T l_lambda_s = 1.28+2 /', &
     'A title, after Smith|! &surface sigma = 7 /|&SURFACE Sigma=3E-3 ! rms|  hurst = 5.e-1 /', &
-    '$solids r = 5, 1*, nu(2) = .3  e(2:1:-1) = 2.1d5, 7.8d4 $end', '&solids E = ,7.5 /', '&solids R = 1*, 9.5 nu = ,.25 /', &
-    '&solids E = 7.5,, nu = 0.3 /', '&solids nu(2:1:-1) = ,0.25 /', '&solids R(2) = ,| E = 3.5 /', &
-    '&solids R = inf, +Infinity E(:)=1,2 /', '&solids E(2:) = 4.9e-3 nu( 1 ) = -0.0 nu(+2:2) = 1.25q-1 /', &
-    '&solids R=2*2.5||! a remark|| E = 1.5e3 ,|   2.5d+3 /', '&indentation centre = ,0.25 stop = 2. /', &
-    '&indentation centre = 0.25,, stop = 2. /', '&indentation start=-1.5+1, stop = 3-1 /', &
-    '&indentation start = 0.1e-99 stop=17976931348623157.0e30 /', '&indentation start = 123456789.987654321d-4|stop|=|7 /', &
-    '&output pdf_levels = ,,9.5 /', '&output pdf_levels = 1.5,,9.5 /', '&output pdf_levels = 2*,9.5 /', &
-    '&output pdf_levels = , ,| , 9.5 /', '&output pdf_levels = 3*1.5, 2*0.25 /', '&output pdf_levels(1:4) = 4, 3, 2, 1 /', &
-    '&output pdf_levels(1:3)=0.1	0.2	0.3/', '&run title = ''it''''s| two lines'' seed=9223372036854775807 /', &
-    '&run title="a ""b"" /c/ ! no remark", seed = -12 &end', '&run title(3:4) = ''cd'' title(1:2) = ''ab'' seed = +007 /', &
+    '$solids r = 5, 1*, nu(2) = .3  e(2:1:-1) = 2.1d5, 7.8d4 $end', '&solids E = ,7.5 /', &
+    '&solids R = 1*, 9.5 nu = ,.25 /', '&solids E = 7.5,, nu = 0.3 /', &
+    '&solids nu(2:1:-1) = ,0.25 /', '&solids R(2) = ,| E = 3.5 /', &
+    '&solids R = inf, +Infinity E(:)=1,2 /', &
+    '&solids E(2:) = 4.9e-3 nu( 1 ) = -0.0 nu(+2:2) = 1.25q-1 /', &
+    '&solids R=2*2.5||! a remark|| E = 1.5e3 ,|   2.5d+3 /', &
+    '&indentation centre = ,0.25 stop = 2. /', '&indentation centre = 0.25,, stop = 2. /', &
+    '&indentation start=-1.5+1, stop = 3-1 /', &
+    '&indentation start = 0.1e-99 stop=17976931348623157.0e30 /', &
+    '&indentation start = 123456789.987654321d-4|stop|=|7 /', '&output pdf_levels = ,,9.5 /', &
+    '&output pdf_levels = 1.5,,9.5 /', '&output pdf_levels = 2*,9.5 /', &
+    '&output pdf_levels = , ,| , 9.5 /', '&output pdf_levels = 3*1.5, 2*0.25 /', &
+    '&output pdf_levels(1:4) = 4, 3, 2, 1 /', '&output pdf_levels(1:3)=0.1	0.2	0.3/', &
+    '&run title = ''it''''s| two lines'' seed=9223372036854775807 /', &
+    '&run title="a ""b"" /c/ ! no remark", seed = -12 &end', &
+    '&run title(3:4) = ''cd'' title(1:2) = ''ab'' seed = +007 /', &
     '&run seed=3 /|&surface n=8192, plateau=.true. /', '&surface plateau=tfoo n=+4096 /', &
     '&surface plateau = .F, n=2048 / &solids nu=2*.25 /', '&surface|| hurst|  =|  ! so|  .5|/']
   integer :: k, at, differ = 0, compared = 0, taken = 0
@@ -47,7 +54,8 @@ program test_namelist
       if (both(texts(k)(:at) // trim(texts(k)(at:)))) compared = compared + 1
     end do
   end do
-  print '(3(i0,a))', taken, ' texts and ', compared, ' damaged ones are taken by both, ', differ, ' differ'
+  print '(3(i0,a))', taken, ' texts and ', compared, ' damaged ones are taken by both, ', differ, &
+    ' differ'
   if (differ > 0 .or. compared < 700) error stop 'test_namelist'
 
 contains
@@ -71,7 +79,9 @@ contains
     call defaults_of(defaults)
     open (newunit=unit, status='scratch')
     begin = 1
-    do i = 1, len(text)  ! line by line, and two more: a group that closes on the last line of a file is the end of the file to gfortran
+    ! Line by line, and two more: a group that closes on the last line of a file is the end of the
+    ! file to gfortran.
+    do i = 1, len(text)
       if (text(i:i) == '|' .or. i == len(text)) then
         write (unit, '(a)') text(begin:merge(i - 1, i, text(i:i) == '|'))
         begin = i + 1
@@ -89,7 +99,9 @@ contains
     rewind (unit)
     read (unit, nml=indentation, iostat=ios(5))
     close (unit)
-    if (any(ios > 0)) return  ! what rsc takes and the runtime does not: queries, commas too many, a remark straight after a key
+    ! What rsc takes and the runtime does not: queries, commas too many, a remark straight after a
+    ! key.
+    if (any(ios > 0)) return
     both = .true.
     call same_reals(c, 'solids%E', E, text)
     call same_reals(c, 'solids%nu', nu, text)

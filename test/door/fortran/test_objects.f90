@@ -1,5 +1,6 @@
-! Objects of the module inside types of the user's own. However the compiler copies them, the copies are names of one object; after
-! its release every one of them is an error status, and an own copy is not.
+! Objects of the module inside types of the user's own. However the compiler copies them, the copies
+! are names of one object; after its release every one of them is an error status, and an own copy
+! is not.
 module particles
   use rsc
   implicit none
@@ -71,7 +72,8 @@ contains
     call check(stat == -1 .and. index(errmsg, 'contact') > 0, what // ' after the release')
   end subroutine
 
-  ! Every way in which a compiler copies an object bit by bit, before and after the object is released.
+  ! Every way in which a compiler copies an object bit by bit, before and after the object is
+  ! released.
   subroutine names_of_one_object()
     type(particle) :: p, q, own, made_here
     type(particle), allocatable :: r, s

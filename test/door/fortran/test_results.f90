@@ -1,4 +1,5 @@
-! rsc_results reads what rsc wrote: `test_results OTHER RESULT...`, a file that is no result, and results of the program.
+! rsc_results reads what rsc wrote: `test_results OTHER RESULT...`, a file that is no result, and
+! results of the program.
 program test_results
   use rsc_results
   use netcdf
@@ -25,18 +26,22 @@ contains
 
   include 'check.inc'
 
-  ! Every variable of numbers, value by value and extent by extent, against netcdf-fortran reading it as one list.
+  ! Every variable of numbers, value by value and extent by extent, against netcdf-fortran reading
+  ! it as one list.
   subroutine every_variable(file)
     character(*), intent(in) :: file
     type(rsc_result) :: r
-    integer :: variable, variables, dimensions, ids(nf90_max_var_dims), lengths(nf90_max_var_dims), k, kind
+    integer :: variable, variables, dimensions, k, kind
+    integer :: ids(nf90_max_var_dims), lengths(nf90_max_var_dims)
     character(nf90_max_name) :: name
     real(real64), allocatable :: scalar, a(:), b(:,:), c(:,:,:), there(:)
     integer, allocatable :: n(:), m(:,:)
     call r%open(file)
-    call check(nf90_inquire(r%id, nvariables=variables) == nf90_noerr .and. variables > 60, 'variables of ' // file)
+    call check(nf90_inquire(r%id, nvariables=variables) == nf90_noerr .and. variables > 60, &
+               'variables of ' // file)
     do variable = 1, variables
-      call check(nf90_inquire_variable(r%id, variable, name, kind, dimensions, ids) == nf90_noerr, 'inquire')
+      call check(nf90_inquire_variable(r%id, variable, name, kind, dimensions, ids) == nf90_noerr, &
+                 'inquire')
       if (kind == nf90_char) cycle
       lengths = 1
       do k = 1, dimensions
@@ -44,7 +49,8 @@ contains
       end do
       if (allocated(there)) deallocate (there)
       allocate (there(product(lengths(:dimensions))))
-      call check(nf90_get_var(r%id, variable, there, count=lengths(:max(dimensions, 1))) == nf90_noerr, name)
+      call check(nf90_get_var(r%id, variable, there, count=lengths(:max(dimensions, 1))) == &
+                 nf90_noerr, name)
       select case (dimensions)
       case (0)
         call r%get(trim(name), scalar)
@@ -72,7 +78,8 @@ contains
     real(real64), intent(in) :: values(:), there(:)
     logical, intent(in) :: extents
     call check(extents, trim(name) // ': extents')
-    if (size(values) == size(there)) call check(all(values >= there .and. values <= there), trim(name) // ': values')
+    if (size(values) == size(there)) &
+      call check(all(values >= there .and. values <= there), trim(name) // ': values')
   end subroutine
 
   subroutine refusals(other, result)
@@ -82,13 +89,16 @@ contains
     character(300) :: message
     integer :: id, variable, stat
     call r%open('no/such/file.nc', stat, message)
-    call check(stat /= 0 .and. index(message, 'no/such/file.nc') > 0, 'missing file: ' // trim(message))
+    call check(stat /= 0 .and. index(message, 'no/such/file.nc') > 0, &
+               'missing file: ' // trim(message))
     call r%open(other, stat, message)
     call check(stat /= 0 .and. index(message, other) > 0, 'not NetCDF: ' // trim(message))
     call check(nf90_create('foreign.nc', nf90_clobber, id) == nf90_noerr, 'create')
-    call check(nf90_def_var(id, 'force', nf90_double, variable) == nf90_noerr .and. nf90_close(id) == nf90_noerr, 'define')
+    call check(nf90_def_var(id, 'force', nf90_double, variable) == nf90_noerr .and. &
+               nf90_close(id) == nf90_noerr, 'define')
     call r%open('foreign.nc', stat, message)
-    call check(stat /= 0 .and. index(message, 'foreign.nc') > 0, 'another NetCDF file: ' // trim(message))
+    call check(stat /= 0 .and. index(message, 'foreign.nc') > 0, &
+               'another NetCDF file: ' // trim(message))
     open (newunit=id, file='foreign.nc')
     close (id, status='delete')
     message = 'untouched'
@@ -100,7 +110,8 @@ contains
     call check(stat /= 0 .and. index(message, 'rank') > 0, 'another rank: ' // trim(message))
     call check(r%has('force') .and. .not. r%has('nothing'), 'has')
     call r%get('force_std', deviation)
-    call check(all(rsc_is_absent(deviation)) .and. .not. rsc_is_absent(0d0), 'no deviation over one realization')
+    call check(all(rsc_is_absent(deviation)) .and. .not. rsc_is_absent(0d0), &
+               'no deviation over one realization')
     call r%close()
     call r%get('force', values, stat, message)
     call check(stat /= 0, 'a closed file')

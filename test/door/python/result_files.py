@@ -1,4 +1,5 @@
-"""A folder for each test, and small result files with numbers of one's own, named and shaped as rsc's (interface.md)."""
+"""A folder for each test, and small result files with numbers of one's own, named and shaped as
+rsc's (interface.md)."""
 import os
 import tempfile
 import unittest
@@ -20,7 +21,8 @@ class InFolder(unittest.TestCase):
 
 
 def write_result(folder, name, case, variables, attributes=None, title="", source="rsc 0.0"):
-    """variables: {name: (dimensions in one text, values[, unit])}; attributes: {(variable, or '' for the file, attribute): value}; case: {'group%key': value}. Texts stand in quotes."""
+    """variables: {name: (dimensions in one text, values[, unit])}; attributes: {(variable, or ''
+    for the file, attribute): value}; case: {'group%key': value}. Texts stand in quotes."""
     path = os.path.join(folder, name + ".nc")
     if os.path.exists(path):  # it may be open still
         os.remove(path)

@@ -1,4 +1,5 @@
-"""What the programs of modules/example print, against the library called from Python; motions by the same forces; conservation.
+"""What the programs of modules/example print, against the library called from Python; motions by
+the same forces; conservation.
 
 usage: test_examples.py FOLDER_OF_EXAMPLES        (RSC_PROGRAM in the environment)
 """
@@ -62,7 +63,10 @@ class Presses(unittest.TestCase):
 
     def test_press(self):
         lines = printed("press")
-        case = "&surface n=512, L_lambda_l=8, L_lambda_s=128, sigma=0.005 / &solids E=70d3, 210d3, nu=0.33, 0.3 /"
+        case = (
+            "&surface n=512, L_lambda_l=8, L_lambda_s=128, sigma=0.005 / "
+            "&solids E=70d3, 210d3, nu=0.33, 0.3 /"
+        )
         spheres = Spheres(case)
         version = subprocess.run(
             [os.environ["RSC_PROGRAM"], "--version"], capture_output=True, text=True
@@ -115,7 +119,8 @@ def ball():
 
 class Motions(unittest.TestCase):
     def depth_of(self, energy, gravity=0.0):
-        """Depth below the first touch where the work of the contact force, less that of gravity, is this; and the force there."""
+        """Depth below the first touch where the work of the contact force, less that of gravity, is
+        this; and the force there."""
         depth = np.linspace(0, 1, 400) ** 1.5 * 4e-4
         force = np.array([ball().solve(ball().touch - d)[0] for d in depth])
         work = (
@@ -149,7 +154,8 @@ class Motions(unittest.TestCase):
         self.assertAlmostEqual(rows[0, 3] / force, 1, delta=5e-3)  # printed with three figures
 
     def test_rolling(self):
-        """Sliding: Q = mu N, the velocity falls by the impulse of it, the spin by two and a half times as much; what is lost is the work of Q."""
+        """Sliding: Q = mu N, the velocity falls by the impulse of it, the spin by two and a half
+        times as much; what is lost is the work of Q."""
         lines = printed("rolling")
         rows = np.array([numbers(line) for line in lines[1:-1]])
         self.assertEqual(rows.shape, (10, 6))

@@ -1,5 +1,5 @@
-"""Tables of results: exact at the levels, a power law kept between them, nothing beyond them; standard errors by their definition. A study as a
-cube of arrays, and as a page.
+"""Tables of results: exact at the levels, a power law kept between them, nothing beyond them;
+standard errors by their definition. A study as a cube of arrays, and as a page.
 
 usage: test_export.py FOLDER_OF_EXPORT    (RSC_PROGRAM in the environment)
 """
@@ -187,7 +187,8 @@ class Tables(InFolder):
 
 class Studies(InFolder):
     def test_cube_and_report(self):
-        """Every member stands at the values of its keys, in the cube of rsc.read, of cube.py and the page of report.py."""
+        """Every member stands at the values of its keys, in the cube of rsc.read, of cube.py and
+        the page of report.py."""
         path = self.path
         case = """&surface n = 64 L_lambda_l = 4 L_lambda_s = 16 /
 &indentation start = 3 stop = 2 steps = 3 /

@@ -1,5 +1,5 @@
-"""Fields of the program: they add up to the force, no body enters the other, and the gap about a smooth sphere is Hertz's; what fields.py makes
-of them. What the keys for measured maps do to a map.
+"""Fields of the program: they add up to the force, no body enters the other, and the gap about a
+smooth sphere is Hertz's; what fields.py makes of them. What the keys for measured maps do to a map.
 
 usage: test_fields.py FOLDER_OF_EXPORT    (RSC_PROGRAM in the environment)
 """
@@ -96,7 +96,8 @@ class Fields(Program):
                     )
 
     def test_yielded(self):
-        """Unloaded, summits that have yielded are lower by their residual depth: the indenter touches none."""
+        """Unloaded, summits that have yielded are lower by their residual depth: the indenter
+        touches none."""
         keys = (
             "-s",
             "solids%hardness=1",
@@ -118,7 +119,8 @@ class Fields(Program):
         self.assertGreater(r["field_gap"][1].min(), 0)
 
     def test_relaxed(self):
-        """Held for long: field_gap is that of the elastic body with the relaxed modulus. Curves of elastic bodies are absent, as are marks of yielding."""
+        """Held for long: field_gap is that of the elastic body with the relaxed modulus. Curves of
+        elastic bodies are absent, as are marks of yielding."""
         for boundary, R in (("free", "10.0"), ("periodic", "Infinity")):
             for model in ("elements", "asperities"):
                 text = ROUGH.format(boundary=boundary, R=R, model=model).replace(
@@ -173,7 +175,8 @@ class Fields(Program):
             np.testing.assert_array_equal(np.isnan(r[name]), pulled, name)
 
     def test_map_of_attraction(self):
-        """The cells of the map add up to the force, the attraction of places without contact included."""
+        """The cells of the map add up to the force, the attraction of places without contact
+        included."""
         for model, w, reach in (("elements", 0.02, 0.02), ("asperities", 1e-3, 1e-3)):
             keys = f"adhesion = {w} adhesion_range = {reach} E = 1.0e3"
             self.run_case(
@@ -313,7 +316,8 @@ class Maps(Program):
         self.assertIn("pixel", self.run_case(netcdf.format(keys=keys), status=2))
 
     def test_border_of_the_indenter(self):
-        """Contact at the border of a smaller map of body 2 is counted, as no load is carried beyond; contact in its middle is not."""
+        """Contact at the border of a smaller map of body 2 is counted, as no load is carried
+        beyond; contact in its middle is not."""
         np.savetxt(self.path("map.txt"), np.zeros((40, 40)))
         i = np.arange(17) - 8.0
         for bend, at_border in ((-1e-4, False), (1e-4, True)):  # [mm]

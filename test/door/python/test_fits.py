@@ -1,4 +1,5 @@
-"""The fits of the plot scripts (plot_fits.py), against distributions in closed form. usage: test_fits.py FOLDER of the scripts"""
+"""The fits of the plot scripts (plot_fits.py), against distributions in closed form.
+usage: test_fits.py FOLDER of the scripts"""
 import os
 import sys
 import unittest
@@ -17,7 +18,8 @@ except ImportError:
 class Gamma(unittest.TestCase):
     @unittest.skipUnless(scipy, "without scipy")
     def test_weibull(self):
-        """With alpha = beta - 1 the bins have the shares of 1 - exp(-(x/delta)^beta), and the mean is delta Gamma(1 + 1/beta)."""
+        """With alpha = beta - 1 the bins have the shares of 1 - exp(-(x/delta)^beta), and the mean
+        is delta Gamma(1 + 1/beta)."""
         from math import gamma
 
         for beta, delta in ((1.0, 3.0), (1.7, 0.02), (2.5, 40.0)):

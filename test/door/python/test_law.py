@@ -1,4 +1,5 @@
-"""Laws for finite elements: the points of law.py are those of the file, the law increases, bad files are refused; uinter.f90 evaluates the table and rsc alike.
+"""Laws for finite elements: the points of law.py are those of the file, the law increases, bad
+files are refused; uinter.f90 evaluates the table and rsc alike.
 
 usage: test_law.py FOLDER_OF_EXPORT UINTER_PROGRAM        (RSC_PROGRAM in the environment)
 """
@@ -83,7 +84,8 @@ def made(
     indenter="sphere R = 2500 um",
     **more
 ):
-    """A file in um and mN; z of the shape (step) or (realization, step), the others (realization, step)."""
+    """A file in um and mN; z of the shape (step) or (realization, step), the others (realization,
+    step)."""
     variables = {
         "separation": ("step" if np.ndim(z) == 1 else "realization step", z, "um"),
         "force": ("realization step", load if not flats else 7 * load, "mN"),
@@ -131,7 +133,8 @@ class WholeText(unittest.TestCase):
     KEPT = [1, 2, 4, 6, 7]
 
     def points(self, z, n, a):
-        """approach, load, its deviation, area, its deviation, deviation of the approach; a row a point, the first at zero."""
+        """approach, load, its deviation, area, its deviation, deviation of the approach; a row a
+        point, the first at zero."""
         std = lambda v: v.std(axis=0, ddof=1)
         return np.column_stack(
             [self.Z[0] - z, n.mean(axis=0), std(n), a.mean(axis=0), std(a), 0 * z]
@@ -173,7 +176,8 @@ class WholeText(unittest.TestCase):
         )
 
     def test_loads_prescribed(self):
-        """Separations are averaged, scatter, and are given in any order; no level is without contact, no area in the file."""
+        """Separations are averaged, scatter, and are given in any order; no level is without
+        contact, no area in the file."""
         n = np.array([1.0, 8.0, 27.0])
         z = np.array([[6.0, 3.1, -1.5], [6.4, 2.9, -2.0]])
         order = [2, 0, 1]
@@ -202,7 +206,8 @@ class WholeText(unittest.TestCase):
         self.assertTrue(np.all(np.isnan(rows[1:, 3])) and rows[0, 3] == 0)
 
     def test_first_loading(self):
-        """Of bodies that yield, levels at which the approach is below one before are excluded; reloading beyond it goes on."""
+        """Of bodies that yield, levels at which the approach is below one before are excluded;
+        reloading beyond it goes on."""
         z, n = np.array([9.0, 7, 4, 6, 3.5, 5, 2]), np.array([[0, 1.0, 10, 0.5, 12, 2, 20]])
         file = made("yielding", z, n, n, 0 * n, plastic_contacts=("realization step", n))
         self.assertTrue(
@@ -265,7 +270,8 @@ class WholeText(unittest.TestCase):
 
 class Uinter(unittest.TestCase):
     def test_table(self):
-        """The properties that --abaqus writes, in series with a spring: against the same by numpy, on and between the points and beyond the last."""
+        """The properties that --abaqus writes, in series with a spring: against the same by numpy,
+        on and between the points and beyond the last."""
         z = np.linspace(40, 0, 21)  # um
         pressure = np.where(z < 39.5, 10 * np.exp(-z / 8), 0)[None]  # mN/um2
         file = made("flats", z, pressure, pressure / 10, 0 * pressure, flats=True)
@@ -296,7 +302,8 @@ class Uinter(unittest.TestCase):
         self.assertLess(rows[:, 3].max(), 40)
 
     def test_rsc(self):
-        """Calling rsc: the pressure is that of the library from Python; Newton's method converges as with a right slope."""
+        """Calling rsc: the pressure is that of the library from Python; Newton's method converges
+        as with a right slope."""
         case = rsc.Case(SURFACE + "&solids R=Infinity,Infinity / &solver tolerance=1.0e-11 /")
         with open(os.path.join(FOLDER, "rsc.nml"), "w", encoding="utf-8") as out:
             out.write(str(case))

@@ -32,7 +32,10 @@ import plot_style  # noqa: E402
 from plot_results import Looks, Result, names  # noqa: E402
 from plot_style import plt  # noqa: E402
 
-SURFACE = "&surface n=256 L=1200.0 L_lambda_l=8 L_lambda_s=64 sigma=12.0 / &run length_unit='um' force_unit='mN' REALIZATIONS /"
+SURFACE = (
+    "&surface n=256 L=1200.0 L_lambda_l=8 L_lambda_s=64 sigma=12.0 / "
+    "&run length_unit='um' force_unit='mN' REALIZATIONS /"
+)
 BALL = "&solids E=78.0,200.0 R=Infinity,3000.0 nu=0.42,0.3 resistivity=2.0e-5,3.0e-5 /"
 SMALL = "&surface n=128 L_lambda_l=4 L_lambda_s=16 sigma=0.01 / "
 CASES = {
@@ -72,7 +75,8 @@ CASES = {
     "pulled": SMALL.replace("0.01", "0.0001") + "&run realizations=3 /"
     "&solids E=2,Infinity R=Infinity,5 adhesion=2e-5 / &indentation levels=3,1,0,1,3,9 /"
     "&study surface%sigma=1e-4,2e-4,4e-4 /",
-    "pressed": "&surface n=128 L_lambda_l=4 L_lambda_s=32 sigma=0.0009 / &solids R=Infinity,Infinity / &run realizations=3 /"
+    "pressed": "&surface n=128 L_lambda_l=4 L_lambda_s=32 sigma=0.0009 / "
+    "&solids R=Infinity,Infinity / &run realizations=3 /"
     "&indentation boundary='periodic' control='pressure' unit='relative' levels=0.001,0.004,0.01 /",
     "study": SURFACE
     + BALL
@@ -118,7 +122,8 @@ CASES = {
         "&solids E=210e3,Infinity nu=0.3,0.0 R=Infinity,Infinity hardness=3e3 / &asperities "
         "law='fourth_order' / &indentation boundary='periodic' levels=2,1.2,1.5,2 /"
     ),
-    "map": "&surface source='heights' file='HEIGHTS' / &solids R=Infinity,9000.0 / &indentation levels=1.5,1.0,0.5 / &output heights=.true. /",
+    "map": "&surface source='heights' file='HEIGHTS' / &solids R=Infinity,9000.0 / "
+    "&indentation levels=1.5,1.0,0.5 / &output heights=.true. /",
 }
 TO_SI = {
     "um": 1e-6,

@@ -86,9 +86,10 @@ TEST(test_groups) {
             const Jkr jkr{0.5, 0.01};
             std::vector<double> x, y;
             const double circle = n == 2 ? 0.5 * distance : distance;
-            for (int k = 0; k < n; ++k)
-                x.push_back(circle * std::cos(2 * pi * k / n)),
-                    y.push_back(circle * std::sin(2 * pi * k / n));
+            for (int k = 0; k < n; ++k) {
+                x.push_back(circle * std::cos(2 * pi * k / n));
+                y.push_back(circle * std::sin(2 * pi * k / n));
+            }
             double c = 0;
             for (int k = 1; k < n; ++k)
                 c += 1 / (pi * kE * std::hypot(x[std::size_t(k)] - x[0], y[std::size_t(k)] - y[0]));
@@ -185,7 +186,8 @@ TEST(test_moves) {
             const Vec2 from{x, y};
             for (int k = 1; k <= parts * fine; ++k) {
                 const double share = static_cast<double>(k) / (parts * fine);
-                x = from.x + share * (to.x - from.x), y = from.y + share * (to.y - from.y);
+                x = from.x + share * (to.x - from.x);
+                y = from.y + share * (to.y - from.y);
                 set_clearances(under, system.asperities, tip, x, y);
                 slow.Z = std::nextafter(Z, 1.0);
                 slow.go_to(Z, 1.0);
@@ -274,7 +276,9 @@ TEST(test_stiffness_past_the_fold) {
 TEST(test_cutting) {
     Indenter coated{kE, kFlat, 0.5, 0.5};
     constexpr double nu = 0.3, E = kE * (1 - nu * nu);
-    coated.layers.count = 1, coated.layers.layer[0] = {0.02, E, nu}, coated.layers.E = E / 3,
+    coated.layers.count = 1;
+    coated.layers.layer[0] = {0.02, E, nu};
+    coated.layers.E = E / 3;
     coated.layers.nu = nu;
     for (const auto& [seed, indenter] :
          {std::pair{21u, Indenter{kE, kFlat, 0.5, 0.5}}, {22u, coated}}) {
@@ -289,7 +293,10 @@ TEST(test_cutting) {
             for (int k = 1; k <= cuts; ++k)
                 level = contact->at_separation(-0.01 + 0.018 * k / cuts);
             const double loss = level.energy_lost;
-            if (cuts == 1) force = level.force + pressed, lost = loss;
+            if (cuts == 1) {
+                force = level.force + pressed;
+                lost = loss;
+            }
             CHECK_RELATIVE(level.force + pressed, force, 1e-8);
             CHECK_RELATIVE(loss, lost, 3e-6);
         }
@@ -351,7 +358,8 @@ TEST(test_loss_under_load) {
     for (double w : {1e-8, 1e-11}) {
         const auto lost = [&](Interaction interaction, double tolerance) {
             SolverOptions options = sticky(w);
-            options.tolerance = tolerance, options.interaction = interaction;
+            options.tolerance = tolerance;
+            options.interaction = interaction;
             const auto contact =
                 make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, options);
             for (double Z : {0.02, -0.03}) (void)contact->at_separation(Z);
@@ -426,12 +434,14 @@ TEST(test_force) {
 // With w falling the elastic answer, of each law: N differs by 3 sqrt(2) (w/w_0)^(1/2) at most.
 TEST(test_elastic_limit) {
     RandomAsperities system = random_asperities(12, 51, 0.2);
-    system.asperities.kappa1.clear(), system.asperities.kappa2.clear(),
-        system.asperities.angle.clear(), system.asperities.biharmonic.clear();
+    system.asperities.kappa1.clear();
+    system.asperities.kappa2.clear();
+    system.asperities.angle.clear();
+    system.asperities.biharmonic.clear();
     for (double r : system.asperities.radius) {
-        system.asperities.kappa1.push_back(1.4 / r),
-            system.asperities.kappa2.push_back(1 / (1.4 * r)),
-            system.asperities.angle.push_back(0.3);
+        system.asperities.kappa1.push_back(1.4 / r);
+        system.asperities.kappa2.push_back(1 / (1.4 * r));
+        system.asperities.angle.push_back(0.3);
         system.asperities.biharmonic.push_back(40 / (r * r));
     }
     for (LawKind law : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order}) {
@@ -470,15 +480,18 @@ TEST(test_fuller_tabor) {
         for (int k = 0; k < surfaces; ++k) {
             std::vector<double> x(caps), y(caps, 0.0), z(caps);
             double own = 0;
-            for (int i = 0; i < caps; ++i)
-                x[std::size_t(i)] = i, z[std::size_t(i)] = height(generator),
+            for (int i = 0; i < caps; ++i) {
+                x[std::size_t(i)] = i;
+                z[std::size_t(i)] = height(generator);
                 own += force(z[std::size_t(i)] - Z);
+            }
             const Asperities a{x, y, z, std::vector<double>(caps, jkr.r), {}, {}, {}, {}};
             const auto contact = make_asperity_contact(a, {kE, kFlat, 0, 0}, options);
             (void)contact->at_separation(-8 * sigma);
             const double N = contact->at_separation(Z).force;
             CHECK_CLOSE(N, own, 1e-8 * caps * jkr.w);
-            sum += N / caps, squares += N / caps * N / caps;
+            sum += N / caps;
+            squares += N / caps * N / caps;
         }
         const double mean = sum / surfaces,
                      error = std::sqrt((squares / surfaces - mean * mean) / surfaces);

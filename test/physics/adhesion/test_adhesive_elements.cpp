@@ -21,7 +21,10 @@ struct Sphere : Maugis {
     double last() const {
         double least = 1e300, where = 0;
         for (double m = 1.0005; m < 60; m *= 1.0005)
-            if (const double u = at(m).u; u < least) least = u, where = m;
+            if (const double u = at(m).u; u < least) {
+                least = u;
+                where = m;
+            }
         return where;
     }
     State pressed(double u) const {

@@ -65,7 +65,10 @@ TEST(test_tension) {
 
 Asperities one_asperity() {
     Asperities a;
-    a.x = {0.5}, a.y = {0.5}, a.z = {0.1}, a.radius = {0.7};
+    a.x = {0.5};
+    a.y = {0.5};
+    a.z = {0.1};
+    a.radius = {0.7};
     return a;
 }
 
@@ -166,7 +169,8 @@ TEST(test_asperity_fields) {
         for (std::size_t k = 0; k < f.pressure.size(); ++k) {
             const double d = std::hypot(f.x[k % f.x.size()] - 0.5, f.y[k / f.x.size()] - 0.5),
                          p = f.pressure[k];
-            force += p * step * step, area += f.contact[k] * step * step;
+            force += p * step * step;
+            area += f.contact[k] * step * step;
             if (std::abs(d - a) < 1e-9 * a || std::abs(d - c) < 1e-9 * a) continue;
             CHECK((p != 0) == (d < c));
             CHECK((f.contact[k] != 0) == (d < a));
@@ -246,8 +250,12 @@ TEST(test_elliptic_spot) {
         const double s = dx * std::cos(angle) + dy * std::sin(angle),
                      t = dy * std::cos(angle) - dx * std::sin(angle);
         CHECK((fields.contact[k] != 0) == (s * s / (a * a) + t * t / (b * b) < 1));
-        force += p, area += fields.contact[k] * step * step, x += p * dx, y += p * dy,
-            along += p * s * s, across += p * t * t;
+        force += p;
+        area += fields.contact[k] * step * step;
+        x += p * dx;
+        y += p * dy;
+        along += p * s * s;
+        across += p * t * t;
     }
     CHECK_RELATIVE(force, f, 1e-12);
     CHECK_RELATIVE(area, pi * a * b, 5e-3);

@@ -59,7 +59,8 @@ void test_conditions(bool flats, const LayeredBody& body, bool fine) {
         std::vector<char> contacts(p.size(), 0);
         for (std::size_t m = 0; m < level.pixels.index.size(); ++m) {
             const auto i = static_cast<std::size_t>(level.pixels.index[m]);
-            p[i] = level.pixels.pressure[m], contacts[i] = 1;
+            p[i] = level.pixels.pressure[m];
+            contacts[i] = 1;
             CHECK(p[i] >= -s0);
         }
         for (std::size_t m = 0; m < level.pixels.cohesive.size(); ++m)

@@ -62,7 +62,8 @@ TEST(test_cycle) {
         const double Z = 0.006;
         (void)contact->at_separation(Z);
         int jumps = 0;
-        (void)work_of_move(*contact, Z, 0.9, jumps), (void)work_of_move(*contact, Z, 0.1, jumps);
+        (void)work_of_move(*contact, Z, 0.9, jumps);
+        (void)work_of_move(*contact, Z, 0.1, jumps);
         const double energy = contact->energy(), lost = contact->at_separation(Z).energy_lost;
         jumps = 0;
         const double work =
@@ -73,8 +74,8 @@ TEST(test_cycle) {
     }
 }
 
-// A steep tip that moves away from the one asperity it holds lets go of it: nothing is left, and the
-// level is that of a new contact there.
+// A steep tip that moves away from the one asperity it holds lets go of it: nothing is left, and
+// the level is that of a new contact there.
 TEST(test_lets_go) {
     const Asperities one{{0.5}, {0.5}, {0.0}, {0.05}, {20.0}, {20.0}, {0.0}, {0.0}};
     SolverOptions options{.law = LawKind::elliptic,

@@ -22,7 +22,9 @@ HeightMap waves(int n, double side, double height, int turned = 0) {
         return height * (std::cos(x) + std::cos(y) + 0.6 * std::cos(x + 2 * y + 1) +
                          0.5 * std::sin(2 * x - y));
     });
-    map.periodic = true, map.x0 = (turned + 0.5) * map.dx, map.y0 = 0.5 * map.dy;
+    map.periodic = true;
+    map.x0 = (turned + 0.5) * map.dx;
+    map.y0 = 0.5 * map.dy;
     return map;
 }
 
@@ -69,8 +71,8 @@ TEST(test_cycle) {
         CHECK(there.level.contacts > 0 &&
               std::abs(there.level.force / back.level.force - 1) > 0.01);
         CHECK_RELATIVE(back.energy, begin.energy, 1e-9);
-        forces.push_back(there.level.force),
-            losses.push_back(back.level.energy_lost - begin.level.energy_lost);
+        forces.push_back(there.level.force);
+        losses.push_back(back.level.energy_lost - begin.level.energy_lost);
         CHECK_RELATIVE(forces.back(), forces.front(), 1e-9);
         // Edges move continuously: nothing jumps here.
         if (steps == 32) CHECK_CLOSE(there.work + back.work, losses.back(), 1e-4 * kWork);
@@ -91,7 +93,8 @@ TEST(test_border) {
     double lost = one->at_separation(0).energy_lost, first = 0;
     for (const double x :
          {0.1, 1.9}) {  // and back over the border; the long way would lose several times as much
-        one->move_tip(x, 1.0), two->move_tip(x, 1.0);
+        one->move_tip(x, 1.0);
+        two->move_tip(x, 1.0);
         const Level a = one->at_separation(0), b = two->at_separation(0);
         CHECK(a.force != 0 && a.contacts == b.contacts);
         CHECK_RELATIVE(a.force, b.force, 1e-9);

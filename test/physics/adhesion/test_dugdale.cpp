@@ -52,9 +52,10 @@ TEST(test_narrow_loop) {
         const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(weak.w, range));
         int jumps = 0;
         Level level;
-        for (int k = -levels; k <= levels; ++k)
-            level = contact->at_separation(range * (3.0 * std::abs(k) / levels - 1)),
+        for (int k = -levels; k <= levels; ++k) {
+            level = contact->at_separation(range * (3.0 * std::abs(k) / levels - 1));
             jumps += level.jumps;
+        }
         CHECK(jumps == 2 && level.force == 0 && level.energy_lost > 0);
         lost.push_back(level.energy_lost);
     }
@@ -69,11 +70,14 @@ TEST(test_limit) {
     std::uniform_real_distribution<double> uniform(0, 1);
     Asperities a;
     for (int k = 0; k < 12; ++k) {
-        a.x.push_back(uniform(generator)), a.y.push_back(uniform(generator)),
-            a.z.push_back(0.02 * uniform(generator));
+        a.x.push_back(uniform(generator));
+        a.y.push_back(uniform(generator));
+        a.z.push_back(0.02 * uniform(generator));
         const double r = 0.1 + 0.3 * uniform(generator);
-        a.radius.push_back(r), a.kappa1.push_back(1.4 / r), a.kappa2.push_back(1 / (1.4 * r)),
-            a.angle.push_back(0.3);
+        a.radius.push_back(r);
+        a.kappa1.push_back(1.4 / r);
+        a.kappa2.push_back(1 / (1.4 * r));
+        a.angle.push_back(0.3);
     }
     for (LawKind law : {LawKind::hertz, LawKind::elliptic}) {
         double before = 1;
@@ -82,7 +86,8 @@ TEST(test_limit) {
             with.law = jkr.law = law;
             const auto one = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, with),
                        other = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, jkr);
-            (void)one->at_separation(-0.01), (void)other->at_separation(-0.01);
+            (void)one->at_separation(-0.01);
+            (void)other->at_separation(-0.01);
             const double there = other->at_separation(0.005).force,
                          apart = std::abs(one->at_separation(0.005).force / there - 1);
             CHECK(apart < 0.6 * before);

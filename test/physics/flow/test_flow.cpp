@@ -205,7 +205,8 @@ TEST(percolation_by_walks) {
         CHECK(level.percolates_y == (expected[1] ? 1 : 0));
         const Permeability K = solved(m);
         CHECK((K.xx > 0) == expected[0] && (K.yy > 0) == expected[1]);
-        along[0] += expected[0], along[1] += expected[1];
+        along[0] += expected[0];
+        along[1] += expected[1];
     }
     CHECK(along[0] > 50 && along[0] < 250 && along[1] > 50 && along[1] < 290);
 }

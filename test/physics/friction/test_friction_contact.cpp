@@ -54,9 +54,14 @@ std::vector<Real> slip_problem(const Asperities& a, const Level& level, Real xi)
 
 TEST(spots_against_slip_problem) {
     Asperities two, five;
-    two.x = {0.4, 0.412}, two.y = {0.5, 0.5}, two.z = {0.01, 0.009}, two.radius = {3e-4, 5e-4};
-    five.x = {0.4, 0.413, 0.407, 0.39, 0.42}, five.y = {0.5, 0.5, 0.511, 0.508, 0.49};
-    five.z = {0.01, 0.009, 0.0095, 0.0082, 0.0101}, five.radius = {3e-4, 5e-4, 2e-4, 8e-4, 4e-4};
+    two.x = {0.4, 0.412};
+    two.y = {0.5, 0.5};
+    two.z = {0.01, 0.009};
+    two.radius = {3e-4, 5e-4};
+    five.x = {0.4, 0.413, 0.407, 0.39, 0.42};
+    five.y = {0.5, 0.5, 0.511, 0.508, 0.49};
+    five.z = {0.01, 0.009, 0.0095, 0.0082, 0.0101};
+    five.radius = {3e-4, 5e-4, 2e-4, 8e-4, 4e-4};
     for (const Asperities& a : {two, five}) {
         Slid slid(a, {kE, 2.5, 0.4, 0.5}, tight());
         const double delta = 0.0;
@@ -114,7 +119,10 @@ double conductance_of_spots(const Asperities& a, const Level& level) {
 
 TEST(conductance) {
     Asperities lone;
-    lone.x = {0.5}, lone.y = {0.5}, lone.z = {0.01}, lone.radius = {3e-4};
+    lone.x = {0.5};
+    lone.y = {0.5};
+    lone.z = {0.01};
+    lone.radius = {3e-4};
     Path holm = asperity_path(lone, {kE, kFlat, 0.5, 0.5}, tight());
     const Level spot = holm.at_separation(0.004);
     CHECK_RELATIVE(-2 * holm.stiffness() / kE, 4 * spot.a[0], 1e-12);

@@ -77,7 +77,8 @@ TEST(smooth_sphere_of_cattaneo_and_mindlin) {
                         2e-3 * mu * N);
         CHECK_CLOSE(force[first - 1], mu * N, 1e-6 * mu * N);
         CHECK_RELATIVE(stiffness[k], 8 * Gs * a, 5e-3);
-        // Of the cycle between +-0.9 of full slip: 41 points of each branch by the trapezoidal rule.
+        // Of the cycle between +-0.9 of full slip: 41 points of each branch by the trapezoidal
+        // rule.
         CHECK_RELATIVE(loop_area(slide, force, first), work[k], 5e-3);
     }
     // After half of the slide of full slip the radius of stick is a/sqrt(2).

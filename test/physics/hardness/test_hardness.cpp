@@ -44,7 +44,9 @@ struct Yielding {
 
 Asperities one(double r) {
     Asperities a;
-    a.x = a.y = {0.5}, a.z = {0.0}, a.radius = {r};
+    a.x = a.y = {0.5};
+    a.z = {0.0};
+    a.radius = {r};
     return a;
 }
 
@@ -57,7 +59,9 @@ SolverOptions options_with(double H0, double length = 0) {
 // (law.cpp) within the penetrations asked for, the others do not.
 TEST(test_laws) {
     Asperities a = one(0.004);
-    a.kappa1 = {1.6 / 0.004}, a.kappa2 = {1 / (1.6 * 0.004)}, a.angle = {0.3};
+    a.kappa1 = {1.6 / 0.004};
+    a.kappa2 = {1 / (1.6 * 0.004)};
+    a.angle = {0.3};
     const int i = 0;
     for (const auto kind : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order})
         for (const double flattening : {8.0, -5.0, 0.01, 300.0}) {
@@ -105,7 +109,9 @@ TEST(test_laws) {
 TEST(test_sinking) {
     const double r = 0.004, H = 3000;
     Asperities a = one(r);
-    a.kappa1 = a.kappa2 = {1 / r}, a.angle = {0}, a.biharmonic = {0};
+    a.kappa1 = a.kappa2 = {1 / r};
+    a.angle = {0};
+    a.biharmonic = {0};
     SolverOptions options = options_with(H);
     options.law = LawKind::fourth_order;
     Path contact = asperity_path(a, {kE, kFlat, 0.5, 0.5}, options);
@@ -124,7 +130,9 @@ TEST(test_sinking) {
 // less than nothing.
 TEST(test_cycle) {
     Asperities a = one(0.004);
-    a.kappa1 = {1.6 / 0.004}, a.kappa2 = {1 / (1.6 * 0.004)}, a.angle = {0.3};
+    a.kappa1 = {1.6 / 0.004};
+    a.kappa2 = {1 / (1.6 * 0.004)};
+    a.angle = {0.3};
     const int i = 0;
     for (const auto kind : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order})
         for (const double flattening : {30.0, -5.0}) {
@@ -162,7 +170,8 @@ Asperities few(std::mt19937& random, int n) {
     std::uniform_real_distribution<double> uniform(0, 1);
     Asperities a;
     for (int i = 0; i < n; ++i) {
-        a.x.push_back(uniform(random)), a.y.push_back(uniform(random));
+        a.x.push_back(uniform(random));
+        a.y.push_back(uniform(random));
         a.z.push_back(0.01 * uniform(random));
         a.radius.push_back(0.01 * (0.5 + uniform(random)));
     }
@@ -186,7 +195,8 @@ std::vector<long double> solve_slowly(const Asperities& a, const std::vector<Yie
                                                   static_cast<long double>(a.y[i]) - a.y[j]));
             u[i] = static_cast<long double>(a.z[i]) - Z0 - lowered;
             const long double fresh = laws[i].at(u[i]).force;
-            moved += std::abs(fresh - f[i]), largest += std::abs(fresh);
+            moved += std::abs(fresh - f[i]);
+            largest += std::abs(fresh);
             f[i] = fresh;
         }
         if (moved <= 1e-17L * largest) break;
@@ -208,7 +218,8 @@ TEST(test_independent) {
                               : system % 3 == 1 ? Method::direct
                                                 : Method::mesh;
         SolverOptions options = options_with(H0, length);
-        options.surface.sigma = 0.01, options.method = method;
+        options.surface.sigma = 0.01;
+        options.method = method;
         if (method == Method::mesh) options.tolerance = 1e-11;
         Path contact = asperity_path(a, {kE, kFlat, 0.5, 0.5}, options);
         std::vector<Yielding> laws;
@@ -222,7 +233,8 @@ TEST(test_independent) {
             const auto u = solve_slowly(a, laws, Z0);
             long double N = 0, A = 0;
             for (std::size_t i = 0; i < u.size(); ++i) {
-                N += laws[i].at(u[i]).force, A += laws[i].at(u[i]).area;
+                N += laws[i].at(u[i]).force;
+                A += laws[i].at(u[i]).area;
                 laws[i].deepest = std::max(laws[i].deepest, u[i]);
             }
             if (!(N > 0)) continue;

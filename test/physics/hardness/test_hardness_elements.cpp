@@ -76,8 +76,11 @@ TEST(test_sphere) {
             continue;
         }
         const Level level = contact->at_separation(-6 * depth);
-        if (cells == 40.0) fine = level.area, counted_fine = level.area_pixels;
-        if (cells == 40.0) continue;
+        if (cells == 40.0) {
+            fine = level.area;
+            counted_fine = level.area_pixels;
+            continue;
+        }
         // The area is nearer to the finer grid's than the count is.
         CHECK(std::abs(level.area / fine - 1) < 0.045 / cells);
         CHECK(level.area_pixels / counted_fine - 1 > 0.025 / cells);
@@ -91,8 +94,11 @@ TEST(test_sphere) {
     const auto contact = make_element_contact(
         map, {kE, R, (0.5 * n + 0.31) * h, (0.5 * n - 0.17) * h}, options(H, 1e-8));
     Asperities one;
-    one.x = one.y = {0.5 * n * h}, one.z = {0.0}, one.radius = {R},
-    one.kappa1 = one.kappa2 = {1 / R}, one.angle = one.biharmonic = {0.0};
+    one.x = one.y = {0.5 * n * h};
+    one.z = {0.0};
+    one.radius = {R};
+    one.kappa1 = one.kappa2 = {1 / R};
+    one.angle = one.biharmonic = {0.0};
     SolverOptions law = options(H);
     law.law = LawKind::fourth_order;
     Path asperity = asperity_path(one, {kE, kInfinity, 0.5 * n * h, 0.5 * n * h}, law);

@@ -31,10 +31,12 @@ Shape shape(const std::string& name, const ShapeKeys& keys) {
 ShapeKeys keys() {
     ShapeKeys k;
     k.R = 1.5;
-    k.radii[0] = 0.7, k.radii[1] = 4;
+    k.radii[0] = 0.7;
+    k.radii[1] = 4;
     k.angle = 0.3;
     k.slope = 0.2;
-    k.radius = 0.1, k.rim_radius = 0.6;
+    k.radius = 0.1;
+    k.rim_radius = 0.6;
     k.map = waves(64, true);
     return k;
 }
@@ -87,14 +89,19 @@ void derivatives(const char* name) {
 // lowest() and most_fallen() bound what is sampled.
 void bounds(const char* name, bool sharp) {
     ShapeKeys k = keys();
-    if (sharp) k.rim_radius = 0, k.radii[1] = kInfinity, k.map = waves(64, false);
+    if (sharp) {
+        k.rim_radius = 0;
+        k.radii[1] = kInfinity;
+        k.map = waves(64, false);
+    }
     const Shape s = shape(name, k);
     std::mt19937_64 random(2);
     std::uniform_real_distribution<double> uniform(-0.6, 0.6), share(0, 1);
     bool holds = true;
     for (int trial = 0; trial < 200; ++trial) {
         Box box{uniform(random), 0, uniform(random), 0};
-        box.x1 = box.x0 + 0.2 * share(random), box.y1 = box.y0 + 0.2 * share(random);
+        box.x1 = box.x0 + 0.2 * share(random);
+        box.y1 = box.y0 + 0.2 * share(random);
         const double lowest = s->lowest(box), way = 0.1 * share(random), drop = 0.1 * share(random),
                      t = 7 * share(random);
         const double fallen = s->most_fallen(way, drop);
@@ -154,7 +161,8 @@ TEST(all_indenter) {
     }
     // What none of them can be, beside numbers beyond the bounds of their keys (test_registry).
     k = keys();
-    k.radii[0] = k.radii[1] = kInfinity, k.map = nullptr;
+    k.radii[0] = k.radii[1] = kInfinity;
+    k.map = nullptr;
     CHECK_THROWS(shape("paraboloid", k), Error);
     CHECK_THROWS(shape("map", k), Error);
 }

@@ -18,7 +18,8 @@ constexpr double kE = 100, kInfinity = std::numeric_limits<double>::infinity();
 // The origin between points, or on one.
 HeightMap flat_map(int nx, int ny, double h) {
     HeightMap map = ::flat_map(nx, ny, h, h);
-    map.x0 = -0.5 * h * (nx - 1), map.y0 = -0.5 * h * (ny - 1);
+    map.x0 = -0.5 * h * (nx - 1);
+    map.y0 = -0.5 * h * (ny - 1);
     return map;
 }
 
@@ -60,7 +61,8 @@ void lateral(const char* name, const ShapeKeys& keys, double depth, double step,
     Indenter tip{kE, shape(name, keys), 0.013, -0.021};
     const auto at = [&](double dx, double dy, Level& level) {
         Indenter there = tip;
-        there.x0 += dx, there.y0 += dy;
+        there.x0 += dx;
+        there.y0 += dy;
         const std::unique_ptr<Path> contact = make(there);
         level = contact->at_separation(-depth);
         return contact->energy();
@@ -141,7 +143,8 @@ TEST(two_maps) {
     const double q = 2 * std::numbers::pi / n;
     const auto one_of = [&](auto height) {
         HeightMap map = height_map(n, n, 1.0 / n, 1.0 / n, height);
-        map.x0 = map.y0 = -0.5 * (n - 1) / n, map.periodic = true;
+        map.x0 = map.y0 = -0.5 * (n - 1) / n;
+        map.periodic = true;
         return map;
     };
     const auto z = [q](int i, int j) { return 3e-3 * std::cos(2 * q * i) * std::cos(3 * q * j); };
@@ -170,7 +173,8 @@ TEST(all_shapes) {
     // Hertz's ellipse (Johnson 1985, section 4.2). Turned along the diagonal it is the same
     // contact.
     for (const double ratio : {1.0, 3.0, 10.0}) {
-        keys.radii[0] = 1, keys.radii[1] = ratio;
+        keys.radii[0] = 1;
+        keys.radii[1] = ratio;
         closed_form("paraboloid", keys, 1e-3, ratio > 3 ? 0.24 : 0.16, 24, 1e-3, 1.5e-2, 0.5);
     }
     keys.angle = 0.25 * std::numbers::pi;
@@ -186,7 +190,8 @@ TEST(all_shapes) {
     // A cylinder along y, ending at the border: away from the ends the peak pressure and the
     // half-width b of line contact, p0 = E* b/(2 R).
     keys.angle = 0;
-    keys.radii[0] = 1, keys.radii[1] = kInfinity;
+    keys.radii[0] = 1;
+    keys.radii[1] = kInfinity;
     const int nx = 65, ny = 129;
     const HeightMap strip = flat_map(nx, ny, 0.1 / 64);
     const auto roller =
@@ -194,9 +199,10 @@ TEST(all_shapes) {
     const Level line = roller->at_separation(-2e-3);
     double sum = 0, peak = 0;
     for (std::size_t k = 0; k < line.pixels.index.size(); ++k)
-        if (line.pixels.index[k] / nx == ny / 2)
-            sum += line.pixels.pressure[k] * strip.dx,
-                peak = std::max(peak, line.pixels.pressure[k]);
+        if (line.pixels.index[k] / nx == ny / 2) {
+            sum += line.pixels.pressure[k] * strip.dx;
+            peak = std::max(peak, line.pixels.pressure[k]);
+        }
     // N' = pi E* b^2/(4 R) and N' = pi p0 b/2.
     const double b = 2 * sum / (std::numbers::pi * peak);
     CHECK_RELATIVE(peak, kE * b / 2, 1e-2);
@@ -204,7 +210,8 @@ TEST(all_shapes) {
     // Lateral forces of every shape, on asperities and on the points of a surface.
     keys.rim_radius = 0.5;
     keys.angle = 0.4;
-    keys.radii[0] = 0.5, keys.radii[1] = 2;
+    keys.radii[0] = 0.5;
+    keys.radii[1] = 2;
     HeightMap rough = flat_map(48, 48, 1.0 / 48);
     const double q = 2 * std::numbers::pi / 48;
     keys.map =

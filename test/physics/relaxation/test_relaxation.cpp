@@ -11,11 +11,10 @@ using namespace rsc;
 constexpr double kRadius = 0.3, kE = 2.5, kFactor = 4.0 / 3 * kE;
 
 // --- creep
-// ----------------------------------------------------------------------------------------------------------------------------
 
 // J(t)/J(0) from its transform soft/(s e(s)) + (1 - soft)/s, e(s) = s times that of the relaxation
-// function, by Talbot's contour (Abate and
-// Valko, Int. J. Numer. Meth. Eng. 60, 2004).
+// function, by Talbot's contour (Abate and Valko,
+// Int. J. Numer. Meth. Eng. 60, 2004).
 double talbot(const Relaxation& body, double t) {
     using C = std::complex<long double>;
     constexpr int terms = 28;
@@ -39,8 +38,10 @@ TEST(test_creep) {
     const std::vector<double> shares{0.05, 0.2, 0.1, 0.3, 0.02, 0.08},
         times{1e-3, 0.02, 0.3, 0.31, 7, 2e3};
     Relaxation sixteen;
-    for (int k = 0; k < kMostRelaxations; ++k)
-        sixteen.share.push_back(0.06), sixteen.time.push_back(std::pow(3.0, k - 8));
+    for (int k = 0; k < kMostRelaxations; ++k) {
+        sixteen.share.push_back(0.06);
+        sixteen.time.push_back(std::pow(3.0, k - 8));
+    }
     for (const Relaxation& body :
          {Relaxation{shares, times}, Relaxation{shares, times, 0.4},
           Relaxation{{0.5, 0.5}, {1, 30}, 1}, Relaxation{{0.5, 0.5}, {1, 30}, 0.7},
@@ -63,7 +64,6 @@ TEST(test_creep) {
 }
 
 // --- one asperity
-// ---------------------------------------------------------------------------------------------------------------------
 
 struct One {
     Asperities asperities;
@@ -71,7 +71,8 @@ struct One {
     const Creep creep;
 
     explicit One(const Relaxation& body) : creep(body) {
-        asperities.x = asperities.y = asperities.z = {0.0}, asperities.radius = {kRadius};
+        asperities.x = asperities.y = asperities.z = {0.0};
+        asperities.radius = {kRadius};
         law = make_relaxing(make_law(LawKind::hertz, asperities, kE), 1, creep);
         constexpr int first = 0;
         law->prepare(std::span(&first, 1));
@@ -154,7 +155,8 @@ TEST(test_held_force) {
     const auto growth = [&](int steps) {
         One one(body);
         const double start = one.under(1);
-        one.step(0), one.go(start);
+        one.step(0);
+        one.go(start);
         double size = 0;
         for (int k = 0; k < steps; ++k) {
             one.step(3.0 / steps);
@@ -177,18 +179,23 @@ TEST(test_energy) {
     double work = 0, before = 0, f = 0, lost = 0;
     constexpr int steps = 8000;
     bool falls = false;
-    one.step(0), one.go(0);
+    one.step(0);
+    one.go(0);
     for (int k = 1; k <= steps; ++k) {
         one.step(2.5 / steps);
         const double u = path(2.5 * k / steps), now = one.go(u);
         work += 0.5 * (now + f) * (u - before);
-        f = now, before = u;
+        f = now;
+        before = u;
         falls = falls || one.law->lost() < lost - 1e-15;
         lost = one.law->lost();
     }
     CHECK(!falls && lost > 0);
     CHECK_CLOSE(one.law->stored() + lost, work, 1e-6 * lost);
-    for (int k = 0; k < 400; ++k) one.step(0.25), one.go(-1);
+    for (int k = 0; k < 400; ++k) {
+        one.step(0.25);
+        one.go(-1);
+    }
     CHECK(one.law->stored() < 1e-12 * lost);
     CHECK_CLOSE(one.law->lost(), work, 2e-6 * lost);
 }

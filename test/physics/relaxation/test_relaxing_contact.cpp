@@ -42,11 +42,16 @@ std::unique_ptr<Path> make(const Kind& model, const Relaxation& body) {
     static const HeightMap map = waves();
     static const Asperities asperities = [] {
         Asperities a;
-        a.x = {0.2, 0.35, 0.7, 0.8, 0.4, 0.6}, a.y = {0.3, 0.4, 0.2, 0.75, 0.8, 0.5},
+        a.x = {0.2, 0.35, 0.7, 0.8, 0.4, 0.6};
+        a.y = {0.3, 0.4, 0.2, 0.75, 0.8, 0.5};
         a.z = {0.002, 0.0, -0.004, 0.006, 0.003, -0.01};
         a.radius = {0.2, 0.1, 0.15, 0.1, 0.3, 0.25};
-        for (double r : a.radius) a.kappa1.push_back(1.3 / r), a.kappa2.push_back(1 / (1.3 * r));
-        a.angle = {0, 1, 2, 0.5, 0.3, 0.1}, a.biharmonic = {20, 30, 10, 40, 5, 9};
+        for (double r : a.radius) {
+            a.kappa1.push_back(1.3 / r);
+            a.kappa2.push_back(1 / (1.3 * r));
+        }
+        a.angle = {0, 1, 2, 0.5, 0.3, 0.1};
+        a.biharmonic = {20, 30, 10, 40, 5, 9};
         return a;
     }();
     SolverOptions options{.law = model.law, .tolerance = 1e-11, .physics = {.relaxation = body}};
@@ -76,7 +81,8 @@ void test_growing(const Kind& model) {
                 mean += creep.branches()[b].share * rest.decays[b].change *
                         std::exp(-creep.branches()[b].rate * left);
             expected += mean * (e.force - last);
-            last = e.force, force = level.force;
+            last = e.force;
+            force = level.force;
             if (k > 0)
                 worst_area = check::worse(worst_area, std::abs(level.area - e.area) / e.area);
         }
@@ -106,20 +112,28 @@ void test_limits(const Kind& model) {
     soft->set_time(1e-10);
     as_elastic(soft->at_separation(Z0), 1);
     double time = 0;
-    for (int k = 0; k < 6; ++k) soft->set_time(time += 1e4), (void)soft->at_separation(Z0);
+    for (int k = 0; k < 6; ++k) {
+        soft->set_time(time += 1e4);
+        (void)soft->at_separation(Z0);
+    }
     soft->set_time(time += 1e4);
     const Level relaxed = soft->at_separation(Z0);
     as_elastic(relaxed, 0.3);
     CHECK_RELATIVE(soft->energy() + relaxed.energy_lost, elastic->energy(),
                    1e-5);  // no work; a few pixels leave and enter the contact
     const auto pressed = make(model, kBody);
-    for (int k = 0; k < 7; ++k) pressed->set_time(1e4 * k), (void)pressed->at_force(0.3 * e.force);
+    for (int k = 0; k < 7; ++k) {
+        pressed->set_time(1e4 * k);
+        (void)pressed->at_force(0.3 * e.force);
+    }
     pressed->set_time(1e5);
     const Level held = pressed->at_force(0.3 * e.force);
     CHECK_RELATIVE(held.separation - touch, e.separation - touch, 1e-7);
     CHECK_RELATIVE(held.area, e.area, 1e-6);
-    for (int k = 0; k < 7; ++k)
-        soft->set_time(time += 1e4), CHECK(soft->at_separation(touch + 5 * model.depth).force == 0);
+    for (int k = 0; k < 7; ++k) {
+        soft->set_time(time += 1e4);
+        CHECK(soft->at_separation(touch + 5 * model.depth).force == 0);
+    }
     as_elastic(soft->at_separation(Z0), 1);
 }
 

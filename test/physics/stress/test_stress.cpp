@@ -60,7 +60,10 @@ LargestStress largest(const PointGrid& grid, const LevelPixels& pixels, const St
 std::pair<double, double> over_depths(const std::function<double(double)>& at) {
     double most = 0, where = 0;
     for (double z = 0.40; z < 0.86; z += 0.01)
-        if (const double value = at(z); value > most) most = value, where = z;
+        if (const double value = at(z); value > most) {
+            most = value;
+            where = z;
+        }
     return {most, where};
 }
 
@@ -104,7 +107,10 @@ TEST(hertz_sphere_of_elements) {
         for (double z = 0.3; z < 0.7; z += 0.002) {
             const double zz = -1 / (1 + z * z);
             const double rr = -(1 + nu) * (1 - z * std::atan(1 / z)) + 0.5 / (1 + z * z);
-            if (const double shear = 0.5 * (rr - zz); shear > most) most = shear, where = z;
+            if (const double shear = 0.5 * (rr - zz); shear > most) {
+                most = shear;
+                where = z;
+            }
         }
         const LargestStress there = largest(grid, pixels, {nu, {}, {}}, where);
         // 50 pixels over the radius: 4e-5 of p0
@@ -166,8 +172,8 @@ TEST(tension_at_the_rim_of_a_hertz_contact) {
 
 TEST(hertz_line_between_flats) {
     // A line of half-width 1 along y in a period of 40: shear 0.300 p0 at 0.786 b (Johnson 1985,
-    // section 4.2). The mean pressure m presses body and images sideways by nu/(1 - nu) m, where the
-    // modes of a line alone would by m.
+    // section 4.2). The mean pressure m presses body and images sideways by nu/(1 - nu) m, where
+    // the modes of a line alone would by m.
     const double nu = 0.3, mean = 0.5 * pi / 40, more = 0.5 * (1 - nu / (1 - nu)) * mean;
     PointGrid grid = square_grid(1600, 0.025);
     grid.ny = 8;
@@ -188,9 +194,9 @@ TEST(hertz_line_between_flats) {
 }
 
 TEST(the_period_is_forgotten_as_it_grows) {
-    // Under a contact that is small beside the period the stresses are those of a free surface. What
-    // the images and the mean pressure add falls with the area of the period; what is left is the
-    // difference between uniform and band-limited pressures, of second order in the pixel.
+    // Under a contact that is small beside the period the stresses are those of a free surface.
+    // What the images and the mean pressure add falls with the area of the period; what is left is
+    // the difference between uniform and band-limited pressures, of second order in the pixel.
     const double step = 0.25;
     std::vector<StressPlane> planes;
     const SlidingTraction sliding{0.3, -0.2};
@@ -220,8 +226,9 @@ TEST(the_period_is_forgotten_as_it_grows) {
 }
 
 TEST(hertz_line_that_repeats_along_its_axis) {
-    // On a free surface 8 wide: shear 0.300 p0 at 0.786 b, and 2 mu p0 tension behind a sliding line
-    // on the surface (Johnson 1985, sections 4.2 and 7.1), along y and along x, for several periods.
+    // On a free surface 8 wide: shear 0.300 p0 at 0.786 b, and 2 mu p0 tension behind a sliding
+    // line on the surface (Johnson 1985, sections 4.2 and 7.1), along y and along x, for several
+    // periods.
     const double nu = 0.3, mu = 0.3;
     for (const int n : {16, 61}) {
         PointGrid grid = square_grid(161, 0.05);

@@ -1,15 +1,17 @@
-"""Boundary elements for a frictionless elastic half-space, the reference rsc is held against: load and contact area of a sphere on the very
-surfaces rsc makes.
+"""Boundary elements for a frictionless elastic half-space, the reference rsc is held against: load
+and contact area of a sphere on the very surfaces rsc makes.
 
     bem.py RSC OUTPUT
 
-RSC is the program, which makes the heights; OUTPUT receives a row a case, grid and level. Every surface is solved on 4096^2 points and on the
-grid twice as coarse, whose pressures also give the finer grid its start.
+RSC is the program, which makes the heights; OUTPUT receives a row a case, grid and level. Every
+surface is solved on 4096^2 points and on the grid twice as coarse, whose pressures also give the
+finer grid its start.
 
-Square cells of uniform pressure (Love 1929; Johnson 1985, section 3.4), free boundary, so that nothing is periodic: the
-convolution runs through Fourier transforms of twice the size (DC-FFT, Liu, Wang and Liu, Wear 243, 2000). The contact condition
-p >= 0, gap >= 0, p gap = 0 by constrained conjugate gradients (Polonsky and Keer, Wear 231, 1999) at a given separation.
-Only numpy and scipy; one thread.
+Square cells of uniform pressure (Love 1929; Johnson 1985, section 3.4), free boundary, so that
+nothing is periodic: the convolution runs through Fourier transforms of twice the size (DC-FFT, Liu,
+Wang and Liu, Wear 243, 2000). The contact condition p >= 0, gap >= 0, p gap = 0 by constrained
+conjugate gradients (Polonsky and Keer, Wear 231, 1999) at a given separation. Only numpy and scipy;
+one thread.
 """
 import os
 import subprocess
@@ -57,9 +59,11 @@ class HalfSpace:
 
 
 def solve(operator, overlap, start, tolerance=1e-6, most=1000):
-    """Pressures of the minimum of p'Kp/2 - overlap'p over p >= 0 (overlap: penetration without deformation).
+    """Pressures of the minimum of p'Kp/2 - overlap'p over p >= 0 (overlap: penetration without
+    deformation).
 
-    Stops where |p gap| and the penetrations left are below `tolerance` of the scale sum(p overlap). Returns p, iterations, error.
+    Stops where |p gap| and the penetrations left are below `tolerance` of the scale sum(p overlap).
+    Returns p, iterations, error.
     """
     p = np.where(overlap > 0, np.maximum(start, 0.0), 0.0)
     if not p.any():
@@ -86,7 +90,8 @@ def solve(operator, overlap, start, tolerance=1e-6, most=1000):
         else:
             gap = operator(new) - overlap
         p = new
-        # Complementarity: penetrations left and gaps under pressure, in the mean, over the mean overlap of the contact.
+        # Complementarity: penetrations left and gaps under pressure, in the mean, over the mean
+        # overlap of the contact.
         bad = np.where(p > 0, np.abs(gap), np.maximum(-gap, 0.0))
         scale = np.sum(p * overlap) / np.sum(p)
         error = np.sqrt(np.sum(bad * bad) / max(1, np.count_nonzero(p))) / scale
@@ -96,8 +101,9 @@ def solve(operator, overlap, start, tolerance=1e-6, most=1000):
 
 
 def areas(p, h):
-    """Area of the cells under pressure, and the same corrected by their perimeter S_d (edges between cells with and without):
-    A - (pi - 1 + ln 2)/24 S_d h (Yastrebov, Anciaux and Molinari, J. Mech. Phys. Solids 107, 2017).
+    """Area of the cells under pressure, and the same corrected by their perimeter S_d (edges
+    between cells with and without): A - (pi - 1 + ln 2)/24 S_d h (Yastrebov, Anciaux and Molinari,
+    J. Mech. Phys. Solids 107, 2017).
     """
     c = np.pad(p > 0, 1)
     edges = np.count_nonzero(c[1:] != c[:-1]) + np.count_nonzero(c[:, 1:] != c[:, :-1])
@@ -138,7 +144,8 @@ def heights(rsc, folder, ratio, seed, n):
 
 
 def indent(z, E_star, coarse, report):
-    """Pressures (with their place in the grid) at every level; `coarse`: those of the grid twice as coarse, or None."""
+    """Pressures (with their place in the grid) at every level; `coarse`: those of the grid twice as
+    coarse, or None."""
     n = z.shape[0]
     h = L / n
     x = np.arange(n) * h - L / 2
@@ -177,7 +184,10 @@ def main():
         for ratio, seed in ((64, 1), (64, 2), (128, 1), (128, 2)):
 
             def report(n, level, N, A, corrected, iterations, error, seconds, shape):
-                line = f"{ratio:4d} {seed:4d} {level:4.1f} {n:6d} {N:14.8e} {A:14.8e} {corrected:14.8e} {seconds:7.1f}"
+                line = (
+                    f"{ratio:4d} {seed:4d} {level:4.1f} {n:6d} {N:14.8e} {A:14.8e} "
+                    f"{corrected:14.8e} {seconds:7.1f}"
+                )
                 print(
                     line,
                     f"  {iterations} iterations, error {error:.0e}, window {shape}",

@@ -66,10 +66,12 @@ inline void distributions(CheckedFile& f, const Truth& t) {
     const auto axis = [&](const std::string& name, double width) {
         Vector v;
         for (std::size_t b = 0; b < n; ++b) v.push_back((number(b) + 0.5) * width);
-        f.same(name, v, 1e-9), f.attribute(name, "bin_width", {width}, 1e-9);
+        f.same(name, v, 1e-9);
+        f.attribute(name, "bin_width", {width}, 1e-9);
     };
-    axis("pressure_mean_bin", width_p), axis("pressure_bin", width_q),
-        axis("spot_area_bin", width_A);
+    axis("pressure_mean_bin", width_p);
+    axis("pressure_bin", width_q);
+    axis("spot_area_bin", width_A);
     Vector number_of;
     for (std::size_t b = 1; b <= n; ++b) number_of.push_back(number(b));
     f.same("bin", number_of);
@@ -94,12 +96,18 @@ inline void distributions(CheckedFile& f, const Truth& t) {
             const Contacts2& c = t.contacts[k][s];
             Vector pixels(c.spots.size());
             for (const Spot2& q : c.spots) {
-                p.push_back(q.pressure()), A.push_back(q.area), one.push_back(1);
-                if (c.pixels.empty())
-                    parts.push_back({q.area, q.pressure(), !q.yields}), squares += q.area * q.area;
+                p.push_back(q.pressure());
+                A.push_back(q.area);
+                one.push_back(1);
+                if (c.pixels.empty()) {
+                    parts.push_back({q.area, q.pressure(), !q.yields});
+                    squares += q.area * q.area;
+                }
             }
-            for (const Pixel2& q : c.pixels)
-                parts.push_back({c.pixel, q.p, false}), pixels[q.contact] += c.pixel;
+            for (const Pixel2& q : c.pixels) {
+                parts.push_back({c.pixel, q.p, false});
+                pixels[q.contact] += c.pixel;
+            }
             for (double a : pixels) squares += a * a;
         }
         const auto put = [&](Vector& into, double& beyond, double value, double width) {
@@ -119,15 +127,21 @@ inline void distributions(CheckedFile& f, const Truth& t) {
             };
             for (std::size_t b = 0; b < n; ++b)
                 area[b] += q.area * (below((number(b) + 1) * width_q) - below(number(b) * width_q));
-            over_q += q.area * (1 - below(number(n) * width_q)), total += q.area;
+            over_q += q.area * (1 - below(number(n) * width_q));
+            total += q.area;
         }
         const double m = number(p.size());
-        used.push_back(Z / number(t.M) / t.sigma), step.push_back(where);
-        count_over.push_back(over), spot_over.push_back(over_A), area_over.push_back(over_q);
+        used.push_back(Z / number(t.M) / t.sigma);
+        step.push_back(where);
+        count_over.push_back(over);
+        spot_over.push_back(over_A);
+        area_over.push_back(over_q);
         for (std::size_t b = 0; b < n; ++b) {
-            counts.push_back(count[b]), spot_counts.push_back(spot[b]), areas.push_back(area[b]);
-            count_pdf.push_back(m > 0 ? count[b] / (m * width_p) : kNone),
-                spot_pdf.push_back(m > 0 ? spot[b] / (m * width_A) : kNone);
+            counts.push_back(count[b]);
+            spot_counts.push_back(spot[b]);
+            areas.push_back(area[b]);
+            count_pdf.push_back(m > 0 ? count[b] / (m * width_p) : kNone);
+            spot_pdf.push_back(m > 0 ? spot[b] / (m * width_A) : kNone);
             area_pdf.push_back(m > 0 ? area[b] / (total * width_q) : kNone);
         }
         independent.push_back(squares > 0 ? total * total / squares : 0);
@@ -138,10 +152,14 @@ inline void distributions(CheckedFile& f, const Truth& t) {
 
         // In the order in which they are stored.
         sums.push_back(Z);
-        sums.insert(sums.end(), count.begin(), count.end()), sums.push_back(over);
-        sums.insert(sums.end(), area.begin(), area.end()), sums.push_back(over_q),
-            sums.push_back(total), sums.push_back(squares);
-        sums.insert(sums.end(), spot.begin(), spot.end()), sums.push_back(over_A);
+        sums.insert(sums.end(), count.begin(), count.end());
+        sums.push_back(over);
+        sums.insert(sums.end(), area.begin(), area.end());
+        sums.push_back(over_q);
+        sums.push_back(total);
+        sums.push_back(squares);
+        sums.insert(sums.end(), spot.begin(), spot.end());
+        sums.push_back(over_A);
         for (int k = 1; k <= 4; ++k) {
             double of_p = 0, of_q = 0, of_A = 0;
             for (double v : p) of_p += std::pow(v, k);
@@ -149,18 +167,23 @@ inline void distributions(CheckedFile& f, const Truth& t) {
             for (const Part& q : parts)
                 of_q +=
                     q.area * (q.hertz ? 2 * std::pow(1.5 * q.p, k) / (k + 2) : std::pow(q.p, k));
-            sums.push_back(of_p), sums.push_back(of_q), sums.push_back(of_A);
+            sums.push_back(of_p);
+            sums.push_back(of_q);
+            sums.push_back(of_A);
         }
     }
-    f.same("pdf_separation_sigma", used, 1e-12), f.same("pdf_step", step),
-        f.attribute("pdf_step", "start_index", {1});
-    f.same("pressure_mean_count", counts),
-        f.attribute("pressure_mean_count", "overflow", count_over);
-    f.same("spot_area_count", spot_counts), f.attribute("spot_area_count", "overflow", spot_over);
+    f.same("pdf_separation_sigma", used, 1e-12);
+    f.same("pdf_step", step);
+    f.attribute("pdf_step", "start_index", {1});
+    f.same("pressure_mean_count", counts);
+    f.attribute("pressure_mean_count", "overflow", count_over);
+    f.same("spot_area_count", spot_counts);
+    f.attribute("spot_area_count", "overflow", spot_over);
     const double most = *std::max_element(areas.begin(), areas.end());
-    f.same("pressure_area", areas, 1e-9, 1e-12 * most),
-        f.attribute("pressure_area", "overflow", area_over, 1e-9, 1e-12 * most);
-    f.same("pressure_mean_pdf", count_pdf, 1e-9), f.same("spot_area_pdf", spot_pdf, 1e-9);
+    f.same("pressure_area", areas, 1e-9, 1e-12 * most);
+    f.attribute("pressure_area", "overflow", area_over, 1e-9, 1e-12 * most);
+    f.same("pressure_mean_pdf", count_pdf, 1e-9);
+    f.same("spot_area_pdf", spot_pdf, 1e-9);
     f.same("pressure_pdf", area_pdf, 1e-9, 1e-11 / width_q);
     f.attribute("pressure_pdf", "independent_contacts", independent, 1e-10);
     const std::array<const char*, 3> of{"pressure_mean_pdf", "pressure_pdf", "spot_area_pdf"};
@@ -182,13 +205,16 @@ inline void distributions(CheckedFile& f, const Truth& t) {
                         : fourth    ? 1e-15 * std::pow(spread, 4)
                                     : 0);
         };
-        put("mean", &Moments1::mean), put("standard_deviation", &Moments1::deviation);
-        put("skewness", &Moments1::skewness), put("kurtosis", &Moments1::kurtosis);
+        put("mean", &Moments1::mean);
+        put("standard_deviation", &Moments1::deviation);
+        put("skewness", &Moments1::skewness);
+        put("kurtosis", &Moments1::kurtosis);
     }
     if (t.M == 1) return CHECK(!f.has("pdf_sums") && !f.has("pdf_sum"));
     Vector numbers;
     for (std::size_t k = 1; k <= sums.size() / D; ++k) numbers.push_back(number(k));
-    f.same("pdf_sums", sums, 1e-10, 1e-12 * most), f.same("pdf_sum", numbers);
+    f.same("pdf_sums", sums, 1e-10, 1e-12 * most);
+    f.same("pdf_sum", numbers);
 }
 
 }  // namespace values

@@ -119,7 +119,8 @@ inline CellSums cells_of(const Contacts2& c, const Cells& cells) {
     const auto put = [&](double x, double y, double area, double force) {
         const long cell = cells.cell(x, y);
         if (cell < 0) return;
-        out.area[at(cell)] += area, out.force[at(cell)] += force;
+        out.area[at(cell)] += area;
+        out.force[at(cell)] += force;
     };
     // Pixels begin at their points; each cell has what lies in it, the last one also what sticks
     // out.
@@ -136,8 +137,8 @@ inline CellSums cells_of(const Contacts2& c, const Cells& cells) {
         for (long j = 0; j < cells.ny; ++j)
             for (long i = 0; i < cells.nx; ++i) {
                 const double part = share(u, w, i, cells.nx) * share(v, h, j, cells.ny);
-                out.area[at(j * cells.nx + i)] += part * area,
-                    out.force[at(j * cells.nx + i)] += part * force;
+                out.area[at(j * cells.nx + i)] += part * area;
+                out.force[at(j * cells.nx + i)] += part * force;
             }
     };
     Vector count(c.spots.size());
@@ -347,8 +348,9 @@ inline void levels(CheckedFile& f, const Truth& t) {
     const ResidualProfile& profile = t.r[0].residual_profile;
     if (yields && t.elements && t.M == 1) {
         const Grid& g = t.heights[0];
-        f.same("residual_pixel_x", profile.x), f.same("residual_pixel_y", profile.y),
-            f.same("residual_pixel_depth", profile.depth);
+        f.same("residual_pixel_x", profile.x);
+        f.same("residual_pixel_y", profile.y);
+        f.same("residual_pixel_depth", profile.depth);
         f.attribute("residual_pixel_x", "pixel_size", {g.dx}, kRounding);
         f.attribute("residual_pixel_y", "pixel_size", {g.dy}, kRounding);
         CHECK_RELATIVE(work.back(), t.c.solids.hardness * g.dx * g.dy * sum(profile.depth),
@@ -368,9 +370,15 @@ inline void levels(CheckedFile& f, const Truth& t) {
 
     f.same("extreme_area_fraction", t.rows([&](std::size_t k, std::size_t s) {
         double high = 0, all = 0;
-        for (const Pixel2& q : t.contacts[k][s].pixels) all += 1, high += q.p > t.E / 10;
+        for (const Pixel2& q : t.contacts[k][s].pixels) {
+            all += 1;
+            high += q.p > t.E / 10;
+        }
         for (const Spot2& p : spots(k, s))
-            if (!t.elements) all += p.area, high += p.pressure() > t.E / 10 ? p.area : 0;
+            if (!t.elements) {
+                all += p.area;
+                high += p.pressure() > t.E / 10 ? p.area : 0;
+            }
         return all > 0 ? high / all : 0;
     }),
            kRounding);
@@ -386,7 +394,8 @@ inline void levels(CheckedFile& f, const Truth& t) {
     // test_element_levels.
     Vector S = t.rows([&](std::size_t k, std::size_t s) { return level(k, s).stiffness; }), W = S;
     for (std::size_t i = 0; i < W.size(); ++i) W[i] = level(i / t.steps, i % t.steps).energy;
-    f.same("stiffness", S), f.same("energy", W);
+    f.same("stiffness", S);
+    f.same("energy", W);
     const auto pushed = [&](bool moment) {
         Vector v;
         for (std::size_t i = 0; i < N.size(); ++i) {
@@ -394,7 +403,10 @@ inline void levels(CheckedFile& f, const Truth& t) {
             const auto add = [&](double px, double py, double force) {
                 const double dx = px - t.tip_x, dy = py - t.tip_y;
                 if (std::isinf(t.R)) {
-                    if (moment) x += dy * force, y -= dx * force;
+                    if (moment) {
+                        x += dy * force;
+                        y -= dx * force;
+                    }
                     return;
                 }
                 const double up = std::sqrt(t.R * t.R - dx * dx - dy * dy), dz = t.R - up,
@@ -407,7 +419,8 @@ inline void levels(CheckedFile& f, const Truth& t) {
                 if (!std::isinf(t.R)) add(q.x, q.y, q.p * c.pixel);
             for (const Spot2& p : c.spots)
                 if (c.pixels.empty() || std::isinf(t.R)) add(p.x, p.y, p.f);
-            v.push_back(x), v.push_back(y);
+            v.push_back(x);
+            v.push_back(y);
         }
         return v;
     };
@@ -417,7 +430,8 @@ inline void levels(CheckedFile& f, const Truth& t) {
     f.same("lateral_force", pushed(false), kRounding,
            (t.elements || t.hertz ? kRounding : kMotion) * most);
     f.same("moment", pushed(true), kRounding, kRounding * most * t.Lx);
-    f.same("component", {1, 2}), f.attribute("component", "flag_values", {1, 2});
+    f.same("component", {1, 2});
+    f.attribute("component", "flag_values", {1, 2});
     const Vector length =
         t.rows([&](std::size_t k, std::size_t s) { return -2 * S[k * t.steps + s] / t.E; });
     f.same("conductance_length", length, kRounding);

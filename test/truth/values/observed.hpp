@@ -54,8 +54,9 @@ inline void surfaces(CheckedFile& f, const Truth& t) {
     }
 
     const Moments4& m = t.theory;
-    f.same("m0_theory", {m.m0}, 1e-10), f.same("m2_theory", {m.m2}, 1e-10),
-        f.same("m4_theory", {m.m4}, 1e-10);
+    f.same("m0_theory", {m.m0}, 1e-10);
+    f.same("m2_theory", {m.m2}, 1e-10);
+    f.same("m4_theory", {m.m4}, 1e-10);
     f.same("nayak_theory", {m.m0 * m.m4 / (m.m2 * m.m2)}, 1e-10);
     f.same("density_theory", {std::sqrt(3) * m.m4 / (18 * pi * m.m2)}, 1e-10);
 }
@@ -137,8 +138,9 @@ inline void maps(CheckedFile& f, const Truth& t) {
     Vector x, y;
     for (long i = 0; i < g.nx; ++i) x.push_back(g.x0 + g.side * (static_cast<double>(i) + 0.5));
     for (long j = 0; j < g.ny; ++j) y.push_back(g.y0 + g.side * (static_cast<double>(j) + 0.5));
-    f.same("x", x, kRounding), f.same("y", y, kRounding),
-        f.same("map_cell_side", {g.side}, kRounding);
+    f.same("x", x, kRounding);
+    f.same("y", y, kRounding);
+    f.same("map_cell_side", {g.side}, kRounding);
     const double below_last = static_cast<double>(g.ny - 1) * g.side,
                  covered = std::min(1.0, (t.Ly - below_last) / g.side);
     f.attribute("y", "share_of_last_row", {covered}, 1e-12);
@@ -147,16 +149,19 @@ inline void maps(CheckedFile& f, const Truth& t) {
     for (std::size_t k = 0; k < t.M; ++k)
         for (std::size_t s = 0; s < t.steps; ++s) {
             const CellSums c = cells_of(t.contacts[k][s], g);
-            for (std::size_t i = 0; i < cells; ++i)
-                area_sum[s * cells + i] += c.area[i], force_sum[s * cells + i] += c.force[i];
+            for (std::size_t i = 0; i < cells; ++i) {
+                area_sum[s * cells + i] += c.area[i];
+                force_sum[s * cells + i] += c.force[i];
+            }
         }
     const double divisor = g.side * g.side * number(t.M);
     for (std::size_t i = 0; i < area.size(); ++i) {
-        area[i] = static_cast<double>(area_sum[i]) / divisor,
+        area[i] = static_cast<double>(area_sum[i]) / divisor;
         force[i] = static_cast<double>(force_sum[i]) / divisor;
     }
     const double scale = *std::max_element(force.begin(), force.end());
-    f.same("map_area_fraction", area, 1e-13), f.same("map_pressure", force, 1e-13);
+    f.same("map_area_fraction", area, 1e-13);
+    f.same("map_pressure", force, 1e-13);
     CHECK(scale > 0);
     if (t.periodic) return CHECK(!f.has("radius") && !f.has("radial_pressure"));
     const double largest =

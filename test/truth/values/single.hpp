@@ -14,11 +14,15 @@ using std::numbers::pi;
 inline void asperities(CheckedFile& f, const Truth& t) {
     if (t.elements || t.M > 1) return CHECK(!f.has("asperity_x"));
     const Asperities& a = t.r[0].asperities;
-    f.same("asperity_x", a.x), f.same("asperity_y", a.y), f.same("asperity_z", a.z),
-        f.same("asperity_radius", a.radius);
-    if (!a.kappa1.empty())
-        f.same("asperity_kappa1", a.kappa1), f.same("asperity_kappa2", a.kappa2),
-            f.same("asperity_angle", a.angle);
+    f.same("asperity_x", a.x);
+    f.same("asperity_y", a.y);
+    f.same("asperity_z", a.z);
+    f.same("asperity_radius", a.radius);
+    if (!a.kappa1.empty()) {
+        f.same("asperity_kappa1", a.kappa1);
+        f.same("asperity_kappa2", a.kappa2);
+        f.same("asperity_angle", a.angle);
+    }
     if (!a.biharmonic.empty()) f.same("asperity_biharmonic", a.biharmonic);
     CHECK(t.list || !a.kappa1.empty());
     CHECK((t.c.asperities.law == LawKind::hertz) == a.biharmonic.empty());
@@ -50,23 +54,30 @@ inline void contacts(CheckedFile& f, const Truth& t) {
     for (std::size_t s = 0; s < t.steps; ++s) {
         const auto& spots = t.contacts[0][s].spots;
         const bool kept = t.c.output.contacts != Contacts::last || s + 1 == t.steps;
-        start.push_back(number(force.size()) + 1), count.push_back(kept ? number(spots.size()) : 0);
+        start.push_back(number(force.size()) + 1);
+        count.push_back(kept ? number(spots.size()) : 0);
         for (const Spot2& p : spots) {
             if (!kept) continue;
-            which.push_back(p.index + 1.0), x.push_back(p.x), y.push_back(p.y),
-                force.push_back(p.f), radius.push_back(p.radius());
+            which.push_back(p.index + 1.0);
+            x.push_back(p.x);
+            y.push_back(p.y);
+            force.push_back(p.f);
+            radius.push_back(p.radius());
             yields.push_back(p.yields);
         }
     }
-    f.same("contact_start", start), f.same("contact_count", count),
-        f.attribute("contact_start", "start_index", {1});
-    f.same("contact_force", force, kRounding), f.same("contact_radius", radius, kRounding);
+    f.same("contact_start", start);
+    f.same("contact_count", count);
+    f.attribute("contact_start", "start_index", {1});
+    f.same("contact_force", force, kRounding);
+    f.same("contact_radius", radius, kRounding);
     if (t.elements) {
-        f.same("contact_x", x, kRounding, 1e-12 * t.Lx),
-            f.same("contact_y", y, kRounding, 1e-12 * t.Ly);
+        f.same("contact_x", x, kRounding, 1e-12 * t.Lx);
+        f.same("contact_y", y, kRounding, 1e-12 * t.Ly);
         CHECK(!f.has("contact_asperity"));
     } else {
-        f.same("contact_asperity", which), f.attribute("contact_asperity", "start_index", {1});
+        f.same("contact_asperity", which);
+        f.attribute("contact_asperity", "start_index", {1});
         CHECK(!f.has("contact_x"));
         CHECK(f.has("contact_major") == (!t.hertz && !force.empty()));
     }
@@ -79,13 +90,15 @@ inline void contacts(CheckedFile& f, const Truth& t) {
         const int i = static_cast<int>(which[k]) - 1;
         law->prepare({&i, 1});
         const double root = std::sqrt(law->axes(i));
-        major.push_back(radius[k] / root), minor.push_back(radius[k] * root),
-            angle.push_back(t.r[0].asperities.angle[at(i)]);
+        major.push_back(radius[k] / root);
+        minor.push_back(radius[k] * root);
+        angle.push_back(t.r[0].asperities.angle[at(i)]);
     }
-    f.same("contact_major", major, kRounding), f.same("contact_minor", minor, kRounding),
-        f.same("contact_angle", angle, kRounding);
-    f.same("contact_spot_x", x, kRounding, 1e-12 * t.Lx),
-        f.same("contact_spot_y", y, kRounding, 1e-12 * t.Ly);
+    f.same("contact_major", major, kRounding);
+    f.same("contact_minor", minor, kRounding);
+    f.same("contact_angle", angle, kRounding);
+    f.same("contact_spot_x", x, kRounding, 1e-12 * t.Lx);
+    f.same("contact_spot_y", y, kRounding, 1e-12 * t.Ly);
     for (std::size_t s = 0; s < t.steps && !std::isfinite(t.c.solids.hardness); ++s)
         for (std::size_t k = 0; k < t.contacts[0][s].spots.size(); ++k) {
             const Spot2& p = t.contacts[0][s].spots[k];
@@ -131,8 +144,9 @@ inline void heights(CheckedFile& f, const Truth& t) {
     Vector x, y;
     for (long i = 0; i < g.nx; ++i) x.push_back(g.x(i));
     for (long j = 0; j < g.ny; ++j) y.push_back(g.y(j));
-    f.same("height_x", x, 0, 1e-13 * t.Lx), f.same("height_y", y, 0, 1e-13 * t.Ly),
-        f.same("height", g.z);
+    f.same("height_x", x, 0, 1e-13 * t.Lx);
+    f.same("height_y", y, 0, 1e-13 * t.Ly);
+    f.same("height", g.z);
 }
 
 // First loading and cycle at each level (physics.md, section 9), from the loads of a contact of its
@@ -141,8 +155,9 @@ inline void friction(CheckedFile& f, const Truth& t) {
     if (!(t.c.solids.friction > 0)) return CHECK(!f.has("tangential_force") && !f.has("point"));
     Vector points;
     for (int k = 1; k <= 114; ++k) points.push_back(k);
-    f.same("point", points), f.attribute("point", "first_loading", {1, 41}),
-        f.attribute("point", "cycle", {42, 114});
+    f.same("point", points);
+    f.attribute("point", "first_loading", {1, 41});
+    f.attribute("point", "cycle", {42, 114});
     const double *E = t.c.solids.E, *nu = t.c.solids.nu, G1 = E[0] / (2 * (1 + nu[0])),
                  G2 = E[1] / (2 * (1 + nu[1]));
     const double m = 4 / ((2 - nu[0]) / G1 + (2 - nu[1]) / G2) / t.E, mu = t.c.solids.friction;
@@ -155,8 +170,10 @@ inline void friction(CheckedFile& f, const Truth& t) {
     for (std::size_t s = 0; s < t.steps; ++s) {
         const double Z = t.r[0].levels[s].separation, N = f.values("force")[s];
         if (!(Z < touch)) {
-            xi.insert(xi.end(), 114, kNone), Q.insert(Q.end(), 114, kNone),
-                stiffness.push_back(kNone), work.push_back(kNone);
+            xi.insert(xi.end(), 114, kNone);
+            Q.insert(Q.end(), 114, kNone);
+            stiffness.push_back(kNone);
+            work.push_back(kNone);
             continue;
         }
         Vector drop;  // N(Z) - N at k fortieths of the way to first touch
@@ -164,15 +181,25 @@ inline void friction(CheckedFile& f, const Truth& t) {
         for (int k = 0; k <= 40; ++k) {
             const double inner = contact.at_separation(Z + (touch - Z) * k / 40).force;
             drop.push_back(N - (k == 40 ? 0 : inner));
-            if (k == 36) energy = contact.energy(), load = inner;
+            if (k == 36) {
+                energy = contact.energy();
+                load = inner;
+            }
         }
         drop[0] = 0;
         const double full = mu / m * (touch - Z);
-        for (int k = 0; k <= 40; ++k) xi.push_back(full * k / 40), Q.push_back(mu * drop[at(k)]);
-        for (int k = 0; k <= 36; ++k)
-            xi.push_back(full * (36 - 2 * k) / 40), Q.push_back(mu * (drop[36] - 2 * drop[at(k)]));
-        for (int k = 1; k <= 36; ++k)
-            xi.push_back(full * (2 * k - 36) / 40), Q.push_back(mu * (2 * drop[at(k)] - drop[36]));
+        for (int k = 0; k <= 40; ++k) {
+            xi.push_back(full * k / 40);
+            Q.push_back(mu * drop[at(k)]);
+        }
+        for (int k = 0; k <= 36; ++k) {
+            xi.push_back(full * (36 - 2 * k) / 40);
+            Q.push_back(mu * (drop[36] - 2 * drop[at(k)]));
+        }
+        for (int k = 1; k <= 36; ++k) {
+            xi.push_back(full * (2 * k - 36) / 40);
+            Q.push_back(mu * (2 * drop[at(k)] - drop[36]));
+        }
         stiffness.push_back(-m * t.r[0].levels[s].stiffness);
         // 4 (mu^2/m) times the integral of [N - (N + N_top)/2 ...]: that of the load between the
         // two is the difference of the energies.
@@ -182,9 +209,10 @@ inline void friction(CheckedFile& f, const Truth& t) {
     // Levels reached from others are the same to the tolerance.
     const double most =
         mu * *std::max_element(points.begin(), points.end()) / 114 * f.values("force").back();
-    f.same("tangential_displacement", xi, 1e-10, 1e-12 * t.sigma),
-        f.same("tangential_force", Q, 1e-5, 1e-5 * most);
-    f.same("tangential_stiffness", stiffness, 1e-9), f.same("cycle_work", work, 1e-5);
+    f.same("tangential_displacement", xi, 1e-10, 1e-12 * t.sigma);
+    f.same("tangential_force", Q, 1e-5, 1e-5 * most);
+    f.same("tangential_stiffness", stiffness, 1e-9);
+    f.same("cycle_work", work, 1e-5);
 }
 
 // A measured map: its parameters from its heights, what was done to it from the library's steps
@@ -202,8 +230,8 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
     const double points = number(g.z.size());
     f.same("filled_points", {static_cast<double>(missing)});
     f.attribute("filled_points", "share", {static_cast<double>(missing) / points}, kRounding);
-    f.same("form_removed", {static_cast<double>(keys.detrend)}),
-        f.attribute("form_removed", "flag_values", {0, 1, 2, 3, 4});
+    f.same("form_removed", {static_cast<double>(keys.detrend)});
+    f.attribute("form_removed", "flag_values", {0, 1, 2, 3, 4});
     // The form: what was taken away from the points present.
     const Form& form = m.form;
     if (keys.detrend == Detrend::sphere) f.attribute("form_removed", "radius", {form.radius});
@@ -220,7 +248,8 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
                 if (!std::isnan(raw)) CHECK_CLOSE(g.at_point(i, j), raw - taken, 1e-9 * t.sigma);
             }
     f.same("filter_cutoff", {keys.filter_cutoff});
-    f.same("map_stage", {1, 2, 3}), f.attribute("map_stage", "flag_values", {1, 2, 3});
+    f.same("map_stage", {1, 2, 3});
+    f.attribute("map_stage", "flag_values", {1, 2, 3});
     const Moments4 last = g.differences();
     const Roughness end{std::sqrt(last.m0), std::sqrt(2 * last.m2), std::sqrt(last.m4)};
     const bool filtered = keys.filter_cutoff > 0;
@@ -229,12 +258,13 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
     const auto stages = [&](double Roughness::*what) {
         return Vector{m.as_read.*what, filtered ? m.without_form.*what : end.*what, end.*what};
     };
-    f.same("stage_rms_height", stages(&Roughness::height), 1e-9),
-        f.same("stage_rms_slope", stages(&Roughness::slope), 1e-9);
+    f.same("stage_rms_height", stages(&Roughness::height), 1e-9);
+    f.same("stage_rms_slope", stages(&Roughness::slope), 1e-9);
     f.same("stage_rms_curvature", stages(&Roughness::curvature), 1e-9);
     const double sq = std::sqrt(g.power(2));
-    f.same("sq", {sq}, 1e-9), f.same("ssk", {g.power(3) / std::pow(sq, 3)}, 1e-7, 1e-9),
-        f.same("sku", {g.power(4) / std::pow(sq, 4)}, 1e-9);
+    f.same("sq", {sq}, 1e-9);
+    f.same("ssk", {g.power(3) / std::pow(sq, 3)}, 1e-7, 1e-9);
+    f.same("sku", {g.power(4) / std::pow(sq, 4)}, 1e-9);
     f.same("sdq", {std::sqrt(2 * last.m2)}, 1e-9);
     // Mean square slopes in all directions.
     double low = 1e300, high = 0;
@@ -249,11 +279,14 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
                                  d = g.at_point(i, j + 1), e = g.at_point(i + 1, j + 1);
                     const double zx = (b + e - a - d) / (2 * g.dx),
                                  zy = (d + e - a - b) / (2 * g.dy);
-                    xx += zx * zx, xy += zx * zy, yy += zy * zy;
+                    xx += zx * zx;
+                    xy += zx * zy;
+                    yy += zy * zy;
                 }
         }
         const double slope = xx * c * c + 2 * xy * c * s + yy * s * s;
-        low = std::min(low, slope), high = std::max(high, slope);
+        low = std::min(low, slope);
+        high = std::max(high, slope);
     }
     f.same("isotropy_ratio", {std::sqrt(low / high)}, 1e-5);
     CHECK(m.fit.has_value());
@@ -265,9 +298,11 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
         for (std::size_t b = 0; b < 60; ++b)
             if (z - level >= middles[b] - width / 2 && z - level < middles[b] + width / 2)
                 density[b] += 1 / (points * width);
-    f.same("height_bin", middles, 1e-9), f.same("height_pdf", density, 1e-9);
+    f.same("height_bin", middles, 1e-9);
+    f.same("height_pdf", density, 1e-9);
 
-    f.same("wavenumber", m.spectrum.wavenumber), f.same("psd", m.spectrum.psd);
+    f.same("wavenumber", m.spectrum.wavenumber);
+    f.same("psd", m.spectrum.psd);
     const SelfAffineFit& fit = *m.fit;
     f.same(
         "psd_fit",
@@ -332,38 +367,56 @@ inline void compared(CheckedFile& f, const Truth& t, const std::vector<Vector>& 
             s = at(std::lround(path[i].back()));
         }
         const Level& level = t.r[0].levels[s];
-        while (surface.map.nx < columns.at(i)) finer *= 2, refine();
+        while (surface.map.nx < columns.at(i)) {
+            finer *= 2;
+            refine();
+        }
         CHECK(surface.map.nx == columns[i] && (finer == 1 || t.synthetic));
         last =
             by_force ? elements->at_force(level.force) : elements->at_separation(level.separation);
         c = of_pixels(last, surface.map.nx, surface.map.ny, t.periodic, t.c.solids.hardness);
         double force = 0, area = 0;
-        for (const Spot2& p : c.spots) force += p.f, area += p.area;
+        for (const Spot2& p : c.spots) {
+            force += p.f;
+            area += p.area;
+        }
         const double count = number(c.spots.size());
-        step.push_back(number(s) + 1), Z.push_back(last.separation), N.push_back(force),
-            A.push_back(area);
-        pixels.push_back(number(c.pixels.size()) * c.pixel), n.push_back(count),
-            residual.push_back(last.residual);
+        step.push_back(number(s) + 1);
+        Z.push_back(last.separation);
+        N.push_back(force);
+        A.push_back(area);
+        pixels.push_back(number(c.pixels.size()) * c.pixel);
+        n.push_back(count);
+        residual.push_back(last.residual);
         error_Z.push_back(level.separation - last.separation);
         error_N.push_back(force > 0 ? f.values("force")[s] / force - 1 : kNone);
         error_A.push_back(area > 0 ? f.values("contact_area")[s] / area - 1 : kNone);
         error_n.push_back(count > 0 ? f.values("contacts")[s] / count - 1 : kNone);
     }
-    f.same("compare_step", step), f.attribute("compare_step", "start_index", {1});
-    f.same("compare_separation", Z), f.same("compare_force", N, kRounding),
-        f.same("compare_contact_area", A, kRounding);
-    f.same("compare_contact_area_pixels", pixels, kRounding), f.same("compare_contacts", n),
-        f.same("compare_residual", residual);
+    f.same("compare_step", step);
+    f.attribute("compare_step", "start_index", {1});
+    f.same("compare_separation", Z);
+    f.same("compare_force", N, kRounding);
+    f.same("compare_contact_area", A, kRounding);
+    f.same("compare_contact_area_pixels", pixels, kRounding);
+    f.same("compare_contacts", n);
+    f.same("compare_residual", residual);
     if (by_force)
         f.same("separation_error", error_Z, 0, 1e-12 * t.sigma);
     else
         f.same("force_error", error_N, 0, 1e-10);
     CHECK(f.has("force_error") == !by_force && f.has("separation_error") == by_force);
-    f.same("area_error", error_A, 0, 1e-10), f.same("contacts_error", error_n, 0, 1e-12);
+    f.same("area_error", error_A, 0, 1e-10);
+    f.same("contacts_error", error_n, 0, 1e-12);
     Vector x, y, p;
-    for (const Pixel2& q : c.pixels) x.push_back(q.x), y.push_back(q.y), p.push_back(q.p);
-    f.same("compare_pixel_x", x, 0, 1e-12 * t.Lx), f.same("compare_pixel_y", y, 0, 1e-12 * t.Ly),
-        f.same("compare_pixel_pressure", p);
+    for (const Pixel2& q : c.pixels) {
+        x.push_back(q.x);
+        y.push_back(q.y);
+        p.push_back(q.p);
+    }
+    f.same("compare_pixel_x", x, 0, 1e-12 * t.Lx);
+    f.same("compare_pixel_y", y, 0, 1e-12 * t.Ly);
+    f.same("compare_pixel_pressure", p);
     f.attribute("compare_pixel_x", "pixel_size", {surface.map.dx}, kRounding);
     f.attribute("compare_pixel_y", "pixel_size", {surface.map.dy}, kRounding);
 }

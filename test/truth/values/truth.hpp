@@ -25,7 +25,6 @@ inline std::size_t at(long k) { return static_cast<std::size_t>(k); }
 inline double number(std::size_t n) { return static_cast<double>(n); }
 
 // --- Surfaces
-// --------------------------------------------------------------------------------------------------------------------
 
 struct Moments4 {
     double m0 = kNone, m2 = kNone, m4 = kNone;
@@ -82,7 +81,8 @@ struct Grid {
                 const double xy = (at_point(i + 1, j + 1) - at_point(i, j + 1) -
                                    at_point(i + 1, j) + at_point(i, j)) /
                                   (dx * dy);
-                m2 += (zx * zx + zy * zy) / 2, m4 += (s.xx * s.xx + s.yy * s.yy + 3 * xy * xy) / 3;
+                m2 += (zx * zx + zy * zy) / 2;
+                m4 += (s.xx * s.xx + s.yy * s.yy + 3 * xy * xy) / 3;
             }
         return {power(2), m2 / n, m4 / n};
     }
@@ -110,7 +110,8 @@ struct Grid {
                 const double ky = 2 * pi * static_cast<double>(2 * l > ny ? l - ny : l) /
                                   (dy * static_cast<double>(ny));
                 if (k == 0 && l == 0) continue;
-                m.m0 += power, m.m2 += power * (kx * kx + ky * ky) / 2;
+                m.m0 += power;
+                m.m2 += power * (kx * kx + ky * ky) / 2;
                 m.m4 += power * (std::pow(kx, 4) + std::pow(ky, 4) + 3 * kx * kx * ky * ky) / 3;
             }
         return m;
@@ -146,7 +147,6 @@ inline Moments4 closed_forms(const Case& c) {
 }
 
 // --- Contacts
-// --------------------------------------------------------------------------------------------------------------------
 
 struct Spot2 {
     double x = 0, y = 0, f = 0, area = 0;
@@ -171,7 +171,9 @@ struct Contacts2 {
 inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, double H) {
     const LevelPixels& q = level.pixels;
     Contacts2 out;
-    out.pixel = q.dx * q.dy, out.dx = q.dx, out.dy = q.dy;
+    out.pixel = q.dx * q.dy;
+    out.dx = q.dx;
+    out.dy = q.dy;
     std::vector<long> place(at(nx * ny), -1), own(q.index.size(), -1);
     for (std::size_t k = 0; k < q.index.size(); ++k) place[at(q.index[k])] = static_cast<long>(k);
     const auto neighbours = [&](std::size_t k) {
@@ -179,7 +181,10 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
         const long i = q.index[k] % nx, j = q.index[k] / nx;
         for (const auto& [a, b] : {std::pair{1L, 0L}, {-1L, 0L}, {0L, 1L}, {0L, -1L}}) {
             long u = i + a, v = j + b;
-            if (periodic) u = (u + nx) % nx, v = (v + ny) % ny;
+            if (periodic) {
+                u = (u + nx) % nx;
+                v = (v + ny) % ny;
+            }
             if (u >= 0 && u < nx && v >= 0 && v < ny && place[at(v * nx + u)] >= 0)
                 found.push_back(place[at(v * nx + u)]);
         }
@@ -201,7 +206,10 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
             const std::size_t k = open.back();
             open.pop_back();
             for (const long l : neighbours(k))
-                if (own[at(l)] < 0) own[at(l)] = own[first], open.push_back(at(l));
+                if (own[at(l)] < 0) {
+                    own[at(l)] = own[first];
+                    open.push_back(at(l));
+                }
         }
     }
     struct Sum {
@@ -215,11 +223,15 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
         CHECK(there->second == q.contact[k]);
         Sum& s = sums[at(q.contact[k])];
         const bool hard = q.pressure[k] >= H;
-        s.n += 1, s.hard += hard;
+        s.n += 1;
+        s.hard += hard;
         if (!hard) s.sides += 4 - number(neighbours(k).size()) - beyond(k);
         out.spots[at(q.contact[k])].cut = out.spots[at(q.contact[k])].cut || beyond(k) > 0;
-        if (q.pressure[k] > s.peak)
-            s.peak = q.pressure[k], s.i = q.index[k] % nx, s.j = q.index[k] / nx;
+        if (q.pressure[k] > s.peak) {
+            s.peak = q.pressure[k];
+            s.i = q.index[k] % nx;
+            s.j = q.index[k] / nx;
+        }
         out.spots[at(q.contact[k])].f += q.pressure[k] * out.pixel;
         out.spots[at(q.contact[k])].yields = out.spots[at(q.contact[k])].yields || hard;
         out.pixels.push_back({q.x0 + q.dx * static_cast<double>(q.index[k] % nx),
@@ -232,8 +244,8 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
         long a = q.index[k] % nx - s.i, b = q.index[k] / nx - s.j;
         if (periodic) a -= nx * std::lround(static_cast<double>(a) / static_cast<double>(nx));
         if (periodic) b -= ny * std::lround(static_cast<double>(b) / static_cast<double>(ny));
-        s.px += q.pressure[k] * static_cast<double>(a),
-            s.py += q.pressure[k] * static_cast<double>(b);
+        s.px += q.pressure[k] * static_cast<double>(a);
+        s.py += q.pressure[k] * static_cast<double>(b);
     }
     for (std::size_t c = 0; c < sums.size(); ++c) {
         const Sum& s = sums[c];
@@ -245,13 +257,13 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
         double i = static_cast<double>(s.i) + s.px / p, j = static_cast<double>(s.j) + s.py / p;
         if (periodic) i -= static_cast<double>(nx) * std::floor(i / static_cast<double>(nx));
         if (periodic) j -= static_cast<double>(ny) * std::floor(j / static_cast<double>(ny));
-        spot.x = q.x0 + q.dx * i, spot.y = q.y0 + q.dy * j;
+        spot.x = q.x0 + q.dx * i;
+        spot.y = q.y0 + q.dy * j;
     }
     return out;
 }
 
 // --- A case, and what it means
-// -----------------------------------------------------------------------------------------------------
 
 struct Truth {
     Case c;
@@ -271,7 +283,8 @@ struct Truth {
         job = prepare(c);
         for (int k = 0; k < c.run.realizations; ++k)
             r.push_back(realize(job, c.run.first_realization + k, 1));
-        steps = r[0].levels.size(), M = r.size();
+        steps = r[0].levels.size();
+        M = r.size();
         list = c.surface.source == Source::asperities;
         synthetic = has_spectrum(c);
         elements = by_elements(c);
@@ -286,7 +299,9 @@ struct Truth {
         Lx = Ly = c.surface.L.value_or(1.0);
         if (c.surface.source == Source::heights) {
             const Grid& g = heights[0];
-            x0 = g.x0, y0 = g.y0, Lx = static_cast<double>(g.nx) * g.dx,
+            x0 = g.x0;
+            y0 = g.y0;
+            Lx = static_cast<double>(g.nx) * g.dx;
             Ly = static_cast<double>(g.ny) * g.dy;
         }
         E = 1 / ((1 - c.solids.nu[0] * c.solids.nu[0]) / c.solids.E[0] +
@@ -315,8 +330,9 @@ struct Truth {
             regime = {0, 0, 0};
             for (const Grid& g : heights) {
                 const Moments4 m = g.differences();
-                regime.m0 += m.m0 / number(M), regime.m2 += m.m2 / number(M),
-                    regime.m4 += m.m4 / number(M);
+                regime.m0 += m.m0 / number(M);
+                regime.m2 += m.m2 / number(M);
+                regime.m4 += m.m4 / number(M);
             }
         }
         m2_made = regime.m2;
@@ -351,7 +367,10 @@ struct Truth {
     }
     double distance(double x, double y, double u, double v) const {
         double a = x - u, b = y - v;
-        if (periodic) a -= Lx * std::round(a / Lx), b -= Ly * std::round(b / Ly);
+        if (periodic) {
+            a -= Lx * std::round(a / Lx);
+            b -= Ly * std::round(b / Ly);
+        }
         return std::hypot(a, b);
     }
     // A value of every level, realization by realization.

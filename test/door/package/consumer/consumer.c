@@ -1,4 +1,5 @@
-/* Uses an installed rsc: one asperity must be Hertz, and a rough surface must push back. The argument is the version expected. */
+/* Uses an installed rsc: one asperity must be Hertz, and a rough surface must push back. The
+   argument is the version expected. */
 #include <math.h>
 #include <rsc.h>
 #include <stdio.h>

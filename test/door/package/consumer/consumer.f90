@@ -17,7 +17,8 @@ program consumer
   call asperities%take([0.0_dp], [0.0_dp], [0.0_dp], [0.5_dp])
   call contact%create(asperities, E, 10.0_dp, 0.0_dp, 0.0_dp)
   call contact%indent(-u, N)
-  if (abs(N / (4 / 3.0_dp * E * sqrt(0.5_dp) * u**1.5_dp) - 1) > 1e-12_dp) error stop 'the force of Hertz'
+  if (abs(N / (4 / 3.0_dp * E * sqrt(0.5_dp) * u**1.5_dp) - 1) > 1e-12_dp) &
+    error stop 'the force of Hertz'
   call contact%press(-1.0_dp, stat=stat, errmsg=errmsg)
   if (stat /= -2 .or. index(errmsg, 'force') == 0) error stop 'a negative force'
   call options%read('&surface n=256 L_lambda_l=4 L_lambda_s=64 /')
