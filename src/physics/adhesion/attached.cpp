@@ -78,7 +78,6 @@ void minres(Multiply&& multiply, Vector v, double goal, Vector& x, Vector& lifte
 void AttachedSolver::judge(const WorkingSet& set) {
     double error2 = 0, doubt2 = 0, size2 = 0, own = 0, own_doubt = 0;
     for (std::size_t k = 0; k < res_.size(); ++k) {
-        if (k == held_) continue;
         const auto i = at(products_->active()[k]);
         const Sticking::State& now = state_[k];
         const double error = now.stiffness * std::abs(res_[k]), doubt = now.stiffness * out_[k],
@@ -179,7 +178,6 @@ void AttachedSolver::weigh(double mu) {
         p_[k] = sign * std::sqrt(now.stiffness * slope / (slope + q));
         to_s_[k] = p_[k] / (sign * slope);
     }
-    if (held_ < n) diagonal_[held_] = 1, p_[held_] = to_s_[held_] = 0;
 }
 
 void AttachedSolver::multiply(const Vector& y, Vector& image, Vector& lift) {
@@ -256,7 +254,7 @@ bool AttachedSolver::proved(const WorkingSet& set) {
         for (std::size_t k = 0; k < state_.size(); ++k) {
             const double du = state_[k].du + mu_, df = state_[k].df + mu_ * state_[k].stiffness;
             in_[k] = 0;
-            if (df >= 0 || k == held_) continue;
+            if (df >= 0) continue;
             if (!(du > 0)) return false;
             in_[k] = proof_[place(k)] > 0 ? proof_[place(k)] : 1 / du, any = true;
         }
@@ -299,8 +297,7 @@ bool AttachedSolver::stable(const WorkingSet& set) {
         double lowest = 1;
         for (std::size_t k = 0; k < n; ++k) {
             if (std::isnan(ds[k])) return false;
-            if (state_[k].df < 0 && k != held_ && sign * ds[k] < lowest)
-                lowest = sign * ds[k], weakest_ = k;
+            if (state_[k].df < 0 && sign * ds[k] < lowest) lowest = sign * ds[k], weakest_ = k;
         }
         return lowest > 0;
     };
@@ -321,50 +318,14 @@ void AttachedSolver::step(const WorkingSet& set, double accuracy, Vector& s) {
     }
 }
 
-void AttachedSolver::rest_on(const WorkingSet& set, double noise, const Vector& s, bool solved) {
-    if (!solved) held_ = ~std::size_t{0}, evaluate(set, s, false);
+void AttachedSolver::rest_on(const WorkingSet& set, double noise, const Vector& s) {
+    evaluate(set, s, false);
     if (noise_ > noise) return evaluate(set, s, true);
     add_passive();
     const double shift = products_->kernel().shift() * force_;
     reference_ = products_->active(), f_reference_ = f_, phi_reference_ = phi_,
     noise_reference_ = noise_;
     for (double& phi : phi_reference_) phi += shift;
-}
-
-void AttachedSolver::release(const WorkingSet& set, std::size_t k) {
-    if (products_->active() != reference_) return;
-    const int position = reference_[k];
-    const Vector part = column(set, position);
-    for (std::size_t i = 0; i < part.size(); ++i) phi_reference_[i] -= f_reference_[k] * part[i];
-    reference_.erase(reference_.begin() + static_cast<std::ptrdiff_t>(k));
-    f_reference_.erase(f_reference_.begin() + static_cast<std::ptrdiff_t>(k));
-}
-
-void AttachedSolver::take_in(const WorkingSet& set, std::size_t k, int position, double f) {
-    if (products_->active() != reference_) return;
-    const Vector part = column(set, position);
-    for (std::size_t i = 0; i < part.size(); ++i) phi_reference_[i] += f * part[i];
-    reference_.insert(reference_.begin() + static_cast<std::ptrdiff_t>(k), position);
-    f_reference_.insert(f_reference_.begin() + static_cast<std::ptrdiff_t>(k), f);
-}
-
-// Elevations by a unit force at a position.
-Vector AttachedSolver::column(const WorkingSet& set, int position) const {
-    const Kernel& kernel = products_->kernel();
-    const auto from = at(position);
-    Vector phi(set.x.size());
-    for (std::size_t i = 0; i < phi.size(); ++i) {
-        const double dx = set.x[i] - set.x[from], dy = set.y[i] - set.y[from];
-        phi[i] = dx == 0 && dy == 0 ? kernel.self() : kernel.at(dx, dy);
-    }
-    return phi;
-}
-
-double AttachedSolver::elevation(const WorkingSet& set, int position) {
-    const Vector part = column(set, position);
-    double sum = phi_[at(position)];
-    for (std::size_t k = 0; k < df_.size(); ++k) sum += df_[k] * part[at(products_->active()[k])];
-    return sum;
 }
 
 // Adds the change of the forces to phi_ at the others.
@@ -377,8 +338,7 @@ void AttachedSolver::add_passive() {
 }
 
 bool AttachedSolver::solve(const WorkingSet& set, double tolerance, bool exact, Vector& s,
-                           int least, int held, bool whole) {
-    held_ = static_cast<std::size_t>(held);
+                           int least) {
     const bool predicted = exact && !phi_reference_.empty();
     double best = 1e300;
     int worse = 0;
@@ -390,7 +350,6 @@ bool AttachedSolver::solve(const WorkingSet& set, double tolerance, bool exact, 
             (stuck && noise > 0.01 * residual_))
             evaluate(set, s, true);
         if (residual_ <= (predicted && k == 0 ? kUnstepped : 1.0) * tolerance && k >= least) {
-            if (!whole) return true;
             if (!stable(set)) return false;
             add_passive();
             return true;
