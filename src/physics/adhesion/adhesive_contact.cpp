@@ -41,10 +41,14 @@ public:
         const double last = path_->accepted.separation;
         (void)solve(last < kInfinity ? last : z, false);
     }
+    // The first state with this force on the path: towards the surface if the force is larger than
+    // the present one, otherwise away. If no state has it, the result is that of the smallest
+    // force, with Fallback::held.
+    std::optional<Level> solve_under(double N) override;
     double force_at_most(double) override { return 0; }
 
 private:
-    double attraction() const override { return path_->longest_pull(); }
+    double attraction() const override { return path_->options.adhesion.range; }
     void accept(Level&) override {
         path_->accepted = path_->now;
         path_->accepted.jumps = 0;
@@ -122,6 +126,20 @@ Level AdhesiveAsperities::solve(double Z0, bool) {
     if (my.begin(Z0) && !my.lost_way) my.follow(Z0);
     my.here.Z = Z0;
     return report();
+}
+
+std::optional<Level> AdhesiveAsperities::solve_under(double N) {
+    // Where the smallest force is reached, less than this share from it.
+    constexpr double near_least = 1e-7;
+    AdhesivePath& my = *path_;
+    fresh_ = false;
+    if (my.follow_to_force(N)) return report();
+    const double least = my.now.least_force;
+    (void)my.follow_to_force(least * (1 - near_least));
+    Level level = report();
+    level.fallback = Fallback::held;
+    level.converged = false;
+    return level;
 }
 
 void AdhesiveAsperities::move_tip(double x0, double y0) {

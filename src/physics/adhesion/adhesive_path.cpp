@@ -196,7 +196,9 @@ bool AdhesivePath::begin(double target) {
     jumps = steps = 0;
     products_before = direct->count() + (mesh ? mesh->count() : 0);
     lost_way = false;
+    wanted.reset();
     held.clear();
+    last = {};
     here = {};
     here.Z = now.separation;
     double lowest = std::min(target, now.separation);
@@ -212,14 +214,6 @@ bool AdhesivePath::begin(double target) {
     }
     lost_way = !cover(lowest, now.asperity, now.s);
     return true;
-}
-
-double AdhesivePath::longest_pull() {
-    if (ranking.empty()) return 0;
-    std::vector<int> fresh;
-    (void)ranking.above(std::nextafter(ranking.highest(), -kInfinity), fresh);
-    sticking.prepare(fresh);
-    return -sticking.lets_go(ranking[0].asperity);
 }
 
 bool AdhesivePath::small(int position) const {
@@ -425,24 +419,37 @@ void AdhesivePath::hold() {
         held[at(here.active[k])] = here.residuals[k];
 }
 
-// Follows the path from `here` to a separation. Where it cannot be followed, lost_way is set.
+// The length of the next step under force control: about that to the wanted force, as far as it can
+// be foreseen.
+double AdhesivePath::reach(double direction) const {
+    const double toward = direction * (*wanted - here.force) / here.dforce,
+                 far = 0.5 * std::abs(ranking.highest() - here.Z) +
+                       scale(here.active.empty() ? 0 : here.active[0]);
+    return toward > 0 ? std::min(1.01 * toward, 4 * far) : far;
+}
+
+// Follows the path from `here` to a separation, or to the first state with the wanted force. Where
+// it cannot be followed, lost_way is set. Returns false if everything detached before.
 bool AdhesivePath::follow(double target) {
     double blocked_at = kNotComputed;  // where the last step that failed would have ended
     const double direction = target > here.Z ? 1 : -1;
     for (long guard = 0; here.Z != target && !lost_way; ++guard) {
         if (here.active.empty() && direction > 0 && !motion) return false;
-        const double rest = std::abs(target - here.Z);
+        const double rest = std::abs(target - here.Z), most = wanted ? reach(direction) : rest;
         const Step step = next_step(
-            rest, direction, std::isnan(blocked_at) ? kInfinity : std::abs(blocked_at - here.Z));
+            most, direction, std::isnan(blocked_at) ? kInfinity : std::abs(blocked_at - here.Z));
         const double Z = step.length >= rest ? target : here.Z + direction * step.length;
         if (Z == here.Z || guard > kMostSteps) return lost_way = true;
         if (Z - margin < covered) {
-            lost_way = !cover(std::min(Z, target));
+            lost_way = !cover(wanted ? Z - most : std::min(Z, target));
             continue;
         }
         if (step.jump) hold();
         Point there = predicted(Z, step.jump);
-        Found found = descend(there, step.jump, Z == target ? 0.0 : std::isnan(blocked_at) ? kOnTheWay : kInJump);
+        const double accuracy = Z == target                         ? 0.0
+                                : std::isnan(blocked_at) && !wanted ? kOnTheWay
+                                                                    : kInJump;
+        const Found found = descend(there, step.jump, accuracy);
         held.clear();
         if (found == Found::raised) {
             covered = kInfinity;
@@ -450,11 +457,9 @@ bool AdhesivePath::follow(double target) {
             continue;
         }
         const bool same = there.active == here.active;
-        if (found == Found::equilibrium && !step.jump &&
-            (same ? touches_between(there) : hides_least_force(there)))
-            found = Found::jump;
-        if (found == Found::equilibrium) {
-            lost_way = !accept(std::move(there), step);
+        if (found == Found::equilibrium && (step.jump || !hides(there))) {
+            if (same && find_wanted(there)) return true;
+            accept(std::move(there), step);
             if (step.jump || !(direction * (blocked_at - here.Z) > 0)) blocked_at = kNotComputed;
             continue;
         }
@@ -469,8 +474,27 @@ bool AdhesivePath::follow(double target) {
     return true;
 }
 
-// Goes on from the next state, with the energy lost on the way to it. Always true.
-bool AdhesivePath::accept(Point there, const Step& step) {
+// Follows the path from the accepted state to the first state with the force N. Returns false if
+// there is none before everything has detached.
+bool AdhesivePath::follow_to_force(double N) {
+    constexpr double far = 1e300;
+    (void)begin(accepted.asperity.empty() ? -far : accepted.separation);
+    if (lost_way || std::abs(here.force - N) <= 0.1 * options.tolerance * std::abs(N)) return true;
+    const bool down = here.force < N && !(here.active.empty() && N < 0);
+    wanted = N;
+    return follow(down ? -far : far);
+}
+
+// True if a step must be divided, because it may pass over something: an attachment, if the same
+// asperities are attached as before, otherwise the smallest force so far or the wanted one.
+bool AdhesivePath::hides(const Point& there) const {
+    if (there.active == here.active) return touches_between(there);
+    return hides_least_force(there) ||
+           (wanted && (here.force - *wanted) * (there.force - *wanted) <= 0);
+}
+
+// Goes on from the next state, with the energy lost on the way to it.
+void AdhesivePath::accept(Point there, const Step& step) {
     std::vector<int> changed;
     std::set_symmetric_difference(here.active.begin(), here.active.end(), there.active.begin(),
                                   there.active.end(), std::back_inserter(changed));
@@ -478,7 +502,6 @@ bool AdhesivePath::accept(Point there, const Step& step) {
         return !std::binary_search(here.active.begin(), here.active.end(), position);
     };
     if (changed.empty()) {
-        find_least_force(there);
         if (!step.jump) note_bend(there);
         last = {here.Z, here.ds};
     } else if (step.jump) {
@@ -497,7 +520,6 @@ bool AdhesivePath::accept(Point there, const Step& step) {
     for (const Sticking::State& state : here.states) energy += std::abs(state.energy);
     now.most_energy = std::max(now.most_energy, energy);
     now.least_force = std::min(now.least_force, here.force);
-    return true;
 }
 
 // The work of the step from `here` to `there`, in which asperities attach or detach at the distance
@@ -534,29 +556,72 @@ double AdhesivePath::dissipated(const Point& there, double ahead, bool detaches)
            0.5 * way * (here.power + there.power);
 }
 
-// The smallest force between `here` and a state with the same attached asperities, if the slopes
-// allow one below those that were met before.
-void AdhesivePath::find_least_force(const Point& there) {
+// A state between two with the same attached asperities, at this share of the way. Returns false
+// if none is found.
+bool AdhesivePath::find_between(const Point& a, const Point& b, double share, Point& middle) {
     constexpr double accurate = 1e-6;  // of derivatives
-    Point low = here.Z < there.Z ? here : there, high = here.Z < there.Z ? there : here;
-    if (!(low.dforce < 0 && high.dforce > 0)) return;
+    middle.Z = a.Z + share * (b.Z - a.Z);
+    middle.active = a.active;
+    middle.s.clear();
+    for (std::size_t k = 0; k < a.s.size(); ++k)
+        middle.s.push_back(a.s[k] + share * (b.s[k] - a.s[k]));
+    if (middle.Z == a.Z || middle.Z == b.Z || !find(middle, 0)) return false;
+    complete(middle, accurate);
+    return true;
+}
+
+// The state of the smallest force between `here` and a state with the same attached asperities, if
+// the slopes allow one below `bound`; otherwise that of the smaller force.
+AdhesivePath::Point AdhesivePath::least_between(const Point& there, double bound) {
+    Point low = here.Z < there.Z ? here : there, high = here.Z < there.Z ? there : here,
+          least = low.force < high.force ? low : high, middle;
     const double most = std::max(-low.dforce, high.dforce) * (high.Z - low.Z);
-    if (std::min(low.force, high.force) - most >= now.least_force) return;
+    if (!(low.dforce < 0 && high.dforce > 0) || least.force - most >= bound) return least;
     for (int i = 0; i < 40; ++i) {
         const double share = std::clamp(low.dforce / (low.dforce - high.dforce), 0.05, 0.95);
-        Point middle;
-        middle.Z = low.Z + share * (high.Z - low.Z);
-        middle.active = low.active;
-        for (std::size_t k = 0; k < low.s.size(); ++k)
-            middle.s.push_back(low.s[k] + share * (high.s[k] - low.s[k]));
-        if (!find(middle, 0)) break;
-        complete(middle, accurate);
+        if (!find_between(low, high, share, middle)) break;
         const double gained = std::abs(middle.dforce * (high.Z - low.Z));
-        now.least_force = std::min(now.least_force, middle.force);
-        const double force = middle.force;
-        (middle.dforce < 0 ? low : high) = std::move(middle);
-        if (gained <= 1e-10 * std::abs(force)) break;
+        if (middle.force < least.force) least = middle;
+        (middle.dforce < 0 ? low : high) = middle;
+        if (gained <= 1e-10 * std::abs(middle.force)) break;
     }
+    return least;
+}
+
+// Notes the smallest force between `here` and a state with the same attached asperities, and goes to
+// the wanted force if it is there.
+bool AdhesivePath::find_wanted(const Point& there) {
+    const double bound = wanted ? std::max(*wanted, now.least_force) : now.least_force;
+    const Point least = least_between(there, bound);
+    const auto within = [&](const Point& end) {
+        return wanted && (here.force - *wanted) * (end.force - *wanted) <= 0;
+    };
+    if (within(least) && find_force(least)) return true;
+    now.least_force = std::min(now.least_force, least.force);
+    return within(there) && find_force(there);
+}
+
+// Goes to the state with the wanted force between `here` and another one on its other side.
+bool AdhesivePath::find_force(const Point& there) {
+    const double precise =
+        0.1 * options.tolerance *
+        std::max(std::abs(*wanted), 1e-3 * std::max(std::abs(here.force), std::abs(there.force)));
+    Point low = here, high = there, middle;
+    for (int i = 0; i < 100; ++i) {
+        const bool from_low = std::abs(low.force - *wanted) < std::abs(high.force - *wanted);
+        const Point& nearer = from_low ? low : high;
+        const double Z = nearer.Z + (*wanted - nearer.force) / nearer.dforce;
+        double share = (Z - low.Z) / (high.Z - low.Z);
+        if (!(share > 0 && share < 1) || i % 8 == 7) share = 0.5;
+        if (!find_between(low, high, share, middle)) break;
+        if (std::abs(middle.force - *wanted) <= precise) {
+            now.least_force = std::min(now.least_force, middle.force);
+            here = middle;
+            return true;
+        }
+        ((middle.force < *wanted) == (low.force < *wanted) ? low : high) = middle;
+    }
+    return false;
 }
 
 AdhesivePath::Past AdhesivePath::past() const {

@@ -41,7 +41,8 @@ struct AdhesivePath : ContactBodies {
     Past accepted, now;
     int jumps = 0, steps = 0;
     long products_before = 0;
-    bool lost_way = false;  // the path could not be followed, e.g. an avalanche did not end
+    std::optional<double> wanted;  // force at which follow() ends
+    bool lost_way = false;         // the path could not be followed, e.g. an avalanche did not end
 
     // Working set: asperities that may attach, and the attached ones.
     WorkingSet set;
@@ -96,9 +97,8 @@ struct AdhesivePath : ContactBodies {
 
     bool begin(double target);
     bool follow(double target);
+    bool follow_to_force(double N);
     Past past() const;
-    // Penetration by which the highest asperity is pulled out before it detaches.
-    double longest_pull();
     bool move(double x0, double y0);
     bool stand();
 
@@ -138,8 +138,13 @@ private:
     bool hides_least_force(const Point& there) const;
     void note_bend(const Point& there);
     void hold();
-    bool accept(Point there, const Step& step);
-    void find_least_force(const Point& there);
+    bool hides(const Point& there) const;
+    double reach(double direction) const;
+    void accept(Point there, const Step& step);
+    bool find_between(const Point& a, const Point& b, double share, Point& middle);
+    Point least_between(const Point& there, double bound);
+    bool find_wanted(const Point& there);
+    bool find_force(const Point& there);
     double dissipated(const Point& there, double ahead, bool detaches) const;
 
     bool small(int position) const;
