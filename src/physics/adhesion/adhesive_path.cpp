@@ -13,7 +13,7 @@ constexpr double kTouching = 1e-8;
 constexpr double kNear = 1e-5;
 // Own loss of an asperity that may attach or detach within a long step, relative to the energy.
 constexpr double kNegligible = 1e-7;
-constexpr double kOnTheWay = 1e-5;  // residual of states between levels
+constexpr double kOnTheWay = 1e-7;  // residual of states between levels
 constexpr double kInJump = 1e-9;    // residual of states after a jump
 // Error of the products of the state before a jump; it does not change in the jump.
 constexpr double kNoiseBeforeJump = 3e-7;
@@ -251,10 +251,15 @@ AdhesivePath::Step AdhesivePath::next_step(double rest, double direction, double
         doubt = trend.bend.empty() ? kFirstDoubt * event
                                    : kDoubt * std::min(std::abs(event - left / slope), event);
     }
+    const double fold = fold_ahead(direction);
+    if (fold > 0 && fold < event) {
+        event = fold;
+        doubt = kFirstDoubt * fold;
+    }
     if (width == kInfinity) width = least;
     const double most = std::min(rest, blocked);
-    if (event < most && event <= width) return {std::min(event + width, rest), true, event, false};
-    if (blocked <= width) return {std::min(blocked, rest), true, 0.5 * blocked, true};
+    if (event < most && event <= width) return {std::min(event + width, rest), true, event};
+    if (blocked <= width) return {std::min(blocked, rest), true, fold > 0 ? fold : 0.5 * blocked};
     if (event < most)
         return {event - std::max(0.5 * width, std::min(doubt, 0.5 * event)), false, 0};
     return {blocked < kInfinity ? std::min(rest, 0.5 * blocked) : rest, false, 0};
@@ -449,8 +454,17 @@ bool AdhesivePath::follow(double target) {
         const double accuracy = Z == target                         ? 0.0
                                 : std::isnan(blocked_at) && !wanted ? kOnTheWay
                                                                     : kInJump;
+        const long p0 = direct->count() + (mesh ? mesh->count() : 0);
+        const int s0 = steps;
         const Found found = descend(there, step.jump, accuracy);
         held.clear();
+        if (std::getenv("DBG"))
+            std::fprintf(
+                stderr,
+                "%s Z %.10g len %.3g %s blocked %d n %zu->%zu found %d finds %d products %ld\n",
+                direction > 0 ? "up" : "dn", here.Z, Z - here.Z, step.jump ? "JUMP" : "step",
+                !std::isnan(blocked_at), here.active.size(), there.active.size(), (int)found,
+                steps - s0, direct->count() + (mesh ? mesh->count() : 0) - p0);
         if (found == Found::raised) {
             covered = kInfinity;
             products->set_active(here.active);
@@ -507,8 +521,7 @@ void AdhesivePath::accept(Point there, const Step& step) {
     } else if (step.jump) {
         ++jumps;
         const bool detaches = std::none_of(changed.begin(), changed.end(), attaches);
-        const double fold = fold_ahead(there.Z > here.Z ? 1 : -1);
-        now.lost += dissipated(there, step.blocked && detaches ? fold : step.ahead, detaches);
+        now.lost += dissipated(there, step.ahead, detaches);
     } else {
         jumps += static_cast<int>(changed.size());
         for (const int position : changed)

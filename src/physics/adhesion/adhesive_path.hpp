@@ -110,7 +110,6 @@ private:
         double length;
         bool jump;     // asperities may attach and detach
         double ahead;  // distance to where they are expected to
-        bool blocked = false;
     };
 
     bool cover(double lowest, const std::vector<int>& attached, const Vector& s);

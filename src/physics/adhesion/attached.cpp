@@ -24,6 +24,7 @@ constexpr double kBent = 0.01;
 constexpr double kUnstepped = 0.01;
 // residual of exact solutions in a last step, whatever the tolerance
 constexpr double kExact = 1e-11;
+constexpr double kRate = 1e-6;     // accuracy of derivatives in proofs of stability
 constexpr double kFarthest = 0.5;  // largest relative change of s in a step
 
 double dot4(const Vector& a, const Vector& b) {
@@ -103,6 +104,7 @@ void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s, bool full,
     const bool stepped = std::exchange(stepped_, false) && f_.size() == n && lifted_.size() == n &&
                          elevated_.size() == n;
     state_.resize(n), f_.resize(n), res_.resize(n), df_.assign(n, 0.0), out_.assign(n, 0.0);
+    derivative_.clear();
     force_ = 0;
     double bent2 = 0, f2 = 0;
     for (std::size_t k = 0; k < n; ++k) {
@@ -283,8 +285,8 @@ bool AttachedSolver::stable(const WorkingSet& set) {
             return false;
         }
     if (proved(set)) return true;
-    Vector right(n, -1.0), derivative, x;
-    solve_linear(right, 1e-6, derivative);
+    Vector right(n, -1.0), x;
+    solve_linear(right, kRate, derivative_);
     const double shift = products_->kernel().shift();
     double sum = 0;
     for (std::size_t k = 0; k < n; ++k) sum += in_[k] = state_[k].stiffness;
@@ -301,8 +303,8 @@ bool AttachedSolver::stable(const WorkingSet& set) {
         }
         return lowest > 0;
     };
-    if (crowded < 1 && positive(derivative, -1)) return true;
-    solve_linear(right, 1e-6, x);
+    if (crowded < 1 && positive(derivative_, -1)) return true;
+    solve_linear(right, kRate, x);
     return positive(x, 1);
 }
 
@@ -462,7 +464,12 @@ AttachedSolver::Change AttachedSolver::change(const Vector& rate, double accurac
     const double shift = products_->kernel().shift();
     Vector right, df(state_.size());
     for (int k : active) right.push_back(rate[at(k)]);
-    if (!right.empty()) solve_linear(right, accuracy, c.s);
+    const bool known = accuracy >= kRate && derivative_.size() == right.size() &&
+                       std::all_of(right.begin(), right.end(), [](double r) { return r == -1; });
+    if (known)
+        c.s = derivative_;
+    else if (!right.empty())
+        solve_linear(right, accuracy, c.s);
     for (std::size_t k = 0; k < df.size(); ++k) {
         c.force += df[k] = state_[k].df * c.s[k];
         c.power -= df[k] * right[k];

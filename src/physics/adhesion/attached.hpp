@@ -132,6 +132,7 @@ private:
     double room_ = 1.2;  // factor by which they are taken larger
     std::vector<double> proof_;            // by position in the set: the last v, a starting point
     std::vector<double> pulled_, lifted_;  // of solve_linear()
+    std::vector<double> derivative_;       // -ds/dg0 of the present states, from stable()
     std::vector<double> elevated_;         // B df_
     bool stepped_ = false;   // the present states are one step behind those to be evaluated
     double noise_bent_ = 0;  // relative change of the forces that elevated_ lacks
