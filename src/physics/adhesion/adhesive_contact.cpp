@@ -34,7 +34,8 @@ public:
     History* history() override { return this; }
     void forget() override {
         path_ = path_at(path_->indenter.x0, path_->indenter.y0);
-        slope_ = energy_ = 0, fresh_ = false;
+        slope_ = energy_ = 0;
+        fresh_ = false;
     }
     Level solve(double Z0, bool trial) override;
     void solve_again(double z, const Level&) override {
@@ -82,7 +83,8 @@ Level AdhesiveAsperities::report() {
         my.now = my.accepted;
         l.converged = false;
         l.residual = 1;
-        l.candidates = my.set.size(), l.iterations = my.steps;
+        l.candidates = my.set.size();
+        l.iterations = my.steps;
         slope_ = energy_ = kNotComputed;
         return l;
     }
@@ -100,11 +102,12 @@ Level AdhesiveAsperities::report() {
         if (state.area > 0)
             l.add_contact(i, place.x, place.y, state.f, std::sqrt(state.area / std::numbers::pi),
                           state.u);
-        l.tractions.x.push_back(place.x), l.tractions.y.push_back(place.y);
-        l.tractions.a.push_back(std::sqrt(state.area / std::numbers::pi)),
-            l.tractions.c.push_back(std::sqrt(state.outer / std::numbers::pi));
-        l.tractions.pressed.push_back(state.pressed),
-            l.tractions.pulled.push_back(state.f - state.pressed);
+        l.tractions.x.push_back(place.x);
+        l.tractions.y.push_back(place.y);
+        l.tractions.a.push_back(std::sqrt(state.area / std::numbers::pi));
+        l.tractions.c.push_back(std::sqrt(state.outer / std::numbers::pi));
+        l.tractions.pressed.push_back(state.pressed);
+        l.tractions.pulled.push_back(state.f - state.pressed);
         cohesive += state.outer - state.area;
         l.force += state.f;
         l.area += state.area;
@@ -115,7 +118,8 @@ Level AdhesiveAsperities::report() {
     l.jumps = my.jumps + my.accepted.jumps;
     l.energy_lost = my.now.lost;
     l.least_force = my.now.least_force;
-    slope_ = 0, fresh_ = !my.here.active.empty();
+    slope_ = 0;
+    fresh_ = !my.here.active.empty();
     energy_ = my.here.active.empty() ? 0.0 : my.here.energy;
     return l;
 }
@@ -163,13 +167,15 @@ void AdhesiveAsperities::move_tip(double x0, double y0) {
             throw Error(Failure::not_converged,
                         "the path of the attached asperities to the new position of the tip is "
                         "lost; the tip stays where it was");
-        slope_ = 0, fresh_ = !path_->here.active.empty();
+        slope_ = 0;
+        fresh_ = !path_->here.active.empty();
         return;
     }
     auto there = path_at(x0, y0);
     there->accepted = my.accepted;
     path_ = std::move(there);
-    slope_ = energy_ = 0, fresh_ = false;
+    slope_ = energy_ = 0;
+    fresh_ = false;
 }
 
 std::vector<double> AdhesiveAsperities::write() const {

@@ -454,17 +454,8 @@ bool AdhesivePath::follow(double target) {
         const double accuracy = Z == target                         ? 0.0
                                 : std::isnan(blocked_at) && !wanted ? kOnTheWay
                                                                     : kInJump;
-        const long p0 = direct->count() + (mesh ? mesh->count() : 0);
-        const int s0 = steps;
         const Found found = descend(there, step.jump, accuracy);
         held.clear();
-        if (std::getenv("DBG"))
-            std::fprintf(
-                stderr,
-                "%s Z %.10g len %.3g %s blocked %d n %zu->%zu found %d finds %d products %ld\n",
-                direction > 0 ? "up" : "dn", here.Z, Z - here.Z, step.jump ? "JUMP" : "step",
-                !std::isnan(blocked_at), here.active.size(), there.active.size(), (int)found,
-                steps - s0, direct->count() + (mesh ? mesh->count() : 0) - p0);
         if (found == Found::raised) {
             covered = kInfinity;
             products->set_active(here.active);

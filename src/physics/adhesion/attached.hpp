@@ -47,7 +47,11 @@ public:
     // points the attached ones, when the functions below are called.
     void use(Products& products) {
         products_ = &products;
-        reference_.clear(), phi_reference_.clear(), proof_.clear(), stiffest_.clear(), room_ = 1.2;
+        reference_.clear();
+        phi_reference_.clear();
+        proof_.clear();
+        stiffest_.clear();
+        room_ = 1.2;
     }
 
     // Solves for a stable equilibrium from the states s of the attached asperities. Returns false

@@ -179,7 +179,10 @@ Sticking::State Sticking::at(int asperity, double s) const {
 // Bracketed Newton's method from above; u(s) is convex up to where the radius becomes constant.
 double Sticking::state_at(int asperity, double u) const {
     double low = least(asperity), high = std::max({2 * low, 2 * u, low - lets_go(asperity) + u});
-    while (at(asperity, high).u < u) low = high, high *= 2;
+    while (at(asperity, high).u < u) {
+        low = high;
+        high *= 2;
+    }
     double s = high;
     for (int i = 0; i < 200; ++i) {
         const State now = at(asperity, s);
