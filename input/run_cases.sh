@@ -4,14 +4,15 @@
 # Usage: sh input/STUDY/run.sh [--short] [RSC [FOLDER]]
 #   RSC      the program (default ./rsc)
 #   FOLDER   folder of results, pictures and report.txt (default output/STUDY)
-#   --short  few realizations and small grids, as a check; the numbers are those of other surfaces. Default FOLDER:
-#            output/STUDY_short. Options may be anywhere.
+#   --short  few realizations and small grids, as a check; the numbers are those of other
+#            surfaces. Default FOLDER: output/STUDY_short. Options may be anywhere.
 # Results of a full run are never replaced by those of a short one, nor vice versa, nor files
 # that run.sh did not write. After an interruption the same command with the same program and
 # cases continues: finished cases are kept, and the finished realizations of the interrupted
 # case. After a complete run, the next one starts anew.
 # PYTHON: a Python with numpy, scipy, matplotlib and netCDF4; default: python3 or
 # /usr/bin/python3 if they have them.
+usage="usage: sh input/$study/run.sh [--short] [RSC [FOLDER]]"
 short=no
 rsc=
 folder=
@@ -19,34 +20,39 @@ for word; do
     case $word in
         --short) short=yes ;;
         -*)
-            echo "run.sh: unknown option $word; usage: sh input/$study/run.sh [--short] [RSC [FOLDER]]" >&2
+            echo "run.sh: unknown option $word; $usage" >&2
             exit 2
             ;;
         *)
             if [ -z "$rsc" ]; then rsc=$word
             elif [ -z "$folder" ]; then folder=$word
             else
-                echo "run.sh: too many words at '$word'; usage: sh input/$study/run.sh [--short] [RSC [FOLDER]]" >&2
+                echo "run.sh: too many words at '$word'; $usage" >&2
                 exit 2
             fi
             ;;
     esac
 done
 rsc=${rsc:-./rsc}
-if [ $short = yes ]; then kind=shortened; default=output/${study}_short; else kind=full; default=output/$study; fi
+kind=full
+[ $short = no ] || kind=shortened
+default=output/$study
+[ $short = no ] || default=${default}_short
 folder=${folder:-$default}
 case $rsc in */*) ;; *) rsc=./$rsc ;; esac
 if [ ! -x "$rsc" ]; then
-    echo "run.sh: no program $rsc; build it first (sh input/setup.sh, or make -f Makefile.legacy)" >&2
+    echo "run.sh: no program $rsc; build it first: sh input/setup.sh" >&2
     exit 1
 fi
 if [ -z "${PYTHON:-}" ]; then
     for PYTHON in python3 /usr/bin/python3 ''; do
-        [ -z "$PYTHON" ] || "$PYTHON" -c 'import numpy, scipy, matplotlib, netCDF4' 2> /dev/null && break
+        [ -n "$PYTHON" ] || break
+        "$PYTHON" -c 'import numpy, scipy, matplotlib, netCDF4' 2> /dev/null && break
     done
 fi
 if [ -z "$PYTHON" ]; then
-    echo 'run.sh: Python modules are missing; on Debian: apt install python3-scipy python3-matplotlib python3-netcdf4' >&2
+    echo 'run.sh: Python modules are missing; on Debian:' \
+        'apt install python3-scipy python3-matplotlib python3-netcdf4' >&2
     exit 77
 fi
 
@@ -57,7 +63,9 @@ of=$(echo $cases | wc -w)
 mkdir -p "$folder"
 there=$(cat "$folder/kind.txt" 2> /dev/null || true)
 if [ "$there" != $kind ] && ls "$folder"/*.nc > /dev/null 2>&1; then
-    echo "run.sh: $folder holds $(if [ -n "$there" ]; then echo "results of a $there run"; else echo "files that run.sh did not make"; fi): give this $kind run another FOLDER, or remove that one" >&2
+    what='files that run.sh did not make'
+    [ -z "$there" ] || what="results of a $there run"
+    echo "run.sh: $folder holds $what: give this $kind run another FOLDER, or remove that one" >&2
     exit 2
 fi
 echo $kind > "$folder/kind.txt"
@@ -65,12 +73,14 @@ this="$short $(cat "$rsc" "$here"/*.nml "$here/run.sh" "$here/../run_cases.sh" |
 if [ "$(cat "$folder/unfinished.txt" 2> /dev/null)" = "$this" ]; then
     echo 'going on with the run that was interrupted'
 else
-    rm -f "$folder"/*.nc "$folder"/*.checkpoint* "$folder"/*.part-* "$folder"/times.txt "$folder"/begun.txt "$folder"/report.txt "$folder/${study}"_*.png
+    rm -f "$folder"/*.nc "$folder"/*.checkpoint* "$folder"/*.part-* "$folder"/times.txt \
+        "$folder"/begun.txt "$folder"/report.txt "$folder/${study}"_*.png
     echo "$this" > "$folder/unfinished.txt"
 fi
 touch "$folder/times.txt" "$folder/begun.txt"
 stopped() {
-    echo "run.sh: stopped; the same command goes on from here ($(wc -l < "$folder/times.txt") of $of cases are finished)" >&2
+    finished=$(wc -l < "$folder/times.txt")
+    echo "run.sh: stopped; the same command continues ($finished of $of cases are finished)" >&2
     exit "$1"
 }
 trap 'stopped 130' INT
@@ -103,5 +113,6 @@ from=$(date +%s)
 echo 'pictures and report'
 "$PYTHON" "$here/../../output/plot/$study.py" "$folder"
 rm -f "$folder/unfinished.txt" "$folder/begun.txt"
-echo "everything: $(($(date +%s) - begin)) s, of which pictures and report $(($(date +%s) - from)) s"
+end=$(date +%s)
+echo "everything: $((end - begin)) s, of which pictures and report $((end - from)) s"
 echo "the report: $folder/report.txt"

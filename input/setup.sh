@@ -15,7 +15,8 @@ header() { printf '#include <%s>\n' "$1" | g++ -E -x c++ - ; }
 header_udunits() { header udunits2.h || header udunits2/udunits2.h; }
 header_cholmod() { header suitesparse/cholmod.h || header cholmod.h; }
 links() { echo 'int main() {}' | g++ -x c++ - -o /dev/null "$@"; }
-plots() { python3 -c 'import numpy, matplotlib, netCDF4' || /usr/bin/python3 -c 'import numpy, matplotlib, netCDF4'; }
+can_plot() { "$1" -c 'import numpy, matplotlib, netCDF4'; }
+plots() { can_plot python3 || can_plot /usr/bin/python3; }
 look() {
     missing=
     need g++ command -v g++

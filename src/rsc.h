@@ -80,13 +80,13 @@ enum { RSC_STATUS_LIST(RSC_STATUS_ENUMERATOR) RSC_STATUS_LAST_ = RSC_STOPPED };
 
 /* Status of a computed level (rsc_contact_level), the more serious the larger. The values are those
  * of the variable `status` of a result file. */
-#define RSC_LEVEL_LIST(X)                                                   \
-    X(RSC_LEVEL_CONVERGED, 0, "converged")                                  \
-    X(RSC_LEVEL_OUT_OF_VALIDITY, 1,                                         \
-      "outside the range of validity: see the attribute comment of status") \
-    X(RSC_LEVEL_OVERLAPPING, 2, "some contact spots overlap")               \
-    X(RSC_LEVEL_NOT_UNIQUE, 3,                                              \
-      "the solution is a minimum of the energy, perhaps not the only one")  \
+#define RSC_LEVEL_LIST(X)                                                  \
+    X(RSC_LEVEL_CONVERGED, 0, "converged")                                 \
+    X(RSC_LEVEL_OUT_OF_VALIDITY, 1,                                        \
+      "something limits the accuracy: see the variable doubts of results") \
+    X(RSC_LEVEL_OVERLAPPING, 2, "some contact spots overlap")              \
+    X(RSC_LEVEL_NOT_UNIQUE, 3,                                             \
+      "the solution is a minimum of the energy, perhaps not the only one") \
     X(RSC_LEVEL_NOT_CONVERGED, 4, "the solver did not reach its tolerance")
 
 #define RSC_LEVEL_ENUMERATOR(name, value, meaning) name = value,
@@ -103,7 +103,7 @@ typedef struct rsc_friction rsc_friction;     /* a contact with friction, and it
 
 /* The version of this header. rsc_version returns that of the library at run time. */
 #define RSC_VERSION_MAJOR 0
-#define RSC_VERSION_MINOR 3
+#define RSC_VERSION_MINOR 4
 #define RSC_VERSION_PATCH 0
 
 /* The version of the library, "major.minor.patch".
@@ -112,7 +112,7 @@ typedef struct rsc_friction rsc_friction;     /* a contact with friction, and it
 RSC_API int32_t rsc_version(char* buffer, int64_t size, int64_t* length);
 
 /* The error message of the last call of this thread that failed; empty if none has. Successful
- * calls, and this one, do not change it.
+ * calls, this one included, leave it unchanged.
  *     buffer, size, length: text output.
  * Errors: -1 buffer null with size > 0; -2 size < 0. */
 RSC_API int32_t rsc_message(char* buffer, int64_t size, int64_t* length);
@@ -185,7 +185,7 @@ RSC_API int32_t rsc_case_text(const rsc_case* a_case, char* buffer, int64_t size
  * Errors: -1 null. */
 RSC_API int32_t rsc_key_count(int64_t* count);
 
-/* The name of a key, "group%key", to list all keys.
+/* The name of the key with a given number, "group%key": a program can list all keys.
  *     key: 0 to count-1;
  *     buffer, size, length: text output.
  * Errors: -1 out of range; -2 buffer null with size > 0; -3 size < 0. */
@@ -229,7 +229,7 @@ RSC_API int32_t rsc_case_resume(const rsc_case* a_case, rsc_watch watch, void* d
                                 int64_t* failed_levels);
 
 /* Takes the lock under which rsc calls NetCDF, HDF5 and the planner of FFTW, for programs in which
- * other threads call these libraries. Waits until no other thread holds it. A thread that holds the
+ * other threads call these libraries. Waits until no other thread holds the lock. A thread that holds the
  * lock may call rsc and take the lock again; it must release it as often as it took it. Hold it as
  * briefly as possible: other threads in rsc wait for it. HDF5 prints no messages in this thread
  * afterwards. */
@@ -588,10 +588,10 @@ RSC_API int32_t rsc_contact_answer(rsc_contact* contact, double* separation, dou
  * (2 |dN/dZ0|/E* at fixed contact areas), "lateral_force_x", "lateral_force_y", "moment_x",
  * "moment_y", "gap_mean", "percolates_x", "permeability_xx", "hydraulic_gap_x", ... (two flats by
  * elements), "resistance" (with solids%resistivity in the case the contact was made from). The
- * message of an unknown name lists all. "force_error_expected" and "area_error_expected", the
+ * error message for an unknown name lists all names. "force_error_expected" and "area_error_expected", the
  * expected errors of N and A, exist for asperities, and for elements with adhesion. rsc_case_run
- * estimates the error of other elements on a second grid; a contact handle does not, and its status
- * does not include that error.
+ * estimates the error of elements without adhesion from a second grid; a contact handle does not,
+ * and its status does not include that error.
  *     contact: the contact;
  *     name: the name;
  *     value (out): its value.
@@ -698,8 +698,7 @@ RSC_API int32_t rsc_contacts_indent(int64_t n, rsc_contact** contacts, const dou
  *     lateral_x, lateral_y (out) [force], moment_x, moment_y (out) [force length]: as in
  *       rsc_contact_value;
  *     level_status (out): of RSC_LEVEL_LIST;
- *     status (out): of moving, indenting or pressing each contact, negative ones being argument
- *       numbers of those functions;
+ *     status (out): of rsc_contact_move_tip, _indent or _press for each contact;
  *     threads: 1 or more, 0 for all of the machine.
  * Each output may be null; those of a contact that failed are unchanged, except for
  * RSC_NOT_CONVERGED.
@@ -779,7 +778,7 @@ RSC_API int32_t rsc_friction_destroy(rsc_friction** friction);
 
 /* Moves the contact on a straight path to (separation, x, y) and returns the forces there. Costs
  * one level at the new separation, and one more if spots slip. The first call defines the start of
- * the path, pressed without slide. Only differences of x and y matter; a slide without contact has
+ * the path, where the contact is pressed without slide. Only differences of x and y matter; a slide without contact has
  * no effect.
  *     friction: the friction;
  *     separation: Z0;
@@ -795,11 +794,11 @@ RSC_API int32_t rsc_friction_update(rsc_friction* friction, double separation, d
                                     double* force, double* force_x, double* force_y, double* lost);
 
 /* Moves the tip at the separation of the last update, for a sphere that rolls onto other
- * asperities. Asperities in contact at both positions keep their share of Q: reversals in memory
- * keep their relative depth below first touch, and their deflections are multiplied by the fraction
+ * asperities. Asperities in contact at both positions keep their share of Q: remembered
+ * reversals of the slide keep their relative depth below first touch, and their deflections are multiplied by the fraction
  * of the force that these asperities carry. The excess tangential energy is counted as lost to
  * friction; no energy is gained. Without a path, or if the tip is already there, only the tip
- * changes. Costs a level for each reversal in memory.
+ * changes. Costs as much as a level for each reversal of the slide that is remembered.
  *     friction: the friction;
  *     x0, y0: the new position [length], as in rsc_contact_move_tip.
  * Errors: -1 null; -2, -3 not finite; -2 outside; RSC_NOT_CONVERGED; RSC_NO_MEMORY, RSC_INTERNAL.
@@ -807,8 +806,8 @@ RSC_API int32_t rsc_friction_update(rsc_friction* friction, double separation, d
 RSC_API int32_t rsc_friction_move_tip(rsc_friction* friction, double x0, double y0);
 
 /* Tangential stiffness dQ/d(x, y) for a further slide at this separation in the present direction
- * of slip (S m in all directions if nothing slips, and for a reversed slide; S = -dN/dZ0). Costs up
- * to one level. All outputs may be null.
+ * of slip (S m in all directions if nothing slips, and for a reversed slide; S = -dN/dZ0). Costs at
+ * most as much as one level. All outputs may be null.
  *     friction: the friction;
  *     xx, xy, yx, yy: dQ_x/dx, dQ_x/dy, dQ_y/dx, dQ_y/dy [force/length], 0 without contact.
  * Errors: -1 null; RSC_NOT_CONVERGED; RSC_NO_MEMORY. */
@@ -843,7 +842,7 @@ RSC_API int32_t rsc_friction_rollback(rsc_friction* friction);
 
 /* First loading at the separation of the last update: tangential forces of a contact that is
  * pressed there and then slid. The path of the friction is not changed. Q = mu [N(Z0) - N(Z0')],
- * slide = (mu/m) (Z0' - Z0). Costs a level for each slide below full slip.
+ * slide = (mu/m) (Z0' - Z0). Costs as much as a level for each slide below full slip.
  *     friction: the friction;
  *     n: length of the arrays, >= 0;
  *     slide: >= 0 [length];
@@ -870,8 +869,8 @@ RSC_API int32_t rsc_friction_slide(rsc_friction* friction, double force, double*
  * Errors: -1 null; RSC_NO_RESULT before the first update and without contact. */
 RSC_API int32_t rsc_friction_full_slip(const rsc_friction* friction, double* slide, double* force);
 
-/* Friction at the spots of the last update, by increasing index of asperity. Costs a level for each
- * reversal in memory. The number is written even if the arrays are too short.
+/* Friction at the spots of the last update, by increasing index of asperity. Costs as much as a
+ * level for each reversal of the slide that is remembered. The number is written even if the arrays are too short.
  *     friction: the friction;
  *     n: length of each array;
  *     count (out, may be null): number of spots;

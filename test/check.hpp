@@ -1,6 +1,5 @@
 // The whole test framework: checks that say what failed and go on, and a summary as the exit
-// status. `test_unit NAME` runs every
-// TEST(what) { ... } of the file test/unit/test_NAME.cpp, in their order.
+// status. `test_rooms NAME` runs every TEST(what) { ... } of the file test_NAME.cpp, in their order.
 #pragma once
 
 #include <iterator>

@@ -1,4 +1,4 @@
-// Runs the tests of the files named, or of all: test_unit [NAME].
+// Runs the tests of the files named, or of all: test_rooms [NAME].
 #include "check.hpp"
 
 namespace check {

@@ -7,7 +7,7 @@ itself); on a dome of 20 mm radius; tilted by 0.8 % and -0.5 %; white noise of 4
 1 nm. A scratch of missing points and some single ones. 160 x 128 points of 2.5 x 3.125 um: 400 x
 400 um.
 
-    python3 input/map/make_map.py           writes both files beside itself; needs nothing but Python
+    python3 input/map/make_map.py     writes both files beside itself; needs only Python
 """
 
 import cmath

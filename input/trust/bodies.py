@@ -46,7 +46,7 @@ def grooves(x, y, angle, waves):
 
 
 def measured(name, n):
-    """Heights of unit rms of a map on n x n points of the unit square, the same ones whatever n is."""
+    """Heights of unit rms of a map on n x n points of the unit square; the same ones for any n."""
     rng = np.random.default_rng(zlib.crc32(name.encode()))
     y, x = np.meshgrid(np.arange(n) / n, np.arange(n) / n, indexing="ij")
     field = lambda longest, shortest, hurst, aspect=1.0, angle=0.0: band_noise(
@@ -265,7 +265,10 @@ def main():
                 continue
             E = 1 / ((1 - nu1**2) / E1 + (1 - nu2**2) / E2)
             flats, extra = math.isinf(R), body[12] if len(body) > 7 else ""
-            case = f"&run threads=1 seed={zlib.crc32(name.encode()) % 1000} /\n&solids E={E1}, {E2} nu={nu1}, {nu2} R=Infinity, {'Infinity' if flats else R} {extra} /\n"
+            case = (
+                f"&run threads=1 seed={zlib.crc32(name.encode()) % 1000} /\n&solids E={E1},"
+                f" {E2} nu={nu1}, {nu2} R=Infinity, {'Infinity' if flats else R} {extra} /\n"
+            )
             boundary = " boundary='periodic'" if flats else ""
             if len(body) == 7:
                 fine, coarse = os.path.join(folder, "fine.nc"), os.path.join(folder, "map.nc")
@@ -278,8 +281,9 @@ def main():
             else:
                 longest, shortest, hurst, plateau, points = body[7:12]
                 surface = (
-                    f"&surface L={L} sigma={sigma!r} L_lambda_l={longest} L_lambda_s={shortest} hurst={hurst} "
-                    f"plateau={'.true.' if plateau else '.false.'} n={2 * math.ceil(points * shortest / 2)} /\n"
+                    f"&surface L={L} sigma={sigma!r} L_lambda_l={longest} L_lambda_s={shortest} "
+                    f"hurst={hurst} plateau={'.true.' if plateau else '.false.'} "
+                    f"n={2 * math.ceil(points * shortest / 2)} /\n"
                 )
                 resolved = surface + "&elements points_per_wave=12 /\n"
             for law in ("default", "hertz", "elliptic", "fourth_order"):
@@ -302,7 +306,8 @@ def main():
                     o.rsc,
                     case
                     + resolved
-                    + f"&indentation unit='length' levels={levels} {tip}{boundary} /\n&solver model='elements' /\n",
+                    + f"&indentation unit='length' levels={levels} {tip}{boundary} /\n&solver"
+                    " model='elements' /\n",
                     folder,
                 )
                 if isinstance(t, str):
@@ -328,13 +333,19 @@ def main():
                 ):
                     total[k] += more
                 print(
-                    f"{name:25s} {law:13s} status {' '.join(f'{int(s)}' for s in r['status'])}  off {' '.join(f'{100 * e:7.1f}' for e in off)}  told "
-                    f"{' '.join(f'{100 * b:6.1f}' for b in told)}  edge {' '.join(f'{int(v)}' for v in t['edge_contacts'])}{'  WRONG' if wrong else ''}",
+                    (
+                        f"{name:25s} {law:13s} status {' '.join(f'{int(s)}' for s in r['status'])} "
+                        f" off {' '.join(f'{100 * e:7.1f}' for e in off)}  told "
+                        f"{' '.join(f'{100 * b:6.1f}' for b in told)}  edge"
+                        f" {' '.join(f'{int(v)}' for v in t['edge_contacts'])}"
+                        f"{'  WRONG' if wrong else ''}"
+                    ),
                     flush=True,
                 )
     for law, (levels, sure, wrong, told, kept) in count.items():
         print(
-            f"{law:13s} {levels} levels, {sure} of status 0, {wrong} of these more than 10 % off; {kept} of {told} within what was told"
+            f"{law:13s} {levels} levels, {sure} of status 0, {wrong} of these more than 10 % off;"
+            f" {kept} of {told} within what was told"
         )
 
 

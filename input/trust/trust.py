@@ -2,12 +2,12 @@
 """Measures the differences between asperities and elements, and fits the bounds that rsc prints as
 N = 1.23 +- 5 %.
 
-    python3 input/trust/trust.py elements    solves surfaces by elements on two grids, as a reference (slow; may be stopped and
-                                             called again, finished surfaces are kept)
-    python3 input/trust/trust.py asperities  solves the same levels by the three laws (likewise)
-    python3 input/trust/trust.py fit         fits the bounds to the first surfaces, prints how often the others are within them, by
-                                             group, and writes src/trust/asperity_error_table.hpp
-    python3 input/trust/trust.py slopes      N and A over those of elements by slope_ratio and law
+    trust.py elements    solves surfaces by elements on two grids, as a reference (slow; may be
+                         stopped and called again, finished surfaces are kept)
+    trust.py asperities  solves the same levels by the three laws (likewise)
+    trust.py fit         fits the bounds to the first surfaces, prints how often the others are
+                         within them, by group, and writes src/trust/asperity_error_table.hpp
+    trust.py slopes      N and A over those of elements by slope_ratio and law
 
 Options: --maps DIR  height maps measured by the reader or published, in any format that rsc reads:
 surfaces 600 and above, four for each map (with a small and a large sphere, as read and filtered),
@@ -45,14 +45,11 @@ import numpy as np
 
 LAWS = ("hertz", "elliptic", "fourth_order")
 CALIBRATED = 300  # surfaces below this number are fitted, the others held out
-SMOOTH, SMOOTH_FITTED = (
-    540,
-    552,
-)  # from this number on pairs of smooth surfaces of equal noise, few contacts of a large ball
-RICH, RICH_FITTED = (
-    500,
-    530,
-)  # surfaces from the first number on have broad spectra, loaded as in the paper; fitted up to the second
+# From this number on pairs of smooth surfaces of equal noise, few contacts of a large ball.
+SMOOTH, SMOOTH_FITTED = 540, 552
+# Surfaces from the first number on have broad spectra, loaded as in the paper; fitted up to the
+# second.
+RICH, RICH_FITTED = 500, 530
 PUBLIC = 600  # from this number on surfaces of --maps; they give the factor of files
 GENTLE, GENTLE_FITTED = (
     2000,
@@ -101,8 +98,12 @@ def public(number, rsc, folder):
     path = MAPS[(number - PUBLIC) // 4]
     r = run(
         rsc,
-        f"&run length_unit='mm' /\n&surface source='heights' file='{path}' missing='fill' detrend='quadratic' /\n&solver model='elements' /\n"
-        f"&indentation unit='sigma' levels=99 /\n&output file='{folder}/result.nc' fields='heights' field_window=-1e9, 1e9, -1e9, 1e9 map_cells=4 /\n",
+        (
+            f"&run length_unit='mm' /\n&surface source='heights' file='{path}' missing='fill'"
+            " detrend='quadratic' /\n&solver model='elements' /\n&indentation unit='sigma'"
+            f" levels=99 /\n&output file='{folder}/result.nc' fields='heights' field_window=-1e9,"
+            " 1e9, -1e9, 1e9 map_cells=4 /\n"
+        ),
         folder,
     )
     if (
@@ -221,7 +222,7 @@ def draw(number):
 
 
 def height_map(s, fine):
-    """The heights of a surface generated here, on fine x (points per wave) x shortest points a side."""
+    """Heights of a surface generated here: fine x (points per wave) x shortest points a side."""
     if "z" in s:
         return s["z"] if fine == 2 else s["z"][::2, ::2]
     rng = np.random.default_rng(s["seed"])
@@ -260,12 +261,21 @@ def write_map(path, z, L=1.0):
 
 def case_text(s, folder, model, law, extra):
     flats = s["group"] == "flats"
-    text = f"&run threads=1 /\n&solids E={E_STAR!r}, Infinity nu=0, 0 R=Infinity, {'Infinity' if flats else repr(s['R'])}"
+    text = (
+        f"&run threads=1 /\n&solids E={E_STAR!r}, Infinity nu=0, 0 R=Infinity,"
+        f" {'Infinity' if flats else repr(s['R'])}"
+    )
     if "hardness_value" in s:
         text += f" hardness={s['hardness_value']!r}"
-    text += f" /\n&indentation unit='length' levels={', '.join(repr(z) for z in s['levels'])} centre=0.5, 0.5"
+    text += (
+        " /\n&indentation unit='length'"
+        f" levels={', '.join(repr(z) for z in s['levels'])} centre=0.5, 0.5"
+    )
     text += " boundary='periodic' /\n" if flats else " /\n"
-    text += f"&solver model='{model}' /\n&asperities law='{law}' /\n&output file='{folder}/result.nc' map_cells=4 radial_bins=2 pdf_levels=2 compression=0 /\n"
+    text += (
+        f"&solver model='{model}' /\n&asperities law='{law}' /\n&output file='{folder}/result.nc'"
+        " map_cells=4 radial_bins=2 pdf_levels=2 compression=0 /\n"
+    )
     return text + extra
 
 
@@ -288,8 +298,10 @@ def run(rsc, text, folder):
 
 def surface_keys(s, points_per_wave=None, n=None):
     text = (
-        f"&surface source='synthetic' L=1 n={n or int(math.ceil(s['points'] * s['shortest'] / 2)) * 2} hurst={s['hurst']!r} L_lambda_l={s['longest']!r} "
-        f"L_lambda_s={s['shortest']} sigma={s['sigma']!r} plateau={'.true.' if s['plateau'] else '.false.'} /\n"
+        "&surface source='synthetic' L=1"
+        f" n={n or int(math.ceil(s['points'] * s['shortest'] / 2)) * 2} hurst={s['hurst']!r}"
+        f" L_lambda_l={s['longest']!r} L_lambda_s={s['shortest']} sigma={s['sigma']!r}"
+        f" plateau={'.true.' if s['plateau'] else '.false.'} /\n"
     )
     return text + (f"&elements points_per_wave={points_per_wave} /\n" if points_per_wave else "")
 
@@ -299,7 +311,7 @@ def made_by_rsc(s):
 
 
 def rms_slope(s):
-    """Expectation for the band, for the hardness: any scale is suitable if both models use the same."""
+    """Expectation for the band and the hardness: any scale will do, the same in both models."""
     q = np.arange(max(1, round(s["longest"])), s["shortest"] + 1)
     psd = q ** (-2 * (1 + s["hurst"]))
     return s["sigma"] * math.sqrt(np.sum(q**3 * psd) / np.sum(q * psd)) * 2 * math.pi
@@ -630,21 +642,28 @@ def fit(out, header):
         for what in ("N", "A"):
             ok = lambda some: np.array([abs(r[what]) <= table.bound(r, what) for r in some])
             first = [r for r in own if fitted(r)]
-            line = f"{law:13s} {what}: {len(first)} levels fitted, {ok(first).mean():.3f} within; held out {len(held)}: {ok(held).mean():.3f} within; "
+            line = (
+                f"{law:13s} {what}: {len(first)} levels fitted, {ok(first).mean():.3f} within; held"
+                f" out {len(held)}: {ok(held).mean():.3f} within; "
+            )
             line += f"median bound {np.median([table.bound(r, what) for r in held]):.3f}"
             for group in sorted({r["group"] for r in held}):
                 mine = [r for r in held if r["group"] == group]
                 line += f"; {group} {ok(mine).mean():.2f} of {len(mine)}"
             sure = [r for r in held if table.bound(r, what) <= 0.1]
-            line += f"; bound below 10 %: {len(sure)}, of these beyond 10 %: {sum(abs(r[what]) > 0.1 for r in sure)}"
+            line += (
+                f"; bound below 10 %: {len(sure)}, of these beyond 10 %:"
+                f" {sum(abs(r[what]) > 0.1 for r in sure)}"
+            )
             report.append(line)
             within[what] = 100 * ok(held).mean()
         provenance.append(
-            f"// {law}: {len(first)} levels fitted; of {len(held)} others N is within the bound at {within['N']:.0f} %, A at {within['A']:.0f} %."
+            f"// {law}: {len(first)} levels fitted; of {len(held)} others N is within the bound at"
+            f" {within['N']:.0f} %, A at {within['A']:.0f} %."
         )
         report.append(
-            f"{law:13s} levels in range: {len(own)} of {len(levels[law])}; nothing touches where elements carry load: "
-            f"{sum(r['x'] is None for r in levels[law])}"
+            f"{law:13s} levels in range: {len(own)} of {len(levels[law])}; nothing touches where"
+            f" elements carry load: {sum(r['x'] is None for r in levels[law])}"
         )
     print("\n".join(report))
     (out / "report.txt").write_text("\n".join(report) + "\n")
@@ -652,7 +671,10 @@ def fit(out, header):
         [braces([of(tables[law], what) for what in ("N", "A")]) for law in LAWS]
     )
     lines = [
-        "// Written by input/trust/trust.py from its study of asperities against elements; do not edit.",
+        (
+            "// Written by input/trust/trust.py from its study of asperities against elements; do"
+            " not edit."
+        ),
         f"// {len(asperities)} surfaces.",
         *provenance,
         "#pragma once",
@@ -666,7 +688,10 @@ def fit(out, header):
         "// Relative errors by law (hertz, elliptic, fourth_order), of N and A, by bin.",
         f"inline constexpr double kErrors[3][2][{BINS}] =",
         f"    {of_laws(lambda table, what: braces(table.errors[what]))};",
-        "// Factors of heights from a file or not isotropic and Gaussian, and of yielding contacts.",
+        (
+            "// Factors of heights from a file or not isotropic and Gaussian, and of yielding"
+            " contacts."
+        ),
         "inline constexpr double kOfFiles[3][2] =",
         f"    {of_laws(lambda table, what: table.of_files[what])};",
         "inline constexpr double kOfYielding[3][2] =",
@@ -707,8 +732,11 @@ def slopes(out):
                 n, a = np.percentile(v[:, 0], [50, 5, 95]), np.percentile(v[:, 1], [50, 5, 95])
                 sure = v[v[:, 2] == 1]
                 print(
-                    f"{law:13s} {edges[b]:5.2f} - {edges[b + 1]:5.2f}: {len(v):4d} levels  N {n[0]:5.2f} ({n[1]:5.2f} {n[2]:5.2f})  A {a[0]:5.2f} ({a[1]:5.2f} {a[2]:5.2f})  "
-                    f"status 0: {len(sure)}, of these N within 5 %: {np.sum(np.abs(sure[:, 0] - 1) <= 0.05)}, 10 %: {np.sum(np.abs(sure[:, 0] - 1) <= 0.1)}"
+                    f"{law:13s} {edges[b]:5.2f} - {edges[b + 1]:5.2f}: {len(v):4d} levels  N"
+                    f" {n[0]:5.2f} ({n[1]:5.2f} {n[2]:5.2f})  A"
+                    f" {a[0]:5.2f} ({a[1]:5.2f} {a[2]:5.2f})  status 0: {len(sure)}, of these N"
+                    f" within 5 %: {np.sum(np.abs(sure[:, 0] - 1) <= 0.05)}, 10 %:"
+                    f" {np.sum(np.abs(sure[:, 0] - 1) <= 0.1)}"
                 )
 
 

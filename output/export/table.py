@@ -29,7 +29,7 @@ if __name__ == "__main__":
 import netCDF4
 import numpy as np
 
-NOT_CONVERGED = 4  # of the variable status
+DOUBTS, NOT_CONVERGED = 1, 4  # of the variable status
 GRAVITY = np.array([0, 3, 1, 2, 4])  # out of validity overrides overlapping and not unique
 COLUMNS = [
     "pressure",
@@ -69,6 +69,7 @@ class Table:
                     "'status'"
                 )
             self.meanings = variables["status"].flag_meanings.split()
+            self.doubts = _doubts(variables["doubts"]) if "doubts" in variables else []
             self.remembers = "path" in file.ncattrs()  # levels depend on the levels before
             status = np.atleast_2d(np.ma.filled(variables["status"][:], NOT_CONVERGED)).astype(int)
             good = status != NOT_CONVERGED
@@ -91,7 +92,7 @@ class Table:
                         continue
                     mean, stderr = _mean(values)
                     self._add(name + axis, mean, unit)
-                    if many:
+                    if many and (stderr > 1e-9 * abs(mean)).any():  # not a prescribed load
                         self._add(name + axis + "_stderr", stderr, unit)
                 if EXPECTED.get(name) in variables:
                     self._add(
@@ -99,7 +100,15 @@ class Table:
                         _mean(self._values(_numbers(variables[EXPECTED[name]]), good)[0])[0],
                         "1",
                     )
+        self.words = [self._words([k]) for k in range(self.status.size)]
         self.load = "pressure" if "pressure" in self.columns else "force"
+
+    def _words(self, levels):
+        """The most serious status of some levels in words; that of doubts names them."""
+        status = self.status[levels]
+        worst = status[GRAVITY[status].argmax()]
+        names = [name for name, doubted in self.doubts if doubted[levels].any()]
+        return ", ".join(names) if worst == DOUBTS and names else self.meanings[worst]
 
     def _values(self, values, good):
         """(realization, step), with NaN for levels that did not converge; and True if there are
@@ -138,10 +147,10 @@ class Table:
         return kept
 
     def at(self, wanted, by=None):
-        """The table at these values of the load, or of the separation, as (columns, status).
-        Between levels positive quantities follow a power law of the load (of the separation: an
-        exponential), others a straight line in its logarithm; interpolated values are between those
-        of the two neighbours, and increasing quantities remain increasing."""
+        """The table at these values of the load, or of the separation, as (columns, words of the
+        status). Between levels positive quantities follow a power law of the load (of the
+        separation: an exponential), others a straight line in its logarithm; interpolated values
+        are between those of the two neighbours, and increasing quantities remain increasing."""
         by = by or self.load
         levels = self.loading(by)
         known = self.columns[by][levels]
@@ -166,11 +175,20 @@ class Table:
                 between = np.where((a > 0) == (b > 0), between, np.nan)
             columns[name] = np.where(share == 0, a, np.where(share == 1, b, between))
         columns[by] = wanted
-        status = np.array([self.status[levels][r - 1 : r + 1] for r in right])
-        graver = np.where(GRAVITY[status[:, 0]] > GRAVITY[status[:, 1]], status[:, 0], status[:, 1])
-        return columns, np.where(
-            share == 0, status[:, 0], np.where(share == 1, status[:, 1], graver)
-        )
+        used = [
+            [levels[r - 1]] if s == 0 else [levels[r]] if s == 1 else levels[r - 1 : r + 1]
+            for r, s in zip(right, share)
+        ]
+        return columns, [self._words(np.array(some)) for some in used]
+
+
+def _doubts(variable):
+    """[(words of a doubt, whether a level has it in any realization)]."""
+    bits = np.atleast_2d(np.ma.filled(variable[:], 0)).astype(int)
+    bits = np.bitwise_or.reduce(bits, axis=0)
+    names = variable.flag_meanings.split()
+    masks = np.atleast_1d(variable.flag_masks).tolist()
+    return [(name.replace("_", " "), bits & mask > 0) for name, mask in zip(names, masks)]
 
 
 def _numbers(variable):
@@ -228,7 +246,7 @@ def rows(paths, at=None, by=None):
     header, lines = {}, []
     for path, keys in found:
         table = Table(path)
-        columns, status = table.at(at, by) if at else (table.columns, table.status)
+        columns, words = table.at(at, by) if at else (table.columns, table.words)
         fixed = ({"file": os.path.basename(path)} if len(found) > 1 else {}) | keys
         names = {
             name: f"{name} [{table.units[name]}]" if table.units[name] != "1" else name
@@ -243,8 +261,8 @@ def rows(paths, at=None, by=None):
                 else ""
                 for n, v in columns.items()
             }
-            | {"status": table.meanings[status[k]]}
-            for k in range(len(status))
+            | {"status": words[k]}
+            for k in range(len(words))
         ]
     header = [*header, "status"]
     return header, [[line.get(name, "") for name in header] for line in lines]

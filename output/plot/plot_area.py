@@ -134,9 +134,11 @@ def _elastic_until(page, axis, result):
     axis.axvspan(
         begins, axis.get_xlim()[1], color="#f2b400", alpha=0.15, lw=0, gid="yields", zorder=0
     )
+    text = f"contacts yield from {amount(begins, dimension)} on"
+    if below.size:
+        text += f" (none at {amount(below.max(), dimension)})"
     page.entry(
-        f"contacts yield from {amount(begins, dimension)} on"
-        + (f" (none at {amount(below.max(), dimension)})" if below.size else ""),
+        "contacts yield at all levels" if yields[at].all() else text,
         color="#f2b400",
         alpha=0.3,
         lw=6,

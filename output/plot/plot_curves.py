@@ -73,7 +73,8 @@ def bars(page, axis, x, y, errors, result, colour):
     x, y, errors = x[every], y[every], np.atleast_2d(errors)[:, every]
     looks = dict(ecolor=colour, elinewidth=0.8, capsize=1.5, gid="bars")
     axis.errorbar(x, y, np.broadcast_to(errors, (2, x.size)), fmt="none", **looks)
-    what = "standard error of the mean" if result.realizations > 2 else "expected error"
+    many = result.realizations > 2
+    what = "standard error of the mean" if many else "expected error of one realization"
     page.entry("bars: " + what, marker="|", color=GREY, ls="none", ms=6)
 
 
@@ -176,9 +177,23 @@ def hertz_force(result, approach):
     return 4 / 3 * result["e_star"] * np.sqrt(result["r_star"]) * np.maximum(approach, 0) ** 1.5
 
 
+def hertz_line(result, approach):
+    """Force of the smooth cylinder in line contact at an approach. A load P per length, pressed on
+    the width 2 b with the pressure of Hertz, lowers the middle by
+    2 P/(pi E*) [ln(4 L/b) + 1/2 - 0.5772], because separations of line contacts count from a
+    constant of the length L (output/README)."""
+    length = np.nanmax(result.mean("force") / result.mean("force_per_length"))
+    # The approach grows with the load up to half-widths of L.
+    loads = np.geomspace(1e-6, 1, 500) * np.pi * result["e_star"] * length
+    loads = loads[result.half_width_under(loads) < length]
+    lowered = np.log(4 * length / result.half_width_under(loads)) + 0.5 - np.euler_gamma
+    known = 2 * loads / (np.pi * result["e_star"]) * lowered
+    return np.interp(approach, known, loads * length, left=np.nan, right=np.nan)
+
+
 def load(results, options):
     """Force (for two flats nominal pressure) and number of contacts against the approach, that of a
-    ball beside that of the smooth ball."""
+    ball or a cylinder beside that of the smooth one (Hertz)."""
     results = [r for r in results if "contacts" in r and r.loaded().size and r.load_varies()]
     if not results:
         return None
@@ -204,15 +219,20 @@ def load(results, options):
             axis.set_ylim(0, 1.1 * loads.max())
             axis.yaxis.get_major_locator().set_params(integer=True)
     smooth = {(float(r["e_star"]), float(r["r_star"])): r for r in results if r.is_ball()}
+    lines = [r for r in results if np.isfinite(r.half_width(r.loaded()[-1]))]
+    if len(results) == len(lines) == 1:
+        smooth[None] = lines[0]
     deep = page.axes[0].dataLim.x1 > 0  # Hertz's force begins at the mean plane
     if len(smooth) == 1 and deep and not any(r.pulls() for r in results):
         page.axes[0].autoscale_view()  # Hertz's force vanishes at the origin
         limits = page.axes[0].get_ylim()
         x = np.linspace(0, page.axes[0].dataLim.x1, 300)[1:]
         for result in smooth.values():
-            page.axes[0].plot(
-                x, hertz_force(result, x), ":", color=GREY, lw=1.0, label=result.smooth()
-            )
+            if lines:
+                y, name = hertz_line(result, x), "smooth cylinder (Hertz)"
+            else:
+                y, name = hertz_force(result, x), result.smooth()
+            page.axes[0].plot(x, y, ":", color=GREY, lw=1.0, label=name)
         page.axes[0].set_ylim(limits)
     for axis, words, name in zip(page.axes, (text, "number of contacts"), (first, "contacts")):
         label(axis, "x", "approach of the mean planes $-Z_0$" if flat else "approach $-Z_0$", "m")

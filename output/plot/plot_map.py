@@ -5,7 +5,8 @@ from matplotlib.colors import PowerNorm
 
 from plot_curves import title
 from plot_results import edges, names
-from plot_spots import draw_pixels, draw_smooth, heights, with_smooth
+from plot_spots import draw_pixels, draw_smooth, draw_spots, ellipses, heights, spots_of
+from plot_spots import with_smooth
 from plot_style import COLOURS, Page, amount, colour_bar, label
 
 MOST = 36  # maps of several results on one page
@@ -30,12 +31,46 @@ def shown(results, options):
     ], common
 
 
-def _field(result, level, name, fine):
-    """(values, extent) of a quantity: on the points of the fields, or in the cells of the map."""
-    if name == "map_pressure" and fine:
+def _pressure(result, level, fields=True):
+    """What the file has of the pressure at a level, the most detailed first: ('field', values,
+    extent), ('pixels', means of the cells at the pixels in contact, extent), ('spots', mean
+    pressures, spots), ('cells', values, extent)."""
+    if fields and "field_pressure" in result and level + 1 in result["field_step"]:
         at = int(np.flatnonzero(result["field_step"] == level + 1)[0])
-        return result.window("field_pressure", at), edges(result["field_x"], result["field_y"])
-    return result.cells(name, level)[0], edges(result["x"], result["y"])
+        values = result.window("field_pressure", at)
+        return "field", values, edges(result["field_x"], result["field_y"])
+    if result.pixels(level):
+        return "pixels", _at_pixels(result, level), result.pixels(level)[1]
+    spots = spots_of(result, level) if result.realizations == 1 else None
+    if spots is not None:
+        return "spots", spots[5] / (np.pi * spots[2] * spots[3]), spots
+    return _of_cells(result, level)
+
+
+def _of_cells(result, level):
+    return "cells", result.cells("map_pressure", level)[0], edges(result["x"], result["y"])
+
+
+def _at_pixels(result, level):
+    """Force per area of the pixels in contact in a cell of the map, between cells linear."""
+    mask, (x0, x1, y0, y1) = result.pixels(level)
+    ny, nx = mask.shape
+    x, y = x0 + (np.arange(nx) + 0.5) * (x1 - x0) / nx, y0 + (np.arange(ny) + 0.5) * (y1 - y0) / ny
+    pressure, (left, _, low, _) = result.cells("map_pressure", level)
+    side = float(result["map_cell_side"])
+    i = np.clip(((x - left) / side).astype(int), 0, pressure.shape[1] - 1)
+    j = np.clip(((y - low) / side).astype(int), 0, pressure.shape[0] - 1)
+    touching = np.zeros(pressure.shape)
+    np.add.at(touching, tuple(of[mask > 0] for of in np.meshgrid(j, i, indexing="ij")), 1)
+    share = touching * (x1 - x0) * (y1 - y0) / (nx * ny) / side**2
+
+    def between(values):
+        rows = np.array([np.interp(x, result["x"], row) for row in values])
+        return np.array([np.interp(y, result["y"], column) for column in rows.T]).T
+
+    share = between(share)
+    found = np.divide(between(pressure), share, out=np.zeros(mask.shape), where=share > 0)
+    return np.where(mask > 0, found, 0)
 
 
 def _window(panels):
@@ -68,8 +103,9 @@ def _window(panels):
 
 def maps(results, options):
     """Contact and pressure at some levels of one result, or the pressure of several results, with
-    one colour scale, cropped to the contact. Dashed: the contact of the smooth indenter under the
-    same force."""
+    one colour scale, cropped to the contact. Contact is drawn at the pixels of elements or by the
+    spots of asperities, and means over realizations in the cells of the map. Dashed: the contact of
+    the smooth indenter under the same force."""
     results = [r for r in results if "map_pressure" in r]
     panels, common = shown(results, options)
     if not panels:
@@ -78,8 +114,14 @@ def maps(results, options):
         options.say(f"map: {MOST} of {len(panels)} results are drawn, evenly spaced")
         panels = [panels[k] for k in np.linspace(0, len(panels) - 1, MOST).round().astype(int)]
     one = len(results) == 1
-    masked = all("mask_step" in r and level + 1 in r["mask_step"] for r, level, _ in panels)
-    first = "contact" if one and masked else "map_area_fraction"
+    pressures = [_pressure(r, level) for r, level, _ in panels]
+    if any(kind != "field" for kind, _, _ in pressures):
+        pressures = [_pressure(r, level, fields=False) for r, level, _ in panels]
+    if any(kind == "cells" for kind, _, _ in pressures):
+        pressures = [_of_cells(r, level) for r, level, _ in panels]
+    known = [r.pixels(level) or spots_of(r, level) for r, level, _ in panels]
+    contact = all(found is not None for found in known) and panels[0][0].realizations == 1
+    first = "contact" if one and contact else "map_area_fraction"
     quantities = [first, "map_pressure"] if one else ["map_pressure"]
     columns = (
         len(panels)
@@ -99,31 +141,37 @@ def maps(results, options):
         options, len(panels) * len(quantities), (0.8 * shape * size + title_room) / size, columns
     )
     grid = np.array(page.axes, dtype=object)
-    fine = all("field_pressure" in r and level + 1 in r["field_step"] for r, level, _ in panels)
     for q, variable in enumerate(quantities):
         axes = grid[q * len(panels) : (q + 1) * len(panels)]
-        fields = [
-            _field(r, level, variable, fine) for r, level, _ in panels if variable != "contact"
-        ]
+        drawn = pressures
+        if variable == "map_area_fraction":
+            drawn = [
+                ("cells", r.cells(variable, level)[0], edges(r["x"], r["y"]))
+                for r, level, _ in panels
+            ]
+        norm, extend = _scale([values for _, values, _ in drawn], variable)
         image = None
         for k, (axis, (result, level, name)) in enumerate(zip(axes, panels)):
+            inside = window or _window([panels[k]])
             if variable == "contact":
                 heights(result, axis, window, bright=0.8)
-                draw_pixels(page, axis, result, level)
+                if not draw_pixels(page, axis, result, level):
+                    draw_spots(axis, spots_of(result, level), least=_visible(inside), page=page)
             else:
-                image = _image(axis, *fields[k], variable, [field for field, _ in fields])
+                image = _image(axis, *drawn[k], norm, _visible(inside)) or image
             draw_smooth(page, axis, result, level)
-            inside = window or _window([panels[k]])
             axis.set(xlim=inside[:2], ylim=inside[2:], aspect="equal")
             axis.dataLim.set_points(np.reshape(inside, (2, 2)).T)  # for the unit of the labels
             if q == 0:
                 axis.set_title(_heading(result, level, name), fontsize=5.5 if small else 7)
-            lowest = q == len(quantities) - 1 and k + columns >= len(panels)
-            _axes(axis, result, small, same and k % columns > 0, same and not lowest)
+            place = q * len(panels) + k
+            lowest = place + columns >= grid.size
+            _axes(axis, result, small, same and place % columns > 0, same and not lowest)
         if image is not None:
             text = "area fraction $A'$" if variable == "map_area_fraction" else "pressure $p$"
+            text += {"pixels": ", means of cells", "spots": ", means of spots"}.get(drawn[0][0], "")
             dimension = panels[0][0].dimension(variable)
-            how = dict(extend=image.extend, pad=0.01, aspect=16 if one else 30, fraction=0.08)
+            how = dict(extend=extend, pad=0.01, aspect=16 if one else 30, fraction=0.08)
             beside = list(axes)
             if first == "contact":  # the bar of all rows, so that they remain one below the other
                 beside, how["shrink"], how["anchor"] = page.axes, 0.9 / page.rows, (0, 0)
@@ -135,7 +183,7 @@ def maps(results, options):
 
 
 def _heading(result, level, name):
-    if result.control() == "force":
+    if result.control() in ("force", "pressure"):
         return name
     return f"{name}\n$N$ = {amount(result.mean('force')[level], result.dimension('force'))}"
 
@@ -153,9 +201,15 @@ def _axes(axis, result, small, inner, above):
             axis.tick_params(**{side: False})
 
 
-def _image(axis, field, extent, variable, all_fields):
-    """One colour scale for all fields. One per cent of the pressures may be above its end, because
-    they would hide the variation of all others; tension, with adhesion, is blue."""
+def _visible(window):
+    """The smallest semi-axis of a spot that is drawn in a window."""
+    return 0.006 * (window[1] - window[0])
+
+
+def _scale(all_fields, variable):
+    """(norm, extend) of one colour scale for all fields. One per cent of the pressures may be above
+    its end, because they would hide the variation of all others; tension, with adhesion, is
+    blue."""
     values = np.abs(np.concatenate([f[f != 0] for f in all_fields]))
     if variable == "map_area_fraction":
         end = min(values.max(initial=0), 1.0)  # above 1: a spot larger than the cell of its centre
@@ -165,13 +219,17 @@ def _image(axis, field, extent, variable, all_fields):
     tops = [f.max() for f in all_fields if f.max() > 0]
     # Between panels of different magnitude colours follow the root.
     gamma = 0.5 if tops and not pulls and max(tops) > 8 * min(tops) else 1.0
-    image = axis.imshow(
-        np.ma.masked_equal(field, 0),
-        extent=extent,
-        cmap="coolwarm" if pulls else COLOURS,
-        norm=PowerNorm(gamma, -end if pulls else 0, end or 1.0),
-        interpolation="nearest",
-    )
     beyond = variable == "map_pressure" and values.max(initial=0) > end
-    image.extend = "both" if beyond and pulls else "max" if beyond else "neither"
-    return image
+    extend = "both" if beyond and pulls else "max" if beyond else "neither"
+    return PowerNorm(gamma, -end if pulls else 0, end or 1.0), extend
+
+
+def _image(axis, kind, values, place, norm, least):
+    """Draws the values of _pressure."""
+    looks = dict(norm=norm, cmap="coolwarm" if norm.vmin < 0 else COLOURS)
+    if kind == "spots":
+        x, y, major, minor, angle = place[:5]
+        major, minor = np.maximum(major, least), np.maximum(minor, least)
+        return ellipses(axis, x, y, major, minor, angle, array=values, **looks)
+    hidden = np.ma.masked_equal(values, 0)
+    return axis.imshow(hidden, extent=place, interpolation="nearest", **looks)

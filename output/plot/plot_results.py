@@ -179,7 +179,8 @@ class Result:
         clock = next((c for c in ("time", "distance") if c in self), None)
         if not clock:
             return name
-        time = f"${'t' if clock == 'time' else 's'}$ = {amount(self[clock][step], self.dimension(clock))}"
+        symbol = "$t$" if clock == "time" else "$s$"
+        time = f"{symbol} = {amount(self[clock][step], self.dimension(clock))}"
         # A prescribed load is exact only to the solver's tolerance.
         return (
             time
@@ -236,9 +237,10 @@ class Result:
         return "pull_off_force" in self
 
     def load_varies(self):
-        """True if there is a curve over the load, which is not constant as for creep."""
+        """True if there is a curve over the load: of more than one level, and not constant as for
+        creep."""
         force = self.mean("force")[self.loaded()] if "force" in self else np.zeros(0)
-        return force.size < 2 or bool(np.ptp(force) > 1e-3 * force.max())
+        return force.size > 1 and bool(np.ptp(force) > 1e-3 * force.max())
 
     def chosen(self, count, step):
         """The requested level, or `count` converged levels with contact, evenly spaced and ending
@@ -317,13 +319,18 @@ class Result:
 
     def half_width(self, step):
         """Half the width of the contact of a smooth cylinder (Hertz); NaN for other contacts."""
-        if "force_per_length" not in self or self.shape() != "paraboloid":
+        if "force_per_length" not in self:
+            return np.nan
+        return self.half_width_under(max(self.mean("force_per_length")[step], 0))
+
+    def half_width_under(self, load):
+        """The same for a load per length, or for several."""
+        if self.shape() != "paraboloid":
             return np.nan
         radii = [float(radius) for radius in self.case["indenter%radii"].split(",")]
         finite = [radius for radius in radii if np.isfinite(radius)]
         if len(finite) != 1:
             return np.nan
-        load = max(self.mean("force_per_length")[step], 0)
         return 2 * np.sqrt(load * finite[0] * self.factor("separation") / np.pi / self["e_star"])
 
     def along_y(self):
@@ -390,11 +397,37 @@ def axis_label(key, result):
 
 
 def value_text(value):
-    """Short text of one or several values of a key: 'Infinity, 2.5' as 'inf, 2.5'; for a rigid or
-    flat body only the other value."""
+    """Short text of one or several values of a key; for a rigid or flat body only the other
+    value."""
     parts = [part.strip() for part in value.split(",")]
-    finite = [re.sub(r"\.0$", "", part) for part in parts if part != "Infinity"]
+    finite = [_plain(part) for part in parts if part != "Infinity"]
     return ", ".join(finite or ["inf"]).strip("'")
+
+
+def _plain(text):
+    """A number without a power of ten if it is short: '3e-04' as '0.0003'."""
+    try:
+        return f"{float(text):.12g}"
+    except ValueError:
+        return text
+
+
+def with_unit(key, text, result):
+    """A value of a key with a suitable unit, as '5 µm'."""
+    value, unit = value_text(text), key_label(key, result)[1]
+    try:
+        factor, dimension = si(unit.replace("$^{-2}$", "-2"))
+        return amount(float(value) * factor, dimension) if unit else value
+    except (ValueError, OverflowError):
+        return f"{value} {unit}".strip()
+
+
+def _value_name(key, result):
+    """'H = 0.8': a key and its value in a result."""
+    symbol, value = key_label(key, result)[0], result.case.get(key, "")
+    if key == "solids%hardness" and value == "Infinity":
+        return "elastic"
+    return f"{symbol} = {with_unit(key, value, result)}" if value else f"{symbol} at default"
 
 
 def names(results):
@@ -406,19 +439,7 @@ def names(results):
     if keys:
         texts = []
         for result in results:
-            parts = [
-                (*key_label(key, result), value_text(result.case.get(key, ""))) for key in keys
-            ]
-            texts.append(
-                ", ".join(
-                    "elastic"
-                    if key == "solids%hardness" and value == "inf"
-                    else f"{symbol} = {value}" + (f" {unit}" if unit else "")
-                    if value
-                    else f"{symbol} at default"
-                    for key, (symbol, unit, value) in zip(keys, parts)
-                )
-            )
+            texts.append(", ".join(_value_name(key, result) for key in keys))
         if len(set(texts)) == len(texts) and max(map(len, texts)) < 90:
             return texts
     titles = [result.title for result in results]
@@ -469,16 +490,7 @@ class Looks:
             STYLES[values(second).index(r.case.get(second, ""))][1] if second else "-"
             for r in results
         ]
-        said = [
-            "{} = {}{}".format(
-                key_label(second, r)[0],
-                value_text(r.case.get(second, "")),
-                " " + key_label(second, r)[1] if key_label(second, r)[1] else "",
-            )
-            if second
-            else None
-            for r in results
-        ]
+        said = [_value_name(second, r) if second else None for r in results]
         self.of = [(line, colours[k], text) for line, k, text in zip(lines, place, said)]
 
 

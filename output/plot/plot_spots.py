@@ -25,6 +25,12 @@ def height_names(result):
     return ("field_height", "field_x", "field_y") if "field_height" in result else None
 
 
+def heights_extent(result):
+    """The sides x0, x1, y0, y1 of the stored heights; None if the file has none."""
+    names = height_names(result)
+    return edges(result[names[1]], result[names[2]]) if names else None
+
+
 def heights(result, axis, window=None, bright=0.0, most=900):
     """Draws the heights in a window, at most `most` points in each direction; returns the image, or
     None if the file has no heights. bright: share of the darker end of the colours that is not
@@ -119,22 +125,25 @@ def spot_at(mask, wanted, row, column):
 def ellipses(axis, x, y, major, minor, angle, **looks):
     """Draws ellipses of these semi-axes; none if there are none, which matplotlib 3.6 draws as one
     big ellipse."""
-    if np.size(x):
-        wide, high, turn = 2 * major, 2 * minor, np.degrees(angle)
-        places = dict(units="xy", offsets=np.column_stack([x, y]), transOffset=axis.transData)
-        axis.add_collection(EllipseCollection(wide, high, turn, **places, **looks))
+    if not np.size(x):
+        return None
+    wide, high, turn = 2 * major, 2 * minor, np.degrees(angle)
+    places = dict(units="xy", offsets=np.column_stack([x, y]), transOffset=axis.transData)
+    return axis.add_collection(EllipseCollection(wide, high, turn, **places, **looks))
 
 
-def draw_spots(axis, spots, least=0.0, edge=0.0):
+def draw_spots(axis, spots, least=0.0, edge=0.0, page=None):
     """Spots as ellipses, elastic ones, those that yield and those under tension in different
-    colours; least: the smallest semi-axis drawn."""
+    colours, with entries in the legend of a page; least: the smallest semi-axis drawn."""
     x, y, major, minor, angle, f, yields = spots
     major, minor = np.maximum(major, least), np.maximum(minor, least)
     for some, colour, name in (
-        (~yields & (f >= 0), ELASTIC, "spots"),
-        (yields, YIELDING, "yielding spots"),
-        (~yields & (f < 0), PULLING, "pulling spots"),
+        (~yields & (f >= 0), ELASTIC, "contact"),
+        (~yields & (f < 0), PULLING, "contact under tension"),
+        (yields, YIELDING, "yielding"),
     ):
+        if page and some.any():
+            page.entry(name, marker="o", color=colour, ls="none", ms=5)
         looks = dict(facecolors=colour, edgecolors="k", linewidths=edge, gid=name)
         ellipses(axis, *(v[some] for v in (x, y, major, minor, angle)), **looks)
 
@@ -227,7 +236,7 @@ def spots(results, options):
     found = spots_of(result, step)
     if found is None:
         return None
-    x, y, a, _, _, f, yields = found
+    x, y, a, _, _, _, yields = found
     big = int(np.argmax(a))
     pixels, sides = result.pixels(step), result.sides()
     if pixels:
@@ -254,6 +263,9 @@ def spots(results, options):
         first, last = place - a[big], place + a[big]
         least = max(14 * np.median(a), 4 * a[big])
     low, high = with_smooth(result, step, low, high)
+    known = heights_extent(result)
+    if known and (low >= known[::2]).all() and (high <= known[1::2]).all():
+        sides = known  # no white beside the heights
     whole = square(low, high, sides, least=least if pixels else 0.0)
     half = (whole[1] - whole[0]) / 2
     rim = (last - first).max() > 1.2 * half  # the largest fills the left panel
@@ -268,7 +280,7 @@ def spots(results, options):
         images.append(heights(result, axis, tuple(window), bright=0.8))
         if not draw_pixels(page, axis, result, step):
             size = (window[1] - window[0]) / 2
-            draw_spots(axis, found, 0.006 * size if left else 0.0, 0.0 if left else 0.3)
+            draw_spots(axis, found, 0.006 * size if left else 0.0, 0.0 if left else 0.3, page)
         draw_smooth(page, axis, result, step)
         if not left and "asperity_x" in result:
             ax, ay = result["asperity_x"], result["asperity_y"]
@@ -289,17 +301,6 @@ def spots(results, options):
         tip = [float(result["tip_x"]), float(result["tip_y"])]
         if whole[0] < tip[0] < whole[1] and whole[2] < tip[1] < whole[3]:
             page.axes[0].plot(*tip, "kx", ms=6, label="tip", ls="none", zorder=4)
-    for some, colour, text in (
-        ()
-        if pixels
-        else (
-            (~yields & (f >= 0), ELASTIC, "elastic" if "contact_yields" in result else "contact"),
-            (~yields & (f < 0), PULLING, "contact under tension"),
-            (yields, YIELDING, "yielding"),
-        )
-    ):
-        if some.any():
-            page.entry(text, marker="o", color=colour, ls="none", ms=5)
     page.axes[0].set_title(
         f"{x.size} spot{'s' if x.size > 1 else ''}"
         + (f", {yields.sum()} yield" if yields.any() and not pixels else "")
@@ -313,7 +314,7 @@ def spots(results, options):
     page.axes[1].set_title(f"{'at the rim of' if rim else 'around'} the largest")
     force = (
         ""
-        if result.control() == "force"
+        if result.control() in ("force", "pressure")
         else f", $N$ = {amount(result.mean('force')[step], result.dimension('force'))}"
     )
     return page.finish(

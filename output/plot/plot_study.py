@@ -6,7 +6,7 @@ import numpy as np
 
 from plot_adhesion import jkr
 from plot_curves import bars, error_band, title
-from plot_results import _in_order, axis_label, differing_keys, key_label, value_text
+from plot_results import _in_order, axis_label, differing_keys, key_label, with_unit
 from plot_style import FEW, GREY, Page, STYLES, amount, colour_bar, label, short
 
 QUANTITIES = {
@@ -96,10 +96,10 @@ def _keys(results):
         of_numbers = sorted(of_numbers, key=lambda i: -len({t[i] for t in texts}))[:1]
     if len(of_numbers) == 1 and len({t[of_numbers[0]] for t in texts}) > 2:
         along = of_numbers[0]
-        labels = [key_label(key, results[0]) for key in keys]
+        symbols = [key_label(key, results[0])[0] for key in keys]
         others = [
             ", ".join(
-                f"{labels[i][0]} = {value_text(text)} {labels[i][1]}".strip()
+                f"{symbols[i]} = {with_unit(keys[i], text, results[0])}"
                 for i, text in enumerate(t)
                 if i != along
             )
@@ -129,8 +129,10 @@ def _curves(page, axis, panel, results, keys, texts, along, others):
     label(axis, "x", axis_label(keys[along], results[0]))
     if len(values) <= 5:  # the values themselves
         axis.minorticks_off()
-        texts_of = {_in_order(t[along])[1]: value_text(t[along]) for t in texts}
-        axis.set_xticks(values, [texts_of[value] for value in values])
+        key = keys[along]
+        of = {_in_order(t[along])[1]: with_unit(key, t[along], results[0]) for t in texts}
+        axis.set_xticks(values, [of[value] for value in values])
+        axis.set_xlabel(key_label(key, results[0])[0])
     label(axis, "y", QUANTITIES[panel.name], panel.dimension)
 
 
@@ -157,11 +159,11 @@ def _table(page, axis, panel, results, keys, texts):
         (keys[0], ends[0], axis.set_yticks, axis.set_ylabel),
         (keys[1], ends[1], axis.set_xticks, axis.set_xlabel),
     ):
-        shown = [value_text(t) for t in shown]
+        shown = [with_unit(key, t, results[0]) for t in shown]
         room = len(shown) if key == keys[0] else sum(map(len, shown)) // 2
         every = -(-room // 14)  # as many as there is room for
         place(range(0, len(shown), every), shown[::every])
-        set_label(axis_label(key, results[0]))
+        set_label(key_label(key, results[0])[0])
 
 
 def _page(results, options, found, panels):

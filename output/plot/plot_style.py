@@ -163,20 +163,21 @@ def short(value, digits=3):
 
 
 class _LogTicks(LogFormatterSciNotation):
-    """Plain numbers near one, powers of ten elsewhere; matplotlib selects the ticks with labels."""
+    """Plain numbers near one, powers of ten elsewhere; matplotlib selects the ticks with labels,
+    except where `all_of_them` is set."""
 
-    size = 1.0
+    size, all_of_them = 1.0, False
 
     def __call__(self, x, pos=None):
-        if x <= 0 or not super().__call__(x, pos):
+        if x <= 0 or not (self.all_of_them or super().__call__(x, pos)):
             return ""
         value = x / self.size
         power = int(np.floor(np.log10(value) + 1e-9))
         lead = value / 10.0**power
         if power < -1 and abs(lead - 3) < 1e-6:  # long labels, which would touch those of 4
             return ""
-        if 0.9e-3 < value < 0.99e4:
-            return f"{value:.4g}"
+        if 0.9e-3 < value < 0.99e5:
+            return f"{value:.5g}"
         return f"$10^{{{power}}}$" if abs(lead - 1) < 1e-6 else f"${lead:.3g}\\times10^{{{power}}}$"
 
 
@@ -380,6 +381,7 @@ def _space(side):
             return
         if log:
             side.set_minor_locator(LogLocator(subs=(2.0, 5.0) if bins == 5 else ()))
+            side.get_minor_formatter().all_of_them = True
             if bins < 5:
                 side.set_major_locator(LogLocator(numticks=bins))
         elif not isinstance(side.get_major_locator(), FixedLocator):

@@ -24,14 +24,14 @@ std::vector<Spot> spots_of(const Level& level, const Law& law, const Asperities&
 bool shifts_summits(const Indenter& indenter, const SolverOptions& options) {
     require_sound(indenter);
     return !indenter.shape->flat() && traits(options.law).between_points &&
-           options.gentlest_slope > 0;
+           options.surface.gentlest_slope > 0;
 }
 
 // With the spacing of summits of the finer of two rough bodies: contacts are as close as its waves.
 SolverOptions of_both(SolverOptions options, const Indenter& indenter) {
     const ShapeKeys& second = indenter.shape->keys();
-    if (second.spacing > 0 && options.mean_spacing > 0)
-        options.mean_spacing = std::min(options.mean_spacing, second.spacing);
+    if (second.spacing > 0 && options.surface.mean_spacing > 0)
+        options.surface.mean_spacing = std::min(options.surface.mean_spacing, second.spacing);
     return options;
 }
 
@@ -42,11 +42,11 @@ ContactBodies::ContactBodies(const Asperities& given, const Indenter& indenter_,
     : of_surface(given),
       options(of_both(options_, indenter_)),
       indenter(indenter_),
-      of_difference(
-          shifts_summits(indenter, options)
-              // beyond half the mean distance of summits lies the range of others
-              ? std::make_unique<ShiftedSummits>(of_surface, indenter, 0.5 * options.mean_spacing)
-              : nullptr),
+      of_difference(shifts_summits(indenter, options)
+                        // beyond half the mean distance of summits lies the range of others
+                        ? std::make_unique<ShiftedSummits>(of_surface, indenter,
+                                                           0.5 * options.surface.mean_spacing)
+                        : nullptr),
       asperities(of_difference ? of_difference->summits() : of_surface),
       kernel(make_kernel(options_.interaction, substrate_of(indenter_), indenter_.period)) {}
 
@@ -85,8 +85,8 @@ void complete_level(Level& level, const Law& law, const ContactBodies& bodies) {
     } else {
         level.overlapping_pairs = count_overlapping(level.x, level.y, level.a, indenter.period);
     }
-    if (options.gentlest_slope > 0)
-        level.slope_ratio = steepest_contact(level, indenter) / options.gentlest_slope;
+    if (options.surface.gentlest_slope > 0)
+        level.slope_ratio = steepest_contact(level, indenter) / options.surface.gentlest_slope;
 }
 
 }  // namespace rsc

@@ -52,8 +52,8 @@ NewtonOutcome AsperityModel::Impl::solve_from(const Vector& start, bool rough_st
 
 NewtonOutcome AsperityModel::Impl::solve_by_paper(Fallback& why_not) {
     auto& [v, force, slope] = solution;
-    const PaperMethod paper{options.delta0 * options.sigma, options.delta_cut, options.tolerance,
-                            options.max_iterations};
+    const PaperMethod paper{options.delta0 * options.surface.sigma, options.delta_cut,
+                            options.tolerance, options.max_iterations};
     const PaperOutcome result =
         solve_by_dgesv(*law, *kernel, candidates.set, paper, v, force, slope);
     if (!result.converged)
@@ -218,7 +218,7 @@ void AsperityModel::accept(Level& level) {
 
 History* AsperityModel::history() { return impl_->law->path_dependent() ? this : nullptr; }
 
-double AsperityModel::shortest_time() const { return impl_->options.relaxation.shortest(); }
+double AsperityModel::shortest_time() const { return impl_->options.physics.relaxation.shortest(); }
 
 void AsperityModel::step(double dt) { impl_->history->step(dt); }
 

@@ -35,7 +35,7 @@ void select_candidates(Contenders contenders, const SolverOptions& options, doub
     const std::size_t last = contenders.above(Z0);
     double r0_squared = kInfinity;
     if (options.selection == Selection::paper) {
-        const double depth = std::max(0.0, 4 * options.sigma - Z0);
+        const double depth = std::max(0.0, 4 * options.surface.sigma - Z0);
         r0_squared = options.selection_factor * options.selection_factor * 2 * depth *
                      indenter.shape->hertz_radius();
     }

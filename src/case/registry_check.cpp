@@ -172,7 +172,8 @@ private:
             {friction && layers, "solids%friction", "solids%layer_thickness",
              "it is not for layers"},
             {resistivity && layers, "solids%resistivity", "solids%layer_thickness",
-             "with layers the conductance does not follow from the stiffness"},
+             "the resistance of coated bodies is not computed: where spots are smaller than the "
+             "thickness of the coating, give its resistivity and no layer"},
             {wears && adhesion, "solids%wear_coefficient", "solids%adhesion", ""},
             {wears && relaxes, "solids%wear_coefficient", "solids%relaxation_share", ""},
             {wears && hard, "solids%wear_coefficient", "solids%hardness", ""},

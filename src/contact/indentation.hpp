@@ -111,32 +111,42 @@ struct MapMarks {
     double reach = 0;  // a grid step [length]
 };
 
-struct SolverOptions {
-    Method method = Method::automatic;
-    LawKind law = LawKind::hertz;
+// What the bodies do beside deforming elastically; the defaults: nothing.
+struct BodyPhysics {
     Hardness hardness = {};
     Relaxation relaxation = {};
     Adhesion adhesion = {};
     Wear wear = {};
-    Interaction interaction = Interaction::point;
-    Selection selection = Selection::overlap;
-    double selection_factor = 1.5;
-    double sigma = 0;         // rms height [length], the unit of delta0 and of selection='paper'
-    double tolerance = 1e-6;  // relative residual of F - C<G0 - B F>^(3/2)
-    int max_iterations = 100;
-    double delta0 = 0.01;        // initial regularisation of the paper's method, in units of sigma
-    double delta_cut = 5.0;      // the paper's method divides delta by this (the paper: 2 to 10)
-    double mean_spacing = 0;     // <d> = 1/sqrt(D) of the summits [length]; 0: unknown
-    double points_per_wave = 0;  // grid points in the shortest wave of the surface; 0: unknown
-    double grid_step = 0;        // of the grid on which the summits were found [length]; 0: unknown
-    // MomentTensor::gentlest_slope() of the surface, for comparison with slopes of the indenter; 0:
-    // unknown, asperities of a list
+};
+
+// What is known of the rough surface beside its asperities or heights. 0: unknown.
+struct SurfaceFacts {
+    double sigma = 0;            // rms height [length], the unit of delta0 and of selection='paper'
+    double mean_spacing = 0;     // <d> = 1/sqrt(D) of the summits [length]
+    double points_per_wave = 0;  // grid points in the shortest wave of the surface
+    double grid_step = 0;        // of the grid on which the summits were found [length]
+    // MomentTensor::gentlest_slope(), for comparison with slopes of the indenter; 0 also for
+    // asperities of a list
     double gentlest_slope = 0;
-    Rectangle surface = {};  // the free surface, for counting contacts near its border
+    Rectangle extent = {};  // of a free surface, for counting contacts near its border
     // Heights of either body from a file or a caller, or not isotropic and Gaussian: their expected
     // errors are larger.
     bool measured = false;
     std::shared_ptr<const MapMarks> marks = nullptr;  // marks of a measured map, or null
+};
+
+struct SolverOptions {
+    Method method = Method::automatic;
+    LawKind law = LawKind::hertz;
+    Interaction interaction = Interaction::point;
+    Selection selection = Selection::overlap;
+    double selection_factor = 1.5;
+    double tolerance = 1e-6;  // relative residual of F - C<G0 - B F>^(3/2)
+    int max_iterations = 100;
+    double delta0 = 0.01;    // initial regularisation of the paper's method, in units of sigma
+    double delta_cut = 5.0;  // the paper's method divides delta by this (the paper: 2 to 10)
+    BodyPhysics physics = {};
+    SurfaceFacts surface = {};
 };
 
 }  // namespace rsc

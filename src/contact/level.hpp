@@ -123,9 +123,10 @@ struct LevelValues {
     std::int32_t large_contacts = 0;     // contacts with a > <d>/4
     // Layers, asperities: share of the contacts with a > h/5, h the top layer's thickness.
     double wide_contacts = kNotComputed;
-    // contacts within <d> of the border of a free surface, or crossing it smallest disc about the
-    // tip that contains all contacts, at most the area of the surface [length^2]
+    // Contacts within <d> of the border of a free surface, or crossing it.
     std::int32_t edge_contacts = 0;
+    // Smallest disc about the tip that contains all contacts, at most the area of the surface
+    // [length^2].
     double nominal_area = 0;
     // Of the coarse map (observe/map.hpp):
     std::int32_t crowded_cells = 0;  // cells with an area fraction above pi/16

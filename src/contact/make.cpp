@@ -17,7 +17,7 @@ AsperityPhysics physics_of(const ContactBodies& bodies) {
     AsperityPhysics physics = make_yielding_asperities(
         bodies, make_law(options.law, bodies.asperities, bodies.indenter.E_star,
                          bodies.of_difference.get()));
-    if (options.relaxation.none()) return physics;
+    if (options.physics.relaxation.none()) return physics;
     return make_relaxing_asperities(bodies, std::move(physics.law));
 }
 
@@ -26,7 +26,7 @@ AsperityPhysics physics_of(const ContactBodies& bodies) {
 std::unique_ptr<Path> make_asperity_contact(const Asperities& asperities, const Indenter& indenter,
                                             const SolverOptions& options) {
     require_no_wear(options);
-    if (options.adhesion.work > 0)
+    if (options.physics.adhesion.work > 0)
         return std::make_unique<Path>(make_adhesive_asperities(asperities, indenter, options),
                                       options.tolerance);
     return std::make_unique<Path>(
@@ -37,7 +37,7 @@ std::unique_ptr<Path> make_asperity_contact(const Asperities& asperities, const 
 std::unique_ptr<Path> make_element_contact(const HeightMap& heights, const Indenter& indenter,
                                            const SolverOptions& options) {
     std::unique_ptr<Lowering> wear = make_wear(options);
-    if (options.adhesion.work > 0)
+    if (options.physics.adhesion.work > 0)
         return std::make_unique<Path>(
             make_adhesive_elements(require_elements(heights, indenter, options), indenter, options),
             options.tolerance);

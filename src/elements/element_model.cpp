@@ -29,7 +29,7 @@ public:
           body_(substrate_of(indenter)),
           products_(
               make_products(body_, indenter.period, heights, kInnerError, 0.1 * options.tolerance)),
-          solver_(*products_, options.hardness.H0),
+          solver_(*products_, options.physics.hardness.H0),
           blocks_x_((heights.nx + kBlock - 1) / kBlock),
           blocks_y_((heights.ny + kBlock - 1) / kBlock) {
         cut_open(indenter_, kBlock);

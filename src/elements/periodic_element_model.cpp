@@ -14,7 +14,7 @@ public:
           changed_(history() || !indenter.shape->flat() ? less_face() : HeightMap{}),
           solver_({heights.nx, heights.ny, heights.dx, heights.dy, present().data.get(),
                    present().stride},
-                  substrate_of(indenter), options.hardness.H0) {
+                  substrate_of(indenter), options.physics.hardness.H0) {
         set_heights();
     }
 
@@ -41,7 +41,7 @@ public:
         return report(Z0, outcome);
     }
     std::optional<Level> solve_under(double N) override {
-        const double p = N / area(), H = options_.hardness.H0;
+        const double p = N / area(), H = options_.physics.hardness.H0;
         if (!(p < H))
             throw Error(Failure::bad_input,
                         format("a nominal pressure of %.9g exceeds the hardness %.9g", p, H));

@@ -19,7 +19,7 @@ PixelModel::PixelModel(const HeightMap& heights, const Indenter& indenter,
       indenter_(indenter),
       options_(options),
       lowering_(std::move(lowering)) {
-    if (!options.relaxation.none()) loads_.emplace(Creep(options.relaxation));
+    if (!options.physics.relaxation.none()) loads_.emplace(Creep(options.physics.relaxation));
 }
 
 template <class Visit>
@@ -158,7 +158,7 @@ void PixelModel::accept(Level& level) {
         lower_points([&](auto&& lower) {
             for (const auto& [pixel, depth] : press_out()) lower(pixel, depth);
         });
-    level.plastic_work = options_.hardness.H0 * pixel_area() *
+    level.plastic_work = options_.physics.hardness.H0 * pixel_area() *
                          std::accumulate(residual_.begin(), residual_.end(), 0.0);
 }
 
@@ -190,7 +190,8 @@ Level PixelModel::report(double Z0, const ElementsOutcome& outcome, std::size_t 
     level.method = Method::automatic;
     level.converged = outcome.converged;
     for (double& p : pressure) p /= scale();
-    add_pixels(level, frame, indenter_, options_.hardness.H0, touching, std::move(pressure));
+    add_pixels(level, frame, indenter_, options_.physics.hardness.H0, touching,
+               std::move(pressure));
     number_by_map(level);
     return level;
 }

@@ -37,7 +37,7 @@ protected:
     PixelModel(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options,
                std::unique_ptr<Lowering> lowering);
 
-    bool yields() const { return std::isfinite(options_.hardness.H0); }
+    bool yields() const { return std::isfinite(options_.physics.hardness.H0); }
     // Pixels that penetrate at the hardness, and their penetration, by which they are lowered; the
     // same pressures then cause none.
     virtual std::vector<std::pair<Pixel, double>> press_out() = 0;
@@ -89,7 +89,7 @@ private:
     std::vector<double> write() const final;
     void read(const std::vector<double>& numbers) final;
     PathClock clock() const final { return lowering_ ? lowering_->clock() : History::clock(); }
-    double shortest_time() const final { return options_.relaxation.shortest(); }
+    double shortest_time() const final { return options_.physics.relaxation.shortest(); }
     double accuracy() const final { return lowering_ ? lowering_->accuracy() : 0.0; }
     void step(double length) final {
         if (loads_) loads_->step(length);

@@ -72,7 +72,7 @@ void write_whole(const std::string& path, const FileKind& kind, std::span<const 
 
 // The global attributes of a NetCDF file written by rsc, a result or the manifest of a study.
 struct ResultHead {
-    std::string source;     // "rsc 0.3.0, deterministic ..."
+    std::string source;     // "rsc 0.4.0, deterministic ..."
     std::string case_text;  // the effective namelist
     bool this_version() const;
 };

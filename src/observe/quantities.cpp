@@ -321,17 +321,17 @@ constexpr LevelQuantity kQuantities[] = {
      .meaning = "error by the steps in which the level was reached",
      .comment = "change of N, relative to the larger N of the two levels, by halving the steps; "
                 "under a force that of the separation, relative to its depth below first touch of "
-                "the worn surface",
+                "the worn surface; without the errors of earlier levels",
      .always = false},
     {.name = "energy_lost",
      .member = &V::energy_lost,
      .length_power = 1,
      .force_power = 1,
      .meaning = "energy dissipated since the first level, by relaxation or in jumps",
-     .comment = "relaxation: energy + energy_lost is the work done, int N d(-Z0); adhesion: over a "
-                "cycle, the area of the hysteresis loop of N and Z0 (boundary elements: losses "
-                "below about 1 % of w times the attracting area are not resolved; under given "
-                "forces by the trapezoidal rule over the levels)",
+     .comment =
+         "relaxation: energy + energy_lost is the work done, int N d(-Z0); adhesion: over a "
+         "cycle, the area of the hysteresis loop of N and Z0 (boundary elements: a step that "
+         "loses less than 0.1 % of w times the attracting area counts as reversible)",
      .always = false,
      .statistics = true,
      .plain = "energy lost"},

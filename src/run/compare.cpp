@@ -33,7 +33,7 @@ void print(std::ostream& out, const Job& job, const ComparedLevel& c, const Leve
         return;
     }
     out << format(
-        "level %d, Z0/sigma %.5g: elements on %d x %d points N = %.6g %s%s, A = %.5g %s2%s, %d "
+        "level %d, Z0/sigma = %.5g: elements on %d x %d points N = %.6g %s%s, A = %.5g %s2%s, %d "
         "contacts; asperities ",
         c.step + 1, c.separation / job.sigma, c.columns, c.rows, c.force, f,
         by_force ? "" : itself(c.force_error_expected).c_str(), c.area, l,
@@ -218,7 +218,7 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads,
             // Two flats closer than their mean planes, which only the asperity model allows.
             if (error.kind() != Failure::bad_input) throw;
             if (table)
-                *table << format("level %zu, Z0/sigma %.5g: not compared: %s\n", step + 1,
+                *table << format("level %zu, Z0/sigma = %.5g: not compared: %s\n", step + 1,
                                  level.separation / job.sigma, error.what());
             continue;
         }

@@ -354,7 +354,7 @@ void require_feasible(const Job& job) {
             job.given_heights ? std::max(job.given_heights->dx, job.given_heights->dy)
             : job.spectrum    ? job.spectrum->L / element_points(settings, *job.spectrum)
                               : 0.0;
-        require_resolved(job.indenter.E_star, job.solver.adhesion, side);
+        require_resolved(job.indenter.E_star, job.solver.physics.adhesion, side);
     }
     if (settings.output.flow)
         require_flow_memory(settings,
@@ -448,7 +448,7 @@ void prepare_asperities(const Job& job, std::int64_t number, int threads, Realiz
     }
     r.asperities = std::move(model.asperities);
     r.statistics = model.statistics;
-    s.solver.gentlest_slope = model.domain.gentlest_slope;
+    s.solver.surface.gentlest_slope = model.domain.gentlest_slope;
 }
 
 Prepared prepared_surface(const Job& job, std::int64_t number, int threads, Realization& r) {

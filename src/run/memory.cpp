@@ -84,7 +84,7 @@ double share_in_contact(const Job& job, double level, bool is_force) {
     const double area = job.domain.Lx * job.domain.Ly;
     if (wears(job.settings)) return 1;
     if (!is_force) return std::min(1.0, 0.4 * area_under(job, level) / area);
-    const double slope = job.theory ? job.theory->rms_slope() : job.solver.gentlest_slope;
+    const double slope = job.theory ? job.theory->rms_slope() : job.solver.surface.gentlest_slope;
     return slope > 0 ? std::erf(1.86 * level / area / (job.indenter.E_star * slope)) : 1.0;
 }
 

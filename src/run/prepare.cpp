@@ -191,8 +191,7 @@ Surface make_surface(const Case& settings, const Spectrum& spectrum, std::int64_
     surface.sigma = spectrum.sigma;
     surface.points_per_wave = keys.n / shortest_wave(spectrum);
     surface.theory = theoretical_moments(spectrum);
-    const RowSource source(spectrum, keys.n, keys.normalise, settings.run.seed, number, threads, 0,
-                           RowSource::Lines::narrowest);
+    const RowSource source(spectrum, keys.n, keys.normalise, settings.run.seed, number, threads);
     surface.sampled = source.sampled();
     surface.differences = source.differences();
     surface.map = source.all(threads, wanted);

@@ -88,31 +88,32 @@ SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     SolverOptions options;
     options.method = settings.solver.method;
     options.law = settings.asperities.law;
-    options.hardness = {settings.solids.hardness, settings.solids.size_effect};
+    options.physics.hardness = {settings.solids.hardness, settings.solids.size_effect};
     if (relaxes(settings)) {
         const Case::Solids& s = settings.solids;
         const auto compliance = [&](int i) { return (1 - s.nu[i] * s.nu[i]) / s.E[i]; };
-        options.relaxation = {s.relaxation_share, s.relaxation_time,
-                              compliance(0) / (compliance(0) + compliance(1))};
+        options.physics.relaxation = {s.relaxation_share, s.relaxation_time,
+                                      compliance(0) / (compliance(0) + compliance(1))};
     }
-    options.adhesion = {settings.solids.adhesion, settings.solids.adhesion_range};
-    options.wear = {settings.solids.wear_coefficient};
+    options.physics.adhesion = {settings.solids.adhesion, settings.solids.adhesion_range};
+    options.physics.wear = {settings.solids.wear_coefficient};
     options.interaction = settings.solver.interaction;
     options.selection = settings.indentation.selection;
     options.selection_factor = settings.indentation.selection_factor;
-    options.sigma = sigma_of(settings, domain);
+    options.surface.sigma = sigma_of(settings, domain);
     options.tolerance = settings.solver.tolerance;
     options.max_iterations = settings.solver.max_iterations;
     options.delta0 = settings.solver.delta0;
-    options.mean_spacing = domain.mean_spacing;
-    options.points_per_wave = domain.points_per_wave;
-    options.grid_step = domain.step;
-    options.gentlest_slope = domain.gentlest_slope;
+    options.surface.mean_spacing = domain.mean_spacing;
+    options.surface.points_per_wave = domain.points_per_wave;
+    options.surface.grid_step = domain.step;
+    options.surface.gentlest_slope = domain.gentlest_slope;
     const bool free = settings.indentation.boundary != Boundary::periodic;
-    options.measured = domain.measured || !settings.indenter.file.empty();
-    if (free) options.marks = domain.marks;
-    if (!domain.guessed && free) options.surface = {domain.x0, domain.y0, domain.Lx, domain.Ly};
-    if (!(options.sigma > 0) &&
+    options.surface.measured = domain.measured || !settings.indenter.file.empty();
+    if (free) options.surface.marks = domain.marks;
+    if (!domain.guessed && free)
+        options.surface.extent = {domain.x0, domain.y0, domain.Lx, domain.Ly};
+    if (!(options.surface.sigma > 0) &&
         (options.method == Method::dgesv || options.selection == Selection::paper)) {
         bad_input(
             "surface%sigma: needed by solver%method = 'dgesv' and indentation%selection = 'paper', "

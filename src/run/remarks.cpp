@@ -3,11 +3,19 @@
 
 #include "asperities/shifted_summits.hpp"
 #include "base/format.hpp"
+#include "physics/adhesion/adhesive_elements.hpp"
 #include "run/screen.hpp"
 #include "trust/judge.hpp"
 
 namespace rsc {
 namespace {
+
+// Names a level in the quantity that the case prescribes.
+std::string place_of(const LevelValues& level, const Job& job) {
+    if (job.settings.indentation.control == Control::separation)
+        return format("Z0/sigma = %.4g", level.separation / job.sigma);
+    return format("N = %.4g %s", level.force, job.settings.run.force_unit.c_str());
+}
 
 void print_methods(std::ostream& out, std::span<const LevelValues> levels) {
     std::map<std::pair<Method, Fallback>, long> counts;
@@ -15,7 +23,7 @@ void print_methods(std::ostream& out, std::span<const LevelValues> levels) {
     out << "method:";
     const char* before = " ";
     for (const auto& [how, count] : counts) {
-        out << before << name_of(how.first) << " (" << count << " levels"
+        out << before << name_of(how.first) << " (" << count << (count == 1 ? " level" : " levels")
             << (how.second == Fallback::none ? "" : ": ") << fallback_text(how.second) << ")";
         before = ", ";
     }
@@ -73,12 +81,13 @@ void print_doubts(std::ostream& out, std::span<const LevelValues> levels, const 
                         words_of_doubts(bit(cause)) + " - " + sentence(cause, elements) +
                             remedy_of(cause, job, elements));
     }
-    if (std::isfinite(job.points_touch) &&
-        std::all_of(levels.begin(), levels.end(), [](const auto& l) { return l.force == 0; }))
-        out << format(
-            "  no level reaches contact: the first point of the map touches at Z0 = %g (%g "
-            "sigma).\n",
-            job.points_touch, job.points_touch / job.sigma);
+    if (std::ranges::any_of(levels, [](const LevelValues& l) { return l.force != 0; })) return;
+    out << "  no level reaches contact: ";
+    if (std::isfinite(job.points_touch))
+        out << format("the first point of the map touches at Z0 = %g (%g sigma).\n",
+                      job.points_touch, job.points_touch / job.sigma);
+    else
+        out << "give smaller separations.\n";
 }
 
 void print_failures(std::ostream& out, std::span<const LevelValues> levels, const Job& job,
@@ -166,8 +175,8 @@ void print_bounds(std::ostream& out, std::span<const LevelValues> levels, const 
 void print_changes(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
     if (relaxes(job.settings) && !levels.empty() && job.settings.run.realizations == 1)
         out << format(
-            "  %.4g %s %s of the work done are lost by relaxation. Levels depend on the levels "
-            "before.\n",
+            "  %.4g %s %s of the work done are lost by relaxation. Results depend on the "
+            "loading history.\n",
             levels.back().energy_lost, job.settings.run.force_unit.c_str(),
             job.settings.run.length_unit.c_str());
     if (wears(job.settings) && !levels.empty() && job.settings.run.realizations == 1) {
@@ -175,7 +184,7 @@ void print_changes(std::ostream& out, std::span<const LevelValues> levels, const
         const LevelValues& last = levels.back();
         out << format(
             "  %.4g %s3 are worn off, up to %.4g %s deep, and the surface has the rms height %.4g "
-            "%s. Levels depend on the levels before.\n",
+            "%s. Results depend on the loading history.\n",
             last.worn_volume, l, last.wear_depth_max, l, last.worn_rms, l);
     }
     if (!std::isfinite(job.settings.solids.hardness) || levels.empty()) return;
@@ -187,15 +196,15 @@ void print_changes(std::ostream& out, std::span<const LevelValues> levels, const
         out << "  no contact yields: pressures stay below the hardness.\n";
         return;
     }
-    out << format("  at Z0/sigma = %.4g, %d of %d contacts yield", most->separation / job.sigma,
-                  most->plastic_contacts, most->contacts);
+    out << format("  level %td, %s: %d of %d contacts yield", most - levels.begin() + 1,
+                  place_of(*most, job).c_str(), most->plastic_contacts, most->contacts);
     double lost = 0;
     for (const LevelValues& level : levels)
         lost = std::max(lost, level.plastic_work);  // NaN if a level did not converge
     if (job.settings.run.realizations == 1)
         out << format("; plastic work %.4g %s %s", lost, job.settings.run.force_unit.c_str(),
                       job.settings.run.length_unit.c_str());
-    out << ". Levels depend on the levels before.\n";
+    out << ". Results depend on the loading history.\n";
 }
 
 // The range of attraction up to which JKR is valid.
@@ -263,14 +272,10 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
         lost = std::fmax(lost, level.energy_lost);
         least = std::fmin(least, level.least_force);
     }
-    // Of the work of adhesion: some steps, each divided at 0.003
-    // (physics/adhesion/adhesive_pixels.cpp).
-    constexpr double resolved = 0.01;
     std::string how;
     if (by_elements(c))
-        how = c.indentation.control == Control::separation
-                  ? format(" (below %.1g not resolved)", resolved * c.solids.adhesion * attracting)
-                  : " (trapezoidal rule over the levels)";
+        how = format(" (steps that lose less than %.1g count as reversible)",
+                     kAdhesiveLossShare * c.solids.adhesion * attracting);
     const bool without_state = std::ranges::any_of(
         levels, [](const LevelValues& level) { return std::isnan(level.force); });
     if (c.run.realizations == 1 && without_state)
@@ -278,7 +283,7 @@ void print_sticking(std::ostream& out, std::span<const LevelValues> levels, cons
     else if (c.run.realizations == 1)
         out << format(
             "  adhesion: the smallest force is %.4g %s; jumps: %ld, energy lost: %.4g %s %s%s. "
-            "Levels depend on the levels before.\n",
+            "Results depend on the loading history.\n",
             least, f, jumps, lost, f, l, how.c_str());
     print_tabor(out, job);
     print_stickiness(out, job);
@@ -331,10 +336,9 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
         !std::isfinite(job.settings.solids.hardness) && !relaxes(job.settings) &&
         extreme != levels.end() && extreme->extreme_area_fraction > kExtremeShare)
         out << format(
-            "  pressures above E*/10 on %.0f %% of the contact area at Z0/sigma = %.4g: no metal "
-            "stays elastic at such pressures; solids%%hardness "
-            "limits them.\n",
-            100 * extreme->extreme_area_fraction, extreme->separation / job.sigma);
+            "  pressures above E*/10 on %.0f %% of the contact area at %s: no metal stays elastic "
+            "at such pressures; solids%%hardness limits them.\n",
+            100 * extreme->extreme_area_fraction, place_of(*extreme, job).c_str());
     print_changes(out, levels, job);
     print_sticking(out, levels, job);
     print_words(out, job, elements);

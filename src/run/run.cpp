@@ -54,7 +54,8 @@ void summarise(std::ostream& out, const Job& job, const SurfaceStatistics& s,
         out << "elements, ";
     else
         out << s.summits << " asperities (" << s.saddles << " saddles excluded), ";
-    out << levels.size() << " levels in " << duration(seconds) << '\n';
+    out << levels.size() << (levels.size() == 1 ? " level in " : " levels in ") << duration(seconds)
+        << '\n';
     if (const double slope = std::sqrt(2 * s.m2); slope > 0)
         out << format("surface: rms height %.6g %s, rms slope %.4g%s\n", s.sigma,
                       job.settings.run.length_unit.c_str(), slope, slope_remark(slope));

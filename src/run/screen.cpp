@@ -41,6 +41,12 @@ bool shown(const LevelQuantity& q, const Job& job) {
     return line ? job.indenter.period.line() : job.indenter.period.finite();
 }
 
+// Whether separations are shown in rms heights, too; a ball under a prescribed force may be pressed
+// many of these below the mean plane.
+bool in_sigma(const Job& job) {
+    return job.settings.indentation.control == Control::separation || job.indenter.period.finite();
+}
+
 }  // namespace
 
 std::string percent(double share) {
@@ -105,7 +111,7 @@ void print_unlikely_units(std::ostream& out, const Job& job) {
     if (const double a = smooth_radius(job); 2 * a > L)
         out << format(
             "warning: a smooth contact would be %.4g %s wide at the largest load, the "
-            "surface is %.4g %s: solids%%R, surface%%L or indentation%%levels?\n",
+            "surface is %.4g %s: solids%%E, solids%%R, surface%%L or indentation%%levels?\n",
             2 * a, l, L, l);
 }
 
@@ -222,7 +228,8 @@ void print_heading(std::ostream& out, const Job& job) {
     print_measured(out, job);
     print_second(out, job);
     const std::string l = job.settings.run.length_unit, f = job.settings.run.force_unit;
-    out << format("\n%5s %12s %9s", "level", format("Z0 [%s]", l.c_str()).c_str(), "Z0/sigma");
+    out << format("\n%5s %12s", "level", format("Z0 [%s]", l.c_str()).c_str());
+    if (in_sigma(job)) out << format(" %9s", "Z0/sigma");
     for (const LevelQuantity& q : level_quantities()) {
         if (!shown(q, job)) continue;
         std::string heading = q.heading;
@@ -243,7 +250,8 @@ static std::string outcome_of(const LevelValues& level) {
 }
 
 void print_level(std::ostream& out, const Job& job, std::size_t number, const Level& level) {
-    out << format("%5zu %12.6g %9.5f", number + 1, level.separation, level.separation / job.sigma);
+    out << format("%5zu %12.6g", number + 1, level.separation);
+    if (in_sigma(job)) out << format(" %9.5f", level.separation / job.sigma);
     for (const LevelQuantity& q : level_quantities()) {
         if (!shown(q, job)) continue;
         if (std::holds_alternative<LevelStatus LevelValues::*>(q.member))
@@ -308,8 +316,9 @@ std::string duration(double seconds) {
                   static_cast<int>(seconds / 60) % 60);
 }
 
-// Seconds from which the time of the rest is said after the first step.
-constexpr double kWorthSaying = 10;
+// Seconds from which the time of the rest is said, and before which the preparation of the surface
+// or the first of several parallel steps would spoil the estimate.
+constexpr double kWorthSaying = 10, kSteady = 3;
 
 ProgressLine::ProgressLine(const RunOptions& options, const char* unit, double already,
                            bool scrolls)
@@ -335,7 +344,7 @@ void ProgressLine::show(double done, double total) {
     const auto now = Clock::now();
     const double since = std::chrono::duration<double>(now - last_).count(),
                  spent = std::chrono::duration<double>(now - start_).count();
-    if (messages_ && done > already_) {
+    if (messages_ && done > already_ && spent > kSteady) {
         const double rest = spent * (total - done) / (done - already_);
         if (rest > kWorthSaying && !(out_ && terminal_))
             *messages_ << format("rsc: %.0f of %.0f %s after ", done, total, unit_)

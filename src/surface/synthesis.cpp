@@ -92,25 +92,6 @@ RSC_DISPATCH(transpose_past_cache, transpose_body<PastCache>,
               std::ptrdiff_t distance),
              (from, stride, rows, n, to, distance))
 
-// Writes the diagonals first ... first + count - 1 to their places (line + shear y, y) in the map.
-void place_diagonals(const double* lines, int first, int count, int shear, HeightMap& map) {
-    const int n = map.nx;
-    // Between turns round the period these are rows of a map whose rows are one longer or shorter.
-    for (int y = 0; y < n;) {
-        const int x = wrapped(first + shear * y, n);
-        const int rest = shear > 0 ? n - count - x : x;
-        if (rest >= 0 && x + count <= n) {
-            const int points = std::min(n - y, rest + 1);
-            transpose_to_cache(lines + y, map.stride, count, points, map.row(y) + x,
-                               map.stride + shear);
-            y += points;
-        } else {
-            for (int r = 0; r < count; ++r) map.row(y)[(x + r) % n] = lines[r * map.stride + y];
-            ++y;
-        }
-    }
-}
-
 // Columns are too far apart for the hardware prefetcher: what a row takes from a column is
 // requested kAhead columns before.
 constexpr int kAhead = 6;
@@ -132,7 +113,7 @@ Spectrum transposed(const Spectrum& spectrum) {
 }
 
 RowSource::RowSource(const Spectrum& wanted, int n, Normalise normalise, std::int64_t seed,
-                     std::int64_t realization, int threads, double difference_step, Lines lines)
+                     std::int64_t realization, int threads, double difference_step)
     : n_(n), L_(wanted.L), exchanged_(made_as_transpose(wanted)) {
     validate(wanted);
     if (n < 2 || n % 2 != 0)
@@ -151,15 +132,6 @@ RowSource::RowSource(const Spectrum& wanted, int n, Normalise normalise, std::in
                     "surface: n = " + std::to_string(n) +
                         " points cannot represent waves of L/lambda = " + std::to_string(most) +
                         ": n must be at least " + std::to_string(2 * most + (tilted ? 2 : 0)));
-    if (lines == Lines::narrowest && spectrum.gaussian()) {
-        const auto& [xx, xy, yy] = limits.stretched;
-        const double narrow = xx - 2 * std::abs(xy) + yy;  // as yy, but of kx +- ky
-        if (constexpr double worth = 0.25;
-            narrow < worth * yy) {  // placing diagonals takes time, too
-            shear_ = xy > 0 ? 1 : -1;
-            columns_ = static_cast<int>(std::sqrt(narrow * limits.highest_q2)) + 1;
-        }
-    }
     column_stride_ =
         (n + 3) / 4 * 4 + 4;  // multiples of 64 bytes, and columns not a power of two apart
     row_stride_ = (n + 2 + 7) / 8 * 8 + 8;
@@ -197,19 +169,6 @@ FftwPlan RowSource::make_plans(double* column, double* row, std::complex<double>
     return column_plan;
 }
 
-// Adds the modes of a column of the unsheared plane to those they become in the sheared one.
-void RowSource::shear_column(int kx, int bottom, int top, const std::complex<double>* column,
-                             std::complex<double>* store) const {
-    for (int ky = kx > 0 ? bottom : 1; ky <= top; ++ky) {
-        const std::complex<double> c = column[ky < 0 ? ky + n_ : ky];
-        const int inner = exchanged_ ? ky : kx,
-                  k = exchanged_ ? kx + shear_ * ky : ky + shear_ * kx;
-        if (k >= 0) store[k * column_stride_ + (inner < 0 ? inner + n_ : inner)] = c;
-        // The same wave.
-        if (k <= 0) store[-k * column_stride_ + (inner > 0 ? n_ - inner : -inner)] = std::conj(c);
-    }
-}
-
 void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed,
                      std::int64_t realization, int threads, double difference_step) {
     const NoiseKey key{seed, realization};
@@ -227,8 +186,7 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     const Band limits = band(spectrum);
     std::vector<ModeSums> sums(static_cast<std::size_t>(limits.highest_kx) + 1);
     // A column is complete when it is drawn.
-    const bool at_once = spectrum.gaussian() && shear_ == 0;
-    if (shear_ != 0) std::fill_n(store, columns_ * column_stride_, std::complex<double>());
+    const bool at_once = spectrum.gaussian();
     const Differences differences(std::max(limits.highest_kx, limits.highest_ky),
                                   difference_step / spectrum.L);
     parallel_for(limits.highest_kx + 1, 1, threads, [&](int kx, std::size_t worker) {
@@ -238,9 +196,6 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
         sums[static_cast<std::size_t>(kx)] =
             draw_column(spectrum, key, kx, n_, differences, spectrum.gaussian() ? column : stored);
         if (at_once) fftw_execute_dft(&plan, fftw(column), fftw(stored));
-        if (shear_ == 0) return;
-        const auto [bottom, top] = limits.column(kx);
-        shear_column(kx, bottom, top, column, store);
     });
     HeightShape shape;
     if (!spectrum.gaussian()) shape = reshape_heights(spectrum, store, column_stride_, n_);
@@ -361,8 +316,8 @@ void RowSource::rows(int j, int count, double* out, std::ptrdiff_t stride, Scrat
 
 HeightMap RowSource::all(int threads, const Wanted& wanted) const {
     constexpr int piece = 64;  // a page of memory is taken if one of its pieces is wanted
-    const bool in_rows = shear_ == 0 && !exchanged_, direct = in_rows && !wanted;
-    HeightMap map = empty_map(L_, n_, in_rows && wanted);
+    const bool direct = !exchanged_ && !wanted;
+    HeightMap map = empty_map(L_, n_, !exchanged_ && wanted);
     // So many rows at once that what they write to a row of an exchanged surface is whole lines of
     // the cache.
     const int wide = direct ? 4 * kBlock : 2 * kBlock;
@@ -380,15 +335,13 @@ HeightMap RowSource::all(int threads, const Wanted& wanted) const {
         const int first = b * wide, count = std::min(wide, n_ - first);
         double* const made = direct ? map.row(first) : block[worker].get();
         rows(first, count, made, stride, scratch[worker]);
-        if (in_rows && wanted)
+        if (!exchanged_ && wanted)
             for (int r = 0; r < count; ++r)
                 for (int i = 0; i < n_; i += piece) {
                     const double* const z = made + r * stride + i;
                     if (const int points = std::min(piece, n_ - i); wanted(first + r, i, points, z))
                         std::copy_n(z, points, map.row(first + r) + i);
                 }
-        else if (shear_ != 0)
-            place_diagonals(made, first, count, shear_, map);
         else if (exchanged_)
             (static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_) > kCached
                  ? transpose_past_cache
@@ -399,8 +352,7 @@ HeightMap RowSource::all(int threads, const Wanted& wanted) const {
 
 HeightMap synthesize(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed,
                      std::int64_t realization, Moments* sampled, int threads) {
-    const RowSource source(spectrum, n, normalise, seed, realization, threads, 0,
-                           RowSource::Lines::narrowest);
+    const RowSource source(spectrum, n, normalise, seed, realization, threads);
     if (sampled) *sampled = source.sampled();
     return source.all(threads);
 }

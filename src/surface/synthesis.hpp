@@ -18,17 +18,11 @@ Spectrum transposed(const Spectrum& spectrum);
 
 class RowSource {
 public:
-    // Lines along which the second transform goes: rows of the grid, or those across which the band
-    // is narrowest, so that there are fewest columns. With a lay near 45 degrees these are
-    // diagonals, and only all() is available.
-    enum class Lines { rows, narrowest };
-
     // Draws the modes and transforms their columns. Throws Error(bad_input) unless the spectrum is
     // valid, n is even and shortest_wave() <= n/2; Error(no_memory). `difference_step` is the grid
     // step of differences(); 0: L/n.
     RowSource(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed,
-              std::int64_t realization, int threads, double difference_step = 0,
-              Lines lines = Lines::rows);
+              std::int64_t realization, int threads, double difference_step = 0);
 
     int n() const { return n_; }
     bool exchanged() const { return exchanged_; }        // x and y of rows(): made_as_transpose()
@@ -64,8 +58,6 @@ private:
     void draw(const Spectrum& spectrum, Normalise normalise, std::int64_t seed,
               std::int64_t realization, int threads, double difference_step);
     FftwPlan make_plans(double* column, double* row, std::complex<double>* stored);
-    void shear_column(int kx, int bottom, int top, const std::complex<double>* column,
-                      std::complex<double>* store) const;
     void scale_moments(const Spectrum& spectrum, Normalise normalise, const ModeSums& total,
                        const HeightShape& shape, double difference_step);
     void make_pairs(int j, int count, double* out, std::ptrdiff_t stride, double* parts) const;
@@ -75,8 +67,6 @@ private:
     int n_ = 0;
     double L_ = 0;
     bool exchanged_ = false;
-    // 1, -1: line j is the diagonal (j + shear y, y), and columns are those of ky + shear kx
-    int shear_ = 0;
     bool pairs_ = false;                // rows 2i and 2i + 1 are the parts of one complex transform
     int columns_ = 0;                   // 0 ... columns_ - 1 hold modes
     std::ptrdiff_t column_stride_ = 0;  // in complex numbers

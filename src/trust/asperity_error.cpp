@@ -14,25 +14,25 @@ double mean_radius(const Level& level) {
 }  // namespace
 
 AsperityError asperity_error(const Level& level, const SolverOptions& options) {
-    const double radius = mean_radius(level) / options.mean_spacing;
+    const double radius = mean_radius(level) / options.surface.mean_spacing;
     const auto law = static_cast<std::size_t>(options.law);
     const auto bin = static_cast<std::size_t>(
         std::upper_bound(std::begin(kRadii), std::end(kRadii), radius) - std::begin(kRadii));
     if (bin >= std::size(kRadii)) return {};
     const auto error = [&](std::size_t what) {
-        return kErrors[law][what][bin] * (options.measured ? kOfFiles[law][what] : 1.0) *
+        return kErrors[law][what][bin] * (options.surface.measured ? kOfFiles[law][what] : 1.0) *
                (level.plastic_contacts > 0 ? kOfYielding[law][what] : 1.0);
     };
     return {error(0), error(1)};
 }
 
 bool few_points(const SolverOptions& options) {
-    return !(options.points_per_wave >= kFewestPointsPerWave);
+    return !(options.surface.points_per_wave >= kFewestPointsPerWave);
 }
 
 double share_on_spikes(const Level& level, const SolverOptions& options) {
-    if (!options.marks || options.marks->spikes.empty()) return 0;
-    const MapMarks& marks = *options.marks;
+    if (!options.surface.marks || options.surface.marks->spikes.empty()) return 0;
+    const MapMarks& marks = *options.surface.marks;
     double force = 0;
     for (std::size_t k = 0; k < level.x.size(); ++k) {
         const double near = std::max(1.5 * marks.reach, level.a[k]);
@@ -47,10 +47,10 @@ double share_on_spikes(const Level& level, const SolverOptions& options) {
 
 bool may_touch_beside(const Asperities& asperities, const Indenter& indenter,
                       const SolverOptions& options, double Z0) {
-    const double w = options.mean_spacing;
+    const double w = options.surface.mean_spacing;
     if (!(w > 0)) return false;
     // Grid points lie below the tops between them, which are within half a step in both directions.
-    const double below = 0.125 * options.grid_step * options.grid_step;
+    const double below = 0.125 * options.surface.grid_step * options.surface.grid_step;
     for (std::size_t i = 0; i < asperities.size(); ++i) {
         const double bend = asperities.kappa1.empty() ? 2 / asperities.radius[i]
                                                       : asperities.kappa1[i] + asperities.kappa2[i];

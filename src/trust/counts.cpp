@@ -83,7 +83,7 @@ void mark_border_pixels(const Level& level, const Indenter& indenter, double Ly,
 // pixel on it.
 void count_edges(Level& level, const Indenter& indenter, const SolverOptions& options) {
     level.edge_contacts = 0;
-    Rectangle surface = options.surface;
+    Rectangle surface = options.surface.extent;
     if (!surface.known() || indenter.period.finite()) return;
     const LevelPixels& pixels = level.pixels;
     if (indenter.around.finite()) {  // cut open far from the tip
@@ -103,8 +103,8 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
     }
     std::vector<bool> cut(level.x.size(), false);
     for (std::size_t k = 0; k < cut.size(); ++k)
-        cut[k] =
-            inside(within, level.x[k], level.y[k]) < std::max(options.mean_spacing, level.a[k]);
+        cut[k] = inside(within, level.x[k], level.y[k]) <
+                 std::max(options.surface.mean_spacing, level.a[k]);
     bool attracts = false;
     if (pixels.dx > 0)
         mark_border_pixels(level, indenter, surface.Ly, [&](std::int32_t contact) {
@@ -115,8 +115,8 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
         });
     const auto count = static_cast<std::int32_t>(std::count(cut.begin(), cut.end(), true));
     level.edge_contacts = attracts ? std::max(count, 1) : count;
-    if (options.marks && !(pixels.dx > 0))
-        level.edge_contacts += border_contacts(level, indenter, *options.marks);
+    if (options.surface.marks && !(pixels.dx > 0))
+        level.edge_contacts += border_contacts(level, indenter, *options.surface.marks);
 }
 
 }  // namespace
@@ -126,12 +126,13 @@ void count_contacts(Level& level, const Indenter& indenter, const SolverOptions&
         return static_cast<std::int32_t>(
             std::count_if(level.a.begin(), level.a.end(), [&](double a) { return a > most; }));
     };
-    if (options.mean_spacing > 0) level.large_contacts = larger_than(options.mean_spacing / 4);
+    if (options.surface.mean_spacing > 0)
+        level.large_contacts = larger_than(options.surface.mean_spacing / 4);
     if (indenter.layers.count > 0 && level.pixels.dx == 0)
         level.wide_contacts = larger_than(indenter.layers.layer[0].thickness / 5) /
                               std::max(static_cast<double>(level.a.size()), 1.0);
     count_edges(level, indenter, options);
-    level.nominal_area = nominal_area(level, indenter, options.surface);
+    level.nominal_area = nominal_area(level, indenter, options.surface.extent);
 }
 
 bool exceeds_nominal_area(const LevelValues& level) {

@@ -5,34 +5,36 @@ namespace rsc {
 std::string sentence(Cause cause, bool elements) {
     switch (cause) {
         case Cause::border:
-            return "contacts, or their attraction, closer to the border of the surface than the "
-                   "mean distance of summits: what lies beyond it is missing";
+            return "contacts closer to the border of the surface than the mean spacing of its "
+                   "summits: the surface ends there";
         case Cause::filled_points:
             return "the contact may lie on missing points of the map, which are filled smoothly "
                    "(filled_share): N is too small";
         case Cause::grid:
-            return "a finer grid may change N at this separation by more than 1 %, with adhesion "
-                   "10 %";
+            return "a finer grid may change N at this separation by more than 1 % (with adhesion "
+                   "10 %)";
         case Cause::slope_ratio:
-            return "the indenter is too steep beside the surface (slope_ratio above 0.2), which "
-                   "it touches beside the summits";
+            return "the indenter is steep compared with the surface (slope_ratio above 0.2), so "
+                   "that it touches flanks, not summits";
         case Cause::beyond_law:
-            return "contacts are larger than the contact law or the calibration of its errors "
-                   "reaches";
+            return "spots are larger than those for which the contact law and its expected error "
+                   "hold";
         case Cause::few_points:
             return "the summits have too few points, or are spikes one point wide";
         case Cause::layer:
-            return "contacts with a > h/5, where h is the thickness of the top layer";
+            return "spots with a radius above a fifth of the thickness of the top layer";
         case Cause::adhesion_range:
             return "the attraction at edges of contact acts across less than four pixels "
-                   "(cohesive_resolution): the pull-off force is too high; use more points or a "
+                   "(cohesive_resolution): the error of N may be large; use more points or a "
                    "larger adhesion_range";
         case Cause::outside_calibration:
-            return "nothing of this kind was compared with elements, so that no error is stated";
+            return "such surfaces or bodies were not compared with elements, so that no error is "
+                   "stated";
         case Cause::missed_contact:
-            return elements ? "the bodies may touch between the points of the grid, so that N "
-                              "need not be 0"
-                            : "the bodies may touch beside the summits, so that N need not be 0";
+            return elements ? "N = 0 is uncertain: the bodies may touch between the points of the "
+                              "grid"
+                            : "N = 0 is uncertain: the bodies may touch between the modelled "
+                              "summits";
         case Cause::model_error:
             return "N may differ from that of elements at this separation by more than 10 %";
         case Cause::sliding_steps:

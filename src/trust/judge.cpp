@@ -36,15 +36,17 @@ bool known_shape(const Indenter& indenter) {
 // What the study of asperities against elements (input/trust) contains: no flats other than
 // isotropic Gaussian ones.
 bool calibrated(const Level& level, const Path& contact, const SolverOptions& options) {
-    const bool yields = std::isfinite(options.hardness.H0);
+    const bool yields = std::isfinite(options.physics.hardness.H0);
     const std::vector<double> depths = contact.residual_depths();
     const auto yielded =
         std::count_if(depths.begin(), depths.end(), [](double depth) { return depth > 0; });
     return options.interaction == Interaction::point && options.selection == Selection::overlap &&
-           options.adhesion.work == 0 && options.relaxation.none() &&
-           known_shape(contact.indenter()) && options.mean_spacing > 0 &&
-           !(options.measured && contact.indenter().shape->flat()) && options.gentlest_slope > 0 &&
-           !(yields && (options.hardness.length > 0 || contact.indenter().layers.count > 0)) &&
+           options.physics.adhesion.work == 0 && options.physics.relaxation.none() &&
+           known_shape(contact.indenter()) && options.surface.mean_spacing > 0 &&
+           !(options.surface.measured && contact.indenter().shape->flat()) &&
+           options.surface.gentlest_slope > 0 &&
+           !(yields &&
+             (options.physics.hardness.length > 0 || contact.indenter().layers.count > 0)) &&
            yielded <= level.plastic_contacts;  // otherwise some are unloaded
 }
 
@@ -72,7 +74,7 @@ Doubt edges_of_adhesion(const Level& level, const Indenter& indenter, const Heig
                         bool read, const SolverOptions& options) {
     Doubt doubt{Cause::grid};
     if (level.force == 0) return doubt;
-    const double traction = options.adhesion.work / options.adhesion.range,
+    const double traction = options.physics.adhesion.work / options.physics.adhesion.range,
                  attracting = level.area + level.cohesive_area, pulled = traction * attracting,
                  contacts = std::max(level.contacts, 1);
     // Of n equal contacts the edges are longer by sqrt(n), and their errors cancel as much.
@@ -110,7 +112,8 @@ void Judge::judge(Level& level, Path& contact, bool by_force) {
         elements ? of_elements(level, contact, by_force) : of_asperities(level, contact);
     if (level.edge_contacts > 0) doubts.push_back({Cause::border});
     if (!surface_.filled.empty()) {
-        level.filled_share = share_on_filled(level, surface_.filled, indenter, options_.sigma);
+        level.filled_share =
+            share_on_filled(level, surface_.filled, indenter, options_.surface.sigma);
         if (level.filled_share > kMuchFilled) doubts.push_back({Cause::filled_points});
     }
     conclude(level, doubts, by_force);
@@ -127,7 +130,7 @@ std::vector<Doubt> Judge::of_asperities(Level& level, const Path& contact) const
               Cause::missed_contact);
         return doubts;
     }
-    if (!(options_.gentlest_slope > 0)) {
+    if (!(options_.surface.gentlest_slope > 0)) {
         doubts = of_list(level, contact);
         doubt(level.wide_contacts > 0, Cause::layer);
         return doubts;
@@ -155,9 +158,9 @@ std::vector<Doubt> Judge::of_elements(Level& level, Path& contact, bool by_force
         if (surface_.second_grid && contact.path_dependent()) (void)grid(level, contact, by_force);
         return doubts;
     }
-    if (options_.adhesion.work > 0 && level.cohesive_resolution < kResolved)
+    if (options_.physics.adhesion.work > 0 && level.cohesive_resolution < kResolved)
         doubts.push_back({Cause::adhesion_range});
-    if (surface_.second_grid || options_.adhesion.work > 0)
+    if (surface_.second_grid || options_.physics.adhesion.work > 0)
         doubts.push_back(grid(level, contact, by_force));
     if (const double error = level.sliding_error; !std::isnan(error)) {
         const double depth = contact.first_touch() - level.separation;
@@ -185,7 +188,7 @@ double Judge::touch_between(const Path& contact) {
     // expected at its height.
     const Tensor& c = *surface_.curvature;
     const double dx = surface_.map->dx, dy = surface_.map->dy, touch = contact.first_touch();
-    return between_ = touch + 0.25 * std::max(touch, options_.sigma) *
+    return between_ = touch + 0.25 * std::max(touch, options_.surface.sigma) *
                                   (std::abs(c.xx) * dx * dx + std::abs(c.yy) * dy * dy);
 }
 
@@ -206,7 +209,8 @@ Doubt Judge::grid(const Level& level, Path& contact, bool by_force) {
     const Indenter& indenter = contact.indenter();
     const HeightMap& map = *surface_.map;
     const bool read = !surface_.curvature;
-    if (options_.adhesion.work > 0) return edges_of_adhesion(level, indenter, map, read, options_);
+    if (options_.physics.adhesion.work > 0)
+        return edges_of_adhesion(level, indenter, map, read, options_);
     Doubt doubt{Cause::grid};
     if (std::min(map.nx, map.ny) < kFewestPoints) return doubt;
     const auto error = second_grid(indenter).error(level, contact, by_force);
@@ -216,8 +220,9 @@ Doubt Judge::grid(const Level& level, Path& contact, bool by_force) {
     doubt.force = std::max(error->force, crests.force);
     doubt.area = std::max(error->area, crests.area);
     const double change = doubt.force * std::abs(level.force / stiffness);  // of the separation
-    doubt.serious = by_force ? change > kUnresolved * options_.sigma || doubt.area > kMuchError
-                             : doubt.force > kUnresolved;
+    doubt.serious = by_force
+                        ? change > kUnresolved * options_.surface.sigma || doubt.area > kMuchError
+                        : doubt.force > kUnresolved;
     return doubt;
 }
 

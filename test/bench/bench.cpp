@@ -50,7 +50,7 @@ Asperities surface(double sigma, std::int64_t realization) {
 
 std::vector<Level> indent(const Asperities& asperities, double sigma, Method method, int steps,
                           LawKind law = LawKind::hertz) {
-    SolverOptions options{.method = method, .law = law, .sigma = sigma};
+    SolverOptions options{.method = method, .law = law, .surface = {.sigma = sigma}};
     Path contact = asperity_path(asperities, kGold, options);
     std::vector<Level> levels;
     for (int k = 0; k < steps; ++k)
@@ -171,14 +171,15 @@ void bench_pairs() {
 // elastic levels down.
 void bench_adhesion() {
     const Asperities a = surface(0.01, 1);
-    SolverOptions options{.sigma = 0.01};
+    SolverOptions options{.surface = {.sigma = 0.01}};
     Level last;
     const auto levels = [&](double work) {
-        options.adhesion.work = work;
+        options.physics.adhesion.work = work;
         const auto contact = make_asperity_contact(a, kGold, options);
         double jumps = 0;
         for (int k = 0; k <= (work > 0 ? 200 : 100); ++k) {
-            last = contact->at_separation(options.sigma * (3 - 0.02 * std::min(k, 200 - k)));
+            last =
+                contact->at_separation(options.surface.sigma * (3 - 0.02 * std::min(k, 200 - k)));
             jumps += last.jumps;
         }
         return jumps;

@@ -86,9 +86,10 @@ void threads() {
     const HeightMap map = make();
     compare("elements, 4096^2, 100 levels from 4 to 1 sigma", [&] { levels(map, 100); });
     const Asperities a = lattice(100000);
-    SolverOptions options{.method = Method::mesh, .sigma = 0.05 / std::sqrt(1e5)};
+    SolverOptions options{.method = Method::mesh, .surface = {.sigma = 0.05 / std::sqrt(1e5)}};
     compare("asperities by mesh, 1e5, a third in contact", [&] {
-        asperity_path(a, {1.0, 1e4, 0.5, 0.5}, options).at_separation(-11.3 * options.sigma);
+        asperity_path(a, {1.0, 1e4, 0.5, 0.5}, options)
+            .at_separation(-11.3 * options.surface.sigma);
     });
     const Case settings = read_case_text(
                               "&run realizations = 16 / &surface n = 1024, L_lambda_s = 256 / "

@@ -1,7 +1,7 @@
 // A ball that wears the half-space under it, by rings: slow, and nothing of it is shared with src.
 #pragma once
 
-#include "physics/elimination.hpp"
+#include "truth/elimination.hpp"
 
 namespace truth {
 

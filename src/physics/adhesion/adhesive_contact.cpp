@@ -49,7 +49,7 @@ public:
     double force_at_most(double) override { return 0; }
 
 private:
-    double attraction() const override { return path_->options.adhesion.range; }
+    double attraction() const override { return path_->options.physics.adhesion.range; }
     void accept(Level&) override {
         path_->accepted = path_->now;
         path_->accepted.jumps = 0;
@@ -114,7 +114,7 @@ Level AdhesiveAsperities::report() {
         l.beyond_law += state.beyond || my.law->beyond(i, my.now.s[k]);
     }
     complete_level(l, *my.law, my);
-    if (my.options.adhesion.range > 0) l.cohesive_area = cohesive;
+    if (my.options.physics.adhesion.range > 0) l.cohesive_area = cohesive;
     l.jumps = my.jumps + my.accepted.jumps;
     l.energy_lost = my.now.lost;
     l.least_force = my.now.least_force;

@@ -28,25 +28,27 @@ AdhesivePath::AdhesivePath(const Asperities& asperities_, const Indenter& indent
                            const SolverOptions& options_)
     : ContactBodies(asperities_, indenter_, options_),
       law(make_law(options_.law, asperities, indenter_.E_star, of_difference.get())),
-      sticking(*law, options_.adhesion.work, options_.adhesion.range),
+      sticking(*law, options_.physics.adhesion.work, options_.physics.adhesion.range),
       direct(make_direct_products(kernel)),
       solver(sticking) {
     const auto refuse = [](const char* what) {
         throw Error(Failure::bad_input, std::string("solids%adhesion is ") + what);
     };
-    if (std::isfinite(options.hardness.H0)) refuse("not available yet with solids%hardness");
-    if (!options.relaxation.none()) refuse("not available yet with solids%relaxation_share");
+    if (std::isfinite(options.physics.hardness.H0))
+        refuse("not available yet with solids%hardness");
+    if (!options.physics.relaxation.none())
+        refuse("not available yet with solids%relaxation_share");
     if (options.method == Method::dgesv)
         refuse("not available with solver%method = 'dgesv': the paper's method excludes tension");
     if (options.selection == Selection::paper)
         refuse(
             "not available with indentation%selection = 'paper': other asperities are attracted as "
             "well");
-    if (options.adhesion.range > 0 && options.law == LawKind::fourth_order)
+    if (options.physics.adhesion.range > 0 && options.law == LawKind::fourth_order)
         refuse(
             "not available yet with solids%adhesion_range > 0 and asperities%law = 'fourth_order'");
     for (std::size_t i = 0; of_difference && i < asperities.size(); ++i) of_difference->shift(i);
-    margin = options.adhesion.range;
+    margin = options.physics.adhesion.range;
     ranking.assign(asperities, indenter);
 }
 
@@ -170,7 +172,7 @@ double AdhesivePath::raised() const {
                         -solver.phi()[at(products->active()[k])] -
                             state.f * kernel->near() / std::sqrt(state.outer / std::numbers::pi));
     }
-    const double range = options.adhesion.range;
+    const double range = options.physics.adhesion.range;
     return 1.2 * most > margin - range ? 2 * most + range : 0.0;
 }
 
@@ -192,7 +194,7 @@ void AdhesivePath::complete(Point& point, double accuracy) {
 bool AdhesivePath::begin(double target) {
     now = accepted;
     // Sets of points, and the rounding of sums over them, depend on nothing else.
-    margin = std::max(options.adhesion.range, now.margin);
+    margin = std::max(options.physics.adhesion.range, now.margin);
     jumps = steps = 0;
     products_before = direct->count() + (mesh ? mesh->count() : 0);
     lost_way = false;

@@ -15,7 +15,7 @@ constexpr double kCoarsest = 0.5, kFine = 4;
 // Energy that a step between separations may seem to lose, relative to w times the area that
 // attracts: if it seems to lose more, it contains a jump or its trapezoidal work is not accurate,
 // and it is divided until it is this share of a level's way.
-constexpr double kLossShare = 1e-3, kShortest = 1.0 / 4096;
+constexpr double kLossShare = kAdhesiveLossShare, kShortest = 1.0 / 4096;
 constexpr std::size_t kFewest = 8;    // least number of points of a jump, if there are several
 constexpr double kInnerError = 1e-3;  // error of products in iterations
 constexpr double kEarly = 0.1;        // error of pressures relative to the change of the attraction
@@ -156,17 +156,19 @@ AdhesivePixels::AdhesivePixels(const HeightMap& heights_, const Indenter& indent
       heights(heights_),
       indenter(indenter_),
       options(options_),
-      s0(options.adhesion.work / options.adhesion.range),
-      z0(options.adhesion.range),
+      s0(options.physics.adhesion.work / options.physics.adhesion.range),
+      z0(options.physics.adhesion.range),
       pixel(heights.dx * heights.dy) {
     const auto refuse = [](const std::string& what) {
         throw Error(Failure::bad_input, "solids%adhesion: " + what);
     };
     if (!(z0 > 0))
         refuse("boundary elements require solids%adhesion_range > 0 (JKR is the limit of 0)");
-    if (std::isfinite(options.hardness.H0)) refuse("not available yet with solids%hardness");
-    if (!options.relaxation.none()) refuse("not available yet with solids%relaxation_share");
-    require_resolved(indenter.E_star, options.adhesion, std::max(heights.dx, heights.dy));
+    if (std::isfinite(options.physics.hardness.H0))
+        refuse("not available yet with solids%hardness");
+    if (!options.physics.relaxation.none())
+        refuse("not available yet with solids%relaxation_share");
+    require_resolved(indenter.E_star, options.physics.adhesion, std::max(heights.dx, heights.dy));
     const Substrate body = substrate_of(indenter);
     if (indenter.period.finite()) {
         raised = heights.copy();
@@ -441,7 +443,7 @@ Level AdhesivePixels::step(double Z, const Past* start) {
 
 // Energy that a step may seem to lose without a jump, or that the place of a jump in it may change.
 double AdhesivePixels::negligible() const {
-    return kLossShare * options.adhesion.work * pixel *
+    return kLossShare * options.physics.adhesion.work * pixel *
            std::max(std::accumulate(now.share.begin(), now.share.end(), 0.0),
                     std::accumulate(accepted.share.begin(), accepted.share.end(), 0.0));
 }

@@ -48,7 +48,7 @@ struct AdhesivePixels : CutMap {
                    const SolverOptions& options_);
 
     double resolution() const {
-        return cohesive_length(indenter.E_star, options.adhesion) /
+        return cohesive_length(indenter.E_star, options.physics.adhesion) /
                std::max(heights.dx, heights.dy);
     }
     double pressure(std::size_t i) const { return q[i] - s0 * share[i]; }

@@ -271,7 +271,7 @@ std::unique_ptr<Law> make_yielding(std::unique_ptr<Law> elastic, const Asperitie
 AsperityPhysics make_yielding_asperities(const ContactBodies& bodies,
                                          std::unique_ptr<Law> elastic) {
     const SolverOptions& options = bodies.options;
-    auto law = make_yielding(std::move(elastic), bodies.asperities, options.hardness,
+    auto law = make_yielding(std::move(elastic), bodies.asperities, options.physics.hardness,
                              traits(options.law).sinks);
     if (!law->path_dependent()) return {std::move(law), std::make_unique<AsperityHistory>()};
     auto history = std::make_unique<YieldingAsperities>(*law, bodies.asperities.size());

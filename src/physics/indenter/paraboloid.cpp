@@ -20,10 +20,13 @@ public:
 
     std::string text(const std::string& unit) const override {
         const ShapeKeys& k = keys();
-        return format(k1_ > 0 && k2_ > 0
-                          ? "paraboloid of radii %g and %g %s, the first at %g degrees"
-                          : "cylinder of radii %g and %g %s, the first at %g degrees",
-                      k.radii[0], k.radii[1], unit.c_str(), k.angle * 180 / std::numbers::pi);
+        const double degrees = k.angle * 180 / std::numbers::pi;
+        if (k1_ > 0 && k2_ > 0)
+            return format("paraboloid of radii %g and %g %s, the first at %g degrees", k.radii[0],
+                          k.radii[1], unit.c_str(), degrees);
+        const double axis = std::fmod(degrees + (k2_ > 0 ? 0 : 90), 180);
+        return format("cylinder R = %g %s (axis at %g degrees from x)",
+                      k2_ > 0 ? k.radii[1] : k.radii[0], unit.c_str(), axis);
     }
     double height(double x, double y) const override {
         const double u = c_ * x + s_ * y, v = c_ * y - s_ * x;

@@ -173,7 +173,7 @@ void RelaxingAsperities::read(std::span<const double> numbers) {
 
 AsperityPhysics make_relaxing_asperities(const ContactBodies& bodies,
                                          std::unique_ptr<Law> elastic) {
-    const Creep creep(bodies.options.relaxation);
+    const Creep creep(bodies.options.physics.relaxation);
     auto law = make_relaxing(std::move(elastic), bodies.asperities.size(), creep);
     auto history = std::make_unique<RelaxingAsperities>(bodies.of_surface, bodies.indenter, *law,
                                                         creep, bodies.options.tolerance);

@@ -50,18 +50,18 @@ void refuse(const char* why) {
 }  // namespace
 
 std::unique_ptr<Lowering> make_wear(const SolverOptions& options) {
-    const double k = options.wear.coefficient;
+    const double k = options.physics.wear.coefficient;
     if (k == 0) return nullptr;
     if (!(k > 0 && std::isfinite(k)))
         throw Error(Failure::bad_input, "the coefficient of wear must be positive and finite");
-    if (std::isfinite(options.hardness.H0)) refuse("with a hardness");
-    if (options.adhesion.work > 0) refuse("with adhesion");
-    if (!options.relaxation.none()) refuse("for bodies that relax");
+    if (std::isfinite(options.physics.hardness.H0)) refuse("with a hardness");
+    if (options.physics.adhesion.work > 0) refuse("with adhesion");
+    if (!options.physics.relaxation.none()) refuse("for bodies that relax");
     return std::make_unique<WornPoints>(k);
 }
 
 void require_no_wear(const SolverOptions& options) {
-    if (options.wear.coefficient != 0) refuse("for asperities; use elements");
+    if (options.physics.wear.coefficient != 0) refuse("for asperities; use elements");
 }
 
 }  // namespace rsc

@@ -1,0 +1,98 @@
+// Friction through the C interface: what it does is that of the core.
+#include "check.hpp"
+#include "physics/friction/contact_curve.hpp"
+#include "support/library.hpp"
+#include "support/paths.hpp"
+#include "support/random_asperities.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace test_api_friction {
+
+TEST(same_as_core) {
+    const rsc::Asperities list = random_asperities(300, 0.02, 0.01, 5e-4, 0.3, 7);
+    ContactHandle contact;
+    OK(rsc_contact_create(&contact, take(list), 94e3, 2.5, 0.5, 0.5,
+                          case_of("&solver tolerance=1e-12 /")));
+    rsc::SolverOptions tight{.tolerance = 1e-12};
+    rsc::Path one = asperity_path(list, {94e3, 2.5, 0.5, 0.5}, tight),
+              other = asperity_path(list, {94e3, 2.5, 0.5, 0.5}, tight);
+    rsc::ContactCurve curve(one, other);
+    rsc::FrictionHistory path({0.3, 0.8});
+    FrictionHandle friction;
+    OK(rsc_friction_create(&friction, contact, 0.3, 0.8));
+    rsc_contact_destroy(&contact);  // may go
+    const double steps[][3] = {{0.002, 1, 2},           {0.001, 1.0001, 2},
+                               {0.001, 1.0006, 2.0002}, {0.0005, 1.0006, 2},
+                               {0.001, 1.0003, 1.9999}, {0.0012, 1.0003, 1.9999},
+                               {0.001, 1.01, 2}};
+    for (const auto& s : steps) {
+        double N = 0, qx = 0, qy = 0, lost = 0, k[4] = {};
+        OK(rsc_friction_update(friction, s[0], s[1], s[2], &N, &qx, &qy, &lost));
+        path.go_to(curve, -s[0], {s[1], s[2]});
+        CHECK(N == path.force() && qx == path.tangential_force().x &&
+              qy == path.tangential_force().y && lost == path.step_lost());
+        const FrictionState is = state(friction);
+        CHECK(is.Z == s[0] && is.x == s[1] && is.y == s[2] && is.N == N && is.Qx == qx &&
+              is.Qy == qy && is.normal == path.normal_energy());
+        CHECK(is.tangential == path.tangential_energy() && is.lost == path.work_lost() &&
+              is.stick == -path.stick_approach());
+        OK(rsc_friction_stiffness(friction, &k[0], &k[1], &k[2], &k[3]));
+        const auto tangent = path.stiffness(curve);
+        CHECK(k[0] == tangent.xx && k[1] == tangent.xy && k[2] == tangent.yx && k[3] == tangent.yy);
+    }
+    // All slips now: mu N, and no spot sticks.
+    double slide = 0, most = 0, sum = 0;
+    const auto [now, x, y, N, qx, qy, normal, tangential, lost, stuck] = state(friction);
+    CHECK_RELATIVE(std::hypot(qx, qy), 0.3 * N, 1e-12);
+    OK(rsc_friction_full_slip(friction, &slide, &most));
+    CHECK_RELATIVE(most, 0.3 * N, 1e-15);
+    const double slides[4] = {0, 0.3 * slide, slide, 2 * slide};
+    double Q[4], stick[4], back = 0;
+    OK(rsc_friction_first_loading(friction, 4, slides, Q, stick));
+    CHECK(Q[0] == 0 && Q[1] > 0 && Q[1] < most);
+    CHECK_RELATIVE(Q[2], most, 1e-14);
+    CHECK_RELATIVE(Q[3], most, 1e-14);
+    // Spots that touch at a separation stick up to a slide of mu/m times how much deeper the sphere
+    // is.
+    CHECK(stick[0] == now);
+    CHECK_RELATIVE(stick[1] - now, slides[1] * 0.8 / 0.3, 1e-12);
+    CHECK_RELATIVE(stick[2] - now, slide * 0.8 / 0.3, 1e-12);
+    CHECK(stick[3] == stick[2]);
+    OK(rsc_friction_slide(friction, Q[1], &back));
+    CHECK_RELATIVE(back, slides[1], 1e-7);
+    std::int64_t n = 0;
+    CHECK(rsc_friction_spots(friction, 0, &n, nullptr, nullptr, nullptr, nullptr, nullptr) == -2 &&
+          n > 5);
+    std::vector<double> fx(static_cast<std::size_t>(n)), inner(static_cast<std::size_t>(n), 1.0);
+    OK(rsc_friction_spots(friction, n, &n, nullptr, nullptr, inner.data(), fx.data(), nullptr));
+    for (std::size_t i = 0; i < fx.size(); ++i) {
+        sum += fx[i];
+        CHECK(inner[i] == 0);
+    }
+    CHECK_RELATIVE(
+        sum, qx,
+        1e-9);  // the levels of the sum and of the spots are two solutions to the tolerance
+    // A copy has the path, and goes its own way.
+    FrictionHandle copy;
+    OK(rsc_friction_copy(&copy, friction));
+    OK(rsc_friction_commit(friction));
+    double original = 0, copied = 0;
+    OK(rsc_friction_update(friction, 0.001, 1.005, 2, nullptr, &original, nullptr, nullptr));
+    OK(rsc_friction_update(copy, 0.001, 1.005, 2, nullptr, &copied, nullptr, nullptr));
+    CHECK_RELATIVE(copied, original, 1e-9);
+    OK(rsc_friction_rollback(friction));
+    CHECK(state(friction).Qx == qx);
+    // After a step that is not committed, a restored path has the force of the step, and a rollback
+    // leads to the commit.
+    const Folder folder;
+    const std::string file = folder / "friction";
+    FrictionHandle restored;
+    OK(rsc_friction_update(friction, 0.001, 1.005, 2, nullptr, &original, nullptr, nullptr));
+    OK(rsc_friction_save(friction, file.c_str()));
+    OK(rsc_friction_restore(&restored, take(list), file.c_str()));
+    CHECK(state(restored).Qx == original && original != qx);
+    OK(rsc_friction_rollback(restored));
+    CHECK(state(restored).Qx == qx);
+}
+
+}  // namespace test_api_friction

@@ -1,0 +1,138 @@
+// Contacts saved in files continue bit for bit (what else is kept: test_guest_state); many contacts
+// in one call give the results of single calls, for any number of threads.
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include "check.hpp"
+#include "support/library.hpp"
+#include "support/random_asperities.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace test_api_kept {
+
+AsperitiesHandle make(unsigned seed) {
+    return take(random_asperities(400, 0.01, 0.01, 5e-4, 0.4, seed));
+}
+
+// Force, place and stiffness along a path that moves the tip and presses as well.
+std::vector<double> go_on(rsc_contact* contact) {
+    std::vector<double> answers;
+    for (int k = 0; k < 12; ++k) {
+        double force = 0, separation = 0, stiffness = 0, energy = 0;
+        if (k % 5 == 2) OK(rsc_contact_move_tip(contact, 0.5 + 0.003 * k, 0.5 - 0.002 * k));
+        if (k % 4 == 3)
+            OK(rsc_contact_press(contact, 0.5 + 0.1 * k, &separation));
+        else
+            OK(rsc_contact_indent(contact, 0.004 - 0.0003 * k, &force));
+        OK(rsc_contact_stiffness(contact, &stiffness));
+        OK(rsc_contact_energy(contact, &energy));
+        answers.insert(answers.end(), {force, separation, stiffness, energy});
+    }
+    return answers;
+}
+
+TEST(contacts_in_files) {
+    const Folder folder;
+    const AsperitiesHandle asperities = make(1), others = make(2);
+    ContactHandle contact, again;
+    OK(rsc_contact_create(&contact, asperities, 94e3, 2.5, 0.5, 0.5, nullptr));
+    const std::string file = folder / "contact";
+    OK(rsc_contact_save(contact, file.c_str()));  // without a level
+    OK(rsc_contact_restore(&again, asperities, file.c_str()));
+    double N = 0, same = 0, E = 0, W = 0, Z0 = 0;
+    CHECK(rsc_contact_energy(again, &E) == RSC_NO_RESULT);
+    for (double z : {0.008, 0.007, 0.006, 0.005, 0.0045}) OK(rsc_contact_indent(contact, z, &N));
+    OK(rsc_contact_energy(contact, &W));
+    OK(rsc_contact_save(contact, file.c_str()));
+    OK(rsc_contact_restore(&again, asperities, file.c_str()));
+    OK(rsc_contact_result(again, &Z0, &same, nullptr, nullptr));
+    OK(rsc_contact_energy(again, &E));
+    CHECK(Z0 == 0.0045 && same == N && E == W && N > 0);
+    CHECK(go_on(contact) == go_on(again));
+    // Saved after the tip moved: the level is that of the old place.
+    OK(rsc_contact_move_tip(contact, 0.45, 0.52));
+    OK(rsc_contact_result(contact, &Z0, &N, nullptr, nullptr));
+    OK(rsc_contact_save(contact, file.c_str()));
+    OK(rsc_contact_restore(&again, asperities, file.c_str()));
+    OK(rsc_contact_result(again, nullptr, &same, nullptr, nullptr));
+    CHECK(same == N);
+    double here = 0, there = 0;
+    OK(rsc_contact_indent(contact, Z0, &here));
+    OK(rsc_contact_indent(again, Z0, &there));
+    CHECK(here == there && here != N);
+    CHECK(go_on(contact) == go_on(again));
+    // Other asperities, and a file that does not exist.
+    CHECK(rsc_contact_restore(&again, others, file.c_str()) == -2 && says("asperities") && !again);
+    CHECK(rsc_contact_restore(&again, asperities, (folder / "nothing").c_str()) == -3 &&
+          says("cannot read"));
+    // A full disk, here the limit of file sizes: reported, and the earlier file is unchanged.
+    const std::string before = bytes(file);
+    rlimit usual{};
+    CHECK(getrlimit(RLIMIT_FSIZE, &usual) == 0 && std::signal(SIGXFSZ, SIG_IGN) != SIG_ERR);
+    const rlimit little{100, usual.rlim_max};
+    CHECK(setrlimit(RLIMIT_FSIZE, &little) == 0);
+    const std::int32_t full = rsc_contact_save(contact, file.c_str());
+    CHECK(setrlimit(RLIMIT_FSIZE, &usual) == 0);
+    CHECK(full == RSC_FILE && says("cannot write") && bytes(file) == before &&
+          !std::ifstream(file + ".new"));
+    // Another's file is not overwritten, and neither a device nor a pipe that nobody writes is
+    // read.
+    const std::string source = folder.write("source.f90", "end"), fifo = folder / "fifo";
+    CHECK(rsc_contact_save(contact, source.c_str()) == RSC_FILE && bytes(source) == "end");
+    CHECK(mkfifo(fifo.c_str(), 0600) == 0 &&
+          rsc_contact_restore(&again, asperities, fifo.c_str()) == -3);
+    CHECK(rsc_contact_restore(&again, asperities, "/dev/zero") == -3 && !again);
+    std::string spoilt = bytes(file);
+    spoilt[spoilt.size() / 2] ^= 4;
+    std::ofstream(folder / "spoilt", std::ios::binary) << spoilt;
+    CHECK(rsc_contact_restore(&again, asperities, (folder / "spoilt").c_str()) == -3 &&
+          says("damaged"));
+    std::ofstream(folder / "short", std::ios::binary) << bytes(file).substr(0, 60);
+    CHECK(rsc_contact_restore(&again, asperities, (folder / "short").c_str()) == -3 && !again);
+}
+
+TEST(many_contacts) {
+    constexpr int n = 24;
+    const AsperitiesHandle asperities = make(1);
+    std::vector<double> one, force(n), separation(n), forces(n);
+    std::vector<std::int32_t> status(n);
+    for (int k = 0; k < n; ++k) force[static_cast<std::size_t>(k)] = 0.1 + 0.2 * k;
+    const auto contacts = [&] {
+        std::vector<rsc_contact*> made(n, nullptr);
+        for (int k = 0; k < n; ++k)
+            OK(rsc_contact_create(&made[static_cast<std::size_t>(k)], asperities, 94e3, 2.5,
+                                  0.4 + 0.01 * k, 0.5, nullptr));
+        return made;
+    };
+    for (std::int32_t threads : {1, 2, 0}) {
+        auto made = contacts();
+        OK(rsc_contacts_press(n, made.data(), force.data(), separation.data(), status.data(),
+                              threads));
+        if (one.empty()) {
+            auto alone = contacts();
+            one.resize(n);
+            for (std::size_t k = 0; k < n; ++k) OK(rsc_contact_press(alone[k], force[k], &one[k]));
+            for (auto& c : alone) OK(rsc_contact_destroy(&c));
+        }
+        CHECK(separation == one);
+        OK(rsc_contacts_indent(n, made.data(), separation.data(), forces.data(), nullptr, threads));
+        for (std::size_t k = 0; k < n; ++k)
+            CHECK_RELATIVE(forces[k], force[k], 2e-6);  // solver%tolerance, twice
+        for (auto& c : made) OK(rsc_contact_destroy(&c));
+    }
+    auto made = contacts();
+    force[5] = -1;
+    separation[5] = 7;
+    CHECK(rsc_contacts_press(n, made.data(), force.data(), separation.data(), status.data(), 2) ==
+              -2 &&
+          says("contact 5:") && says("argument force"));
+    CHECK(status[5] == -2 && status[4] == 0 && separation[5] == 7 && separation[4] == one[4]);
+    rsc_contact* const kept = made[3];
+    made[3] = made[2];
+    CHECK(rsc_contacts_press(n, made.data(), force.data(), nullptr, nullptr, 1) == -2 &&
+          says("different"));
+    made[3] = kept;
+    for (auto& c : made) OK(rsc_contact_destroy(&c));
+}
+
+}  // namespace test_api_kept

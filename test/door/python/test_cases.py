@@ -1,0 +1,152 @@
+"""The cases of input/ set what the paper, their comments and the READMEs say; what the READMEs of
+input/ and output/ say of a run and of the pictures is so.
+
+usage: test_cases.py PROJECT        (RSC_PROGRAM in the environment)"""
+import functools
+import glob
+import io
+import os
+import re
+import subprocess
+import sys
+import unittest
+import unittest.mock
+
+PROJECT = os.path.abspath(sys.argv.pop(1))
+RSC = os.path.abspath(os.environ["RSC_PROGRAM"])
+sys.path[:0] = [os.path.join(PROJECT, "output", "plot"), os.path.join(PROJECT, "output", "export")]
+import law  # noqa: E402
+import plot  # noqa: E402
+
+try:
+    import docutils.core
+except ImportError:
+    docutils = None
+
+
+def read(*names):
+    with open(os.path.join(PROJECT, *names), encoding="utf-8") as file:
+        return file.read()
+
+
+@functools.cache
+def effective(text):
+    """{group%key: value} that rsc --check tells of a case."""
+    done = subprocess.run(
+        [RSC, "--check", "-q"], input=text, text=True, capture_output=True, cwd=PROJECT
+    )
+    assert done.returncode == 0, done.stderr
+    keys, group = {}, ""
+    for line in done.stdout.splitlines():
+        if line.startswith("&"):
+            group = line[1:].strip()
+        elif "=" in line:
+            key, value = line.split("=", 1)
+            keys[f"{group}%{key.strip()}"] = value.split("!")[0].strip().rstrip(",")
+    return keys
+
+
+class Cases(unittest.TestCase):
+    maxDiff = None
+
+    def test_paper(self):
+        """The numbers of the paper, in every case of input/paper that is of its gold surface, and
+        the levels it has."""
+        gold = {
+            "solids%E": "78000.0, Infinity",
+            "solids%nu": "0.42, 0.0",
+            "solids%R": "Infinity, 2.5",
+            "surface%hurst": "0.8",
+            "surface%L_lambda_l": "24.0",
+            "surface%L_lambda_s": "512.0",
+        }
+        for name in ("maps", "maps_plateau"):
+            said = effective(read("input", "paper", name + ".nml"))
+            self.assertEqual({key: said[key] for key in gold}, gold, name)
+            self.assertEqual(
+                said["surface%plateau"], ".true." if name == "maps_plateau" else ".false."
+            )
+
+    def test_taken(self):
+        """Every case is one that rsc takes, and a study script shortens each of its own to fewer
+        realizations."""
+        files = sorted(glob.glob(os.path.join(PROJECT, "input", "**", "*.nml"), recursive=True))
+        self.assertGreater(len(files), 20)
+        for file in files:
+            with self.subTest(file=file):
+                effective(read(file))
+        for study in ("paper", "flat"):
+            script = read("input", study, "run.sh")
+            shorten = script[script.index("shorten() {") : script.index("\n}\n") + 3]
+            for case in re.search(r"^cases='([^']*)'", script, re.M)[1].split():
+                text = read("input", study, case + ".nml")
+                short = subprocess.run(
+                    ["sh", "-c", f"{shorten}shorten {case}"],
+                    input=text,
+                    text=True,
+                    capture_output=True,
+                    check=True,
+                ).stdout
+                whole, cut = effective(text), effective(short)
+                self.assertLessEqual(
+                    int(cut["run%realizations"]), int(whole["run%realizations"]), case
+                )
+                self.assertEqual(cut["solids%E"], whole["solids%E"])
+
+
+class Readme(unittest.TestCase):
+    def test_pictures(self):
+        """output/README explains every picture of plot.py once, and no other."""
+        text = read("output", "README")
+        block = text[text.index("\nload  ") : text.index("A picture is drawn")]
+        named = [
+            word
+            for line in block.splitlines()
+            for name in re.findall(r"^([a-z]+(?:, [a-z]+)*)  ", line)
+            for word in name.split(", ")
+        ]
+        self.assertEqual(sorted(named), sorted(plot.PICTURES))
+
+    def test_pages(self):
+        """Every page is reStructuredText without errors, no line longer than 80 columns."""
+        pages = glob.glob(os.path.join(PROJECT, "*", "README"))
+        for page in [*pages, *(os.path.join(PROJECT, p) for p in ("README", "CHANGELOG"))]:
+            text = read(page)
+            self.assertEqual([line for line in text.splitlines() if len(line) > 80], [], page)
+            if docutils:
+                told = io.StringIO()
+                settings = {"warning_stream": told, "report_level": 2}
+                docutils.core.publish_doctree(text, settings_overrides=settings)
+                self.assertEqual(told.getvalue(), "", page)
+
+    def test_files(self):
+        """Every file that src/README names exists."""
+        rooms = "|".join(d for d in os.listdir(os.path.join(PROJECT, "src")) if "." not in d)
+        names = re.findall(rf"(?<![\w/])((?:{rooms})/[a-z_0-9/]+)(?![\w/])", read("src", "README"))
+        self.assertGreater(len(names), 60)
+        gone = [
+            n for n in names if not glob.glob(os.path.join(PROJECT, "src", n.rstrip("/")) + "*")
+        ]
+        self.assertEqual(gone, [])
+
+    def test_commands(self):
+        """The commands of output/README are ones that plot.py and law.py take."""
+        commands = re.findall(
+            r"^    python3 output/(plot/plot|export/law)\.py ((?:\S+ )*\S+)",
+            read("output", "README"),
+            re.M,
+        )
+        self.assertGreater(len(commands), 5)
+        for script, words in commands:
+            if script == "plot/plot":
+                plot.parse(words.split())
+            else:
+                with unittest.mock.patch.object(
+                    law, "Law", side_effect=law.Refused("reached")
+                ), self.assertRaises(SystemExit) as stop:
+                    law.main(words.split())
+                self.assertEqual(str(stop.exception.code), "law.py: reached")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,180 @@
+// Line contact: surfaces that repeat along one axis. Hertz's line, Lekner's sum, a long free strip.
+#include "base/error.hpp"
+#include "check.hpp"
+#include "contact/make.hpp"
+#include "interaction/line_kernel.hpp"
+#include "physics/indenter/shapes.hpp"
+
+namespace test_line_contact {
+
+using namespace rsc;
+
+const double pi = std::numbers::pi;
+
+HeightMap map_of(int nx, int ny, double step, const std::function<double(double, double)>& z) {
+    HeightMap map;
+    map.allocate(nx, ny, nx);
+    map.dx = map.dy = step;
+    map.x0 = -0.5 * (nx - 1) * step;
+    map.y0 = -0.5 * (ny - 1) * step;
+    for (int j = 0; j < ny; ++j)
+        for (int i = 0; i < nx; ++i) map.row(j)[i] = z(map.x(i), map.y(j));
+    return map;
+}
+
+// A cylinder of radius R whose axis lies along x or y, on a surface that repeats along its axis if
+// the period is finite.
+Indenter roller(double R, double E_star, double period, bool along_x = false) {
+    ShapeKeys keys;
+    keys.radii[0] = along_x ? kInfinity : R;
+    keys.radii[1] = along_x ? R : kInfinity;
+    Indenter indenter{E_star, make_shape(shape_number("paraboloid"), keys), 0, 0};
+    if (std::isfinite(period)) indenter.period = {kInfinity, period};
+    if (along_x) std::swap(indenter.period.x, indenter.period.y);
+    return indenter;
+}
+
+SolverOptions exact() {
+    SolverOptions options;
+    options.tolerance = 1e-8;
+    return options;
+}
+
+double flat(double, double) { return 0; }
+
+// Waves along and across the axis, with the period 1 along y.
+double rough(double x, double y) {
+    return 1e-3 * (std::cos(2 * pi * (3 * y + 0.7)) * std::cos(9 * x) +
+                   std::cos(2 * pi * 2 * y + 14 * x) + 0.5 * std::cos(2 * pi * 5 * y - 7 * x));
+}
+
+TEST(images_along_a_line) {
+    // The plain sum of the first 20 000 images on either side; those beyond give
+    // (2 along^2 - across^2)/(2 n^2 L^3) in leading order.
+    const double L = 2;
+    const LineKernel kernel(L);
+    constexpr int n = 20000;
+    for (const double across : {0.0, 0.1, 0.7, 0.999, 1.001, 1.5, 5.0})
+        for (const double along : {0.0, 0.3, -0.7, 0.9}) {
+            long double sum = 0;
+            for (int k = n; k >= 1; --k)
+                sum += 1 / std::hypot((long double)across, along + k * (long double)L) +
+                       1 / std::hypot((long double)across, along - k * (long double)L) -
+                       2 / (k * (long double)L);
+            sum += (2 * along * along - across * across) / (2.0L * n * n * L * L * L);
+            CHECK_CLOSE(kernel.images(across, along), static_cast<double>(sum), 2e-12);
+        }
+}
+
+TEST(hertz_line) {
+    // b = 2 sqrt(P R/(pi E*)), p0 = 2 P/(pi b); a surface as wide as 6 b. The centre is lowered by
+    // -(2 P/(pi E*)) [ln(b/(4 L)) - 1/2 + gamma], the line load's -(2/(pi E*)) [ln(x/(2 L)) + gamma]
+    // averaged over the pressure.
+    const double R = 12, E = 1.1e5, P = 50, L = 1;
+    const double b = 2 * std::sqrt(P * R / (pi * E)), p0 = 2 * P / (pi * b);
+    const double Z0 = 2 * P / (pi * E) * (std::log(b / (4 * L)) - 0.5 + std::numbers::egamma);
+    std::vector<double> errors;
+    for (const int across : {36, 72, 144}) {  // 6, 12 and 24 pixels over b
+        const double step = 6 * b / across;
+        const int along = 24;
+        const HeightMap map = map_of(across, along, step, flat);
+        const double period = along * step;
+        const Indenter indenter = roller(R, E, period);
+        const auto contact = make_element_contact(map, indenter, exact());
+        const Level level = contact->at_force(P * period);
+        CHECK(level.converged);
+        CHECK_RELATIVE(level.force_per_length, P, 1e-7);
+        const double most = *std::ranges::max_element(level.pixels.pressure);
+        errors.push_back(std::abs(most / p0 - 1));
+        // Equal along the axis.
+        const std::size_t each = level.pixels.index.size() / static_cast<std::size_t>(along);
+        CHECK(each * static_cast<std::size_t>(along) == level.pixels.index.size());
+        for (std::size_t k = each; k < level.pixels.pressure.size(); ++k)
+            CHECK_CLOSE(level.pixels.pressure[k], level.pixels.pressure[k % each], 1e-6 * p0);
+        CHECK_CLOSE(level.area / period, 2 * b, 1.5 * step);
+        const double there = Z0 + 2 * P / (pi * E) * std::log(L / period);
+        CHECK_CLOSE(level.separation, there, 0.02 * step / b * std::abs(there));
+        // The same at this separation.
+        const Level again = contact->at_separation(level.separation);
+        CHECK_RELATIVE(again.force, level.force, 1e-6);
+    }
+    // of second order in the step: 0.36, 0.089 and 0.022 %
+    CHECK(errors[0] < 0.005 && errors[0] > 3 * errors[1] && errors[1] > 3 * errors[2]);
+}
+
+TEST(energy_and_stiffness_of_a_line) {
+    const double step = 1.0 / 48, E = 100;
+    const HeightMap map = map_of(40, 48, step, rough);
+    const auto contact = make_element_contact(map, roller(3, E, 1), exact());
+    const double Z = contact->first_touch() - 4e-3, d = 1e-6;
+    const Level low = contact->at_separation(Z - d), high = contact->at_separation(Z + d),
+                middle = contact->at_separation(Z);
+    CHECK_RELATIVE((high.energy - low.energy) / (2 * d), -middle.force, 1e-4);
+    CHECK_RELATIVE((high.force - low.force) / (2 * d), contact->stiffness(), 1e-3);
+}
+
+TEST(a_line_along_x_is_one_along_y_turned) {
+    const double step = 1.0 / 48, E = 100;
+    const HeightMap map = map_of(40, 48, step, rough);
+    const auto one = make_element_contact(map, roller(3, E, 1), exact());
+    const HeightMap turned = map_of(48, 40, step, [](double x, double y) { return rough(y, x); });
+    const auto other = make_element_contact(turned, roller(3, E, 1, true), exact());
+    for (const double N : {0.02, 0.2, 1.0}) {
+        const Level a = one->at_force(N), b = other->at_force(N);
+        CHECK(a.contacts == b.contacts);
+        CHECK_RELATIVE(b.separation, a.separation, 1e-6);
+        CHECK_RELATIVE(b.area, a.area, 1e-9);
+        const Level c = one->at_separation(a.separation);
+        CHECK_RELATIVE(c.force, N, 1e-5);
+    }
+}
+
+TEST(a_shift_along_the_axis_changes_nothing) {
+    const double step = 1.0 / 48, E = 100;
+    const HeightMap map = map_of(40, 48, step, rough);
+    const auto one = make_element_contact(map, roller(3, E, 1), exact());
+    const HeightMap moved =
+        map_of(40, 48, step, [&](double x, double y) { return rough(x, y + 17 * step); });
+    const auto other = make_element_contact(moved, roller(3, E, 1), exact());
+    for (const double N : {0.05, 0.5}) {
+        const Level a = one->at_force(N), b = other->at_force(N);
+        CHECK(a.contacts == b.contacts);  // those across the border are one
+        CHECK_RELATIVE(b.separation, a.separation, 1e-6);
+        CHECK_RELATIVE(b.area, a.area, 1e-9);
+    }
+}
+
+TEST(the_middle_of_a_long_free_strip) {
+    // The same surface free and three times as long: where its middle third carries the force of a
+    // period, it has its area within 2 %.
+    const int n = 48;
+    const double step = 1.0 / n, E = 100, N = 0.5;
+    const HeightMap map = map_of(40, n, step, rough);
+    const auto line = make_element_contact(map, roller(3, E, 1), exact());
+    const Level period = line->at_force(N);
+    // The middle of the middle third is that of the period.
+    const HeightMap strip = map_of(40, 3 * n, step, [](double x, double y) { return rough(x, y); });
+    const auto free = make_element_contact(strip, roller(3, E, kInfinity), exact());
+    double total = 3 * N, force = 0, area = 0;
+    for (int i = 0; i < 20 && std::abs(force / N - 1) > 1e-3; ++i) {
+        const Level level = free->at_force(total);
+        force = area = 0;
+        for (std::size_t k = 0; k < level.pixels.index.size(); ++k)
+            if (std::abs(level.pixels.y(k)) < 0.5) {
+                force += level.pixels.pressure[k] * step * step;
+                area += step * step;
+            }
+        total *= N / force;
+    }
+    CHECK_RELATIVE(force, N, 1e-3);
+    CHECK_RELATIVE(area, period.area_pixels, 0.02);
+}
+
+TEST(what_does_not_repeat_is_refused) {
+    const HeightMap map = map_of(16, 16, 0.1, flat);
+    Indenter across = roller(3, 100, 1.6);
+    std::swap(across.period.x, across.period.y);
+    CHECK_THROWS(make_element_contact(map, across, exact()), Error);
+}
+
+}  // namespace test_line_contact

@@ -1,0 +1,150 @@
+// Observations: closed forms, maps, radial means, distributions, and their addition over
+// realizations.
+#include "check.hpp"
+#include "observe/distributions.hpp"
+#include "observe/map.hpp"
+#include "observe/record.hpp"
+#include "observe/regimes.hpp"
+
+namespace test_observe {
+
+using namespace rsc;
+using std::numbers::pi;
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kRounding = 1e-13;  // a few hundred operations on numbers of order one
+
+// The nearest level, the first of two that are equally near: rounding does not decide.
+TEST(test_nearest_level) {
+    for (const double rounding : {-1e-14, 0.0, 1e-14}) {
+        CHECK(nearest_level({4, 3 + rounding, 2 - rounding, 1}, 2.5) == 1);
+        CHECK(nearest_level({1, 2 - rounding, 3 + rounding, 2, 1}, 2.5) == 1 &&
+              nearest_level({3, 1 + rounding, 1}, 1) == 1);
+    }
+    CHECK(nearest_level({3, 2, 1}, 2.4) == 1 && nearest_level({3, 2, 1}, 2.6) == 0 &&
+          nearest_level({}, 1) == -1);
+}
+
+// A point on the border of two cells, as grid points are, belongs to the upper one, whatever its
+// coordinate rounds to.
+TEST(test_borders_of_cells) {
+    for (const double L : {0.3, 0.7, 1.1, 2.9})
+        for (const int cells : {7, 12, 49}) {
+            const MapGrid grid = make_map_grid(0, 0, L, L, cells);
+            const double dx = L / (3 * cells);
+            for (int i = 0; i < 3 * cells; ++i) CHECK(grid.cell(i * dx, 0) == i / 3);
+        }
+}
+
+// On a surface that is no whole number of cells long nothing is lost: a uniform pressure on all of
+// its pixels adds up to the force and the area, and every radial mean is that pressure. Tolerance:
+// rounding of sums over 510 pixels and their shares.
+TEST(test_oblong_maps) {
+    const double dx = 0.3, dy = 0.2, p = 2.5;
+    Level level;
+    level.pixels.columns = 30, level.pixels.dx = dx, level.pixels.dy = dy;
+    for (int k = 0; k < 30 * 17; ++k)
+        level.pixels.index.push_back(k), level.pixels.contact.push_back(0),
+            level.pixels.pressure.push_back(p);
+    const double Lx = 30 * dx, Ly = 17 * dy, force = p * Lx * Ly;
+    level.add_contact(0, 0.5 * Lx, 0.99 * Ly, force, std::sqrt(Lx * Ly / pi), 1);
+    for (const int cells : {1, 2, 3, 4, 7, 30, 45}) {
+        const MapGrid grid = make_map_grid(0, 0, Lx, Ly, cells);
+        const MapLevel map = map_level(grid, level);
+        CHECK_RELATIVE(std::accumulate(map.force.begin(), map.force.end(), 0.0), force, 1e-13);
+        CHECK_RELATIVE(std::accumulate(map.area.begin(), map.area.end(), 0.0), Lx * Ly, 1e-13);
+        CHECK(map.outside == 0);
+        std::vector<double> pressure(static_cast<std::size_t>(grid.cells()));
+        for (std::size_t k = 0; k < map.cell.size(); ++k)
+            pressure[static_cast<std::size_t>(map.cell[k])] =
+                map.force[k] / (grid.side * grid.side);
+        const RadialMean mean(grid, 0.5 * Lx, 0.5 * Ly, 9);
+        CHECK_RELATIVE(mean.radii().back(), 0.5 * Ly * 17 / 18, 1e-13);
+        for (const double value : mean(pressure.data())) CHECK_RELATIVE(value, p, 1e-12);
+    }
+}
+
+// n values at the quantiles (i - 1/2)/n, through the same counting as contacts.
+Distributions quantiles(const PdfBins& bins, int n, bool pressure, double scale) {
+    Level level;
+    for (int i = 0; i < n; ++i) {
+        const double q = -std::log1p(-(i + 0.5) / n);
+        const double area = pressure ? 1e-4 : scale * q,
+                     p = pressure ? scale * std::sqrt(2 * q) : 1;
+        level.asperity.push_back(i);
+        level.a.push_back(std::sqrt(area / pi));
+        level.f.push_back(p * area);
+    }
+    return distributions_of(bins, level, 0);
+}
+
+// Rayleigh and exponential values: skewness 2 sqrt(pi) (pi - 3)/(4 - pi)^(3/2) and 2; densities.
+TEST(test_moments_of_quantiles) {
+    const int n = 20000;
+    const PdfBins bins{60, 5.0, 8.0};
+    // Midpoint quantiles miss the moments by O(log n / n) and the cumulative by 1/(2n).
+    const ShownDistributions rayleigh = shown_distributions(bins, quantiles(bins, n, true, 0.8));
+    CHECK_RELATIVE(rayleigh.mean_pressure_moments.mean, 0.8 * std::sqrt(pi / 2), 5e-5);
+    CHECK_CLOSE(rayleigh.mean_pressure_moments.skewness, 0.6311, 2e-3);
+    CHECK_CLOSE(rayleigh.mean_pressure_moments.kurtosis, 3.2451, 1e-2);
+    const ShownDistributions exponential =
+        shown_distributions(bins, quantiles(bins, n, false, 0.6));
+    CHECK_RELATIVE(exponential.spot_area_moments.mean, 0.6, 5e-5);
+    CHECK_RELATIVE(exponential.spot_area_moments.deviation, 0.6, 5e-3);
+    double below = 0;
+    for (int b = 0; b < 60; ++b) {
+        below += exponential.spot_area_pdf[static_cast<std::size_t>(b)] * bins.area_width();
+        CHECK_CLOSE(below, -std::expm1(-bins.area_width() * (b + 1) / 0.6), 1e-4);
+    }
+    // No contacts: absent, not zero.
+    const ShownDistributions none = shown_distributions(bins, distributions_of(bins, Level{}, 0));
+    CHECK(std::isnan(none.spot_area_moments.mean) && std::isnan(none.mean_pressure_pdf[0]));
+}
+
+__extension__ using Wide = __int128;
+
+// Of two spots one is under tension: it has an area, but no place among the pressures.
+TEST(test_tension) {
+    Level level;
+    level.least_force = -1;
+    level.add_contact(0, 0, 0, 1, 1, 0), level.add_contact(1, 0, 0, -0.1, 0.5, 0);
+    const PdfBins bins = make_pdf_bins(10, 1, 1, 1, 1);
+    const ShownDistributions fit = shown_distributions(bins, distributions_of(bins, level, 0));
+    CHECK_RELATIVE(fit.spot_area_moments.mean, std::numbers::pi * 1.25 / 2, 1e-14);
+    CHECK_RELATIVE(fit.mean_pressure_moments.mean, 1 / std::numbers::pi, 1e-14);
+}
+
+// Against integers: in any order, in any groups.
+TEST(test_exact_sums) {
+    constexpr double kScale = 1e-3;
+    const double quantum = quantum_of(kScale, 64);
+    std::mt19937_64 random(7);
+    std::vector<double> values(5000);
+    for (double& v : values)
+        v = kScale *
+            std::exp2(-40.0 * std::generate_canonical<double, 53>(random));  // of very unlike sizes
+    Wide truth = 0;
+    for (double v : values) {
+        CHECK(std::abs(exact_term(v, quantum).high - v) <= quantum / 2);
+        truth += static_cast<Wide>(exact_term(v, quantum).high / quantum);
+    }
+    for (int trial = 0; trial < 5; ++trial) {
+        ExactSum whole, group;
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            group.add(exact_term(values[k], quantum));
+            if (random() % 10 == 0 || k + 1 == values.size()) {
+                whole.add(group);
+                group = {};
+            }
+        }
+        const Wide high = static_cast<Wide>(whole.high / quantum);
+        CHECK(high + static_cast<Wide>(whole.low / quantum) == truth);
+        CHECK(whole.high == static_cast<double>(truth) * quantum);  // the nearest double
+        std::shuffle(values.begin(), values.end(), random);
+    }
+    // Where the quantum would leave the range of doubles, and of nothing.
+    CHECK(exact_term(1e-305, quantum_of(1e-300, 64)).high == 1e-305);
+    CHECK(exact_term(0.3, quantum_of(0, 0)).high == 0.3);
+}
+
+}  // namespace test_observe

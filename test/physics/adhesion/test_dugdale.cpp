@@ -1,0 +1,99 @@
+// Asperities that attract within a range (law/sticking.hpp): against Maugis's equations, and JKR as
+// its limit.
+#include "base/error.hpp"
+#include "check.hpp"
+#include "contact/make.hpp"
+#include "support/adhesive_paths.hpp"
+
+namespace test_dugdale {
+
+using namespace rsc;
+using std::numbers::pi;
+
+constexpr double kE = 5.0, kFlat = std::numeric_limits<double>::infinity();
+
+// The loop of one asperity: at the penetrations of Maugis's states it carries his force; the
+// energy's derivative is the force; it attaches at u = -z0; the work of a cycle is the energy lost.
+TEST(test_one) {
+    for (double lambda : {0.1, 1.0, 5.0}) {
+        const Maugis truth{0.7, 0.01, lambda, kE};
+        const double unit = pi * truth.w * truth.r, range = truth.range();
+        const Asperities a{{0.5}, {0.5}, {0.0}, {truth.r}, {}, {}, {}, {}};
+        const auto contact =
+            make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(truth.w, range));
+        CHECK(contact->at_separation(range * (1 + 1e-7)).force == 0);
+        CHECK(contact->at_separation(range * (1 - 1e-7)).force < 0);
+        for (double m = 1 + 0.01 / lambda; m < 30; m *= 1.02) {
+            const Maugis::State state = truth.at(m);
+            if (truth.at(1.02 * m).u > state.u - 1e-3 * range) break;  // near the last stable one
+            const Level level = contact->at_separation(-state.u);
+            if (level.contacts == 0) continue;
+            CHECK_CLOSE(level.force, state.f, 1e-8 * std::max(unit, std::abs(state.f)));
+            CHECK_CLOSE(level.a.at(0), state.a, 1e-7 * state.a + 1e-9 * truth.r);
+            const double step = 1e-5 * range, energy = contact->energy();
+            (void)contact->at_separation(-state.u - step);
+            const double change = contact->energy() - energy;
+            (void)contact->at_separation(-state.u);
+            CHECK_CLOSE(change / step, level.force, 2e-3 * std::max(unit, std::abs(state.f)));
+        }
+    }
+}
+
+// A weak attraction of long range: an asperity attaches and lets go at almost the same penetration.
+// It does so once each in a cycle, and the loss does not depend on the number of levels. (The
+// distance to the detachment point at which an asperity lets go was once larger than that
+// difference: it attached again at once, a thousand times.)
+TEST(test_narrow_loop) {
+    const Maugis weak{0.7, 0.01, 0.04, kE};
+    const Asperities a{{0.5}, {0.5}, {0.0}, {weak.r}, {}, {}, {}, {}};
+    const double range = weak.range();
+    std::vector<double> lost;
+    for (const int levels : {1, 7, 200}) {
+        const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(weak.w, range));
+        int jumps = 0;
+        Level level;
+        for (int k = -levels; k <= levels; ++k)
+            level = contact->at_separation(range * (3.0 * std::abs(k) / levels - 1)),
+            jumps += level.jumps;
+        CHECK(jumps == 2 && level.force == 0 && level.energy_lost > 0);
+        lost.push_back(level.energy_lost);
+    }
+    CHECK_RELATIVE(lost[0], lost[2], 1e-6);
+    CHECK_RELATIVE(lost[1], lost[2], 1e-6);
+}
+
+// With a range that goes to 0 the answer is JKR's, for circular and elliptic contacts and many of
+// them.
+TEST(test_limit) {
+    std::mt19937 generator(3);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    Asperities a;
+    for (int k = 0; k < 12; ++k) {
+        a.x.push_back(uniform(generator)), a.y.push_back(uniform(generator)),
+            a.z.push_back(0.02 * uniform(generator));
+        const double r = 0.1 + 0.3 * uniform(generator);
+        a.radius.push_back(r), a.kappa1.push_back(1.4 / r), a.kappa2.push_back(1 / (1.4 * r)),
+            a.angle.push_back(0.3);
+    }
+    for (LawKind law : {LawKind::hertz, LawKind::elliptic}) {
+        double before = 1;
+        for (double range : {3e-4, 1e-4, 3e-5}) {
+            SolverOptions with = sticky(1e-3, range), jkr = sticky(1e-3, 0);
+            with.law = jkr.law = law;
+            const auto one = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, with),
+                       other = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, jkr);
+            (void)one->at_separation(-0.01), (void)other->at_separation(-0.01);
+            const double there = other->at_separation(0.005).force,
+                         apart = std::abs(one->at_separation(0.005).force / there - 1);
+            CHECK(apart < 0.6 * before);
+            before = apart;
+        }
+        CHECK(before < 0.01);
+    }
+    SolverOptions refused = sticky(1e-3, 1e-4);
+    refused.law = LawKind::fourth_order;
+    a.biharmonic.assign(a.x.size(), 400.0);
+    CHECK_THROWS((void)make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, refused), Error);
+}
+
+}  // namespace test_dugdale

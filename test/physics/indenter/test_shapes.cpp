@@ -1,0 +1,232 @@
+// Indenters of every shape: smooth ones by elements against closed forms, each with its order in
+// the pixel; lateral forces against the energy.
+#include "check.hpp"
+#include "contact/answers.hpp"
+#include "physics/friction/contact_curve.hpp"
+#include "physics/friction/friction.hpp"
+#include "physics/indenter/shapes.hpp"
+#include "support/height_maps.hpp"
+#include "support/paths.hpp"
+#include "support/random_asperities.hpp"
+
+namespace test_shapes {
+
+using namespace rsc;
+
+constexpr double kE = 100, kInfinity = std::numeric_limits<double>::infinity();
+
+// The origin between points, or on one.
+HeightMap flat_map(int nx, int ny, double h) {
+    HeightMap map = ::flat_map(nx, ny, h, h);
+    map.x0 = -0.5 * h * (nx - 1), map.y0 = -0.5 * h * (ny - 1);
+    return map;
+}
+
+SolverOptions elements(double tolerance = 1e-8) {
+    return {.tolerance = tolerance, .max_iterations = 500};
+}
+
+Shape shape(const char* name, const ShapeKeys& keys) {
+    return make_shape(shape_number(name), keys);
+}
+
+// Force and area at a depth on n x n points over `side`, against the closed form. The error falls
+// at least as h^order.
+void closed_form(const char* name, const ShapeKeys& keys, double depth, double side, int n,
+                 double force_error, double area_error, double order) {
+    const Shape s = shape(name, keys);
+    const auto truth = s->smooth(kE);
+    CHECK(truth.has_value());
+    double errors[2];
+    for (int k = 0; k < 2; ++k) {
+        const int points = k == 0 ? n : 4 * n;
+        const HeightMap map = flat_map(points, points, side / points);
+        const auto contact = make_element_contact(map, {kE, s, 0, 0}, elements());
+        const Level level = contact->at_separation(-depth);
+        errors[k] = std::abs(level.force / truth->force(depth) - 1);
+        if (k == 1) {
+            CHECK_RELATIVE(level.force, truth->force(depth), force_error);
+            CHECK_RELATIVE(level.area, truth->area_under(truth->force(depth)), area_error);
+        }
+    }
+    if (order > 0)
+        CHECK(errors[1] <= std::max(errors[0] * std::pow(0.25, order), 0.2 * force_error));
+}
+
+// F = -dW/d(x0, y0) by central differences.
+template <class Make>
+void lateral(const char* name, const ShapeKeys& keys, double depth, double step, double tolerance,
+             Make make) {
+    Indenter tip{kE, shape(name, keys), 0.013, -0.021};
+    const auto at = [&](double dx, double dy, Level& level) {
+        Indenter there = tip;
+        there.x0 += dx, there.y0 += dy;
+        const std::unique_ptr<Path> contact = make(there);
+        level = contact->at_separation(-depth);
+        return contact->energy();
+    };
+    Level level, other;
+    at(0, 0, level);
+    const Vec2 force = lateral_force(tip, level);
+    const double fx = -(at(step, 0, other) - at(-step, 0, other)) / (2 * step),
+                 fy = -(at(0, step, other) - at(0, -step, other)) / (2 * step);
+    CHECK(level.contacts > 0);
+    const double size = std::hypot(force.x, force.y);
+    CHECK(std::hypot(force.x - fx, force.y - fy) <= tolerance * size);
+}
+
+// Asperities under a shape: turned together about the tip they carry the same. A paraboloid of
+// equal radii R carries a little more than the sphere, whose face is higher by rho^4/(8 R^3), and
+// less than this sphere lowered by as much as that is at the farthest contact.
+void turned(const Asperities& asperities, const ShapeKeys& keys) {
+    SolverOptions precise{.tolerance = 1e-12};
+    const double depth = 0.002;
+    const auto force = [&](const Asperities& a, const char* name, const ShapeKeys& of, double Z0) {
+        return asperity_path(a, {kE, shape(name, of), 0, 0}, precise).at_separation(Z0).force;
+    };
+    for (const double angle : {0.3, 1.1, 2.0, -1.4}) {
+        Asperities there = asperities;
+        for (std::size_t i = 0; i < there.size(); ++i) {
+            there.x[i] = std::cos(angle) * asperities.x[i] - std::sin(angle) * asperities.y[i];
+            there.y[i] = std::sin(angle) * asperities.x[i] + std::cos(angle) * asperities.y[i];
+        }
+        for (const char* name : {"sphere", "paraboloid", "cone", "punch"}) {
+            ShapeKeys too = keys;
+            too.angle += angle;
+            CHECK_RELATIVE(force(there, name, too, depth), force(asperities, name, keys, depth),
+                           1e-9);
+        }
+        ShapeKeys other = keys;
+        other.angle += angle;
+        CHECK(std::abs(force(asperities, "paraboloid", other, depth) /
+                           force(asperities, "paraboloid", keys, depth) -
+                       1) > 1e-3);
+    }
+    const double highest = *std::max_element(asperities.z.begin(), asperities.z.end());
+    for (const double R : {1.0, 2.0, 4.0}) {
+        ShapeKeys round = keys;
+        round.R = round.radii[0] = round.radii[1] = R;
+        const double square = 2 * R * (highest - depth),
+                     higher = R - std::sqrt(R * R - square) - square / (2 * R);
+        const double N = force(asperities, "paraboloid", round, depth),
+                     sphere = force(asperities, "sphere", round, depth);
+        CHECK(N > sphere && N < force(asperities, "sphere", round, depth - higher));
+        CHECK(N < (1 + square / (R * R)) * sphere);
+    }
+}
+
+// Smooth bodies with friction: N grows as the approach to some power p, so Q = mu N [1 - (1 -
+// xi/xi_full)^p] (Cattaneo and Mindlin's for p = 3/2; a punch sticks all over until it slides).
+void friction(const char* name, const ShapeKeys& keys, double depth, double side) {
+    const Shape s = shape(name, keys);
+    const HeightMap map = flat_map(49, 49, side / 49);  // a point under the tip
+    const auto one = make_element_contact(map, {kE, s, 0, 0}, elements()),
+               other = make_element_contact(map, {kE, s, 0, 0}, elements());
+    ContactCurve curve(*one, *other);
+    const Friction mu{0.3, 0.8};
+    const double full = full_slip(curve, mu, depth), N = curve.load(depth).force,
+                 p = s->smooth(kE)->force_power;
+    CHECK_RELATIVE(full, 0.3 / 0.8 * depth, 1e-9);
+    for (const auto& point : slide_to(curve, mu, depth, {0.3 * full, 0.7 * full, full})) {
+        constexpr double kCoarse = 0.01;  // of elements on so few points
+        CHECK_CLOSE(point.force / (0.3 * N), 1 - std::pow(1 - point.displacement / full, p),
+                    kCoarse);
+    }
+}
+
+// Two maps that repeat: heights add, so a flat on their sum carries the same at the same distance
+// of mean planes.
+TEST(two_maps) {
+    constexpr int n = 32;
+    const double q = 2 * std::numbers::pi / n;
+    const auto one_of = [&](auto height) {
+        HeightMap map = height_map(n, n, 1.0 / n, 1.0 / n, height);
+        map.x0 = map.y0 = -0.5 * (n - 1) / n, map.periodic = true;
+        return map;
+    };
+    const auto z = [q](int i, int j) { return 3e-3 * std::cos(2 * q * i) * std::cos(3 * q * j); };
+    const auto w = [q](int i, int j) { return 2e-3 * std::sin(4 * q * i + q * j); };
+    const HeightMap first = one_of(z),
+                    sum = one_of([&](int i, int j) { return z(i, j) + w(i, j); });
+    auto second = std::make_shared<HeightMap>(one_of(w));
+    ShapeKeys keys;
+    keys.map = second;
+    const Indenter body{kE, shape("map", keys), 0, 0, {1, 1}},
+        flat{kE, Shape(kInfinity), 0, 0, {1, 1}};
+    const auto two = make_element_contact(first, body, elements()),
+               one = make_element_contact(sum, flat, elements());
+    for (const double Z0 : {3e-3, 1e-3}) {
+        const double N = two->at_separation(Z0).force;
+        CHECK(N > 0);
+        CHECK_RELATIVE(N, one->at_separation(Z0).force, 1e-6);
+    }
+}
+
+TEST(all_shapes) {
+    ShapeKeys keys;
+    keys.R = 1;
+    keys.slope = 0.1;
+    keys.radius = 0.05;
+    // Hertz's ellipse (Johnson 1985, section 4.2). Turned along the diagonal it is the same
+    // contact.
+    for (const double ratio : {1.0, 3.0, 10.0}) {
+        keys.radii[0] = 1, keys.radii[1] = ratio;
+        closed_form("paraboloid", keys, 1e-3, ratio > 3 ? 0.24 : 0.16, 24, 1e-3, 1.5e-2, 0.5);
+    }
+    keys.angle = 0.25 * std::numbers::pi;
+    keys.radii[1] = 3;
+    closed_form("paraboloid", keys, 1e-3, 0.16, 24, 1e-3, 1.5e-2, 0.5);
+    closed_form("sphere", keys, 1e-3, 0.1, 24, 1e-3, 1.5e-2, 0.5);
+    closed_form("cone", keys, 5e-3, 0.1, 24, 1e-3, 1.5e-2, 0.5);
+    closed_form("punch", keys, 1e-3, 0.12, 24, 1e-2, 2e-2, 0.5);
+
+    for (const char* name : {"paraboloid", "cone", "punch"})
+        friction(name, keys, name[0] == 'c' ? 5e-3 : 1e-3, 0.14);
+
+    // A cylinder along y, ending at the border: away from the ends the peak pressure and the
+    // half-width b of line contact, p0 = E* b/(2 R).
+    keys.angle = 0;
+    keys.radii[0] = 1, keys.radii[1] = kInfinity;
+    const int nx = 65, ny = 129;
+    const HeightMap strip = flat_map(nx, ny, 0.1 / 64);
+    const auto roller =
+        make_element_contact(strip, {kE, shape("paraboloid", keys), 0, 0}, elements());
+    const Level line = roller->at_separation(-2e-3);
+    double sum = 0, peak = 0;
+    for (std::size_t k = 0; k < line.pixels.index.size(); ++k)
+        if (line.pixels.index[k] / nx == ny / 2)
+            sum += line.pixels.pressure[k] * strip.dx,
+                peak = std::max(peak, line.pixels.pressure[k]);
+    // N' = pi E* b^2/(4 R) and N' = pi p0 b/2.
+    const double b = 2 * sum / (std::numbers::pi * peak);
+    CHECK_RELATIVE(peak, kE * b / 2, 1e-2);
+
+    // Lateral forces of every shape, on asperities and on the points of a surface.
+    keys.rim_radius = 0.5;
+    keys.angle = 0.4;
+    keys.radii[0] = 0.5, keys.radii[1] = 2;
+    HeightMap rough = flat_map(48, 48, 1.0 / 48);
+    const double q = 2 * std::numbers::pi / 48;
+    keys.map =
+        std::make_shared<HeightMap>(height_map(96, 96, 1.0 / 48, 1.0 / 48, [q](int i, int j) {
+            return 4e-3 * std::sin(2 * q * i + 1) * std::cos(3 * q * j);
+        }));
+    for (int j = 0; j < 48; ++j)
+        for (int i = 0; i < 48; ++i)
+            rough.row(j)[i] = 3e-3 * std::cos(4 * q * i) * std::cos(3 * q * j + 0.3 * i * q);
+    Asperities asperities = random_asperities(300, 0.005, 0.01, 1e-3, 0.02, 5);
+    for (double& x : asperities.x) x -= 0.5;
+    for (double& y : asperities.y) y -= 0.5;
+    turned(asperities, keys);
+    for (const ShapeRow& row : kShapes) {
+        SolverOptions precise{.tolerance = 1e-12};
+        lateral(row.name, keys, -0.002, 1e-6, 1e-6, [&](const Indenter& tip) {
+            return make_asperity_contact(asperities, tip, precise);
+        });
+        lateral(row.name, keys, 4e-3, 1e-6, 1e-6, [&](const Indenter& tip) {
+            return make_element_contact(rough, tip, elements(1e-11));
+        });
+    }
+}
+
+}  // namespace test_shapes

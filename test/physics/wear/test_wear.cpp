@@ -1,0 +1,252 @@
+// Wear by sliding: a worn ball by rings, volumes, waves in full contact, steps, states, files.
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "case/read_case.hpp"
+#include "check.hpp"
+#include "contact/make.hpp"
+#include "physics/indenter/shapes.hpp"
+#include "run/run.hpp"
+#include "support/height_maps.hpp"
+#include "support/result_reader.hpp"
+#include "support/temporary_folder.hpp"
+#include "truth/wear.hpp"
+
+namespace test_wear {
+
+using namespace rsc;
+
+const double pi = std::numbers::pi;
+
+SolverOptions wearing(double k, double tolerance = 1e-7) {
+    SolverOptions options;
+    options.tolerance = tolerance;
+    options.physics.wear.coefficient = k;
+    return options;
+}
+
+// Waves of short and long length over a period 1, with the rms height 1.2e-3.
+HeightMap waves(int n) {
+    return height_map(n, n, 1.0 / n, 1.0 / n, [n](int i, int j) {
+        const double x = 2 * pi * i / n, y = 2 * pi * j / n;
+        return 1e-3 * (std::cos(x + 0.3) * std::cos(2 * y) + std::sin(3 * x - y) +
+                       0.7 * std::cos(5 * y + 0.5) * std::sin(4 * x));
+    });
+}
+
+struct Body {
+    const char* name;
+    HeightMap map;
+    Indenter indenter;
+    double force;
+};
+
+// A ball on the free surface, a roller along y, two flats.
+std::vector<Body> bodies() {
+    ShapeKeys roller;
+    roller.radii[0] = 2;
+    roller.radii[1] = kInfinity;
+    std::vector<Body> all;
+    all.push_back({"ball", waves(48), {1e3, 2.0, 0.5, 0.5}, 0.2});
+    all.push_back({"roller",
+                   waves(48),
+                   {1e3, make_shape(shape_number("paraboloid"), roller), 0.5, 0.5},
+                   0.5});
+    all.back().indenter.period = {kInfinity, 1};
+    all.push_back({"flats", waves(64), {1e3, kInfinity, 0, 0, {1, 1}}, 1});
+    return all;
+}
+
+std::unique_ptr<Path> path_of(const Body& body, double k = 2e-3) {
+    return make_element_contact(body.map, body.indenter, wearing(k));
+}
+
+Level slid(Path& path, double distance, double force) {
+    path.set_time(distance);
+    return path.at_force(force);
+}
+
+bool same(const Level& a, const Level& b) {
+    return a.separation == b.separation && a.force == b.force && a.area == b.area &&
+           a.worn_volume == b.worn_volume && a.wear_depth_max == b.wear_depth_max &&
+           a.pixels.index == b.pixels.index && a.pixels.pressure == b.pixels.pressure;
+}
+
+// The pressures of a ball spread over a contact twice as wide as Hertz's.
+TEST(worn_ball) {
+    const double E = 1e3, R = 1, N = 0.02, k = 1e-4;
+    constexpr int n = 96;
+    const double step = 0.13 / n, middle = 0.5 * (n - 1) * step;
+    const HeightMap map = flat_map(n, n, step, step);
+    const auto path = make_element_contact(map, {E, R, middle, middle}, wearing(k));
+    (void)slid(*path, 0, N);
+    constexpr double within = 0.01;
+    for (const double s : {0.1, 0.5, 2.0}) {
+        (void)slid(*path, 0.5 * s, N);
+        const Level level = slid(*path, s, N);
+        const truth::WornBall truth = truth::worn_ball(E, R, N, k, s, 0.06, 240, 200);
+        CHECK_RELATIVE(truth.volume, k * N * s, 1e-10);
+        CHECK_RELATIVE(level.separation, truth.separation, within);
+        CHECK_RELATIVE(level.wear_depth_max, truth.depth, within);
+        CHECK_RELATIVE(level.area, truth.area, within);
+        CHECK_RELATIVE(*std::ranges::max_element(level.pixels.pressure), truth.largest_pressure,
+                       within);
+    }
+}
+
+// Archard's volume k N s, whatever the steps; no wear is the elastic contact, bit for bit.
+TEST(volume) {
+    for (const Body& body : bodies()) {
+        const double k = 2e-3;
+        const auto path = path_of(body, k), elastic = path_of(body, 0);
+        const Level first = slid(*path, 0, body.force), unworn = slid(*elastic, 0, body.force);
+        CHECK(first.separation == unworn.separation && first.area == unworn.area &&
+              first.pixels.pressure == unworn.pixels.pressure && first.worn_volume == 0);
+        CHECK(elastic->clock() == PathClock::none && std::isnan(unworn.worn_volume));
+        double last = first.separation;
+        for (const double s : {0.01, 0.1, 0.5}) {
+            const Level level = slid(*path, s, body.force);
+            CHECK(level.converged && level.distance == s && level.separation < last);
+            CHECK_RELATIVE(level.worn_volume, k * body.force * s, 1e-6);
+            last = level.separation;
+        }
+        // A force that grows linearly wears by its mean.
+        const double grown = slid(*path, 1, 1.4 * body.force).worn_volume;
+        CHECK_RELATIVE(grown, k * body.force * (0.5 + 0.5 * 1.2), 1e-3);
+        // At a given separation the force wears off.
+        const Level begin = *path->level();
+        path->set_time(3);
+        const Level held = path->at_separation(begin.separation);
+        CHECK(held.force < 0.9 * begin.force && held.worn_volume > begin.worn_volume);
+        CHECK_THROWS(path->set_time(2.9), Error);
+    }
+}
+
+// Levels between, and with them shorter steps, change the last one by less than its error.
+TEST(steps) {
+    for (const Body& body : bodies()) {
+        const auto far = path_of(body), near = path_of(body);
+        (void)slid(*far, 0, body.force);
+        (void)slid(*near, 0, body.force);
+        for (const double s : {0.05, 0.2, 0.8}) {
+            const Level level = slid(*far, s, body.force);
+            for (int part = 1; part < 4; ++part)
+                (void)slid(*near, s * (0.25 + 0.75 * part / 4), body.force);
+            const double change = slid(*near, s, body.force).separation - level.separation;
+            CHECK(level.sliding_error > 0 && level.sliding_error < 2e-3);
+            CHECK(std::abs(change) <=
+                  level.sliding_error * (far->first_touch() - level.separation));
+        }
+    }
+}
+
+// What remains of a wave in full contact: K of E* is 2/(E* q) for the wavenumber q, so that the
+// amplitude falls by exp(-k E* q s/2); the mean height falls by k p s, and with it Z0.
+TEST(full_contact) {
+    constexpr int n = 32;
+    const double E = 1e3, k = 1e-3, p = 1, q = 2 * pi, a = 4e-4;  // closed by pi E* a = 1.26
+    const HeightMap map = height_map(n, n, 1.0 / n, 1.0 / n,
+                                     [&](int i, int) { return a * std::cos(2 * pi * i / n); });
+    const auto path = make_element_contact(map, {E, kInfinity, 0, 0, {1, 1}}, wearing(k, 1e-9));
+    CHECK(slid(*path, 0, p).area_fraction < 1);
+    const Level closed = slid(*path, 0.5, p);
+    CHECK(closed.area_fraction == 1 && closed.converged);
+    double last = closed.worn_rms;
+    for (int step = 1; step <= 4; ++step) {
+        const double ds = 0.05;
+        const Level level = slid(*path, 0.5 + step * ds, p);
+        CHECK_CLOSE(level.separation, -k * p * level.distance, 1e-12);
+        CHECK_RELATIVE(level.worn_rms / last, std::exp(-0.5 * k * E * q * ds), 1e-3);
+        last = level.worn_rms;
+    }
+}
+
+// Threads, a state that is taken back, and a copy made from it leave no trace.
+TEST(states) {
+    for (const Body& body : bodies()) {
+        const auto one = path_of(body), other = path_of(body);
+        const auto go = [&](Path& path) {
+            (void)slid(path, 0, body.force);
+            return slid(path, 0.1, body.force);
+        };
+        const Level level = [&] {
+            const LoopThreads loops(1);
+            return go(*one);
+        }();
+        const LoopThreads loops(3);
+        CHECK(same(go(*other), level));
+        const Path::State state = one->state();
+        one->restore(state);
+        const Level next = slid(*one, 0.3, body.force);
+        one->restore(state);
+        CHECK(same(slid(*one, 0.3, body.force), next));
+        const auto copy = path_of(body);
+        copy->restore(state);
+        CHECK_RELATIVE(copy->stiffness(), other->stiffness(), 1e-3);
+        CHECK_RELATIVE(copy->energy(), level.energy, 1e-4);  // of the body, without the wear
+        CHECK(same(slid(*copy, 0.3, body.force), next));
+    }
+}
+
+// A case, its file, and a second case that goes on from the heights of the first.
+TEST(files) {
+    const Folder folder;
+    const std::string
+        common =
+            "&solids E=1e5, Infinity nu=0.3, 0 R=Infinity, Infinity wear_coefficient=1e-8 /"
+            "&indentation boundary='periodic' control='pressure' unit='pressure' levels=3*100 ",
+        made = " / &surface L=1 L_lambda_l=2 L_lambda_s=8 n=128 sigma=1e-3 /";
+    const auto run = [&](const std::string& text, const std::string& name) {
+        Case c = read_case_text(common + text, "case").settings;
+        c.output.file = folder / name;
+        CHECK(run_case(c, {.command = "rsc", .inputs = {}, .report = {}}) == 0);
+        return Reader(c.output.file);
+    };
+    const Reader whole = run("distances=0, 10, 20" + made +
+                                 "&output heights=.true. fields='heights','gap','contact' "
+                                 "field_levels=0, 20 /",
+                             "whole.nc");
+    CHECK(whole.values("distance") == (std::vector<double>{0, 10, 20}));
+    const std::vector<double> before = whole.values("field_height"), worn = whole.values("height");
+    const std::size_t points = worn.size();
+    CHECK(before.size() == 2 * points);
+    double lost = 0, deepest = 0, mean = 0, square = 0;
+    for (std::size_t i = 0; i < points; ++i) {
+        CHECK(before[points + i] == worn[i]);
+        lost += before[i] - worn[i];
+        deepest = std::max(deepest, before[i] - worn[i]);
+        mean += worn[i] / static_cast<double>(points);
+    }
+    for (const double z : worn) square += (z - mean) * (z - mean) / static_cast<double>(points);
+    CHECK_RELATIVE(lost / static_cast<double>(points), whole.values("worn_volume")[2], 1e-9);
+    CHECK_RELATIVE(lost / static_cast<double>(points), 1e-8 * 100 * 20, 1e-6);
+    CHECK_RELATIVE(deepest, whole.values("wear_depth_max")[2], 1e-9);
+    CHECK_RELATIVE(std::sqrt(square), whole.values("worn_rms")[2], 1e-9);
+    // Where the bodies touch there is no gap, elsewhere there is one.
+    const std::vector<double> gap = whole.values("field_gap"),
+                              contact = whole.values("field_contact");
+    for (std::size_t i = 0; i < gap.size(); ++i) CHECK((gap[i] == 0) == (contact[i] == 1));
+
+    const Reader first = run("distances=0, 5, 10" + made + "&output heights=.true. /", "first.nc");
+    const Reader second =
+        run("distances=10, 15, 20 / &surface source='heights' detrend='none' file='" +
+                (folder / "first.nc") + "' /",
+            "second.nc");
+    for (const char* of : {"separation", "contact_area"})
+        CHECK_RELATIVE(second.values(of)[2], whole.values(of)[2], 1e-3);
+    CHECK_RELATIVE(second.values("separation")[0], first.values("separation")[2], 1e-5);
+}
+
+TEST(refused) {
+    const HeightMap map = flat_map(16, 16, 0.01, 0.01);
+    const Indenter ball{1e3, 1.0, 0.075, 0.075};
+    SolverOptions hard = wearing(1e-4), sticky = hard, soft = hard;
+    hard.physics.hardness.H0 = 10;
+    sticky.physics.adhesion = {1e-3, 1e-4};
+    soft.physics.relaxation = {{0.5}, {1.0}};
+    for (const SolverOptions& options : {hard, sticky, soft, wearing(-1), wearing(kInfinity)})
+        CHECK_THROWS(make_element_contact(map, ball, options), Error);
+    Asperities one;
+    CHECK_THROWS(make_asperity_contact(one, ball, wearing(1e-4)), Error);
+}
+
+}  // namespace test_wear
