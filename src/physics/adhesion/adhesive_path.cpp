@@ -230,7 +230,8 @@ double AdhesivePath::near(int position) const {
 }
 
 // The next step of at most `rest`: to the target, or nearly to where an asperity is expected to
-// attach or detach, or, near it, over this place. A step as long as `blocked` would be one too many.
+// attach or detach, or, near it, over this place. A step as long as `blocked` would be one too
+// many.
 AdhesivePath::Step AdhesivePath::next_step(double rest, double direction, double blocked) const {
     double event = kInfinity, doubt = 0, width = kInfinity, least = kInfinity;
     std::size_t next = 0;
@@ -343,8 +344,8 @@ std::size_t AdhesivePath::fastest(double direction) const {
     return found;
 }
 
-// Distance to where the equilibrium ceases to be stable. Near it 1/rate^2 of the asperity that shrinks
-// fastest decreases linearly to 0. 0: not known.
+// Distance to where the equilibrium ceases to be stable. Near it 1/rate^2 of the asperity that
+// shrinks fastest decreases linearly to 0. 0: not known.
 double AdhesivePath::fold_ahead(double direction) const {
     if (last.ds.size() != here.ds.size() || here.ds.empty()) return 0;
     const std::size_t k = fastest(direction);
@@ -353,8 +354,8 @@ double AdhesivePath::fold_ahead(double direction) const {
 }
 
 // Finds the equilibrium at there.Z that is reached from the states there.s: in a jump, asperities
-// that shrink to nothing are detached one by one, or, where that cannot be followed, the one nearest
-// to its own detachment.
+// that shrink to nothing are detached one by one, or, where that cannot be followed, the one
+// nearest to its own detachment.
 AdhesivePath::Found AdhesivePath::descend(Point& there, bool jump, double accuracy) {
     const int most = 100 + 4 * set.size();
     bool stalled = false;
@@ -530,8 +531,8 @@ void AdhesivePath::accept(Point there, const Step& step) {
 
 // The work of the step from `here` to `there`, in which asperities attach or detach at the distance
 // `ahead`, minus the change of the energy. Because B is symmetric and the penetrations change by -B
-// times the change of the forces, this is a sum over the asperities: for those that stay attached it
-// is of third order, so that no small difference of large energies is formed. The terms with
+// times the change of the forces, this is a sum over the asperities: for those that stay attached
+// it is of third order, so that no small difference of large energies is formed. The terms with
 // residuals make errors of the state after the jump of second order. Before a detachment the power
 // changes like the root of the distance.
 double AdhesivePath::dissipated(const Point& there, double ahead, bool detaches) const {
@@ -594,8 +595,8 @@ AdhesivePath::Point AdhesivePath::least_between(const Point& there, double bound
     return least;
 }
 
-// Notes the smallest force between `here` and a state with the same attached asperities, and goes to
-// the wanted force if it is there.
+// Notes the smallest force between `here` and a state with the same attached asperities, and goes
+// to the wanted force if it is there.
 bool AdhesivePath::find_wanted(const Point& there) {
     const double bound = wanted ? std::max(*wanted, now.least_force) : now.least_force;
     const Point least = least_between(there, bound);

@@ -1,9 +1,10 @@
 // The path of adhesive asperities under a changing separation (adhesive_contact.hpp).
 //
-// From each state the path descends to the next: where no asperity attaches or detaches, the step is
-// reversible. Otherwise the step is divided until it is short, at the place where the asperity is
-// expected to attach or detach; the energy lost is then the work of the short step minus the change
-// of the energy. Asperities whose own loss is negligible attach and detach within long steps.
+// From each state the path descends to the next: where no asperity attaches or detaches, the step
+// is reversible. Otherwise the step is divided until it is short, at the place where the asperity
+// is expected to attach or detach; the energy lost is then the work of the short step minus the
+// change of the energy. Asperities whose own loss is negligible attach and detach within long
+// steps.
 #pragma once
 
 #include "asperities/asperity_level.hpp"
