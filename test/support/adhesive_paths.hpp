@@ -118,10 +118,12 @@ inline void check_work_of_cycle(rsc::Path& contact, double top, double bottom) {
 template <class Edge>
 class PathMinimiser {
 public:
-    PathMinimiser(const rsc::Asperities& asperities, double E, Edge edge)
+    PathMinimiser(const rsc::Asperities& asperities, double E, Edge edge,
+                  const rsc::Kernel* repeats = nullptr)
         : a_(asperities),
           E_(E),
           edge_(edge),
+          repeats_(repeats),
           radius_(a_.size(), 0.0),
           u_(a_.size(), 0.0),
           f_(a_.size(), 0.0) {}
@@ -149,6 +151,10 @@ public:
 
 private:
     double compliance(std::size_t i, std::size_t j) const {
+        if (repeats_)
+            return (i == j ? repeats_->self()
+                           : repeats_->at(a_.x[i] - a_.x[j], a_.y[i] - a_.y[j])) -
+                   repeats_->shift();
         return i == j
                    ? 0
                    : 1 / (std::numbers::pi * E_ * std::hypot(a_.x[i] - a_.x[j], a_.y[i] - a_.y[j]));
@@ -236,5 +242,6 @@ private:
     const rsc::Asperities& a_;
     double E_;
     Edge edge_;
+    const rsc::Kernel* repeats_;  // of flats; null: a free surface
     std::vector<double> radius_, u_, f_;
 };

@@ -6,7 +6,7 @@
 namespace rsc {
 namespace {
 
-constexpr std::size_t kBefore = 7;  // numbers of write() before the pairs
+constexpr std::size_t kBefore = 8;  // numbers of write() before the pairs
 
 class AdhesiveAsperities final : public Model, private History {
 public:
@@ -14,12 +14,13 @@ public:
                        const SolverOptions& options)
         : path_(std::make_unique<AdhesivePath>(asperities, indenter, options)) {}
 
-    double stiffness(double) override {
+    double stiffness(double accuracy) override {
+        if (fresh_ && accuracy >= kForNewton) return path_->here.dforce;
         if (std::exchange(fresh_, false)) slope_ = path_->solver.slope(path_->here.states);
         return slope_;
     }
     double clamped_stiffness() override {
-        return std::isnan(stiffness(kExact)) || path_->active.empty()
+        return std::isnan(stiffness(kExact)) || path_->here.active.empty()
                    ? slope_
                    : path_->solver.clamped_stiffness(path_->here.states);
     }
@@ -33,16 +34,17 @@ public:
     History* history() override { return this; }
     void forget() override {
         path_ = path_at(path_->indenter.x0, path_->indenter.y0);
-        slope_ = energy_ = 0, fresh_ = false;
+        slope_ = energy_ = 0;
+        fresh_ = false;
     }
     Level solve(double Z0, bool trial) override;
     void solve_again(double z, const Level&) override {
         const double last = path_->accepted.separation;
         (void)solve(last < kInfinity ? last : z, false);
     }
-    // Follows the path to the first state with the force, towards the surface if it is larger than
-    // the present force, otherwise away. If no state has the force, the level is that of the
-    // smallest force, with Fallback::held.
+    // The first state with this force on the path: towards the surface if the force is larger than
+    // the present one, otherwise away. If no state has it, the result is that of the smallest
+    // force, with Fallback::held.
     std::optional<Level> solve_under(double N) override;
     double force_at_most(double) override { return 0; }
 
@@ -52,7 +54,8 @@ private:
         path_->accepted = path_->now;
         path_->accepted.jumps = 0;
     }
-    // Position of the tip, separation, dissipated energy, smallest force, jumps, margin, and pairs
+    // Position of the tip, separation, dissipated energy, smallest force, jumps, margin, largest
+    // energy, and pairs
     // of an attached asperity and its state.
     std::vector<double> write() const override;
     void read(const std::vector<double>& numbers) override;
@@ -80,12 +83,13 @@ Level AdhesiveAsperities::report() {
         my.now = my.accepted;
         l.converged = false;
         l.residual = 1;
-        l.candidates = my.set.size(), l.iterations = my.steps;
+        l.candidates = my.set.size();
+        l.iterations = my.steps;
         slope_ = energy_ = kNotComputed;
         return l;
     }
     my.now = my.past();
-    l.candidates = my.set.size() + static_cast<int>(my.left_out.size());
+    l.candidates = my.set.size();
     l.residual = my.here.residual;
     l.iterations = my.steps;
     l.products = my.direct->count() + (my.mesh ? my.mesh->count() : 0) - my.products_before;
@@ -98,11 +102,12 @@ Level AdhesiveAsperities::report() {
         if (state.area > 0)
             l.add_contact(i, place.x, place.y, state.f, std::sqrt(state.area / std::numbers::pi),
                           state.u);
-        l.tractions.x.push_back(place.x), l.tractions.y.push_back(place.y);
-        l.tractions.a.push_back(std::sqrt(state.area / std::numbers::pi)),
-            l.tractions.c.push_back(std::sqrt(state.outer / std::numbers::pi));
-        l.tractions.pressed.push_back(state.pressed),
-            l.tractions.pulled.push_back(state.f - state.pressed);
+        l.tractions.x.push_back(place.x);
+        l.tractions.y.push_back(place.y);
+        l.tractions.a.push_back(std::sqrt(state.area / std::numbers::pi));
+        l.tractions.c.push_back(std::sqrt(state.outer / std::numbers::pi));
+        l.tractions.pressed.push_back(state.pressed);
+        l.tractions.pulled.push_back(state.f - state.pressed);
         cohesive += state.outer - state.area;
         l.force += state.f;
         l.area += state.area;
@@ -113,46 +118,32 @@ Level AdhesiveAsperities::report() {
     l.jumps = my.jumps + my.accepted.jumps;
     l.energy_lost = my.now.lost;
     l.least_force = my.now.least_force;
-    slope_ = 0, fresh_ = !my.active.empty();
-    energy_ = my.active.empty() ? 0.0 : my.here.energy;
+    slope_ = 0;
+    fresh_ = !my.here.active.empty();
+    energy_ = my.here.active.empty() ? 0.0 : my.here.energy;
     return l;
 }
 
 Level AdhesiveAsperities::solve(double Z0, bool) {
     AdhesivePath& my = *path_;
     fresh_ = false;
-    for (my.thin = true;; my.thin = false) {
-        if (my.begin(Z0) && !my.lost_way) my.go(Z0, std::nullopt);
-        my.here.Z = Z0;
-        if (!my.thin || !(my.lost_way || my.missed())) break;
-    }
+    if (my.begin(Z0) && !my.lost_way) my.follow(Z0);
+    my.here.Z = Z0;
     return report();
 }
 
 std::optional<Level> AdhesiveAsperities::solve_under(double N) {
+    // Where the smallest force is reached, less than this share from it.
+    constexpr double near_least = 1e-7;
     AdhesivePath& my = *path_;
     fresh_ = false;
-    my.thin = false;
-    const bool anything = my.begin(-kInfinity);
-    if (my.lost_way) return report();
-    if (anything && std::abs(my.here.force - N) > 0.1 * my.options.tolerance * std::abs(N)) {
-        const bool down = my.here.force < N && !(my.active.empty() && N < 0);
-        if (!my.go(down ? -1e300 : 1e300, N) || my.lost_way) {
-            if (my.lost_way) return report();
-            // No state has this force: returns to the state with the smallest force.
-            const double least = my.now.least_force;
-            for (const double above : {1e-7, 1e-5, 1e-3}) {
-                my.begin(-kInfinity);
-                if (my.active.empty() || (my.go(1e300, least * (1 - above)) && !my.lost_way)) break;
-            }
-            if (my.lost_way) return report();
-            Level level = report();
-            level.fallback = Fallback::held;
-            level.converged = false;
-            return level;
-        }
-    }
-    return report();
+    if (my.follow_to_force(N)) return report();
+    const double least = my.now.least_force;
+    (void)my.follow_to_force(least * (1 - near_least));
+    Level level = report();
+    level.fallback = Fallback::held;
+    level.converged = false;
+    return level;
 }
 
 void AdhesiveAsperities::move_tip(double x0, double y0) {
@@ -176,22 +167,24 @@ void AdhesiveAsperities::move_tip(double x0, double y0) {
             throw Error(Failure::not_converged,
                         "the path of the attached asperities to the new position of the tip is "
                         "lost; the tip stays where it was");
-        slope_ = 0, fresh_ = !path_->active.empty();
+        slope_ = 0;
+        fresh_ = !path_->here.active.empty();
         return;
     }
     auto there = path_at(x0, y0);
     there->accepted = my.accepted;
     path_ = std::move(there);
-    slope_ = energy_ = 0, fresh_ = false;
+    slope_ = energy_ = 0;
+    fresh_ = false;
 }
 
 std::vector<double> AdhesiveAsperities::write() const {
     const AdhesivePath::Past& past = path_->accepted;
     if (past.separation == kInfinity) return {};
     const Indenter& tip = path_->indenter;
-    std::vector<double> numbers = {tip.x0,     tip.y0,           past.separation,
-                                   past.lost,  past.least_force, static_cast<double>(past.jumps),
-                                   past.margin};
+    std::vector<double> numbers = {tip.x0,      tip.y0,           past.separation,
+                                   past.lost,   past.least_force, static_cast<double>(past.jumps),
+                                   past.margin, past.most_energy};
     for (std::size_t k = 0; k < past.asperity.size(); ++k)
         numbers.insert(numbers.end(), {static_cast<double>(past.asperity[k]), past.s[k]});
     return numbers;
@@ -208,14 +201,20 @@ void AdhesiveAsperities::read(const std::vector<double>& numbers) {
     my.accepted = {};
     if (!numbers.empty()) {
         AdhesivePath::Past& past = my.accepted;
-        if (sound)
-            past.separation = numbers[2], past.lost = numbers[3], past.least_force = numbers[4],
-            past.jumps = static_cast<int>(numbers[5]), past.margin = numbers[6];
+        if (sound) {
+            past.separation = numbers[2];
+            past.lost = numbers[3];
+            past.least_force = numbers[4];
+            past.jumps = static_cast<int>(numbers[5]);
+            past.margin = numbers[6];
+            past.most_energy = numbers[7];
+        }
         for (std::size_t k = kBefore; sound && k + 1 < numbers.size(); k += 2) {
             sound = numbers[k] >= 0 && numbers[k] < static_cast<double>(my.asperities.size()) &&
                     numbers[k + 1] > 0;
             if (!sound) break;
-            past.asperity.push_back(static_cast<int>(numbers[k])), past.s.push_back(numbers[k + 1]);
+            past.asperity.push_back(static_cast<int>(numbers[k]));
+            past.s.push_back(numbers[k + 1]);
         }
         if (!sound)
             throw Error(Failure::bad_input, "the state does not belong to these asperities");

@@ -39,12 +39,11 @@ void require_resolved(double E_star, const Adhesion& adhesion, double step);
 //                 attracts counts as reversible
 //   stiffness()   dN/dZ0 for fixed attracting points
 //   move_tip()    follows the state along the straight (on a surface that repeats, the shortest)
-//                 way of the tip at the last separation, in pieces of at most a quarter of a pixel; the work of a piece is that of the mean
-//                 pressures of its ends. stiffness() and
+//                 way of the tip at the last separation, in pieces of at most a quarter of a pixel;
+//                 the work of a piece is that of the mean pressures of its ends. stiffness() and
 //                 energy() are then those of the new position. Throws Error(bad_input) if points
-//                 near the edge of a body (a punch) attract,
-//                 Error(not_converged) if the path is lost; the tip and the state are then as
-//                 before
+//                 near the edge of a body (a punch) attract, Error(not_converged) if the path is
+//                 lost; the tip and the state are then as before
 std::unique_ptr<Model> make_adhesive_elements(const HeightMap& heights, const Indenter& indenter,
                                               const SolverOptions& options);
 

@@ -11,23 +11,33 @@ double AdhesivePath::clearance_at(int i, double share) {
 
 // Sets g0, and its rates if the tip moves.
 void AdhesivePath::set_gaps(double Z) {
-    if (!motion) {
-        for (std::size_t k = 0; k < clearance.size(); ++k) set.g0[k] = clearance[k] - Z;
-        return hold_gaps();
-    }
     constexpr double apart = 1e-4;  // share of the way for differences
-    const double share = Z / motion->length;
     for (std::size_t k = 0; k < clearance.size(); ++k) {
-        const int i = set.asperity[k];
-        rate[k] = (clearance_at(i, share + apart) - clearance_at(i, share - apart)) /
-                  (2 * apart * motion->length);
-        set.g0[k] = clearance_at(i, share) - motion->Z0;
+        set.g0[k] = clearance[k] - Z;
+        if (motion) {
+            const int i = set.asperity[k];
+            const double share = Z / motion->length;
+            rate[k] = (clearance_at(i, share + apart) - clearance_at(i, share - apart)) /
+                      (2 * apart * motion->length);
+            set.g0[k] = clearance_at(i, share) - motion->Z0;
+        }
+        if (!held.empty()) set.g0[k] -= held[k];
     }
-    hold_gaps();
 }
 
-void AdhesivePath::hold_gaps() {
-    for (const Held& held : held_before) set.g0[at(place[at(held.asperity)])] -= held.residual;
+// The members of the set on the way of the tip, by a bound of their clearances: that of a parabola
+// through the ends and the middle.
+void AdhesivePath::find_members_of_motion(std::vector<int>& fresh) {
+    for (int i = 0; i < static_cast<int>(asperities.size()); ++i) {
+        const double first = clearance_at(i, 0), middle = clearance_at(i, 0.5),
+                     last = clearance_at(i, 1), bend = 2 * std::abs(middle - 0.5 * (first + last));
+        if (std::max({first, middle, last}) + (std::isfinite(bend) ? bend : 0.0) <=
+            motion->Z0 - margin)
+            continue;
+        motion->edge = motion->edge || !std::isfinite(bend);
+        fresh.push_back(i);
+        add_member(i, middle);
+    }
 }
 
 // Follows the accepted state while the tip moves on a straight line at the accepted separation.
@@ -37,7 +47,6 @@ void AdhesivePath::hold_gaps() {
 bool AdhesivePath::move(double x0, double y0) {
     const Indenter old = indenter;
     const Past before = accepted;
-    thin = false;
     const auto place_tip = [&](const Indenter& tip) {
         motion.reset();
         indenter = tip;
@@ -82,13 +91,20 @@ bool AdhesivePath::move(double x0, double y0) {
 // lost.
 bool AdhesivePath::stand() {
     if (accepted.asperity.empty()) return true;
-    sticking.prepare(accepted.asperity);
     begin(accepted.separation);
-    free_before.resize(asperities.size());
-    if (!settle(accepted.separation, here.s)) return false;
-    lost_way = false;
-    accepted = now = past();
-    return true;
+    for (int k = 0; k < 3; ++k) {
+        Point there = predicted(accepted.separation, true);
+        const Found found = descend(there, true, 0);
+        if (found == Found::jump) return false;
+        if (found == Found::equilibrium) {
+            here = std::move(there);
+            lost_way = false;
+            accepted = now = past();
+            return true;
+        }
+        if (!cover(accepted.separation)) return false;
+    }
+    return false;
 }
 
 bool AdhesivePath::move_piece(Vec2 from, Vec2 to) {
@@ -96,7 +112,8 @@ bool AdhesivePath::move_piece(Vec2 from, Vec2 to) {
     if (lost_way) return false;
     indenter.move(from.x, from.y);
     motion = Motion{from, to, accepted.separation};
-    cover(0);
+    here.Z = 0;
+    if (!cover(0)) return false;
     if (motion->edge)
         throw Error(Failure::bad_input,
                     "a body with an edge cannot be moved while asperities are attached near its "
@@ -108,12 +125,14 @@ bool AdhesivePath::move_piece(Vec2 from, Vec2 to) {
             {length, std::abs(middle - clearance_at(i, 0)), std::abs(clearance_at(i, 1) - middle)});
     }
     if (length > 0) motion->length = length;
-    const bool done = find(0, here.s, here) &&
-                      (complete(here), go(motion->length, std::nullopt), !lost_way) &&
-                      here.Z == motion->length;
+    if (!find(here, 0)) return false;
+    complete(here);
+    follow(motion->length);
+    if (lost_way || here.Z != motion->length) return false;
     Past left = past();
-    left.separation = motion->Z0, left.jumps += jumps;
-    if (!done || !std::isfinite(left.lost) || !std::isfinite(left.least_force)) return false;
+    left.separation = motion->Z0;
+    left.jumps += jumps;
+    if (!std::isfinite(left.lost) || !std::isfinite(left.least_force)) return false;
     accepted = now = left;
     return true;
 }

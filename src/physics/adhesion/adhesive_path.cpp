@@ -5,20 +5,22 @@
 namespace rsc {
 namespace {
 
-// Tolerances relative to the detachment penetration of an asperity: for the detachment point, and
-// the shortest step.
-constexpr double kFold = 1e-4, kShortest = 1e-9;
-// Distance from touching, relative to the difference of the penetrations at attachment and
-// detachment, from which a free asperity attaches within a level. The energies are extrapolated to
-// the point of touching, so that the error of the loss is of second order in it.
-constexpr double kNearTouching = 1e-4;
-constexpr double kOnTheWay = 1e-5;  // residual of states between levels
-// distance from a wanted force, relative to all forces, beyond which its side is certain
-constexpr double kSure = 1e-3;
-// Largest steps, relative to the expected distance to detachment: by the law of the asperity, and
-// by extrapolation of its rate of change
-// (far and near).
-constexpr double kOwnWay = 0.7, kFarWay = 0.6, kNearWay = 0.9, kLongestWay = 0.98, kDoubt = 6;
+// Tolerance for touching, relative to the penetration of detachment.
+constexpr double kTouching = 1e-8;
+// Length of the step of a jump, relative to the difference of the penetrations at attachment and
+// detachment. The place of the jump within it is known, so that the error of its loss is of second
+// order in this.
+constexpr double kNear = 1e-5;
+// Own loss of an asperity that may attach or detach within a long step, relative to the energy.
+constexpr double kNegligible = 1e-7;
+constexpr double kOnTheWay = 1e-7;  // residual of states between levels
+constexpr double kInJump = 1e-9;    // residual of states after a jump
+// Error of the products of the state before a jump; it does not change in the jump.
+constexpr double kNoiseBeforeJump = 3e-7;
+// Share by which an expected distance is shortened: without a second derivative, and relative to
+// what this changes.
+constexpr double kFirstDoubt = 0.05, kDoubt = 0.2;
+constexpr long kMostSteps = 1000000;
 
 }  // namespace
 
@@ -28,8 +30,7 @@ AdhesivePath::AdhesivePath(const Asperities& asperities_, const Indenter& indent
       law(make_law(options_.law, asperities, indenter_.E_star, of_difference.get())),
       sticking(*law, options_.physics.adhesion.work, options_.physics.adhesion.range),
       direct(make_direct_products(kernel)),
-      solver(sticking),
-      place(asperities.size(), -1) {
+      solver(sticking) {
     const auto refuse = [](const char* what) {
         throw Error(Failure::bad_input, std::string("solids%adhesion is ") + what);
     };
@@ -51,97 +52,73 @@ AdhesivePath::AdhesivePath(const Asperities& asperities_, const Indenter& indent
     ranking.assign(asperities, indenter);
 }
 
-// Includes all asperities in the set that may attach at separations down to `lowest`; attached ones
-// are kept.
-void AdhesivePath::cover(double lowest) {
-    std::vector<int> attached;
-    for (int p : active) attached.push_back(set.asperity[at(p)]);
-    const Vector s = here.s;
-    for (int i : set.asperity) place[at(i)] = -1;
-    set = {}, clearance.clear(), trend = {};
-    covered = motion ? -kInfinity : lowest - margin;
+void AdhesivePath::add_member(int i, double height) {
+    set.asperity.push_back(i);
+    const Vec2 image = indenter.image(of_surface.x[at(i)], of_surface.y[at(i)]);
+    set.x.push_back(image.x);
+    set.y.push_back(image.y);
+    clearance.push_back(height);
+}
+
+// Makes the set of all asperities that may attach at separations down to `lowest`, and the attached
+// ones.
+void AdhesivePath::find_members(double lowest, const std::vector<int>& attached) {
+    set.clear();
+    clearance.clear();
+    trend = {};
     std::vector<int> fresh;
-    const std::size_t last = motion ? 0 : ranking.above(covered, fresh);
-    const auto add = [&](int i, double height) {
-        place[at(i)] = set.size();
-        set.asperity.push_back(i);
-        const Vec2 image = indenter.image(of_surface.x[at(i)], of_surface.y[at(i)]);
-        set.x.push_back(image.x), set.y.push_back(image.y);
-        clearance.push_back(height);
-    };
-    for (int i = 0; motion && i < static_cast<int>(asperities.size()); ++i) {
-        // Bound of the clearance along the way, by a parabola through its ends and middle.
-        const double begin = clearance_at(i, 0), middle = clearance_at(i, 0.5),
-                     end = clearance_at(i, 1), bend = 2 * std::abs(middle - 0.5 * (begin + end));
-        if (std::max({begin, middle, end}) + (std::isfinite(bend) ? bend : 0.0) <=
-            motion->Z0 - margin)
-            continue;
-        motion->edge = motion->edge || !std::isfinite(bend);
-        fresh.push_back(i), add(i, middle);
+    covered = motion ? -kInfinity : lowest - margin;
+    if (motion) {
+        find_members_of_motion(fresh);
+    } else {
+        const std::size_t last = ranking.above(covered, fresh);
+        for (std::size_t r = 0; r < last; ++r) add_member(ranking[r].asperity, ranking[r].height);
+    }
+    std::vector<char> member(asperities.size(), 0);
+    for (const int i : set.asperity) member[at(i)] = 1;
+    for (const int i : attached) {
+        if (member[at(i)]) continue;
+        fresh.push_back(i);
+        add_member(
+            i, indenter.clearance(asperities.x[at(i)], asperities.y[at(i)], asperities.z[at(i)]));
     }
     sticking.prepare(fresh);
-    for (std::size_t r = 0; r < last; ++r) add(ranking[r].asperity, ranking[r].height);
-    std::vector<int> kept = attached;
-    for (const Held& held : held_before) kept.push_back(held.asperity);
-    for (int i : kept)
-        if (place[at(i)] < 0)
-            add(i,
-                indenter.clearance(asperities.x[at(i)], asperities.y[at(i)], asperities.z[at(i)]));
-    set.g0.resize(clearance.size()), rate.assign(clearance.size(), -1.0);
+    set.g0.resize(clearance.size());
+    rate.assign(clearance.size(), -1.0);
     choose_products();
-    attach(attached, s);
-    left_out.clear();
-    if (thin && !active.empty() && leave_out(lowest)) choose_products(), attach(attached, s);
 }
 
-// Removes from the set the asperities that the present forces keep from touching at separations
-// down to `lowest`. missed() tests it afterwards.
-bool AdhesivePath::leave_out(double lowest) {
-    const std::vector<int>& passive = products->passive();
-    Vector f, phi(passive.size());
-    safety = margin;
-    for (std::size_t k = 0; k < active.size(); ++k) {
-        f.push_back(sticking.at(set.asperity[at(active[k])], here.s[k]).f);
-        safety = std::max(safety, 2 * scale(active[k]));
-    }
-    products->inner_passive(f.data(), phi.data());
-    const double raised =
-        kernel->shift() * std::accumulate(f.begin(), f.end(), 0.0) - sticking.touches();
-    std::vector<char> out(at(set.size()), 0);
-    for (std::size_t p = 0; p < phi.size(); ++p)
-        out[at(passive[p])] = clearance[at(passive[p])] - lowest - phi[p] + raised < -safety;
-    for (const Held& held : held_before) out[at(place[at(held.asperity)])] = 0;
-    std::size_t n = 0;
-    for (std::size_t k = 0; k < out.size(); ++k) {
-        const int i = set.asperity[k];
-        if (out[k]) {
-            left_out.push_back({i, clearance[k]}), place[at(i)] = -1;
-            continue;
+// Makes the set for separations down to `lowest`, and `here` the state at here.Z of these attached
+// asperities near s. Returns false if they have no equilibrium there.
+bool AdhesivePath::cover(double lowest, const std::vector<int>& attached, const Vector& s) {
+    for (int k = 0; k < 3; ++k) {
+        find_members(lowest, attached);
+        std::vector<std::pair<int, double>> order;
+        for (std::size_t j = 0; j < attached.size(); ++j) {
+            const auto found = std::find(set.asperity.begin(), set.asperity.end(), attached[j]);
+            order.emplace_back(static_cast<int>(found - set.asperity.begin()), s[j]);
         }
-        place[at(i)] = static_cast<int>(n);
-        set.asperity[n] = i, set.x[n] = set.x[k], set.y[n] = set.y[k],
-        clearance[n++] = clearance[k];
+        std::sort(order.begin(), order.end());
+        here.active.clear();
+        here.s.clear();
+        for (const auto& [position, state] : order) {
+            here.active.push_back(position);
+            here.s.push_back(state);
+        }
+        // One that has just attached, within the tolerance of touching, may have no exact state.
+        if (!find(here, 0) && !find(here, kOnTheWay)) return false;
+        const double more = raised();
+        if (!(more > margin)) break;
+        margin = more;
     }
-    set.asperity.resize(n), set.x.resize(n), set.y.resize(n), clearance.resize(n), set.g0.resize(n),
-        rate.resize(n);
-    return !left_out.empty();
+    complete(here);
+    return true;
 }
 
-// True if an asperity that was left out is so near to touching that it may have touched.
-bool AdhesivePath::missed() {
-    constexpr double near = 0.5;  // share of the distance that it should have kept
-    Vector f, x, y, phi(left_out.size(), 0.0);
-    for (const auto& [i, height] : left_out) {
-        const Vec2 image = indenter.image(of_surface.x[at(i)], of_surface.y[at(i)]);
-        x.push_back(image.x), y.push_back(image.y);
-    }
-    for (const Sticking::State& state : here.states) f.push_back(state.f);
-    if (!active.empty() && !left_out.empty())
-        products->elsewhere(f.data(), static_cast<int>(x.size()), x.data(), y.data(), phi.data());
-    const double raised = kernel->shift() * here.force - sticking.touches() - here.Z;
-    for (std::size_t k = 0; k < phi.size(); ++k)
-        if (left_out[k].second - phi[k] + raised > -near * safety) return true;
-    return false;
+bool AdhesivePath::cover(double lowest) {
+    std::vector<int> attached;
+    for (const int position : here.active) attached.push_back(at_place(position));
+    return cover(lowest, attached, Vector(here.s));
 }
 
 void AdhesivePath::choose_products() {
@@ -155,370 +132,519 @@ void AdhesivePath::choose_products() {
     solver.use(*products);
 }
 
-// Sets the attached asperities and their states.
-void AdhesivePath::attach(const std::vector<int>& attached, const Vector& s) {
-    std::vector<std::pair<int, double>> order;
-    for (std::size_t k = 0; k < attached.size(); ++k)
-        order.emplace_back(place[at(attached[k])], s[k]);
-    std::sort(order.begin(), order.end());
-    active.clear(), here.s.clear();
-    for (const auto& [position, state] : order) active.push_back(position), here.s.push_back(state);
-    products->set_active(active);
-}
-
-// Finds the equilibrium of the attached asperities at Z near s.
-bool AdhesivePath::find(double Z, Vector s, Point& point, double accuracy, int least) {
+// Finds the equilibrium of the attached asperities at point.Z near point.s; accuracy 0: an exact
+// one.
+bool AdhesivePath::find(Point& point, double accuracy, int least) {
     ++steps;
-    set_gaps(Z);
+    set_gaps(point.Z);
+    products->set_active(point.active);
+    Vector s = point.s;  // of no meaning where none is found
     if (!solver.solve(set, std::max(goal, accuracy), accuracy == 0, s, least)) return false;
-    point.exact = accuracy == 0;
-    point.Z = Z;
     point.s = std::move(s);
+    point.exact = accuracy == 0;
     read_solution(point);
     return true;
 }
 
 void AdhesivePath::read_solution(Point& point) {
     point.states = solver.states();
-    point.force = solver.force(), point.energy = solver.energy(),
+    point.residuals = solver.residuals();
+    point.force = solver.force();
+    point.energy = solver.energy();
     point.residual = solver.residual();
-    point.u.clear();
-    for (int p : products->passive())
-        point.u.push_back(set.g0[at(p)] - solver.phi()[at(p)] - sticking.touches());
+    point.u.resize(at(set.size()));
+    for (std::size_t k = 0; k < point.u.size(); ++k) point.u[k] = set.g0[k] - solver.phi()[k];
+    point.power = 0;
+    for (std::size_t k = 0; k < point.active.size(); ++k) {
+        point.u[at(point.active[k])] = point.states[k].u;
+        point.power += point.states[k].f * rate[at(point.active[k])];
+    }
 }
 
 // Required margin: twice the largest height by which the forces of the last state raise any
 // asperity, or 0 if the present margin is sufficient.
 double AdhesivePath::raised() const {
     double most = 0;
-    for (double phi : solver.phi()) most = std::max(most, -phi);
+    for (const double phi : solver.phi()) most = std::max(most, -phi);
     for (std::size_t k = 0; k < solver.states().size(); ++k) {  // near contacts under tension
         const Sticking::State& state = solver.states()[k];
         most = std::max(most,
-                        -solver.phi()[at(active[k])] -
+                        -solver.phi()[at(products->active()[k])] -
                             state.f * kernel->near() / std::sqrt(state.outer / std::numbers::pi));
     }
     const double range = options.physics.adhesion.range;
     return 1.2 * most > margin - range ? 2 * most + range : 0.0;
 }
 
-double AdhesivePath::near(int position) const {
-    const double width = sticking.touches() + scale(position);
-    return std::max(kTouching * scale(position), kNearTouching * width);
-}
-
-// Distance from the point of detachment at which an asperity is detached. It must be small beside
-// the difference of the penetrations at attachment and detachment, or the asperity would attach
-// again at once.
-double AdhesivePath::fold(int position) const {
-    return std::max(kShortest * scale(position), kFold * (sticking.touches() + scale(position)));
-}
-
 // Computes the derivatives of the last state with respect to Z.
 void AdhesivePath::complete(Point& point, double accuracy) {
-    point.change = solver.change(rate, accuracy);
+    const AttachedSolver::Change change = solver.change(rate, accuracy);
+    point.dforce = change.force;
+    point.dpower = -change.power;
+    point.ds = change.s;
+    point.du.resize(point.u.size());
+    for (std::size_t k = 0; k < point.active.size(); ++k)
+        point.du[at(point.active[k])] = point.states[k].du * change.s[k];
+    for (std::size_t p = 0; p < change.u.size(); ++p)
+        point.du[at(products->passive()[p])] = change.u[p];
 }
 
 // Restores the accepted state. Returns false if nothing is attached and nothing touches before the
 // target.
 bool AdhesivePath::begin(double target) {
     now = accepted;
-    margin = std::max(
-        options.physics.adhesion.range,
-        now.margin);  // sets of points, and the rounding of sums over them, depend on nothing else
+    // Sets of points, and the rounding of sums over them, depend on nothing else.
+    margin = std::max(options.physics.adhesion.range, now.margin);
     jumps = steps = 0;
     products_before = direct->count() + (mesh ? mesh->count() : 0);
     lost_way = false;
-    active.clear(), held_before.clear();
+    wanted.reset();
+    held.clear();
+    last = {};
     here = {};
-    const double highest = ranking.highest() - sticking.touches();
+    here.Z = now.separation;
+    double lowest = std::min(target, now.separation);
     if (now.asperity.empty()) {
-        if (!(target < highest)) {
-            for (int i : set.asperity) place[at(i)] = -1;
-            set = {}, clearance.clear(), left_out.clear(), covered = kInfinity;
+        here.Z = ranking.highest() - sticking.touches();
+        lowest = std::nextafter(here.Z, -kInfinity);
+        if (!(target < here.Z)) {
+            set.clear();
+            clearance.clear();
+            covered = kInfinity;
             return false;
         }
-        here.Z = highest;
-        cover(std::nextafter(highest, -kInfinity));
-        find(here.Z, {}, here);
-        complete(here);
-        return true;
     }
-    for (int i : set.asperity) place[at(i)] = -1;
-    set = {}, clearance.clear();
-    // cover() keeps attached asperities, so they are put into the set first.
-    for (int i : now.asperity) active.push_back(set.size()), set.asperity.push_back(i);
-    here.s = now.s;
-    cover(std::min(target > -kInfinity ? target : now.separation, now.separation));
-    for (int k = 0; k < 2; ++k) {
-        if (!find(now.separation, here.s, here)) lost_way = true;
-        const double more = raised();
-        if (!(more > margin)) break;
-        margin = more;
-        cover(std::min(target > -kInfinity ? target : now.separation, now.separation));
-    }
-    complete(here);
+    lost_way = !cover(lowest, now.asperity, now.s);
     return true;
 }
 
-// Rates of all penetrations with respect to Z at `here`, by position in the set.
-AdhesivePath::Vector AdhesivePath::rates() const {
-    Vector all(at(set.size()));
-    for (std::size_t k = 0; k < active.size(); ++k)
-        all[at(active[k])] = here.states[k].du * here.change.s[k];
-    for (std::size_t p = 0; p < here.change.u.size(); ++p)
-        all[at(products->passive()[p])] = here.change.u[p];
-    return all;
+bool AdhesivePath::small(int position) const {
+    const int i = at_place(position);
+    return std::max(sticking.loss(i, true), sticking.loss(i, false)) <=
+           kNegligible * now.most_energy;
 }
 
-// Second derivatives from `here`, with its rates, and a state with the same attached, unless they
+double AdhesivePath::near(int position) const {
+    return std::max(2 * kTouching * scale(position),
+                    kNear * (sticking.touches() + scale(position)));
+}
+
+// The next step of at most `rest`: to the target, or nearly to where an asperity is expected to
+// attach or detach, or, near it, over this place. A step as long as `blocked` would be one too
+// many.
+AdhesivePath::Step AdhesivePath::next_step(double rest, double direction, double blocked) const {
+    double event = kInfinity, doubt = 0, width = kInfinity, least = kInfinity;
+    std::size_t next = 0;
+    for (int k = 0; k < set.size(); ++k) {
+        const bool attached = next < here.active.size() && here.active[next] == k;
+        next += attached;
+        least = std::min(least, 2 * kTouching * scale(k));
+        if (small(k)) continue;
+        width = std::min(width, near(k));
+        const double sign = attached ? -direction : direction,
+                     left =
+                         attached ? here.u[at(k)] + scale(k) : sticking.touches() - here.u[at(k)],
+                     slope = sign * here.du[at(k)],
+                     bend = trend.bend.empty() ? 0.0 : (attached ? -1 : 1) * trend.bend[at(k)];
+        const double root = slope * slope + 2 * bend * std::max(left, 0.0);
+        const double distance =
+            root > 0 ? 2 * std::max(left, 0.0) / (slope + std::sqrt(root)) : kInfinity;
+        if (!(distance >= 0) || distance >= event) continue;
+        event = distance;
+        doubt = trend.bend.empty() ? kFirstDoubt * event
+                                   : kDoubt * std::min(std::abs(event - left / slope), event);
+    }
+    const double fold = fold_ahead(direction);
+    if (fold > 0 && fold < event) {
+        event = fold;
+        doubt = kFirstDoubt * fold;
+    }
+    if (width == kInfinity) width = least;
+    const double most = std::min(rest, blocked);
+    if (event < most && event <= width) return {std::min(event + width, rest), true, event};
+    if (blocked <= width) return {std::min(blocked, rest), true, fold > 0 ? fold : 0.5 * blocked};
+    if (event < most)
+        return {event - std::max(0.5 * width, std::min(doubt, 0.5 * event)), false, 0};
+    return {blocked < kInfinity ? std::min(rest, 0.5 * blocked) : rest, false, 0};
+}
+
+// The state at Z by extrapolation of the penetrations, without asperities that would detach: all in
+// a jump, otherwise those of negligible loss.
+AdhesivePath::Point AdhesivePath::predicted(double Z, bool jump) const {
+    constexpr double linear = 0.03;  // relative change of s up to which u is linear in it
+    Point there;
+    there.Z = Z;
+    const double length = Z - here.Z;
+    for (std::size_t k = 0; k < here.active.size(); ++k) {
+        const int position = here.active[k], i = at_place(position);
+        const double bend = trend.bend.empty() ? 0.0 : trend.bend[at(position)],
+                     change = length * (here.du[at(position)] + 0.5 * length * bend),
+                     u = here.states[k].u + change, slope = here.states[k].du;
+        const bool attached = u > sticking.lets_go(i);
+        if (!attached && (jump || small(position))) continue;
+        double s = std::max(here.s[k] + change / slope, 0.5 * (here.s[k] + sticking.least(i)));
+        if (attached && std::abs(s - here.s[k]) > linear * slope * here.s[k])
+            s = sticking.state_at(i, u);
+        there.active.push_back(position);
+        there.s.push_back(s);
+    }
+    return there;
+}
+
+// Second derivatives from `here` and another state with the same attached asperities, unless they
 // are known from a much longer way.
-void AdhesivePath::note_bend(const Vector& now_rates, const Point& there) {
+void AdhesivePath::note_bend(const Point& there) {
     constexpr double shorter = 0.2;
     const double length = there.Z - here.Z;
     if (std::abs(length) < shorter * trend.length) return;
-    trend.length = std::abs(length), trend.bend.resize(now_rates.size());
-    const auto note = [&](int position, double change) {
-        trend.bend[at(position)] =
-            2 * (change - length * now_rates[at(position)]) / (length * length);
-    };
-    for (std::size_t k = 0; k < active.size(); ++k)
-        note(active[k], there.states[k].u - here.states[k].u);
-    for (std::size_t p = 0; p < there.u.size(); ++p)
-        note(products->passive()[p], there.u[p] - here.u[p]);
+    trend.length = std::abs(length);
+    trend.bend.resize(here.u.size());
+    for (std::size_t k = 0; k < trend.bend.size(); ++k)
+        trend.bend[k] = 2 * (there.u[k] - here.u[k] - length * here.du[k]) / (length * length);
 }
 
-// States of the attached at Z by extrapolation of their penetrations; whether all would still be
-// attached, but for those at the position `but`.
-std::pair<AdhesivePath::Vector, bool> AdhesivePath::predict(double Z, const Vector& now_rates,
-                                                            int but) const {
-    constexpr double small = 0.03;  // relative change of s up to which u is linear in it
-    Vector start(here.s);
-    bool stands = true;
-    for (std::size_t k = 0; k < start.size(); ++k) {
-        const int i = set.asperity[at(active[k])];
-        const double length = Z - here.Z,
-                     change = length * (now_rates[at(active[k])] + 0.5 * length * bend(active[k])),
-                     u = here.states[k].u + change;
-        const bool hangs = u > sticking.lets_go(i);
-        stands = stands && (hangs || active[k] == but);
-        start[k] =
-            std::max(here.s[k] + change / here.states[k].du, 0.5 * (here.s[k] + sticking.least(i)));
-        if (hangs && std::abs(start[k] - here.s[k]) > small * here.states[k].du * here.s[k])
-            start[k] = sticking.state_at(i, u);
+// Attaches asperities that touch: in a jump the one that penetrates most, otherwise those that
+// penetrate at least a tenth of that, if the loss of all is negligible, or else it refuses. Returns
+// false if none touches.
+bool AdhesivePath::attach_touching(Point& there, bool jump, bool& refused) {
+    double deepest = 0;
+    std::vector<std::pair<int, double>> touching;
+    for (const int position : products->passive()) {
+        const double depth = there.u[at(position)] - sticking.touches();
+        if (!(depth > kTouching * scale(position))) continue;
+        touching.emplace_back(position, depth);
+        refused = refused || (!jump && !small(position));
+        deepest = std::max(deepest, depth / scale(position));
     }
-    return {start, stands};
+    if (refused) return true;
+    const double least = jump ? deepest : 0.1 * deepest;
+    for (const auto& [position, depth] : touching) {
+        if (depth / scale(position) < least) continue;
+        const auto k = std::lower_bound(there.active.begin(), there.active.end(), position) -
+                       there.active.begin();
+        there.active.insert(there.active.begin() + k, position);
+        there.s.insert(there.s.begin() + k,
+                       sticking.state_at(at_place(position), there.u[at(position)]));
+    }
+    return !touching.empty();
 }
 
-// Follows the path from `here` to a separation, or to the first state with the wanted force.
-// Returns false if everything detached before.
-bool AdhesivePath::go(double target, std::optional<double> wanted) {
-    const double direction = target > here.Z ? 1 : -1;
-    Point before;  // previous state with the same attached asperities
-    bool known = false, direct = true;
-    double shorter = 1;            // reduction of the step after a failure
-    double jumped_at = kInfinity;  // no way since then
-    int jumps_before = 0;
-    for (long guard = 0; here.Z != target; ++guard) {
-        double smallest = kInfinity;
-        for (int p : active) smallest = std::min(smallest, scale(p));
-        if (std::abs(here.Z - jumped_at) > kShortest * smallest)
-            jumped_at = here.Z, jumps_before = jumps;
-        // The same asperities attach and detach for ever where none of their states is stable, or
-        // it cannot be decided, because contacts overlap.
-        if (lost_way || guard > 1000000 || jumps - jumps_before > 10 + set.size())
-            return lost_way = true;
-        if (active.empty() && direction > 0 && !motion) return false;
-        // Attaches an asperity that touches.
-        const auto& passive = products->passive();
-        std::optional<int> touching;
-        double step = std::abs(target - here.Z), ahead = 0;
-        for (std::size_t p = 0; p < passive.size() && !touching; ++p) {
-            const double rate = direction * here.change.u[p];
-            if (rate <= 0) continue;
-            if (here.u[p] >= -kTouching * scale(passive[p]) ||
-                (here.u[p] >= -near(passive[p]) && -here.u[p] < rate * step))
-                touching = passive[p], ahead = -direction * here.u[p] / rate;
-            // Quadratic extrapolation, if the rate at the previous state is known.
-            const double bend =
-                known ? (rate - direction * before.change.u[p]) / std::abs(here.Z - before.Z) : 0.0;
-            step = std::min(
-                step, -2 * here.u[p] /
-                          (rate + std::sqrt(std::max(rate * rate - 2 * bend * here.u[p], 0.0))));
-        }
-        if (touching) {
-            attach_one(*touching, ahead);
-            known = false, shorter = 1;
-            continue;
-        }
-        if (direct && leap(target, wanted)) {
-            known = false, shorter = 1;
-            continue;
-        }
-        direct = false;
-        // Limits the step to a part of the distance to the next detachment; very close to it, the
-        // asperity is detached.
-        double way = kInfinity;
-        std::size_t weakest = 0;
-        here.left.assign(active.size(), kInfinity);
-        for (std::size_t k = 0; k < active.size(); ++k) {
-            const Sticking::State& state = here.states[k];
-            const double rate = direction * here.change.s[k];
-            if (!(rate < 0)) continue;
-            const double own =
-                (state.u - sticking.lets_go(set.asperity[at(active[k])])) / (state.du * -rate);
-            // The step may be longer if the distance predicted at the previous state was accurate.
-            const auto proved_share = [&](double end) {
-                here.left[k] = end;
-                if (!known || !(before.left[k] < kInfinity)) return 0.0;
-                const double length = std::abs(here.Z - before.Z);
-                return std::min(kLongestWay, 1 - kDoubt * std::abs(before.left[k] - length - end) /
-                                                     length * std::max(1.0, end / length));
-            };
-            if (state.df >= 0) {
-                step = std::min(step, std::max(kNearWay, proved_share(own)) * own);
-                continue;
+// The attached asperity that shrinks fastest, relative to its size. Where the equilibrium ceases to
+// be stable, this is the one that detaches: the derivatives tend to the direction in which it
+// becomes unstable.
+std::size_t AdhesivePath::fastest(double direction) const {
+    std::size_t found = 0;
+    double most = -kInfinity;
+    for (std::size_t k = 0; k < here.s.size(); ++k) {
+        const double rate = -direction * here.ds[k] / here.s[k];
+        if (here.states[k].df >= 0 || !(rate > most)) continue;
+        most = rate;
+        found = k;
+    }
+    return found;
+}
+
+// Distance to where the equilibrium ceases to be stable. Near it 1/rate^2 of the asperity that
+// shrinks fastest decreases linearly to 0. 0: not known.
+double AdhesivePath::fold_ahead(double direction) const {
+    if (last.ds.size() != here.ds.size() || here.ds.empty()) return 0;
+    const std::size_t k = fastest(direction);
+    const double g = 1 / (here.ds[k] * here.ds[k]), fall = 1 / (last.ds[k] * last.ds[k]) - g;
+    return fall > 0 ? g * std::abs(here.Z - last.Z) / fall : 0.0;
+}
+
+// Finds the equilibrium at there.Z that is reached from the states there.s: in a jump, asperities
+// that shrink to nothing are detached one by one, or, where that cannot be followed, the one
+// nearest to its own detachment.
+AdhesivePath::Found AdhesivePath::descend(Point& there, bool jump, double accuracy) {
+    const int most = 100 + 4 * set.size();
+    bool stalled = false;
+    for (int k = 0; k < most; ++k) {
+        if (!find(there, jump ? kInJump : accuracy, jump)) {
+            std::size_t weakest = solver.weakest();
+            if (!jump && !small(there.active[weakest])) return Found::jump;
+            if (jump && there.active == here.active) {
+                weakest = fastest(there.Z > here.Z ? 1 : -1);
+            } else if (jump) {
+                Vector calm = there.s;
+                const auto relaxed = stalled ? std::nullopt : solver.relax(set, goal, calm);
+                stalled = !relaxed;
+                if (relaxed) there.s = std::move(calm);
+                if (relaxed && !relaxed->gone) continue;
+                if (relaxed) weakest = *relaxed->gone;
             }
-            double left = kInfinity, share = kFarWay;
-            if (known) {  // 1/rate^2 decreases linearly to 0
-                const double g = 1 / (rate * rate), g_before = 1 / std::pow(before.change.s[k], 2);
-                if (g < g_before) left = g * std::abs(here.Z - before.Z) / (g_before - g);
-                if (g < 0.3 * g_before) share = kNearWay;
-            }
-            const double end = std::min(own, left), most = proved_share(end);
-            if (end < fold(active[k])) {
-                if (end < way) way = end, weakest = k;
-                continue;
-            }
-            step = std::min(step, std::max(std::min(kOwnWay * own, share * left), most * end));
-        }
-        if (way <= step) {
-            let_go(weakest, direction * way);
-            known = false, shorter = 1;
-            continue;
-        }
-        if (wanted) {
-            const double toward = (*wanted - here.force) / here.change.force * direction;
-            const double reach = 0.5 * std::abs(ranking.highest() - here.Z) +
-                                 (active.empty() ? 0.0 : scale(active[0]));
-            step = std::min(step, toward > 0 ? std::min(1.01 * toward, 4 * reach) : reach);
-        }
-        step *= shorter;
-        if (step < kShortest * smallest && shorter < 1 && !active.empty()) {
-            std::size_t fastest = 0;
-            double most = -1;
-            for (std::size_t k = 0; k < active.size(); ++k) {
-                const double rate = std::abs(here.change.s[k]) / here.s[k];
-                if (here.states[k].df < 0 && rate > most) most = rate, fastest = k;
-            }
-            let_go(fastest, 0);
-            known = false, shorter = 1;
-            continue;
-        }
-        const double Z = step >= std::abs(target - here.Z) ? target : here.Z + direction * step;
-        if (Z == here.Z) return lost_way = true;
-        if (Z - margin < covered) {
-            cover(std::min(Z, wanted ? Z - 0.1 * std::abs(ranking.highest() - Z) : target));
-            // One that has just attached, within the tolerance of touching, may have no exact state
-            // yet.
-            if (!find(here.Z, here.s, here) && !find(here.Z, here.s, here, kOnTheWay))
-                return lost_way = true;
-            complete(here);
-            known = false;
-            continue;
-        }
-        const Vector now_rates = rates();
-        const auto [start, stands] = predict(Z, now_rates);
-        Point there;
-        const auto unsure = [&] {
-            double all = 0;
-            for (const Sticking::State& state : there.states) all += std::abs(state.f);
-            return wanted && !there.exact && std::abs(there.force - *wanted) < kSure * all;
-        };
-        if (!find(Z, start, there, Z == target ? 0.0 : kOnTheWay) ||
-            (unsure() && !find(Z, there.s, there))) {
-            shorter *= 0.3;
+            there.active.erase(there.active.begin() + static_cast<std::ptrdiff_t>(weakest));
+            there.s.erase(there.s.begin() + static_cast<std::ptrdiff_t>(weakest));
             continue;
         }
         if (const double more = raised(); more > margin) {
             margin = more;
-            covered = kInfinity;
-            continue;
+            return Found::raised;
         }
-        // If an asperity penetrates too deeply, the step is reduced to where it touched.
-        const double length = std::abs(Z - here.Z);
-        double share = 1;
-        for (std::size_t p = 0; p < there.u.size(); ++p) {
-            if (!(there.u[p] > (Z == target ? kTouching * scale(passive[p]) : near(passive[p]))))
-                continue;
-            const double slope = direction * here.change.u[p] * length,
-                         bend = there.u[p] - here.u[p] - slope;
-            const double root = std::sqrt(std::max(slope * slope - 4 * bend * here.u[p], 0.0));
-            const double x = -2 * here.u[p] / (slope + root);
-            // One that is free within the tolerance of touching has no such point before this one:
-            // another state was found.
-            share = std::min(share, here.u[p] > 0    ? 0.3
-                                    : x > 0 && x < 1 ? x
-                                                     : -here.u[p] / (there.u[p] - here.u[p]));
+        bool refused = false;
+        if (!attach_touching(there, jump, refused)) {
+            complete(there);
+            return Found::equilibrium;
         }
-        if (share < 1) {
-            shorter *= std::max(share, 1e-3) * length / step;
-            continue;
-        }
-        complete(there);
-        // An asperity that approaches and retreats within the step may have touched.
-        bool between = false;
-        for (std::size_t p = 0; p < there.u.size() && !between; ++p) {
-            const double up = direction * here.change.u[p] * length,
-                         down = -direction * there.change.u[p] * length;
-            if (up <= 0 || down <= 0) continue;
-            const double x = up / (up + down),
-                         rest = 1 - x;  // near the maximum of the cubic through both ends
-            const double value = here.u[p] * rest * rest * (1 + 2 * x) + up * x * rest * rest +
-                                 there.u[p] * x * x * (1 + 2 * rest) + down * x * x * rest;
-            between = value > near(passive[p]);
-        }
-        if (between && shorter > 1e-3) {
-            shorter *= 0.5;
-            continue;
-        }
-        shorter = 1;
-        const Point &low = direction > 0 ? here : there, &high = direction > 0 ? there : here;
-        if (low.change.force < 0 && high.change.force > 0) {
-            // The smallest force is between both ends and at most `most` below them.
-            const double most = std::max(std::abs(low.change.force), high.change.force) * length;
-            const double bound = wanted ? std::max(*wanted, now.least_force) : now.least_force;
-            if (std::min(low.force, high.force) - most < bound) {
-                const Point least = least_between(low, high);
-                now.least_force = std::min(now.least_force, least.force);
-                if (wanted && here.force > *wanted && least.force <= *wanted &&
-                    find_force(here, least, *wanted))
-                    return true;
-            }
-        }
-        const bool crossed = wanted && (here.force - *wanted) * (there.force - *wanted) <= 0;
-        if (crossed && find_force(here, there, *wanted)) return true;
-        now.least_force = std::min(now.least_force, there.force);
-        note_bend(now_rates, there);
-        before = std::move(here);
-        here = std::move(there);
-        known = direct = true;
+        if (refused) return Found::jump;
     }
-    if (here.exact) return true;
-    if (!find(target, here.s, here)) return lost_way = true;
-    complete(here);
+    return Found::jump;
+}
+
+// True if an asperity that approaches and retreats within the step may have touched: near the
+// largest value of the cubic through both ends.
+bool AdhesivePath::touches_between(const Point& there) const {
+    const double length = there.Z - here.Z;
+    for (const int p : products->passive()) {
+        const double up = length * here.du[at(p)], down = -length * there.du[at(p)];
+        if (up <= 0 || down <= 0 || small(p)) continue;
+        const double x = up / (up + down), rest = 1 - x,
+                     u = here.u[at(p)] * rest * rest * (1 + 2 * x) + up * x * rest * rest +
+                         there.u[at(p)] * x * x * (1 + 2 * rest) + down * x * x * rest;
+        if (u - sticking.touches() > near(p)) return true;
+    }
+    return false;
+}
+
+// True if the smallest force so far may lie between `here` and a state with other asperities.
+bool AdhesivePath::hides_least_force(const Point& there) const {
+    constexpr double negligible = 1e-6;
+    const Point &low = here.Z < there.Z ? here : there, &high = here.Z < there.Z ? there : here;
+    const double most = std::min(-low.dforce, high.dforce) * (high.Z - low.Z);
+    return most > negligible * std::abs(now.least_force) &&
+           std::min(low.force, high.force) - most < now.least_force;
+}
+
+// Keeps the residuals of the state before a jump, with products whose error the jump does not
+// change.
+void AdhesivePath::hold() {
+    set_gaps(here.Z);
+    products->set_active(here.active);
+    solver.rest_on(set, kNoiseBeforeJump, here.s);
+    read_solution(here);
+    held.assign(here.u.size(), 0.0);
+    for (std::size_t k = 0; k < here.active.size(); ++k)
+        held[at(here.active[k])] = here.residuals[k];
+}
+
+// The length of the next step under force control: about that to the wanted force, as far as it can
+// be foreseen.
+double AdhesivePath::reach(double direction) const {
+    const double toward = direction * (*wanted - here.force) / here.dforce,
+                 far = 0.5 * std::abs(ranking.highest() - here.Z) +
+                       scale(here.active.empty() ? 0 : here.active[0]);
+    return toward > 0 ? std::min(1.01 * toward, 4 * far) : far;
+}
+
+// Follows the path from `here` to a separation, or to the first state with the wanted force. Where
+// it cannot be followed, lost_way is set. Returns false if everything detached before.
+bool AdhesivePath::follow(double target) {
+    double blocked_at = kNotComputed;  // where the last step that failed would have ended
+    const double direction = target > here.Z ? 1 : -1;
+    for (long guard = 0; here.Z != target && !lost_way; ++guard) {
+        if (here.active.empty() && direction > 0 && !motion) return false;
+        const double rest = std::abs(target - here.Z), most = wanted ? reach(direction) : rest;
+        const Step step = next_step(
+            most, direction, std::isnan(blocked_at) ? kInfinity : std::abs(blocked_at - here.Z));
+        const double Z = step.length >= rest ? target : here.Z + direction * step.length;
+        if (Z == here.Z || guard > kMostSteps) return lost_way = true;
+        if (Z - margin < covered) {
+            lost_way = !cover(wanted ? Z - most : std::min(Z, target));
+            continue;
+        }
+        if (step.jump) hold();
+        Point there = predicted(Z, step.jump);
+        const double accuracy = Z == target                         ? 0.0
+                                : std::isnan(blocked_at) && !wanted ? kOnTheWay
+                                                                    : kInJump;
+        const Found found = descend(there, step.jump, accuracy);
+        held.clear();
+        if (found == Found::raised) {
+            covered = kInfinity;
+            products->set_active(here.active);
+            continue;
+        }
+        const bool same = there.active == here.active;
+        if (found == Found::equilibrium && (step.jump || !hides(there))) {
+            if (same && find_wanted(there)) return true;
+            accept(std::move(there), step);
+            if (step.jump || !(direction * (blocked_at - here.Z) > 0)) blocked_at = kNotComputed;
+            continue;
+        }
+        if (step.jump) return lost_way = true;
+        if (same && there.u.size() == here.u.size()) note_bend(there);
+        blocked_at = Z;
+        products->set_active(here.active);
+    }
+    if (lost_way || here.exact) return true;
+    lost_way = !find(here, 0);
+    if (!lost_way) complete(here);
     return true;
+}
+
+// Follows the path from the accepted state to the first state with the force N. Returns false if
+// there is none before everything has detached.
+bool AdhesivePath::follow_to_force(double N) {
+    constexpr double far = 1e300;
+    (void)begin(accepted.asperity.empty() ? -far : accepted.separation);
+    if (lost_way || std::abs(here.force - N) <= 0.1 * options.tolerance * std::abs(N)) return true;
+    const bool down = here.force < N && !(here.active.empty() && N < 0);
+    wanted = N;
+    return follow(down ? -far : far);
+}
+
+// True if a step must be divided, because it may pass over something: an attachment, if the same
+// asperities are attached as before, otherwise the smallest force so far or the wanted one.
+bool AdhesivePath::hides(const Point& there) const {
+    if (there.active == here.active) return touches_between(there);
+    return hides_least_force(there) ||
+           (wanted && (here.force - *wanted) * (there.force - *wanted) <= 0);
+}
+
+// Goes on from the next state, with the energy lost on the way to it.
+void AdhesivePath::accept(Point there, const Step& step) {
+    std::vector<int> changed;
+    std::set_symmetric_difference(here.active.begin(), here.active.end(), there.active.begin(),
+                                  there.active.end(), std::back_inserter(changed));
+    const auto attaches = [&](int position) {
+        return !std::binary_search(here.active.begin(), here.active.end(), position);
+    };
+    if (changed.empty()) {
+        if (!step.jump) note_bend(there);
+        last = {here.Z, here.ds};
+    } else if (step.jump) {
+        ++jumps;
+        const bool detaches = std::none_of(changed.begin(), changed.end(), attaches);
+        now.lost += dissipated(there, step.ahead, detaches);
+    } else {
+        jumps += static_cast<int>(changed.size());
+        for (const int position : changed)
+            now.lost += sticking.loss(at_place(position), attaches(position));
+    }
+    if (!changed.empty()) last = {};
+    here = std::move(there);
+    double energy = 0;
+    for (const Sticking::State& state : here.states) energy += std::abs(state.energy);
+    now.most_energy = std::max(now.most_energy, energy);
+    now.least_force = std::min(now.least_force, here.force);
+}
+
+// The work of the step from `here` to `there`, in which asperities attach or detach at the distance
+// `ahead`, minus the change of the energy. Because B is symmetric and the penetrations change by -B
+// times the change of the forces, this is a sum over the asperities: for those that stay attached
+// it is of third order, so that no small difference of large energies is formed. The terms with
+// residuals make errors of the state after the jump of second order. Before a detachment the power
+// changes like the root of the distance.
+double AdhesivePath::dissipated(const Point& there, double ahead, bool detaches) const {
+    constexpr double small_change = 1e-3, far_from_detachment = 0.1;
+    std::vector<Sticking::State> before(here.u.size()), after(here.u.size());
+    for (std::size_t k = 0; k < here.active.size(); ++k)
+        before[at(here.active[k])] = here.states[k];
+    for (std::size_t k = 0; k < there.active.size(); ++k)
+        after[at(there.active[k])] = there.states[k];
+    double sum = 0;
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        const Sticking::State &old = before[k], &now_ = after[k];
+        const double change = there.u[k] - here.u[k];
+        if (old.area + old.outer > 0 && now_.area + now_.outer > 0 &&
+            std::min(now_.du, old.du) > far_from_detachment &&
+            std::abs(now_.f - old.f) < small_change * std::abs(now_.f))  // Euler and Maclaurin
+            sum += (now_.df / now_.du - old.df / old.du) * change * change / 12;
+        else
+            sum -= now_.energy - old.energy - 0.5 * (now_.f + old.f) * change;
+    }
+    for (std::size_t k = 0; k < there.active.size(); ++k)
+        sum -= 0.5 * (there.states[k].f - before[at(there.active[k])].f) * there.residuals[k];
+    // The work, less that of forces which change linearly.
+    const double way = there.Z - here.Z, first = std::copysign(ahead, way), last = way - first,
+                 bend = detaches ? 4.0 / 3 : 1.0;
+    return sum + first * (here.power + 0.5 * bend * here.dpower * first) +
+           last * (there.power - 0.5 * there.dpower * last) -
+           0.5 * way * (here.power + there.power);
+}
+
+// A state between two with the same attached asperities, at this share of the way. Returns false
+// if none is found.
+bool AdhesivePath::find_between(const Point& a, const Point& b, double share, Point& middle) {
+    constexpr double accurate = 1e-6;  // of derivatives
+    middle.Z = a.Z + share * (b.Z - a.Z);
+    middle.active = a.active;
+    middle.s.clear();
+    for (std::size_t k = 0; k < a.s.size(); ++k)
+        middle.s.push_back(a.s[k] + share * (b.s[k] - a.s[k]));
+    if (middle.Z == a.Z || middle.Z == b.Z || !find(middle, 0)) return false;
+    complete(middle, accurate);
+    return true;
+}
+
+// The state of the smallest force between `here` and a state with the same attached asperities, if
+// the slopes allow one below `bound`; otherwise that of the smaller force.
+AdhesivePath::Point AdhesivePath::least_between(const Point& there, double bound) {
+    Point low = here.Z < there.Z ? here : there, high = here.Z < there.Z ? there : here,
+          least = low.force < high.force ? low : high, middle;
+    const double most = std::max(-low.dforce, high.dforce) * (high.Z - low.Z);
+    if (!(low.dforce < 0 && high.dforce > 0) || least.force - most >= bound) return least;
+    for (int i = 0; i < 40; ++i) {
+        const double share = std::clamp(low.dforce / (low.dforce - high.dforce), 0.05, 0.95);
+        if (!find_between(low, high, share, middle)) break;
+        const double gained = std::abs(middle.dforce * (high.Z - low.Z));
+        if (middle.force < least.force) least = middle;
+        (middle.dforce < 0 ? low : high) = middle;
+        if (gained <= 1e-10 * std::abs(middle.force)) break;
+    }
+    return least;
+}
+
+// Notes the smallest force between `here` and a state with the same attached asperities, and goes
+// to the wanted force if it is there.
+bool AdhesivePath::find_wanted(const Point& there) {
+    const double bound = wanted ? std::max(*wanted, now.least_force) : now.least_force;
+    const Point least = least_between(there, bound);
+    const auto within = [&](const Point& end) {
+        return wanted && (here.force - *wanted) * (end.force - *wanted) <= 0;
+    };
+    if (within(least) && find_force(least)) return true;
+    now.least_force = std::min(now.least_force, least.force);
+    return within(there) && find_force(there);
+}
+
+// Goes to the state with the wanted force between `here` and another one on its other side.
+bool AdhesivePath::find_force(const Point& there) {
+    const double precise =
+        0.1 * options.tolerance *
+        std::max(std::abs(*wanted), 1e-3 * std::max(std::abs(here.force), std::abs(there.force)));
+    Point low = here, high = there, middle;
+    for (int i = 0; i < 100; ++i) {
+        const bool from_low = std::abs(low.force - *wanted) < std::abs(high.force - *wanted);
+        const Point& nearer = from_low ? low : high;
+        const double Z = nearer.Z + (*wanted - nearer.force) / nearer.dforce;
+        double share = (Z - low.Z) / (high.Z - low.Z);
+        if (!(share > 0 && share < 1) || i % 8 == 7) share = 0.5;
+        if (!find_between(low, high, share, middle)) break;
+        if (std::abs(middle.force - *wanted) <= precise) {
+            now.least_force = std::min(now.least_force, middle.force);
+            here = middle;
+            return true;
+        }
+        ((middle.force < *wanted) == (low.force < *wanted) ? low : high) = middle;
+    }
+    return false;
 }
 
 AdhesivePath::Past AdhesivePath::past() const {
     Past p = now;
-    p.separation = here.Z, p.margin = margin;
+    p.separation = here.Z;
+    p.margin = margin;
     std::vector<std::pair<int, double>> order;
-    for (std::size_t k = 0; k < active.size(); ++k)
-        order.emplace_back(set.asperity[at(active[k])], here.s[k]);
+    for (std::size_t k = 0; k < here.active.size(); ++k)
+        order.emplace_back(at_place(here.active[k]), here.s[k]);
     std::sort(order.begin(), order.end());
-    p.asperity.clear(), p.s.clear();
-    for (const auto& [asperity, s] : order) p.asperity.push_back(asperity), p.s.push_back(s);
+    p.asperity.clear();
+    p.s.clear();
+    for (const auto& [asperity, s] : order) {
+        p.asperity.push_back(asperity);
+        p.s.push_back(s);
+    }
     return p;
 }
 

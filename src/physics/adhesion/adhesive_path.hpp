@@ -1,5 +1,10 @@
-// The path of adhesive asperities under a changing separation (adhesive_contact.hpp): attachments,
-// detachments, avalanches, and states of a given force on the way.
+// The path of adhesive asperities under a changing separation (adhesive_contact.hpp).
+//
+// From each state the path descends to the next: where no asperity attaches or detaches, the step
+// is reversible. Otherwise the step is divided until it is short, at the place where the asperity
+// is expected to attach or detach; the energy lost is then the work of the short step minus the
+// change of the energy. Asperities whose own loss is negligible attach and detach within long
+// steps.
 #pragma once
 
 #include "asperities/asperity_level.hpp"
@@ -11,11 +16,6 @@
 
 namespace rsc {
 
-// tolerance for touching, relative to the detachment penetration of an asperity
-constexpr double kTouching = 1e-8;
-// error of the products of the state before a jump; it does not change in the jump
-constexpr double kNoiseBeforeJump = 3e-7;
-
 struct AdhesivePath : ContactBodies {
     using Vector = std::vector<double>;
 
@@ -26,6 +26,7 @@ struct AdhesivePath : ContactBodies {
         Vector s;
         double lost = 0;         // energy dissipated since the beginning
         double least_force = 0;  // smallest force since the beginning
+        double most_energy = 0;  // largest sum of the sizes of the asperities' energies
         double margin = 0;       // that of the path
         int jumps = 0;           // during moves of the tip since the last level
     };
@@ -41,7 +42,8 @@ struct AdhesivePath : ContactBodies {
     Past accepted, now;
     int jumps = 0, steps = 0;
     long products_before = 0;
-    bool lost_way = false;  // the path could not be followed, e.g. an avalanche did not end
+    std::optional<double> wanted;  // force at which follow() ends
+    bool lost_way = false;         // the path could not be followed, e.g. an avalanche did not end
 
     // Working set: asperities that may attach, and the attached ones.
     WorkingSet set;
@@ -55,94 +57,100 @@ struct AdhesivePath : ContactBodies {
         bool edge = false;  // asperities that may attach lie outside the body somewhere on the way
     };
     std::optional<Motion> motion;
-    std::vector<int> place;      // position of an asperity in the set; -1: not in the set
     double covered = kInfinity;  // asperities with a clearance above this are in the set
-    // height by which forces may raise an asperity, and the range of the attraction
+    // Height by which forces may raise an asperity, and the range of the attraction.
     double margin = 0;
-    std::vector<int> active;  // positions of the attached in the set
-    // Asperities that would be in the set, with their clearances, but stay away from touching by
-    // more than `safety`.
-    bool thin = false;  // there may be such
-    std::vector<std::pair<int, double>> left_out;
-    double safety = 0;
+    // During a jump: residuals of the state before it, by which the gaps are changed so that it is
+    // an exact equilibrium. Empty: none.
+    Vector held;
 
-    // A state on the path.
+    // A state on the path. Positions are places in the set.
     struct Point {
         double Z = 0;
-        Vector s;  // states of the attached
-        Vector u;  // penetrations of the others, relative to attachment
+        std::vector<int> active;  // positions of the attached asperities, increasing
+        Vector s;                 // their states
         std::vector<Sticking::State> states;
+        Vector residuals;
+        Vector u;  // penetrations of the whole set
         double force = 0, energy = 0, residual = 0;
         bool exact = false;
-        AttachedSolver::Change change;
-        Vector left;  // expected distances of the attached to detachment
+        // Derivatives with respect to Z: of the force, of the work, of s and of u.
+        double dforce = 0, power = 0, dpower = 0;
+        Vector ds, du;
     };
     Point here;
 
-    // The state before a jump: the attached asperities, and the penetrations of the others by
-    // asperity.
-    struct Held {
-        int asperity;
-        Sticking::State state;
-        double residual;
-    };
-    std::vector<Held> held_before;
-    Vector free_before;
-
-    // Second derivatives of all penetrations with respect to Z, by position in the set, from a way
-    // of this length.
+    // Second derivatives of u with respect to Z, from a way of this length.
     struct Trend {
         double length = 0;
         Vector bend;
     } trend;
 
+    // The state before `here`, with the same attached asperities.
+    struct {
+        double Z = 0;
+        Vector ds;
+    } last;
+
     // As AdhesiveContact.
     AdhesivePath(const Asperities& asperities_, const Indenter& indenter_,
                  const SolverOptions& options_);
 
-    void cover(double lowest);
-    bool leave_out(double lowest);
-    bool missed();
-    void choose_products();
-    void attach(const std::vector<int>& attached, const Vector& s);
-    bool find(double Z, Vector s, Point& point, double accuracy = 0, int least = 0);
-    void complete(Point& point, double accuracy = 1e-4);
-    double raised() const;
-    void read_solution(Point& point);
-    void hold();
-    void keep();
-    void hold_more(double Z);
-    double energy_gained() const;
-    Vector rates() const;
-    double bend(int position) const {
-        return trend.bend.empty() ? 0.0 : trend.bend[static_cast<std::size_t>(position)];
-    }
-    void note_bend(const Vector& now_rates, const Point& there);
-    std::pair<Vector, bool> predict(double Z, const Vector& now_rates, int but = -1) const;
-    bool settle(double Z, Vector s);
-    bool leap(double target, std::optional<double> wanted);
-    bool others_apart(const Point& point, std::size_t k) const;
-    void attach_one(int position, double ahead);
-    void let_go(std::size_t weakest, double ahead);
-    void jump(Vector s, double ahead, double bend, int event = -1, double lifts = 0);
-    void attach_at(int position, double u, Vector& s);
-    void detach(std::size_t k, Vector& s);
-    bool go(double target, std::optional<double> wanted);
     bool begin(double target);
-    void set_gaps(double Z);
-    void hold_gaps();
-    double clearance_at(int asperity, double share);  // with the tip at this share of its way
+    bool follow(double target);
+    bool follow_to_force(double N);
+    Past past() const;
     bool move(double x0, double y0);
     bool stand();
+
+private:
+    // What a descent meets: an equilibrium; one that would have to be reached by a jump; or
+    // asperities rise so much that others belong to the set.
+    enum class Found { equilibrium, jump, raised };
+    struct Step {
+        double length;
+        bool jump;     // asperities may attach and detach
+        double ahead;  // distance to where they are expected to
+    };
+
+    bool cover(double lowest, const std::vector<int>& attached, const Vector& s);
+    void find_members(double lowest, const std::vector<int>& attached);
+    bool cover(double lowest);
+    void add_member(int asperity, double height);
+    void find_members_of_motion(std::vector<int>& fresh);
+    void choose_products();
+    void set_gaps(double Z);
+    double clearance_at(int asperity, double share);  // with the tip at this share of its way
     bool move_piece(Vec2 from, Vec2 to);
-    Point least_between(const Point& a, const Point& b);
-    bool find_force(const Point& a, const Point& b, double wanted);
-    double scale(int position) const {
-        return -sticking.lets_go(set.asperity[static_cast<std::size_t>(position)]);
-    }
+
+    bool find(Point& point, double accuracy, int least = 0);
+    void read_solution(Point& point);
+    void complete(Point& point, double accuracy = 1e-4);
+    double raised() const;
+
+    Step next_step(double rest, double direction, double blocked) const;
+    Point predicted(double Z, bool jump) const;
+    std::size_t fastest(double direction) const;
+    double fold_ahead(double direction) const;
+    Found descend(Point& there, bool jump, double accuracy);
+    bool attach_touching(Point& there, bool jump, bool& refused);
+    bool touches_between(const Point& there) const;
+    bool hides_least_force(const Point& there) const;
+    void note_bend(const Point& there);
+    void hold();
+    bool hides(const Point& there) const;
+    double reach(double direction) const;
+    void accept(Point there, const Step& step);
+    bool find_between(const Point& a, const Point& b, double share, Point& middle);
+    Point least_between(const Point& there, double bound);
+    bool find_wanted(const Point& there);
+    bool find_force(const Point& there);
+    double dissipated(const Point& there, double ahead, bool detaches) const;
+
+    bool small(int position) const;
+    int at_place(int position) const { return set.asperity[static_cast<std::size_t>(position)]; }
+    double scale(int position) const { return -sticking.lets_go(at_place(position)); }
     double near(int position) const;
-    double fold(int position) const;
-    Past past() const;
 };
 
 }  // namespace rsc

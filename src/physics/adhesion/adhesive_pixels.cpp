@@ -255,7 +255,10 @@ std::vector<double> AdhesivePixels::deflections(const std::vector<double>& p, do
     std::vector<Pixel> where;
     std::vector<double> some;
     for (std::size_t k = 0; k < p.size(); ++k)
-        if (p[k] != 0) where.push_back(pixel_at(reach[k])), some.push_back(p[k]);
+        if (p[k] != 0) {
+            where.push_back(pixel_at(reach[k]));
+            some.push_back(p[k]);
+        }
     return flats->deflections(where, some);
 }
 
@@ -324,8 +327,11 @@ bool AdhesivePixels::press(double Z, double tolerance, Level& level) {
         for (std::size_t k = 0; k < reach.size(); ++k) {
             double& here = q[at(reach[k])];
             const double g = clearance[at(reach[k])] - Z + lift[k];
-            if (g > -bulged)
-                pixels.push_back(pixel_at(reach[k])), g0.push_back(g), p.push_back(here);
+            if (g > -bulged) {
+                pixels.push_back(pixel_at(reach[k]));
+                g0.push_back(g);
+                p.push_back(here);
+            }
             here = 0;
         }
         outcome = spots->solve(pixels, g0, tolerance, options.max_iterations, p);
@@ -590,7 +596,10 @@ void AdhesivePixels::move(double x0, double y0) {
             follow();
         }
     } catch (...) {
-        indenter = from, accepted = before, gap_before = gaps, p_before = pressures;
+        indenter = from;
+        accepted = before;
+        gap_before = gaps;
+        p_before = pressures;
         set_clearances();
         if (before.separation < kInfinity) (void)solve(before.separation, false);
         throw;

@@ -24,6 +24,7 @@ constexpr double kBent = 0.01;
 constexpr double kUnstepped = 0.01;
 // residual of exact solutions in a last step, whatever the tolerance
 constexpr double kExact = 1e-11;
+constexpr double kRate = 1e-6;     // accuracy of derivatives in proofs of stability
 constexpr double kFarthest = 0.5;  // largest relative change of s in a step
 
 double dot4(const Vector& a, const Vector& b) {
@@ -31,8 +32,10 @@ double dot4(const Vector& a, const Vector& b) {
     const double *x = a.data(), *y = b.data();
     std::size_t k = 0;
     for (const std::size_t n = a.size() & ~std::size_t{3}; k < n; k += 4) {
-        s0 += x[k] * y[k], s1 += x[k + 1] * y[k + 1];
-        s2 += x[k + 2] * y[k + 2], s3 += x[k + 3] * y[k + 3];
+        s0 += x[k] * y[k];
+        s1 += x[k + 1] * y[k + 1];
+        s2 += x[k + 2] * y[k + 2];
+        s3 += x[k + 3] * y[k + 3];
     }
     for (; k < a.size(); ++k) s0 += x[k] * y[k];
     return (s0 + s1) + (s2 + s3);
@@ -58,17 +61,22 @@ void minres(Multiply&& multiply, Vector v, double goal, Vector& x, Vector& lifte
         const double d = c * alpha - c_before * s * beta, r1 = std::hypot(d, beta_next),
                      r2 = s * alpha + c_before * c * beta, r3 = s_before * beta;
         if (!(r1 > 0)) break;
-        c_before = c, s_before = s;
-        c = d / r1, s = beta_next / r1;
+        c_before = c;
+        s_before = s;
+        c = d / r1;
+        s = beta_next / r1;
         const auto add = [&](const Vector& from, const Vector& last, Vector& to, Vector& sum) {
             const double per = 1 / r1, share = c * left;
             for (std::size_t i = 0; i < n; ++i) to[i] = per * (from[i] - r3 * to[i] - r2 * last[i]);
             for (std::size_t i = 0; i < n; ++i) sum[i] += share * to[i];
         };
-        add(v, w, w_before, x), add(lift, w_lift, w_lift_before, lifted);
+        add(v, w, w_before, x);
+        add(lift, w_lift, w_lift_before, lifted);
         left *= -s;
-        before.swap(v), v.swap(next);
-        w_before.swap(w), w_lift_before.swap(w_lift);
+        before.swap(v);
+        v.swap(next);
+        w_before.swap(w);
+        w_lift_before.swap(w_lift);
         beta = beta_next;
     }
 }
@@ -78,21 +86,24 @@ void minres(Multiply&& multiply, Vector v, double goal, Vector& x, Vector& lifte
 void AttachedSolver::judge(const WorkingSet& set) {
     double error2 = 0, doubt2 = 0, size2 = 0, own = 0, own_doubt = 0;
     for (std::size_t k = 0; k < res_.size(); ++k) {
-        if (k == held_) continue;
         const auto i = at(products_->active()[k]);
         const Sticking::State& now = state_[k];
         const double error = now.stiffness * std::abs(res_[k]), doubt = now.stiffness * out_[k],
                      gap = std::abs(set.g0[i]) + std::abs(phi_[i]);
         const double weak = now.stiffness * law_.lets_go(set.asperity[i]),
                      size = weak * weak + now.f * now.f;
-        error2 += error * error, doubt2 += doubt * doubt, size2 += size;
+        error2 += error * error;
+        doubt2 += doubt * doubt;
+        size2 += size;
         const double per = 1 / (std::sqrt(size) + kRounding * now.stiffness * gap);
-        own = std::max(own, error * per), own_doubt = std::max(own_doubt, doubt * per);
+        own = std::max(own, error * per);
+        own_doubt = std::max(own_doubt, doubt * per);
     }
     const auto relative = [&](double sum2, double alone) {
         return size2 == 0 ? 0.0 : std::max(std::sqrt(sum2 / size2), kOwn * alone);
     };
-    residual_ = relative(error2, own), noise_ = noise_reference_ + relative(doubt2, own_doubt);
+    residual_ = relative(error2, own);
+    noise_ = noise_reference_ + relative(doubt2, own_doubt);
 }
 
 void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s, bool full,
@@ -103,13 +114,20 @@ void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s, bool full,
     // After a step the product is known but for its curvature.
     const bool stepped = std::exchange(stepped_, false) && f_.size() == n && lifted_.size() == n &&
                          elevated_.size() == n;
-    state_.resize(n), f_.resize(n), res_.resize(n), df_.assign(n, 0.0), out_.assign(n, 0.0);
+    state_.resize(n);
+    f_.resize(n);
+    res_.resize(n);
+    df_.assign(n, 0.0);
+    out_.assign(n, 0.0);
+    derivative_.clear();
     force_ = 0;
     double bent2 = 0, f2 = 0;
     for (std::size_t k = 0; k < n; ++k) {
         state_[k] = law_.at(set.asperity[at(active[k])], s[k]);
-        if (stepped)
-            bent2 += std::pow(state_[k].f - f_[k] - pulled_[k], 2), f2 += state_[k].f * state_[k].f;
+        if (stepped) {
+            bent2 += std::pow(state_[k].f - f_[k] - pulled_[k], 2);
+            f2 += state_[k].f * state_[k].f;
+        }
         f_[k] = state_[k].f;
         force_ += f_[k];
     }
@@ -119,17 +137,21 @@ void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s, bool full,
         Vector f(n, 0.0);  // new ones had no force
         for (std::size_t k = 0, j = 0; k < n && j < reference_.size(); ++k)
             if (active[k] == reference_[j]) f[k] = f_reference_[j++];
-        reference_ = active, f_reference_ = std::move(f);
+        reference_ = active;
+        f_reference_ = std::move(f);
     }
     if (full || n == 0 || phi_reference_.empty() || active != reference_) {
-        reference_ = active, f_reference_ = f_;
+        reference_ = active;
+        f_reference_ = f_;
         phi_reference_.assign(at(set.size()), 0.0);
         if (n > 0) products_->full(f_.data(), phi_reference_.data());
         noise_reference_ = noise_bent_ = 0;
     } else {
         bool changed = false;
-        for (std::size_t k = 0; k < n; ++k)
-            df_[k] = f_[k] - f_reference_[k], changed = changed || df_[k] != 0;
+        for (std::size_t k = 0; k < n; ++k) {
+            df_[k] = f_[k] - f_reference_[k];
+            changed = changed || df_[k] != 0;
+        }
         if (changed && bent <= negligible) {
             noise_bent_ += bent;
             for (std::size_t k = 0; k < n; ++k) out_[k] = elevated_[k] + lifted_[k];
@@ -163,13 +185,20 @@ void AttachedSolver::balance(const WorkingSet& set) {
                   noise_bent_ * std::abs(phi_[i]);
     }
     judge(set);
-    weighed_ = false, mu_ = 0, in_.resize(n);
+    weighed_ = false;
+    mu_ = 0;
+    in_.resize(n);
 }
 
 void AttachedSolver::weigh(double mu) {
     const std::size_t n = state_.size();
-    mu_ = mu, weighed_ = true;
-    diagonal_.resize(n), p_.resize(n), to_s_.resize(n), in_.resize(n), out_.resize(n);
+    mu_ = mu;
+    weighed_ = true;
+    diagonal_.resize(n);
+    p_.resize(n);
+    to_s_.resize(n);
+    in_.resize(n);
+    out_.resize(n);
     for (std::size_t k = 0; k < n; ++k) {
         const Sticking::State& now = state_[k];
         const double df = now.df + mu * now.stiffness, q = now.stiffness * now.du - now.df,
@@ -179,7 +208,6 @@ void AttachedSolver::weigh(double mu) {
         p_[k] = sign * std::sqrt(now.stiffness * slope / (slope + q));
         to_s_[k] = p_[k] / (sign * slope);
     }
-    if (held_ < n) diagonal_[held_] = 1, p_[held_] = to_s_[held_] = 0;
 }
 
 void AttachedSolver::multiply(const Vector& y, Vector& image, Vector& lift) {
@@ -201,11 +229,15 @@ void AttachedSolver::solve_linear(const Vector& right, double accuracy, Vector& 
     Vector v(n);
     for (std::size_t k = 0; k < n; ++k) v[k] = p_[k] * right[k];
     const double goal = accuracy * std::sqrt(dot4(v, v));
-    ds.assign(n, 0.0), lifted_.assign(n, 0.0);
+    ds.assign(n, 0.0);
+    lifted_.assign(n, 0.0);
     minres([this](const Vector& y, Vector& image, Vector& lift) { multiply(y, image, lift); },
            std::move(v), goal, ds, lifted_);
     pulled_.resize(n);
-    for (std::size_t k = 0; k < n; ++k) pulled_[k] = p_[k] * ds[k], ds[k] *= to_s_[k];
+    for (std::size_t k = 0; k < n; ++k) {
+        pulled_[k] = p_[k] * ds[k];
+        ds[k] *= to_s_[k];
+    }
 }
 
 // True if I + B D is stable: D^-1 + B is positive definite. A proof for stiffer asperities holds
@@ -256,9 +288,10 @@ bool AttachedSolver::proved(const WorkingSet& set) {
         for (std::size_t k = 0; k < state_.size(); ++k) {
             const double du = state_[k].du + mu_, df = state_[k].df + mu_ * state_[k].stiffness;
             in_[k] = 0;
-            if (df >= 0 || k == held_) continue;
+            if (df >= 0) continue;
             if (!(du > 0)) return false;
-            in_[k] = proof_[place(k)] > 0 ? proof_[place(k)] : 1 / du, any = true;
+            in_[k] = proof_[place(k)] > 0 ? proof_[place(k)] : 1 / du;
+            any = true;
         }
         if (!any) return true;
         products_->inner(in_.data(), out_.data());
@@ -285,27 +318,32 @@ bool AttachedSolver::stable(const WorkingSet& set) {
             return false;
         }
     if (proved(set)) return true;
-    Vector right(n, -1.0), derivative, x;
-    solve_linear(right, 1e-6, derivative);
+    Vector right(n, -1.0), x;
+    solve_linear(right, kRate, derivative_);
     const double shift = products_->kernel().shift();
     double sum = 0;
     for (std::size_t k = 0; k < n; ++k) sum += in_[k] = state_[k].stiffness;
     products_->inner(in_.data(), right.data());
     double crowded = 0;  // largest row sum of B D: (I + B D)^-1 1 is positive if it is below 1
-    for (double& value : right)
-        value += -shift * sum, crowded = std::max(crowded, value), value += 1;
+    for (double& value : right) {
+        value += -shift * sum;
+        crowded = std::max(crowded, value);
+        value += 1;
+    }
     const auto positive = [&](const Vector& ds, double sign) {
         weakest_ = 0;
         double lowest = 1;
         for (std::size_t k = 0; k < n; ++k) {
             if (std::isnan(ds[k])) return false;
-            if (state_[k].df < 0 && k != held_ && sign * ds[k] < lowest)
-                lowest = sign * ds[k], weakest_ = k;
+            if (state_[k].df < 0 && sign * ds[k] < lowest) {
+                lowest = sign * ds[k];
+                weakest_ = k;
+            }
         }
         return lowest > 0;
     };
-    if (crowded < 1 && positive(derivative, -1)) return true;
-    solve_linear(right, 1e-6, x);
+    if (crowded < 1 && positive(derivative_, -1)) return true;
+    solve_linear(right, kRate, x);
     return positive(x, 1);
 }
 
@@ -321,50 +359,16 @@ void AttachedSolver::step(const WorkingSet& set, double accuracy, Vector& s) {
     }
 }
 
-void AttachedSolver::rest_on(const WorkingSet& set, double noise, const Vector& s, bool solved) {
-    if (!solved) held_ = ~std::size_t{0}, evaluate(set, s, false);
+void AttachedSolver::rest_on(const WorkingSet& set, double noise, const Vector& s) {
+    evaluate(set, s, false);
     if (noise_ > noise) return evaluate(set, s, true);
     add_passive();
     const double shift = products_->kernel().shift() * force_;
-    reference_ = products_->active(), f_reference_ = f_, phi_reference_ = phi_,
+    reference_ = products_->active();
+    f_reference_ = f_;
+    phi_reference_ = phi_;
     noise_reference_ = noise_;
     for (double& phi : phi_reference_) phi += shift;
-}
-
-void AttachedSolver::release(const WorkingSet& set, std::size_t k) {
-    if (products_->active() != reference_) return;
-    const int position = reference_[k];
-    const Vector part = column(set, position);
-    for (std::size_t i = 0; i < part.size(); ++i) phi_reference_[i] -= f_reference_[k] * part[i];
-    reference_.erase(reference_.begin() + static_cast<std::ptrdiff_t>(k));
-    f_reference_.erase(f_reference_.begin() + static_cast<std::ptrdiff_t>(k));
-}
-
-void AttachedSolver::take_in(const WorkingSet& set, std::size_t k, int position, double f) {
-    if (products_->active() != reference_) return;
-    const Vector part = column(set, position);
-    for (std::size_t i = 0; i < part.size(); ++i) phi_reference_[i] += f * part[i];
-    reference_.insert(reference_.begin() + static_cast<std::ptrdiff_t>(k), position);
-    f_reference_.insert(f_reference_.begin() + static_cast<std::ptrdiff_t>(k), f);
-}
-
-// Elevations by a unit force at a position.
-Vector AttachedSolver::column(const WorkingSet& set, int position) const {
-    const Kernel& kernel = products_->kernel();
-    const auto from = at(position);
-    Vector phi(set.x.size());
-    for (std::size_t i = 0; i < phi.size(); ++i) {
-        const double dx = set.x[i] - set.x[from], dy = set.y[i] - set.y[from];
-        phi[i] = dx == 0 && dy == 0 ? kernel.self() : kernel.at(dx, dy);
-    }
-    return phi;
-}
-
-double AttachedSolver::elevation(const WorkingSet& set, int position) {
-    const Vector part = column(set, position);
-    double sum = phi_[at(position)];
-    for (std::size_t k = 0; k < df_.size(); ++k) sum += df_[k] * part[at(products_->active()[k])];
-    return sum;
 }
 
 // Adds the change of the forces to phi_ at the others.
@@ -377,8 +381,7 @@ void AttachedSolver::add_passive() {
 }
 
 bool AttachedSolver::solve(const WorkingSet& set, double tolerance, bool exact, Vector& s,
-                           int least, int held, bool whole) {
-    held_ = static_cast<std::size_t>(held);
+                           int least) {
     const bool predicted = exact && !phi_reference_.empty();
     double best = 1e300;
     int worse = 0;
@@ -390,14 +393,14 @@ bool AttachedSolver::solve(const WorkingSet& set, double tolerance, bool exact, 
             (stuck && noise > 0.01 * residual_))
             evaluate(set, s, true);
         if (residual_ <= (predicted && k == 0 ? kUnstepped : 1.0) * tolerance && k >= least) {
-            if (!whole) return true;
             if (!stable(set)) return false;
             add_passive();
             return true;
         }
-        if (residual_ < 0.9 * best)
-            best = residual_, worse = 0;
-        else
+        if (residual_ < 0.9 * best) {
+            best = residual_;
+            worse = 0;
+        } else
             ++worse;
         if (k == kMostSteps || worse > 6 || !std::isfinite(residual_)) break;
         step(set,
@@ -411,7 +414,10 @@ bool AttachedSolver::solve(const WorkingSet& set, double tolerance, bool exact, 
     double nearest = 1e300;
     for (std::size_t k = 0; k < s.size(); ++k) {
         const double margin = s[k] / law_.least(set.asperity[at(products_->active()[k])]);
-        if (margin < nearest) nearest = margin, weakest_ = k;
+        if (margin < nearest) {
+            nearest = margin;
+            weakest_ = k;
+        }
     }
     return false;
 }
@@ -469,7 +475,9 @@ double AttachedSolver::clamped_stiffness(const std::vector<Sticking::State>& sta
     const double shift = products_->kernel().shift();
     Vector root, y, f;  // roots r of the stiffnesses D in A y = y + D^1/2 B D^1/2 y = D^1/2
     for (const Sticking::State& now : states) root.push_back(std::sqrt(now.clamped));
-    in_.resize(root.size()), y.resize(root.size()), lifted_.resize(root.size());
+    in_.resize(root.size());
+    y.resize(root.size());
+    lifted_.resize(root.size());
     const auto multiply_clamped = [&](const Vector& v, Vector& image, Vector& lift) {
         double sum = 0;
         for (std::size_t k = 0; k < v.size(); ++k) sum += in_[k] = root[k] * v[k];
@@ -491,9 +499,13 @@ double AttachedSolver::slope(const std::vector<Sticking::State>& states) {
     Vector y, image(states.size());
     weigh(0);
     solve_linear(Vector(states.size(), -1.0), accuracy, y);
-    for (std::size_t k = 0; k < y.size(); ++k) y[k] /= to_s_[k], in_[k] = p_[k] * y[k];
+    for (std::size_t k = 0; k < y.size(); ++k) {
+        y[k] /= to_s_[k];
+        in_[k] = p_[k] * y[k];
+    }
     complete(y, image, elevations(in_));
-    state_ = std::move(last), weighed_ = stepped_ = false;
+    state_ = std::move(last);
+    weighed_ = stepped_ = false;
     return 2 * dot4(p_, y) + dot4(y, image);
 }
 
@@ -503,7 +515,12 @@ AttachedSolver::Change AttachedSolver::change(const Vector& rate, double accurac
     const double shift = products_->kernel().shift();
     Vector right, df(state_.size());
     for (int k : active) right.push_back(rate[at(k)]);
-    if (!right.empty()) solve_linear(right, accuracy, c.s);
+    const bool known = accuracy >= kRate && derivative_.size() == right.size() &&
+                       std::all_of(right.begin(), right.end(), [](double r) { return r == -1; });
+    if (known)
+        c.s = derivative_;
+    else if (!right.empty())
+        solve_linear(right, accuracy, c.s);
     for (std::size_t k = 0; k < df.size(); ++k) {
         c.force += df[k] = state_[k].df * c.s[k];
         c.power -= df[k] * right[k];

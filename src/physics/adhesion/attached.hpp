@@ -47,7 +47,11 @@ public:
     // points the attached ones, when the functions below are called.
     void use(Products& products) {
         products_ = &products;
-        reference_.clear(), phi_reference_.clear(), proof_.clear(), stiffest_.clear(), room_ = 1.2;
+        reference_.clear();
+        phi_reference_.clear();
+        proof_.clear();
+        stiffest_.clear();
+        room_ = 1.2;
     }
 
     // Solves for a stable equilibrium from the states s of the attached asperities. Returns false
@@ -55,26 +59,13 @@ public:
     // of the one that becomes unstable. `exact`: forces, phi() and energy() are those of a full
     // product; otherwise its error is below a tenth of the tolerance.
     // `least`: smallest number of Newton steps; if positive, s is the state of rest_on() but for a
-    // jump, and the noise of that does not count. `held`: the state of this one of the attached
-    // does not change, and its residual is not judged.
+    // jump, and the noise of that does not count.
     bool solve(const WorkingSet& set, double tolerance, bool exact, std::vector<double>& s,
-               int least = 0, int held = -1, bool whole = true);
-    // After solve() with whole = false, which leaves these out: whether the equilibrium is stable,
-    // and B f at one of the others.
-    bool stable(const WorkingSet& set);
-    double elevation(const WorkingSet& set, int position);
+               int least = 0);
     // Takes the forces in the states s as those from whose change further products are found, if
-    // the error of their product is below
-    // `noise`; otherwise after a full product. The next states then differ from s without that
-    // error.
-    // `solved`: s is the last equilibrium at the same gaps.
-    void rest_on(const WorkingSet& set, double noise, const std::vector<double>& s,
-                 bool solved = false);
-    // Must be called before the k-th of the attached is removed from the active points: its force
-    // is taken away from rest_on().
-    void release(const WorkingSet& set, std::size_t k);
-    // The same for one that is to become the k-th of the attached, with the force f.
-    void take_in(const WorkingSet& set, std::size_t k, int position, double f);
+    // the error of their product is below `noise`; otherwise after a full product. The next states
+    // then differ from s without that error.
+    void rest_on(const WorkingSet& set, double noise, const std::vector<double>& s);
     std::size_t weakest() const { return weakest_; }
     // For states s far from equilibrium: contacts grow and shrink slowly, downhill in the energy,
     // until s is a stable equilibrium or an asperity has shrunk to nothing; `gone` is then its
@@ -116,7 +107,6 @@ private:
                   double negligible = 0);
     void balance(const WorkingSet& set);
     void add_passive();
-    std::vector<double> column(const WorkingSet& set, int position) const;
     void complete(const std::vector<double>& y, std::vector<double>& image,
                   const std::vector<double>& lift) const;
     void judge(const WorkingSet& set);  // norms of the residuals and of their errors out_
@@ -128,7 +118,8 @@ private:
         const std::vector<double>& f);  // B f of the attached, by a full product
     void multiply(const std::vector<double>& y, std::vector<double>& image,
                   std::vector<double>& lift);
-    void weigh(double mu);               // computes the coefficients of the symmetric systems
+    void weigh(double mu);  // computes the coefficients of the symmetric systems
+    bool stable(const WorkingSet& set);
     bool apart(const WorkingSet& set);   // S is positive definite
     bool proved(const WorkingSet& set);  // stable by the cheaper proof
 
@@ -138,14 +129,14 @@ private:
     std::vector<double> phi_, f_, res_;
     double force_ = 0, energy_ = 0, residual_ = 0, noise_ = 0;
     std::size_t weakest_ = 0;
-    bool weighed_ = false;                // by weigh(), since the states were evaluated
-    double mu_ = 0;                       // of weigh()
-    std::size_t held_ = ~std::size_t{0};  // of solve()
+    bool weighed_ = false;  // by weigh(), since the states were evaluated
+    double mu_ = 0;         // of weigh()
     std::vector<double>
         stiffest_;       // by position in the set: D up to which S is known to be positive definite
     double room_ = 1.2;  // factor by which they are taken larger
     std::vector<double> proof_;            // by position in the set: the last v, a starting point
     std::vector<double> pulled_, lifted_;  // of solve_linear()
+    std::vector<double> derivative_;       // -ds/dg0 of the present states, from stable()
     std::vector<double> elevated_;         // B df_
     bool stepped_ = false;   // the present states are one step behind those to be evaluated
     double noise_bent_ = 0;  // relative change of the forces that elevated_ lacks

@@ -27,59 +27,69 @@ double Sticking::spreading(int asperity, double s) const {
            std::sqrt(w_ * law_.area(asperity, s) / law_.response(asperity, s).slope);
 }
 
+Sticking::Limits Sticking::limits_of_range(int i) const {
+    Limits limits;
+    const double slope = law_.response(i, z0_).slope,
+                 a = std::sqrt(law_.area(i, z0_) / std::numbers::pi);
+    limits.last = kInfinity;
+    limits.E = slope / (2 * a);
+    limits.r = a * a / z0_;
+    const auto stands = [&](double s) { return attracting(limits, s).du >= 0; };
+    double high = z0_;
+    while (!stands(high)) high *= 2;
+    limits.least = border(high, 1e-12 * high, stands);
+    return limits;
+}
+
+Sticking::Limits Sticking::limits_of_jkr(int i) const {
+    constexpr double deepest = 1e100;
+    // Small contacts are those of a paraboloid, for which l h is proportional to s^(-3/4).
+    double s = 1e-100;
+    const double start = std::pow(spreading(i, s), 4.0 / 3) * s;  // l h = 1 of the paraboloid
+    const auto stands = [&](double at) { return spreading(i, at) <= 1; };
+    Limits limits;
+    limits.last = kInfinity;
+    double high = std::max(4 * start, 1e-300);
+    if (law_.beyond(i, deepest)) {
+        const double small =
+            0.01 * start < deepest && !law_.beyond(i, 1e-3 * start) ? 1e-3 * start : 1e-200;
+        const double end = border(small, deepest, [&](double at) { return !law_.beyond(i, at); });
+        // l h decreases from 1 and increases again before the trough.
+        double low = std::min(1e-3 * start, 0.5 * end);
+        high = end;
+        for (int k = 0; k < 100; ++k) {
+            const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+            const bool falls = spreading(i, a) > spreading(i, b);
+            (falls ? low : high) = falls ? a : b;
+        }
+        const double calmest = 0.5 * (low + high);
+        high = calmest;
+        const auto calm = [&](double at) { return spreading(i, at) <= 1.0 / 3; };
+        limits.last = !calm(calmest)            ? calmest
+                      : calm(end * (1 - 1e-12)) ? end
+                                                : border(calmest, end, calm);
+    } else {
+        while (!stands(high)) high *= 2;
+    }
+    limits.least =
+        stands(high) ? border(high, std::min(0.1 * start, 0.1 * high), stands) : limits.last;
+    return limits;
+}
+
 void Sticking::prepare(std::span<const int> asperities) {
     law_.prepare(asperities);
-    constexpr double deepest = 1e100;
     for (int i : asperities) {
         if (place_.size() <= static_cast<std::size_t>(i))
             place_.resize(static_cast<std::size_t>(i) + 1, -1);
         int& place = place_[static_cast<std::size_t>(i)];
         if (place >= 0) continue;
         place = static_cast<int>(limits_.size());
-        if (z0_ > 0) {
-            const double a = std::sqrt(law_.area(i, z0_) / std::numbers::pi);
-            Limits limits{0, 0, kInfinity, law_.response(i, z0_).slope / (2 * a), a * a / z0_};
-            const auto stands = [&](double at) { return attracting(limits, at).du >= 0; };
-            double high = z0_;
-            while (!stands(high)) high *= 2;
-            limits.least = border(high, 1e-12 * high, stands);
-            limits.lets_go = attracting(limits, limits.least).u;
-            limits_.push_back(limits);
-            continue;
-        }
-        // Small contacts are those of a paraboloid, for which l h is proportional to s^(-3/4).
-        double s = 1e-100;
-        const double start = std::pow(spreading(i, s), 4.0 / 3) * s;  // l h = 1 of the paraboloid
-        const auto stands = [&](double at) { return spreading(i, at) <= 1; };
-        Limits limits;
-        limits.last = kInfinity;
-        double high = deepest;
-        if (law_.beyond(i, deepest)) {
-            const double end = border(
-                0.01 * start < deepest && !law_.beyond(i, 1e-3 * start) ? 1e-3 * start : 1e-200,
-                deepest, [&](double at) { return !law_.beyond(i, at); });
-            // l h decreases from 1 and increases again before the trough.
-            double low = std::min(1e-3 * start, 0.5 * end);
-            high = end;
-            for (int k = 0; k < 100; ++k) {
-                const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-                (spreading(i, a) > spreading(i, b) ? low : high) =
-                    spreading(i, a) > spreading(i, b) ? a : b;
-            }
-            const double calmest = 0.5 * (low + high);
-            high = calmest;
-            const auto calm = [&](double at) { return spreading(i, at) <= 1.0 / 3; };
-            limits.last = !calm(calmest)            ? calmest
-                          : calm(end * (1 - 1e-12)) ? end
-                                                    : border(calmest, end, calm);
-        } else {
-            high = std::max(4 * start, 1e-300);
-            while (!stands(high)) high *= 2;
-        }
-        limits.least =
-            stands(high) ? border(high, std::min(0.1 * start, 0.1 * high), stands) : limits.last;
-        limits_.push_back(limits);
-        limits_.back().lets_go = at(i, limits.least).u;
+        limits_.push_back(z0_ > 0 ? limits_of_range(i) : limits_of_jkr(i));
+        Limits& limits = limits_.back();
+        const State last = at(i, limits.least);
+        limits.lets_go = last.u;
+        limits.lost_detaching = last.energy;
+        limits.lost_attaching = -at(i, state_at(i, touches())).energy;
     }
 }
 
@@ -169,7 +179,10 @@ Sticking::State Sticking::at(int asperity, double s) const {
 // Bracketed Newton's method from above; u(s) is convex up to where the radius becomes constant.
 double Sticking::state_at(int asperity, double u) const {
     double low = least(asperity), high = std::max({2 * low, 2 * u, low - lets_go(asperity) + u});
-    while (at(asperity, high).u < u) low = high, high *= 2;
+    while (at(asperity, high).u < u) {
+        low = high;
+        high *= 2;
+    }
     double s = high;
     for (int i = 0; i < 200; ++i) {
         const State now = at(asperity, s);

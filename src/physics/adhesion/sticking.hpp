@@ -68,13 +68,21 @@ public:
         return limits_[place(asperity)].lets_go;
     }                                               // penetration at detachment, negative
     double state_at(int asperity, double u) const;  // state s at the penetration u > lets_go()
+    // Energy lost by an asperity on its own when it attaches, or detaches.
+    double loss(int asperity, bool attaches) const {
+        const Limits& of = limits_[place(asperity)];
+        return attaches ? of.lost_attaching : of.lost_detaching;
+    }
 
 private:
     struct Limits {
         double least = 0, lets_go = 0;
+        double lost_attaching = 0, lost_detaching = 0;
         double last = 0;      // the radius is constant from here on; Infinity: never
         double E = 0, r = 0;  // of the paraboloid, if the range is positive
     };
+    Limits limits_of_range(int asperity) const;
+    Limits limits_of_jkr(int asperity) const;
     State attracting(const Limits& of, double s) const;
     std::size_t place(int asperity) const {
         return static_cast<std::size_t>(place_[static_cast<std::size_t>(asperity)]);

@@ -120,6 +120,28 @@ TEST(test_groups) {
     }
 }
 
+// Two that let go together while a third one far away, a little higher, is nearer to the state in
+// which it lets go alone: it stays until then.
+TEST(test_third_stays) {
+    constexpr double distance = 0.2, far = 1e6, later = 1e-4;
+    const Jkr jkr{0.5, 0.01};
+    const auto g0 = [&](double radius) {
+        return jkr.u(radius) + jkr.f(radius) / (pi * kE * distance);
+    };
+    double least = 0;
+    for (double radius = jkr.least(); radius < 10 * jkr.least(); radius *= 1.0001)
+        least = std::min(least, g0(radius));
+    const double height = -least * (1 + later) + jkr.u(jkr.least());
+    const Asperities a{
+        {0, distance, far}, {0, 0, 0}, {0, 0, height}, {jkr.r, jkr.r, jkr.r}, {}, {}, {}, {}};
+    const auto contact = make_asperity_contact(a, {kE, kFlat, 0, 0}, sticky(jkr.w));
+    CHECK(contact->at_separation(-0.001).contacts == 3);
+    CHECK(contact->at_separation(-least * (1 - 0.1 * later)).contacts == 3);
+    const Level one = contact->at_separation(-least * (1 + 0.1 * later));
+    CHECK(one.contacts == 1 && one.jumps == 1);
+    CHECK(contact->at_separation(-least * (1 + 2 * later)).contacts == 0);
+}
+
 // Contact of radius c at a penetration u: the force, its slope at a given radius, and how fast the
 // energy grows with the area.
 struct JkrEdge {
@@ -161,6 +183,52 @@ TEST(test_minimiser) {
             CHECK(level.contacts == slow.attached());
             CHECK_CLOSE(level.force, slow.force(),
                         1e-7 * std::max(std::abs(level.force), system.w));
+        }
+    }
+}
+
+// Two flats that repeat, pressed and pulled apart: each detachment changes the separation at which
+// the others detach, and a tension raises the points far from it. One level passes all of them.
+TEST(test_flats_apart) {
+    const RandomAsperities system = random_asperities(8, 101, 0.14);
+    const Kernel kernel(Interaction::point, Substrate(kE), {1, 1});
+    PathMinimiser slow(system.asperities, kE, JkrEdge{system.asperities, system.w}, &kernel);
+    const auto contact =
+        make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5, {1, 1}}, sticky(system.w));
+    slow.Z = 0.05;
+    const double length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
+    for (const double Z : {-0.5 * length, 0.01 + length, 0.01 + 1.4 * length}) {
+        slow.go_to(Z, 0.03 * length);
+        const Level level = contact->at_separation(Z);
+        CHECK(level.contacts == slow.attached());
+        CHECK_CLOSE(level.force, slow.force(), 1e-6 * std::max(std::abs(level.force), system.w));
+    }
+}
+
+// Force control ends at the first state of the force that the path from no contact meets, also where
+// later ones have the same force, because each attachment lowers it.
+TEST(test_first_state) {
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+        RandomAsperities system = random_asperities(6, 200 + seed, 0.2);
+        system.w = 1e-4;  // they attach one after the other
+        const double length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25),
+                     step = 0.03 * length;
+        for (const double share : {1.5, 6.0}) {
+            const double N = share * pi * system.w * 0.25;
+            PathMinimiser slow(system.asperities, kE, JkrEdge{system.asperities, system.w});
+            slow.Z = 0.03;
+            double before = 0, now = 0;
+            for (int attached = -1; !(attached == slow.attached() && before < N && now >= N);) {
+                attached = slow.attached();
+                before = now;
+                slow.go_to(slow.Z - step, step);
+                now = slow.force();
+            }
+            const auto contact =
+                make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
+            const Level level = contact->at_force(N);
+            CHECK(level.contacts == slow.attached());
+            CHECK(level.separation >= slow.Z && level.separation < slow.Z + step);
         }
     }
 }
