@@ -1,14 +1,20 @@
 #include "surface/asperities.hpp"
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 
 namespace rsc {
 
 Asperities selected(const Asperities& all, const std::vector<std::size_t>& which) {
     Asperities some;
-    for (const AsperityColumn& column : kAsperityColumns)
-        if (const std::vector<double>& from = all.*column.values; !from.empty())
-            for (const std::size_t k : which) (some.*column.values).push_back(from[k]);
+    constexpr std::size_t many = 10000;
+    parallel_for(kAsperityColumns.size(), 1, which.size() > many ? 0 : 1, [&](std::size_t c) {
+        const std::vector<double>& from = all.*kAsperityColumns[c].values;
+        std::vector<double>& to = some.*kAsperityColumns[c].values;
+        if (from.empty()) return;
+        to.resize(which.size());
+        for (std::size_t k = 0; k < which.size(); ++k) to[k] = from[which[k]];
+    });
     return some;
 }
 

@@ -36,12 +36,17 @@ Asperities join(std::vector<RefinedSummits>& parts, bool refined, int nx, int ny
     const auto append = [](auto& to, const auto& from) {
         to.insert(to.end(), from.begin(), from.end());
     };
-    for (std::size_t t = 1; t < parts.size(); ++t) {
-        for (const AsperityColumn& column : kAsperityColumns)
-            append(all.found.*column.values, parts[t].found.*column.values);
-        append(all.from, parts[t].from);
-        all.saddles += parts[t].saddles;
-    }
+    // One column after the other, by several threads; then the starts.
+    parallel_for(parts.size() > 1 ? kAsperityColumns.size() + 1 : 0, 1, 0, [&](std::size_t c) {
+        for (std::size_t t = 1; t < parts.size(); ++t) {
+            if (c == kAsperityColumns.size())
+                append(all.from, parts[t].from);
+            else
+                append(all.found.*kAsperityColumns[c].values,
+                       parts[t].found.*kAsperityColumns[c].values);
+        }
+    });
+    for (std::size_t t = 1; t < parts.size(); ++t) all.saddles += parts[t].saddles;
     const long repeated = refined ? drop_repeated(all, nx, ny, periodic) : 0;
     if (count) *count = counted(all.found, all.saddles, repeated);
     if (!refined) return std::move(all.found);
