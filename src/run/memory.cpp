@@ -151,7 +151,7 @@ double expected_megabytes(const Job& job, double workers) {
     // Bytes for each point of the surface (heights, modes; transforms of two flats), and for each
     // point under the indenter or in contact, from the peaks of some 40 runs; a single realization
     // keeps the pixels of all its levels, and the result some numbers a level.
-    constexpr double program = 40e6, tables = 15e6, table = 1500, record = 0.3e6;
+    constexpr double program = 40e6, tables = 90e6, table = 1500, record = 0.3e6;
     constexpr double under = 170, adhesion = 49, lowered = 8, states = 50;
     constexpr double flats = 28, touching = 150, pixel = 24;
     const double sticking = job.settings.solids.adhesion > 0 ? adhesion : 0;
@@ -191,7 +191,9 @@ double expected_megabytes(const Job& job, double workers) {
         most = std::max(
             {most, high ? modes / job.settings.elements.points_per_wave * points : 0.0,
              std::min(tables, table * below) + stored + (under + deep * below / points) * below +
-                 (below > kFewPoints ? 0.0 : beside * ((1 + 0.25) * under * below + stored / 4))});
+                 (below > kFewPoints ? 0.0
+                                     : beside * (std::min(tables, table * below) +
+                                                 (1 + 0.25) * under * below + stored / 4))});
     }
     return 1e-6 * (program + record * static_cast<double>(job.levels.size()) + kept +
                    most * contacts_at_once);
