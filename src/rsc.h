@@ -1,4 +1,4 @@
-/* rsc: the elastic contact of rough surfaces. This file is the complete C interface.
+/* rsc: the elastic contact of rough surfaces. The complete C interface.
  *
  * The asperity model is that of V. A. Yastrebov, "The Elastic Contact of Rough Spheres Investigated
  * Using a Deterministic Multi-Asperity Model", J. Multiscale Modelling, 2018.
@@ -10,7 +10,9 @@
  *     rsc_surface_take, rsc_asperities_take.
  * Terms
  *     Tip: lowest point of the sphere. Separation Z0: its height above z = 0. Level: the contact at
- *     one separation or force. Latest level: the one computed most recently.
+ *     one separation or force. Latest level: the one computed most recently. Loading history: what
+ *     bodies with solids%hardness, relaxation_share, wear_coefficient or adhesion retain of earlier
+ *     levels.
  * Units
  *     Any consistent set: lengths, forces, moduli in force/length^2, energies in force length.
  * Status
@@ -23,11 +25,11 @@
  *     null, and RSC_NOT_CONVERGED means that all outputs are written (see rsc_contact_indent).
  *     Handles remain usable.
  * Handles
- *     are created by constructors (_create, _copy, _synthesize, _find, _make, _take, _restore, ...)
- *     and destroyed by _destroy, which takes the address of the handle, frees the object and sets
- *     the handle to null; destroying a null handle is not an error. A constructor overwrites the
- *     handle it is given, so destroy the old object first. Objects own copies of all arrays they
- *     were made from; a surface or a case may be destroyed while objects made from it are in use.
+ *     Constructors (_create, _copy, _synthesize, _find, _make, _take, _restore, ...) create them.
+ *     _destroy takes the address of a handle, frees the object and sets the handle to null;
+ *     destroying a null handle is not an error. A constructor overwrites the handle it is given, so
+ *     destroy the old object first. Objects own copies of all arrays they were made from; a surface
+ *     or a case may be destroyed while objects made from it are in use.
  * Threads
  *     Different threads may use different handles at the same time. They may share a handle in
  *     functions that take it as pointer to const. NetCDF, HDF5 and the FFTW planner are not
@@ -35,13 +37,13 @@
  *     themselves must take the same lock, rsc_lock. After a fork the child may use its copies of
  *     the handles, and computes with one thread. See "rsc inside your program" in modules/README.
  * Numbers
- *     in arrays, and parameters of a grid, a sphere or a material, must be finite and at most 1e50
- *     in magnitude; positive ones must be at least 1e-50. Beyond these limits their squares and
- *     powers would overflow. "Not finite" and "not positive" below include these limits.
+ *     Numbers in arrays, and the parameters of a grid, a sphere or a material, must be finite and
+ *     at most 1e50 in magnitude; positive ones must be at least 1e-50. Beyond these limits their
+ *     squares and powers would overflow. "Not finite" and "not positive" include these limits.
  * Arrays
- *     are allocated by the caller and passed with their length; indices count from 0. Outputs
- *     marked "may be null" may be passed as NULL if they are not needed. Two-dimensional arrays are
- *     stored with x running fastest: z[j*nx + i] is the height at (x0 + i dx, y0 + j dy).
+ *     The caller allocates them and passes their length; indices count from 0. Outputs marked "may
+ *     be null" may be passed as NULL if they are not needed. Two-dimensional arrays are stored with
+ *     x running fastest: z[j*nx + i] is the height at (x0 + i dx, y0 + j dy).
  * Text
  *     Input is a null-terminated string. Output is written to the caller's buffer: at most size-1
  *     characters, always followed by a null character. *length receives the full length without it;
@@ -243,10 +245,10 @@ RSC_API int32_t rsc_unlock(void);
 
 /* Generates or reads the surface described by &surface, as the program does. source = 'synthetic'
  * or 'spectrum': a random surface from the keys of &surface and run%seed, identical to realization
- * number `realization` of the program for any number of threads (run%threads sets it). Its heights
- * are periodic, at x = i L/n, y = j L/n (with a free boundary a contact uses only one period).
- * source = 'heights': the map in surface%file, converted to run%length_unit, with missing points,
- * form and noise treated according to the keys of &surface.
+ * number `realization` of the program for any number of threads (run%threads). Its heights are
+ * periodic, at x = i L/n, y = j L/n (with a free boundary a contact uses only one period). source =
+ * 'heights': the map in surface%file, converted to run%length_unit, with missing points, form and
+ * noise treated according to the keys of &surface.
  *     surface (out): the handle;
  *     a_case: the case, null for the defaults;
  *     realization: number of the realization, any integer.
@@ -258,7 +260,7 @@ RSC_API int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_
 /* Creates a surface from an array of heights, which is copied. Separations are measured from z = 0;
  * rsc_surface_detrend can move the mean plane there.
  *     surface (out): the handle;
- *     nx, ny: number of points, 3 or more;
+ *     nx, ny: numbers of points, 3 or more;
  *     dx, dy: grid steps > 0 [length];
  *     x0, y0: position of the first point [length];
  *     periodic: 1 for a periodic surface, 0 otherwise (then its outermost points are not treated as
@@ -298,7 +300,7 @@ RSC_API int32_t rsc_surface_filter(rsc_surface* surface, double cutoff);
 
 /* The grid of a surface. All outputs may be null.
  *     surface: the surface;
- *     nx, ny: number of points;
+ *     nx, ny: numbers of points;
  *     dx, dy: grid steps [length];
  *     x0, y0: position of the first point [length];
  *     periodic: 1 or 0.
@@ -427,7 +429,7 @@ RSC_API int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* 
 
 /* Like rsc_contact_create, with E* and R from the keys of &solids and the tip at
  * indentation%centre. By default this is the middle of the surface (for asperities from arrays: of
- * [0, surface%L]^2 if it contains them, otherwise of the smallest rectangle that does).
+ * [0, surface%L]^2 if it contains them, otherwise of the smallest rectangle that contains them).
  *     contact (out): the handle;
  *     asperities: as in rsc_contact_create;
  *     a_case: the case, null for the defaults.
@@ -436,8 +438,8 @@ RSC_API int32_t rsc_contact_create_from_case(rsc_contact** contact,
                                              const rsc_asperities* asperities,
                                              const rsc_case* a_case);
 
-/* Creates an independent copy of a contact, including its latest level, loading history
- * (solids%hardness, solids%adhesion) and committed state.
+/* Creates an independent copy of a contact, including its latest level, loading history and
+ * committed state.
  *     contact (out): the handle;
  *     original: the contact; meanwhile other threads may call only functions that take it as
  *       pointer to const.
@@ -466,9 +468,9 @@ RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
  *     RSC_NOT_CONVERGED (adhesion: the path is lost), and the tip is not moved; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
 
-/* Stores the state for rsc_contact_rollback: the tip, the latest level and the loading history
- * (solids%hardness, solids%adhesion). For codes that try a step and may have to repeat it. The
- * initial state of a new contact counts as committed.
+/* Stores the state for rsc_contact_rollback: the tip, the latest level and the loading history. For
+ * codes that try a step and may have to repeat it. The initial state of a new contact counts as
+ * committed.
  *     contact: the contact.
  * Errors: -1 null; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_commit(rsc_contact* contact);
@@ -492,10 +494,9 @@ RSC_API int32_t rsc_contact_tip(const rsc_contact* contact, double* x0, double* 
 RSC_API int32_t rsc_contact_first_touch(const rsc_contact* contact, double* separation);
 
 /* Computes the contact at a given separation. Within the tolerance, the result depends only on the
- * bodies, the position of the tip, the separation and, with solids%hardness, relaxation_share,
- * wear_coefficient or adhesion, on the loading history. Otherwise earlier calls and the path of the
- * tip have no effect. A level close to the latest one is computed faster; the latest one itself is
- * not computed again, except with adhesion.
+ * bodies, the position of the tip, the separation and the loading history, if there is one.
+ * Otherwise earlier calls and the path of the tip have no effect. A level close to the latest one
+ * is computed faster; the latest one itself is not computed again, except with adhesion.
  *     contact: the contact;
  *     separation: Z0, height of the tip above z = 0 [length];
  *     force (out, may be null): N, 0 without contact [force].
@@ -551,9 +552,9 @@ RSC_API int32_t rsc_contact_result(const rsc_contact* contact, double* separatio
 
 /* Status and solver data of the latest level. All outputs may be null.
  *     contact: the contact;
- *     level_status: of RSC_LEVEL_LIST;
+ *     level_status: a value of RSC_LEVEL_LIST;
  *     candidates: number of asperities that the sphere would penetrate without interaction;
- *     iterations: of the solver, summed over all levels computed by rsc_contact_press;
+ *     iterations: solver iterations, in rsc_contact_press summed over all levels it computed;
  *     overlapping_pairs: pairs of contact spots with d < a_i + a_j;
  *     residual: relative residual of F = f(<g0 - BF>).
  * Errors: -1 null; RSC_NO_RESULT. */
@@ -574,7 +575,7 @@ RSC_API int32_t rsc_contact_level(const rsc_contact* contact, int32_t* level_sta
  *       f_i (x_i - x0)/sqrt(R^2 - rho_i^2) [force]. With the laws 'elliptic' and 'fourth_order' it
  *       neglects that the indenter's curvature above a summit changes as the tip moves: no error
  *       for a paraboloid, and a relative error of order (rho_i/R)^2 for a sphere;
- *     level_status: of RSC_LEVEL_LIST;
+ *     level_status: a value of RSC_LEVEL_LIST;
  *     contacts: number of contacts;
  *     overlapping_pairs: pairs of contact spots that overlap;
  *     large_contacts: contacts with a radius above a quarter of the mean spacing;
@@ -607,7 +608,7 @@ RSC_API int32_t rsc_contact_answer(rsc_contact* contact, double* separation, dou
  *     RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_value(rsc_contact* contact, const char* name, double* value);
 
-/* dN/dZ0 of the latest level, negative, 0 without contact; with solids%hardness, the unloading
+/* dN/dZ0 of the latest level: negative, or 0 without contact; with solids%hardness, the unloading
  * stiffness. Costs one more solution of linear equations.
  *     contact: the contact;
  *     stiffness (out) [force/length].
@@ -615,7 +616,7 @@ RSC_API int32_t rsc_contact_value(rsc_contact* contact, const char* name, double
 RSC_API int32_t rsc_contact_stiffness(rsc_contact* contact, double* stiffness);
 
 /* Elastic energy of the latest level, W = sum W_i + F'BF/2, the energies of the asperities and of
- * their interaction. As dW/dZ0 = -N, the kinetic plus elastic energy of a sphere moving on the
+ * their interaction. Because dW/dZ0 = -N, the kinetic plus elastic energy of a sphere moving on the
  * surface is conserved. The error of W is of the order of the squared residual.
  *     contact: the contact;
  *     energy (out) [force length].
@@ -660,8 +661,8 @@ RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, 
  * spot is replaced by a circle of the same area.
  * With solids%adhesion, f is the force giving the same area without adhesion, and the deflection
  * due to the tension is added: for a resultant t < 0, t/(2 E* a) inside and t/(pi E* a) asin(a/d)
- * outside; with adhesion_range, the deflection due to Maugis's cohesive ring. For elements, the
- * deflection is that due to the pressures and tensions of all pixels.
+ * outside; with adhesion_range, the deflection due to Maugis's cohesive ring. For elements: the
+ * deflection due to the pressures and tensions of all pixels.
  *     contact: the contact;
  *     n: number of points, >= 0;
  *     x, y: positions [length];
@@ -678,7 +679,7 @@ RSC_API int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, co
  *     n: number of contacts, >= 0;
  *     contacts: different handles, not used by other threads during the call;
  *     force: N >= 0 for each [force];
- *     separation (out, may be null): Z0 of each, unchanged if the contact failed [length];
+ *     separation (out, may be null): Z0 of each, unchanged after a failure [length];
  *     status (out, may be null): status of rsc_contact_press for each;
  *     threads: 1 or more, 0 for all processors.
  * Errors: -1, -6 out of range; -2 null, a null handle, or one given twice; -3 null with n > 0.
@@ -708,14 +709,13 @@ RSC_API int32_t rsc_contacts_indent(int64_t n, rsc_contact** contacts, const dou
  *       null);
  *     lateral_x, lateral_y (out) [force], moment_x, moment_y (out) [force length]: as in
  *       rsc_contact_value;
- *     level_status (out): of RSC_LEVEL_LIST;
- *     status (out): of rsc_contact_move_tip, _indent or _press for each contact;
+ *     level_status (out): values of RSC_LEVEL_LIST;
+ *     status (out): status of rsc_contact_move_tip, _indent or _press for each;
  *     threads: 1 or more, 0 for all processors.
  * Any output may be null. If a contact fails, its outputs are unchanged, unless the status is
  * RSC_NOT_CONVERGED.
  * Errors: -1, -5, -16 out of range; -2 null, a null handle, or one given twice; -3, -4 only one of
- *     the two is null; -6 null with n > 0. Otherwise RSC_SUCCESS if every contact succeeded, else
- *     the status of the first that failed; a negative status is returned as -2. */
+ *     the two is null; -6 null with n > 0. Otherwise as in rsc_contacts_press. */
 RSC_API int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0,
                                   const double* y0, int32_t by_force, const double* value,
                                   double* separation, double* force, double* stiffness,
@@ -723,13 +723,13 @@ RSC_API int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const doubl
                                   double* moment_y, int32_t* level_status, int32_t* status,
                                   int32_t threads);
 
-/* Saves a contact to a file: tip, options, latest level, loading history (solids%hardness,
- * solids%adhesion) and committed state, but not the asperities or the surface of elements.
- * Afterwards the saved and the restored contact give the same results, bit for bit if elastic. To
- * this end a save discards earlier levels as initial guesses, so results may differ within the
- * tolerance from those without a save. Files depend on the machine type; later versions of the
- * library can read them. The file is written completely or not at all. An existing file is replaced
- * only if it was saved by rsc; links, devices, read-only files and all others are left unchanged.
+/* Saves a contact to a file: tip, options, latest level, loading history and committed state, but
+ * not the asperities or the surface of elements. Afterwards the saved and the restored contact give
+ * the same results, bit for bit if elastic. To this end a save discards earlier levels as initial
+ * guesses, so results may differ within the tolerance from those without a save. Files depend on
+ * the machine type; later versions of the library can read them. The file is written completely or
+ * not at all. An existing file is replaced only if it was saved by rsc; links, devices, read-only
+ * files and all others are left unchanged.
  *     contact: the contact;
  *     path: the file.
  * Errors: -1 null; -2 null or empty; RSC_FILE; RSC_NO_MEMORY; RSC_INTERNAL. */
@@ -779,7 +779,7 @@ RSC_API int32_t rsc_friction_create_from_case(rsc_friction** friction, const rsc
 
 /* Creates an independent copy, including the path.
  *     friction (out): the handle;
- *     original: the friction object to copy.
+ *     original: the object to copy.
  * Errors: -1, -2 null; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_friction_copy(rsc_friction** friction, const rsc_friction* original);
 
@@ -791,7 +791,7 @@ RSC_API int32_t rsc_friction_destroy(rsc_friction** friction);
  * as much as one level, or two if spots slip. The first call defines the start of the path, where
  * the contact is pressed without sliding. Only differences in x and y matter; sliding without
  * contact has no effect.
- *     friction: the friction object;
+ *     friction: the object;
  *     separation: Z0 [length];
  *     x, y: slide, the tangential displacement [length];
  *     force (out, may be null): N [force];
@@ -810,7 +810,7 @@ RSC_API int32_t rsc_friction_update(rsc_friction* friction, double separation, d
  * by the fraction of the force that these asperities carry. The tangential energy cannot increase;
  * its decrease counts as work dissipated by friction. If the path is empty or the tip is already
  * there, only the tip changes. Costs as much as one level for each remembered reversal.
- *     friction: the friction object;
+ *     friction: the object;
  *     x0, y0: the new position [length], as in rsc_contact_move_tip.
  * Errors: -1 null; -2, -3 not finite; -2 outside; RSC_NOT_CONVERGED; RSC_NO_MEMORY, RSC_INTERNAL.
  *     On failures other than RSC_NOT_CONVERGED the state is unchanged. */
@@ -819,14 +819,14 @@ RSC_API int32_t rsc_friction_move_tip(rsc_friction* friction, double x0, double 
 /* Tangential stiffness dQ/d(x, y) for further sliding at this separation in the current direction
  * of slip. If nothing slips, and for reversed sliding, it is S m in all directions, with S =
  * -dN/dZ0. Costs at most as much as one level. All outputs may be null.
- *     friction: the friction object;
+ *     friction: the object;
  *     xx, xy, yx, yy: dQ_x/dx, dQ_x/dy, dQ_y/dx, dQ_y/dy [force/length], 0 without contact.
  * Errors: -1 null; RSC_NOT_CONVERGED; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_friction_stiffness(rsc_friction* friction, double* xx, double* xy, double* yx,
                                        double* yy);
 
 /* State of the path after the latest update. All outputs may be null.
- *     friction: the friction object;
+ *     friction: the object;
  *     separation, x, y: position on the path [length];
  *     force: N [force];
  *     force_x, force_y: Q [force];
@@ -842,19 +842,19 @@ RSC_API int32_t rsc_friction_state(const rsc_friction* friction, double* separat
                                    double* stick_separation);
 
 /* Stores the state for rsc_friction_rollback. The empty path of a new object counts as committed.
- *     friction: the friction object.
+ *     friction: the object.
  * Errors: -1 null; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_friction_commit(rsc_friction* friction);
 
 /* Restores the last committed state.
- *     friction: the friction object.
+ *     friction: the object.
  * Errors: -1 null; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_friction_rollback(rsc_friction* friction);
 
 /* Tangential forces in first loading, for a contact that is pressed to the separation of the latest
  * update and then slid: Q = mu [N(Z0) - N(Z0')], slide = (mu/m) (Z0' - Z0). The path is not
  * changed. Costs as much as one level for each slide below full slip.
- *     friction: the friction object;
+ *     friction: the object;
  *     n: length of the arrays, >= 0;
  *     slide: >= 0 [length];
  *     force (out): Q [force];
@@ -866,7 +866,7 @@ RSC_API int32_t rsc_friction_first_loading(rsc_friction* friction, int64_t n, co
                                            double* force, double* stick_separation);
 
 /* The slide in first loading at which the tangential force is Q.
- *     friction: the friction object;
+ *     friction: the object;
  *     force: 0 <= Q <= mu N [force];
  *     slide (out) [length].
  * Errors: -1 null; -2 out of range; -3 null; RSC_NO_RESULT before the first update and without
@@ -875,7 +875,7 @@ RSC_API int32_t rsc_friction_slide(rsc_friction* friction, double force, double*
 
 /* The onset of full slip in first loading at the separation of the latest update. Both outputs may
  * be null.
- *     friction: the friction object;
+ *     friction: the object;
  *     slide: at the onset [length];
  *     force: mu N [force].
  * Errors: -1 null; RSC_NO_RESULT before the first update and without contact. */
@@ -884,7 +884,7 @@ RSC_API int32_t rsc_friction_full_slip(const rsc_friction* friction, double* sli
 /* Friction at the contact spots of the latest update, in order of asperity index. Costs as much as
  * one level for each remembered reversal of the slide. The number of spots is written even if the
  * arrays are too short.
- *     friction: the friction object;
+ *     friction: the object;
  *     n: length of each array;
  *     count (out, may be null): number of spots;
  *     asperity (out, may be null): indices;
@@ -899,7 +899,7 @@ RSC_API int32_t rsc_friction_spots(rsc_friction* friction, int64_t n, int64_t* c
                                    double* force_x, double* force_y);
 
 /* Saves a friction object, its path and committed state to a file, like rsc_contact_save.
- *     friction: the friction object;
+ *     friction: the object;
  *     path: the file.
  * Errors: -1 null; -2 null or empty; RSC_FILE; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_friction_save(rsc_friction* friction, const char* path);
