@@ -462,8 +462,8 @@ RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
  * radius.
  * With solids%adhesion, attached asperities (or attracting elements) are followed while the tip
  * moves in a straight line (the shortest one on a periodic surface) at the latest separation; the
- * next level includes the jumps on this path. The tip cannot be moved if elements near the edge of
- * an indenter such as a punch attract (-2).
+ * next level includes the jumps on this path. An indenter with an edge, such as a punch, cannot be
+ * moved while asperities or elements near its edge attract (-2).
  * Errors: -1 null; -2, -3 not finite; -2 a position outside a surface that is not periodic;
  *     RSC_NOT_CONVERGED (adhesion: the path is lost), and the tip is not moved; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
