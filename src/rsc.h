@@ -251,7 +251,7 @@ RSC_API int32_t rsc_unlock(void);
  * noise treated according to the keys of &surface.
  *     surface (out): the handle;
  *     a_case: the case, null for the defaults;
- *     realization: number of the realization, any integer.
+ *     realization: any integer.
  * Errors: -1 null; -2 invalid keys of &surface or &run, an unusable file, or a source without
  *     heights ('asperities': use rsc_asperities_make); RSC_NO_MEMORY. */
 RSC_API int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case,
@@ -289,10 +289,9 @@ RSC_API int32_t rsc_surface_destroy(rsc_surface** surface);
  * Errors: -1 null; -2 null, another word, or a sphere that cannot be fitted. */
 RSC_API int32_t rsc_surface_detrend(rsc_surface* surface, const char* how, double* rms);
 
-/* Applies the Gaussian low-pass filter of ISO 16610-61: the amplitude of a wave of length lambda is
- * multiplied by exp(-pi (alpha cutoff/lambda)^2), alpha = sqrt(ln 2/pi). A surface that is not
- * periodic is extended by reflection at its border. No other thread may use the surface during the
- * call.
+/* Applies the Gaussian low-pass filter of ISO 16610-61: waves of length lambda are multiplied by
+ * exp(-pi (alpha cutoff/lambda)^2), alpha = sqrt(ln 2/pi). A surface that is not periodic is
+ * extended by reflection at its border. No other thread may use the surface during the call.
  *     surface: the surface;
  *     cutoff: > 0 [length].
  * Errors: -1 null; -2 not positive or not finite; RSC_NO_MEMORY. */
@@ -653,12 +652,12 @@ RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, 
                                          double* radius, double* penetration);
 
 /* Deflection of the surface by the contact forces, at any points. It is the sum over the contacts
- * of the displacement under and around a Hertz pressure with their force and area (Johnson 1985,
- * section 3.4 and eq. 3.42), and is continuous everywhere. At distance d from the centre of a spot
- * it is 3f/(8 E* a)(2 - d^2/a^2) inside, 3f/(4 pi E* a) [(2 - d^2/a^2) asin(a/d) + sqrt(d^2/a^2 -
- * 1)] outside, and f/(pi E* d) far away. In the solver, spots interact as point forces; the effect
- * of their finite size, about a^2/(10 d^2), is included only here. With laws other than 'hertz', a
- * spot is replaced by a circle of the same area.
+ * of the displacement by a Hertz pressure with their force and area (Johnson 1985, section 3.4 and
+ * eq. 3.42), and is continuous. At distance d from the centre of a spot it is 3f/(8 E* a)(2 -
+ * d^2/a^2) inside, 3f/(4 pi E* a) [(2 - d^2/a^2) asin(a/d) + sqrt(d^2/a^2 - 1)] outside, and f/(pi
+ * E* d) far away. In the solver, spots interact as point forces; the effect of their finite size,
+ * about a^2/(10 d^2), is included only here. With laws other than 'hertz', a spot is replaced by a
+ * circle of the same area.
  * With solids%adhesion, f is the force giving the same area without adhesion, and the deflection
  * due to the tension is added: for a resultant t < 0, t/(2 E* a) inside and t/(pi E* a) asin(a/d)
  * outside; with adhesion_range, the deflection due to Maugis's cohesive ring. For elements: the
