@@ -31,11 +31,12 @@
  *     destroy the old object first. Objects own copies of all arrays they were made from; a surface
  *     or a case may be destroyed while objects made from it are in use.
  * Threads
- *     Different threads may use different handles at the same time. They may share a handle in
- *     functions that take it as pointer to const. NetCDF, HDF5 and the FFTW planner are not
- *     thread-safe: rsc calls them under one global lock, and programs that call these libraries
- *     themselves must take the same lock, rsc_lock. After a fork the child may use its copies of
- *     the handles, and computes with one thread. See "rsc inside your program" in modules/README.
+ *     Different threads may use different handles at the same time. Several threads may pass the
+ *     same handle to functions that take it as pointer to const. NetCDF, HDF5 and the FFTW planner
+ *     are not thread-safe: rsc calls them under one global lock, and programs that call these
+ *     libraries themselves must take the same lock, rsc_lock. After a fork the child may use its
+ *     copies of the handles, and computes with one thread. See "rsc inside your program" in
+ *     modules/README.
  * Numbers
  *     Numbers in arrays, and the parameters of a grid, a sphere or a material, must be finite and
  *     at most 1e50 in magnitude; positive ones must be at least 1e-50. Beyond these limits their
