@@ -12,8 +12,8 @@ class AsperityModel final : public Model, private History {
 public:
     // The asperities are the summits of the surface and must outlive the model. Laws with summits
     // between grid points use the summits of the difference between surface and indenter instead
-    // (shifted_summits.hpp), if options.surface.gentlest_slope is known. Throws Error(bad_input) for
-    // moduli, shapes or options out of range.
+    // (shifted_summits.hpp), if options.surface.gentlest_slope is known. Throws Error(bad_input)
+    // for moduli, shapes or options out of range.
     AsperityModel(const Asperities& asperities, const Indenter& indenter,
                   const SolverOptions& options, MakeAsperityPhysics physics);
     ~AsperityModel() override;

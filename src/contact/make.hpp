@@ -6,8 +6,8 @@
 
 namespace rsc {
 
-// A contact of asperities, with adhesion if options.physics.adhesion.work > 0. The asperities must outlive
-// it. Throws Error(bad_input) for moduli, shapes or options out of range.
+// A contact of asperities, with adhesion if options.physics.adhesion.work > 0. The asperities must
+// outlive it. Throws Error(bad_input) for moduli, shapes or options out of range.
 std::unique_ptr<Path> make_asperity_contact(const Asperities& asperities, const Indenter& indenter,
                                             const SolverOptions& options);
 std::unique_ptr<Path> make_asperity_contact(Asperities&&, const Indenter&,

@@ -55,8 +55,9 @@ int summit_points(const Spectrum& spectrum, int n);
 
 // Asperities of a synthetic surface, detected during synthesis without storing the surface: faster
 // than find_asperities(synthesize(...)), in half the memory, with bitwise the same result (with a
-// lay nearer to the y axis: that of the transposed surface). Throws as synthesize(). With fewer than 4 points in
-// lambda_s, Detail::subgrid uses the smallest multiple of n that has 4; the surface is the same.
+// lay nearer to the y axis: that of the transposed surface). Throws as synthesize(). With
+// fewer than 4 points in lambda_s, Detail::subgrid uses the smallest multiple of n that has 4; the
+// surface is the same.
 // `differences` (optional) receives the moments by finite differences on the n x n grid, as
 // grid_moments(synthesize(...)), computed as exact sums over the modes.
 Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise, std::int64_t seed,

@@ -7,9 +7,9 @@
 
 #include <random>
 
-#include "support/paths.hpp"
 #include "base/parallel.hpp"
 #include "interaction/pairs.hpp"
+#include "support/paths.hpp"
 #include "surface/detection.hpp"
 
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));

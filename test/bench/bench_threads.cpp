@@ -5,12 +5,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "support/paths.hpp"
 #include "base/parallel.hpp"
 #include "bench.hpp"
 #include "case/read_case.hpp"
 #include "run/job.hpp"
 #include "run/team.hpp"
+#include "support/paths.hpp"
 #include "surface/synthesis.hpp"
 
 namespace bench {

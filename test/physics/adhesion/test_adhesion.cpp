@@ -205,8 +205,8 @@ TEST(test_flats_apart) {
     }
 }
 
-// Force control ends at the first state of the force that the path from no contact meets, also where
-// later ones have the same force, because each attachment lowers it.
+// Force control ends at the first state of the force that the path from no contact meets, also
+// where later ones have the same force, because each attachment lowers it.
 TEST(test_first_state) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
         RandomAsperities system = random_asperities(6, 200 + seed, 0.2);
