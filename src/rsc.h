@@ -231,10 +231,10 @@ RSC_API int32_t rsc_case_run_watched(const rsc_case* a_case, rsc_watch watch, vo
 RSC_API int32_t rsc_case_resume(const rsc_case* a_case, rsc_watch watch, void* data,
                                 int64_t* failed_levels);
 
-/* Takes the lock under which rsc calls NetCDF, HDF5 and the FFTW planner; needed to call these
- * libraries yourself while another thread may be in rsc. Waits until no other thread holds the
- * lock. A thread that holds it may call rsc and take it again; it must release it as often as it
- * took it. Hold it as briefly as possible, because other threads in rsc wait for it. Afterwards
+/* Takes the lock under which rsc calls NetCDF, HDF5 and the FFTW planner. Call it before using
+ * these libraries yourself if another thread may be running rsc. Waits until no other thread holds
+ * the lock. A thread that holds it may call rsc and take it again; it must release it as often as
+ * it took it. Hold it as briefly as possible, because other threads in rsc wait for it. Afterwards
  * HDF5 prints no messages in this thread. */
 RSC_API int32_t rsc_lock(void);
 
@@ -252,7 +252,8 @@ RSC_API int32_t rsc_unlock(void);
  * noise treated according to the keys of &surface.
  *     surface (out): the handle;
  *     a_case: the case, null for the defaults;
- *     realization: any integer.
+ *     realization: any integer; if surface%file has wildcards, the number of the file, from 1; no
+ *       effect on a single file.
  * Errors: -1 null; -2 invalid keys of &surface or &run, an unusable file, or a source without
  *     heights ('asperities': use rsc_asperities_make); RSC_NO_MEMORY. */
 RSC_API int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case,
@@ -328,7 +329,7 @@ RSC_API int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, doub
 
 /* Finds the summits of a surface: points higher than their 8 neighbours, with curvatures from
  * second differences.
- *     asperities (out): the handle, never empty;
+ *     asperities (out): the handle;
  *     surface: the surface;
  *     a_case: the case (asperities%curvature defines the radius), null for the defaults.
  * With an asperities%law other than 'hertz', summits are located between grid points, and
@@ -350,7 +351,7 @@ RSC_API int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surfa
  * asperities here, because the program's choice depends on the levels, which are not known yet.
  *     asperities (out): the handle;
  *     a_case: the case, null for the defaults;
- *     realization: any integer, no effect on surfaces from files.
+ *     realization: as in rsc_surface_synthesize; no effect on a list of asperities.
  * Errors: -1 null; -2 invalid keys of &surface, &asperities or &run, or an unusable file;
  *     RSC_NO_MEMORY. */
 RSC_API int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case,
@@ -454,22 +455,23 @@ RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
  * computed.
  *     contact: the contact;
  *     x0, y0: new position [length].
- * On a periodic surface (made from a spectrum, or heights declared periodic) any position is
- * allowed, and rsc_contact_tip returns the equivalent position within the surface's rectangle. Once
- * the tip has been moved, contacts continue across the border of such a surface, half a period to
- * each side of the tip (elements: at least a quarter). On other surfaces the tip must be above the
- * surface or, for asperities from arrays without surface%L, no farther from them than the sphere's
- * radius.
+ * On a periodic surface (generated from a spectrum, or made from heights declared periodic) any
+ * position is allowed, and rsc_contact_tip returns the equivalent position within the surface's
+ * rectangle. Once the tip has been moved, contacts continue across the border of such a surface,
+ * half a period to each side of the tip (elements: at least a quarter). On other surfaces the tip
+ * must be above the surface or, for asperities from arrays without surface%L, no farther from them
+ * than the sphere's radius.
  * With solids%adhesion, attached asperities (or attracting elements) are followed while the tip
  * moves in a straight line (the shortest one on a periodic surface) at the latest separation; the
  * next level includes the jumps on this path. An indenter with an edge, such as a punch, cannot be
  * moved while asperities or elements near its edge attract (-2).
  * Errors: -1 null; -2, -3 not finite; -2 a position outside a surface that is not periodic;
- *     RSC_NOT_CONVERGED (adhesion: the path is lost), and the tip is not moved; RSC_NO_MEMORY. */
+ *     RSC_NOT_CONVERGED if, with adhesion, the path cannot be followed, and the tip is not moved;
+ *     RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
 
-/* Stores the state for rsc_contact_rollback: the tip, the latest level and the loading history. For
- * codes that try a step and may have to repeat it. The initial state of a new contact counts as
+/* Stores the state for rsc_contact_rollback: the tip, the latest level and the loading history. Use
+ * it in codes that may have to repeat a step. The initial state of a new contact counts as
  * committed.
  *     contact: the contact.
  * Errors: -1 null; RSC_NO_MEMORY. */
@@ -501,25 +503,27 @@ RSC_API int32_t rsc_contact_first_touch(const rsc_contact* contact, double* sepa
  *     separation: Z0, height of the tip above z = 0 [length];
  *     force (out, may be null): N, 0 without contact [force].
  * Errors: -1 null; -2 not finite; RSC_NOT_CONVERGED, with the results of the last iterate, or NaN
- *     if the solver found no state (with adhesion, or for two flats pressed too deep for the
- *     asperity model); RSC_NO_MEMORY, RSC_INTERNAL, after which the contact has no result. */
+ *     if the solver found no equilibrium (with adhesion, or if two flats are pressed too far
+ *     together for the asperity model); RSC_NO_MEMORY, RSC_INTERNAL, after which the contact has no
+ *     result. */
 RSC_API int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* force);
 
 /* Sets the time of the following levels, for a body that relaxes (solids%relaxation_share; no
- * effect on other bodies). Between two levels the separation (rsc_contact_press: the force) varies
- * linearly with time, in 16 steps, or fewer if the interval is shorter than the shortest relaxation
- * time. The first level is reached instantaneously. The time is initially 0, keeps its value until
- * it is set again, and is restored by rsc_contact_rollback.
+ * effect on other bodies). Between two levels the separation (in rsc_contact_press, the force)
+ * varies linearly with time; the interval is integrated in 16 steps, or fewer if the interval is
+ * shorter than the shortest relaxation time. The first level is reached instantaneously. The time
+ * is initially 0, keeps its value until it is set again, and is restored by rsc_contact_rollback.
  *     contact: the contact;
  *     time: t, not before that of the latest level [time].
  * Errors: -1 null; -2 not finite, or before the latest level. */
 RSC_API int32_t rsc_contact_set_time(rsc_contact* contact, double time);
 
 /* Sets the total sliding distance at the following levels, for a body that wears
- * (solids%wear_coefficient; no effect on other bodies). Between two levels the separation
- * (rsc_contact_press: the force) varies linearly with the distance, in steps that are halved until
- * the level no longer depends on them (rsc_contact_value, "sliding_error"). The first level is
- * reached without sliding. The distance is initially 0, and is kept and restored like the time.
+ * (solids%wear_coefficient; no effect on other bodies). Between two levels the separation (in
+ * rsc_contact_press, the force) varies linearly with the distance; the steps are halved until the
+ * level no longer depends on them (rsc_contact_value, "sliding_error"). The first level is reached
+ * without sliding. The distance is initially 0, keeps its value until it is set again, and is
+ * restored by rsc_contact_rollback, like the time of rsc_contact_set_time.
  *     contact: the contact;
  *     distance: s, not less than that of the latest level [length].
  * Errors: -1 null; -2 not finite, or less than that of the latest level. */
@@ -545,8 +549,8 @@ RSC_API int32_t rsc_contact_press(rsc_contact* contact, double force, double* se
  *     force: N = sum f [force];
  *     area: A = sum pi a^2; with elliptic spots the area of their union [length^2];
  *     contacts: number of asperities in contact.
- * Errors: -1 null; RSC_NO_RESULT, here and below also if the solver found no state;
- *     rsc_contact_level can still be called then. */
+ * Errors: -1 null; RSC_NO_RESULT, here and below also if the solver found no equilibrium
+ *     (rsc_contact_level can still be called). */
 RSC_API int32_t rsc_contact_result(const rsc_contact* contact, double* separation, double* force,
                                    double* area, int64_t* contacts);
 
@@ -652,13 +656,13 @@ RSC_API int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t
 RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force,
                                          double* radius, double* penetration);
 
-/* Deflection of the surface by the contact forces, at any points. It is the sum over the contacts
- * of the displacement by a Hertz pressure with their force and area (Johnson 1985, section 3.4 and
- * eq. 3.42), and is continuous. At distance d from the centre of a spot it is 3f/(8 E* a)(2 -
- * d^2/a^2) inside, 3f/(4 pi E* a) [(2 - d^2/a^2) asin(a/d) + sqrt(d^2/a^2 - 1)] outside, and f/(pi
- * E* d) far away. In the solver, spots interact as point forces; the effect of their finite size,
- * about a^2/(10 d^2), is included only here. With laws other than 'hertz', a spot is replaced by a
- * circle of the same area.
+/* Deflection of the surface by the contact forces, at any points. It is the sum over the contact
+ * spots of the displacement by a Hertz pressure with the force and area of the spot (Johnson 1985,
+ * section 3.4 and eq. 3.42), and is continuous. At distance d from the centre of a spot it is 3f/(8
+ * E* a)(2 - d^2/a^2) inside, 3f/(4 pi E* a) [(2 - d^2/a^2) asin(a/d) + sqrt(d^2/a^2 - 1)] outside,
+ * and f/(pi E* d) far away. In the solver, spots interact as point forces; the effect of their
+ * finite size, about a^2/(10 d^2), is included only here. With laws other than 'hertz', a spot is
+ * replaced by a circle of the same area.
  * With solids%adhesion, f is the force giving the same area without adhesion, and the deflection
  * due to the tension is added: for a resultant t < 0, t/(2 E* a) inside and t/(pi E* a) asin(a/d)
  * outside; with adhesion_range, the deflection due to Maugis's cohesive ring. For elements: the
@@ -725,11 +729,12 @@ RSC_API int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const doubl
 
 /* Saves a contact to a file: tip, options, latest level, loading history and committed state, but
  * not the asperities or the surface of elements. Afterwards the saved and the restored contact give
- * the same results, bit for bit if elastic. To this end a save discards earlier levels as initial
- * guesses, so results may differ within the tolerance from those without a save. Files depend on
- * the machine type; later versions of the library can read them. The file is written completely or
- * not at all. An existing file is replaced only if it was saved by rsc; links, devices, read-only
- * files and all others are left unchanged.
+ * the same results, bit for bit if elastic. For this, saving makes the contact forget the earlier
+ * levels it uses as initial guesses. Later results may therefore differ, within the tolerance, from
+ * those of a contact that was never saved. Files are not portable between machine types; later
+ * versions of the library can read them. The file is written completely or not at all. An existing
+ * file is replaced only if it was saved by rsc; links, devices, read-only files and all others are
+ * left unchanged.
  *     contact: the contact;
  *     path: the file.
  * Errors: -1 null; -2 null or empty; RSC_FILE; RSC_NO_MEMORY; RSC_INTERNAL. */
@@ -793,10 +798,10 @@ RSC_API int32_t rsc_friction_destroy(rsc_friction** friction);
  * contact has no effect.
  *     friction: the object;
  *     separation: Z0 [length];
- *     x, y: slide, the tangential displacement [length];
+ *     x, y: tangential displacement [length];
  *     force (out, may be null): N [force];
  *     force_x, force_y (out, may be null): tangential force Q [force], initially in the direction
- *       of the slide; the force on the sphere is -Q;
+ *       of the displacement; the force on the sphere is -Q;
  *     lost (out, may be null): work dissipated by friction in this step, >= 0 [force length].
  * Errors: -1 null; -2, -3, -4 not finite; RSC_NOT_CONVERGED, with outputs of the last iterates;
  *     RSC_NO_MEMORY, RSC_INTERNAL. On failures other than RSC_NOT_CONVERGED the state is unchanged.
@@ -804,12 +809,13 @@ RSC_API int32_t rsc_friction_destroy(rsc_friction** friction);
 RSC_API int32_t rsc_friction_update(rsc_friction* friction, double separation, double x, double y,
                                     double* force, double* force_x, double* force_y, double* lost);
 
-/* Moves the tip at the separation of the latest update, for a sphere that rolls onto other
- * asperities. Asperities in contact at both positions keep their share of Q: remembered reversals
- * of the slide keep their relative depth below first contact, and their deflections are multiplied
- * by the fraction of the force that these asperities carry. The tangential energy cannot increase;
- * its decrease counts as work dissipated by friction. If the path is empty or the tip is already
- * there, only the tip changes. Costs as much as one level for each remembered reversal.
+/* Moves the tip sideways at the separation of the latest update. Use it when the sphere rolls onto
+ * other asperities. Asperities in contact at both positions keep their share of Q: remembered
+ * reversals of the tangential displacement keep their relative depth below first contact, and their
+ * deflections are multiplied by the fraction of the force that these asperities carry. If the
+ * tangential energy would increase, the deflections are scaled so that it stays constant; a
+ * decrease counts as work dissipated by friction. If the path is empty or the tip is already there,
+ * only the tip changes. Costs as much as one level for each remembered reversal.
  *     friction: the object;
  *     x0, y0: the new position [length], as in rsc_contact_move_tip.
  * Errors: -1 null; -2, -3 not finite; -2 outside; RSC_NOT_CONVERGED; RSC_NO_MEMORY, RSC_INTERNAL.
@@ -831,7 +837,7 @@ RSC_API int32_t rsc_friction_stiffness(rsc_friction* friction, double* xx, doubl
  *     force: N [force];
  *     force_x, force_y: Q [force];
  *     energy: elastic energy W of the normal problem [force length];
- *     tangential_energy: elastic energy of the slide [force length];
+ *     tangential_energy: elastic energy of the tangential displacement [force length];
  *     lost: work dissipated by friction since the start of the path [force length];
  *     stick_separation: separation at which the contact area would equal the current stick area:
  *       the current separation if all spots stick, that at first contact if all slip [length].
@@ -853,10 +859,10 @@ RSC_API int32_t rsc_friction_rollback(rsc_friction* friction);
 
 /* Tangential forces in first loading, for a contact that is pressed to the separation of the latest
  * update and then slid: Q = mu [N(Z0) - N(Z0')], slide = (mu/m) (Z0' - Z0). The path is not
- * changed. Costs as much as one level for each slide below full slip.
+ * changed. Costs as much as one level for each displacement below full slip.
  *     friction: the object;
  *     n: length of the arrays, >= 0;
- *     slide: >= 0 [length];
+ *     slide: tangential displacements, >= 0 [length];
  *     force (out): Q [force];
  *     stick_separation (out, may be null): Z0' [length].
  * Errors: -1 null; -2 negative; -3 null with n > 0, negative or not finite; -4 null with n > 0;
@@ -865,10 +871,10 @@ RSC_API int32_t rsc_friction_rollback(rsc_friction* friction);
 RSC_API int32_t rsc_friction_first_loading(rsc_friction* friction, int64_t n, const double* slide,
                                            double* force, double* stick_separation);
 
-/* The slide in first loading at which the tangential force is Q.
+/* The tangential displacement in first loading at which the tangential force is Q.
  *     friction: the object;
  *     force: 0 <= Q <= mu N [force];
- *     slide (out) [length].
+ *     slide (out): the displacement [length].
  * Errors: -1 null; -2 out of range; -3 null; RSC_NO_RESULT before the first update and without
  *     contact; RSC_NOT_CONVERGED; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_friction_slide(rsc_friction* friction, double force, double* slide);
@@ -876,14 +882,14 @@ RSC_API int32_t rsc_friction_slide(rsc_friction* friction, double force, double*
 /* The onset of full slip in first loading at the separation of the latest update. Both outputs may
  * be null.
  *     friction: the object;
- *     slide: at the onset [length];
+ *     slide: tangential displacement at the onset [length];
  *     force: mu N [force].
  * Errors: -1 null; RSC_NO_RESULT before the first update and without contact. */
 RSC_API int32_t rsc_friction_full_slip(const rsc_friction* friction, double* slide, double* force);
 
 /* Friction at the contact spots of the latest update, in order of asperity index. Costs as much as
- * one level for each remembered reversal of the slide. The number of spots is written even if the
- * arrays are too short.
+ * one level for each remembered reversal of the displacement. The number of spots is written even
+ * if the arrays are too short.
  *     friction: the object;
  *     n: length of each array;
  *     count (out, may be null): number of spots;

@@ -20,13 +20,13 @@ class FrictionState(NamedTuple):
     """State of the path of a Friction."""
 
     separation: float  # Z0 [length]
-    x: float  # slide [length]
+    x: float  # tangential displacement [length]
     y: float
     force: float  # N [force]
     force_x: float  # tangential force Q [force]
     force_y: float
     energy: float  # elastic, of the normal problem [force length]
-    tangential_energy: float  # elastic, of the slide [force length]
+    tangential_energy: float  # elastic, of (x, y) [force length]
     lost: float  # work lost to friction since the start of the path [force length]
     stick_separation: float  # where the contact area would equal the stick area [length]
 
@@ -42,8 +42,8 @@ class SpotSlip(NamedTuple):
 
 
 class Friction(_Object):
-    """A contact with friction along any path of separations and slides (x, y). For the assumptions
-    see rsc.h, section friction.
+    """A contact with friction along any path of separations and tangential displacements (x, y).
+    For the assumptions see rsc.h, section friction.
 
     Friction(contact, mu, ratio): contact: a Contact, for its asperities, sphere, tip and options;
     mu: coefficient of friction >= 0; ratio: m = 4 G*/E*, see stiffness_ratio. Raises ArgumentError
@@ -71,9 +71,9 @@ class Friction(_Object):
     ) -> tuple[float, float, float, float]:
         """Moves the contact on a straight path to (separation, x, y) and returns (N, Q_x, Q_y, work
         lost in this step). The first call defines the start of the path. separation: Z0; x, y:
-        slide, of which only differences matter [length]. Q is initially along the slide: the force
-        on the sphere is -Q. Raises ArgumentError if a number is not finite, NotConverged (the state
-        is that of the last iterates), Error."""
+        tangential displacement, of which only differences matter [length]. Q is initially in its
+        direction; the force on the sphere is -Q. Raises ArgumentError if a number is not finite,
+        NotConverged (the state is that of the last iterates), Error."""
         return _numbers("rsc_friction_update", self, separation, x, y)
 
     def state(self) -> FrictionState:
@@ -81,14 +81,14 @@ class Friction(_Object):
         return FrictionState(*_numbers("rsc_friction_state", self))
 
     def move_tip(self, x0: float, y0: float) -> None:
-        """Moves the tip at the separation of the last update, for a sphere that rolls onto other
-        asperities: those in contact at both positions keep their share of the tangential force, the
-        rest is lost (rsc.h). x0, y0: the new position [length]. Raises ArgumentError, NotConverged,
-        Error."""
+        """Moves the tip sideways at the separation of the last update. Use it when the sphere
+        rolls onto other asperities: those in contact at both positions keep their share of the
+        tangential force, the rest is lost (rsc.h). x0, y0: the new position [length]. Raises
+        ArgumentError, NotConverged, Error."""
         _call("rsc_friction_move_tip", self, x0, y0)
 
     def stiffness(self) -> NDArray[np.float64]:
-        """Tangential stiffness dQ/d(x, y) for a further slide in the present direction of slip, an
+        """Tangential stiffness dQ/d(x, y) for further sliding in the present direction of slip, an
         array of shape (2, 2) [force/length]. Raises NotConverged, Error."""
         return np.array(_numbers("rsc_friction_stiffness", self)).reshape(2, 2)
 
@@ -101,24 +101,24 @@ class Friction(_Object):
         _call("rsc_friction_rollback", self)
 
     def first_loading(self, slide: ArrayLike) -> NDArray[np.float64]:
-        """Tangential force Q of a contact pressed to the last separation without slide and then
-        slid [force], in the shape of slide; the path is not changed. slide: >= 0, float64, shape
-        (n,) [length]. Raises ArgumentError for a slide that is negative or not finite,
-        NotConverged, Error (no result without contact)."""
+        """Tangential force Q of a contact pressed to the last separation without sliding and then
+        slid [force], in the shape of slide; the path is not changed. slide: tangential
+        displacements >= 0, float64, shape (n,) [length]. Raises ArgumentError if one is negative or
+        not finite, NotConverged, Error (no result without contact)."""
         slides = _array("slide", slide, (None,))
         force = np.empty(slides.shape)
         _call("rsc_friction_first_loading", self, slides.size, slides, force, None)
         return force
 
     def slide(self, force: float) -> float:
-        """The slide of first loading at which the tangential force is Q [length]. force: 0 <= Q <=
-        mu N [force]. Raises ArgumentError out of range, NotConverged, Error (no result without
-        contact)."""
+        """The tangential displacement in first loading at which the tangential force is Q [length].
+        force: 0 <= Q <= mu N [force]. Raises ArgumentError out of range, NotConverged, Error (no
+        result without contact)."""
         return _number("rsc_friction_slide", self, force)
 
     def full_slip(self) -> tuple[float, float]:
-        """The slide of full slip in first loading [length] and the force mu N [force]. Raises Error
-        (no result without contact)."""
+        """The tangential displacement at the onset of full slip in first loading [length] and the
+        force mu N [force]. Raises Error (no result without contact)."""
         return _numbers("rsc_friction_full_slip", self)
 
     def spots(self) -> SpotSlip:
