@@ -83,8 +83,9 @@ extern "C" {
 enum { RSC_STATUS_LIST(RSC_STATUS_ENUMERATOR) RSC_STATUS_LAST_ = RSC_STOPPED };
 #undef RSC_STATUS_ENUMERATOR
 
-/* Status of a computed level (rsc_contact_level); larger values are more serious. The variable
- * `status` of a result file has the same values. */
+/* Status of a computed level (rsc_contact_level). If several apply, the level has the first of
+ * not converged, out of validity, not unique, overlapping. The variable `status` of a result file
+ * has the same values. */
 #define RSC_LEVEL_LIST(X)                                                  \
     X(RSC_LEVEL_CONVERGED, 0, "converged")                                 \
     X(RSC_LEVEL_OUT_OF_VALIDITY, 1,                                        \
