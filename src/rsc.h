@@ -22,8 +22,8 @@
  *     program, prints, or throws a C++ exception.
  * After a failure
  *     Output arguments keep their values, with two exceptions: a constructor sets its handle to
- *     null, and RSC_NOT_CONVERGED means that all outputs are written (see rsc_contact_indent).
- *     Handles remain usable.
+ *     null, and after RSC_NOT_CONVERGED all outputs are nevertheless written (see
+ *     rsc_contact_indent). Handles remain usable.
  * Handles
  *     Constructors (_create, _copy, _synthesize, _find, _make, _take, _restore, ...) create them.
  *     _destroy takes the address of a handle, frees the object and sets the handle to null;
@@ -32,15 +32,16 @@
  *     or a case may be destroyed while objects made from it are in use.
  * Threads
  *     Different threads may use different handles at the same time. Several threads may pass the
- *     same handle to functions that take it as pointer to const. NetCDF, HDF5 and the FFTW planner
- *     are not thread-safe: rsc calls them under one global lock, and programs that call these
- *     libraries themselves must take the same lock, rsc_lock. After a fork the child may use its
- *     copies of the handles, and computes with one thread. See "rsc inside your program" in
+ *     same handle to functions that take it as a pointer to const. NetCDF, HDF5 and the FFTW
+ *     planner are not thread-safe: rsc calls them under one global lock, and programs that call
+ *     these libraries themselves must take the same lock, rsc_lock. After a fork the child may use
+ *     its copies of the handles, and computes with one thread. See "rsc inside your program" in
  *     modules/README.
  * Numbers
  *     Numbers in arrays, and the parameters of a grid, a sphere or a material, must be finite and
- *     at most 1e50 in magnitude; positive ones must be at least 1e-50. Beyond these limits their
- *     squares and powers would overflow. "Not finite" and "not positive" include these limits.
+ *     at most 1e50 in magnitude; quantities that must be positive must be at least 1e-50. Beyond
+ *     these limits their squares and powers would overflow or vanish. "Not finite" and "not
+ *     positive" include these limits.
  * Arrays
  *     The caller allocates them and passes their length; indices count from 0. Outputs marked "may
  *     be null" may be passed as NULL if they are not needed. Two-dimensional arrays are stored with
@@ -145,10 +146,10 @@ RSC_API int32_t rsc_case_copy(rsc_case** new_case, const rsc_case* original);
  * Errors: -1 null address. */
 RSC_API int32_t rsc_case_destroy(rsc_case** old_case);
 
-/* Sets all keys from a namelist text; keys not in the text get their defaults.
+/* Sets all keys from namelist text; keys not in the text get their defaults.
  *     a_case: the case;
  *     text: namelist input as for the program, but without &study.
- * Errors: -1, -2 null; -2 errors in the text, with one line of the message for each; RSC_NO_MEMORY.
+ * Errors: -1, -2 null; -2 errors in the text (one line of the message for each); RSC_NO_MEMORY.
  *     On failure the case is unchanged. */
 RSC_API int32_t rsc_case_read(rsc_case* a_case, const char* text);
 
@@ -178,7 +179,7 @@ RSC_API int32_t rsc_case_set(rsc_case* a_case, const char* name, const char* val
 RSC_API int32_t rsc_case_get(const rsc_case* a_case, const char* name, char* buffer, int64_t size,
                              int64_t* length);
 
-/* All keys and their values as a namelist text. If rsc_case_read accepts this text, it restores the
+/* All keys and their values as namelist text. If rsc_case_read accepts this text, it restores the
  * same values.
  *     a_case: the case;
  *     buffer, size, length: text output.
@@ -328,8 +329,8 @@ RSC_API int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, doub
 
 /* ---- asperities ------------------------------------------------------------------------------ */
 
-/* Finds the summits of a surface: points higher than their 8 neighbours, with curvatures from
- * second differences.
+/* Finds the summits of a surface: points higher than their 8 neighbours. Their curvatures are
+ * computed from second differences.
  *     asperities (out): the handle;
  *     surface: the surface;
  *     a_case: the case (asperities%curvature defines the radius), null for the defaults.
@@ -345,11 +346,12 @@ RSC_API int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, doub
 RSC_API int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surface,
                                     const rsc_case* a_case);
 
-/* Makes the asperities given by surface%source, as the program does: the summits of the surface of
- * rsc_surface_synthesize, or the list in surface%file. A synthetic surface is not stored: this is
- * faster, takes half the memory and allows any grid for every asperities%law. With solver%model =
- * 'elements': the points of the surface on the grid of elements%points_per_wave. 'auto' means
- * asperities here, because the program's choice depends on the levels, which are not known yet.
+/* Creates the asperities given by surface%source, as the program does: the summits of the surface
+ * that rsc_surface_synthesize would create, or the list in surface%file. A synthetic surface is not
+ * stored: this is faster, takes half the memory and allows any grid for every asperities%law. With
+ * solver%model = 'elements': the points of the surface on the grid of elements%points_per_wave.
+ * 'auto' means asperities here, because the program's choice depends on the levels, which are not
+ * known yet.
  *     asperities (out): the handle;
  *     a_case: the case, null for the defaults;
  *     realization: as in rsc_surface_synthesize; no effect on a list of asperities.
@@ -443,7 +445,7 @@ RSC_API int32_t rsc_contact_create_from_case(rsc_contact** contact,
 /* Creates an independent copy of a contact, including its latest level, loading history and
  * committed state.
  *     contact (out): the handle;
- *     original: the contact; meanwhile other threads may call only functions that take it as
+ *     original: the contact; meanwhile other threads may call only functions that take it as a
  *       pointer to const.
  * Errors: -1, -2 null; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* original);
@@ -467,7 +469,7 @@ RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
  * next level includes the jumps on this path. An indenter with an edge, such as a punch, cannot be
  * moved while asperities or elements near its edge attract (-2).
  * Errors: -1 null; -2, -3 not finite; -2 a position outside a surface that is not periodic;
- *     RSC_NOT_CONVERGED if, with adhesion, the path cannot be followed, and the tip is not moved;
+ *     RSC_NOT_CONVERGED if, with adhesion, the path cannot be followed (the tip is then not moved);
  *     RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
 
@@ -497,8 +499,8 @@ RSC_API int32_t rsc_contact_tip(const rsc_contact* contact, double* x0, double* 
 RSC_API int32_t rsc_contact_first_touch(const rsc_contact* contact, double* separation);
 
 /* Computes the contact at a given separation. Within the tolerance, the result depends only on the
- * bodies, the position of the tip, the separation and the loading history, if there is one.
- * Otherwise earlier calls and the path of the tip have no effect. A level close to the latest one
+ * bodies, the position of the tip, the separation and the loading history, if there is one. Apart
+ * from that, earlier calls and the path of the tip have no effect. A level close to the latest one
  * is computed faster; the latest one itself is not computed again, except with adhesion.
  *     contact: the contact;
  *     separation: Z0, height of the tip above z = 0 [length];
@@ -509,22 +511,23 @@ RSC_API int32_t rsc_contact_first_touch(const rsc_contact* contact, double* sepa
  *     result. */
 RSC_API int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* force);
 
-/* Sets the time of the following levels, for a body that relaxes (solids%relaxation_share; no
- * effect on other bodies). Between two levels the separation (in rsc_contact_press, the force)
- * varies linearly with time; the interval is integrated in 16 steps, or fewer if the interval is
- * shorter than the shortest relaxation time. The first level is reached instantaneously. The time
- * is initially 0, keeps its value until it is set again, and is restored by rsc_contact_rollback.
+/* Sets the time for subsequent levels. Affects only bodies that relax (solids%relaxation_share).
+ * Between two levels the separation (in rsc_contact_press, the force) varies linearly with time;
+ * the interval is integrated in 16 steps, or fewer if the interval is shorter than the shortest
+ * relaxation time. The first level is reached instantaneously. The time is initially 0, keeps its
+ * value until it is set again, and is restored by rsc_contact_rollback.
  *     contact: the contact;
  *     time: t, not before that of the latest level [time].
  * Errors: -1 null; -2 not finite, or before the latest level. */
 RSC_API int32_t rsc_contact_set_time(rsc_contact* contact, double time);
 
-/* Sets the total sliding distance at the following levels, for a body that wears
- * (solids%wear_coefficient; no effect on other bodies). Between two levels the separation (in
- * rsc_contact_press, the force) varies linearly with the distance; the steps are halved until the
- * level no longer depends on them (rsc_contact_value, "sliding_error"). The first level is reached
- * without sliding. The distance is initially 0, keeps its value until it is set again, and is
- * restored by rsc_contact_rollback, like the time of rsc_contact_set_time.
+/* Sets the cumulative sliding distance for subsequent levels. Affects only bodies with wear
+ * (solids%wear_coefficient). The interval between two levels is divided into steps, over which the
+ * separation (in rsc_contact_press, the force) varies linearly with the distance; the steps are
+ * halved, at most seven times, until the result changes by less than 0.2 % (rsc_contact_value,
+ * "sliding_error"). The first level is reached without sliding. The distance is initially 0, keeps
+ * its value until it is set again, and is restored by rsc_contact_rollback, like the time of
+ * rsc_contact_set_time.
  *     contact: the contact;
  *     distance: s, not less than that of the latest level [length].
  * Errors: -1 null; -2 not finite, or less than that of the latest level. */
@@ -550,8 +553,9 @@ RSC_API int32_t rsc_contact_press(rsc_contact* contact, double force, double* se
  *     force: N = sum f [force];
  *     area: A = sum pi a^2; with elliptic spots the area of their union [length^2];
  *     contacts: number of asperities in contact.
- * Errors: -1 null; RSC_NO_RESULT, here and below also if the solver found no equilibrium
- *     (rsc_contact_level can still be called). */
+ * Errors: -1 null; RSC_NO_RESULT if no level has been computed or the solver found no equilibrium.
+ *     This applies to all contact functions below; but without equilibrium, rsc_contact_level and
+ *     rsc_contact_value still return status and solver data. */
 RSC_API int32_t rsc_contact_result(const rsc_contact* contact, double* separation, double* force,
                                    double* area, int64_t* contacts);
 
@@ -620,9 +624,9 @@ RSC_API int32_t rsc_contact_value(rsc_contact* contact, const char* name, double
  * Errors: -1, -2 null; RSC_NO_RESULT, also if the value is not finite; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_stiffness(rsc_contact* contact, double* stiffness);
 
-/* Elastic energy of the latest level, W = sum W_i + F'BF/2, the energies of the asperities and of
- * their interaction. Because dW/dZ0 = -N, the kinetic plus elastic energy of a sphere moving on the
- * surface is conserved. The error of W is of the order of the squared residual.
+/* Elastic energy of the latest level, W = sum W_i + F'BF/2: the energies of the asperities plus
+ * that of their interaction. Because dW/dZ0 = -N, the kinetic plus elastic energy of a sphere
+ * moving on the surface is conserved. The error of W is of the order of the squared residual.
  *     contact: the contact;
  *     energy (out) [force length].
  * Errors: -1, -2 null; RSC_NO_RESULT, also if the value is not finite. */
@@ -644,7 +648,7 @@ RSC_API int32_t rsc_contact_asperities(rsc_asperities** asperities, const rsc_co
  *     asperity (out, may be null): indices;
  *     force (out, may be null) [force];
  *     radius (out, may be null): contact radius a, defined by the area pi a^2 [length];
- *     penetration (out, may be null): of the asperity, including the interaction [length].
+ *     penetration (out, may be null): that of the asperity, including the interaction [length].
  * Errors: -1 null; -2 too short; RSC_NO_RESULT. */
 RSC_API int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperity,
                                   double* force, double* radius, double* penetration);
@@ -658,12 +662,12 @@ RSC_API int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, 
                                          double* radius, double* penetration);
 
 /* Deflection of the surface by the contact forces, at any points. It is the sum over the contact
- * spots of the displacement by a Hertz pressure with the force and area of the spot (Johnson 1985,
- * section 3.4 and eq. 3.42), and is continuous. At distance d from the centre of a spot it is 3f/(8
- * E* a)(2 - d^2/a^2) inside, 3f/(4 pi E* a) [(2 - d^2/a^2) asin(a/d) + sqrt(d^2/a^2 - 1)] outside,
- * and f/(pi E* d) far away. In the solver, spots interact as point forces; the effect of their
- * finite size, about a^2/(10 d^2), is included only here. With laws other than 'hertz', a spot is
- * replaced by a circle of the same area.
+ * spots of the displacement due to a Hertz pressure with the force and area of the spot (Johnson
+ * 1985, section 3.4 and eq. 3.42), and is continuous. At distance d from the centre of a spot it is
+ * 3f/(8 E* a)(2 - d^2/a^2) inside, 3f/(4 pi E* a) [(2 - d^2/a^2) asin(a/d) + sqrt(d^2/a^2 - 1)]
+ * outside, and f/(pi E* d) far away. In the solver, spots interact as point forces; the effect of
+ * their finite size, about a^2/(10 d^2), is included only here. With laws other than 'hertz', a
+ * spot is replaced by a circle of the same area.
  * With solids%adhesion, f is the force giving the same area without adhesion, and the deflection
  * due to the tension is added: for a resultant t < 0, t/(2 E* a) inside and t/(pi E* a) asin(a/d)
  * outside; with adhesion_range, the deflection due to Maugis's cohesive ring. For elements: the
@@ -732,7 +736,7 @@ RSC_API int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const doubl
  * not the asperities or the surface of elements. Afterwards the saved and the restored contact give
  * the same results, bit for bit if elastic. For this, saving makes the contact forget the earlier
  * levels it uses as initial guesses. Later results may therefore differ, within the tolerance, from
- * those of a contact that was never saved. Files are not portable between machine types; later
+ * those of a contact that was never saved. Files are not portable between machine types, but later
  * versions of the library can read them. The file is written completely or not at all. An existing
  * file is replaced only if it was saved by rsc; links, devices, read-only files and all others are
  * left unchanged.
@@ -804,19 +808,20 @@ RSC_API int32_t rsc_friction_destroy(rsc_friction** friction);
  *     force_x, force_y (out, may be null): tangential force Q [force], initially in the direction
  *       of the displacement; the force on the sphere is -Q;
  *     lost (out, may be null): work dissipated by friction in this step, >= 0 [force length].
- * Errors: -1 null; -2, -3, -4 not finite; RSC_NOT_CONVERGED, with outputs of the last iterates;
+ * Errors: -1 null; -2, -3, -4 not finite; RSC_NOT_CONVERGED, with the results of the last iterate;
  *     RSC_NO_MEMORY, RSC_INTERNAL. On failures other than RSC_NOT_CONVERGED the state is unchanged.
  */
 RSC_API int32_t rsc_friction_update(rsc_friction* friction, double separation, double x, double y,
                                     double* force, double* force_x, double* force_y, double* lost);
 
 /* Moves the tip sideways at the separation of the latest update. Use it when the sphere rolls onto
- * other asperities. Asperities in contact at both positions keep their share of Q: remembered
- * reversals of the tangential displacement keep their relative depth below first contact, and their
- * deflections are multiplied by the fraction of the force that these asperities carry. If the
- * tangential energy would increase, the deflections are scaled so that it stays constant; a
- * decrease counts as work dissipated by friction. If the path is empty or the tip is already there,
- * only the tip changes. Costs as much as one level for each remembered reversal.
+ * other asperities. Asperities in contact at both positions keep their part of Q. Each stored
+ * reversal of the tangential displacement keeps its depth as a fraction of the approach since first
+ * contact; its deflection changes in proportion to this approach, and is multiplied by the fraction
+ * of the normal force carried by these asperities. If the tangential energy would increase, the
+ * deflections are scaled so that it stays constant; a decrease counts as work dissipated by
+ * friction. If the path is empty or the tip is already there, only the tip changes. Costs as much
+ * as one level for each stored reversal.
  *     friction: the object;
  *     x0, y0: the new position [length], as in rsc_contact_move_tip.
  * Errors: -1 null; -2, -3 not finite; -2 outside; RSC_NOT_CONVERGED; RSC_NO_MEMORY, RSC_INTERNAL.
@@ -867,8 +872,8 @@ RSC_API int32_t rsc_friction_rollback(rsc_friction* friction);
  *     force (out): Q [force];
  *     stick_separation (out, may be null): Z0' [length].
  * Errors: -1 null; -2 negative; -3 null with n > 0, negative or not finite; -4 null with n > 0;
- *     RSC_NO_RESULT before the first update and without contact; RSC_NOT_CONVERGED; RSC_NO_MEMORY.
- */
+ *     RSC_NO_RESULT before the first update, or if there is no contact; RSC_NOT_CONVERGED;
+ *     RSC_NO_MEMORY. */
 RSC_API int32_t rsc_friction_first_loading(rsc_friction* friction, int64_t n, const double* slide,
                                            double* force, double* stick_separation);
 
@@ -876,8 +881,8 @@ RSC_API int32_t rsc_friction_first_loading(rsc_friction* friction, int64_t n, co
  *     friction: the object;
  *     force: 0 <= Q <= mu N [force];
  *     slide (out): the displacement [length].
- * Errors: -1 null; -2 out of range; -3 null; RSC_NO_RESULT before the first update and without
- *     contact; RSC_NOT_CONVERGED; RSC_NO_MEMORY. */
+ * Errors: -1 null; -2 out of range; -3 null; RSC_NO_RESULT before the first update, or if there is
+ *     no contact; RSC_NOT_CONVERGED; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_friction_slide(rsc_friction* friction, double force, double* slide);
 
 /* The onset of full slip in first loading at the separation of the latest update. Both outputs may
@@ -885,11 +890,11 @@ RSC_API int32_t rsc_friction_slide(rsc_friction* friction, double force, double*
  *     friction: the object;
  *     slide: tangential displacement at the onset [length];
  *     force: mu N [force].
- * Errors: -1 null; RSC_NO_RESULT before the first update and without contact. */
+ * Errors: -1 null; RSC_NO_RESULT before the first update, or if there is no contact. */
 RSC_API int32_t rsc_friction_full_slip(const rsc_friction* friction, double* slide, double* force);
 
 /* Friction at the contact spots of the latest update, in order of asperity index. Costs as much as
- * one level for each remembered reversal of the displacement. The number of spots is written even
+ * one level for each stored reversal of the displacement. The number of spots is written even
  * if the arrays are too short.
  *     friction: the object;
  *     n: length of each array;

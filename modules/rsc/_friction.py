@@ -73,7 +73,7 @@ class Friction(_Object):
         lost in this step). The first call defines the start of the path. separation: Z0; x, y:
         tangential displacement, of which only differences matter [length]. Q is initially in its
         direction; the force on the sphere is -Q. Raises ArgumentError if a number is not finite,
-        NotConverged (the state is that of the last iterates), Error."""
+        NotConverged (the state is that of the last iterate), Error."""
         return _numbers("rsc_friction_update", self, separation, x, y)
 
     def state(self) -> FrictionState:

@@ -239,8 +239,8 @@ std::vector<Key> keys_of_surface() {
             "part that differ as much from its filling; 0: none; 6 removes spikes and keeps "
             "roughness"),
         list(RSC_KEY(surface, missing_value), 16, "", kAny, "none",
-             "heights that mean a missing point, as they stand in a text or NetCDF file; of .gwy "
-             "and .sdf in run%length_unit"),
+             "heights that mean a missing point: for text and NetCDF, as written in the file; for "
+             ".gwy and .sdf, in run%length_unit"),
     };
 }
 
