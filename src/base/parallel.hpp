@@ -53,6 +53,14 @@ void parallel_for(Index n, int grain, int threads, Body&& body) {
                     });
 }
 
+// The sum of part(k) for k = 0 ... n - 1, added in their order whichever threads compute them.
+template <class Sum = double, class Index, class Part>
+Sum sum_in_order(Index n, int grain, int threads, Part&& part) {
+    std::vector<Sum> parts(static_cast<std::size_t>(n));
+    parallel_for(n, grain, threads, [&](Index k) { parts[static_cast<std::size_t>(k)] = part(k); });
+    return std::accumulate(parts.begin(), parts.end(), Sum{});
+}
+
 // Sets `found` to the numbers k = 0 ... n - 1 for which test(k), in their order; test(k) is called
 // once for each.
 template <class Test>

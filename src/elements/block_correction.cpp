@@ -69,14 +69,12 @@ void BlockCorrection::subtract(const PixelSet& set, const float* r, float* y, in
     // Solves (1 + D^1/2 F D^1/2) z = D^-1/2 P' M r. The wanted field is then F D^1/2 z.
     std::vector<float> residual = sums(set, r, threads), z(residual.size(), 0.0f), direction, image;
     // The sum of add(i), which also changes the vectors.
-    std::vector<double> partial(at(my_));
     const auto sum = [&](auto&& add) {
-        parallel_for(my_, kBlockRows, threads, [&](int J) {
+        return sum_in_order(my_, kBlockRows, threads, [&](int J) {
             double part = 0;
             for (std::size_t i = at(J) * at(mx_); i < at(J + 1) * at(mx_); ++i) part += add(i);
-            partial[at(J)] = part;
+            return part;
         });
-        return std::accumulate(partial.begin(), partial.end(), 0.0);
     };
     const auto product = [](float a, float b) {
         return static_cast<double>(a) * static_cast<double>(b);

@@ -23,14 +23,13 @@ template <class F>
 double BoundedSolver::sum_free(F&& of) {
     if (manner_.repeats) return sum(of);
     const std::size_t n = free_list_.size();
-    std::vector<double> partial((n + kPixels - 1) / kPixels);
-    parallel_for(partial.size(), 1, threads_for(n), [&](std::size_t piece) {
+    const std::size_t pieces = (n + kPixels - 1) / kPixels;
+    return sum_in_order(pieces, 1, threads_for(n), [&](std::size_t piece) {
         double part = 0;
         for (std::size_t k = piece * kPixels; k < std::min(n, (piece + 1) * kPixels); ++k)
             part += of(at(free_list_[k]));
-        partial[piece] = part;
+        return part;
     });
-    return std::accumulate(partial.begin(), partial.end(), 0.0);
 }
 
 template <class F>

@@ -141,13 +141,11 @@ private:
 template <class Sum, class F>
 Sum BoundedSolver::sum_with(F&& add) const {
     const int rows = static_cast<int>(rows_.size()) - 1;
-    std::vector<Sum> partial(at(rows));
-    parallel_for(rows, kRows, threads_for(p_.size()), [&](int j) {
+    return sum_in_order<Sum>(rows, kRows, threads_for(p_.size()), [&](int j) {
         Sum part{};
         for (std::size_t k = rows_[at(j)]; k < rows_[at(j) + 1]; ++k) add(part, k);
-        partial[at(j)] = part;
+        return part;
     });
-    return std::accumulate(partial.begin(), partial.end(), Sum{});
 }
 
 }  // namespace rsc

@@ -28,13 +28,12 @@ constexpr double kRounding = 1e-12;  // rounding error of separations, in rms he
 // Mean of a function of the heights.
 template <class F>
 double PeriodicElements::mean_of(F&& f) const {
-    std::vector<double> means(at(relief_.ny));
-    parallel_for(relief_.ny, kRows, threads(), [&](int j) {
+    const double means = sum_in_order(relief_.ny, kRows, threads(), [&](int j) {
         double row = 0;
         for (int i = 0; i < relief_.nx; ++i) row += f(relief_.z[j * relief_.stride + i]);
-        means[at(j)] = row / relief_.nx;
+        return row / relief_.nx;
     });
-    return std::accumulate(means.begin(), means.end(), 0.0) / relief_.ny;
+    return means / relief_.ny;
 }
 
 double PeriodicElements::mean_height() const {
@@ -223,9 +222,8 @@ void PeriodicElements::multiply(const std::vector<double>& x, std::vector<double
 
 // Also collects the penetrating pixels for renew().
 double PeriodicElements::outside() {
-    partial_.resize(at(relief_.ny));
     outside_.resize(at(relief_.ny));
-    parallel_for(relief_.ny, kRows, threads(), [&](int j) {
+    return sum_in_order(relief_.ny, kRows, threads(), [&](int j) {
         const float* const inner = inner_.row(j);
         const double* const exact = exact_ ? fine_->row(j) : nullptr;
         std::vector<Penetration>& found = outside_[at(j)];
@@ -243,9 +241,8 @@ double PeriodicElements::outside() {
                 }
             }
         }
-        partial_[at(j)] = part;
+        return part;
     });
-    return std::accumulate(partial_.begin(), partial_.end(), 0.0);
 }
 
 // Renews the set: pixels under pressure, and penetrating pixels without pressure. Those outside the

@@ -136,7 +136,6 @@ private:
     long products_ = 0;
     bool exact_ = false;                // the last product with p is in fine_ (true) or inner_
     std::vector<std::int32_t> column_;  // of the set
-    std::vector<double> partial_;
     struct Penetration {
         std::int32_t column;
         double w;

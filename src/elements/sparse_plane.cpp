@@ -208,16 +208,14 @@ void SplitPixels::multiply(SparsePlane& plane, const PixelSet& set, const std::v
     x_.resize(x.size());
     y_.resize(x.size());
     Kx.resize(x.size());
-    std::vector<double> of_row(at(ny_));
-    parallel_for(ny_, kRows, threads, [&](int j) {
+    const double total = sum_in_order(ny_, kRows, threads, [&](int j) {
         double sum = 0;
         for (std::size_t k = set.rows[at(j)]; k < set.rows[at(j) + 1]; ++k) {
             x_[k] = static_cast<float>(x[k]);
             sum += x[k];
         }
-        of_row[at(j)] = sum;
+        return sum;
     });
-    const double total = std::accumulate(of_row.begin(), of_row.end(), 0.0);
     plane.convolve(near_, set, x_.data(), y_.data(), threads);
     // The near part of a uniform pressure, which deflects nothing.
     const double uniform =

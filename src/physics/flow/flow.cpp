@@ -7,36 +7,24 @@ namespace {
 
 constexpr int kRows = 16;  // that a thread takes at a time
 
-// The sum of of_row(the gaps of a row) over the rows, in their order.
-template <class Sum, class OfRow>
-Sum sum_of_rows(const GapMap& map, Sum all, OfRow&& of_row) {
-    std::vector<Sum> rows(static_cast<std::size_t>(map.ny), all);
-    const auto nx = static_cast<std::size_t>(map.nx);
-    parallel_for(rows.size(), kRows, 0,
-                 [&](std::size_t j) { of_row(rows[j], map.gap.subspan(j * nx, nx)); });
-    for (const Sum& row : rows) all += row;
-    return all;
-}
-
 struct OpenGap {
     double sum = 0;
     std::size_t open = 0;
-    void operator+=(const OpenGap& other) {
-        sum += other.sum;
-        open += other.open;
-    }
+    OpenGap operator+(const OpenGap& o) const { return {sum + o.sum, open + o.open}; }
 };
 
 }  // namespace
 
 void add_gap(LevelValues& level, const GapMap& map) {
-    const auto [sum, open] =
-        sum_of_rows(map, OpenGap{}, [](OpenGap& row, std::span<const double> gaps) {
-            for (const double g : gaps) {
-                row.sum += g;
-                row.open += g > 0 ? 1 : 0;
-            }
-        });
+    const auto nx = static_cast<std::size_t>(map.nx);
+    const auto [sum, open] = sum_in_order<OpenGap>(map.ny, kRows, 0, [&](int j) {
+        OpenGap row;
+        for (const double g : map.gap.subspan(static_cast<std::size_t>(j) * nx, nx)) {
+            row.sum += g;
+            row.open += g > 0 ? 1 : 0;
+        }
+        return row;
+    });
     level.gap_mean = sum / static_cast<double>(map.points());
     level.gap_mean_open = open > 0 ? sum / static_cast<double>(open) : 0;
     const Openings openings(
