@@ -149,8 +149,9 @@ double expected_megabytes(const Job& job, double workers) {
                 std::min(bytes * values, most_bytes * 2.0 * kMostKeptValues) * contacts_at_once);
     }
     // Bytes for each point of the surface (heights, modes; transforms of two flats), and for each
-    // point under the indenter or in contact, from the peaks of some 40 runs; a single realization
-    // keeps the pixels of all its levels, and the result some numbers a level.
+    // point under the indenter or in contact, from the peaks of some 40 runs (of the largest tables
+    // of interpolation, of two); a single realization keeps the pixels of all its levels, and the
+    // result some numbers a level. Stresses below the surface are not counted.
     constexpr double program = 40e6, tables = 90e6, table = 1500, record = 0.3e6;
     constexpr double under = 170, adhesion = 49, lowered = 8, states = 50;
     constexpr double flats = 28, touching = 150, pixel = 24;
