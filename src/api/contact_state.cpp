@@ -3,6 +3,7 @@
 #include "api/guard.hpp"
 #include "api/handles.hpp"
 
+using namespace rsc;
 using namespace rsc::api;
 
 namespace rsc::api {
@@ -56,14 +57,14 @@ Indenter surrounded(Indenter indenter, const SurfaceDomain& domain) {
 
 }  // namespace rsc::api
 
-rsc_contact::rsc_contact(std::shared_ptr<const rsc::SurfaceModel> on_,
-                         std::shared_ptr<const rsc::Case> keys_, const rsc::Indenter& indenter)
+rsc_contact::rsc_contact(std::shared_ptr<const SurfaceModel> on_, std::shared_ptr<const Case> keys_,
+                         const Indenter& indenter)
     : on(std::move(on_)),
       keys(std::move(keys_)),
-      options(rsc::solver_of(*keys, domain_of(*keys, *on))),
-      owned(rsc::make_contact(*on, indenter, options)),
+      options(solver_of(*keys, domain_of(*keys, *on))),
+      owned(make_contact(*on, indenter, options)),
       path(*owned),
-      judge(options, rsc::JudgedSurface{on->points.get()}),
+      judge(options, JudgedSurface{on->points.get()}),
       committed(path.state()) {}
 
 rsc_contact::rsc_contact(const rsc_contact& like)
@@ -71,8 +72,8 @@ rsc_contact::rsc_contact(const rsc_contact& like)
     given = like.given;
 }
 
-rsc::Indenter rsc_contact::indenter_at_level() const {
-    rsc::Indenter tip = path.indenter();
+Indenter rsc_contact::indenter_at_level() const {
+    Indenter tip = path.indenter();
     tip.x0 = path.place_of_level().x;
     tip.y0 = path.place_of_level().y;
     return tip;

@@ -40,8 +40,7 @@ double digest(const SurfaceModel& on) {
     }
     if (on.points)
         for (int j = 0; j < on.points->ny; ++j)
-            hash = mix(hash, on.points->row(j),
-                       static_cast<std::size_t>(on.points->nx) * sizeof(double));
+            hash = mix(hash, on.points->row(j), at(on.points->nx) * sizeof(double));
     return static_cast<double>(hash >> 11);  // exact as a double
 }
 
@@ -86,10 +85,10 @@ void write(const std::string& path, const char* what, Entries& entries) {
 
 Entries read(const std::string& path, const char* what) {
     const std::string head = kStart + what + "\n";
-    const auto refuse = [&](const std::string& why) { bad_input("'" + path + "' " + why); };
+    const auto refuse = [&](const auto&... why) { bad_input("'", path, "' ", why...); };
     if (access(path.c_str(), R_OK) != 0)  // not by opening it: a FIFO would wait for a writer
-        bad_input("cannot read '" + path + "'");
-    if (!begins_with(path, head)) refuse(std::string("is not ") + what + " saved by rsc");
+        bad_input("cannot read '", path, "'");
+    if (!begins_with(path, head)) refuse("is not ", what, " saved by rsc");
     std::ifstream in(path, std::ios::binary);
     const std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     std::uint64_t hash = 0;
@@ -112,7 +111,7 @@ Entries read(const std::string& path, const char* what) {
     }
     reader.end();
     if (entries.one("format") > kFormat)
-        refuse("was saved by rsc " + entries.texts["rsc"] +
+        refuse("was saved by rsc ", entries.texts["rsc"],
                ", which this version (" RSC_VERSION ") cannot read");
     return entries;
 }
@@ -262,11 +261,11 @@ Path::State get_state(const Entries& from, const std::string& prefix, const rsc_
     const LevelTractions& t = level.tractions;
     for (const auto* values : {&t.y, &t.a, &t.c, &t.pressed, &t.pulled})
         if (values->size() != t.x.size()) bad_input(kBroken);
-    if (std::any_of(level.pixels.cohesive.begin(), level.pixels.cohesive.end(), outside) ||
-        std::any_of(level.asperity.begin(), level.asperity.end(), outside) ||
-        std::any_of(level.pixels.index.begin(), level.pixels.index.end(), outside) ||
-        level.x.size() != n || level.y.size() != n || level.f.size() != n || level.a.size() != n ||
-        level.u.size() != n || level.pixels.attraction.size() != level.pixels.cohesive.size())
+    if (std::ranges::any_of(level.pixels.cohesive, outside) ||
+        std::ranges::any_of(level.asperity, outside) ||
+        std::ranges::any_of(level.pixels.index, outside) || level.x.size() != n ||
+        level.y.size() != n || level.f.size() != n || level.a.size() != n || level.u.size() != n ||
+        level.pixels.attraction.size() != level.pixels.cohesive.size())
         bad_input(kBroken);
     if (known.size() == 8) level.energy = known[3];  // version 0.3
     state.level = std::move(level);
@@ -278,8 +277,8 @@ void put_path(Entries& to, const std::string& prefix, const FrictionHistory::Sta
                           path.xi.y,          path.lost,  path.step_lost};
     Numbers& nodes = to.numbers[prefix + ".nodes"];
     for (const auto& node : path.nodes)
-        nodes.insert(nodes.end(),
-                     {node.approach, node.load, node.energy, node.deflection.x, node.deflection.y});
+        append(nodes,
+               {node.approach, node.load, node.energy, node.deflection.x, node.deflection.y});
 }
 
 FrictionHistory::State get_path(const Entries& from, const std::string& prefix) {
@@ -295,12 +294,13 @@ FrictionHistory::State get_path(const Entries& from, const std::string& prefix) 
 }  // namespace
 }  // namespace rsc::api
 
+using namespace rsc;
 using namespace rsc::api;
 
 int32_t rsc_contact_save(rsc_contact* contact, const char* path) {
     return on(contact, "contact", 2, [&] {
         require_path(path, 2);
-        const rsc::Path::State now = contact->path.state();
+        const Path::State now = contact->path.state();
         Entries entries;
         put_making(entries, *contact);
         put_state(entries, "", now);
@@ -349,11 +349,11 @@ int32_t rsc_friction_restore(rsc_friction** friction, const rsc_asperities* aspe
         require_path(path, 3);
         const Entries entries = read(path, kFriction);
         const Numbers& with = entries.of("friction");
-        if (with.size() != 2) rsc::bad_input(kBroken);
+        if (with.size() != 2) bad_input(kBroken);
         auto made = std::make_unique<rsc_friction>(*get_making(entries, *asperities),
-                                                   rsc::Friction{with[0], with[1]});
+                                                   Friction{with[0], with[1]});
         const Numbers& tip = entries.of("committed_tip");
-        if (tip.size() != 2) rsc::bad_input(kBroken);
+        if (tip.size() != 2) bad_input(kBroken);
         made->history.restore(get_path(entries, "path"), get_path(entries, "committed"));
         made->committed_tip = {tip[0], tip[1]};
         return made.release();

@@ -55,7 +55,7 @@ public:
         std::uint64_t size = 0;
         (*this)(size);
         if (size > bytes_.size() / sizeof(T)) throw Error(failure_, broken_);
-        values.resize(static_cast<std::size_t>(size));
+        values.resize(at(size));
         const std::size_t length = values.size() * sizeof(T);
         const char* from = take(length);
         if (length > 0) std::memcpy(values.data(), from, length);

@@ -1,11 +1,11 @@
-// Text by the rules of printf.
+// Texts with numbers in them.
 #pragma once
 
 #include "base/std.hpp"
 
 namespace rsc {
 
-// At most 599 characters; longer texts are cut.
+// By the rules of printf. At most 599 characters; longer texts are cut.
 [[gnu::format(printf, 1, 2)]] inline std::string format(const char* text, ...) {
     char buffer[600];
     std::va_list values;
@@ -17,6 +17,16 @@ namespace rsc {
 
 // A number in a message.
 inline std::string text_of(double value) { return format("%.9g", value); }
+
+// Texts and numbers, one after another; numbers as those of text_of().
+template <class... Parts>
+std::string joined(const Parts&... parts) {
+    std::ostringstream all;
+    all.imbue(std::locale::classic());
+    all.precision(9);
+    (all << ... << parts);
+    return std::move(all).str();
+}
 
 // For messages: text of others, cut, with control characters replaced, those of terminals in UTF-8
 // included.

@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 #include <sched.h>
+#include <unistd.h>
 
 extern "C" int omp_in_parallel() __attribute__((weak));  // defined if the program uses OpenMP
 
@@ -96,7 +97,7 @@ struct Pool {
         std::unique_lock lock(mutex);
         for (;;) {
             // Outer loops come before those inside their pieces.
-            const auto found = std::find_if(jobs.begin(), jobs.end(), [](const Job* job) {
+            const auto found = std::ranges::find_if(jobs, [](const Job* job) {
                 return job->wanted > 0 && job->tree.helpers > 0 && job->next < job->count;
             });
             if (found == jobs.end()) {
@@ -141,11 +142,16 @@ struct Pool {
 
 }  // namespace
 
+double machine_memory() {
+    const double pages = double(sysconf(_SC_PHYS_PAGES)), page = double(sysconf(_SC_PAGESIZE));
+    return pages > 0 && page > 0 ? pages * page : kInfinity;
+}
+
 std::size_t most_threads(int wanted) {
     const int n = wanted > 0 ? wanted : loop_threads > 0 ? loop_threads : default_threads();
     // Far more threads than processors only wait for each other: with a thousand threads on two
     // processors, seconds of work take minutes.
-    return static_cast<std::size_t>(std::clamp(n, 1, 16 + 2 * processors()));
+    return at(std::clamp(n, 1, 16 + 2 * processors()));
 }
 
 LoopThreads::LoopThreads(int threads) : before_(std::exchange(loop_threads, threads)) {}
@@ -216,10 +222,10 @@ void LoopProfile::run(std::size_t count,
         sums_ = zero;
     }
     --depth_;
-    const double all = std::accumulate(pieces.begin(), pieces.end(), 0.0);
+    const double all = sum_of(pieces);
     outer.seconds += all;
     for (std::size_t c = 0; c < cores_.size(); ++c) {
-        std::vector<double> busy(static_cast<std::size_t>(cores_[c]), 0.0);
+        std::vector<double> busy(at(cores_[c]), 0.0);
         for (const double piece : pieces) *std::ranges::min_element(busy) += piece;
         // Cores without a piece share the loops inside those of others.
         outer.shared[c] += std::min(std::ranges::max(busy), std::max(all / cores_[c], longest[c]));

@@ -35,12 +35,12 @@ double softest_modulus(const Case::Solids& solids) {
         softest = std::min(softest, equivalent_modulus(E, nu));
     }
     const auto& share = solids.relaxation_share;
-    return softest * (1 - std::accumulate(share.begin(), share.end(), 0.0));
+    return softest * (1 - sum_of(share));
 }
 
 // Radius of a round indenter, the smaller one of a paraboloid; nothing for other shapes.
 std::optional<double> radius_of(const Case& c) {
-    const std::string_view shape = kShapes[static_cast<std::size_t>(c.indenter.shape)].name;
+    const std::string_view shape = kShapes[at(c.indenter.shape)].name;
     if (shape == "sphere") return equivalent_radius(c.solids.R);
     if (shape != "paraboloid") return std::nullopt;
     double smallest = Case::kInfinity;
@@ -61,10 +61,10 @@ double slope_at_border(const Case& c, double R, double top) {
     if (c.indentation.control == Control::separation) {
         const double unit =
             c.indentation.unit == LevelUnit::sigma ? c.surface.sigma.value_or(0.01) : 1.0;
-        const double lowest = *std::min_element(levels.begin(), levels.end()) * unit;
+        const double lowest = std::ranges::min(levels) * unit;
         return std::sqrt(2 * std::max(top - lowest, 0.0) / R);
     }
-    const double N = *std::max_element(levels.begin(), levels.end());
+    const double N = std::ranges::max(levels);
     const double a = std::cbrt(0.75 * N * R / softest_modulus(c.solids));
     return std::sqrt(a * a + 2 * R * top) / R;
 }
@@ -74,10 +74,10 @@ double slope_at_border(const Case& c, double R, double top) {
 // (Persson): the pressure that would belong to this area.
 double pressure_ratio(const Case& c, const Spectrum& spectrum, double rms_slope) {
     const std::vector<double> levels = levels_of(c.indentation);
-    const double largest = *std::max_element(levels.begin(), levels.end());
+    const double largest = std::ranges::max(levels);
     if (c.indentation.control == Control::separation) {
         const double unit = c.indentation.unit == LevelUnit::sigma ? 1.0 : spectrum.sigma;
-        const double lowest = *std::min_element(levels.begin(), levels.end()) / unit;
+        const double lowest = std::ranges::min(levels) / unit;
         const double share = 0.5 * std::erfc(lowest / std::numbers::sqrt2);
         return share / (2 * std::sqrt(2 / std::numbers::pi));  // of small pressures
     }

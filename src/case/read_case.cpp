@@ -25,7 +25,7 @@ Position place(const Ledger& ledger, const Problem& problem) {
 // True if the value of a key of the problem could not be read. That key still has its default, so
 // that the problem is not reported.
 bool concerns_faulty(const Ledger& ledger, const Problem& problem) {
-    return std::any_of(problem.keys.begin(), problem.keys.end(), [&](const Key* key) {
+    return std::ranges::any_of(problem.keys, [&](const Key* key) {
         const Ledger::Entry* entry = ledger.find(*key);
         return entry && entry->faulty;
     });
@@ -34,10 +34,10 @@ bool concerns_faulty(const Ledger& ledger, const Problem& problem) {
 // True if the study varies a key of the problem. Each member is checked later, so the problem is
 // reported there; the case itself is not run.
 bool varied(const Study& study, const Problem& problem) {
-    return std::any_of(study.axes.begin(), study.axes.end(), [&](const Study::Axis& axis) {
+    return std::ranges::any_of(study.axes, [&](const Study::Axis& axis) {
         const std::string_view name = std::string_view(axis.key).substr(0, axis.key.find('('));
-        return std::any_of(problem.keys.begin(), problem.keys.end(),
-                           [&](const Key* key) { return name == full_name(*key); });
+        return std::ranges::any_of(problem.keys,
+                                   [&](const Key* key) { return name == full_name(*key); });
     });
 }
 
@@ -52,10 +52,10 @@ std::string limited_text(std::istream& in, const std::string& name) {
     std::string text;
     char buffer[65536];
     while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
-        text.append(buffer, static_cast<std::size_t>(in.gcount()));
+        text.append(buffer, at(in.gcount()));
         if (text.size() > namelist::kLargestText) break;  // read_case_text refuses it
     }
-    if (in.bad()) bad_input(name + ": cannot be read");
+    if (in.bad()) bad_input(name, ": cannot be read");
     return text;
 }
 
@@ -68,27 +68,26 @@ void keys_without_meaning(const Reading& reading, std::vector<Fault>& faults) {
         const Ledger::Entry* entry = reading.ledger.find(key_of(name));
         return entry && !entry->given.empty() && !entry->faulty ? entry : nullptr;
     };
-    const auto refuse = [&](const char* name, const std::string& why) {
+    const auto refuse = [&](const char* name, const auto&... why) {
         const Ledger::Entry* const entry = given(name);
         const std::string value = get_key(reading.settings, name);
         if (!entry || value == get_key(defaults, name)) return;
         const Key& key = *entry->key;
-        faults.push_back({entry->given.front().second, "&" + std::string(key.group) + ": " +
-                                                           key.name + " = " + value +
-                                                           ": has no effect " + why});
+        faults.emplace_back(entry->given.front().second, "&", key.group, ": ", key.name, " = ",
+                            value, ": has no effect ", why...);
     };
     // A namelist with all of these keys was printed by rsc.
     const std::array replaced = {"indentation%start", "indentation%stop", "indentation%steps",
                                  "indentation%spacing"};
-    if (given("indentation%levels") && !std::all_of(replaced.begin(), replaced.end(), given))
+    if (given("indentation%levels") && !std::ranges::all_of(replaced, given))
         for (const char* name : replaced) refuse(name, "beside levels");
     const Source source = reading.settings.surface.source;
     if (!given("surface%source") || (source != Source::heights && source != Source::asperities))
         return;
     for (const char* name : {"surface%n", "surface%hurst", "surface%L_lambda_l",
                              "surface%L_lambda_s", "surface%plateau", "surface%normalise"})
-        refuse(name, "with source = " + get_key(reading.settings, "surface%source") +
-                         ", whose surface is read from the file");
+        refuse(name, "with source = ", get_key(reading.settings, "surface%source"),
+               ", whose surface is read from the file");
 }
 
 // A value of a command line in namelist syntax: the shell removes the quotes of words, so that they
@@ -121,7 +120,7 @@ void require_not_varied(const std::string& name, const std::optional<Study>& stu
         const bool other_element = !subscript.empty() && bracket != std::string::npos &&
                                    axis.key.substr(bracket) != subscript;
         if (!other_element)
-            bad_input("&study varies " + axis.key + ", so that the option has no effect");
+            bad_input("&study varies ", axis.key, ", so that the option has no effect");
     }
 }
 
@@ -150,19 +149,17 @@ Reading read_namelist(std::string_view text) {
     reading.warnings = std::move(document.warnings);
     std::vector<const namelist::Group*> seen;
     for (const namelist::Group& group : document.groups) {
-        const auto same = std::find_if(seen.begin(), seen.end(), [&](const namelist::Group* g) {
-            return g->name == group.name;
-        });
+        const auto same = std::ranges::find_if(
+            seen, [&](const namelist::Group* g) { return g->name == group.name; });
         if (same != seen.end()) {
             if (reading.duplicates.size() < namelist::kMostFaults)
-                reading.duplicates.push_back({group.at, "&" + group.name +
-                                                            ": this group is already at line " +
-                                                            std::to_string((*same)->at.line)});
+                reading.duplicates.emplace_back(group.at, "&", group.name,
+                                                ": this group is already at line ",
+                                                (*same)->at.line);
             continue;
         }
         seen.push_back(&group);
-        reading.groups.push_back(
-            *std::find(group_names().begin(), group_names().end(), group.name));
+        reading.groups.push_back(*std::ranges::find(group_names(), group.name));
         if (group.name == "study") {
             reading.study = read_study(group, reading.faults);
             continue;
@@ -172,10 +169,9 @@ Reading read_namelist(std::string_view text) {
             if (const Key* key = find_key(group.name, assignment.key))
                 assign(reading.settings, *key, assignment, reading.ledger, reading.faults);
             else
-                reading.faults.push_back(
-                    {assignment.at, "&" + group.name + ": unknown key '" +
-                                        assignment.key.substr(0, 63) + "'" +
-                                        suggest_key(group.name, assignment.key)});
+                reading.faults.emplace_back(assignment.at, "&", group.name, ": unknown key '",
+                                            assignment.key.substr(0, 63), "'",
+                                            suggest_key(group.name, assignment.key));
         }
     }
     finish_lists(reading.settings, reading.ledger, reading.faults);
@@ -186,13 +182,12 @@ namespace {
 
 void require_text(std::string_view text, const std::string& name) {
     if (text.size() > namelist::kLargestText)
-        bad_input(name + ": larger than " + std::to_string(namelist::kLargestText) +
-                  " bytes, the limit for a case");
+        bad_input(name, ": larger than ", namelist::kLargestText, " bytes, the limit for a case");
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-        bad_input(name + ": is text in UTF-16; save it as UTF-8 or plain ASCII");
+        bad_input(name, ": is text in UTF-16; save it as UTF-8 or plain ASCII");
     if (text.starts_with("CDF") || text.starts_with("\x89HDF"))
         bad_input(
-            name +
+            name,
             ": is a NetCDF file; to run the case of a result again, give its name: rsc FILE.nc");
 }
 
@@ -207,15 +202,15 @@ void check_files(const Reading& reading, std::vector<Fault>& faults) {
             file.find_first_of("*?[") != std::string::npos)
             continue;
         if (const std::string why = why_not_opened(file); !why.empty())
-            faults.push_back({entry->given.front().second,
-                              "&" + std::string(group) + ": file = '" + file + "': " + why});
+            faults.emplace_back(entry->given.front().second, "&", group, ": file = '", file,
+                                "': ", why);
     }
 }
 
 // Throws one error with a line for each fault, by their places in the case.
 void refuse_faults(const std::string& name, std::vector<Fault>& faults,
                    const std::vector<std::string>& set_faults) {
-    std::stable_sort(faults.begin(), faults.end(), [](const Fault& a, const Fault& b) {
+    std::ranges::stable_sort(faults, [](const Fault& a, const Fault& b) {
         return a.at.line != b.at.line ? a.at.line < b.at.line : a.at.column < b.at.column;
     });
     std::string message;
@@ -254,11 +249,11 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
     require_text(text, name);
     Reading reading = read_namelist(text);
     std::vector<Fault> faults = std::move(reading.faults);
-    faults.insert(faults.end(), reading.duplicates.begin(), reading.duplicates.end());
+    append(faults, reading.duplicates);
     keys_without_meaning(reading, faults);
     if (reading.groups.empty() && faults.empty())
-        faults.push_back(
-            {{}, "no namelist group found; expected at least one of " + known_groups_text()});
+        faults.emplace_back(Position{}, "no namelist group found; expected at least one of ",
+                            known_groups_text());
 
     Case& settings = reading.settings;
     std::vector<std::string> set_faults;
@@ -270,9 +265,8 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
     for (const Problem& problem : check_case(settings))
         if (!concerns_faulty(reading.ledger, problem) &&
             !(reading.study && varied(*reading.study, problem)))
-            faults.push_back(
-                {place(reading.ledger, problem),
-                 "&" + std::string(problem.keys.front()->group) + ": " + problem.text});
+            faults.emplace_back(place(reading.ledger, problem), "&", problem.keys.front()->group,
+                                ": ", problem.text);
     if (reading.study && faults.empty() && set_faults.empty())
         faults = check_study(settings, *reading.study);
     if (!faults.empty() || !set_faults.empty()) check_files(reading, faults);
@@ -292,7 +286,7 @@ ReadCase read_case(const Options& options) {
     std::ifstream in(options.case_path, std::ios::binary);
     std::error_code ignored;  // a folder can be opened, but not read
     if (!in || std::filesystem::is_directory(options.case_path, ignored))
-        bad_input(options.case_path + ": " + why_not_opened(options.case_path));
+        bad_input(options.case_path, ": ", why_not_opened(options.case_path));
     return read_case(in, options.case_path, options);
 }
 

@@ -498,17 +498,16 @@ const Key& key_of(std::string_view name) {
         for (const Key& key : registry())
             if (namelist::lower_case(strip(name)) == namelist::lower_case(key.name))
                 meant += (meant.empty() ? "" : " or ") + full_name(key);
-        bad_input("expected group%key, found '" + std::string(name) + "'" +
-                  (meant.empty() ? namelist::suggestion(name, group_names())
-                                 : "; did you mean " + meant + "?"));
+        bad_input("expected group%key, found '", name, "'",
+                  meant.empty() ? namelist::suggestion(name, group_names())
+                                : "; did you mean " + meant + "?");
     }
     const std::string_view group = strip(name.substr(0, percent)),
                            bare = strip(name.substr(percent + 1));
     if (!group_meaning(namelist::lower_case(group)))
-        bad_input("unknown group '" + std::string(group) + "'" +
-                  namelist::suggestion(group, group_names()));
+        bad_input("unknown group '", group, "'", namelist::suggestion(group, group_names()));
     const Key* const key = find_key(group, bare);
-    if (!key) bad_input("unknown key '" + std::string(bare) + "'" + suggest_key(group, bare));
+    if (!key) bad_input("unknown key '", bare, "'", suggest_key(group, bare));
     return *key;
 }
 

@@ -71,7 +71,7 @@ void put(Slot& slot, long element, Number value) {
 // Converts and stores one value; returns an error message.
 std::string store(Slot slot, const Key& key, long element, const Item& item, Ledger::Entry& entry) {
     const auto to_list = [&](double value) {
-        const auto i = static_cast<std::size_t>(element);
+        const auto i = at(element);
         if (entry.values.size() < i) entry.values.resize(i);
         entry.values[i - 1] = value;
     };
@@ -133,8 +133,7 @@ std::string store_substring(Slot slot, const Key& key, const Walk& walk, Item it
                             Ledger::Entry& entry) {
     std::string* text = std::get_if<std::string*>(&slot) ? std::get<std::string*>(slot) : nullptr;
     if (!text) return "a choice has no substring";
-    const auto first = static_cast<std::size_t>(walk.first - 1),
-               count = static_cast<std::size_t>(walk.count);
+    const auto first = at(walk.first - 1), count = at(walk.count);
     std::string part;
     Key whole = key;
     whole.slot = nullptr;
@@ -176,8 +175,7 @@ std::string too_many(const Item& item, long elements, bool is_text) {
 }  // namespace
 
 Ledger::Entry& Ledger::entry(const Key& key) {
-    if (const Entry* found = find(key))
-        return entries_[static_cast<std::size_t>(found - entries_.data())];
+    if (const Entry* found = find(key)) return entries_[at(found - entries_.data())];
     entries_.emplace_back().key = &key;
     return entries_.back();
 }
@@ -193,8 +191,8 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
     Ledger::Entry& entry = ledger.entry(key);
     if (entry.at.line == 0) entry.at = a.at;
     const std::string context = "&" + std::string(key.group) + ": " + key.name + ": ";
-    const auto fault = [&](const namelist::Position& at, const std::string& text) {
-        faults.push_back({at, context + text});
+    const auto fault = [&](const namelist::Position& at, const auto&... text) {
+        faults.emplace_back(at, context, text...);
         entry.faulty = true;
     };
     const bool is_text = is_one_text(key);
@@ -210,18 +208,17 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
     // text are its characters.
     const long elements = is_text ? 1 : walk.count;
     const long before = static_cast<long>(entry.given.size());
-    const auto mark = [&](long first, long count, const namelist::Position& at) {
+    const auto mark = [&](long first, long count, const namelist::Position& place) {
         if (entry.faulty) return;  // one message for a key given several times is enough
-        for (const auto& [element, where] :
-             std::span(entry.given).first(static_cast<std::size_t>(before)))
+        for (const auto& [element, where] : std::span(entry.given).first(at(before)))
             if (element >= first && element < first + count) {
-                fault(at, "given twice, first" + at_line(where));
+                fault(place, "given twice, first", at_line(where));
                 break;
             }
         if (is_text) {
-            for (long i = 0; i < count; ++i) entry.given.push_back({first + i, at});
+            for (long i = 0; i < count; ++i) entry.given.push_back({first + i, place});
         } else {
-            entry.given.push_back({first, at});
+            entry.given.push_back({first, place});
         }
     };
     const Slot slot = key.slot(settings);
@@ -269,9 +266,8 @@ void finish_lists(Case& settings, Ledger& ledger, std::vector<Fault>& faults) {
         for (std::size_t i = 0; i < size; ++i) {
             const bool given = i < entry.values.size() && entry.values[i];
             if (!given && i >= old.size()) {
-                faults.push_back({entry.at, "&" + std::string(entry.key->group) + ": " +
-                                                entry.key->name + ": element " +
-                                                std::to_string(i + 1) + " has no value"});
+                faults.emplace_back(entry.at, "&", entry.key->group, ": ", entry.key->name,
+                                    ": element ", i + 1, " has no value");
                 entry.faulty = true;
                 break;
             }
@@ -301,7 +297,7 @@ Named named(std::string_view name, std::string_view value) {
 }
 
 std::string element_text(const Key& key, const Slot& slot, long element) {
-    const auto i = static_cast<std::size_t>(element - 1);
+    const auto i = at(element - 1);
     if (auto* b = std::get_if<bool*>(&slot)) return namelist::from_logical(**b);
     if (auto* n = std::get_if<int*>(&slot)) return std::to_string((*n)[i]);
     if (auto* n = std::get_if<std::int64_t*>(&slot)) return std::to_string((*n)[i]);
@@ -311,13 +307,11 @@ std::string element_text(const Key& key, const Slot& slot, long element) {
     if (auto* s = std::get_if<std::string*>(&slot)) return namelist::from_string(**s);
     if (auto* v = std::get_if<std::vector<double>*>(&slot)) {
         if (i >= (*v)->size()) return "";
-        return key.type == Type::choice
-                   ? namelist::from_string(key.choices.at(static_cast<std::size_t>((**v)[i])))
-                   : namelist::from_real((**v)[i]);
+        return key.type == Type::choice ? namelist::from_string(key.choices.at(at((**v)[i])))
+                                        : namelist::from_real((**v)[i]);
     }
     const ChoiceSlot& choice = std::get<ChoiceSlot>(slot);
-    return namelist::from_string(
-        key.choices.at(static_cast<std::size_t>(choice.get(choice.object))));
+    return namelist::from_string(key.choices.at(at(choice.get(choice.object))));
 }
 
 // The part of check_case for one key.
@@ -350,16 +344,16 @@ void set_key(Case& settings, std::string_view name, std::string_view value, bool
     const auto [key, assignment] = named(name, value);
     if (value.find_first_not_of(" \t\r\n") == std::string_view::npos) {
         if (assignment.subscript)
-            bad_input("an element has no default of its own: give it a value, or leave " +
-                      full_name(*key) + " as a whole without one");
+            bad_input("an element has no default of its own: give it a value, or leave ",
+                      full_name(*key), " as a whole without one");
         return set_default(settings, *key);
     }
     if (whole && key->size > 1 && !key->list && !assignment.subscript) {
         long given = 0;
         for (const auto& item : assignment.items) given += item.repeat;
         if (given > 0 && given < key->size)
-            bad_input(std::string(key->name) + " has " + std::to_string(key->size) +
-                      " values: give all of them, or one as " + full_name(*key) + "(1)");
+            bad_input(key->name, " has ", key->size, " values: give all of them, or one as ",
+                      full_name(*key), "(1)");
     }
     Case changed = settings;
     Ledger ledger;
@@ -386,13 +380,11 @@ std::string get_key(const Case& settings, std::string_view name) {
         size = static_cast<long>((*list)->size());
     if (key->word && size == 0) {
         const ChoiceSlot word = std::get<ChoiceSlot>(key->word(const_cast<Case&>(settings)));
-        return namelist::from_string(
-            key->choices.at(static_cast<std::size_t>(word.get(word.object))));
+        return namelist::from_string(key->choices.at(at(word.get(word.object))));
     }
     Walk walk{1, 1, size};
     if (assignment.subscript) {
-        if (key->size == 1)
-            bad_input(std::string(key->name) + " is no array: it takes no subscript");
+        if (key->size == 1) bad_input(key->name, " is no array: it takes no subscript");
         if (std::string problem = resolve(assignment, size, walk, key->name); !problem.empty())
             bad_input(problem);
         if (!assignment.subscript->section) walk.count = 1;

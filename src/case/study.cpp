@@ -10,12 +10,12 @@ using namelist::Fault;
 
 // "solids%r" with subscript (2) -> "solids%R(2)"; empty and a fault if there is no such key.
 std::string axis_key(const namelist::Assignment& a, std::vector<Fault>& faults) {
-    const auto fault = [&](const std::string& text) {
-        faults.push_back({a.at, "&study: " + text});
+    const auto fault = [&](const auto&... text) {
+        faults.emplace_back(a.at, "&study: ", text...);
         return std::string();
     };
     if (a.key.find('%') == std::string::npos)
-        return fault("unknown key '" + a.key + "'; expected group%key = values, or mode");
+        return fault("unknown key '", a.key, "'; expected group%key = values, or mode");
     const Key* key = nullptr;
     try {
         key = &key_of(a.key);
@@ -25,12 +25,12 @@ std::string axis_key(const namelist::Assignment& a, std::vector<Fault>& faults) 
     const std::string full = full_name(*key);
     const bool array = key->size > 1;
     if (!a.subscript)
-        return array ? fault(full + " is an array: vary one element of it, as in " + full +
-                             "(1) = ...")
-                     : full;
-    if (!array) return fault(full + " is no array: it takes no subscript");
+        return array
+                   ? fault(full, " is an array: vary one element of it, as in ", full, "(1) = ...")
+                   : full;
+    if (!array) return fault(full, " is no array: it takes no subscript");
     if (a.subscript->section || !a.subscript->first)
-        return fault(full + ": vary one element of it, as in " + full + "(1) = ...");
+        return fault(full, ": vary one element of it, as in ", full, "(1) = ...");
     return full + "(" + std::to_string(*a.subscript->first) + ")";
 }
 
@@ -57,8 +57,8 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
     bool mode_given = false;
     for (const namelist::Assignment& a : group.assignments) {
         if (faults.size() >= namelist::kMostFaults) break;
-        const auto fault = [&](const namelist::Position& at, const std::string& text) {
-            faults.push_back({at, "&study: " + text});
+        const auto fault = [&](const namelist::Position& at, const auto&... text) {
+            faults.emplace_back(at, "&study: ", text...);
         };
         if (a.key == "mode") {
             if (mode_given) fault(a.at, "mode: given twice");
@@ -78,7 +78,7 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
         axis.key = axis_key(a, faults);
         if (axis.key.empty()) continue;
         if (std::ranges::find(study.axes, axis.key, &Study::Axis::key) != study.axes.end()) {
-            fault(a.at, axis.key + ": given twice");
+            fault(a.at, axis.key, ": given twice");
             continue;
         }
         const std::size_t before = faults.size();
@@ -87,26 +87,25 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
             if (item.null && !item.counted && i + 1 == a.items.size())
                 break;  // a comma after the last value
             if (item.null) {
-                fault(item.at, axis.key + ": a value is missing");
+                fault(item.at, axis.key, ": a value is missing");
                 break;
             }
-            if (axis.values.size() + static_cast<std::size_t>(item.repeat) > kMostMembers) {
-                fault(item.at,
-                      axis.key + ": more than " + std::to_string(kMostMembers) + " values");
+            if (axis.values.size() + at(item.repeat) > kMostMembers) {
+                fault(item.at, axis.key, ": more than ", kMostMembers, " values");
                 break;
             }
             const std::string value = item.quoted ? namelist::from_string(item.text) : item.text;
-            axis.values.insert(axis.values.end(), static_cast<std::size_t>(item.repeat), value);
-            axis.places.insert(axis.places.end(), static_cast<std::size_t>(item.repeat), item.at);
+            axis.values.insert(axis.values.end(), at(item.repeat), value);
+            axis.places.insert(axis.places.end(), at(item.repeat), item.at);
         }
         if (axis.values.empty()) {
-            if (faults.size() == before) fault(a.at, axis.key + ": no values");
+            if (faults.size() == before) fault(a.at, axis.key, ": no values");
         } else {
             study.axes.push_back(std::move(axis));
         }
     }
     if (study.axes.empty() && faults.empty())
-        faults.push_back({group.at, "&study: no lists of values"});
+        faults.emplace_back(group.at, "&study: no lists of values");
     return study;
 }
 
@@ -117,10 +116,9 @@ std::vector<Fault> check_study(const Case& base, const Study& study) {
     // all memory.
     const std::size_t held = member_count(study) * base.indentation.levels.size();
     if (held > kMostLevels)
-        return {{study.at, "&study: " + std::to_string(member_count(study)) + " members of " +
-                               std::to_string(base.indentation.levels.size()) +
-                               " explicit levels each: more than " + std::to_string(kMostLevels) +
-                               " levels in all; give indentation%start, stop and steps instead"}};
+        return {{study.at, "&study: ", member_count(study), " members of ",
+                 base.indentation.levels.size(), " explicit levels each: more than ", kMostLevels,
+                 " levels in all; give indentation%start, stop and steps instead"}};
     for (const Study::Axis& axis : study.axes)
         for (std::size_t i = 0; i < axis.values.size() && faults.size() < namelist::kMostFaults;
              ++i) {
@@ -130,22 +128,19 @@ std::vector<Fault> check_study(const Case& base, const Study& study) {
             try {
                 set_key(trial, axis.key, axis.values[i]);
             } catch (const Error& error) {
-                faults.push_back({i < axis.places.size() ? axis.places[i] : axis.at,
-                                  "&study: " + axis.key + ": " + error.what()});
+                faults.emplace_back(i < axis.places.size() ? axis.places[i] : axis.at,
+                                    "&study: ", axis.key, ": ", error.what());
             }
         }
     const std::size_t length = study.axes.front().values.size();
     if (study.mode == StudyMode::zip)
         for (const Study::Axis& axis : study.axes)
             if (axis.values.size() != length)
-                faults.push_back(
-                    {axis.at, "&study: " + axis.key + " has " + std::to_string(axis.values.size()) +
-                                  " values, " + study.axes.front().key + " has " +
-                                  std::to_string(length) +
-                                  ": mode = 'zip' needs the same number of values for every key"});
+                faults.emplace_back(axis.at, "&study: ", axis.key, " has ", axis.values.size(),
+                                    " values, ", study.axes.front().key, " has ", length,
+                                    ": mode = 'zip' needs the same number of values for every key");
     if (member_count(study) > kMostMembers)
-        faults.push_back(
-            {study.at, "&study: more than " + std::to_string(kMostMembers) + " members"});
+        faults.emplace_back(study.at, "&study: more than ", kMostMembers, " members");
     return faults;
 }
 

@@ -6,8 +6,7 @@ namespace rsc {
 namespace {
 
 [[noreturn]] void refuse(const std::string& what, int body, const std::string& expected) {
-    throw Error(Failure::bad_input,
-                what + " of body " + std::to_string(body + 1) + " must be " + expected);
+    bad_input(what, " of body ", body + 1, " must be ", expected);
 }
 
 }  // namespace
@@ -20,8 +19,7 @@ double equivalent_modulus(const double (&E)[2], const double (&nu)[2]) {
         compliance += (1 - nu[i] * nu[i]) / E[i];  // 0 for E = Infinity
     }
     if (!(compliance > 0))
-        throw Error(Failure::bad_input,
-                    "both bodies are rigid: at least one modulus E must be finite");
+        bad_input("both bodies are rigid: at least one modulus E must be finite");
     return 1 / compliance;
 }
 

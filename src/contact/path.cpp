@@ -1,7 +1,6 @@
 #include "contact/path.hpp"
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 
 namespace rsc {
 namespace {
@@ -155,14 +154,13 @@ Level search(Model& model, double begin, double below, double above, int most, J
 }  // namespace
 
 Level Path::at_separation(double Z0) {
-    if (!std::isfinite(Z0)) throw Error(Failure::bad_input, "the separation must be finite");
+    if (!std::isfinite(Z0)) bad_input("the separation must be finite");
     return in_steps(separation_, Z0, &Path::to_separation);
 }
 
 Level Path::at_force(double N) {
     if (!(N > 0 || pulls()) || !std::isfinite(N))
-        throw Error(Failure::bad_input,
-                    pulls() ? "the force must be finite" : "the force must be positive and finite");
+        bad_input(pulls() ? "the force must be finite" : "the force must be positive and finite");
     return in_steps(force_, N, &Path::to_force);
 }
 
@@ -311,11 +309,10 @@ void Path::finish(Level& level) {
 }
 
 void Path::set_time(double time) {
-    if (!std::isfinite(time)) throw Error(Failure::bad_input, "the time must be finite");
+    if (!std::isfinite(time)) bad_input("the time must be finite");
     if (clock() != PathClock::none && accepted_ && time < *accepted_)
-        throw Error(Failure::bad_input,
-                    format("a %s of %.9g is before that of the last level, %.9g",
-                           relaxes() ? "time" : "sliding distance", time, *accepted_));
+        bad_input(format("a %s of %.9g is before that of the last level, %.9g",
+                         relaxes() ? "time" : "sliding distance", time, *accepted_));
     time_ = time;
 }
 
@@ -339,8 +336,7 @@ double Path::energy() {
 }
 
 void Path::move_tip(double x0, double y0) {
-    if (!std::isfinite(x0) || !std::isfinite(y0))
-        throw Error(Failure::bad_input, "the tip's position must be finite");
+    if (!std::isfinite(x0) || !std::isfinite(y0)) bad_input("the tip's position must be finite");
     model_->move_tip(x0, y0);
     levels_since_move_ = 0;
 }
@@ -448,10 +444,10 @@ Level Path::solve_between_planes(double Z0) {
 
 void Path::refuse_closing(double N, const Level& closing) const {
     const double area = indenter().period.area();
-    throw Error(Failure::bad_input,
-                format("a nominal pressure of %.9g is above that of full contact "
-                       "on this surface, %.4g",
-                       N / area, closing.force / area));
+    bad_input(
+        format("a nominal pressure of %.9g is above that of full contact "
+               "on this surface, %.4g",
+               N / area, closing.force / area));
 }
 
 // The separation at which the search for the force N begins: that of the last level unless it
@@ -485,18 +481,17 @@ void Path::require_resolved(Level& level, double N) {
         level.converged = false;
         level.fallback = Fallback::jump;
     } else if (std::abs(level.force / N - 1) > kUnresolved) {  // N is proportional to depth^(3/2)
-        throw Error(Failure::bad_input,
-                    format("a force of %.9g is too small for the resolution of the separation: "
-                           "near %.9g the smallest possible force is %.9g",
-                           N, z, model_->force_at_most(1.5 * ulp / kUnresolved)));
+        bad_input(
+            format("a force of %.9g is too small for the resolution of the separation: "
+                   "near %.9g the smallest possible force is %.9g",
+                   N, z, model_->force_at_most(1.5 * ulp / kUnresolved)));
     }
 }
 
 Level Path::to_force(double N) {
     begin_step();
     if (!std::isfinite(first_touch()))
-        throw Error(Failure::bad_input,
-                    "no asperity lies under the indenter, so that it cannot carry a force");
+        bad_input("no asperity lies under the indenter, so that it cannot carry a force");
     std::optional<Level> level = model_->solve_under(N);
     if (level)
         level->separation += model_->shift() * level->force;

@@ -181,8 +181,8 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
     });
     const auto radius = [&](std::size_t i) { return std::sqrt(spots[i].major * spots[i].minor); };
     if (close)
-        *close = std::count_if(pairs.begin(), pairs.end(),
-                               [&](const Near& p) { return p.d < radius(p.i) + radius(p.j); });
+        *close = std::ranges::count_if(
+            pairs, [&](const Near& p) { return p.d < radius(p.i) + radius(p.j); });
 
     // Computes for each spot the area not covered by earlier ones, in its own frame, so that
     // periodic images need no special treatment.
@@ -198,7 +198,7 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
         std::vector<Cover> covered;  // covered parts of the border
         std::vector<Before> before;
     };
-    constexpr std::size_t none = static_cast<std::size_t>(-1);
+    constexpr std::size_t none = at(-1);
     std::vector<std::size_t> place_of(
         n, none);  // index in `places` of a spot that has close neighbours
     std::vector<Place> places;
@@ -233,7 +233,7 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
         places[later].before.push_back({first, centre});
     }
     for (Place& p : places)
-        std::sort(p.covered.begin(), p.covered.end(), [](const Cover& a, const Cover& b) {
+        std::ranges::sort(p.covered, [](const Cover& a, const Cover& b) {
             return a.from != b.from ? a.from < b.from : a.by < b.by;
         });
     // Area swept by a part of the border of p about the origin, where it is not covered by spots

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "surface/surface.hpp"
 
 namespace rsc {
@@ -90,12 +89,12 @@ void reverse_rows(HeightMap& map);
 inline std::string read_bytes(const std::string& path) {
     std::ifstream file(path, std::ios::binary | std::ios::ate);
     const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : -1;
-    if (size < 0) bad_input(path + ": cannot be read");
+    if (size < 0) bad_input(path, ": cannot be read");
     check_memory(path, "the file", static_cast<double>(size) / sizeof(double));
     std::string bytes(static_cast<std::size_t>(size), '\0');
     file.seekg(0);
     file.read(bytes.data(), size);
-    if (file.gcount() != size) bad_input(path + ": reading failed");
+    if (file.gcount() != size) bad_input(path, ": reading failed");
     return bytes;
 }
 
@@ -108,15 +107,15 @@ public:
     std::size_t at() const { return at_; }
     std::size_t left() const { return end_ - at_; }
     const std::string& path() const { return path_; }
-    [[noreturn]] void refuse(const std::string& what) const {
-        bad_input(path_ + ": at byte " + std::to_string(at_) + ": " + what);
+    [[noreturn]] void refuse(const auto&... what) const {
+        bad_input(path_, ": at byte ", at_, ": ", what...);
     }
 
     // The next `count` items of `size` bytes each; `what` names them in messages.
     std::string_view take(std::size_t count, std::size_t size, const std::string& what) {
         if (count > left() / size)
-            refuse(what + " of " + std::to_string(count) + " x " + std::to_string(size) +
-                   " bytes, but " + std::to_string(left()) + " are left; is the file complete?");
+            refuse(what, " of ", count, " x ", size, " bytes, but ", left(),
+                   " are left; is the file complete?");
         const std::string_view taken = bytes_.substr(at_, count * size);
         at_ += count * size;
         return taken;
@@ -128,7 +127,7 @@ public:
     // Up to a zero byte.
     std::string_view text(const std::string& what) {
         const std::size_t zero = bytes_.substr(at_, left()).find('\0');
-        if (zero == std::string_view::npos) refuse(what + " has no end; is the file complete?");
+        if (zero == std::string_view::npos) refuse(what, " has no end; is the file complete?");
         const std::string_view taken = bytes_.substr(at_, zero);
         at_ += zero + 1;
         return taken;

@@ -22,8 +22,8 @@ const char* name_of(char separator) {
     return separator == ' ' ? "blanks" : separator == ',' ? "commas" : "semicolons";
 }
 
-[[noreturn]] void refuse(const std::string& path, long line, const std::string& what) {
-    bad_input(path + ":" + std::to_string(line) + ": " + what);
+[[noreturn]] void refuse(const std::string& path, long line, const auto&... what) {
+    bad_input(path, ":", line, ": ", what...);
 }
 
 double number(std::string_view word, const std::string& path, long line, std::size_t column,
@@ -38,27 +38,24 @@ double number(std::string_view word, const std::string& path, long line, std::si
                 style.decimal_line = line;
             }
             if (style.decimal != text[mark])
-                refuse(path, line,
-                       place + ": a decimal " + (text[mark] == ',' ? "comma" : "point") +
-                           ", where line " + std::to_string(style.decimal_line) + " has decimal " +
-                           (style.decimal == ',' ? "commas" : "points"));
+                refuse(path, line, place, ": a decimal ", text[mark] == ',' ? "comma" : "point",
+                       ", where line ", style.decimal_line, " has decimal ",
+                       style.decimal == ',' ? "commas" : "points");
             if (text[mark] == ',') {
                 if (text.find('.') != std::string::npos)
-                    refuse(path, line, place + " is not a number");
+                    refuse(path, line, place, " is not a number");
                 text[mark] = '.';
             }
         }
     }
     const auto value = number_in_file(text);
     if (!value)
-        refuse(
-            path, line,
-            place + " is not a number; comments begin with '#', a missing point of a map is nan");
+        refuse(path, line, place,
+               " is not a number; comments begin with '#', a missing point of a map is nan");
     if (!std::isfinite(*value))
-        refuse(path, line,
-               place +
-                   " is not finite: every value must be known (missing points of a map: "
-                   "surface%missing)");
+        refuse(path, line, place,
+               " is not finite: every value must be known (missing points of a map: "
+               "surface%missing)");
     return *value;
 }
 
@@ -86,12 +83,9 @@ Row parse(std::string_view text, const std::string& path, long line, Style& styl
             style.separator != ';' && found != ';'
                 ? "; decimal commas are accepted only with semicolons as separators"
                 : "";
-        refuse(path, line,
-               std::string(name_of(found)) + " before " + before + " where " +
-                   (here ? std::string("the rest of the line")
-                         : "line " + std::to_string(style.line)) +
-                   " has " + name_of(style.separator) + ": one separator is expected throughout" +
-                   hint);
+        refuse(path, line, name_of(found), " before ", before, " where ",
+               here ? std::string("the rest of the line") : "line " + std::to_string(style.line),
+               " has ", name_of(style.separator), ": one separator is expected throughout", hint);
     };
     std::size_t count = 0, i = 0;
     char gap = 0;  // separator since the last number
@@ -105,9 +99,8 @@ Row parse(std::string_view text, const std::string& path, long line, Style& styl
         if (separates(text[i])) {
             if (gap == text[i] || count == 0) {  // an empty cell
                 if (!missing)
-                    refuse(path, line,
-                           "nothing between the separators at column " + std::to_string(count + 1) +
-                               ": empty cells of a map are missing points (surface%missing)");
+                    refuse(path, line, "nothing between the separators at column ", count + 1,
+                           ": empty cells of a map are missing points (surface%missing)");
                 require(text[i], "an empty cell");
                 values.push_back(std::nan(""));
                 ++count;
@@ -337,17 +330,16 @@ static void refuse_heading(const std::string& path, std::istream& file, std::str
         if (heading) ++last;
     }
     if (first.substr(0, 2) == "\\*" || binary)
-        refuse(path, line, "the head of an instrument's file. " + gwyddion_advice(path));
+        refuse(path, line, "the head of an instrument's file. ", gwyddion_advice(path));
     std::string lower(first.substr(0, 5));
     std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
     const std::string lines =
         last > line ? "lines " + std::to_string(line) + " to " + std::to_string(last) + " begin"
                     : "line " + std::to_string(line) + " begins";
-    refuse(path, line,
-           lines + " with a word, not a number: put '#' before each line of text" +
-               (lower == "ncols" ? ", and give an ESRI grid's cellsize as surface%pixel and its "
-                                   "NODATA_value as surface%missing_value"
-                                 : "; a unit there is read"));
+    refuse(path, line, lines, " with a word, not a number: put '#' before each line of text",
+           lower == "ncols" ? ", and give an ESRI grid's cellsize as surface%pixel and its "
+                              "NODATA_value as surface%missing_value"
+                            : "; a unit there is read");
 }
 
 std::string gwyddion_advice(const std::string& path) {
@@ -357,7 +349,7 @@ std::string gwyddion_advice(const std::string& path) {
 
 TextTable read_table(const std::string& path, std::size_t columns, bool missing) {
     std::ifstream file(path, std::ios::binary);
-    if (!file) bad_input(path + ": cannot be read");
+    if (!file) bad_input(path, ": cannot be read");
     TextTable table;
     Style style;
     table.columns = columns;
@@ -370,7 +362,7 @@ TextTable read_table(const std::string& path, std::size_t columns, bool missing)
         if (line == 1 && view.substr(0, 3) == "\xef\xbb\xbf")
             view.remove_prefix(3);  // UTF-8 byte order mark
         if (line == 1 && (view.substr(0, 2) == "\xff\xfe" || view.substr(0, 2) == "\xfe\xff"))
-            bad_input(path + ": is text in UTF-16: iconv -f UTF-16 -t UTF-8 '" + path +
+            bad_input(path, ": is text in UTF-16: iconv -f UTF-16 -t UTF-8 '", path,
                       "' > map.txt makes one that rsc reads");
         if (view.find('\0') != std::string_view::npos)
             refuse(path, line, "neither text nor a NetCDF file (there is a zero byte)");
@@ -393,14 +385,13 @@ TextTable read_table(const std::string& path, std::size_t columns, bool missing)
                                            ? std::to_string(columns)
                                            : std::to_string(table.columns) + " as in line " +
                                                  std::to_string(table.line[0]);
-            refuse(path, line,
-                   std::to_string(row.count) + " values where " + wanted + " were expected");
+            refuse(path, line, row.count, " values where ", wanted, " were expected");
         }
         table.line.push_back(line);
     }
-    if (file.bad()) bad_input(path + ": reading failed after line " + std::to_string(line));
+    if (file.bad()) bad_input(path, ": reading failed after line ", line);
     table.rows = table.line.size();
-    if (table.rows == 0) bad_input(path + ": contains no numbers");
+    if (table.rows == 0) bad_input(path, ": contains no numbers");
     return table;
 }
 

@@ -25,9 +25,9 @@ std::vector<std::string> matching_files(const std::string& name) {
     }
     globfree(&found);
     if (status == GLOB_NOSPACE)
-        throw Error(Failure::no_memory, "not enough memory for the files of " + name);
-    if (files.empty()) bad_input(name + ": no file matches this pattern");
-    std::sort(files.begin(), files.end());  // independent of the locale
+        throw Error(Failure::no_memory, "not enough memory for the files of ", name);
+    if (files.empty()) bad_input(name, ": no file matches this pattern");
+    std::ranges::sort(files);  // independent of the locale
     return files;
 }
 
@@ -38,8 +38,7 @@ constexpr double kUniformText = 0.01;  // the same for coordinates in text files
 constexpr double kSameL = 1e-6;        // relative tolerance of nx dx = L
 
 void check_L(const std::string& path, double L) {
-    if (!(L > 0 && std::isfinite(L)))
-        bad_input(path + ": L must be positive and finite, not " + text_of(L));
+    if (!(L > 0 && std::isfinite(L))) bad_input(path, ": L must be positive and finite, not ", L);
 }
 
 // nx dx must equal the given L, if any.
@@ -49,18 +48,15 @@ void check_given_L(const std::string& path, const std::string& coordinate, int n
     check_L(path, *L);
     const double extent = nx * dx;
     if (!(std::abs(extent - *L) <= kSameL * *L))
-        bad_input(path + ": its coordinate " + coordinate + " spans " + std::to_string(nx) +
-                  " steps of " + text_of(dx) + " = " + text_of(extent) +
-                  ", but L = " + text_of(*L) + " was given");
+        bad_input(path, ": its coordinate ", coordinate, " spans ", nx, " steps of ", dx, " = ",
+                  extent, ", but L = ", *L, " was given");
 }
 
 // The uniform grid of one coordinate of x y z triples.
 struct TextAxis {
     double first = 0, step = 0;
     std::size_t count = 0;
-    std::size_t index(double c) const {
-        return static_cast<std::size_t>(std::lround((c - first) / step));
-    }
+    std::size_t index(double c) const { return at(std::lround((c - first) / step)); }
 };
 
 // The unit of the last decimal digit that values have in common.
@@ -80,10 +76,10 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
     for (std::size_t i = 0; i < table.rows; ++i) {
         c[i] = table.values[3 * i + column];
         if (std::isnan(c[i]))
-            bad_input(path + ":" + std::to_string(table.line[i]) +
-                      ": three columns are read as x y z of a map; " + name + " is missing");
+            bad_input(path, ":", table.line[i], ": three columns are read as x y z of a map; ",
+                      name, " is missing");
     }
-    std::sort(c.begin(), c.end());
+    std::ranges::sort(c);
     TextAxis axis;
     axis.first = c.front();
     const double range = c.back() - c.front();
@@ -96,11 +92,10 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
         if (c[i] - c[i - 1] > same) least = std::min(least, c[i] - c[i - 1]);
     axis.count = 1;
     for (std::size_t i = 1; i < c.size(); ++i)
-        if (c[i] - c[i - 1] > same)
-            axis.count += static_cast<std::size_t>(std::lround((c[i] - c[i - 1]) / least));
+        if (c[i] - c[i - 1] > same) axis.count += at(std::lround((c[i] - c[i - 1]) / least));
     if (axis.count < 2)
-        bad_input(path + ": three columns are read as x y z of a map; column " + name + " is " +
-                  text_of(axis.first) + " throughout");
+        bad_input(path, ": three columns are read as x y z of a map; column ", name, " is ",
+                  axis.first, " throughout");
     axis.step = range / static_cast<double>(axis.count - 1);
     const auto uniform = [&](double v) {
         return axis.first + static_cast<double>(axis.index(v)) * axis.step;
@@ -110,17 +105,15 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
     if (off <= kUniformText * axis.step) return axis;
     // Rounding moves a coordinate by half a unit of its last digit, and the ends as much.
     if (const double digit = last_digit(c); off <= 1.01 * digit)
-        bad_input(path + ": three columns are read as x y z of a map; " + name +
-                  " has too few digits: it is rounded to " + text_of(digit) +
-                  ", and its step is about " + text_of(axis.step) +
-                  "; a hundredth of the step is expected");
+        bad_input(path, ": three columns are read as x y z of a map; ", name,
+                  " has too few digits: it is rounded to ", digit, ", and its step is about ",
+                  axis.step, "; a hundredth of the step is expected");
     for (std::size_t i = 0; i < table.rows; ++i) {
         const double v = table.values[3 * i + column];
         if (!(std::abs(v - uniform(v)) <= kUniformText * axis.step))
-            bad_input(path + ":" + std::to_string(table.line[i]) +
-                      ": three columns are read as x y z of a map; " + name + " = " + text_of(v) +
-                      " is not on a uniform grid of " + std::to_string(axis.count) +
-                      " values from " + text_of(c.front()) + " to " + text_of(c.back()));
+            bad_input(path, ":", table.line[i], ": three columns are read as x y z of a map; ",
+                      name, " = ", v, " is not on a uniform grid of ", axis.count, " values from ",
+                      c.front(), " to ", c.back());
     }
     return axis;
 }
@@ -128,7 +121,7 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
 HeightMap read_text_triples(const std::string& path, const TextTable& table,
                             std::optional<double> L, bool missing, const TextMap& text) {
     if (text.pixel)
-        bad_input(path +
+        bad_input(path,
                   ": three columns are read as x y z of a map, which define the step; "
                   "surface%pixel is for a matrix");
     const TextAxis x = text_axis(path, table, 0, "x"), y = text_axis(path, table, 1, "y");
@@ -139,9 +132,9 @@ HeightMap read_text_triples(const std::string& path, const TextTable& table,
         const double* const row = table.values.data() + 3 * i;
         const std::size_t point = y.index(row[1]) * x.count + x.index(row[0]);
         if (line[point] > 0)
-            bad_input(path + ":" + std::to_string(table.line[i]) + ": x = " + text_of(row[0]) +
-                      ", y = " + text_of(row[1]) + " is already in line " +
-                      std::to_string(line[point]) + "; have the coordinates too few digits?");
+            bad_input(path, ":", table.line[i], ": x = ", row[0], ", y = ", row[1],
+                      " is already in line ", line[point],
+                      "; have the coordinates too few digits?");
         line[point] = table.line[i];
         map.data[point] = row[2];
     }
@@ -151,13 +144,12 @@ HeightMap read_text_triples(const std::string& path, const TextTable& table,
             map.data[k] = std::nan("");
             line[k] = -1;
         }
-    if (const auto empty = std::find(line.begin(), line.end(), 0L); empty != line.end()) {
-        const auto point = static_cast<std::size_t>(empty - line.begin());
-        bad_input(path + ": three columns are read as x y z of a map of " +
-                  std::to_string(x.count) + " x " + std::to_string(y.count) +
-                  " points, but there is none at x = " +
-                  text_of(x.first + static_cast<double>(point % x.count) * x.step) +
-                  ", y = " + text_of(y.first + static_cast<double>(point / x.count) * y.step) +
+    if (const auto empty = std::ranges::find(line, 0L); empty != line.end()) {
+        const auto point = at(empty - line.begin());
+        bad_input(path, ": three columns are read as x y z of a map of ", x.count, " x ", y.count,
+                  " points, but there is none at x = ",
+                  x.first + static_cast<double>(point % x.count) * x.step,
+                  ", y = ", y.first + static_cast<double>(point / x.count) * y.step,
                   "; surface%missing = 'fill' fills such points");
     }
     map.x0 = x.first;
@@ -173,7 +165,7 @@ HeightMap read_text_points(const std::string& path, const TextTable& table, std:
     const bool matrix = table.matrix();
     if (table.columns == 3 && !matrix) return read_text_triples(path, table, L, missing, text);
     if (table.columns == 4 && !matrix)
-        bad_input(path +
+        bad_input(path,
                   ": four columns are a list of asperities x y z r (surface%source='asperities'), "
                   "not a map");
     const auto side = [&](TextTable::UnitMention::Kind kind) -> std::optional<double> {
@@ -184,13 +176,13 @@ HeightMap read_text_points(const std::string& path, const TextTable& table, std:
     const auto width = side(TextTable::UnitMention::width),
                height = side(TextTable::UnitMention::height);
     if (!L && !text.pixel && !width)
-        bad_input(path +
+        bad_input(path,
                   ": a text matrix has no spacing; surface%pixel must be given, or of body 1 "
                   "surface%L, its extent in x");
     if (L) check_L(path, *L);
     check_grid(path, table.columns, table.rows);
     HeightMap map = allocate_map(table.columns, table.rows);
-    std::copy(table.values.begin(), table.values.end(), map.data.get());
+    std::ranges::copy(table.values, map.data.get());
     map.dx = text.pixel ? *text.pixel : L ? *L / map.nx : *width / map.nx;
     map.dy = text.pixel || !height ? map.dx : *height / map.ny;
     if (text.pixel) check_given_L(path, "x", map.nx, map.dx, L);
@@ -198,9 +190,9 @@ HeightMap read_text_points(const std::string& path, const TextTable& table, std:
     const auto check_side = [&](TextTable::UnitMention::Kind kind, std::optional<double> stated,
                                 double side, const char* extent) {
         if (!stated || std::abs(side - *stated) <= kSameSide * *stated) return;
-        bad_input(path + ":" + std::to_string(table.mention(kind)->line) +
-                  ": a comment says that the map is " + text_of(*stated) + " " + length_unit +
-                  extent + ", but surface%pixel or surface%L makes it " + text_of(side));
+        bad_input(path, ":", table.mention(kind)->line, ": a comment says that the map is ",
+                  *stated, " ", length_unit, extent, ", but surface%pixel or surface%L makes it ",
+                  side);
     };
     check_side(TextTable::UnitMention::width, width, map.Lx(), " wide");
     check_side(TextTable::UnitMention::height, height, map.Ly(), " high");
@@ -239,21 +231,20 @@ double text_height_factor(const std::string& path, const TextTable& table, const
         if (&other == stated || in_length_unit(other) ||
             (understood && (!three || (coordinates && same(unit)))))
             continue;
-        bad_input(path + ":" + std::to_string(other.line) + ": a comment names the unit '" +
-                  other.unit + "'; " +
-                  (understood && three
-                       ? "x and y are taken in run%length_unit = '" + length_unit +
-                             "', which must be that of the file"
-                       : "surface%height_unit, the unit of the heights, must be given"));
+        bad_input(path, ":", other.line, ": a comment names the unit '", other.unit, "'; ",
+                  understood && three
+                      ? "x and y are taken in run%length_unit = '" + length_unit +
+                            "', which must be that of the file"
+                      : "surface%height_unit, the unit of the heights, must be given");
     }
     try {
         return length_factor(unit, length_unit, 1);
     } catch (const Error& error) {
-        bad_input(path +
-                  (stated && text.height_unit.empty()
-                       ? ":" + std::to_string(stated->line) + ": a comment: "
-                       : ": ") +
-                  error.what() + "; surface%height_unit replaces it");
+        bad_input(path,
+                  stated && text.height_unit.empty()
+                      ? ":" + std::to_string(stated->line) + ": a comment: "
+                      : ": ",
+                  error.what(), "; surface%height_unit replaces it");
     }
 }
 
@@ -276,7 +267,7 @@ void refuse_coordinates(const std::string& path, const TextTable& table) {
     std::vector<double> y;
     for (std::size_t j = 1; j < table.rows; ++j) y.push_back(table.values[j * table.columns]);
     if (!is_uniform(x) || !is_uniform(y)) return;
-    bad_input(path + ":" + std::to_string(table.line[0]) +
+    bad_input(path, ":", table.line[0],
               ": the corner is empty, the first line and the first column are uniform as "
               "coordinates are: a matrix contains heights alone; remove them, and give the step as "
               "surface%pixel");
@@ -313,23 +304,21 @@ std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variab
     file.read(*variable, c.data());
     Axis axis;
     axis.reversed = c.back() < c.front();
-    if (axis.reversed) std::reverse(c.begin(), c.end());
+    if (axis.reversed) std::ranges::reverse(c);
     axis.first = c.front();
     axis.step = (c.back() - c.front()) / static_cast<double>(n - 1);
     if (!(axis.step > 0))
-        bad_input(file.path() + ": coordinate " + name + " does not vary: it begins and ends at " +
-                  text_of(c.front()));
+        bad_input(file.path(), ": coordinate ", name, " does not vary: it begins and ends at ",
+                  c.front());
     // Tolerance for the rounding of coordinates stored in single precision.
     const double largest = std::max(std::abs(c.front()), std::abs(c.back()));
     const double rounding = variable->type == NC_FLOAT ? 1.2e-7 * largest : 4.5e-16 * largest;
     for (std::size_t i = 0; i < n; ++i) {
         const double uniform = axis.first + static_cast<double>(i) * axis.step;
         if (std::abs(c[i] - uniform) > kUniform * axis.step + rounding)
-            bad_input(file.path() + ": coordinate " + name +
-                      " is not uniform to 1e-6 of its step " + text_of(axis.step) + ": " + name +
-                      "(" + std::to_string(axis.reversed ? n - 1 - i : i) +
-                      "), counted from 0, is " + text_of(c[i]) + " where " + text_of(uniform) +
-                      " was expected");
+            bad_input(file.path(), ": coordinate ", name, " is not uniform to 1e-6 of its step ",
+                      axis.step, ": ", name, "(", axis.reversed ? n - 1 - i : i,
+                      "), counted from 0, is ", c[i], " where ", uniform, " was expected");
     }
     return axis;
 }
@@ -340,13 +329,13 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& c
     };
     if (const auto named = file.find(channel.empty() ? "height" : channel)) {
         if (is_map(*named)) return *named;
-        bad_input(file.path() + ": " +
-                  (channel.empty()
-                       ? "height(y, x), numeric,"
-                       : "channel '" + channel + "': a numeric variable of two dimensions") +
-                  " was expected, not " + named->shape());
+        bad_input(file.path(), ": ",
+                  channel.empty()
+                      ? "height(y, x), numeric,"
+                      : "channel '" + channel + "': a numeric variable of two dimensions",
+                  " was expected, not ", named->shape());
     }
-    if (!channel.empty()) bad_input(file.path() + ": there is no variable '" + channel + "'");
+    if (!channel.empty()) bad_input(file.path(), ": there is no variable '", channel, "'");
     std::vector<NetcdfInput::Variable> maps;
     std::string names;
     for (const auto& v : file.variables())
@@ -355,12 +344,12 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& c
             maps.push_back(v);
         }
     if (maps.empty())
-        bad_input(file.path() +
+        bad_input(file.path(),
                   ": there is no variable height(y, x) and no other of two dimensions");
     if (maps.size() > 1)
-        bad_input(file.path() +
-                  ": there is no variable height(y, x), and several others have two dimensions: " +
-                  names);
+        bad_input(
+            file.path(),
+            ": there is no variable height(y, x), and several others have two dimensions: ", names);
     return maps[0];
 }
 
@@ -384,8 +373,8 @@ std::array<double, 3> unit_factors(const NetcdfInput& file, const NetcdfInput::V
             with = &all[k];
     }
     if (with && without)
-        bad_input(file.path() + ": " + with->name + " is in '" + file.unit(*with).value_or("") +
-                  "', but " + without->name +
+        bad_input(file.path(), ": ", with->name, " is in '", file.unit(*with).value_or(""),
+                  "', but ", without->name,
                   " has no attribute units or unit, so its unit is unknown");
     return factor;
 }
@@ -402,8 +391,7 @@ void apply_mask(const NetcdfInput& file, const NetcdfInput::Variable& heights, H
 
 // Exchanges the axes of a map without padding.
 HeightMap transposed(const HeightMap& map) {
-    HeightMap turned =
-        allocate_map(static_cast<std::size_t>(map.ny), static_cast<std::size_t>(map.nx));
+    HeightMap turned = allocate_map(at(map.ny), at(map.nx));
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i) turned.row(i)[j] = map(i, j);
     return turned;
@@ -421,10 +409,10 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L,
     check_grid(path, variable.lengths[of_x], variable.lengths[of_y]);
     const auto x = read_axis(file, variable, of_x), y = read_axis(file, variable, of_y);
     if (x.has_value() != y.has_value())
-        bad_input(path + ": " + variable.shape() +
+        bad_input(path, ": ", variable.shape(),
                   " has a coordinate variable for only one dimension; both or none were expected");
     if (!x && !L)
-        bad_input(path + ": " + variable.shape() +
+        bad_input(path, ": ", variable.shape(),
                   " has no coordinate variables; they must be given, or of body 1 surface%L, its "
                   "extent in x");
     HeightMap map = allocate_map(variable.lengths[1], variable.lengths[0]);
@@ -455,7 +443,7 @@ std::string first_bytes(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::string start(4096, '\0');
     file.read(start.data(), static_cast<std::streamsize>(start.size()));
-    start.resize(static_cast<std::size_t>(file.gcount()));
+    start.resize(at(file.gcount()));
     return start;
 }
 
@@ -490,7 +478,7 @@ void refuse_unknown(const std::string& path, const std::string& start) {
     for (const InstrumentFormat& format : kInstrumentFormats)
         names +=
             std::string(format.name) + (&format == std::end(kInstrumentFormats) - 1 ? " " : ", ");
-    bad_input(path + names + "nor text. " + gwyddion_advice(path));
+    bad_input(path, names, "nor text. ", gwyddion_advice(path));
 }
 
 Asperities read_netcdf_asperities(const std::string& path, const std::string& length_unit) {
@@ -511,12 +499,12 @@ Asperities read_netcdf_asperities(const std::string& path, const std::string& le
             file.values(name, 1, length_unit, column.length_power,
                         "asperity_x, asperity_y, asperity_z and asperity_radius were expected");
         if (values.size() != a.x.size())
-            bad_input(path + ": " + variable->shape() + ": " + std::to_string(a.x.size()) +
+            bad_input(path, ": ", variable->shape(), ": ", a.x.size(),
                       " values as of asperity_x were expected");
-        if (values.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-            bad_input(path + ": " + variable->shape() + ": more than 2147483647 asperities");
+        if (values.size() > at(std::numeric_limits<int>::max()))
+            bad_input(path, ": ", variable->shape(), ": more than 2147483647 asperities");
     }
-    if (a.size() == 0) bad_input(path + ": there is no asperity in it");
+    if (a.size() == 0) bad_input(path, ": there is no asperity in it");
     validate(a, [&](std::size_t i) {
         return path + ": asperity " + std::to_string(i) + ", counted from 0";
     });
@@ -542,8 +530,8 @@ Asperities read_text_asperities(const std::string& path) {
 bool is_instrument_map(const std::string& path) {
     if (is_netcdf(path)) return false;
     const std::string start = first_bytes(path);
-    return std::any_of(std::begin(kInstrumentFormats), std::end(kInstrumentFormats),
-                       [&](const auto& format) { return format.is(start); });
+    return std::ranges::any_of(kInstrumentFormats,
+                               [&](const auto& format) { return format.is(start); });
 }
 
 bool is_text_map(const std::string& path) { return !is_netcdf(path) && !is_instrument_map(path); }
@@ -610,19 +598,19 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
     const bool fill = missing == Missing::fill;
     const bool netcdf = is_netcdf(path);
     const std::string start = first_bytes(path);
-    const auto* const found =
-        std::find_if(std::begin(kInstrumentFormats), std::end(kInstrumentFormats),
-                     [&](const InstrumentFormat& format) { return !netcdf && format.is(start); });
+    const auto* const found = std::ranges::find_if(
+        kInstrumentFormats,
+        [&](const InstrumentFormat& format) { return !netcdf && format.is(start); });
     const InstrumentFormat* const instrument =
         found == std::end(kInstrumentFormats) ? nullptr : found;
     const bool channels = instrument && instrument->channels;
     if (!channel.empty() && !netcdf && !channels)
-        bad_input(path + ": has no channel '" + channel +
+        bad_input(path, ": has no channel '", channel,
                   "'; only .gwy and NetCDF files have channels");
     if (!netcdf && !instrument) refuse_unknown(path, start);
     if ((netcdf || instrument) && text.any())
         bad_input(
-            path +
+            path,
             ": is not a text file; surface%height_unit and surface%pixel are only for text files");
     HeightMap map = netcdf ? read_netcdf_heights(path, L, length_unit, channel, fill, text, origin)
                     : instrument ? instrument->read(path, channel, length_unit, origin)
@@ -633,11 +621,10 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
     }
     for (const double step : {map.dx, map.dy})
         if (!usable_positive(step))
-            bad_input(path + ": the spacing " + kPositiveBounds + ", not " + text_of(step));
+            bad_input(path, ": the spacing ", kPositiveBounds, ", not ", step);
     for (const double origin : {map.x0, map.y0})
         if (!usable(origin))
-            bad_input(path + ": the first coordinate " + kNumberBounds + ", not " +
-                      text_of(origin));
+            bad_input(path, ": the first coordinate ", kNumberBounds, ", not ", origin);
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i) {
             const double z = map(i, j);
@@ -646,11 +633,11 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
                                       std::to_string(j) + ", counted from 0" +
                                       (instrument ? " with y upwards" : "");
             if (std::isnan(z))
-                bad_input(path + ": " + std::to_string(count_missing(map)) + " of " +
-                          std::to_string(static_cast<long>(map.nx) * map.ny) +
-                          " points are missing" + (channels ? " or masked" : "") + ", the first" +
-                          place + "; surface%missing = 'fill' fills them");
-            bad_input(path + ": a height " + kNumberBounds + ", not " + text_of(z) + " as" + place);
+                bad_input(path, ": ", count_missing(map), " of ",
+                          static_cast<long>(map.nx) * map.ny, " points are missing",
+                          channels ? " or masked" : "", ", the first", place,
+                          "; surface%missing = 'fill' fills them");
+            bad_input(path, ": a height ", kNumberBounds, ", not ", z, " as", place);
         }
     return map;
 }

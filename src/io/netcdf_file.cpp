@@ -16,18 +16,18 @@ namespace {
 void check(int status, const std::string& path) {
     if (status == NC_NOERR) return;
     if (status == NC_EVARSIZE || status == NC_EDIMSIZE)
-        throw Error(Failure::file_system, "cannot write '" + path +
-                                              "': a variable is too large for &output "
-                                              "format='classic'; use format='netcdf4' or 'cdf5'");
+        throw Error(Failure::file_system, "cannot write '", path,
+                    "': a variable is too large for &output "
+                    "format='classic'; use format='netcdf4' or 'cdf5'");
     if (status == NC_ENOMEM || status == ENOMEM)
-        throw Error(Failure::no_memory,
-                    "not enough memory for '" + path + "'; write less (&output contacts, heights)");
+        throw Error(Failure::no_memory, "not enough memory for '", path,
+                    "'; write less (&output contacts, heights)");
     // The file is written in memory: if NetCDF or HDF5 fail there, lack of memory is the likely
     // reason, whatever error they report.
-    throw Error(status == NC_EHDFERR ? Failure::no_memory : Failure::internal,
-                "'" + path + "' cannot be written (" + nc_strerror(status) +
-                    "), most likely for lack of memory; write less (&output contacts, heights) or "
-                    "use format='classic'");
+    throw Error(status == NC_EHDFERR ? Failure::no_memory : Failure::internal, "'", path,
+                "' cannot be written (", nc_strerror(status),
+                "), most likely for lack of memory; write less (&output contacts, heights) or "
+                "use format='classic'");
 }
 
 // The bytes of an empty netCDF-4 file. A file created in memory loses the order of its variables;
@@ -50,14 +50,13 @@ std::vector<char> make_empty(const std::string& path, int mode) {
         // A short write sets no errno; the next one does.
         const bool whole =
             written == size ||
-            (written >= 0 &&
-             ::write(fd, bytes.data(), static_cast<std::size_t>(size - written)) == size - written);
+            (written >= 0 && ::write(fd, bytes.data(), at(size - written)) == size - written);
         const bool room = whole && ::ftruncate(fd, 0) == 0 && ::lseek(fd, 0, SEEK_SET) == 0;
         error = room ? 0 : errno;
         if (room) {
             status = nc_create(name.c_str(), mode, &ncid);
             if (status == NC_NOERR) status = nc_close(ncid);
-            bytes.resize(static_cast<std::size_t>(std::max<off_t>(::lseek(fd, 0, SEEK_END), 0)));
+            bytes.resize(at(std::max<off_t>(::lseek(fd, 0, SEEK_END), 0)));
             if (::pread(fd, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
                 error = errno != 0 ? errno : EIO;
         }
@@ -82,8 +81,8 @@ public:
         image_.size = empty.size();
         image_.memory = std::malloc(empty.size());  // NetCDF reallocates it as the file grows
         if (image_.memory == nullptr)
-            throw Error(Failure::no_memory, "no memory to put '" + path + "' together");
-        std::copy(empty.begin(), empty.end(), static_cast<char*>(image_.memory));
+            throw Error(Failure::no_memory, "no memory to put '", path, "' together");
+        std::ranges::copy(empty, static_cast<char*>(image_.memory));
         const int status = nc_open_memio(path.c_str(), NC_WRITE, &image_, &ncid_);
         if (status == NC_NOERR) image_ = {};  // owned by NetCDF until nc_close_memio
         check(status, path);
@@ -114,7 +113,7 @@ private:
             return image_.size;
         std::uint64_t end = 0;
         for (int i = 7; i >= 0; --i) end = end << 8 | bytes[28 + i];
-        return end >= 48 && end <= image_.size ? static_cast<std::size_t>(end) : image_.size;
+        return end >= 48 && end <= image_.size ? at(end) : image_.size;
     }
 
     std::string path_;
@@ -174,7 +173,7 @@ bool mostly_zero(const NetcdfVariable& v, const std::vector<std::size_t>& shape)
     std::size_t zeros = 0;
     if (v.bytes) return true;
     const auto count = [&](std::span<const double> values) {
-        zeros += static_cast<std::size_t>(std::ranges::count(values, 0.0));
+        zeros += at(std::ranges::count(values, 0.0));
     };
     if (const auto* values = std::get_if<std::vector<double>>(&v.values)) count(*values);
     if (const auto* rows = std::get_if<RowFiller>(&v.values))
@@ -188,8 +187,8 @@ void put_values(int ncid, int varid, const NetcdfVariable& v, const std::vector<
         check(nc_put_var_int(ncid, varid, integers->data()), path);
     } else if (const auto* doubles = std::get_if<std::vector<double>>(&v.values)) {
         std::vector<double> filled;
-        const bool absent = v.may_be_absent && std::any_of(doubles->begin(), doubles->end(),
-                                                           [](double x) { return std::isnan(x); });
+        const bool absent = v.may_be_absent &&
+                            std::ranges::any_of(*doubles, [](double x) { return std::isnan(x); });
         if (absent) {
             filled = *doubles;
             for (double& x : filled)
@@ -224,10 +223,10 @@ void NetcdfFile::attribute(const std::string& name, NetcdfAttribute value) {
 std::vector<std::size_t> NetcdfFile::shape(const NetcdfVariable& v) const {
     std::vector<std::size_t> lengths;
     for (const std::string& wanted : v.dimensions) {
-        const auto found = std::find_if(dimensions_.begin(), dimensions_.end(),
-                                        [&](const auto& d) { return d.first == wanted; });
+        const auto found =
+            std::ranges::find_if(dimensions_, [&](const auto& d) { return d.first == wanted; });
         if (found == dimensions_.end())
-            throw Error(Failure::internal, "result file: no dimension '" + wanted + "'");
+            throw Error(Failure::internal, "result file: no dimension '", wanted, "'");
         lengths.push_back(found->second);
     }
     return lengths;
@@ -247,7 +246,7 @@ void NetcdfFile::check_values(const NetcdfVariable& v) const {
     bool finite = true, fits = true;
     if (const auto* doubles = std::get_if<std::vector<double>>(&v.values)) {
         fits = doubles->size() == size;
-        finite = std::none_of(doubles->begin(), doubles->end(), bad);
+        finite = std::ranges::none_of(*doubles, bad);
     } else if (const auto* integers = std::get_if<std::vector<std::int32_t>>(&v.values)) {
         fits = integers->size() == size;
     } else if (const auto* rows = std::get_if<RowFiller>(&v.values); rows && !v.bytes) {
@@ -256,15 +255,14 @@ void NetcdfFile::check_values(const NetcdfVariable& v) const {
         });
     } else if (const auto* texts = std::get_if<std::vector<std::string>>(&v.values)) {
         fits = lengths.size() == 2 && texts->size() == lengths[0] &&
-               std::none_of(texts->begin(), texts->end(),
-                            [&](const auto& t) { return t.size() > lengths[1]; });
+               std::ranges::none_of(*texts, [&](const auto& t) { return t.size() > lengths[1]; });
     }
     if (!fits)
-        throw Error(Failure::internal,
-                    "result file: the values of '" + v.name + "' do not fill its dimensions");
+        throw Error(Failure::internal, "result file: the values of '", v.name,
+                    "' do not fill its dimensions");
     if (!finite)
-        throw Error(Failure::internal,
-                    "result file: '" + v.name + "' holds a value that is not a finite number");
+        throw Error(Failure::internal, "result file: '", v.name,
+                    "' holds a value that is not a finite number");
 }
 
 void NetcdfFile::define_and_put(int ncid, Format format, int compression,
@@ -316,9 +314,8 @@ void NetcdfFile::write(const std::string& path, Format format, int compression) 
     const fs::path folder = folder_of(path);
     fs::create_directories(folder, error);
     if (error)
-        throw Error(Failure::file_system, "cannot write '" + path + "': folder '" +
-                                              folder.string() +
-                                              "' cannot be made: " + error.message());
+        throw Error(Failure::file_system, "cannot write '", path, "': folder '", folder.string(),
+                    "' cannot be made: ", error.message());
     WholeFile file(path, kResultFile);
 
     double bytes = 0;

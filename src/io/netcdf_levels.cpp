@@ -27,7 +27,7 @@ void ResultTable::global_attributes(const std::string& history) {
                  ? std::string(", boundary elements of rough bodies in contact")
                  : std::string(", deterministic multi-asperity model of rough bodies in contact, "
                                "law ") +
-                       kLawNames[static_cast<std::size_t>(r_.settings.asperities.law)]));
+                       kLawNames[at(r_.settings.asperities.law)]));
     file_.attribute("history", history);
     file_.attribute("references", kPaper);
     file_.attribute("indenter", r_.indenter.shape->text(r_.settings.run.length_unit));
@@ -93,7 +93,7 @@ void ResultTable::levels() {
         const auto absent = [&](const LevelValues& l) {
             return std::isnan(q.beside ? l.*q.beside : q.of(l));
         };
-        if (!q.always && std::all_of(o_.rows.begin(), o_.rows.end(), absent)) continue;
+        if (!q.always && std::ranges::all_of(o_.rows, absent)) continue;
         if (q.integer()) {
             add(q.name, dims, "1", q.meaning,
                 of_rows<std::int32_t>([&](const LevelValues& l) { return clamped(q.of(l)); }),
@@ -102,8 +102,9 @@ void ResultTable::levels() {
         }
         const std::vector<double> values =
             of_rows<double>([&](const LevelValues& l) { return q.of(l); });
-        if (q.always && std::none_of(o_.rows.begin(), o_.rows.end(),
-                                     absent))  // levels that did not converge may have no force
+        if (q.always &&
+            std::ranges::none_of(o_.rows,
+                                 absent))  // levels that did not converge may have no force
             add(q.name, dims, units(q), q.meaning, values, attributes);
         else if (q.of_step)
             add(q.name, {"step"}, units(q), q.meaning,
@@ -140,7 +141,7 @@ void ResultTable::levels() {
 }
 
 bool ResultTable::computed(const std::vector<double>& values) {
-    return !std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v); });
+    return !std::ranges::all_of(values, [](double v) { return std::isnan(v); });
 }
 
 // The components of a vector as the last dimension, which is declared on the first call.
@@ -259,8 +260,8 @@ void ResultTable::surfaces() {
         summits.push_back(clamped(s.summits));
         saddles.push_back(clamped(s.saddles));
     }
-    if (std::any_of(summits.begin(), summits.end(),
-                    [](auto n) { return n > 0; })) {  // elements do not search for summits
+    if (std::ranges::any_of(summits,
+                            [](auto n) { return n > 0; })) {  // elements do not search for summits
         add("summits", dims, "1", "number of asperities", summits);
         add("saddles", dims, "1", "grid maxima that are not asperities", saddles,
             comment("saddles by their curvatures; with law = 'elliptic' or 'fourth_order' maxima "

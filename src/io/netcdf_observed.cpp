@@ -31,8 +31,8 @@ NetcdfAttributes moments_of(const std::vector<Shown>& distributions,
 
 void ResultTable::maps() {
     const MapGrid& g = o_.options.map;
-    file_.dimension("y", static_cast<std::size_t>(g.ny));
-    file_.dimension("x", static_cast<std::size_t>(g.nx));
+    file_.dimension("y", at(g.ny));
+    file_.dimension("x", at(g.nx));
     add("y", {"y"}, unit(1), "y of the cell centres; the last row may extend beyond the surface",
         each_of(g.ny, [&](int j) { return g.y(j); }),
         {{"axis", "Y"}, {"share_of_last_row", std::vector<double>{g.last_row}}});
@@ -95,7 +95,7 @@ void ResultTable::bin_axis(const std::string& name, const std::string& units,
 void ResultTable::distributions() {
     if (o_.distributions.empty()) return;
     file_.dimension("pdf_level", o_.distributions.size());
-    file_.dimension("bin", static_cast<std::size_t>(o_.options.pdf.bins));
+    file_.dimension("bin", at(o_.options.pdf.bins));
     std::vector<double> wanted, used;
     std::vector<std::int32_t> step;
     for (double level : o_.options.pdf_levels) wanted.push_back(level / r_.sigma);
@@ -109,8 +109,7 @@ void ResultTable::distributions() {
         comment("mean over realizations under force control"));
     add("pdf_step", {"pdf_level"}, "1", "number of that level", from_one(step),
         {kFromOne, {"comment", "0: it differs between realizations (force control)"}});
-    add("bin", {"bin"}, "1", "number of the bin",
-        one_to(static_cast<std::size_t>(o_.options.pdf.bins)));
+    add("bin", {"bin"}, "1", "number of the bin", one_to(at(o_.options.pdf.bins)));
     const PdfBins& bins = o_.options.pdf;
     bin_axis("pressure_mean_bin", unit(-2, 1), "middle of the bins of pressure_mean_pdf",
              bins.mean_pressure_width());
@@ -156,7 +155,7 @@ void ResultTable::histogram(const std::string& name, const std::string& axis,
     std::vector<double> values, overflow;
     for (const ShownDistributions& f : o_.distributions) {
         const Histogram& h = f.sum.*which;
-        values.insert(values.end(), h.weight.begin(), h.weight.end());
+        append(values, h.weight);
         overflow.push_back(h.overflow);
     }
     add(name, {"pdf_level", "bin"}, units, long_name, values,
@@ -170,8 +169,7 @@ void ResultTable::density(const std::string& name, const std::string& axis,
                           std::vector<double> Shown::*which, DistributionMoments Shown::*moments,
                           NetcdfAttributes more, const std::string& note) {
     std::vector<double> values;
-    for (const Shown& f : o_.distributions)
-        values.insert(values.end(), (f.*which).begin(), (f.*which).end());
+    for (const Shown& f : o_.distributions) append(values, f.*which);
     NetcdfAttributes all{{"coordinates", axis}};
     append(all, std::move(more));
     append(all, moments_of(o_.distributions, moments));
@@ -272,11 +270,11 @@ void ResultTable::contact_mask() {
             }
     }
     if (steps.empty()) return;
-    const LevelPixels& grid = r_.pixels[static_cast<std::size_t>(steps[0])];
+    const LevelPixels& grid = r_.pixels[at(steps[0])];
     const int columns = right - left + 1, rows = top - bottom + 1;
     file_.dimension("mask_step", steps.size());
-    file_.dimension("mask_y", static_cast<std::size_t>(rows));
-    file_.dimension("mask_x", static_cast<std::size_t>(columns));
+    file_.dimension("mask_y", at(rows));
+    file_.dimension("mask_x", at(columns));
     add("mask_step", {"mask_step"}, "1", "number of the level of contact_mask", from_one(steps),
         {kFromOne});
     add("mask_y", {"mask_y"}, unit(1), "y of the pixels of contact_mask",
@@ -285,15 +283,14 @@ void ResultTable::contact_mask() {
         each_of(columns, [&](int i) { return grid.x_of(left + i); }));
     const auto fill = [=, this](std::size_t k, std::span<double> row) {
         std::ranges::fill(row, 0);
-        const LevelPixels& p = r_.pixels[static_cast<std::size_t>(steps[k])];
-        const auto at = [&](std::int32_t pixel) -> double& {
+        const LevelPixels& p = r_.pixels[at(steps[k])];
+        const auto kind_of = [&](std::int32_t pixel) -> double& {
             const int i = pixel % p.columns - left, j = pixel / p.columns - bottom;
-            return row[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
-                       static_cast<std::size_t>(i)];
+            return row[at(j) * at(columns) + at(i)];
         };
         for (std::size_t n = 0; n < p.index.size(); ++n)
-            at(p.index[n]) = p.pressure[n] >= r_.settings.solids.hardness ? 2 : 1;
-        for (const std::int32_t pixel : p.cohesive) at(pixel) = 3;
+            kind_of(p.index[n]) = p.pressure[n] >= r_.settings.solids.hardness ? 2 : 1;
+        for (const std::int32_t pixel : p.cohesive) kind_of(pixel) = 3;
     };
     constexpr std::array<const char*, 4> kinds = {"apart", "contact", "yielding", "attracted"};
     file_.variable({"contact_mask",
@@ -383,8 +380,8 @@ void ResultTable::heights() {
     if (!r_.heights) return;
     const HeightMap& h = *r_.heights;
     // The dimensions x and y are those of the maps; the heights are on a finer grid.
-    file_.dimension("height_y", static_cast<std::size_t>(h.ny));
-    file_.dimension("height_x", static_cast<std::size_t>(h.nx));
+    file_.dimension("height_y", at(h.ny));
+    file_.dimension("height_x", at(h.nx));
     add("height_y", {"height_y"}, unit(1), "y of the points of height",
         each_of(h.ny, [&](int j) { return h.y(j); }));
     add("height_x", {"height_x"}, unit(1), "x of the points of height",

@@ -203,9 +203,6 @@ private:
         for (const SurfaceStatistics& s : o_.surface) values.push_back(get(s));
         return values;
     }
-    static void append(NetcdfAttributes& to, NetcdfAttributes more) {
-        for (auto& a : more) to.push_back(std::move(a));
-    }
 
     const Result& r_;
     const Observations& o_;

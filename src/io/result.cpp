@@ -10,16 +10,15 @@ Contacts contacts_kept(const Case& c) {
     const bool one = c.run.realizations == 1;
     if (!one && (c.output.contacts == Contacts::last || c.output.contacts == Contacts::all))
         bad_input(
-            "&output contacts: contacts are stored for one realization only, and this case has " +
-            std::to_string(c.run.realizations) +
-            "; use contacts='none' or 'auto', or realizations=1");
+            "&output contacts: contacts are stored for one realization only, and this case has ",
+            c.run.realizations, "; use contacts='none' or 'auto', or realizations=1");
     if (!one && c.output.heights)
         bad_input(
-            "&output heights: heights are stored for one realization only, and this case has " +
-            std::to_string(c.run.realizations) + "; use heights=.false. or realizations=1");
+            "&output heights: heights are stored for one realization only, and this case has ",
+            c.run.realizations, "; use heights=.false. or realizations=1");
     if (!one && !c.output.fields.empty())
-        bad_input("&output fields: fields are stored for one realization only, and this case has " +
-                  std::to_string(c.run.realizations));
+        bad_input("&output fields: fields are stored for one realization only, and this case has ",
+                  c.run.realizations);
     if (c.output.contacts != Contacts::automatic) return c.output.contacts;
     return one ? Contacts::all : Contacts::none;
 }
@@ -70,8 +69,7 @@ void keep_contacts(Result& result, std::vector<Level>& levels, Contacts keep) {
         Level& level = levels[s];
         const bool kept = keep == Contacts::all || s + 1 == levels.size();
         const std::size_t count = kept ? level.asperity.size() : 0;
-        if (packed.force.size() + count >
-            static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+        if (packed.force.size() + count > at(std::numeric_limits<std::int32_t>::max()))
             bad_input(
                 "&output contacts: too many contacts for the indices of the result file; use "
                 "contacts='last' or 'none'");
@@ -79,14 +77,13 @@ void keep_contacts(Result& result, std::vector<Level>& levels, Contacts keep) {
         packed.count.push_back(static_cast<std::int32_t>(count));
         if (!kept) continue;
         if (level.pixels.index.empty()) {
-            packed.asperity.insert(packed.asperity.end(), level.asperity.begin(),
-                                   level.asperity.end());
+            append(packed.asperity, level.asperity);
         } else {
-            packed.x.insert(packed.x.end(), level.x.begin(), level.x.end());
-            packed.y.insert(packed.y.end(), level.y.begin(), level.y.end());
+            append(packed.x, level.x);
+            append(packed.y, level.y);
         }
-        packed.force.insert(packed.force.end(), level.f.begin(), level.f.end());
-        packed.radius.insert(packed.radius.end(), level.a.begin(), level.a.end());
+        append(packed.force, level.f);
+        append(packed.radius, level.a);
         for (const Spot& spot : level.spots) {
             packed.spot_x.push_back(spot.x);
             packed.spot_y.push_back(spot.y);
@@ -94,8 +91,7 @@ void keep_contacts(Result& result, std::vector<Level>& levels, Contacts keep) {
             packed.minor.push_back(spot.minor);
             packed.angle.push_back(spot.angle);
         }
-        if (std::isfinite(result.settings.solids.hardness))
-            packed.yields.insert(packed.yields.end(), level.yields.begin(), level.yields.end());
+        if (std::isfinite(result.settings.solids.hardness)) append(packed.yields, level.yields);
         result.pixels.resize(levels.size());
         result.pixels[s] = std::move(level.pixels);
     }
@@ -130,22 +126,19 @@ public:
     std::vector<double> values(const std::string& name,
                                const std::vector<std::size_t>& lengths) const {
         const std::optional<Variable> variable = find(name);
-        if (!variable)
-            refuse("it has no variable " + name + ", which is needed to merge campaigns");
+        if (!variable) refuse("it has no variable ", name, ", which is needed to merge campaigns");
         if (variable->lengths != lengths)
-            refuse("variable " + variable->shape() + " does not have the shape given by its case");
+            refuse("variable ", variable->shape(), " does not have the shape given by its case");
         std::vector<double> values(variable->count());
         read(*variable, values.data(), true);
         return values;
     }
     std::size_t length(const std::string& name) const {
         const std::optional<Variable> variable = find(name);
-        if (!variable || variable->lengths.size() != 1) refuse("it has no list " + name);
+        if (!variable || variable->lengths.size() != 1) refuse("it has no list ", name);
         return variable->lengths.front();
     }
-    [[noreturn]] void refuse(const std::string& why) const {
-        bad_input("'" + path() + "': " + why);
-    }
+    [[noreturn]] void refuse(const auto&... why) const { bad_input("'", path(), "': ", why...); }
 };
 
 // Both axes depend on the surface, which may differ if it was read from a file.
@@ -153,16 +146,14 @@ void require_same_axes(const Columns& file, const ObserveOptions& options) {
     const auto require = [&](const std::string& name, std::size_t count, double first) {
         if (file.values(name, {count}).front() != first)
             file.refuse(
-                name +
+                name,
                 " begins at another value than the case gives: the surfaces were not the same");
     };
-    require("x", static_cast<std::size_t>(options.map.nx), options.map.x(0));
-    require("y", static_cast<std::size_t>(options.map.ny), options.map.y(0));
+    require("x", at(options.map.nx), options.map.x(0));
+    require("y", at(options.map.ny), options.map.y(0));
     if (options.pdf_levels.empty()) return;
-    require("pressure_mean_bin", static_cast<std::size_t>(options.pdf.bins),
-            0.5 * options.pdf.mean_pressure_width());
-    require("spot_area_bin", static_cast<std::size_t>(options.pdf.bins),
-            0.5 * options.pdf.area_width());
+    require("pressure_mean_bin", at(options.pdf.bins), 0.5 * options.pdf.mean_pressure_width());
+    require("spot_area_bin", at(options.pdf.bins), 0.5 * options.pdf.area_width());
 }
 
 void read_levels(const Columns& file, Accumulators& sums) {
@@ -262,11 +253,10 @@ Accumulators read_sums(const std::string& path, const ObserveOptions& options, s
     read_levels(file, sums);
     read_surfaces(file, sums);
     read_stresses(file, sums);
-    const std::vector<std::size_t> lengths{steps, static_cast<std::size_t>(options.map.ny),
-                                           static_cast<std::size_t>(options.map.nx)};
+    const std::vector<std::size_t> lengths{steps, at(options.map.ny), at(options.map.nx)};
     const std::vector<double> area = file.values("map_area_fraction", lengths);
     const std::vector<double> pressure = file.values("map_pressure", lengths);
-    const auto cells = static_cast<std::size_t>(options.map.cells());
+    const auto cells = at(options.map.cells());
     for (std::size_t s = 0; s < steps; ++s)
         sums.restore_map(s, std::span(area).subspan(s * cells, cells),
                          std::span(pressure).subspan(s * cells, cells));
@@ -279,8 +269,7 @@ std::optional<LevelCount> count_levels(const std::string& path) {
     const auto status = file.find("status");
     if (!status) return {};
     const std::vector<double> values = file.values("status", status->lengths);
-    const auto failed =
-        std::count(values.begin(), values.end(), static_cast<double>(LevelStatus::not_converged));
+    const auto failed = std::ranges::count(values, static_cast<double>(LevelStatus::not_converged));
     return LevelCount{static_cast<long>(values.size()), static_cast<long>(failed)};
 }
 

@@ -62,7 +62,7 @@ std::optional<Frame> take_frame(std::string_view& file) {
     if (file.size() < sizeof head) return {};
     std::memcpy(&head, file.data(), sizeof head);
     if (head.length > file.size() - sizeof head) return {};
-    const std::string_view bytes = file.substr(sizeof head, static_cast<std::size_t>(head.length));
+    const std::string_view bytes = file.substr(sizeof head, at(head.length));
     if (checksum_of(head, bytes) != head.checksum) return {};
     file.remove_prefix(sizeof head + bytes.size());
     return Frame{head.kind, bytes};
@@ -94,7 +94,7 @@ std::string inputs_line(const Case& settings) {
         std::ifstream in(name, std::ios::binary);
         std::vector<char> part(std::size_t{1} << 20);
         while (in.read(part.data(), static_cast<std::streamsize>(part.size())), in.gcount() > 0)
-            crc = add(crc, part.data(), static_cast<std::size_t>(in.gcount()));
+            crc = add(crc, part.data(), at(in.gcount()));
     }
     return "! inputs " + std::to_string(crc) + "\n";
 }
@@ -109,7 +109,7 @@ Checkpoint::Checkpoint(const std::string& result_file, const Case& settings, boo
       last_sync_(std::chrono::steady_clock::now()) {
     for (int attempt = 0; fd_ < 0; ++attempt) {
         if (const std::string why = reason_to_leave(name_, kCheckpoint); !why.empty())
-            bad_input("'" + name_ + "': " + why);
+            bad_input("'", name_, "': ", why);
         fd_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (fd_ < 0) fail_to_write(name_, errno);
         // File systems without locks (ENOLCK, ENOTSUP) are used without one.
@@ -118,12 +118,12 @@ Checkpoint::Checkpoint(const std::string& result_file, const Case& settings, boo
             break;  // otherwise the file was replaced or removed meanwhile
         ::close(std::exchange(fd_, -1));
         if (busy || attempt == 100)
-            bad_input("'" + name_ + "': another process is running this campaign");
+            bad_input("'", name_, "': another process is running this campaign");
     }
     try {
         load(settings);
         if (base_size_ > 0 && !resume)
-            bad_input("'" + name_ +
+            bad_input("'", name_,
                       "' is the checkpoint of an interrupted campaign: continue with --resume, or "
                       "remove that file to "
                       "start from the beginning");
@@ -164,9 +164,9 @@ void Checkpoint::load(const Case& settings) {
     std::ifstream in(name_, std::ios::binary);
     const std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     if (!in.is_open() || in.bad())
-        throw Error(Failure::file_system, "cannot read '" + name_ + "': " + std::strerror(errno));
+        throw Error(Failure::file_system, "cannot read '", name_, "': ", std::strerror(errno));
     std::string_view left = all;
-    const auto refuse = [this](const std::string& text) { bad_input("'" + name_ + "' " + text); };
+    const auto refuse = [this](const auto&... text) { bad_input("'", name_, "' ", text...); };
     const std::optional<Frame> header = take_frame(left);
     if (!header) {
         // The incomplete first frame of a killed process is accepted; anything else is no
@@ -177,8 +177,8 @@ void Checkpoint::load(const Case& settings) {
     }
     if (header->kind != kHeader) refuse("is not a checkpoint of rsc");
     if (!header->bytes.starts_with(header_start()))
-        refuse("was written by another version of rsc (" +
-               std::string(header->bytes.substr(0, header->bytes.find('\n'))) +
+        refuse("was written by another version of rsc (",
+               header->bytes.substr(0, header->bytes.find('\n')),
                "), whose numbers may differ in the last bits: finish it with that version, or "
                "remove the file to start from the "
                "beginning");
@@ -187,7 +187,7 @@ void Checkpoint::load(const Case& settings) {
     std::string changed;
     for (const std::string& line : differences(there.settings, settings)) changed += "\n  " + line;
     if (!changed.empty())
-        refuse("belongs to another case: it cannot be resumed with" + changed +
+        refuse("belongs to another case: it cannot be resumed with", changed,
                "\nRestore the old values of these keys, or remove the file to start from the "
                "beginning.");
     if (!header->bytes.substr(header_start().size()).starts_with(inputs_line(settings)))
@@ -246,11 +246,11 @@ void Checkpoint::rewrite(const std::string& sums, const std::vector<const std::s
 void Checkpoint::sync_now_and_then() {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
-    const double since = std::chrono::duration<double>(start - last_sync_).count();
+    const double since = seconds_since(last_sync_);
     if (since < kSyncSeconds || since * kSyncShare < sync_seconds_) return;
     const int error = ::fdatasync(fd_) != 0 ? errno : 0;
     last_sync_ = Clock::now();
-    sync_seconds_ = std::chrono::duration<double>(last_sync_ - start).count();
+    sync_seconds_ = seconds_since(start);
     if (error == ENOSPC || error == EDQUOT || error == EIO) fail_to_write(name_, error);
 }
 

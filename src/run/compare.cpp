@@ -1,7 +1,6 @@
 #include "run/compare.hpp"
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "contact/make.hpp"
 #include "run/memory.hpp"
 #include "run/screen.hpp"
@@ -74,9 +73,7 @@ std::vector<std::size_t> steps_to_compare(const Job& job, const std::vector<Leve
             return std::abs((by_force ? levels[k].force : levels[k].separation) -
                             wanted * job.level_unit);
         };
-        const auto taken = [&](std::size_t k) {
-            return std::find(steps.begin(), steps.end(), k) != steps.end();
-        };
+        const auto taken = [&](std::size_t k) { return contains(steps, k); };
         for (std::size_t k = 1; k < levels.size(); ++k) {
             if (miss(k) < miss(step) ||
                 (path_dependent && miss(k) == miss(step) && taken(step) && !taken(k)))
@@ -84,7 +81,7 @@ std::vector<std::size_t> steps_to_compare(const Job& job, const std::vector<Leve
         }
         steps.push_back(step);
     }
-    if (path_dependent) std::sort(steps.begin(), steps.end());
+    if (path_dependent) std::ranges::sort(steps);
     return steps;
 }
 

@@ -2,7 +2,6 @@
 
 #include "asperities/ranking.hpp"
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "base/parallel.hpp"
 #include "case/registry.hpp"
 #include "contact/answers.hpp"
@@ -34,9 +33,8 @@ void move_to(const Domain& place, HeightMap& map, std::int64_t number) {
     constexpr double kSame = 1e-6;
     if (!(std::abs(map.Lx() - place.Lx) <= kSame * place.Lx &&
           std::abs(map.Ly() - place.Ly) <= kSame * place.Ly))
-        bad_input("the map of realization " + std::to_string(number) + " is " + text_of(map.Lx()) +
-                  " x " + text_of(map.Ly()) + ", the first is " + text_of(place.Lx) + " x " +
-                  text_of(place.Ly) + "; maps of one size are expected");
+        bad_input("the map of realization ", number, " is ", map.Lx(), " x ", map.Ly(),
+                  ", the first is ", place.Lx, " x ", place.Ly, "; maps of one size are expected");
     map.x0 = place.x0;
     map.y0 = place.y0;
 }
@@ -47,8 +45,8 @@ void require_maps(const Case& settings, const Domain& first) {
     const std::int64_t last =
         std::int64_t{settings.run.first_realization} + settings.run.realizations - 1;
     if (last > files)
-        bad_input(settings.surface.file + ": realizations up to " + std::to_string(last) +
-                  " are requested, but " + std::to_string(files) + " files match");
+        bad_input(settings.surface.file, ": realizations up to ", last, " are requested, but ",
+                  files, " files match");
     for (std::int64_t k = settings.run.first_realization + 1; k <= last; ++k) {
         HeightMap map = read_points(settings, k);
         move_to(first, map, k);
@@ -114,7 +112,7 @@ void require_open(const Job& job) {
         mean += row / map.ny;
     }
     constexpr double kRounding = 1e-12;
-    const double least = *std::min_element(job.levels.begin(), job.levels.end());
+    const double least = std::ranges::min(job.levels);
     if (!(least > mean + kRounding * job.sigma))
         bad_input(
             format("indentation: a separation of %.9g %s is not above that of full contact, %.9g "
@@ -143,7 +141,7 @@ FieldsAsked fields_asked(const Job& job) {
     const auto& w = settings.output.field_window;
     const auto has = [&](Field f) {
         const auto& all = settings.output.fields;
-        return std::find(all.begin(), all.end(), static_cast<double>(f)) != all.end();
+        return contains(all, static_cast<double>(f));
     };
     FieldsAsked asked;
     asked.pressure = has(Field::pressure);
@@ -331,13 +329,13 @@ double unit_of_pressures(const Job& job) {
     const double unit = relative ? full : 1.0;
     for (double level : job.levels) {
         if (!elements && level * unit >= kClosingPressure * full)
-            bad_input(key_of_largest(settings.indentation) +
+            bad_input(key_of_largest(settings.indentation),
                       format("a pressure of %g: at E* sqrt(2 m2) = %g and above less than 5 %% of "
                              "the area is gap, too little for the asperity model; use "
                              "solver%%model = 'elements', which is valid up to full contact",
                              level * unit, full));
         if (!(level * unit < settings.solids.hardness))
-            bad_input(key_of_largest(settings.indentation) +
+            bad_input(key_of_largest(settings.indentation),
                       format("a nominal pressure of %.9g exceeds the hardness, %.9g", level * unit,
                              settings.solids.hardness));
     }
@@ -480,7 +478,7 @@ void require_reachable(const Job& job, Path& contact) {
         contact.require_gap(wears(settings) ? job.levels.front() : std::ranges::max(job.levels));
     } catch (const Error& error) {
         if (error.kind() != Failure::bad_input) throw;
-        bad_input(key_of_largest(settings.indentation) + error.what() + "; give smaller ones");
+        bad_input(key_of_largest(settings.indentation), error.what(), "; give smaller ones");
     }
 }
 
@@ -519,8 +517,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     require_reachable(job, *contact);
     const auto take = [&](std::size_t k, Level solved) {
         Level& level = r.levels.emplace_back(std::move(solved));
-        const bool field = std::find(field_steps.begin(), field_steps.end(),
-                                     static_cast<std::int32_t>(k)) != field_steps.end();
+        const bool field = contains(field_steps, static_cast<std::int32_t>(k));
         std::vector<double> flow;
         if (has_gap(settings))
             measure_gap(heights_of(job, r), *contact, level, job.observe.pdf, settings.output.flow,

@@ -27,8 +27,7 @@ std::optional<Message> receive() {
     if (!there) return {};
     int length = 0;
     MPI_Get_count(&status, MPI_BYTE, &length);
-    Message message{status.MPI_SOURCE, status.MPI_TAG,
-                    std::string(static_cast<std::size_t>(length), '\0')};
+    Message message{status.MPI_SOURCE, status.MPI_TAG, std::string(at(length), '\0')};
     MPI_Recv(message.bytes.data(), length, MPI_BYTE, message.rank, message.tag, MPI_COMM_WORLD,
              MPI_STATUS_IGNORE);
     return message;
@@ -38,7 +37,7 @@ std::optional<Message> receive() {
 class Outbox {
 public:
     void send(int rank, Tag tag, std::string bytes) {
-        if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        if (bytes.size() > at(std::numeric_limits<int>::max()))
             throw Error(
                 Failure::internal,
                 "a result of more than 2 GiB cannot be sent by MPI; use fewer map_cells or levels");
@@ -86,15 +85,14 @@ std::string packed(const std::exception_ptr& error) {
 }
 
 [[noreturn]] void rethrow(const Message& message) {
-    throw Error(static_cast<Failure>(first_of<std::int32_t>(message.bytes)),
-                "rank " + std::to_string(message.rank) + ": " +
-                    message.bytes.substr(std::min(message.bytes.size(), sizeof(std::int32_t))));
+    throw Error(static_cast<Failure>(first_of<std::int32_t>(message.bytes)), "rank ", message.rank,
+                ": ", message.bytes.substr(std::min(message.bytes.size(), sizeof(std::int32_t))));
 }
 
 class MpiTeam : public Team {
 public:
     MpiTeam(Work work, std::size_t threads, int ranks)
-        : work_(std::move(work)), threads_(threads), ranks_(static_cast<std::size_t>(ranks)) {}
+        : work_(std::move(work)), threads_(threads), ranks_(at(ranks)) {}
 
     std::size_t workers() const override { return threads_ * ranks_; }
 
@@ -121,7 +119,7 @@ public:
                 if (message->tag == kSignal) note_signal(first_of<std::int32_t>(message->bytes));
                 leave_if_interrupted();
                 if (message->tag != kAnswer) continue;
-                --at_work[static_cast<std::size_t>(message->rank)];
+                --at_work[at(message->rank)];
                 collect(first_of<Task>(message->bytes), message->bytes.substr(sizeof(Task)));
             }
             outbox_.tidy();
@@ -134,7 +132,7 @@ private:
     std::size_t hand_out(const Next& next, WorkerThreads& local, std::vector<std::size_t>& at_work,
                          int ahead) {
         bool more = true;
-        for (std::size_t deep = 1; more && deep <= static_cast<std::size_t>(1 + ahead); ++deep)
+        for (std::size_t deep = 1; more && deep <= at(1 + ahead); ++deep)
             for (std::size_t rank = 0; more && rank < ranks_; ++rank)
                 while (more && at_work[rank] < deep * threads_) {
                     const std::optional<Task> task = next();
@@ -158,9 +156,7 @@ private:
 
 }  // namespace
 
-std::size_t threads_of_rank(int threads) {
-    return threads > 0 ? static_cast<std::size_t>(threads) : 1;
-}
+std::size_t threads_of_rank(int threads) { return threads > 0 ? at(threads) : 1; }
 
 MpiJob::MpiJob(int& argc, char**& argv) {
     int provided = 0;
@@ -209,8 +205,7 @@ int MpiJob::serve(const std::function<Work(const std::string&, std::size_t)>& ma
                 }
                 try {
                     if (message->tag == kCase) {
-                        const auto count =
-                            static_cast<std::size_t>(first_of<std::uint64_t>(message->bytes));
+                        const auto count = at(first_of<std::uint64_t>(message->bytes));
                         work = make(message->bytes.substr(sizeof(std::uint64_t)), count);
                         threads.emplace(work, count);
                     }

@@ -1,10 +1,7 @@
 #include "run/prepare.hpp"
 
-#include <unistd.h>
-
 #include "asperities/law.hpp"
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "base/library_lock.hpp"
 #include "base/parallel.hpp"
 #include "contact/equivalent.hpp"
@@ -51,7 +48,7 @@ void set_sampled(const Moments& sampled, SurfaceStatistics& s) {
 
 void require_summits(const SurfaceModel& model, const std::string& name, const std::string& where) {
     if (model.asperities.size() > 0) return;
-    bad_input(name + ": no summit" + where + ": no point lies strictly above its 8 neighbours");
+    bad_input(name, ": no summit", where, ": no point lies strictly above its 8 neighbours");
 }
 
 // The file of realization `number`.
@@ -59,9 +56,9 @@ std::string map_file(const std::string& name, std::int64_t number) {
     if (!is_pattern(name)) return name;
     const std::vector<std::string> files = matching_files(name);
     if (number < 1 || number > static_cast<std::int64_t>(files.size()))
-        bad_input(name + ": realization " + std::to_string(number) + " is requested, but only " +
-                  std::to_string(files.size()) + " files match");
-    return files[static_cast<std::size_t>(number - 1)];
+        bad_input(name, ": realization ", number, " is requested, but only ", files.size(),
+                  " files match");
+    return files[at(number - 1)];
 }
 
 // The points of a map within x0, x1, y0, y1.
@@ -130,7 +127,7 @@ Surface read_map(const Case& settings, const std::string& path, std::optional<do
         measured->coded = origin.coded;
         surface.measured = std::move(measured);
     } catch (const Error& error) {
-        throw Error(error.kind(), path + ": " + error.what());
+        throw Error(error.kind(), path, ": ", error.what());
     }
     surface.sigma = surface.measured->parameters.sq;
     return surface;
@@ -230,11 +227,9 @@ std::string too_large_for_elements(const Case& settings, const Spectrum& spectru
     // precision.
     const bool periodic = settings.indentation.boundary == Boundary::periodic;
     const double elastic = reads_high_points(settings) ? 3.0 : 8.0,
-                 bytes = (periodic ? 28.0 : elastic) * n * n,
-                 memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
-                          static_cast<double>(sysconf(_SC_PAGESIZE));
+                 bytes = (periodic ? 28.0 : elastic) * n * n, memory = machine_memory();
     constexpr double beside = 1.5;  // first the modes during synthesis, later the pixels in contact
-    if (!(memory > 0) || beside * bytes <= memory) return {};
+    if (beside * bytes <= memory) return {};
     return format(
         "&elements points_per_wave = %g: %s, %d x %d points, need %.3g GB, but the machine has "
         "%.3g GB of memory; use fewer points per wave "
@@ -246,7 +241,7 @@ std::string too_large_for_elements(const Case& settings, const Spectrum& spectru
 // Values between start and stop, both included.
 std::vector<double> spaced(const Case::Indentation& keys) {
     if (!keys.levels.empty()) return keys.levels;
-    std::vector<double> values(static_cast<std::size_t>(keys.steps));
+    std::vector<double> values(at(keys.steps));
     for (std::size_t k = 0; k < values.size(); ++k) {
         const double t = keys.steps > 1 ? static_cast<double>(k) / (keys.steps - 1) : 0.0;
         values[k] = keys.spacing == Spacing::log ? keys.start * std::pow(keys.stop / keys.start, t)
@@ -260,7 +255,7 @@ bool reads_high_points(const Case& c) {
     const std::vector<double> levels = spaced(c.indentation);
     return has_spectrum(c) && !levels.empty() && c.indentation.boundary == Boundary::free &&
            c.indentation.control == Control::separation &&
-           std::all_of(levels.begin(), levels.end(), [](double level) { return level > 0; }) &&
+           std::ranges::all_of(levels, [](double level) { return level > 0; }) &&
            c.indenter.file.empty() && !std::isfinite(c.solids.hardness) &&
            !(c.solids.adhesion > 0) && !relaxes(c) && !wears(c) && !c.output.heights &&
            c.output.fields.empty();
@@ -278,8 +273,7 @@ Surface make_element_surface(const Case& settings, std::int64_t number, int thre
         return make_surface(finer, spectrum, number, threads);
     // Faces are nowhere below 0, so that a height of 0 lies below the indenter at every separation
     // above 0. The highest point is kept.
-    const double step = spectrum.L / finer.surface.n,
-                 least = *std::min_element(levels.begin(), levels.end()) * (1 - 1e-9);
+    const double step = spectrum.L / finer.surface.n, least = std::ranges::min(levels) * (1 - 1e-9);
     std::atomic<double> top = -kInfinity;
     Surface surface = make_surface(
         finer, spectrum, number, threads, [&](int row, int first, int count, const double* z) {
@@ -316,8 +310,7 @@ SurfaceDomain list_domain(const Asperities& asperities, std::optional<double> L,
     const auto [below, above] = std::ranges::minmax(asperities.y);
     const double extent = std::max(right - left, above - below);
     if (L && extent > *L)
-        bad_input("surface%L = " + text_of(*L) + " is less than the extent of " + whose + ", " +
-                  text_of(extent));
+        bad_input("surface%L = ", *L, " is less than the extent of ", whose, ", ", extent);
     SurfaceDomain domain;
     if (L && std::min(left, below) >= 0 && std::max(right, above) <= *L) {
         domain = {0, 0, *L, *L};

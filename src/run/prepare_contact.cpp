@@ -1,7 +1,6 @@
 // The contact of a case: indenter, tip and solver of &indenter, &solids, &indentation and &solver.
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "contact/equivalent.hpp"
 #include "contact/make.hpp"
 #include "run/prepare.hpp"
@@ -42,10 +41,10 @@ void require_tip_above(const SurfaceDomain& domain, const Shape& shape, double x
     };
     if (within(x, d.x0, d.Lx) && within(y, d.y0, d.Ly)) return;
     bad_input(
-        "the tip at x = " + text_of(x) + ", y = " + text_of(y) +
-        " is not above the surface, which reaches from x = " + text_of(d.x0) + " to " +
-        text_of(d.x0 + d.Lx) + " and from y = " + text_of(d.y0) + " to " + text_of(d.y0 + d.Ly) +
-        (domain.guessed ? " (the extent of the asperities; set surface%L for a larger one)" : ""));
+        "the tip at x = ", x, ", y = ", y,
+        " is not above the surface, which reaches from x = ", d.x0, " to ", d.x0 + d.Lx,
+        " and from y = ", d.y0, " to ", d.y0 + d.Ly,
+        domain.guessed ? " (the extent of the asperities; set surface%L for a larger one)" : "");
 }
 
 Indenter indenter_of(const Case& settings, const SurfaceDomain& domain) {
@@ -59,7 +58,7 @@ Indenter indenter_of(const Case& settings, const SurfaceDomain& domain) {
     try {
         require_tip_above(domain, indenter.shape, indenter.x0, indenter.y0);
     } catch (const Error& error) {
-        throw Error(error.kind(), std::string("indentation%centre: ") + error.what());
+        throw Error(error.kind(), "indentation%centre: ", error.what());
     }
     return indenter;
 }

@@ -36,7 +36,7 @@ public:
     Sayings(std::ostream& out, std::span<const LevelValues> levels) : out_(out), levels_(levels) {}
     template <class Holds>
     long count(Holds holds) const {
-        return static_cast<long>(std::count_if(levels_.begin(), levels_.end(), holds));
+        return static_cast<long>(std::ranges::count_if(levels_, holds));
     }
     template <class Holds>
     void say(Holds holds, const std::string& what) const {
@@ -188,10 +188,10 @@ void print_changes(std::ostream& out, std::span<const LevelValues> levels, const
             last.worn_volume, l, last.wear_depth_max, l, last.worn_rms, l);
     }
     if (!std::isfinite(job.settings.solids.hardness) || levels.empty()) return;
-    const auto most = std::max_element(levels.begin(), levels.end(),
-                                       [](const LevelValues& p, const LevelValues& q) {
-                                           return p.plastic_contacts < q.plastic_contacts;
-                                       });
+    const auto most =
+        std::ranges::max_element(levels, [](const LevelValues& p, const LevelValues& q) {
+            return p.plastic_contacts < q.plastic_contacts;
+        });
     if (most->plastic_contacts == 0) {
         out << "  no contact yields: pressures stay below the hardness.\n";
         return;
@@ -326,8 +326,8 @@ void print_remarks(std::ostream& out, std::span<const LevelValues> levels, const
     if (!elements) print_methods(out, levels);
     print_bounds(out, levels, job);
     print_statuses(out, levels, job, elements);
-    const auto extreme = std::max_element(
-        levels.begin(), levels.end(), [](const LevelValues& p, const LevelValues& q) {
+    const auto extreme =
+        std::ranges::max_element(levels, [](const LevelValues& p, const LevelValues& q) {
             return p.extreme_area_fraction < q.extreme_area_fraction;
         });
     // the hardness of hardened steel; softer bodies bear E*/10

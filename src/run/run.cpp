@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "base/parallel.hpp"
 #include "case/registry.hpp"
 #include "io/inputs.hpp"
@@ -29,7 +28,7 @@ std::vector<std::string> input_files(const Case& settings) {
 
 bool check_result_path(const Case& settings, const RunOptions& options) {
     std::vector<std::string> inputs = input_files(settings);
-    inputs.insert(inputs.end(), options.inputs.begin(), options.inputs.end());
+    append(inputs, options.inputs);
     return check_output(settings.output.file, inputs);
 }
 
@@ -238,10 +237,9 @@ RunSummary summary_of(const std::vector<LevelValues>& levels, const ComparedLeve
         return level.status == LevelStatus::not_converged;
     };
     const LevelValues& last = levels.back();
-    return {
-        static_cast<long>(levels.size() + compared.levels.size()),
-        static_cast<long>(std::count_if(levels.begin(), levels.end(), failed)) + compared.failed,
-        last.separation, last.force, last.area};
+    return {static_cast<long>(levels.size() + compared.levels.size()),
+            static_cast<long>(std::ranges::count_if(levels, failed)) + compared.failed,
+            last.separation, last.force, last.area};
 }
 
 }  // namespace
@@ -295,10 +293,8 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
 
     const std::string twins = write_twins(job, settings.output.file);
 
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (table)
-        summarise(*table, job, r.statistics, record.levels, record.stresses, seconds,
+        summarise(*table, job, r.statistics, record.levels, record.stresses, seconds_since(start),
                   settings.output.file, replaces, twins);
     const RunSummary summary = summary_of(record.levels, result.compared);
     tell_failed(options, summary);

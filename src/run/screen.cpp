@@ -22,10 +22,10 @@ const char* fallback_text(Fallback fallback) {
                                      "dgesv's solution is not proved unique",
                                      "no state has this force; level of the smallest force",
                                      "the force jumps over this one"};
-    return texts[static_cast<std::size_t>(fallback)];
+    return texts[at(fallback)];
 }
 
-std::string name_of(Method method) { return kMethodNames[static_cast<std::size_t>(method)]; }
+std::string name_of(Method method) { return kMethodNames[at(method)]; }
 
 namespace {
 
@@ -70,8 +70,8 @@ double smooth_radius(const Job& job) {
     if (job.indenter.period.finite() || !std::isfinite(R) || job.levels.empty())
         return kNotComputed;
     if (job.settings.indentation.control == Control::separation)
-        return std::sqrt(R * std::max(0.0, -*std::ranges::min_element(job.levels)));
-    return std::cbrt(0.75 * R * std::max(0.0, *std::ranges::max_element(job.levels)) / E);
+        return std::sqrt(R * std::max(0.0, -std::ranges::min(job.levels)));
+    return std::cbrt(0.75 * R * std::max(0.0, std::ranges::max(job.levels)) / E);
 }
 
 // Lengths and moduli in another unit than that of the case are a common mistake. No solid is
@@ -148,8 +148,8 @@ void print_case(std::ostream& out, const Job& job) {
                              f, l));
     if (job.settings.solver.model == ModelKind::automatic) {
         const ModelChoice choice = model_of(job.settings);
-        out << format("by %s: %s (solver%%model = 'auto')\n",
-                      kModelNames[static_cast<std::size_t>(choice.model)], choice.why);
+        out << format("by %s: %s (solver%%model = 'auto')\n", kModelNames[at(choice.model)],
+                      choice.why);
     }
     if (job.spectrum && by_elements(job.settings) && job.settings.surface.n != defaults.surface.n) {
         const int n = element_points(job.settings, *job.spectrum);
@@ -246,7 +246,7 @@ static std::string outcome_of(const LevelValues& level) {
     if (level.status == LevelStatus::not_converged) return "NOT CONVERGED";
     if (level.status == LevelStatus::out_of_validity) return words_of_doubts(level.doubts);
     if (level.status == LevelStatus::not_unique) return "not unique";
-    return kLevelStatusNames[static_cast<std::size_t>(level.status)];
+    return kLevelStatusNames[at(level.status)];
 }
 
 void print_level(std::ostream& out, const Job& job, std::size_t number, const Level& level) {
@@ -341,9 +341,7 @@ void ProgressLine::wipe() {
 }
 
 void ProgressLine::show(double done, double total) {
-    const auto now = Clock::now();
-    const double since = std::chrono::duration<double>(now - last_).count(),
-                 spent = std::chrono::duration<double>(now - start_).count();
+    const double since = seconds_since(last_), spent = seconds_since(start_);
     if (messages_ && done > already_ && spent > kSteady) {
         const double rest = spent * (total - done) / (done - already_);
         if (rest > kWorthSaying && !(out_ && terminal_))
@@ -354,7 +352,7 @@ void ProgressLine::show(double done, double total) {
     }
     if (!out_) return;
     if (since < (terminal_ ? 0.1 : 30.0)) return;
-    last_ = now;
+    last_ = Clock::now();
     drawn_ = true;
     const double rate = (done - already_) / spent;
     const std::string left =
@@ -362,8 +360,7 @@ void ProgressLine::show(double done, double total) {
     if (terminal_) {
         constexpr int width = 30;
         const int filled = static_cast<int>(width * done / total);
-        *out_ << "\r[" << std::string(static_cast<std::size_t>(filled), '#')
-              << std::string(static_cast<std::size_t>(width - filled), '.')
+        *out_ << "\r[" << std::string(at(filled), '#') << std::string(at(width - filled), '.')
               << format("] %.0f/%.0f %s, %s\033[K", done, total, unit_, left.c_str()) << std::flush;
     } else {
         *out_ << format("rsc: %.0f of %.0f %s, %s\n", done, total, unit_, left.c_str())

@@ -1,7 +1,6 @@
 #include "run/stress.hpp"
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "case/units.hpp"
 #include "physics/stress/spot_stress.hpp"
 

@@ -2,7 +2,6 @@
 
 #include "base/archive.hpp"
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "base/version.h"
 #include "case/registry.hpp"
 #include "case/units.hpp"
@@ -193,7 +192,7 @@ void check_manifest(const std::string& output_file, const std::vector<std::strin
     for (const std::string& input : inputs)
         if (fs::equivalent(input, path, error)) why = "this is an input of the run";
     if (!why.empty())
-        bad_input("the manifest of the study, '" + path + "': " + why +
+        bad_input("the manifest of the study, '", path, "': ", why,
                   " (give &output file another name)");
 }
 
@@ -252,7 +251,7 @@ public:
                 const RunSummary summary = from_bytes<RunSummary>(answer);
                 const auto at = [&](const Member* m) { return m->index - 1 == task.member; };
                 line.wipe();
-                tell(**std::find_if(members.begin(), members.end(), at), summary);
+                tell(**std::ranges::find_if(members, at), summary);
                 add(summary);
                 line.show(static_cast<double>(++done), static_cast<double>(members.size()));
             },
@@ -380,8 +379,8 @@ RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunO
             else
                 left.push_back(member);
         }
-        const auto replaced = std::count_if(left.begin(), left.end(),
-                                            [&](const Member* m) { return there.contains(m); });
+        const auto replaced =
+            std::ranges::count_if(left, [&](const Member* m) { return there.contains(m); });
         if (read.study && replaced > 0 && options.messages)
             *options.messages << "rsc: the results of " << replaced
                               << " of the members exist already and will be replaced\n";

@@ -8,16 +8,15 @@ namespace {
 // Mean contact radius, weighted by the forces.
 double mean_radius(const Level& level) {
     return std::inner_product(level.f.begin(), level.f.end(), level.a.begin(), 0.0) /
-           std::accumulate(level.f.begin(), level.f.end(), 0.0);
+           sum_of(level.f);
 }
 
 }  // namespace
 
 AsperityError asperity_error(const Level& level, const SolverOptions& options) {
     const double radius = mean_radius(level) / options.surface.mean_spacing;
-    const auto law = static_cast<std::size_t>(options.law);
-    const auto bin = static_cast<std::size_t>(
-        std::upper_bound(std::begin(kRadii), std::end(kRadii), radius) - std::begin(kRadii));
+    const auto law = at(options.law);
+    const auto bin = at(std::ranges::upper_bound(kRadii, radius) - std::begin(kRadii));
     if (bin >= std::size(kRadii)) return {};
     const auto error = [&](std::size_t what) {
         return kErrors[law][what][bin] * (options.surface.measured ? kOfFiles[law][what] : 1.0) *
@@ -36,8 +35,8 @@ double share_on_spikes(const Level& level, const SolverOptions& options) {
     double force = 0;
     for (std::size_t k = 0; k < level.x.size(); ++k) {
         const double near = std::max(1.5 * marks.reach, level.a[k]);
-        const bool on_spike = std::any_of(
-            marks.spikes.begin(), marks.spikes.end(), [&](const std::array<double, 2>& spike) {
+        const bool on_spike =
+            std::ranges::any_of(marks.spikes, [&](const std::array<double, 2>& spike) {
                 return std::hypot(spike[0] - level.x[k], spike[1] - level.y[k]) < near;
             });
         if (on_spike) force += level.f[k];

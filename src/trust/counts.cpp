@@ -47,7 +47,7 @@ std::int32_t border_contacts(const Level& level, const Indenter& indenter, const
             gap -= level.f[k] / (std::numbers::pi * indenter.E_star * distance);
         }
         if (!(gap > 0)) continue;
-        const bool counted = std::any_of(touching.begin(), touching.end(), [&](const Vec2& t) {
+        const bool counted = std::ranges::any_of(touching, [&](const Vec2& t) {
             return std::hypot(t.x - x, t.y - y) < 1.5 * marks.reach;
         });
         count += !counted;
@@ -76,7 +76,7 @@ void mark_border_pixels(const Level& level, const Indenter& indenter, double Ly,
     };
     for (std::size_t k = 0; k < p.index.size(); ++k)
         if (at_border(p.index[k])) mark(p.contact[k]);
-    if (std::any_of(p.cohesive.begin(), p.cohesive.end(), at_border)) mark(-1);
+    if (std::ranges::any_of(p.cohesive, at_border)) mark(-1);
 }
 
 // Counts contacts whose distance from the border is less than <d> or their radius, and those with a
@@ -111,9 +111,9 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
             if (contact < 0)
                 attracts = true;
             else
-                cut[static_cast<std::size_t>(contact)] = true;
+                cut[at(contact)] = true;
         });
-    const auto count = static_cast<std::int32_t>(std::count(cut.begin(), cut.end(), true));
+    const auto count = static_cast<std::int32_t>(std::ranges::count(cut, true));
     level.edge_contacts = attracts ? std::max(count, 1) : count;
     if (options.surface.marks && !(pixels.dx > 0))
         level.edge_contacts += border_contacts(level, indenter, *options.surface.marks);
@@ -124,7 +124,7 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
 void count_contacts(Level& level, const Indenter& indenter, const SolverOptions& options) {
     const auto larger_than = [&](double most) {
         return static_cast<std::int32_t>(
-            std::count_if(level.a.begin(), level.a.end(), [&](double a) { return a > most; }));
+            std::ranges::count_if(level.a, [&](double a) { return a > most; }));
     };
     if (options.surface.mean_spacing > 0)
         level.large_contacts = larger_than(options.surface.mean_spacing / 4);

@@ -54,9 +54,8 @@ double expected_share(double Z0, std::span<const FilledPoints> maps, const Inden
             const double reached =
                 std::erfc((Z0 - indenter.clearance(x, y, 0)) / (std::numbers::sqrt2 * sigma));
             const auto in = [&](bool second) {
-                return std::any_of(maps.begin(), maps.end(), [&](const auto& map) {
-                    return map.second == second && map.at(x, y);
-                });
+                return std::ranges::any_of(
+                    maps, [&](const auto& map) { return map.second == second && map.at(x, y); });
             };
             if (in(true)) {
                 cell.missing += 1;
@@ -84,8 +83,7 @@ double share_on_filled(const Level& level, std::span<const FilledPoints> maps,
     double filled = 0, all = 0;
     const auto count = [&](double x, double y) {
         all += 1;
-        filled += std::any_of(maps.begin(), maps.end(),
-                              [&](const FilledPoints& map) { return map.at(x, y); });
+        filled += std::ranges::any_of(maps, [&](const FilledPoints& map) { return map.at(x, y); });
     };
     const LevelPixels& pixels = level.pixels;
     for (std::size_t k = 0; k < pixels.index.size(); ++k) count(pixels.x(k), pixels.y(k));

@@ -38,8 +38,7 @@ bool known_shape(const Indenter& indenter) {
 bool calibrated(const Level& level, const Path& contact, const SolverOptions& options) {
     const bool yields = std::isfinite(options.physics.hardness.H0);
     const std::vector<double> depths = contact.residual_depths();
-    const auto yielded =
-        std::count_if(depths.begin(), depths.end(), [](double depth) { return depth > 0; });
+    const auto yielded = std::ranges::count_if(depths, [](double depth) { return depth > 0; });
     return options.interaction == Interaction::point && options.selection == Selection::overlap &&
            options.physics.adhesion.work == 0 && options.physics.relaxation.none() &&
            known_shape(contact.indenter()) && options.surface.mean_spacing > 0 &&

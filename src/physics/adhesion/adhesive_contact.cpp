@@ -186,7 +186,7 @@ std::vector<double> AdhesiveAsperities::write() const {
                                    past.lost,   past.least_force, static_cast<double>(past.jumps),
                                    past.margin, past.most_energy};
     for (std::size_t k = 0; k < past.asperity.size(); ++k)
-        numbers.insert(numbers.end(), {static_cast<double>(past.asperity[k]), past.s[k]});
+        append(numbers, {static_cast<double>(past.asperity[k]), past.s[k]});
     return numbers;
 }
 
@@ -216,8 +216,7 @@ void AdhesiveAsperities::read(const std::vector<double>& numbers) {
             past.asperity.push_back(static_cast<int>(numbers[k]));
             past.s.push_back(numbers[k + 1]);
         }
-        if (!sound)
-            throw Error(Failure::bad_input, "the state does not belong to these asperities");
+        if (!sound) bad_input("the state does not belong to these asperities");
         my.sticking.prepare(past.asperity);
     }
 }

@@ -15,8 +15,7 @@ public:
         : state_(heights, indenter, options) {}
 
     double stiffness(double) override {
-        if (std::none_of(state_.q.begin(), state_.q.end(), [](double q) { return q > 0; }))
-            return 0;
+        if (std::ranges::none_of(state_.q, [](double q) { return q > 0; })) return 0;
         return state_.flats
                    ? -state_.heights.Lx() * state_.heights.Ly() * state_.flats->stiffness(false)
                    : -state_.pixel * state_.spots->stiffness(1e-9, false);
@@ -47,7 +46,7 @@ private:
                                        past.lost,       double(past.jumps), tip.x0,
                                        tip.y0};
         for (std::size_t k = 0; k < past.attracting.size(); ++k)
-            numbers.insert(numbers.end(), {double(past.attracting[k]), past.share[k]});
+            append(numbers, {double(past.attracting[k]), past.share[k]});
         return numbers;
     }
 
@@ -64,8 +63,7 @@ private:
             past.attracting.push_back(static_cast<std::int32_t>(numbers[k]));
             past.share.push_back(numbers[k + 1]);
         }
-        if (!sound)
-            throw Error(Failure::bad_input, "this is not the state of a contact of this surface");
+        if (!sound) bad_input("this is not the state of a contact of this surface");
         forget();
         if (!any) return;
         past.separation = numbers[0];
@@ -79,8 +77,7 @@ private:
         }
         state_.accepted = std::move(past);
         if (!state_.step(state_.accepted.separation).converged)
-            throw Error(
-                Failure::bad_input,
+            bad_input(
                 "the state of the contact cannot be reached again: the solver does not converge");
         state_.accepted.energy = state_.now.energy;
         state_.keep();

@@ -115,9 +115,9 @@ bool AdhesivePath::move_piece(Vec2 from, Vec2 to) {
     here.Z = 0;
     if (!cover(0)) return false;
     if (motion->edge)
-        throw Error(Failure::bad_input,
-                    "a body with an edge cannot be moved while asperities are attached near its "
-                    "edge: pull it off first");
+        bad_input(
+            "a body with an edge cannot be moved while asperities are attached near its "
+            "edge: pull it off first");
     double length = 0;
     for (int i : set.asperity) {
         const double middle = clearance_at(i, 0.5);

@@ -31,9 +31,7 @@ AdhesivePath::AdhesivePath(const Asperities& asperities_, const Indenter& indent
       sticking(*law, options_.physics.adhesion.work, options_.physics.adhesion.range),
       direct(make_direct_products(kernel)),
       solver(sticking) {
-    const auto refuse = [](const char* what) {
-        throw Error(Failure::bad_input, std::string("solids%adhesion is ") + what);
-    };
+    const auto refuse = [](const char* what) { bad_input("solids%adhesion is ", what); };
     if (std::isfinite(options.physics.hardness.H0))
         refuse("not available yet with solids%hardness");
     if (!options.physics.relaxation.none())
@@ -95,10 +93,10 @@ bool AdhesivePath::cover(double lowest, const std::vector<int>& attached, const 
         find_members(lowest, attached);
         std::vector<std::pair<int, double>> order;
         for (std::size_t j = 0; j < attached.size(); ++j) {
-            const auto found = std::find(set.asperity.begin(), set.asperity.end(), attached[j]);
+            const auto found = std::ranges::find(set.asperity, attached[j]);
             order.emplace_back(static_cast<int>(found - set.asperity.begin()), s[j]);
         }
-        std::sort(order.begin(), order.end());
+        std::ranges::sort(order);
         here.active.clear();
         here.s.clear();
         for (const auto& [position, state] : order) {
@@ -320,8 +318,7 @@ bool AdhesivePath::attach_touching(Point& there, bool jump, bool& refused) {
     const double least = jump ? deepest : 0.1 * deepest;
     for (const auto& [position, depth] : touching) {
         if (depth / scale(position) < least) continue;
-        const auto k = std::lower_bound(there.active.begin(), there.active.end(), position) -
-                       there.active.begin();
+        const auto k = std::ranges::lower_bound(there.active, position) - there.active.begin();
         there.active.insert(there.active.begin() + k, position);
         there.s.insert(there.s.begin() + k,
                        sticking.state_at(at_place(position), there.u[at(position)]));
@@ -514,7 +511,7 @@ void AdhesivePath::accept(Point there, const Step& step) {
         last = {here.Z, here.ds};
     } else if (step.jump) {
         ++jumps;
-        const bool detaches = std::none_of(changed.begin(), changed.end(), attaches);
+        const bool detaches = std::ranges::none_of(changed, attaches);
         now.lost += dissipated(there, step.ahead, detaches);
     } else {
         jumps += static_cast<int>(changed.size());
@@ -638,7 +635,7 @@ AdhesivePath::Past AdhesivePath::past() const {
     std::vector<std::pair<int, double>> order;
     for (std::size_t k = 0; k < here.active.size(); ++k)
         order.emplace_back(at_place(here.active[k]), here.s[k]);
-    std::sort(order.begin(), order.end());
+    std::ranges::sort(order);
     p.asperity.clear();
     p.s.clear();
     for (const auto& [asperity, s] : order) {

@@ -1,7 +1,6 @@
 #include "physics/adhesion/adhesive_pixels.hpp"
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "base/parallel.hpp"
 #include "elements/connected_pixels.hpp"
 #include "elements/pixel_spots.hpp"
@@ -35,7 +34,7 @@ struct Linear {
     std::array<double, 3> share{};
 };
 Linear positive_part(const std::array<double, 3>& d) {
-    const auto positive = std::count_if(d.begin(), d.end(), [](double value) { return value > 0; });
+    const auto positive = std::ranges::count_if(d, [](double value) { return value > 0; });
     Linear whole{(d[0] + d[1] + d[2]) / 3, {1.0 / 3, 1.0 / 3, 1.0 / 3}};
     if (positive == 0) return {};
     if (positive == 3) return whole;
@@ -141,8 +140,7 @@ void require_resolved(double E_star, const Adhesion& adhesion, double step) {
     const double resolution = cohesive_length(E_star, adhesion) / step;
     if (!(resolution < kCoarsest)) return;
     const double wanted = std::sqrt(kFine / resolution);
-    throw Error(
-        Failure::bad_input,
+    bad_input(
         format("solids%%adhesion_range = %.6g: the attraction at the edge of a contact acts "
                "across %.2g of a pixel's side, (pi/4) E* adhesion_range^2/adhesion; "
                "elements need 0.5 at least, and 4 for accurate forces: %.2g times as many "
@@ -159,9 +157,7 @@ AdhesivePixels::AdhesivePixels(const HeightMap& heights_, const Indenter& indent
       s0(options.physics.adhesion.work / options.physics.adhesion.range),
       z0(options.physics.adhesion.range),
       pixel(heights.dx * heights.dy) {
-    const auto refuse = [](const std::string& what) {
-        throw Error(Failure::bad_input, "solids%adhesion: " + what);
-    };
+    const auto refuse = [](const std::string& what) { bad_input("solids%adhesion: ", what); };
     if (!(z0 > 0))
         refuse("boundary elements require solids%adhesion_range > 0 (JKR is the limit of 0)");
     if (std::isfinite(options.physics.hardness.H0))
@@ -199,7 +195,7 @@ void AdhesivePixels::set_clearances() {
             clearance[at(j) * at(heights.nx) + at(i)] = z;
             if (raised.data) raised.row(j)[i] = z;
         }
-    top = *std::max_element(clearance.begin(), clearance.end());
+    top = std::ranges::max(clearance);
 }
 
 // No level, and no point attracts.
@@ -286,7 +282,7 @@ double AdhesivePixels::attraction(std::vector<double>& shares) const {
             std::array<double, 4> d;
             for (std::size_t c = 0; c < 4; ++c)
                 d[c] = std::max(z0 - gap[corner[c]], -kFar * z0);  // beyond the edge of a body
-            const auto [least, most] = std::minmax_element(d.begin(), d.end());
+            const auto [least, most] = std::ranges::minmax_element(d);
             if (!(*most > 0)) continue;
             // Half of a pixel at the border lies beyond the last points.
             const double part_of_cell =
@@ -317,7 +313,7 @@ bool AdhesivePixels::press(double Z, double tolerance, Level& level) {
             raised.row(reach[k] / heights.nx)[reach[k] % heights.nx] = clearance[k] + lift[k];
         flats->heights_changed();
         outcome = flats->approach(Z, tolerance, options.max_iterations);
-        std::fill(q.begin(), q.end(), 0.0);
+        std::ranges::fill(q, 0.0);
         for (std::size_t k = 0; k < flats->pixels().size(); ++k)
             q[at(flats->pixels()[k].y) * at(heights.nx) + at(flats->pixels()[k].x)] =
                 flats->pressures()[k];
@@ -358,15 +354,14 @@ bool AdhesivePixels::renew(double Z, Level& level) {
         std::vector<double> p(reach.size());
         for (std::size_t k = 0; k < reach.size(); ++k) p[k] = s0 * share[at(reach[k])];
         lift = deflections(p, tolerance);
-        const double most = lift.empty() ? 0.0 : *std::max_element(lift.begin(), lift.end());
+        const double most = lift.empty() ? 0.0 : std::ranges::max(lift);
         if (!flats && most > margin) {
             margin = 1.5 * most;
             gather(Z);
             continue;
         }
         if (!press(Z, tolerance, level)) return false;
-        if (const double most_bulged = bulge * pixel * std::accumulate(q.begin(), q.end(), 0.0);
-            most_bulged > bulged) {
+        if (const double most_bulged = bulge * pixel * sum_of(q); most_bulged > bulged) {
             bulged = 1.5 * most_bulged;
             gather(Z);
             continue;
@@ -406,7 +401,7 @@ Level AdhesivePixels::step(double Z, const Past* start) {
     std::vector<double> pressures;
     double twice = 0, cohesive = 0;
     std::vector<std::int32_t> sorted = reach;
-    std::sort(sorted.begin(), sorted.end());
+    std::ranges::sort(sorted);
     for (std::size_t k = 0; k < sorted.size() && converged; ++k)
         if (const std::size_t i = at(sorted[k]); share[i] > 0) {
             now.attracting.push_back(sorted[k]);
@@ -444,8 +439,7 @@ Level AdhesivePixels::step(double Z, const Past* start) {
 // Energy that a step may seem to lose without a jump, or that the place of a jump in it may change.
 double AdhesivePixels::negligible() const {
     return kLossShare * options.physics.adhesion.work * pixel *
-           std::max(std::accumulate(now.share.begin(), now.share.end(), 0.0),
-                    std::accumulate(accepted.share.begin(), accepted.share.end(), 0.0));
+           std::max(sum_of(now.share), sum_of(accepted.share));
 }
 
 // The work of the step from the accepted state, by the trapezoidal rule, minus the change of the
@@ -531,13 +525,12 @@ std::int32_t AdhesivePixels::count_jumps() const {
     const int sets = connected_sets(where, set, flats ? heights.nx : 0, flats ? heights.ny : 0);
     std::vector<std::size_t> points(at(sets));
     for (const int of : set) ++points[at(of)];
-    const auto large =
-        std::count_if(points.begin(), points.end(), [](std::size_t n) { return n >= kFewest; });
+    const auto large = std::ranges::count_if(points, [](std::size_t n) { return n >= kFewest; });
     return std::max(1, static_cast<std::int32_t>(large));
 }
 
 void AdhesivePixels::restore(const Past& past) {
-    std::fill(share.begin(), share.end(), 0.0);
+    std::ranges::fill(share, 0.0);
     for (std::size_t k = 0; k < past.attracting.size(); ++k)
         share[at(past.attracting[k])] = past.share[k];
 }
@@ -619,9 +612,9 @@ void AdhesivePixels::follow() {
     for (std::size_t i = 0; i < before.size(); ++i)
         if (std::isfinite(before[i]) != std::isfinite(clearance[i]) &&
             std::max(before[i], clearance[i]) > accepted.separation - z0 - margin - bulged)
-            throw Error(Failure::bad_input,
-                        "a body with an edge cannot be moved while points attract near its edge: "
-                        "pull it off first");
+            bad_input(
+                "a body with an edge cannot be moved while points attract near its edge: "
+                "pull it off first");
     Level level = step(accepted.separation);
     if (!level.converged)
         throw Error(Failure::not_converged,

@@ -251,12 +251,12 @@ bool AttachedSolver::apart(const WorkingSet& set) {
     for (std::size_t k = 0; k < n && covered; ++k)
         covered = state_[k].stiffness <= stiffest_[at(active[k])];
     if (covered) return true;
-    std::fill(stiffest_.begin(), stiffest_.end(), 0.0);
+    std::ranges::fill(stiffest_, 0.0);
     // First with room for growth, and with those that may attach.
     std::vector<double> a(stiffest_.size());
     for (const double wider : {room_, 1.0}) {
         if (wider < 1.001 && wider > 1) continue;
-        std::fill(a.begin(), a.end(), 0.0);
+        std::ranges::fill(a, 0.0);
         if (wider > 1)
             for (const int k : products_->passive()) {
                 const int i = set.asperity[at(k)];
@@ -487,7 +487,7 @@ double AttachedSolver::clamped_stiffness(const std::vector<Sticking::State>& sta
     };
     minres(multiply_clamped, root, accuracy * std::sqrt(dot4(root, root)), y, lifted_);
     for (std::size_t k = 0; k < y.size(); ++k) f.push_back(root[k] * y[k]);
-    const double sum = std::accumulate(f.begin(), f.end(), 0.0);
+    const double sum = sum_of(f);
     return 2 * sum - dot4(y, y) - dot4(f, elevations(f)) + shift * sum * sum;
 }
 
@@ -516,7 +516,7 @@ AttachedSolver::Change AttachedSolver::change(const Vector& rate, double accurac
     Vector right, df(state_.size());
     for (int k : active) right.push_back(rate[at(k)]);
     const bool known = accuracy >= kRate && derivative_.size() == right.size() &&
-                       std::all_of(right.begin(), right.end(), [](double r) { return r == -1; });
+                       std::ranges::all_of(right, [](double r) { return r == -1; });
     if (known)
         c.s = derivative_;
     else if (!right.empty())

@@ -33,16 +33,15 @@ struct Band {
 class Seam {
 public:
     Seam(std::span<const Place> part, const Band& band)
-        : band_(band), width_(static_cast<std::size_t>(band.high - band.low + 1)) {
+        : band_(band), width_(at(band.high - band.low + 1)) {
         const auto [first, last] =
             std::ranges::minmax(part, {}, [&](const Place& p) { return band.along(p); });
         first_ = band.along(first);
-        length_ = static_cast<std::size_t>(band.along(last) - first_ + 1);
+        length_ = at(band.along(last) - first_ + 1);
         points_.assign(length_ * width_, 0);
         for (const Place& p : part) {
             const std::int32_t c = band.across(p);
-            if (c >= band.low && c <= band.high)
-                ++points_[index(step_of(p), static_cast<std::size_t>(c - band.low))];
+            if (c >= band.low && c <= band.high) ++points_[index(step_of(p), at(c - band.low))];
         }
         for (std::size_t a = 1; a < length_; ++a)
             for (std::size_t c = 0; c < width_; ++c) points_[index(a, c)] += before(a, c).points;
@@ -61,9 +60,7 @@ private:
         std::int32_t points;
     };
 
-    std::size_t step_of(const Place& p) const {
-        return static_cast<std::size_t>(band_.along(p) - first_);
-    }
+    std::size_t step_of(const Place& p) const { return at(band_.along(p) - first_); }
     std::size_t index(std::size_t a, std::size_t c) const { return a * width_ + c; }
     bool oblique() const { return band_.direction > 1; }
 
@@ -156,8 +153,8 @@ private:
         cut(rest.first(end));
     }
     std::int32_t fewest(std::int32_t Place::*across, int n) const {
-        std::vector<std::uint32_t> count(static_cast<std::size_t>(n), 0);
-        for (const Place& p : places_) ++count[static_cast<std::size_t>(p.*across % n)];
+        std::vector<std::uint32_t> count(at(n), 0);
+        for (const Place& p : places_) ++count[at(p.*across % n)];
         return static_cast<std::int32_t>(std::ranges::min_element(count) - count.begin());
     }
 
@@ -201,12 +198,10 @@ private:
                 high[d] = std::max(high[d], c[d]);
             }
         }
-        for (std::size_t d = 0; d < kDirections; ++d)
-            count_[d].assign(static_cast<std::size_t>(high[d] - low[d] + 1), 0);
+        for (std::size_t d = 0; d < kDirections; ++d) count_[d].assign(at(high[d] - low[d] + 1), 0);
         for (const Place& p : part) {
             const auto c = coordinates(p);
-            for (std::size_t d = 0; d < kDirections; ++d)
-                ++count_[d][static_cast<std::size_t>(c[d] - low[d])];
+            for (std::size_t d = 0; d < kDirections; ++d) ++count_[d][at(c[d] - low[d])];
         }
         Band best;
         for (std::size_t d = 0; d < kDirections; ++d) {

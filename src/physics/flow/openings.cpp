@@ -9,17 +9,17 @@ namespace rsc {
 Openings::Openings(const GapMap& map, const Linked& open)
     : node_(map.points()), winds_(map.points(), 0) {
     constexpr int kBand = 64;
-    const auto nx = static_cast<std::size_t>(map.nx);
+    const auto nx = at(map.nx);
     const int bands = (map.ny + kBand - 1) / kBand;
-    std::vector<std::uint8_t> winding(static_cast<std::size_t>(bands), 0);
+    std::vector<std::uint8_t> winding(at(bands), 0);
     const auto link_above = [&](std::size_t k) -> std::uint8_t {
         const std::size_t above = map.above(k);
         return open(k, above) ? link(k, above, 0, above <= k ? 1 : 0) : 0;
     };
     parallel_for(bands, 1, 0, [&](int band) {
-        const std::size_t first = static_cast<std::size_t>(band) * kBand * nx,
+        const std::size_t first = at(band) * kBand * nx,
                           end = std::min(first + kBand * nx, node_.size());
-        std::uint8_t& all = winding[static_cast<std::size_t>(band)];
+        std::uint8_t& all = winding[at(band)];
         for (std::size_t k = first; k < end; ++k) node_[k].parent = static_cast<std::uint32_t>(k);
         for (std::size_t k = first; k < end; ++k) {
             const std::size_t right = map.right_of(k);
@@ -29,8 +29,7 @@ Openings::Openings(const GapMap& map, const Linked& open)
     });
     for (const std::uint8_t ways : winding) all_ |= ways;
     for (int band = 0; band < bands; ++band) {
-        const std::size_t end =
-            std::min(static_cast<std::size_t>(band + 1) * kBand * nx, node_.size());
+        const std::size_t end = std::min(at(band + 1) * kBand * nx, node_.size());
         for (std::size_t k = end - nx; k < end; ++k) all_ |= link_above(k);
     }
 }

@@ -1,7 +1,6 @@
 #include "physics/flow/permeability.hpp"
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "physics/flow/dissection.hpp"
 
 #ifdef RSC_CHOLMOD
@@ -87,7 +86,7 @@ private:
 
 // The neighbours of a point: right, above, left, below.
 std::array<std::size_t, 4> around(const GapMap& map, std::size_t k) {
-    const auto nx = static_cast<std::size_t>(map.nx);
+    const auto nx = at(map.nx);
     const std::size_t left = k % nx == 0 ? k + nx - 1 : k - 1;
     const std::size_t below = k >= nx ? k - nx : k + map.points() - nx;
     return {map.right_of(k), map.above(k), left, below};

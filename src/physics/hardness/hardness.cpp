@@ -130,8 +130,7 @@ public:
             const double f = s.H * now.area, spent = s.work + flow(s, s.start, now);
             const double x = 0.75 * f / (s.modulus * now.radius);  // a^2/r'
             if (s.deepest == 0)
-                yielded_.insert(std::lower_bound(yielded_.begin(), yielded_.end(), asperity[k]),
-                                asperity[k]);
+                yielded_.insert(std::ranges::lower_bound(yielded_, asperity[k]), asperity[k]);
             s.deepest = u[k];
             s.end = now;
             s.power = std::max(1.5, f * x / spent - 1);
@@ -227,7 +226,7 @@ public:
     // Pairs of the index of a yielded asperity and its largest penetration.
     void write(std::vector<double>& numbers) const override {
         for (const int i : law_.yielded())
-            numbers.insert(numbers.end(), {static_cast<double>(i), law_.deepest(i)});
+            append(numbers, {static_cast<double>(i), law_.deepest(i)});
     }
     void read(std::span<const double> numbers) override {
         std::vector<int> yielded;
@@ -235,8 +234,7 @@ public:
         for (std::size_t k = 0; k + 1 < numbers.size(); k += 2) {
             if (!(numbers[k] >= 0 && numbers[k] < static_cast<double>(asperities_) &&
                   std::isfinite(numbers[k + 1])))
-                throw Error(Failure::bad_input,
-                            "the state does not belong to a contact of these asperities");
+                bad_input("the state does not belong to a contact of these asperities");
             yielded.push_back(static_cast<int>(numbers[k]));
             deepest.push_back(numbers[k + 1]);
         }
@@ -260,10 +258,9 @@ private:
 
 std::unique_ptr<Law> make_yielding(std::unique_ptr<Law> elastic, const Asperities& asperities,
                                    const Hardness& hardness, bool sinks) {
-    if (!(hardness.H0 > 0))
-        throw Error(Failure::bad_input, "solids%hardness must be positive (Infinity: elastic)");
+    if (!(hardness.H0 > 0)) bad_input("solids%hardness must be positive (Infinity: elastic)");
     if (!(hardness.length >= 0) || std::isinf(hardness.length))
-        throw Error(Failure::bad_input, "solids%size_effect must not be negative");
+        bad_input("solids%size_effect must not be negative");
     if (std::isinf(hardness.H0)) return elastic;
     return std::make_unique<Yielding>(std::move(elastic), asperities, hardness, sinks);
 }

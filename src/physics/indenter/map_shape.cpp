@@ -3,7 +3,6 @@
 // points it is interpolated by polynomials, like measured maps in surface/detection.hpp.
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "physics/indenter/shapes.hpp"
 #include "surface/stencil.hpp"
 #include "surface/surface.hpp"
@@ -171,7 +170,7 @@ private:
 
 std::shared_ptr<const IndenterShape> make_map_shape(const char* name, const ShapeKeys& keys) {
     if (!keys.map || keys.map->nx < 3 || keys.map->ny < 3)
-        throw Error(Failure::bad_input, "body 2 needs a map of at least 3 x 3 points");
+        bad_input("body 2 needs a map of at least 3 x 3 points");
     return std::make_shared<MapShape>(name, keys);
 }
 

@@ -20,14 +20,13 @@ Shape::Shape(double R) {
 }
 
 Shape make_shape(int shape, const ShapeKeys& keys) {
-    const ShapeRow& row = kShapes.at(static_cast<std::size_t>(shape));
+    const ShapeRow& row = kShapes.at(at(shape));
     return row.make(row.name, keys);
 }
 
 int shape_number(const char* name) {
-    const auto row = std::find_if(kShapes.begin(), kShapes.end(), [name](const ShapeRow& r) {
-        return std::strcmp(r.name, name) == 0;
-    });
+    const auto row = std::ranges::find_if(
+        kShapes, [name](const ShapeRow& r) { return std::strcmp(r.name, name) == 0; });
     return static_cast<int>(row - kShapes.begin());
 }
 

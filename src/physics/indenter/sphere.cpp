@@ -1,7 +1,6 @@
 // Sphere without approximation, s = R - sqrt(R^2 - rho^2), and the flat as its limit.
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "physics/indenter/shapes.hpp"
 
 namespace rsc {
@@ -73,9 +72,7 @@ public:
 }  // namespace
 
 std::shared_ptr<const IndenterShape> make_sphere(const char* name, const ShapeKeys& keys) {
-    if (!(keys.R > 0))
-        throw Error(Failure::bad_input,
-                    "the radius of the sphere must be positive (Infinity: flat)");
+    if (!(keys.R > 0)) bad_input("the radius of the sphere must be positive (Infinity: flat)");
     if (std::isinf(keys.R)) return std::make_shared<Flat>(name, keys);
     return std::make_shared<Sphere>(name, keys);
 }

@@ -69,23 +69,22 @@ double LoadMemory::stored() const {
 void LoadMemory::forget() { *this = LoadMemory(Creep(creep_)); }
 
 void LoadMemory::write(std::vector<double>& numbers) const {
-    numbers.insert(numbers.end(), {static_cast<double>(places_.size()), ff_, lost_});
-    numbers.insert(numbers.end(), yf_.begin(), yf_.end());
-    numbers.insert(numbers.end(), yy_.begin(), yy_.end());
-    numbers.insert(numbers.end(), places_.begin(), places_.end());
-    numbers.insert(numbers.end(), f_.begin(), f_.end());
-    for (const auto& y : y_) numbers.insert(numbers.end(), y.begin(), y.end());
+    append(numbers, {static_cast<double>(places_.size()), ff_, lost_});
+    append(numbers, yf_);
+    append(numbers, yy_);
+    append(numbers, places_);
+    append(numbers, f_);
+    for (const auto& y : y_) append(numbers, y);
 }
 
 std::size_t LoadMemory::read(std::span<const double> numbers) {
     forget();
     const std::size_t terms = y_.size(), head = 3 + 2 * terms;
     const double count = numbers.size() >= head ? numbers[0] : -1;
-    if (!(count >= 0 && count <= 2147483647.0) ||
-        numbers.size() < head + static_cast<std::size_t>(count) * (2 + terms) ||
-        std::any_of(numbers.begin(), numbers.end(), [](double v) { return !std::isfinite(v); }))
-        throw Error(Failure::bad_input, "the state of the loads is invalid");
-    const auto n = static_cast<std::size_t>(count);
+    if (!(count >= 0 && count <= 2147483647.0) || numbers.size() < head + at(count) * (2 + terms) ||
+        std::ranges::any_of(numbers, [](double v) { return !std::isfinite(v); }))
+        bad_input("the state of the loads is invalid");
+    const auto n = at(count);
     const double* next = numbers.data() + 1;
     const auto take = [&](std::vector<double>& to, std::size_t size) {
         to.assign(next, next + size);
@@ -98,9 +97,9 @@ std::size_t LoadMemory::read(std::span<const double> numbers) {
     for (std::size_t i = 0; i < n; ++i) places_.push_back(static_cast<std::int32_t>(*next++));
     take(f_, n);
     for (auto& y : y_) take(y, n);
-    if (!std::is_sorted(places_.begin(), places_.end()) || (n > 0 && places_[0] < 0))
-        throw Error(Failure::bad_input, "the state of the loads is invalid");
-    return static_cast<std::size_t>(next - numbers.data());
+    if (!std::ranges::is_sorted(places_) || (n > 0 && places_[0] < 0))
+        bad_input("the state of the loads is invalid");
+    return at(next - numbers.data());
 }
 
 }  // namespace rsc

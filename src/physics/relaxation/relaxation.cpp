@@ -31,28 +31,25 @@ constexpr double kRounding = 1e-12;  // of the sum of the shares
 // The branches of the body itself, slowest first; equal times are merged. Sets the sum of their
 // shares.
 std::vector<Branch> branches_of(const Relaxation& body, double& total) {
-    if (body.share.size() != body.time.size() ||
-        body.share.size() > static_cast<std::size_t>(kMostRelaxations))
-        throw Error(Failure::bad_input,
-                    "solids%relaxation_share and relaxation_time must have the same number of "
-                    "values, at most 16");
+    if (body.share.size() != body.time.size() || body.share.size() > at(kMostRelaxations))
+        bad_input(
+            "solids%relaxation_share and relaxation_time must have the same number of "
+            "values, at most 16");
     total = 0;
     std::vector<Branch> own;
     for (std::size_t k = 0; k < body.share.size(); ++k) {
         if (!(body.share[k] >= 0) || !(body.time[k] > 0) || std::isinf(body.time[k]))
-            throw Error(Failure::bad_input,
-                        "solids%relaxation_share must not be negative, and relaxation_time must be "
-                        "positive and finite");
+            bad_input(
+                "solids%relaxation_share must not be negative, and relaxation_time must be "
+                "positive and finite");
         total += body.share[k];
         if (body.share[k] > 0) own.push_back({body.share[k], 1 / body.time[k]});
     }
     if (total > 1 + kRounding)
-        throw Error(Failure::bad_input, "solids%relaxation_share: the sum of the shares exceeds 1");
+        bad_input("solids%relaxation_share: the sum of the shares exceeds 1");
     if (!(body.soft > 0 && body.soft <= 1))
-        throw Error(Failure::bad_input,
-                    "solids%relaxation_share: body 1 is rigid and cannot relax");
-    std::sort(own.begin(), own.end(),
-              [](const Branch& a, const Branch& b) { return a.rate < b.rate; });
+        bad_input("solids%relaxation_share: body 1 is rigid and cannot relax");
+    std::ranges::sort(own, [](const Branch& a, const Branch& b) { return a.rate < b.rate; });
     for (std::size_t k = own.size(); k-- > 1;) {
         if (own[k].rate > own[k - 1].rate) continue;
         own[k - 1].share += own[k].share;

@@ -118,26 +118,24 @@ public:
     void forget() override {
         summits_.clear();
         touched_.clear();
-        std::fill(place_.begin(), place_.end(), -1);
+        std::ranges::fill(place_, -1);
     }
 
     // For each summit: asperity, number of nodes, dissipated work, and for each node s, w and d.
     void write(std::vector<double>& numbers) const override {
         for (const Summit& s : summits_) {
-            numbers.insert(numbers.end(), {static_cast<double>(s.asperity),
-                                           static_cast<double>(s.nodes.size()), s.lost});
+            append(numbers,
+                   {static_cast<double>(s.asperity), static_cast<double>(s.nodes.size()), s.lost});
             for (const Node& node : s.nodes) {
-                numbers.insert(numbers.end(), {node.s, node.w});
-                numbers.insert(numbers.end(), node.d.begin(), node.d.end());
+                append(numbers, {node.s, node.w});
+                append(numbers, node.d);
             }
         }
     }
     void read(std::span<const double> numbers) override {
         forget();
         const std::size_t terms = creep_.branches().size();
-        const auto wrong = [] {
-            throw Error(Failure::bad_input, "the state does not belong to these asperities");
-        };
+        const auto wrong = [] { bad_input("the state does not belong to these asperities"); };
         for (std::size_t next = 0; next < numbers.size();) {
             if (numbers.size() - next < 3) wrong();
             const double index = numbers[next], count = numbers[next + 1];
@@ -149,7 +147,7 @@ public:
             s.lost = numbers[next + 2];
             next += 3;
             elastic_->prepare(std::span<const int>(&s.asperity, 1));
-            for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k, next += 2 + terms) {
+            for (std::size_t k = 0; k < at(count); ++k, next += 2 + terms) {
                 const double* from = numbers.data() + next;
                 if (!std::all_of(from, from + 2 + terms,
                                  [](double v) { return std::isfinite(v); }) ||
@@ -194,10 +192,9 @@ private:
         return {s, w, std::move(d), elastic.force, elastic.work};
     }
     static std::size_t node_below(const Summit& s, double u) {
-        const auto above =
-            std::upper_bound(s.nodes.begin(), s.nodes.end(), u,
-                             [](double x, const Node& node) { return x < node.release; });
-        return above == s.nodes.begin() ? 0 : static_cast<std::size_t>(above - s.nodes.begin()) - 1;
+        const auto above = std::ranges::upper_bound(
+            s.nodes, u, [](double x, const Node& node) { return x < node.release; });
+        return above == s.nodes.begin() ? 0 : at(above - s.nodes.begin()) - 1;
     }
     double edge_of(int asperity, double u) const {
         const Summit* s = summit(asperity);

@@ -38,7 +38,7 @@ RelaxingAsperities::RelaxingAsperities(const Asperities& asperities, const Inden
 void RelaxingAsperities::step(double dt) {
     law_.step(dt);
     rests_ = law_.rests();
-    rest_ = std::accumulate(rests_.begin(), rests_.end(), 0.0);
+    rest_ = sum_of(rests_);
     for (int i : known_) lowered_[at(i)] = kUnknown;
     known_.clear();
 }
@@ -65,7 +65,7 @@ void RelaxingAsperities::lower(Candidates& candidates, Products& products) {
         std::vector<double> x, y;
         add_places(x, y, places);
         std::vector<int> sorted = places, elsewhere;
-        std::sort(sorted.begin(), sorted.end());
+        std::ranges::sort(sorted);
         for (int i : missing)
             if (!std::binary_search(sorted.begin(), sorted.end(), i)) elsewhere.push_back(i);
         add_places(x, y, elsewhere);
@@ -103,7 +103,7 @@ void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& so
     const auto deflected_by = [&](const std::vector<double>& f) {
         std::vector<double> phi = deflections(products, x, y, f, tolerance_);
         // The constant Kernel::shift() is not a deflection of the body.
-        const double shift = products.kernel().shift() * std::accumulate(f.begin(), f.end(), 0.0);
+        const double shift = products.kernel().shift() * sum_of(f);
         for (double& d : phi) d -= shift;
         return phi;
     };
@@ -139,9 +139,9 @@ std::optional<Level> RelaxingAsperities::lasting(const Level& level) const {
     const std::vector<double> widest = law_.widest();
     for (std::size_t i = 0; i < load_.size(); ++i) {
         const int asperity = law_.touched()[i];
-        const auto now = std::lower_bound(level.asperity.begin(), level.asperity.end(), asperity);
+        const auto now = std::ranges::lower_bound(level.asperity, asperity);
         if (now != level.asperity.end() && *now == asperity) {
-            all.f[static_cast<std::size_t>(now - level.asperity.begin())] = load_[i];
+            all.f[at(now - level.asperity.begin())] = load_[i];
             continue;
         }
         const Vec2 image =
@@ -154,13 +154,12 @@ std::optional<Level> RelaxingAsperities::lasting(const Level& level) const {
 }
 
 void RelaxingAsperities::write(std::vector<double>& numbers) const {
-    numbers.insert(numbers.end(), {stored_, lost_, held_});
+    append(numbers, {stored_, lost_, held_});
     law_.write(numbers);
 }
 
 void RelaxingAsperities::read(std::span<const double> numbers) {
-    if (numbers.size() < 3)
-        throw Error(Failure::bad_input, "the state does not belong to these asperities");
+    if (numbers.size() < 3) bad_input("the state does not belong to these asperities");
     law_.read(numbers.subspan(3));
     stored_ = numbers[0];
     lost_ = numbers[1];

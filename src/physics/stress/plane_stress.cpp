@@ -38,8 +38,7 @@ public:
         backward_.reset(fftw_plan_dft_c2r_2d(ny, nx, pressure.fftw(), pressure.values(),
                                              FFTW_ESTIMATE | FFTW_UNALIGNED));
         if (!forward_ || !backward_)
-            throw Error(Failure::internal, "FFTW made no plan for " + std::to_string(nx) + " x " +
-                                               std::to_string(ny) + " points");
+            throw Error(Failure::internal, "FFTW made no plan for ", nx, " x ", ny, " points");
     }
     void to_modes(Plane& plane) {
         fftw_execute_dft_r2c(forward_.get(), plane.values(), plane.fftw());

@@ -43,9 +43,7 @@ private:
     double coefficient_, rate_ = 0;
 };
 
-void refuse(const char* why) {
-    throw Error(Failure::bad_input, std::string("wear is not available ") + why);
-}
+void refuse(const char* why) { bad_input("wear is not available ", why); }
 
 }  // namespace
 
@@ -53,7 +51,7 @@ std::unique_ptr<Lowering> make_wear(const SolverOptions& options) {
     const double k = options.physics.wear.coefficient;
     if (k == 0) return nullptr;
     if (!(k > 0 && std::isfinite(k)))
-        throw Error(Failure::bad_input, "the coefficient of wear must be positive and finite");
+        bad_input("the coefficient of wear must be positive and finite");
     if (std::isfinite(options.physics.hardness.H0)) refuse("with a hardness");
     if (options.physics.adhesion.work > 0) refuse("with adhesion");
     if (!options.physics.relaxation.none()) refuse("for bodies that relax");
