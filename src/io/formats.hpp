@@ -22,9 +22,10 @@ HeightMap read_gwy(const std::string& path, const std::string& channel,
 // is true for their first bytes: aISO-1.0, bISO-1.0, aBCR-1.0, ... The heights are converted from
 // metres to length_unit; missing points (BAD in a text, the least value of a signed type, the
 // largest of an unsigned one, in BCR the largest of any, NaN) are NaN. Rows and origin as in
-// read_gwy().
+// read_gwy(); there are no channels and no title.
 bool is_sdf(const std::string& start);
-HeightMap read_sdf(const std::string& path, const std::string& length_unit);
+HeightMap read_sdf(const std::string& path, const std::string& channel,
+                   const std::string& length_unit, std::string* title);
 
 // A rectangular table: value (row, column) = values[row*columns + column]; line[row] is the row's
 // line in the file, from 1.

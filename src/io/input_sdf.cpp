@@ -212,7 +212,8 @@ bool is_sdf(const std::string& start) {
            std::isdigit(static_cast<unsigned char>(start[7]));
 }
 
-HeightMap read_sdf(const std::string& path, const std::string& length_unit) {
+HeightMap read_sdf(const std::string& path, const std::string&, const std::string& length_unit,
+                   std::string*) {
     const std::string bytes = read_bytes(path);
     if (!is_sdf(bytes)) bad_input(path, ": is no surface data file (ISO 25178-71)");
     HeightMap map = bytes[0] == 'b' ? read_binary(path, bytes, length_unit)

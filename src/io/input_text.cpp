@@ -7,6 +7,8 @@
 namespace rsc {
 namespace {
 
+using Mention = TextTable::UnitMention;
+
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
 
 // The separator of the numbers of a file, and its decimal mark; each is unknown (0) until first
@@ -213,8 +215,7 @@ std::optional<LabelAndValue> label_and_value(std::string_view comment) {
 // Gwyddion writes its header in the language of its user, but always the width, the height and the
 // unit of the values in three lines. True if the lines before `line` are the first two, in words
 // other than English.
-bool after_sides(const std::vector<TextTable::UnitMention>& found, long line) {
-    using Mention = TextTable::UnitMention;
+bool after_sides(const std::vector<Mention>& found, long line) {
     const std::size_t n = found.size();
     if (n < 2 || (found[n - 2].kind == Mention::width && found[n - 1].kind == Mention::height))
         return false;
@@ -224,9 +225,7 @@ bool after_sides(const std::vector<TextTable::UnitMention>& found, long line) {
 }
 
 // The unit of `# Value units: m`.
-void find_stated_unit(const LabelAndValue& stated, long line,
-                      std::vector<TextTable::UnitMention>& found) {
-    using Mention = TextTable::UnitMention;
+void find_stated_unit(const LabelAndValue& stated, long line, std::vector<Mention>& found) {
     const std::string label = namelist::lower_case(stated.label);
     const std::vector<CommentWord> value = words_of(stated.value);
     if (value.size() <= 1 && after_sides(found, line)) {
@@ -246,8 +245,7 @@ void find_stated_unit(const LabelAndValue& stated, long line,
 
 // Units of length named in a comment: `# Value units: m`, `# Width: 10 um` as Gwyddion writes them,
 // `# Exported image units: nm`, `# z [nm]`, `# Einheit: m`, ...
-void find_units(std::string_view comment, long line, std::vector<TextTable::UnitMention>& found) {
-    using Mention = TextTable::UnitMention;
+void find_units(std::string_view comment, long line, std::vector<Mention>& found) {
     const auto stated = label_and_value(comment);
     const std::size_t before = found.size();
     if (stated) find_stated_unit(*stated, line, found);
@@ -278,7 +276,7 @@ void find_units(std::string_view comment, long line, std::vector<TextTable::Unit
 
 }  // namespace
 
-const TextTable::UnitMention* TextTable::mention(UnitMention::Kind kind) const {
+const Mention* TextTable::mention(UnitMention::Kind kind) const {
     const auto found = std::ranges::find(units, kind, &UnitMention::kind);
     return found == units.end() ? nullptr : &*found;
 }

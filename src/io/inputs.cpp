@@ -33,6 +33,8 @@ std::vector<std::string> matching_files(const std::string& name) {
 
 namespace {
 
+using Mention = TextTable::UnitMention;
+
 constexpr double kUniform = 1e-6;      // tolerance of coordinates on a uniform grid, in steps
 constexpr double kUniformText = 0.01;  // the same for coordinates in text files, which are rounded
 constexpr double kSameL = 1e-6;        // relative tolerance of nx dx = L
@@ -168,13 +170,12 @@ HeightMap read_text_points(const std::string& path, const TextTable& table, std:
         bad_input(path,
                   ": four columns are a list of asperities x y z r (surface%source='asperities'), "
                   "not a map");
-    const auto side = [&](TextTable::UnitMention::Kind kind) -> std::optional<double> {
-        const TextTable::UnitMention* const stated = table.mention(kind);
+    const auto side = [&](Mention::Kind kind) -> std::optional<double> {
+        const Mention* const stated = table.mention(kind);
         if (!stated || !(stated->size > 0)) return {};
         return stated->size * length_factor(stated->unit, length_unit, 1);
     };
-    const auto width = side(TextTable::UnitMention::width),
-               height = side(TextTable::UnitMention::height);
+    const auto width = side(Mention::width), height = side(Mention::height);
     if (!L && !text.pixel && !width)
         bad_input(path,
                   ": a text matrix has no spacing; surface%pixel must be given, or of body 1 "
@@ -187,15 +188,15 @@ HeightMap read_text_points(const std::string& path, const TextTable& table, std:
     map.dy = text.pixel || !height ? map.dx : *height / map.ny;
     if (text.pixel) check_given_L(path, "x", map.nx, map.dx, L);
     constexpr double kSameSide = 0.01;  // relative; a header is rounded
-    const auto check_side = [&](TextTable::UnitMention::Kind kind, std::optional<double> stated,
-                                double side, const char* extent) {
+    const auto check_side = [&](Mention::Kind kind, std::optional<double> stated, double side,
+                                const char* extent) {
         if (!stated || std::abs(side - *stated) <= kSameSide * *stated) return;
         bad_input(path, ":", table.mention(kind)->line, ": a comment says that the map is ",
                   *stated, " ", length_unit, extent, ", but surface%pixel or surface%L makes it ",
                   side);
     };
-    check_side(TextTable::UnitMention::width, width, map.Lx(), " wide");
-    check_side(TextTable::UnitMention::height, height, map.Ly(), " high");
+    check_side(Mention::width, width, map.Lx(), " wide");
+    check_side(Mention::height, height, map.Ly(), " high");
     return map;
 }
 
@@ -213,17 +214,17 @@ void mark_missing(HeightMap& map, const std::vector<double>& codes, MapOrigin* o
 // another than the unit that applies, is refused.
 double text_height_factor(const std::string& path, const TextTable& table, const TextMap& text,
                           const std::string& length_unit) {
-    const TextTable::UnitMention* const stated = table.mention(TextTable::UnitMention::values);
+    const Mention* const stated = table.mention(Mention::values);
     const std::string unit = !text.height_unit.empty() ? text.height_unit
                              : stated                  ? stated->unit
                                                        : length_unit;
     const bool three = table.columns == 3 && !table.matrix();
-    const auto in_length_unit = [&](const TextTable::UnitMention& mention) {
+    const auto in_length_unit = [&](const Mention& mention) {
         return mention.unit == length_unit || unit_factor(mention.unit, length_unit) == 1;
     };
     // One of the units in the comments is that of the coordinates.
     const bool coordinates = std::ranges::any_of(table.units, in_length_unit);
-    for (const TextTable::UnitMention& other : table.units) {
+    for (const Mention& other : table.units) {
         const auto same = [&](const std::string& known) {
             return other.unit == known || unit_factor(other.unit, known) == 1;
         };
@@ -452,22 +453,18 @@ struct InstrumentFormat {
     const char* name;
     bool (*is)(const std::string& first_bytes);
     HeightMap (*read)(const std::string& path, const std::string& channel,
-                      const std::string& length_unit, MapOrigin* origin);
+                      const std::string& length_unit, std::string* title);
     bool channels;  // a file has several maps, possibly with masks
 };
-constexpr InstrumentFormat kInstrumentFormats[] = {
-    {".gwy", is_gwy,
-     [](const std::string& path, const std::string& channel, const std::string& unit,
-        MapOrigin* origin) {
-         return read_gwy(path, channel, unit, origin ? &origin->channel : nullptr);
-     },
-     true},
-    {".sdf", is_sdf,
-     [](const std::string& path, const std::string&, const std::string& unit, MapOrigin*) {
-         return read_sdf(path, unit);
-     },
-     false},
-};
+constexpr InstrumentFormat kInstrumentFormats[] = {{".gwy", is_gwy, read_gwy, true},
+                                                   {".sdf", is_sdf, read_sdf, false}};
+
+// Null: the file has none of these formats.
+const InstrumentFormat* instrument_format(const std::string& first_bytes) {
+    for (const InstrumentFormat& format : kInstrumentFormats)
+        if (format.is(first_bytes)) return &format;
+    return nullptr;
+}
 
 // A binary file of no known format is refused; the message says how to convert it.
 void refuse_unknown(const std::string& path, const std::string& start) {
@@ -528,10 +525,7 @@ Asperities read_text_asperities(const std::string& path) {
 }  // namespace
 
 bool is_instrument_map(const std::string& path) {
-    if (is_netcdf(path)) return false;
-    const std::string start = first_bytes(path);
-    return std::ranges::any_of(kInstrumentFormats,
-                               [&](const auto& format) { return format.is(start); });
+    return !is_netcdf(path) && instrument_format(first_bytes(path));
 }
 
 bool is_text_map(const std::string& path) { return !is_netcdf(path) && !is_instrument_map(path); }
@@ -539,49 +533,40 @@ bool is_text_map(const std::string& path) { return !is_netcdf(path) && !is_instr
 // True if `code`, the lowest or highest height, is farther from the others than these are from each
 // other, or is met more often than the height next to it, by five standard deviations of counts:
 // towards its end a distribution of heights only becomes thinner.
-static bool ends_in_code(const HeightMap& map, double code, bool lowest, double many,
+static bool ends_in_code(std::span<const double> heights, double code, bool lowest, double many,
                          long& points) {
-    double least = kInfinity;
-    double most = -kInfinity;
-    points = 0;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
-            if (map(i, j) == code) {
-                ++points;
-                continue;
-            }
-            least = std::fmin(least, map(i, j));
-            most = std::fmax(most, map(i, j));
+    double least = kInfinity, most = -kInfinity;  // of the others
+    for (const double z : heights)
+        if (z != code) {
+            least = std::fmin(least, z);
+            most = std::fmax(most, z);
         }
+    points = std::ranges::count(heights, code);
     if (points < 2 || !(least < most)) return false;  // one is an outlier
     const double next = lowest ? least : most;
     if (static_cast<double>(points) > many && std::abs(next - code) > most - least) return true;
-    long at_next = 0;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) at_next += map(i, j) == next;
+    const long at_next = std::ranges::count(heights, next);
     constexpr double kDeviations = 5;
     const auto more = static_cast<double>(points - at_next);
-    return 2 * points < static_cast<long>(map.points()) &&
+    return 2 * points < std::ssize(heights) &&
            more > kDeviations * std::sqrt(static_cast<double>(points + at_next));
 }
 
 std::optional<double> likely_code(const HeightMap& map, long& points) {
     constexpr double kShare = 1e-3;
+    const std::span<const double> heights(map.data.get(), map.points());
     double low = kInfinity, high = -kInfinity;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
-            low = std::fmin(low, map(i, j));
-            high = std::fmax(high, map(i, j));
-        }
+    for (const double z : heights) {
+        low = std::fmin(low, z);
+        high = std::fmax(high, z);
+    }
     const double many = kShare * static_cast<double>(map.points());
     for (const double code : {low, high})
-        if (ends_in_code(map, code, code == low, many, points)) return code;
+        if (ends_in_code(heights, code, code == low, many, points)) return code;
     long zero_blocks = 0, other_blocks = 0;
-    points = 0;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
-            points += map(i, j) == 0;
-            if (i < 1 || j < 1 || i + 1 == map.nx || j + 1 == map.ny) continue;
+    points = std::ranges::count(heights, 0.0);
+    for (int j = 1; j + 1 < map.ny; ++j)
+        for (int i = 1; i + 1 < map.nx; ++i) {
             bool block = true;
             for (int b = -1; b <= 1; ++b)
                 for (int a = -1; a <= 1; ++a) block = block && map(i + a, j + b) == map(i, j);
@@ -598,11 +583,7 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
     const bool fill = missing == Missing::fill;
     const bool netcdf = is_netcdf(path);
     const std::string start = first_bytes(path);
-    const auto* const found = std::ranges::find_if(
-        kInstrumentFormats,
-        [&](const InstrumentFormat& format) { return !netcdf && format.is(start); });
-    const InstrumentFormat* const instrument =
-        found == std::end(kInstrumentFormats) ? nullptr : found;
+    const InstrumentFormat* const instrument = netcdf ? nullptr : instrument_format(start);
     const bool channels = instrument && instrument->channels;
     if (!channel.empty() && !netcdf && !channels)
         bad_input(path, ": has no channel '", channel,
@@ -613,7 +594,8 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
             path,
             ": is not a text file; surface%height_unit and surface%pixel are only for text files");
     HeightMap map = netcdf ? read_netcdf_heights(path, L, length_unit, channel, fill, text, origin)
-                    : instrument ? instrument->read(path, channel, length_unit, origin)
+                    : instrument ? instrument->read(path, channel, length_unit,
+                                                    origin ? &origin->channel : nullptr)
                                  : read_text_heights(path, L, fill, text, length_unit, origin);
     if (instrument) {
         mark_missing(map, text.missing_value, origin);

@@ -121,17 +121,26 @@ private:
     NC_memio image_{};
 };
 
+// One function for each kind of values.
+template <class... Functions>
+struct Overloaded : Functions... {
+    using Functions::operator()...;
+};
+
 void put_attribute(int ncid, int varid, const std::string& name, const NetcdfAttribute& value,
                    const std::string& path) {
-    if (const auto* text = std::get_if<std::string>(&value))
-        check(nc_put_att_text(ncid, varid, name.c_str(), text->size(), text->c_str()), path);
-    else if (const auto* numbers = std::get_if<std::vector<double>>(&value))
-        check(nc_put_att_double(ncid, varid, name.c_str(), NC_DOUBLE, numbers->size(),
-                                numbers->data()),
-              path);
-    else if (const auto* integers = std::get_if<std::vector<std::int32_t>>(&value))
-        check(nc_put_att_int(ncid, varid, name.c_str(), NC_INT, integers->size(), integers->data()),
-              path);
+    const auto put = [&](auto function, nc_type type, auto values) {
+        check(function(ncid, varid, name.c_str(), type, values.size(), values.data()), path);
+    };
+    const Overloaded put_value = {
+        [&](const std::string& text) {
+            check(nc_put_att_text(ncid, varid, name.c_str(), text.size(), text.c_str()), path);
+        },
+        [&](const double& x) { put(nc_put_att_double, NC_DOUBLE, std::span(&x, 1)); },
+        [&](const std::int32_t& n) { put(nc_put_att_int, NC_INT, std::span(&n, 1)); },
+        [&](const std::vector<double>& x) { put(nc_put_att_double, NC_DOUBLE, std::span(x)); },
+        [&](const std::vector<std::int32_t>& n) { put(nc_put_att_int, NC_INT, std::span(n)); }};
+    std::visit(put_value, value);
 }
 
 // Smaller variables are not chunked: managing a chunk takes HDF5 longer than writing them, and

@@ -49,8 +49,7 @@ void ResultTable::global_attributes(const std::string& history) {
     file_.attribute("case", r_.case_text);
     if (r_.settings.run.seed >= std::numeric_limits<std::int32_t>::min() &&
         r_.settings.run.seed <= std::numeric_limits<std::int32_t>::max())
-        file_.attribute("seed",
-                        std::vector<std::int32_t>{static_cast<std::int32_t>(r_.settings.run.seed)});
+        file_.attribute("seed", static_cast<std::int32_t>(r_.settings.run.seed));
     else  // the classic data model has no integers longer than 32 bits
         file_.attribute("seed", std::to_string(r_.settings.run.seed));
 }
@@ -58,15 +57,13 @@ void ResultTable::global_attributes(const std::string& history) {
 void ResultTable::axes() {
     file_.dimension("realization", o_.realizations);
     file_.dimension("step", o_.steps);
-    std::vector<std::int32_t> realization;
-    for (std::int64_t k : o_.realization) realization.push_back(clamped(k));
-    add("realization", {"realization"}, "1", "number of the realization", realization,
+    add("realization", {"realization"}, "1", "number of the realization",
+        values_of<std::int32_t>(o_.realization, [](std::int64_t k) { return clamped(k); }),
         comment("realization k of a seed is the same surface in every case"));
     add("step", {"step"}, "1", "number of the level", one_to(o_.steps));
 
     const Names dims = r_.force_control() ? Names{"realization", "step"} : Names{"step"};
-    std::vector<double> separation =
-        of_rows<double>([](const LevelValues& row) { return row.separation; });
+    std::vector<double> separation = of_rows(&LevelValues::separation);
     if (!r_.force_control()) separation.resize(o_.steps);  // the same in every realization
     std::vector<double> scaled = separation;
     for (double& z : scaled) z /= r_.sigma;
@@ -100,8 +97,7 @@ void ResultTable::levels() {
                 attributes);
             continue;
         }
-        const std::vector<double> values =
-            of_rows<double>([&](const LevelValues& l) { return q.of(l); });
+        const std::vector<double> values = of_rows([&](const LevelValues& l) { return q.of(l); });
         if (q.always &&
             std::ranges::none_of(o_.rows,
                                  absent))  // levels that did not converge may have no force
@@ -116,8 +112,7 @@ void ResultTable::levels() {
                        tensors(q), q.comment);
         else if (q.y)
             add_absent(q.name, {"realization", "step", "component"}, units(q), q.meaning,
-                       pairs(values, of_rows<double>([&](const LevelValues& l) { return l.*q.y; })),
-                       q.comment);
+                       pairs(values, of_rows(q.y)), q.comment);
         else
             add_absent(q.name, dims, units(q), q.meaning, values, q.comment);
     }
@@ -188,7 +183,7 @@ void ResultTable::means() {
             return value > 0 ? std::log(value) : kNotComputed;
         };
         LevelStatistics s = o_.statistics([&](const LevelValues& l) { return seen(q.of(l)); });
-        if (!q.always && !computed(of_rows<double>([&](const LevelValues& l) { return q.of(l); })))
+        if (!q.always && !computed(of_rows([&](const LevelValues& l) { return q.of(l); })))
             continue;
         const std::string name = q.name + std::string(q.logarithm ? "_log" : ""),
                           of = (q.logarithm ? "natural logarithm of the " : std::string()) +
@@ -229,11 +224,11 @@ void ResultTable::surfaces() {
                   : "finite differences on the grid of heights, without those across its border, "
                     "which is none of the surface even where the heights repeat";
     add_absent("sigma", dims, unit(1), "rms height of the surface",
-               of_surfaces([](const auto& s) { return s.sigma; }));
+               of_surfaces(&SurfaceStatistics::sigma));
     add_absent("m2", dims, "1", "second profile moment: half the mean square gradient",
-               of_surfaces([](const auto& s) { return s.m2; }), origin);
+               of_surfaces(&SurfaceStatistics::m2), origin);
     add_absent("m4", dims, unit(-2), "fourth profile moment: mean square profile curvature",
-               of_surfaces([](const auto& s) { return s.m4; }),
+               of_surfaces(&SurfaceStatistics::m4),
                origin + (directional ? ", 3/8 (m40 + m04 + 2 m22)" : ", (m40 + m04 + 3 m22)/3"));
     for (const auto& [name, of] : kMomentComponents)
         add_absent(
@@ -241,39 +236,38 @@ void ResultTable::surfaces() {
             std::string("integral of kx^") + name[1] + " ky^" + name[2] + " over the spectrum",
             of_surfaces([of = of](const auto& s) { return s.tensor.*of; }), origin);
     add_absent("m2_grid", dims, "1", "second profile moment from finite differences",
-               of_surfaces([](const auto& s) { return s.m2_grid; }),
+               of_surfaces(&SurfaceStatistics::m2_grid),
                "differs from m2 if the grid does not resolve the shortest waves");
     add_absent("m4_grid", dims, unit(-2), "fourth profile moment from finite differences",
-               of_surfaces([](const auto& s) { return s.m4_grid; }),
+               of_surfaces(&SurfaceStatistics::m4_grid),
                "differs from m4 if the grid does not resolve the shortest waves");
-    if (computed(of_surfaces([](const auto& s) { return s.skewness; }))) {
+    if (computed(of_surfaces(&SurfaceStatistics::skewness))) {
         add("skewness", dims, "1", "skewness of the heights",
-            of_surfaces([](const auto& s) { return s.skewness; }));
+            of_surfaces(&SurfaceStatistics::skewness));
         add("kurtosis", dims, "1", "kurtosis of the heights",
-            of_surfaces([](const auto& s) { return s.kurtosis; }));
+            of_surfaces(&SurfaceStatistics::kurtosis));
     }
     add_absent("rms_slope", dims, "1", "rms gradient of the surface",
                of_surfaces([](const auto& s) { return std::sqrt(2 * s.m2); }),
                "sqrt(2 m2); the theory assumes small slopes");
-    std::vector<std::int32_t> summits, saddles;
-    for (const SurfaceStatistics& s : o_.surface) {
-        summits.push_back(clamped(s.summits));
-        saddles.push_back(clamped(s.saddles));
-    }
+    const auto counts = [&](std::int64_t SurfaceStatistics::*member) {
+        return values_of<std::int32_t>(o_.surface,
+                                       [&](const auto& s) { return clamped(s.*member); });
+    };
+    const std::vector<std::int32_t> summits = counts(&SurfaceStatistics::summits);
     if (std::ranges::any_of(summits,
                             [](auto n) { return n > 0; })) {  // elements do not search for summits
         add("summits", dims, "1", "number of asperities", summits);
-        add("saddles", dims, "1", "grid maxima that are not asperities", saddles,
+        add("saddles", dims, "1", "grid maxima that are not asperities",
+            counts(&SurfaceStatistics::saddles),
             comment("saddles by their curvatures; with law = 'elliptic' or 'fourth_order' maxima "
                     "without a summit between the grid "
                     "points, or with one already found"));
     }
     add_absent("mean_kappa_g", dims, unit(-1), "mean geometric curvature of the summits",
-               of_surfaces([](const auto& s) { return s.mean_kappa_g; }),
-               "1.356 sqrt(m4) in theory");
+               of_surfaces(&SurfaceStatistics::mean_kappa_g), "1.356 sqrt(m4) in theory");
     add_absent("mean_kappa_a", dims, unit(-1), "mean algebraic curvature of the summits",
-               of_surfaces([](const auto& s) { return s.mean_kappa_a; }),
-               "1.5045 sqrt(m4) in theory");
+               of_surfaces(&SurfaceStatistics::mean_kappa_a), "1.5045 sqrt(m4) in theory");
 }
 
 void ResultTable::theory() {
@@ -292,12 +286,12 @@ void ResultTable::theory() {
            known ? m.summit_density() : kAbsent,
            "sqrt(3) m4/(18 pi m2), with a lay of the isotropic surface before it is stretched");
     const double R = r_.indenter.shape->hertz_radius();
-    add("e_star", {}, unit(-2, 1), "equivalent modulus E*", std::vector<double>{r_.indenter.E_star},
+    add("e_star", unit(-2, 1), "equivalent modulus E*", r_.indenter.E_star,
         comment("1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2; on a body with layers that of the top layer"));
     add_absent("r_star", {}, unit(1), "equivalent radius R*", {std::isfinite(R) ? R : kAbsent},
                "1/R* = 1/R1 + 1/R2; missing for two flats and for shapes other than spheres");
-    add("tip_x", {}, unit(1), "x of the indenter's tip", std::vector<double>{r_.indenter.x0});
-    add("tip_y", {}, unit(1), "y of the indenter's tip", std::vector<double>{r_.indenter.y0});
+    add("tip_x", unit(1), "x of the indenter's tip", r_.indenter.x0);
+    add("tip_y", unit(1), "y of the indenter's tip", r_.indenter.y0);
     outline();
     add_absent("sigma_reference", {}, unit(1), "rms height used as the unit of separations",
                {r_.sigma});

@@ -35,11 +35,10 @@ void ResultTable::maps() {
     file_.dimension("x", at(g.nx));
     add("y", {"y"}, unit(1), "y of the cell centres; the last row may extend beyond the surface",
         each_of(g.ny, [&](int j) { return g.y(j); }),
-        {{"axis", "Y"}, {"share_of_last_row", std::vector<double>{g.last_row}}});
+        {{"axis", "Y"}, {"share_of_last_row", g.last_row}});
     add("x", {"x"}, unit(1), "x of the cell centres", each_of(g.nx, [&](int i) { return g.x(i); }),
         {{"axis", "X"}});
-    add("map_cell_side", {}, unit(1), "side of the square cells of the map, w",
-        std::vector<double>{g.side});
+    add("map_cell_side", unit(1), "side of the square cells of the map, w", g.side);
     const Names dims{"step", "y", "x"};
     const auto add_map = [&](const char* name, const std::string& units, const char* meaning,
                              const SparseMaps& map, const char* note) {
@@ -89,7 +88,7 @@ void ResultTable::bin_axis(const std::string& name, const std::string& units,
                            const std::string& long_name, double width) {
     add(name, {"bin"}, units, long_name,
         each_of(o_.options.pdf.bins, [&](int b) { return (b + 0.5) * width; }),
-        {{"bin_width", std::vector<double>{width}}});
+        {{"bin_width", width}});
 }
 
 void ResultTable::distributions() {
@@ -224,29 +223,12 @@ void ResultTable::contacts() {
     if (!c.asperity.empty())
         add("contact_asperity", {"contact"}, "1", "asperity of the contact", from_one(c.asperity),
             {kFromOne});
-    if (!c.x.empty()) {
-        const std::string what = " of the centroid of the contact's pressure";
-        add_disorder("contact_x", {"contact"}, unit(1), "x" + what, c.x);
-        add_disorder("contact_y", {"contact"}, unit(1), "y" + what, c.y,
-                     comment("a contact is a set of pixels connected by their sides"));
-    }
-    add_disorder("contact_force", {"contact"}, unit(0, 1), "force of the contact, f", c.force);
-    add_disorder(
-        "contact_radius", {"contact"}, unit(1), "radius of the contact, a", c.radius,
-        comment("its area is pi a^2: of an ellipse, the root of the product of its semi-axes"));
-    if (!c.major.empty()) {
-        add_disorder("contact_spot_x", {"contact"}, unit(1),
-                     "x of the middle of the contact's elliptic spot", c.spot_x,
-                     comment("a contact within the spot of another has that spot; the contact area "
-                             "is the area of the union of all spots"));
-        add_disorder("contact_spot_y", {"contact"}, unit(1),
-                     "y of the middle of the contact's elliptic spot", c.spot_y);
-        add_disorder("contact_major", {"contact"}, unit(1),
-                     "major semi-axis of the contact's elliptic spot", c.major);
-        add_disorder("contact_minor", {"contact"}, unit(1),
-                     "minor semi-axis of the contact's elliptic spot", c.minor);
-        add_disorder("contact_angle", {"contact"}, "radian",
-                     "direction of the major semi-axis, from x", c.angle);
+    for (const ContactColumn& column : kContactColumns) {
+        const bool angle = column.length_power == 0 && column.force_power == 0;
+        if (!(c.*column.of).empty())
+            add_disorder(std::string("contact_") + column.name, {"contact"},
+                         angle ? "radian" : unit(column.length_power, column.force_power),
+                         column.meaning, c.*column.of, comment(column.comment));
     }
     if (!c.yields.empty())
         add("contact_yields", {"contact"}, "1",
@@ -310,10 +292,8 @@ void ResultTable::residual_profile() {
     file_.dimension("residual_pixel", p.depth.size());
     const Names dims{"residual_pixel"};
     const std::string points = " of the points of the surface with residual depth";
-    add("residual_pixel_x", dims, unit(1), "x" + points, p.x,
-        {{"pixel_size", std::vector<double>{p.dx}}});
-    add("residual_pixel_y", dims, unit(1), "y" + points, p.y,
-        {{"pixel_size", std::vector<double>{p.dy}}});
+    add("residual_pixel_x", dims, unit(1), "x" + points, p.x, {{"pixel_size", p.dx}});
+    add("residual_pixel_y", dims, unit(1), "y" + points, p.y, {{"pixel_size", p.dy}});
     add("residual_pixel_depth", dims, unit(1), "residual depth without force, after the last level",
         p.depth);
 }
@@ -369,9 +349,9 @@ void ResultTable::compared() {
     }
     const std::string last = " of the last level compared";
     add("compare_pixel_x", {"compare_pixel"}, unit(1), "x of the pixels under pressure" + last, x,
-        {{"pixel_size", std::vector<double>{p.dx}}});
+        {{"pixel_size", p.dx}});
     add("compare_pixel_y", {"compare_pixel"}, unit(1), "y of the pixels under pressure" + last, y,
-        {{"pixel_size", std::vector<double>{p.dy}}});
+        {{"pixel_size", p.dy}});
     add("compare_pixel_pressure", {"compare_pixel"}, unit(-2, 1), "pressure on those pixels",
         p.pressure);
 }

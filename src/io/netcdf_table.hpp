@@ -26,8 +26,7 @@ inline std::vector<std::int32_t> from_one(std::vector<std::int32_t> numbers) {
     for (std::int32_t& k : numbers) ++k;
     return numbers;
 }
-inline const std::pair<std::string, NetcdfAttribute> kFromOne{"start_index",
-                                                              std::vector<std::int32_t>{1}};
+inline const std::pair<std::string, NetcdfAttribute> kFromOne{"start_index", std::int32_t{1}};
 
 // value(0), value(1), ..., value(n - 1)
 template <class Value>
@@ -174,6 +173,13 @@ private:
         file_.variable({name, std::move(dimensions), units, long_name, std::move(values),
                         std::move(attributes), false});
     }
+    // A single number.
+    template <class Number>
+    requires std::is_arithmetic_v<Number>
+    void add(const std::string& name, const std::string& units, const std::string& long_name,
+             Number value, NetcdfAttributes attributes = {}) {
+        add(name, Names{}, units, long_name, std::vector{value}, std::move(attributes));
+    }
     // Incompressible data: unordered positions, heights, forces.
     void add_disorder(const std::string& name, Names dimensions, const std::string& units,
                       const std::string& long_name, std::vector<double> values,
@@ -190,17 +196,16 @@ private:
                         comment(note), true});
     }
 
-    template <typename T, typename Get>
-    std::vector<T> of_rows(Get get) const {
-        std::vector<T> values;
-        values.reserve(o_.rows.size());
-        for (const LevelValues& row : o_.rows) values.push_back(get(row));
-        return values;
+    // Of all levels, or surfaces: what `get`, a function or a member, gives.
+    template <class T = double>
+    std::vector<T> of_rows(auto get) const {
+        return values_of<T>(o_.rows, get);
     }
-    template <typename Get>
-    std::vector<double> of_surfaces(Get get) const {
-        std::vector<double> values;
-        for (const SurfaceStatistics& s : o_.surface) values.push_back(get(s));
+    std::vector<double> of_surfaces(auto get) const { return values_of<double>(o_.surface, get); }
+    template <class T>
+    static std::vector<T> values_of(const auto& all, auto get) {
+        std::vector<T> values;
+        for (const auto& one : all) values.push_back(std::invoke(get, one));
         return values;
     }
 

@@ -184,11 +184,11 @@ void read_levels(const Columns& file, Accumulators& sums) {
 void read_surfaces(const Columns& file, Accumulators& sums) {
     sums.surface.resize(sums.realization.size());
     using S = SurfaceStatistics;
-    const auto read = [&](const char* name, auto member_of) {
+    const auto read = [&](const char* name, auto member) {
         const std::vector<double> values = file.values(name, {sums.surface.size()});
         for (std::size_t k = 0; k < values.size(); ++k) {
-            auto& member = member_of(sums.surface[k]);
-            member = static_cast<std::decay_t<decltype(member)>>(values[k]);
+            auto& to = std::invoke(member, sums.surface[k]);
+            to = static_cast<std::decay_t<decltype(to)>>(values[k]);
         }
     };
     for (const auto& [name, member] : {std::pair{"sigma", &S::sigma},
@@ -198,18 +198,16 @@ void read_surfaces(const Columns& file, Accumulators& sums) {
                                        {"m4_grid", &S::m4_grid},
                                        {"mean_kappa_g", &S::mean_kappa_g},
                                        {"mean_kappa_a", &S::mean_kappa_a}})
-        read(name, [m = member](S& s) -> double& { return s.*m; });
+        read(name, member);
     for (const auto& [name, of] : kMomentComponents)
         read(name, [m = of](S& s) -> double& { return s.tensor.*m; });
     if (file.find("skewness")) {
-        read("skewness", [](S& s) -> double& { return s.skewness; });
-        read("kurtosis", [](S& s) -> double& { return s.kurtosis; });
+        read("skewness", &S::skewness);
+        read("kurtosis", &S::kurtosis);
     }
     if (!file.find("summits")) return;  // elements do not search for summits
-    read(
-        "summits", [](S & s) -> auto& { return s.summits; });
-    read(
-        "saddles", [](S & s) -> auto& { return s.saddles; });
+    read("summits", &S::summits);
+    read("saddles", &S::saddles);
 }
 
 void read_stresses(const Columns& file, Accumulators& sums) {

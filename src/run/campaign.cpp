@@ -214,15 +214,14 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
     const Result result = campaign_result(*job, state.sums(), table);
     leave_if_interrupted("; " + how_far(state, settings) + ": " + kGoesOn);
     try {
-        write_result(result, file,
-                     {settings.output.format, settings.output.compression, options.command});
+        write_result(result, file, options.command);
     } catch (const Error& error) {
         throw Error(error.kind(), error.what(), "\n", how_far(state, settings),
                     ": run the same command with --resume to write the file "
                     "without computing them again");
     }
     checkpoint.remove();
-    const RunSummary summary = campaign_summary(result);
+    const RunSummary summary = summary_of(result);
     if (table)
         print_campaign_summary(*table, *job, result.observations, seconds_since(start), file,
                                replaces);
@@ -322,8 +321,8 @@ RunSummary merge_campaigns(const std::vector<std::string>& files, const std::str
     std::ostream* const table = options.table;
     const Result result = campaign_result(job, sums, table);
     leave_if_interrupted("; nothing is written");
-    write_result(result, output, {whole.output.format, whole.output.compression, options.command});
-    const RunSummary summary = campaign_summary(result);
+    write_result(result, output, options.command);
+    const RunSummary summary = summary_of(result);
     if (table)
         print_campaign_summary(*table, job, result.observations, seconds_since(start), output,
                                replaces);

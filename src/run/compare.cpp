@@ -25,7 +25,7 @@ std::string itself(double error) {
 
 void print(std::ostream& out, const Job& job, const ComparedLevel& c, const LevelValues& asperities,
            bool by_force) {
-    const char *l = job.settings.run.length_unit.c_str(), *f = job.settings.run.force_unit.c_str();
+    const auto [l, f, time] = units_of(job);
     if (std::isnan(c.force)) {
         out << format("level %d: ELEMENTS DID NOT CONVERGE, raise solver%%max_iterations\n",
                       c.step + 1);

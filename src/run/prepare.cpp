@@ -64,21 +64,15 @@ std::string map_file(const std::string& name, std::int64_t number) {
 // The points of a map within x0, x1, y0, y1.
 HeightMap part_of(const HeightMap& map, const std::optional<double> (&window)[4],
                   const std::string& path) {
-    const auto number = [](double x, double origin, double step, int n) {
-        return std::clamp((x - origin) / step, -1.0, n + 0.0);
-    };
     // points on the border of the window belong to it, however they are rounded
     constexpr double slack = 1e-6;
-    const int i0 = std::max(0, static_cast<int>(
-                                   std::ceil(number(*window[0], map.x0, map.dx, map.nx) - slack))),
-              i1 = std::min(
-                  map.nx - 1,
-                  static_cast<int>(std::floor(number(*window[1], map.x0, map.dx, map.nx) + slack))),
-              j0 = std::max(0, static_cast<int>(
-                                   std::ceil(number(*window[2], map.y0, map.dy, map.ny) - slack))),
-              j1 = std::min(
-                  map.ny - 1,
-                  static_cast<int>(std::floor(number(*window[3], map.y0, map.dy, map.ny) + slack)));
+    const auto range = [](double from, double to, double origin, double step, int n) {
+        const auto place = [&](double x) { return std::clamp((x - origin) / step, -1.0, n + 0.0); };
+        return std::pair(std::max(0, static_cast<int>(std::ceil(place(from) - slack))),
+                         std::min(n - 1, static_cast<int>(std::floor(place(to) + slack))));
+    };
+    const auto [i0, i1] = range(*window[0], *window[1], map.x0, map.dx, map.nx);
+    const auto [j0, j1] = range(*window[2], *window[3], map.y0, map.dy, map.ny);
     if (i1 - i0 < 2 || j1 - j0 < 2)
         bad_input(
             format("%s: fewer than 3 x 3 of its points lie in surface%%window; they go from %.6g "

@@ -14,7 +14,7 @@ namespace {
 std::string place_of(const LevelValues& level, const Job& job) {
     if (job.settings.indentation.control == Control::separation)
         return format("Z0/sigma = %.4g", level.separation / job.sigma);
-    return format("N = %.4g %s", level.force, job.settings.run.force_unit.c_str());
+    return format("N = %.4g %s", level.force, units_of(job).force);
 }
 
 void print_methods(std::ostream& out, std::span<const LevelValues> levels) {
@@ -151,7 +151,7 @@ void print_bounds(std::ostream& out, std::span<const LevelValues> levels, const 
         return l.force_error_expected >= 0 || l.separation_error_expected >= 0;
     });
     if (job.settings.run.realizations > 1 || last == levels.rend()) return;
-    const char *l = job.settings.run.length_unit.c_str(), *f = job.settings.run.force_unit.c_str();
+    const auto [l, f, time] = units_of(job);
     std::string first;
     if (last->separation_error_expected >= 0) {
         first = format("Z0 = %.6g %s +- %.2g %s", last->separation, l,
@@ -173,14 +173,13 @@ void print_bounds(std::ostream& out, std::span<const LevelValues> levels, const 
 // The summary of plastic contacts for cases with hardness, of what is worn off, and of the energy
 // lost in bodies that relax.
 void print_changes(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
+    const auto [l, f, time] = units_of(job);
     if (relaxes(job.settings) && !levels.empty() && job.settings.run.realizations == 1)
         out << format(
             "  %.4g %s %s of the work done are lost by relaxation. Results depend on the "
             "loading history.\n",
-            levels.back().energy_lost, job.settings.run.force_unit.c_str(),
-            job.settings.run.length_unit.c_str());
+            levels.back().energy_lost, f, l);
     if (wears(job.settings) && !levels.empty() && job.settings.run.realizations == 1) {
-        const char* const l = job.settings.run.length_unit.c_str();
         const LevelValues& last = levels.back();
         out << format(
             "  %.4g %s3 are worn off, up to %.4g %s deep, and the surface has the rms height %.4g "
@@ -201,16 +200,14 @@ void print_changes(std::ostream& out, std::span<const LevelValues> levels, const
     double lost = 0;
     for (const LevelValues& level : levels)
         lost = std::max(lost, level.plastic_work);  // NaN if a level did not converge
-    if (job.settings.run.realizations == 1)
-        out << format("; plastic work %.4g %s %s", lost, job.settings.run.force_unit.c_str(),
-                      job.settings.run.length_unit.c_str());
+    if (job.settings.run.realizations == 1) out << format("; plastic work %.4g %s %s", lost, f, l);
     out << ". Results depend on the loading history.\n";
 }
 
 // The range of attraction up to which JKR is valid.
 void print_tabor(std::ostream& out, const Job& job) {
     const Case& c = job.settings;
-    const char* const l = c.run.length_unit.c_str();
+    const char* const l = units_of(job).length;
     // JKR holds from a Tabor parameter of 5 on.
     const auto reach = [&](double radius) {
         return std::cbrt(radius * std::pow(c.solids.adhesion / job.indenter.E_star, 2));
@@ -255,15 +252,15 @@ void print_stickiness(std::ostream& out, const Job& job) {
     out << format(
         "  two flats with this surface %s (Pastewka and Robbins 2014): it needs w above about %.2g "
         "%s/%s.\n",
-        c.solids.adhesion > needed ? "would stick" : "would not stick", needed,
-        c.run.force_unit.c_str(), c.run.length_unit.c_str());
+        c.solids.adhesion > needed ? "would stick" : "would not stick", needed, units_of(job).force,
+        units_of(job).length);
 }
 
 // The summary of a run with adhesion.
 void print_sticking(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
     const Case& c = job.settings;
     if (!(c.solids.adhesion > 0) || levels.empty()) return;
-    const char *l = c.run.length_unit.c_str(), *f = c.run.force_unit.c_str();
+    const auto [l, f, time] = units_of(job);
     long jumps = 0;
     double lost = 0, least = 0, attracting = 0;
     for (const LevelValues& level : levels) {

@@ -36,6 +36,19 @@ std::string case_text(const Case& settings) {
     return effective_namelist(without_idle_keys(settings));
 }
 
+RunSummary summary_of(const Result& result) {
+    const Observations& o = result.observations;
+    const auto failed =
+        std::ranges::count(o.rows, LevelStatus::not_converged, &LevelValues::status);
+    // The means of a single level that did not converge are missing, but it has values.
+    const bool one = o.realizations == 1;
+    const LevelValues& last = o.rows.back();
+    return {static_cast<long>(o.rows.size() + result.compared.levels.size()),
+            static_cast<long>(failed) + result.compared.failed,
+            one ? last.separation : o.separation.mean.back(),
+            one ? last.force : o.force.mean.back(), one ? last.area : o.area.mean.back()};
+}
+
 void tell_failed(const RunOptions& options, const RunSummary& summary) {
     if (summary.failed == 0 || !options.messages) return;
     *options.messages
@@ -232,16 +245,6 @@ void take_realization(Result& result, Job& job, Realization& r) {
         result.heights = std::move(r.heights ? r.heights : job.given_heights);
 }
 
-RunSummary summary_of(const std::vector<LevelValues>& levels, const ComparedLevels& compared) {
-    const auto failed = [](const LevelValues& level) {
-        return level.status == LevelStatus::not_converged;
-    };
-    const LevelValues& last = levels.back();
-    return {static_cast<long>(levels.size() + compared.levels.size()),
-            static_cast<long>(std::ranges::count_if(levels, failed)) + compared.failed,
-            last.separation, last.force, last.area};
-}
-
 }  // namespace
 
 RunSummary run_realization(const Case& settings, const RunOptions& options) {
@@ -288,15 +291,14 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     keep_contacts(result, r.levels, keep);
     result.compared = std::move(compared);
     take_realization(result, job, r);
-    write_result(result, settings.output.file,
-                 {settings.output.format, settings.output.compression, options.command});
+    write_result(result, settings.output.file, options.command);
 
     const std::string twins = write_twins(job, settings.output.file);
 
     if (table)
         summarise(*table, job, r.statistics, record.levels, record.stresses, seconds_since(start),
                   settings.output.file, replaces, twins);
-    const RunSummary summary = summary_of(record.levels, result.compared);
+    const RunSummary summary = summary_of(result);
     tell_failed(options, summary);
     return summary;
 }

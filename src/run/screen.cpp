@@ -77,8 +77,7 @@ double smooth_radius(const Job& job) {
 // Lengths and moduli in another unit than that of the case are a common mistake. No solid is
 // stiffer than diamond, 1.2e12 Pa, and gels softer than 1 kPa flow.
 void print_unlikely_units(std::ostream& out, const Job& job) {
-    const auto& run = job.settings.run;
-    const char *l = run.length_unit.c_str(), *f = run.force_unit.c_str();
+    const auto [l, f, time] = units_of(job);
     constexpr double stiffest = 2e12, softest = 1e3, steepest = 3, flattest = 1e-6, highest = 0.1;
     const double in_pascals = pascals(job.settings);
     const auto modulus = [&](const char* key, double E) {
@@ -118,8 +117,7 @@ void print_unlikely_units(std::ostream& out, const Job& job) {
 // The title, the bodies, and the theoretical properties of the surface.
 void print_case(std::ostream& out, const Job& job) {
     const auto& run = job.settings.run;
-    const char* l = run.length_unit.c_str();
-    const char* f = run.force_unit.c_str();
+    const auto [l, f, time] = units_of(job);
     if (!run.title.empty()) out << run.title << '\n';
     if (const Period& period = job.indenter.period; period.finite())
         out << format(
@@ -211,7 +209,7 @@ void print_second(std::ostream& out, const Job& job) {
     if (!between(dx, map.dx, map.nx, job.indenter.x0, d.x0) &&
         !between(dy, map.dy, map.ny, job.indenter.y0, d.y0))
         return;
-    const char* l = job.settings.run.length_unit.c_str();
+    const char* const l = units_of(job).length;
     out << format("body 2 is interpolated between its points, at a spacing of %g x %g %s", map.dx,
                   map.dy, l);
     if (dx > 0) out << format("; the spacing of body 1 is %g x %g %s", dx, dy, l);
@@ -390,12 +388,12 @@ void print_campaign_heading(std::ostream& out, const Job& job, std::size_t worke
     out << format("%d realizations of %zu levels, %zu in parallel", run.realizations,
                   job.levels.size(), workers);
     if (done > 0) out << format("; %zu of them are finished", done);
+    const auto [l, f, time] = units_of(job);
     out << "\n\nMeans over the realizations so far at the last level; scatter is the standard "
            "deviation of one realization.\n"
         << format("%12s %14s %10s %14s %10s %12s %10s\n", "realizations",
-                  format("N [%s]", run.force_unit.c_str()).c_str(), "scatter",
-                  format("A [%s2]", run.length_unit.c_str()).c_str(), "scatter", "elapsed",
-                  "a second")
+                  joined("N [", f, "]").c_str(), "scatter", joined("A [", l, "2]").c_str(),
+                  "scatter", "elapsed", "a second")
         << std::flush;
 }
 
@@ -421,11 +419,11 @@ void print_batch(std::ostream& out, const Job& job, const Accumulators& sums, do
 
 void print_campaign_summary(std::ostream& out, const Job& job, const Observations& o,
                             double seconds, const std::string& file, bool replaces) {
-    const auto& run = job.settings.run;
+    const auto [l, f, time] = units_of(job);
     out << format("\nmean curve of %zu realizations\n%5s %12s %9s %14s %10s %14s %10s\n",
-                  o.realizations, "level", format("Z0 [%s]", run.length_unit.c_str()).c_str(),
-                  "Z0/sigma", format("N [%s]", run.force_unit.c_str()).c_str(), "scatter",
-                  format("A [%s2]", run.length_unit.c_str()).c_str(), "scatter");
+                  o.realizations, "level", joined("Z0 [", l, "]").c_str(), "Z0/sigma",
+                  joined("N [", f, "]").c_str(), "scatter", joined("A [", l, "2]").c_str(),
+                  "scatter");
     for (const std::size_t s : shown_steps(o.steps))
         out << format(
             "%5zu %12.6g %9.5f %14.8g %10.3g %14.8g %10.3g\n", s + 1, o.separation.mean[s],
@@ -447,19 +445,6 @@ void print_campaign_summary(std::ostream& out, const Job& job, const Observation
     print_remarks(out, o.rows, job);
     print_gap(out, o.rows, job);
     print_result(out, file, replaces);
-}
-
-RunSummary campaign_summary(const Result& result) {
-    const Observations& o = result.observations;
-    RunSummary summary;
-    summary.levels = static_cast<long>(o.rows.size() + result.compared.levels.size());
-    summary.failed = result.compared.failed;
-    for (const LevelValues& row : o.rows)
-        if (row.status == LevelStatus::not_converged) ++summary.failed;
-    summary.separation = o.separation.mean.back();
-    summary.force = o.force.mean.back();
-    summary.area = o.area.mean.back();
-    return summary;
 }
 
 }  // namespace rsc

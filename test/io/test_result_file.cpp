@@ -58,9 +58,11 @@ void test_conventions(const Reader& file) {
 }
 
 void test_one_realization(const Folder& folder, Format format, int compression) {
-    const Result r = sample::result(1);
+    Result r = sample::result(1);
+    r.settings.output.format = format;
+    r.settings.output.compression = compression;
     const std::string path = folder / "one.nc";
-    write_result(r, path, {format, compression, ""});
+    write_result(r, path, "");
     CHECK(folder.files() == 1);  // nothing but the file
     const Reader file(path);
     test_conventions(file);
