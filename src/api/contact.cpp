@@ -418,7 +418,7 @@ int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* 
         const auto spread = [&](double* output, const std::vector<double>& values) {
             if (!output) return;
             std::fill(output, output + n, 0.0);
-            for (std::size_t k = 0; k < values.size(); ++k) output[level.asperity[k]] = values[k];
+            for (const auto k : indices(values)) output[level.asperity[k]] = values[k];
         };
         spread(force, level.f);
         spread(radius, level.a);

@@ -48,7 +48,7 @@ void put_tip(rsc_friction& friction, const Vec2& tip) {
 double shared_force(const Level& first, const Level& second) {
     double shared = 0;
     std::size_t k = 0;
-    for (std::size_t j = 0; j < first.asperity.size(); ++j) {
+    for (const auto j : indices(first.asperity)) {
         while (k < second.asperity.size() && second.asperity[k] < first.asperity[j]) ++k;
         if (k < second.asperity.size() && second.asperity[k] == first.asperity[j])
             shared += std::min(first.f[j], second.f[k]);
@@ -228,7 +228,7 @@ int32_t rsc_friction_first_loading(rsc_friction* friction, int64_t n, const doub
         with_levels(*friction, [&] {
             const auto points = slide_to(friction->curve, history.friction(), history.approach(),
                                          {slide, slide + n});
-            for (std::size_t k = 0; k < points.size(); ++k) {
+            for (const auto k : indices(points)) {
                 force[k] = points[k].force;
                 if (stick_separation) stick_separation[k] = -points[k].stick_approach;
             }
@@ -266,7 +266,7 @@ int32_t rsc_friction_spots(rsc_friction* friction, int64_t n, int64_t* count, in
             put(count, spots.size());
             if (n < static_cast<int64_t>(spots.size()))
                 refuse(2, "n", "must be at least the number of spots, ", spots.size());
-            for (std::size_t k = 0; k < spots.size(); ++k) {
+            for (const auto k : indices(spots)) {
                 if (asperity) asperity[k] = spots[k].asperity;
                 if (radius) radius[k] = spots[k].radius;
                 if (stick_radius) stick_radius[k] = spots[k].stick_radius;

@@ -23,7 +23,7 @@ constexpr double kFormat = 2;  // increased when earlier versions would misread 
 
 std::uint64_t mix(std::uint64_t hash, const void* data, std::size_t n) {  // FNV-1a
     const auto* bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t k = 0; k < n; ++k) hash = (hash ^ bytes[k]) * 0x100000001b3ull;
+    for (const auto k : indices(n)) hash = (hash ^ bytes[k]) * 0x100000001b3ull;
     return hash;
 }
 constexpr std::uint64_t kHash = 0xcbf29ce484222325ull;

@@ -30,7 +30,7 @@ rsc_asperities* share(SurfaceModel&& model) {
 }
 
 void require_positive(const std::vector<double>& values, int argument, const char* name) {
-    for (std::size_t k = 0; k < values.size(); ++k) {
+    for (const auto k : indices(values)) {
         if (!usable_positive(values[k]))
             refuse(argument, name, kPositiveBounds, ": entry ", k, " is not");
     }
@@ -202,7 +202,7 @@ int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double
             take(a.kappa2, kappa2, 8, "kappa2");
             take(a.angle, angle, 9, "angle");
             require_positive(a.kappa2, 8, "kappa2");
-            for (std::size_t k = 0; k < a.size(); ++k) {
+            for (const auto k : indices(a)) {
                 if (!(a.kappa1[k] >= a.kappa2[k]))
                     refuse(7, "kappa1", "must be at least kappa2: entry ", k, " is less");
             }

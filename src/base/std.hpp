@@ -57,6 +57,30 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // A number as an index, or as a size.
 constexpr std::size_t at(auto k) { return static_cast<std::size_t>(k); }
 
+// The indices 0, 1, ..., n - 1, for loops over them.
+class Indices {
+public:
+    explicit constexpr Indices(std::size_t n) : n_(n) {}
+    struct Index {
+        std::size_t k;
+        constexpr std::size_t operator*() const { return k; }
+        constexpr Index& operator++() {
+            ++k;
+            return *this;
+        }
+        constexpr bool operator==(const Index&) const = default;
+    };
+    constexpr Index begin() const { return {0}; }
+    constexpr Index end() const { return {n_}; }
+
+private:
+    std::size_t n_;
+};
+constexpr Indices indices(std::size_t n) { return Indices(n); }
+// Of the values that there are now.
+constexpr Indices indices(const auto& values) requires requires { values.size(); }
+{ return Indices(values.size()); }
+
 template <class T>
 void append(std::vector<T>& to, const auto& more) {
     to.insert(to.end(), more.begin(), more.end());

@@ -29,7 +29,7 @@ std::vector<double> levels_of(const Case::Indentation& keys) {
 double softest_modulus(const Case::Solids& solids) {
     double E[2] = {solids.E[0], solids.E[1]}, nu[2] = {solids.nu[0], solids.nu[1]};
     double softest = equivalent_modulus(E, nu);
-    for (std::size_t k = 0; k < solids.layer_E.size(); ++k) {
+    for (const auto k : indices(solids.layer_E)) {
         E[0] = solids.layer_E[k];
         nu[0] = solids.layer_nu[k];
         softest = std::min(softest, equivalent_modulus(E, nu));

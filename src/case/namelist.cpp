@@ -22,7 +22,7 @@ public:
     Parser(std::string_view text, const std::vector<std::string_view>& known)
         : text_(text), known_(known) {
         lines_.push_back(0);
-        for (std::size_t i = 0; i < text.size(); ++i)
+        for (const auto i : indices(text))
             if (text[i] == '\n') lines_.push_back(i + 1);
     }
 

@@ -85,14 +85,14 @@ private:
                                                                     : " and finite")});
         };
         const auto each = [&](const auto* values, std::size_t size) {
-            for (std::size_t i = 0; i < size; ++i)
+            for (const auto i : indices(size))
                 number(static_cast<double>(values[i]), key.size > 1 ? i + 1 : 0);
         };
         const auto size = at(key.size);
         if (const auto* n = std::get_if<int*>(&slot)) each(*n, size);
         if (const auto* x = std::get_if<double*>(&slot)) each(*x, size);
         if (const auto* o = std::get_if<std::optional<double>*>(&slot))
-            for (std::size_t i = 0; i < size; ++i)
+            for (const auto i : indices(size))
                 if ((*o)[i]) number(*(*o)[i], size > 1 ? i + 1 : 0);
         if (const auto* v = std::get_if<std::vector<double>*>(&slot)) {
             const std::vector<double>& list = **v;

@@ -26,7 +26,7 @@ void describe_key(std::ostream& out, const Key& key) {
     if (*key.unit) out << ", unit " << key.unit;
     const std::string bounds = key.bounds.text();
     if (!bounds.empty()) out << ", " << bounds;
-    for (std::size_t i = 0; i < key.choices.size(); ++i) {
+    for (const auto i : indices(key.choices)) {
         out << (i == 0 ? ": " : ", ") << "'" << key.choices[i] << "'";
     }
     out << "\n      " << key.meaning << "\n";

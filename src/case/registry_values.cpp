@@ -263,7 +263,7 @@ void finish_lists(Case& settings, Ledger& ledger, std::vector<Fault>& faults) {
         std::vector<double> next;
         const std::size_t size =
             entry.whole ? entry.values.size() : std::max(entry.values.size(), old.size());
-        for (std::size_t i = 0; i < size; ++i) {
+        for (const auto i : indices(size)) {
             const bool given = i < entry.values.size() && entry.values[i];
             if (!given && i >= old.size()) {
                 faults.emplace_back(entry.at, "&", entry.key->group, ": ", entry.key->name,

@@ -82,7 +82,7 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
             continue;
         }
         const std::size_t before = faults.size();
-        for (std::size_t i = 0; i < a.items.size(); ++i) {
+        for (const auto i : indices(a.items)) {
             const namelist::Item& item = a.items[i];
             if (item.null && !item.counted && i + 1 == a.items.size())
                 break;  // a comma after the last value
@@ -153,7 +153,7 @@ std::vector<Member> expand_study(const Case& base, const Study& study) {
     const std::size_t count = member_count(study);
     std::vector<Member> members(count);
     std::size_t wrong_members = 0;
-    for (std::size_t m = 0; m < count; ++m) {
+    for (const auto m : indices(count)) {
         Member& member = members[m];
         member.index = static_cast<int>(m + 1);
         member.settings = base;
@@ -192,8 +192,7 @@ std::string effective_namelist(const Study& study) {
     std::string text = "&study\n";
     for (const Study::Axis& axis : study.axes) {
         text += "  " + axis.key + " = ";
-        for (std::size_t i = 0; i < axis.values.size(); ++i)
-            text += (i > 0 ? ", " : "") + axis.values[i];
+        for (const auto i : indices(axis.values)) text += (i > 0 ? ", " : "") + axis.values[i];
         text += "\n";
     }
     return text + "  mode = " + (study.mode == StudyMode::product ? "'product'" : "'zip'") +

@@ -81,9 +81,9 @@ private:
     void interpolate() {
         if (last.size() < 2) return;
         guess = 0;
-        for (std::size_t i = 0; i < last.size(); ++i) {
+        for (const auto i : indices(last)) {
             double share = 1;
-            for (std::size_t j = 0; j < last.size(); ++j)
+            for (const auto j : indices(last))
                 if (j != i) share *= (N - last[j][1]) / (last[i][1] - last[j][1]);
             guess += share * last[i][0];
         }

@@ -40,7 +40,7 @@ struct Samples {
     std::array<double, count> t;
     std::array<double, count> c, s;  // cos t, sin t
     Samples() {
-        for (std::size_t k = 0; k < count; ++k) {
+        for (const auto k : indices(count)) {
             t[k] = kStart + 2 * pi * static_cast<double>(k) / (count - 1);
             c[k] = std::cos(t[k]);
             s[k] = std::sin(t[k]);
@@ -165,7 +165,7 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
     const std::size_t n = spots.size();
     std::vector<double> x(n), y(n), reach(n);
     double area = 0;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const auto i : indices(n)) {
         x[i] = spots[i].x;
         y[i] = spots[i].y;
         reach[i] = spots[i].minor > 0 ? spots[i].major : 0;
@@ -252,7 +252,7 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
         return part.from < part.to ? sum + swept(e, {0, 0}, part.from, part.to) : sum;
     };
     std::vector<double> covered(places.size(), 0.0);  // area of a spot covered by earlier ones
-    for (std::size_t k = 0; k < places.size(); ++k) {
+    for (const auto k : indices(places)) {
         const Place& p = places[k];
         if (p.before.empty()) continue;
         covered[k] =
@@ -267,7 +267,7 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
     if (own) {
         // Places are numbered in the order in which they occur in pairs, not as the spots.
         own->clear();
-        for (std::size_t i = 0; i < n; ++i)
+        for (const auto i : indices(n))
             own->push_back(pi * spots[i].major * spots[i].minor -
                            (place_of[i] == none ? 0.0 : covered[place_of[i]]));
     }

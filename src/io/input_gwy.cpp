@@ -205,12 +205,12 @@ HeightMap read_gwy(const std::string& path, const std::string& channel,
     HeightMap map = allocate_map(field.nx, field.ny);
     map.dx = field.Lx * *factor_xy / static_cast<double>(field.nx);
     map.dy = field.Ly * *factor_xy / static_cast<double>(field.ny);
-    for (std::size_t k = 0; k < points; ++k)
+    for (const auto k : indices(points))
         map.data[k] = *factor_z * ByteReader::value<double>(field.data.data() + k * sizeof(double));
     if (const auto mask = file.field(base + "/mask")) {
         if (mask->nx != field.nx || mask->ny != field.ny || mask->data.size() != field.data.size())
             bad_input(name, ": its mask and the channel differ in size");
-        for (std::size_t k = 0; k < points; ++k)
+        for (const auto k : indices(points))
             if (ByteReader::value<double>(mask->data.data() + k * sizeof(double)) > 0)
                 map.data[k] = std::nan("");
     }

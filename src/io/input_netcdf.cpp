@@ -279,7 +279,7 @@ void NetcdfInput::must(int status, const std::string& what) const {
 
 std::string NetcdfInput::Variable::shape() const {
     std::string text = name + "(";
-    for (std::size_t d = 0; d < axes.size(); ++d)
+    for (const auto d : indices(axes))
         text += (d > 0 ? ", " : "") + axes[d] + " = " + std::to_string(lengths[d]);
     return text + ")";
 }

@@ -52,7 +52,7 @@ template <class T>
 void take_values(ByteReader& in, HeightMap& map, double factor, bool bcr) {
     const std::size_t points = map.points();
     const char* const bytes = in.take(points, sizeof(T), "heights").data();
-    for (std::size_t k = 0; k < points; ++k) {
+    for (const auto k : indices(points)) {
         const auto value = static_cast<double>(ByteReader::value<T>(bytes + k * sizeof(T)));
         map.data[k] = is_missing<T>(value, bcr) ? std::nan("") : factor * value;
     }
@@ -190,7 +190,7 @@ HeightMap read_text(const std::string& path, std::string bytes, const std::strin
         bad_input(path, ":", lines_before + 1, ": ", what...);
     };
     std::string word;
-    for (std::size_t k = 0; k < points; ++k) {
+    for (const auto k : indices(points)) {
         if (!(in >> word) || word[0] == '*')
             refuse(k, " heights where ", size, " were expected; is the file complete?");
         const auto value =

@@ -256,7 +256,7 @@ void find_units(std::string_view comment, long line, std::vector<Mention>& found
         for (const CommentWord& word : words_of(stated->value)) words.push_back(word);
     const bool alone = stated && words.size() == of_label + 1;
     const bool side = stated && words.size() == of_label + 2 && words[of_label].number;
-    for (std::size_t k = 0; k < words.size(); ++k) {
+    for (const auto k : indices(words)) {
         const bool after_number = k > 0 && words[k - 1].number && words[k].text != "in";
         const std::string unit = as_unit(words[k].text);
         if (words[k].number || !(always_a_length(words[k].text) || after_number ||
@@ -291,7 +291,7 @@ std::optional<double> number_in_file(std::string_view word) {
 static void add_empty_column(TextTable& table) {
     std::vector<double> wider;
     wider.reserve(table.values.size() + table.line.size());
-    for (std::size_t row = 0; row < table.line.size(); ++row) {
+    for (const auto row : indices(table.line)) {
         const auto start = table.values.begin() + static_cast<std::ptrdiff_t>(row * table.columns);
         wider.insert(wider.end(), start, start + static_cast<std::ptrdiff_t>(table.columns));
         wider.push_back(std::nan(""));

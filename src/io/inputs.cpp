@@ -254,7 +254,7 @@ bool is_uniform(const std::vector<double>& c) {
     const double step = (c.back() - c.front()) / static_cast<double>(c.size() - 1);
     if (!(std::abs(step) > 0)) return false;  // also where one is missing
     const double rounding = 1.01 * last_digit(c);
-    for (std::size_t i = 0; i < c.size(); ++i)
+    for (const auto i : indices(c))
         if (!(std::abs(c[i] - (c.front() + static_cast<double>(i) * step)) <= rounding))
             return false;
     return true;
@@ -314,7 +314,7 @@ std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variab
     // Tolerance for the rounding of coordinates stored in single precision.
     const double largest = std::max(std::abs(c.front()), std::abs(c.back()));
     const double rounding = variable->type == NC_FLOAT ? 1.2e-7 * largest : 4.5e-16 * largest;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const auto i : indices(n)) {
         const double uniform = axis.first + static_cast<double>(i) * axis.step;
         if (std::abs(c[i] - uniform) > kUniform * axis.step + rounding)
             bad_input(file.path(), ": coordinate ", name, " is not uniform to 1e-6 of its step ",
@@ -366,7 +366,7 @@ std::array<double, 3> unit_factors(const NetcdfInput& file, const NetcdfInput::V
             all.push_back(*file.find(heights.axes[dimension]));
     std::array<double, 3> factor{1, 1, 1};
     const NetcdfInput::Variable *with = nullptr, *without = nullptr;
-    for (std::size_t k = 0; k < all.size(); ++k) {
+    for (const auto k : indices(all)) {
         const auto known = file.unit_factor(all[k], length_unit);
         if (!known)
             without = &all[k];
@@ -386,7 +386,7 @@ void apply_mask(const NetcdfInput& file, const NetcdfInput::Variable& heights, H
     if (!mask || !mask->numeric() || mask->dimensions != heights.dimensions) return;
     std::vector<double> masked(mask->count());
     file.read(*mask, masked.data(), true);
-    for (std::size_t k = 0; k < masked.size(); ++k)
+    for (const auto k : indices(masked))
         if (masked[k] != 0) map.data[k] = std::nan("");
 }
 

@@ -285,7 +285,7 @@ void NetcdfFile::define_and_put(int ncid, Format format, int compression,
     std::vector<int> varids;
     for (const NetcdfVariable& v : variables_) {
         std::vector<int> ids(v.dimensions.size());
-        for (std::size_t d = 0; d < ids.size(); ++d)
+        for (const auto d : indices(ids))
             check(nc_inq_dimid(ncid, v.dimensions[d].c_str(), &ids[d]), path);
         const nc_type type = v.bytes                                                       ? NC_BYTE
                              : std::holds_alternative<std::vector<std::int32_t>>(v.values) ? NC_INT
@@ -313,7 +313,7 @@ void NetcdfFile::define_and_put(int ncid, Format format, int compression,
         varids.push_back(varid);
     }
     check(nc_enddef(ncid), path);
-    for (std::size_t k = 0; k < variables_.size(); ++k)
+    for (const auto k : indices(variables_))
         put_values(ncid, varids[k], variables_[k], shape(variables_[k]), path);
 }
 

@@ -118,7 +118,7 @@ void ResultTable::levels() {
     }
     std::vector<double> pull_off(o_.realizations, std::numeric_limits<double>::quiet_NaN());
     bool adhesive = false;
-    for (std::size_t k = 0; k < pull_off.size(); ++k) {
+    for (const auto k : indices(pull_off)) {
         bool without_state = false;  // the smallest force may have been that of such a level
         for (std::size_t s = 0; s < o_.steps; ++s) {
             const double least = o_.row(k, s).least_force;
@@ -201,7 +201,7 @@ void ResultTable::means() {
         }
         // A prescribed force scatters as little as the solver leaves of it.
         if (r_.force_control() && name == "force")
-            for (std::size_t step = 0; step < s.mean.size(); ++step)
+            for (const auto step : indices(s.mean))
                 if (s.count[step] > 1) s.deviation[step] = s.error[step] = 0;
         add_absent(name + "_mean", dims, unit_of_mean, "mean " + of, s.mean,
                    fewer ? "over `" + name + "_count` realizations, those that have it" : "");

@@ -239,7 +239,7 @@ void ResultTable::contacts() {
 void ResultTable::contact_mask() {
     std::vector<std::int32_t> steps;
     std::int32_t left = INT32_MAX, right = -1, bottom = INT32_MAX, top = -1;
-    for (std::size_t s = 0; s < r_.pixels.size(); ++s) {
+    for (const auto s : indices(r_.pixels)) {
         const LevelPixels& p = r_.pixels[s];
         if (p.index.empty() && p.cohesive.empty()) continue;
         steps.push_back(static_cast<std::int32_t>(s));
@@ -270,7 +270,7 @@ void ResultTable::contact_mask() {
             const int i = pixel % p.columns - left, j = pixel / p.columns - bottom;
             return row[at(j) * at(columns) + at(i)];
         };
-        for (std::size_t n = 0; n < p.index.size(); ++n)
+        for (const auto n : indices(p.index))
             kind_of(p.index[n]) = p.pressure[n] >= r_.settings.solids.hardness ? 2 : 1;
         for (const std::int32_t pixel : p.cohesive) kind_of(pixel) = 3;
     };
@@ -343,7 +343,7 @@ void ResultTable::compared() {
     if (p.index.empty()) return;
     file_.dimension("compare_pixel", p.index.size());
     std::vector<double> x, y;
-    for (std::size_t k = 0; k < p.index.size(); ++k) {
+    for (const auto k : indices(p.index)) {
         x.push_back(p.x(k));
         y.push_back(p.y(k));
     }

@@ -60,7 +60,7 @@ template <std::size_t n>
 NetcdfAttributes masks(const std::array<const char*, n>& names) {
     NetcdfAttributes attributes = flags(names);
     std::vector<std::int32_t> bits;
-    for (std::size_t k = 0; k < n; ++k) bits.push_back(std::int32_t{1} << k);
+    for (const auto k : indices(n)) bits.push_back(std::int32_t{1} << k);
     attributes[0] = {"flag_masks", bits};
     return attributes;
 }
@@ -111,7 +111,7 @@ private:
     std::vector<T> pairs(const std::vector<T>& x, const std::vector<T>& y) {
         component();
         std::vector<T> both;
-        for (std::size_t k = 0; k < x.size(); ++k) {
+        for (const auto k : indices(x)) {
             both.push_back(x[k]);
             both.push_back(y[k]);
         }

@@ -65,7 +65,7 @@ Result make_result(const Case& c, std::string case_text, const Indenter& indente
 void keep_contacts(Result& result, std::vector<Level>& levels, Contacts keep) {
     PackedContacts packed;
     if (keep == Contacts::none || keep == Contacts::automatic) return;
-    for (std::size_t s = 0; s < levels.size(); ++s) {
+    for (const auto s : indices(levels)) {
         Level& level = levels[s];
         const bool kept = keep == Contacts::all || s + 1 == levels.size();
         const std::size_t count = kept ? level.asperity.size() : 0;
@@ -164,7 +164,7 @@ void read_levels(const Columns& file, Accumulators& sums) {
     const std::vector<double> separation =
         file.values("separation", of_each ? std::vector<std::size_t>{count, steps}
                                           : std::vector<std::size_t>{steps});
-    for (std::size_t k = 0; k < sums.rows.size(); ++k)
+    for (const auto k : indices(sums.rows))
         sums.rows[k].separation = separation[of_each ? k : k % steps];
     for (const LevelQuantity& q : level_quantities()) {
         if (!file.find(q.name) && !q.always) continue;  // no level has it
@@ -173,7 +173,7 @@ void read_levels(const Columns& file, Accumulators& sums) {
         if (q.of_step) lengths = {steps};
         if (q.y) lengths.push_back(parts);
         const std::vector<double> values = file.values(q.name, lengths);
-        for (std::size_t k = 0; k < sums.rows.size(); ++k) {
+        for (const auto k : indices(sums.rows)) {
             q.put(sums.rows[k], values[q.of_step ? k % steps : k * parts]);
             if (q.y) sums.rows[k].*q.y = values[k * parts + 1];
             if (q.z) sums.rows[k].*q.z = values[k * parts + 2];
@@ -186,7 +186,7 @@ void read_surfaces(const Columns& file, Accumulators& sums) {
     using S = SurfaceStatistics;
     const auto read = [&](const char* name, auto member) {
         const std::vector<double> values = file.values(name, {sums.surface.size()});
-        for (std::size_t k = 0; k < values.size(); ++k) {
+        for (const auto k : indices(values)) {
             auto& to = std::invoke(member, sums.surface[k]);
             to = static_cast<std::decay_t<decltype(to)>>(values[k]);
         }
@@ -220,8 +220,7 @@ void read_stresses(const Columns& file, Accumulators& sums) {
         for (const auto& [suffix, part] :
              {std::pair{"_max", &Value::value}, {"_max_x", &Value::x}, {"_max_y", &Value::y}}) {
             const std::vector<double> values = file.values(std::string(q.name) + suffix, lengths);
-            for (std::size_t k = 0; k < values.size(); ++k)
-                (sums.stresses[k].*q.of).*part = values[k];
+            for (const auto k : indices(values)) (sums.stresses[k].*q.of).*part = values[k];
         }
 }
 
@@ -233,7 +232,7 @@ void read_distributions(const Columns& file, Accumulators& sums) {
     std::size_t count = 0;
     for_each_number(one, sums.options.pdf, [&count](auto&, double) { ++count; });
     const std::vector<double> numbers = file.values("pdf_sums", {levels, count});
-    for (std::size_t d = 0; d < levels; ++d) {
+    for (const auto d : indices(levels)) {
         sums.distributions[d].step = static_cast<std::int32_t>(step[d]) - 1;
         for (std::size_t k = d * count; k < (d + 1) * count; ++k)
             sums.distributions[d].numbers.push_back({numbers[k], 0});
@@ -255,7 +254,7 @@ Accumulators read_sums(const std::string& path, const ObserveOptions& options, s
     const std::vector<double> area = file.values("map_area_fraction", lengths);
     const std::vector<double> pressure = file.values("map_pressure", lengths);
     const auto cells = at(options.map.cells());
-    for (std::size_t s = 0; s < steps; ++s)
+    for (const auto s : indices(steps))
         sums.restore_map(s, std::span(area).subspan(s * cells, cells),
                          std::span(pressure).subspan(s * cells, cells));
     read_distributions(file, sums);

@@ -202,14 +202,14 @@ public:
 
     void press_all(int threads) {
         std::int32_t points = 0;
-        for (std::size_t g = 0; g < groups_; ++g) {
+        for (const auto g : indices(groups_)) {
             Level& level = levels_[g * kGroup].emplace(press(job_, g * kGroup, first_, none));
             points = std::max(points, level.candidates);
             begin_[g] = {first_.contact->state(), first_.judge.state()};
             if (g == 0) take_(taken_++, std::move(level));
         }
         if (points > kFewPoints) {
-            for (std::size_t g = 0; g < groups_; ++g) {
+            for (const auto g : indices(groups_)) {
                 press_group(g, first_);
                 take_solved();
             }
@@ -533,7 +533,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     if (independent_levels(job, *contact))
         LevelGroups(job, pressed, make, take).press_all(threads);
     else
-        for (std::size_t k = 0; k < job.levels.size(); ++k)
+        for (const auto k : indices(job.levels))
             take(k, press(job, k, pressed, [&](Level& level) {
                      if (friction && !friction->add(level, r.friction)) level.converged = false;
                  }));

@@ -236,7 +236,7 @@ std::string too_large_for_elements(const Case& settings, const Spectrum& spectru
 std::vector<double> spaced(const Case::Indentation& keys) {
     if (!keys.levels.empty()) return keys.levels;
     std::vector<double> values(at(keys.steps));
-    for (std::size_t k = 0; k < values.size(); ++k) {
+    for (const auto k : indices(values)) {
         const double t = keys.steps > 1 ? static_cast<double>(k) / (keys.steps - 1) : 0.0;
         values[k] = keys.spacing == Spacing::log ? keys.start * std::pow(keys.stop / keys.start, t)
                                                  : keys.start + t * (keys.stop - keys.start);

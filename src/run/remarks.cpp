@@ -75,7 +75,7 @@ std::string remedy_of(Cause cause, const Job& job, bool elements) {
 void print_doubts(std::ostream& out, std::span<const LevelValues> levels, const Job& job,
                   bool elements) {
     const Sayings levels_with(out, levels);
-    for (std::size_t k = 0; k < kCauseNames.size(); ++k) {
+    for (const auto k : indices(kCauseNames)) {
         const Cause cause{static_cast<int>(k)};
         levels_with.say([&](const LevelValues& l) { return (l.doubts & bit(cause)) != 0; },
                         words_of_doubts(bit(cause)) + " - " + sentence(cause, elements) +

@@ -373,8 +373,7 @@ std::vector<std::size_t> shown_steps(std::size_t steps) {
     constexpr std::size_t most = 11;
     std::vector<std::size_t> shown;
     const std::size_t rows = std::min(steps, most);
-    for (std::size_t r = 0; r < rows; ++r)
-        shown.push_back(rows > 1 ? r * (steps - 1) / (rows - 1) : 0);
+    for (const auto r : indices(rows)) shown.push_back(rows > 1 ? r * (steps - 1) / (rows - 1) : 0);
     return shown;
 }
 

@@ -60,7 +60,7 @@ void print_stresses(std::ostream& out, std::span<const LargestStress> stresses, 
                       unit = unit_of(length, -2, job.settings.run.force_unit, 1);
     const auto print = [&](const char* what, LargestStress::Value LargestStress::*which) {
         std::size_t most = depths.size();
-        for (std::size_t k = 0; k < depths.size(); ++k)
+        for (const auto k : indices(depths))
             if (const double v = (last[k].*which).value;
                 v > 0 && (most == depths.size() || v > (last[most].*which).value))
                 most = k;

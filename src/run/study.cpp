@@ -126,7 +126,7 @@ void write_manifest(const ReadCase& read, const std::vector<Member>& members,
     file.variable({"member", {"member"}, "1", "number of the member", numbers, {}, false});
     file.variable(
         {"file", {"member", "file_length"}, "", "result file of the member", names, {}, false});
-    for (std::size_t k = 0; k < members.front().values.size(); ++k)
+    for (const auto k : indices(members.front().values))
         add_axis(file, members.front().values[k].first, members, k);
     file.write(path, read.settings.output.format, read.settings.output.compression);
 }

@@ -33,7 +33,7 @@ double share_on_spikes(const Level& level, const SolverOptions& options) {
     if (!options.surface.marks || options.surface.marks->spikes.empty()) return 0;
     const MapMarks& marks = *options.surface.marks;
     double force = 0;
-    for (std::size_t k = 0; k < level.x.size(); ++k) {
+    for (const auto k : indices(level.x)) {
         const double near = std::max(1.5 * marks.reach, level.a[k]);
         const bool on_spike =
             std::ranges::any_of(marks.spikes, [&](const std::array<double, 2>& spike) {
@@ -50,7 +50,7 @@ bool may_touch_beside(const Asperities& asperities, const Indenter& indenter,
     if (!(w > 0)) return false;
     // Grid points lie below the tops between them, which are within half a step in both directions.
     const double below = 0.125 * options.surface.grid_step * options.surface.grid_step;
-    for (std::size_t i = 0; i < asperities.size(); ++i) {
+    for (const auto i : indices(asperities)) {
         const double bend = asperities.kappa1.empty() ? 2 / asperities.radius[i]
                                                       : asperities.kappa1[i] + asperities.kappa2[i];
         const double top = asperities.z[i] + below * bend;

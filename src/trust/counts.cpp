@@ -20,7 +20,7 @@ double nominal_area(const Level& level, const Indenter& indenter, const Rectangl
         radius = std::max(radius, std::sqrt(x * x + y * y) + level.a[k]);
     }
     const LevelPixels& pixels = level.pixels;
-    for (std::size_t k = 0; k < pixels.index.size(); ++k) {
+    for (const auto k : indices(pixels.index)) {
         // Of line contact half the width of a strip.
         const double x = period.along_x() ? 0
                                           : std::abs(pixels.x(k) - indenter.x0) + 0.5 * pixels.dx,
@@ -74,7 +74,7 @@ void mark_border_pixels(const Level& level, const Indenter& indenter, double Ly,
         };
         return ends && (beyond(-p.dx, 0) || beyond(p.dx, 0) || beyond(0, -p.dy) || beyond(0, p.dy));
     };
-    for (std::size_t k = 0; k < p.index.size(); ++k)
+    for (const auto k : indices(p.index))
         if (at_border(p.index[k])) mark(p.contact[k]);
     if (std::ranges::any_of(p.cohesive, at_border)) mark(-1);
 }
@@ -102,7 +102,7 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
         within.Ly = 2 * everywhere;
     }
     std::vector<bool> cut(level.x.size(), false);
-    for (std::size_t k = 0; k < cut.size(); ++k)
+    for (const auto k : indices(cut))
         cut[k] = inside(within, level.x[k], level.y[k]) <
                  std::max(options.surface.mean_spacing, level.a[k]);
     bool attracts = false;

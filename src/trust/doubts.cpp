@@ -30,7 +30,7 @@ std::string sentence(Cause cause, bool elements) {
 
 std::string words_of_doubts(std::int32_t doubts) {
     std::string words;
-    for (std::size_t k = 0; k < kCauseNames.size(); ++k)
+    for (const auto k : indices(kCauseNames))
         if (doubts & (std::int32_t{1} << k))
             words += (words.empty() ? "" : ", ") + std::string(kCauseNames[k]);
     std::replace(words.begin(), words.end(), '_', ' ');

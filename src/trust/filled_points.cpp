@@ -86,7 +86,7 @@ double share_on_filled(const Level& level, std::span<const FilledPoints> maps,
         filled += std::ranges::any_of(maps, [&](const FilledPoints& map) { return map.at(x, y); });
     };
     const LevelPixels& pixels = level.pixels;
-    for (std::size_t k = 0; k < pixels.index.size(); ++k) count(pixels.x(k), pixels.y(k));
+    for (const auto k : indices(pixels.index)) count(pixels.x(k), pixels.y(k));
     const FilledPoints& grid = maps.front();
     for (std::size_t c = 0; c < level.a.size() && pixels.index.empty(); ++c) {
         const double x = level.x[c] - grid.x0, y = level.y[c] - grid.y0, a = level.a[c];

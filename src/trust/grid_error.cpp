@@ -193,7 +193,7 @@ GridError error_of_pixels(const LevelValues& level, const Indenter& indenter, do
 GridError error_of_crests(const Level& level, double stiffness, const HeightMap& map,
                           const Indenter& indenter, const std::optional<Tensor>& curvature) {
     double mean = 0;
-    for (std::size_t c = 0; c < level.f.size(); ++c)
+    for (const auto c : indices(level.f))
         mean += level.f[c] / level.force *
                 crest_height(map, indenter, curvature, level.asperity[c] % map.nx,
                              level.asperity[c] / map.nx);

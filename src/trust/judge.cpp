@@ -56,7 +56,7 @@ std::vector<Doubt> of_list(const Level& level, const Path& contact) {
     const Indenter& indenter = contact.indenter();
     const auto asperities = contact.asperities();
     double all = 0, more = 0;
-    for (std::size_t k = 0; k < level.asperity.size(); ++k) {
+    for (const auto k : indices(level.asperity)) {
         const double r = asperities->radius[at(level.asperity[k])];
         const Vec2 d = indenter.from_tip(level.x[k], level.y[k]);
         const Tensor c = indenter.shape->curvature(d.x, d.y);

@@ -95,7 +95,7 @@ Level AdhesiveAsperities::report() {
     l.products = my.direct->count() + (my.mesh ? my.mesh->count() : 0) - my.products_before;
     l.method = my.products == my.mesh.get() && my.mesh ? Method::mesh : Method::direct;
     double cohesive = 0;
-    for (std::size_t k = 0; k < my.now.asperity.size(); ++k) {
+    for (const auto k : indices(my.now.asperity)) {
         const int i = my.now.asperity[k];
         const Sticking::State state = my.sticking.at(i, my.now.s[k]);
         const Vec2 place = my.indenter.image(my.asperities.x[at(i)], my.asperities.y[at(i)]);
@@ -185,7 +185,7 @@ std::vector<double> AdhesiveAsperities::write() const {
     std::vector<double> numbers = {tip.x0,      tip.y0,           past.separation,
                                    past.lost,   past.least_force, static_cast<double>(past.jumps),
                                    past.margin, past.most_energy};
-    for (std::size_t k = 0; k < past.asperity.size(); ++k)
+    for (const auto k : indices(past.asperity))
         append(numbers, {static_cast<double>(past.asperity[k]), past.s[k]});
     return numbers;
 }

@@ -45,7 +45,7 @@ private:
         std::vector<double> numbers = {past.separation, past.force,         past.least_force,
                                        past.lost,       double(past.jumps), tip.x0,
                                        tip.y0};
-        for (std::size_t k = 0; k < past.attracting.size(); ++k)
+        for (const auto k : indices(past.attracting))
             append(numbers, {double(past.attracting[k]), past.share[k]});
         return numbers;
     }

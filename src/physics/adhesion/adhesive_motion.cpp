@@ -12,7 +12,7 @@ double AdhesivePath::clearance_at(int i, double share) {
 // Sets g0, and its rates if the tip moves.
 void AdhesivePath::set_gaps(double Z) {
     constexpr double apart = 1e-4;  // share of the way for differences
-    for (std::size_t k = 0; k < clearance.size(); ++k) {
+    for (const auto k : indices(clearance)) {
         set.g0[k] = clearance[k] - Z;
         if (motion) {
             const int i = set.asperity[k];

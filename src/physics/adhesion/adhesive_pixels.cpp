@@ -48,7 +48,7 @@ Linear positive_part(const std::array<double, 3>& d) {
     part.share[next] = a * b * a / 3;
     part.share[last] = a * b * b / 3;
     if (positive == 1) return part;
-    for (std::size_t k = 0; k < 3; ++k) whole.share[k] -= part.share[k];
+    for (const auto k : indices(3)) whole.share[k] -= part.share[k];
     whole.integral -= part.integral;
     return whole;
 }
@@ -66,7 +66,7 @@ public:
         constexpr double growth = 1.5, fresh = 1e-8, calmer = 0.1;
         std::vector<double> r(x.size());
         double size = 0;
-        for (std::size_t i = 0; i < x.size(); ++i) {
+        for (const auto i : indices(x)) {
             r[i] = fx[i] - x[i];
             size += r[i] * r[i];
         }
@@ -80,7 +80,7 @@ public:
             dr_.clear();
             dfx_.clear();
         } else if (!r_.empty()) {
-            for (std::size_t i = 0; i < x.size(); ++i) {
+            for (const auto i : indices(x)) {
                 r_[i] = r[i] - r_[i];
                 fx_[i] = fx[i] - fx_[i];
             }
@@ -98,7 +98,7 @@ public:
         for (std::size_t j = dr_.size(); j-- > 0;) {
             std::vector<double> v = dr_[j], w = dfx_[j];
             const double whole = product(v, v);
-            for (std::size_t k = 0; k < q.size(); ++k) {
+            for (const auto k : indices(q)) {
                 const double along = product(v, q[k]);
                 add(v, -along, q[k]);
                 add(w, -along, p[k]);
@@ -125,7 +125,7 @@ private:
         return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
     }
     static void add(std::vector<double>& to, double factor, const std::vector<double>& of) {
-        for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * of[i];
+        for (const auto i : indices(to)) to[i] += factor * of[i];
     }
     double size_ = kInfinity, best_ = kInfinity;
     int since_best_ = 0;
@@ -250,7 +250,7 @@ std::vector<double> AdhesivePixels::deflections(const std::vector<double>& p, do
     }
     std::vector<Pixel> where;
     std::vector<double> some;
-    for (std::size_t k = 0; k < p.size(); ++k)
+    for (const auto k : indices(p))
         if (p[k] != 0) {
             where.push_back(pixel_at(reach[k]));
             some.push_back(p[k]);
@@ -280,7 +280,7 @@ double AdhesivePixels::attraction(std::vector<double>& shares) const {
             const std::array corner = {index(i, j), index(i + 1, j), index(i, j + 1),
                                        index(i + 1, j + 1)};
             std::array<double, 4> d;
-            for (std::size_t c = 0; c < 4; ++c)
+            for (const auto c : indices(4))
                 d[c] = std::max(z0 - gap[corner[c]], -kFar * z0);  // beyond the edge of a body
             const auto [least, most] = std::ranges::minmax_element(d);
             if (!(*most > 0)) continue;
@@ -288,7 +288,7 @@ double AdhesivePixels::attraction(std::vector<double>& shares) const {
             const double part_of_cell =
                 0.25 * (beyond(i, heights.nx) ? 0.5 : 1.0) * (beyond(j, heights.ny) ? 0.5 : 1.0);
             if (*least >= 0) {
-                for (std::size_t c = 0; c < 4; ++c) {
+                for (const auto c : indices(4)) {
                     shares[corner[c]] += part_of_cell;
                     sum += part_of_cell * d[c];
                 }
@@ -298,8 +298,7 @@ double AdhesivePixels::attraction(std::vector<double>& shares) const {
                 const std::array where = {corner[at(a)], corner[at(b)], corner[at(c)]};
                 const Linear part = positive_part({d[at(a)], d[at(b)], d[at(c)]});
                 sum += part_of_cell * part.integral;
-                for (std::size_t k = 0; k < 3; ++k)
-                    shares[where[k]] += part_of_cell * part.share[k];
+                for (const auto k : indices(3)) shares[where[k]] += part_of_cell * part.share[k];
             }
         }
     return sum;
@@ -309,18 +308,18 @@ double AdhesivePixels::attraction(std::vector<double>& shares) const {
 bool AdhesivePixels::press(double Z, double tolerance, Level& level) {
     ElementsOutcome outcome;
     if (flats) {
-        for (std::size_t k = 0; k < reach.size(); ++k)
+        for (const auto k : indices(reach))
             raised.row(reach[k] / heights.nx)[reach[k] % heights.nx] = clearance[k] + lift[k];
         flats->heights_changed();
         outcome = flats->approach(Z, tolerance, options.max_iterations);
         std::ranges::fill(q, 0.0);
-        for (std::size_t k = 0; k < flats->pixels().size(); ++k)
+        for (const auto k : indices(flats->pixels()))
             q[at(flats->pixels()[k].y) * at(heights.nx) + at(flats->pixels()[k].x)] =
                 flats->pressures()[k];
     } else {
         std::vector<Pixel> pixels;
         std::vector<double> g0, p;
-        for (std::size_t k = 0; k < reach.size(); ++k) {
+        for (const auto k : indices(reach)) {
             double& here = q[at(reach[k])];
             const double g = clearance[at(reach[k])] - Z + lift[k];
             if (g > -bulged) {
@@ -331,7 +330,7 @@ bool AdhesivePixels::press(double Z, double tolerance, Level& level) {
             here = 0;
         }
         outcome = spots->solve(pixels, g0, tolerance, options.max_iterations, p);
-        for (std::size_t k = 0; k < p.size(); ++k) q[at(place(pixels[k]))] = p[k];
+        for (const auto k : indices(p)) q[at(place(pixels[k]))] = p[k];
     }
     level.iterations += outcome.iterations;
     level.products += outcome.products + 2;
@@ -352,7 +351,7 @@ bool AdhesivePixels::renew(double Z, Level& level) {
     for (int round = 0; round < kMost; ++round) {
         stopping_point();
         std::vector<double> p(reach.size());
-        for (std::size_t k = 0; k < reach.size(); ++k) p[k] = s0 * share[at(reach[k])];
+        for (const auto k : indices(reach)) p[k] = s0 * share[at(reach[k])];
         lift = deflections(p, tolerance);
         const double most = lift.empty() ? 0.0 : std::ranges::max(lift);
         if (!flats && most > margin) {
@@ -366,9 +365,9 @@ bool AdhesivePixels::renew(double Z, Level& level) {
             gather(Z);
             continue;
         }
-        for (std::size_t k = 0; k < reach.size(); ++k) p[k] = q[at(reach[k])];
+        for (const auto k : indices(reach)) p[k] = q[at(reach[k])];
         p = deflections(p, tolerance);
-        for (std::size_t k = 0; k < reach.size(); ++k)
+        for (const auto k : indices(reach))
             gap[at(reach[k])] = p[k] - (lift[k] + clearance[at(reach[k])] - Z);
         attracted = attraction(next);
         double change = 0, sum = 0;
@@ -391,7 +390,7 @@ Level AdhesivePixels::step(double Z, const Past* start) {
     level.separation = Z;
     level.method = Method::automatic;
     gap.resize(clearance.size());
-    for (std::size_t i = 0; i < gap.size(); ++i) gap[i] = Z - clearance[i];
+    for (const auto i : indices(gap)) gap[i] = Z - clearance[i];
     const bool converged = renew(Z, level);
     level.candidates = static_cast<std::int32_t>(reach.size());
     now.separation = Z;
@@ -531,8 +530,7 @@ std::int32_t AdhesivePixels::count_jumps() const {
 
 void AdhesivePixels::restore(const Past& past) {
     std::ranges::fill(share, 0.0);
-    for (std::size_t k = 0; k < past.attracting.size(); ++k)
-        share[at(past.attracting[k])] = past.share[k];
+    for (const auto k : indices(past.attracting)) share[at(past.attracting[k])] = past.share[k];
 }
 
 // Stores gaps and pressures of the last level, the accepted one.
@@ -540,7 +538,7 @@ void AdhesivePixels::keep() {
     tried.reset();
     gap_before = gap;
     p_before.resize(gap.size());
-    for (std::size_t i = 0; i < gap.size(); ++i) p_before[i] = pressure(i);
+    for (const auto i : indices(gap)) p_before[i] = pressure(i);
 }
 
 // Moves the tip on a straight line (the shortest one on a surface that repeats) at the accepted
@@ -605,11 +603,10 @@ void AdhesivePixels::follow() {
     const std::vector<double> before = clearance;
     set_clearances();
     if (accepted.attracting.empty() && !(top > accepted.separation - z0 - margin - bulged)) {
-        for (std::size_t i = 0; i < gap_before.size(); ++i)
-            gap_before[i] = accepted.separation - clearance[i];
+        for (const auto i : indices(gap_before)) gap_before[i] = accepted.separation - clearance[i];
         return;
     }
-    for (std::size_t i = 0; i < before.size(); ++i)
+    for (const auto i : indices(before))
         if (std::isfinite(before[i]) != std::isfinite(clearance[i]) &&
             std::max(before[i], clearance[i]) > accepted.separation - z0 - margin - bulged)
             bad_input(
@@ -621,7 +618,7 @@ void AdhesivePixels::follow() {
                     "the path of the attracting points to the new position of the tip is lost; the "
                     "tip stays where it was");
     double twice = 0;
-    for (std::size_t i = 0; i < before.size(); ++i)
+    for (const auto i : indices(before))
         if (const double p = p_before[i] + pressure(i); p != 0)
             twice += p * (clearance[i] - before[i]);
     if (const double lost = 0.5 * pixel * twice - (now.energy - accepted.energy);

@@ -44,7 +44,7 @@ public:
             if (c >= band.low && c <= band.high) ++points_[index(step_of(p), at(c - band.low))];
         }
         for (std::size_t a = 1; a < length_; ++a)
-            for (std::size_t c = 0; c < width_; ++c) points_[index(a, c)] += before(a, c).points;
+            for (const auto c : indices(width_)) points_[index(a, c)] += before(a, c).points;
         trace();
     }
 
@@ -99,7 +99,7 @@ private:
             return c > width_ / 2 ? c - width_ / 2 : width_ / 2 - c;
         };
         for (std::size_t a = length_ - (oblique() && length_ > 1 ? 2 : 1); a < length_; ++a)
-            for (std::size_t c = 0; c < width_; ++c) {
+            for (const auto c : indices(width_)) {
                 const auto parity = static_cast<std::int32_t>(a + c) + first_ + band_.low;
                 if (oblique() && parity % 2 != 0) continue;
                 const std::int32_t points = points_[index(a, c)];
@@ -193,18 +193,18 @@ private:
         std::array<std::int32_t, kDirections> low = coordinates(part[0]), high = low;
         for (const Place& p : part) {
             const auto c = coordinates(p);
-            for (std::size_t d = 0; d < kDirections; ++d) {
+            for (const auto d : indices(kDirections)) {
                 low[d] = std::min(low[d], c[d]);
                 high[d] = std::max(high[d], c[d]);
             }
         }
-        for (std::size_t d = 0; d < kDirections; ++d) count_[d].assign(at(high[d] - low[d] + 1), 0);
+        for (const auto d : indices(kDirections)) count_[d].assign(at(high[d] - low[d] + 1), 0);
         for (const Place& p : part) {
             const auto c = coordinates(p);
-            for (std::size_t d = 0; d < kDirections; ++d) ++count_[d][at(c[d] - low[d])];
+            for (const auto d : indices(kDirections)) ++count_[d][at(c[d] - low[d])];
         }
         Band best;
-        for (std::size_t d = 0; d < kDirections; ++d) {
+        for (const auto d : indices(kDirections)) {
             const Band band = middle(d, low[d], static_cast<double>(part.size()));
             if (band.score < best.score) best = band;
         }

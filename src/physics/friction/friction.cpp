@@ -77,7 +77,7 @@ void FrictionHistory::restore(const State& now, const State& committed) {
         bool sound = std::isfinite(state->delta) && std::isfinite(norm(state->xi)) &&
                      std::isfinite(state->lost + state->step_lost);
         const auto& nodes = state->nodes;
-        for (std::size_t k = 0; k < nodes.size(); ++k) {
+        for (const auto k : indices(nodes)) {
             const Node& node = nodes[k];
             sound = sound && std::isfinite(node.approach + node.load + node.energy) &&
                     (k == 0 || node.approach >= nodes[k - 1].approach) &&
@@ -147,7 +147,7 @@ void FrictionHistory::move(LoadCurve& curve, double share) {
         next.nodes = {{touch, 0, 0, {}}, node_at(curve, delta, {})};
     if (delta > touch && !now_.nodes.empty()) {
         const double stretch = (delta - touch) / (delta - now_.nodes.front().approach);
-        for (std::size_t k = 0; k < now_.nodes.size(); ++k) {
+        for (const auto k : indices(now_.nodes)) {
             const Node& node = now_.nodes[k];
             const Slide u = (share * stretch) * node.deflection;
             if (k == 0)

@@ -244,7 +244,7 @@ public:
     }
     std::vector<double> residual_depths() const override {
         std::vector<double> depths;
-        for (std::size_t i = 0; i < asperities_; ++i)
+        for (const auto i : indices(asperities_))
             depths.push_back(law_.residual_depth(static_cast<int>(i)));
         return depths;
     }

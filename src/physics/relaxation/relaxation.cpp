@@ -37,7 +37,7 @@ std::vector<Branch> branches_of(const Relaxation& body, double& total) {
             "values, at most 16");
     total = 0;
     std::vector<Branch> own;
-    for (std::size_t k = 0; k < body.share.size(); ++k) {
+    for (const auto k : indices(body.share)) {
         if (!(body.share[k] >= 0) || !(body.time[k] > 0) || std::isinf(body.time[k]))
             bad_input(
                 "solids%relaxation_share must not be negative, and relaxation_time must be "
@@ -67,7 +67,7 @@ Creep::Creep(const Relaxation& body) {
 
     // The transform at -lambda, g - sum g_k lambda/(1/tau_k - lambda), decreases between its poles
     // 1/tau_k.
-    for (std::size_t k = 0; k < own.size(); ++k) {
+    for (const auto k : indices(own)) {
         double lambda = 0;
         if (k > 0 || g > 0)
             lambda = zero_between(k > 0 ? own[k - 1].rate : 0.0, own[k].rate, [&](double at) {
@@ -90,7 +90,7 @@ Creep::Creep(const Relaxation& body) {
     last_ = retardations_.empty() || retardations_.front().rate > 0 ? 1 / compliance(HUGE_VAL) : 0;
     double flow = 0;
     for (const Retardation& r : retardations_) flow += r.flow;
-    for (std::size_t k = 0; k < retardations_.size(); ++k) {
+    for (const auto k : indices(retardations_)) {
         const double high = k + 1 < retardations_.size() ? retardations_[k + 1].rate
                                                          : 2 * (retardations_[k].rate + flow);
         const double rate = zero_between(retardations_[k].rate, high, [&](double at) {

@@ -45,7 +45,7 @@ public:
             all.push_back(of_summits([&, lambda = lambda, flow = flow](const Summit& s) {
                 const auto y = [&](std::size_t j) {
                     double sum = 0;
-                    for (std::size_t l = 0; l < creep_.branches().size(); ++l)
+                    for (const auto l : indices(creep_.branches()))
                         sum += creep_.branches()[l].share * (s.nodes[j].w - s.nodes[j].d[l]) /
                                (creep_.branches()[l].rate - lambda);
                     return flow * sum;
@@ -109,7 +109,7 @@ public:
             }
             reached[at(place)] = u[k];
         }
-        for (std::size_t i = 0; i < summits_.size(); ++i) advance(summits_[i], reached[i]);
+        for (const auto i : indices(summits_)) advance(summits_[i], reached[i]);
         step(0);
     }
 
@@ -192,8 +192,7 @@ private:
         return {s, w, std::move(d), elastic.force, elastic.work};
     }
     static std::size_t node_below(const Summit& s, double u) {
-        const auto above = std::ranges::upper_bound(
-            s.nodes, u, [](double x, const Node& node) { return x < node.release; });
+        const auto above = std::ranges::upper_bound(s.nodes, u, {}, &Node::release);
         return above == s.nodes.begin() ? 0 : at(above - s.nodes.begin()) - 1;
     }
     double edge_of(int asperity, double u) const {
@@ -209,7 +208,7 @@ private:
     // Force of a spring divided by its stiffness.
     double held_by(const Node& node) const {
         double q = creep_.last() * node.w;
-        for (std::size_t k = 0; k < node.d.size(); ++k) q += creep_.branches()[k].share * node.d[k];
+        for (const auto k : indices(node.d)) q += creep_.branches()[k].share * node.d[k];
         return q;
     }
 
@@ -220,7 +219,7 @@ private:
         double highest = 0;
         for (Node& node : s.nodes) {
             double left = creep_.last() * node.w;
-            for (std::size_t k = 0; k < node.d.size(); ++k)
+            for (const auto k : indices(node.d))
                 left += creep_.branches()[k].share * passage_.decays[k].stay * node.d[k];
             highest = node.release = std::max(node.s + node.w - left / passage_.modulus, highest);
         }
@@ -239,7 +238,7 @@ private:
         if (u > s.nodes[0].release) add_edge(s, u);
         const std::size_t n = s.nodes.size(), terms = creep_.branches().size();
         std::vector<double> change(n), mean(n, 0.0);  // change of w; mean force over the step
-        for (std::size_t j = 0; j < n; ++j) {
+        for (const auto j : indices(n)) {
             Node& node = s.nodes[j];
             const double w = j + 1 < n ? std::max(u, node.release) - node.s : 0.0;
             change[j] = w - node.w;
@@ -248,7 +247,7 @@ private:
             const bool free =
                 !(u > node.release) &&
                 held_by(node) <= rounding * std::abs(node.w);  // it creeps back freely without work
-            for (std::size_t k = 0; k < terms; ++k) {
+            for (const auto k : indices(terms)) {
                 const Passage::Decay& decay = passage_.decays[k];
                 mean[j] += creep_.branches()[k].share *
                            (decay.change * node.d[k] + decay.mean * change[j]);
@@ -283,7 +282,7 @@ private:
         if (!(share > same && share < 1 - same)) return;
         const Node &a = s.nodes[j], &b = s.nodes[j + 1];
         std::vector<double> d(a.d.size());
-        for (std::size_t k = 0; k < d.size(); ++k) d[k] = a.d[k] + share * (b.d[k] - a.d[k]);
+        for (const auto k : indices(d)) d[k] = a.d[k] + share * (b.d[k] - a.d[k]);
         Node added = node(s.asperity, place, a.w + share * (b.w - a.w), std::move(d));
         added.release = u;
         s.nodes.insert(s.nodes.begin() + static_cast<std::ptrdiff_t>(j) + 1, std::move(added));
@@ -306,7 +305,7 @@ private:
     double stored_in(const Summit& s) const {
         const auto w = [&](std::size_t j) { return s.nodes[j].w; };
         double sum = creep_.last() * over_springs(s, w, w);
-        for (std::size_t k = 0; k < creep_.branches().size(); ++k) {
+        for (const auto k : indices(creep_.branches())) {
             const auto d = [&](std::size_t j) { return s.nodes[j].d[k]; };
             sum += creep_.branches()[k].share * over_springs(s, d, d);
         }

@@ -74,12 +74,11 @@ void RelaxingAsperities::lower(Candidates& candidates, Products& products) {
             if (std::isnan(lowered_[at(i)])) known_.push_back(i);
             lowered_[at(i)] = value;
         };
-        for (std::size_t k = 0; k < places.size(); ++k) keep(places[k], phi[k]);
-        for (std::size_t k = 0; k < elsewhere.size(); ++k)
-            keep(elsewhere[k], phi[places.size() + k]);
+        for (const auto k : indices(places)) keep(places[k], phi[k]);
+        for (const auto k : indices(elsewhere)) keep(elsewhere[k], phi[places.size() + k]);
     }
     std::size_t kept = 0;
-    for (std::size_t k = 0; k < set.g0.size(); ++k) {
+    for (const auto k : indices(set.g0)) {
         const double g0 = set.g0[k] - lowered_[at(set.asperity[k])];
         if (!(g0 > 0)) continue;
         set.asperity[kept] = set.asperity[k];
@@ -111,11 +110,11 @@ void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& so
     std::vector<double> load = f, d = df;
     double stored = 0.5 * dot(f, df);
     const std::vector<std::vector<double>> retarded = law_.retarded();
-    for (std::size_t k = 0; k < retarded.size(); ++k) {
+    for (const auto k : indices(retarded)) {
         const std::vector<double> dy = deflected_by(retarded[k]);
         stored += 0.5 * creep_.retardations()[k].rate / creep_.retardations()[k].flow *
                   dot(retarded[k], dy);
-        for (std::size_t i = 0; i < load.size(); ++i) {
+        for (const auto i : indices(load)) {
             load[i] += retarded[k][i];
             d[i] += dy[i];
         }
@@ -137,7 +136,7 @@ void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& so
 std::optional<Level> RelaxingAsperities::lasting(const Level& level) const {
     Level all = level;
     const std::vector<double> widest = law_.widest();
-    for (std::size_t i = 0; i < load_.size(); ++i) {
+    for (const auto i : indices(load_)) {
         const int asperity = law_.touched()[i];
         const auto now = std::ranges::lower_bound(level.asperity, asperity);
         if (now != level.asperity.end() && *now == asperity) {
@@ -166,7 +165,7 @@ void RelaxingAsperities::read(std::span<const double> numbers) {
     held_ = numbers[2];
     load_ = force_ = law_.forces();
     for (const std::vector<double>& y : law_.retarded())
-        for (std::size_t i = 0; i < y.size(); ++i) load_[i] += y[i];
+        for (const auto i : indices(y)) load_[i] += y[i];
     step(0);
 }
 

@@ -48,7 +48,7 @@ public:
     }
     void set(int i, int j, const StressTensor& s) {
         const std::array<double, 6> values{s.xx, s.yy, s.zz, s.xy, s.xz, s.yz};
-        for (std::size_t c = 0; c < 6; ++c) components[c].row(j)[i] = values[c];
+        for (const auto c : indices(6)) components[c].row(j)[i] = values[c];
     }
     StressTensor stress(int i, int j) {
         const auto value = [&](std::size_t c) { return components[c].row(j)[i]; };
@@ -83,9 +83,8 @@ void load(Planes& planes, const LevelPixels& pixels, const GridWindow& where, do
         const int j = pixel / pixels.columns - where.first_row;
         planes.pressure.row(j)[i] = factor * pressure;
     };
-    for (std::size_t k = 0; k < pixels.index.size(); ++k) put(pixels.index[k], pixels.pressure[k]);
-    for (std::size_t k = 0; k < pixels.cohesive.size(); ++k)
-        put(pixels.cohesive[k], pixels.attraction[k]);
+    for (const auto k : indices(pixels.index)) put(pixels.index[k], pixels.pressure[k]);
+    for (const auto k : indices(pixels.cohesive)) put(pixels.cohesive[k], pixels.attraction[k]);
     planes.to_modes(planes.pressure);
 }
 
@@ -128,9 +127,9 @@ void solve_periodic(Planes& planes, const PointGrid& grid, const StressedBody& b
                 const std::array<Complex, 6> mirrored =
                     mode_stress(x_alone ? -unit_x * i : unit_x * i,
                                 y_alone ? -unit_y * row : unit_y * row, depth, body);
-                for (std::size_t c = 0; c < 6; ++c) stress[c] = 0.5 * (stress[c] + mirrored[c]);
+                for (const auto c : indices(6)) stress[c] = 0.5 * (stress[c] + mirrored[c]);
             }
-            for (std::size_t c = 0; c < 6; ++c)
+            for (const auto c : indices(6))
                 planes.components[c].modes(j)[i] = stress[c] * planes.pressure.modes(j)[i];
         }
     });
