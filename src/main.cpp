@@ -51,7 +51,7 @@ std::unique_ptr<Team> make_team(Ranks& ranks, CampaignWork& work, const ReadCase
 #else
     (void)ranks;
     (void)read;
-    return std::make_unique<ThreadTeam>(std::ref(work), static_cast<int>(threads));
+    return std::make_unique<ThreadTeam>(std::ref(work), int(threads));
 #endif
 }
 

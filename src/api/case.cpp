@@ -17,9 +17,7 @@ const Case& settings_of(const rsc_case* a_case) {
     return a_case ? a_case->settings : defaults;
 }
 
-int threads_of(const Case& settings) {
-    return static_cast<int>(most_threads(settings.run.threads));
-}
+int threads_of(const Case& settings) { return int(most_threads(settings.run.threads)); }
 
 }  // namespace rsc::api
 

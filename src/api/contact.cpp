@@ -14,11 +14,11 @@ namespace {
 
 // The level statuses of rsc.h are those of contact/level.hpp.
 static_assert(kLevelStatusNames.size() == RSC_LEVEL_LAST_ + 1 &&
-              static_cast<int>(LevelStatus::converged) == RSC_LEVEL_CONVERGED &&
-              static_cast<int>(LevelStatus::out_of_validity) == RSC_LEVEL_OUT_OF_VALIDITY &&
-              static_cast<int>(LevelStatus::overlapping) == RSC_LEVEL_OVERLAPPING &&
-              static_cast<int>(LevelStatus::not_unique) == RSC_LEVEL_NOT_UNIQUE &&
-              static_cast<int>(LevelStatus::not_converged) == RSC_LEVEL_NOT_CONVERGED);
+              int(LevelStatus::converged) == RSC_LEVEL_CONVERGED &&
+              int(LevelStatus::out_of_validity) == RSC_LEVEL_OUT_OF_VALIDITY &&
+              int(LevelStatus::overlapping) == RSC_LEVEL_OVERLAPPING &&
+              int(LevelStatus::not_unique) == RSC_LEVEL_NOT_UNIQUE &&
+              int(LevelStatus::not_converged) == RSC_LEVEL_NOT_CONVERGED);
 
 void require_contact_keys(const Case& settings) {
     require_valid(settings, {"solver", "solids%resistivity", "solids%relaxation_share",

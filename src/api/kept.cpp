@@ -41,7 +41,7 @@ double digest(const SurfaceModel& on) {
     if (on.points)
         for (int j = 0; j < on.points->ny; ++j)
             hash = mix(hash, on.points->row(j), at(on.points->nx) * sizeof(double));
-    return static_cast<double>(hash >> 11);  // exact as a double
+    return double(hash >> 11);  // exact as a double
 }
 
 struct Entries {
@@ -69,12 +69,12 @@ void write(const std::string& path, const char* what, Entries& entries) {
     entries.numbers["format"] = {kFormat};
     entries.texts["rsc"] = RSC_VERSION;
     ArchiveWriter writer;
-    writer(static_cast<std::uint64_t>(entries.texts.size()));
+    writer(std::uint64_t(entries.texts.size()));
     for (const auto& [name, text] : entries.texts) {
         writer(characters(name));
         writer(characters(text));
     }
-    writer(static_cast<std::uint64_t>(entries.numbers.size()));
+    writer(std::uint64_t(entries.numbers.size()));
     for (const auto& [name, numbers] : entries.numbers) {
         writer(characters(name));
         writer(numbers);
@@ -246,7 +246,7 @@ Path::State get_state(const Entries& from, const std::string& prefix, const rsc_
         for (const double value : found->second)
             values.push_back(static_cast<std::decay_t<decltype(values[0])>>(value));
     });
-    level.pixels.columns = static_cast<int>(pixels[0]);
+    level.pixels.columns = int(pixels[0]);
     level.pixels.x0 = pixels[1];
     level.pixels.y0 = pixels[2];
     level.pixels.dx = pixels[3];
@@ -254,8 +254,7 @@ Path::State get_state(const Entries& from, const std::string& prefix, const rsc_
     if (pixels.size() == 6 && level.pixels.attraction.empty())  // version 0.3
         level.pixels.attraction.assign(level.pixels.cohesive.size(), pixels[5]);
     const auto& points = contact.on->points;
-    const int places =
-        points ? points->nx * points->ny : static_cast<int>(contact.path.asperities()->size());
+    const int places = points ? points->nx * points->ny : int(contact.path.asperities()->size());
     const auto outside = [&](int k) { return k < 0 || k >= places; };
     const std::size_t n = level.asperity.size();
     const LevelTractions& t = level.tractions;

@@ -27,7 +27,7 @@ std::int32_t for_all(std::int64_t n, rsc_contact** contacts, const double* given
         std::vector<std::int32_t> outcome(at(n), RSC_SUCCESS);
         std::vector<std::string> reason(at(n));
         parallel_for(at(n), 1, threads, [&](std::size_t k) {
-            outcome[k] = each(static_cast<std::int64_t>(k));
+            outcome[k] = each(std::int64_t(k));
             if (outcome[k] == RSC_SUCCESS) return;
             char text[500] = "";
             rsc_message(text, sizeof text, nullptr);

@@ -66,7 +66,7 @@ int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double d
         require_finite(heights, nx * ny, 9, "heights");
         auto made = std::make_unique<rsc_surface>();
         HeightMap& map = made->surface.map;
-        map.allocate(static_cast<int>(nx), static_cast<int>(ny), static_cast<std::ptrdiff_t>(nx));
+        map.allocate(int(nx), int(ny), std::ptrdiff_t(nx));
         map.dx = dx;
         map.dy = dy;
         map.x0 = x0;
@@ -140,8 +140,7 @@ int32_t rsc_surface_heights(const rsc_surface* surface, int64_t n, double* heigh
         if (n != static_cast<int64_t>(map.nx) * map.ny) refuse(2, "n", "must be nx*ny");
         require(heights, 3, "heights");
         for (int j = 0; j < map.ny; ++j)
-            std::copy(map.row(j), map.row(j) + map.nx,
-                      heights + static_cast<std::ptrdiff_t>(j) * map.nx);
+            std::copy(map.row(j), map.row(j) + map.nx, heights + std::ptrdiff_t(j) * map.nx);
     });
 }
 

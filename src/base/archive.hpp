@@ -31,7 +31,7 @@ public:
     template <class T>
     void operator()(const std::vector<T>& values) {
         static_assert(std::is_trivially_copyable_v<T>);
-        (*this)(static_cast<std::uint64_t>(values.size()));
+        (*this)(std::uint64_t(values.size()));
         bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
     }
     std::string bytes;

@@ -24,7 +24,7 @@ int processors() {
         cpu_set_t allowed;
         if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return CPU_COUNT(&allowed);
 #endif
-        return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+        return std::max(1, int(std::thread::hardware_concurrency()));
     }();
     return count;
 }
@@ -33,7 +33,7 @@ int default_threads() {
     static const int count = [] {
         const char* const text = std::getenv("OMP_NUM_THREADS");
         const long wanted = text ? std::strtol(text, nullptr, 10) : 0;  // the first of a list
-        return wanted > 0 ? static_cast<int>(std::min(wanted, 1000000L)) : processors();
+        return wanted > 0 ? int(std::min(wanted, 1000000L)) : processors();
     }();
     return count;
 }
@@ -206,7 +206,7 @@ void LoopProfile::run(std::size_t count,
     const auto now = [] {
         timespec t{};
         clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-        return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+        return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
     };
     const Sums zero{0, std::vector<double>(cores_.size(), 0.0)};
     Sums outer = std::exchange(sums_, zero);

@@ -72,7 +72,7 @@ void find_all(std::size_t n, int grain, int threads, Test&& test, std::vector<in
     parallel_pieces(ends.size(), threads, [&](std::size_t piece, std::size_t) {
         std::size_t next = piece * each;
         for (std::size_t k = next, end = std::min(n, k + each); k < end; ++k) {
-            found[next] = static_cast<int>(k);
+            found[next] = int(k);
             next += test(k) ? 1 : 0;
         }
         ends[piece] = next;

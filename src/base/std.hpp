@@ -55,7 +55,7 @@ namespace rsc {
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A number as an index, or as a size.
-constexpr std::size_t at(auto k) { return static_cast<std::size_t>(k); }
+constexpr std::size_t at(auto k) { return std::size_t(k); }
 
 // The indices 0, 1, ..., n - 1, for loops over them.
 class Indices {

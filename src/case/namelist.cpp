@@ -102,8 +102,7 @@ private:
 
     Position position(std::size_t offset) const {
         const auto line = std::ranges::upper_bound(lines_, offset) - lines_.begin();
-        return {static_cast<int>(line),
-                static_cast<int>(offset - lines_[static_cast<std::size_t>(line - 1)] + 1)};
+        return {int(line), int(offset - lines_[std::size_t(line - 1)] + 1)};
     }
     void fault(std::size_t offset, const auto&... text) {
         report(document_.faults, position(offset), text...);

@@ -11,7 +11,7 @@ char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + '
 double out_of_range(std::string_view plain) {
     long double wide = 0;
     if (std::from_chars(plain.data(), plain.data() + plain.size(), wide).ec == std::errc{})
-        return static_cast<double>(wide);
+        return double(wide);
     return plain.find("e-") == std::string_view::npos ? kInfinity : 0.0;
 }
 

@@ -17,8 +17,7 @@ constexpr Bounds above(double low, double high) { return {low, high, true, false
 
 template <class T>
 Slot choice_slot(T& member) {
-    return ChoiceSlot{&member,
-                      [](const void* p) { return static_cast<int>(*static_cast<const T*>(p)); },
+    return ChoiceSlot{&member, [](const void* p) { return int(*static_cast<const T*>(p)); },
                       [](void* p, int i) { *static_cast<T*>(p) = static_cast<T>(i); }};
 }
 
@@ -53,9 +52,8 @@ Key number(const Place& at, const char* unit, Bounds bounds, const char* meaning
     constexpr Type types[] = {Type::logical, Type::integer, Type::long_integer, Type::real,
                               Type::real,    Type::string,  Type::real,         Type::choice};
     const Type type = types[at.slot(any).index()];
-    return {at.group, at.name, type,    std::max(static_cast<int>(at.extent), 1),
-            false,    0,       unit,    bounds,
-            {},       unset,   meaning, at.slot};
+    return {at.group, at.name, type,   std::max(int(at.extent), 1), false, 0, unit, bounds, {},
+            unset,    meaning, at.slot};
 }
 Key list(const Place& at, int most, const char* unit, Bounds bounds, const char* unset,
          const char* meaning) {
@@ -80,7 +78,7 @@ Key choice(const Place& at, const Names& names, const char* meaning) {
 // A list of choices, in any order.
 Key words(Key key) {
     key.list = true;
-    key.size = static_cast<int>(key.choices.size());
+    key.size = int(key.choices.size());
     key.unset = "none";
     return key;
 }

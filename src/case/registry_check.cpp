@@ -27,7 +27,7 @@ public:
           by_(settings.indentation.levels.empty() ? "indentation%steps" : "indentation%levels"),
           levels_(settings.indentation.levels.empty()
                       ? settings.indentation.steps
-                      : static_cast<double>(settings.indentation.levels.size())) {}
+                      : double(settings.indentation.levels.size())) {}
 
     std::vector<Problem> check() {
         for (const Key& key : registry()) check_key(key);
@@ -75,7 +75,7 @@ private:
                 overflows || vanishes ? "of a magnitude from 1e-50 to 1e50" : key.bounds.text();
             problems_.push_back(
                 {{&key},
-                 static_cast<long>(element),
+                 long(element),
                  std::string(key.name) + (element > 0 ? "(" + std::to_string(element) + ")" : "") +
                      " = " +
                      (key.type == Type::integer ? count(value) : namelist::from_real(value)) +
@@ -85,8 +85,7 @@ private:
                                                                     : " and finite")});
         };
         const auto each = [&](const auto* values, std::size_t size) {
-            for (const auto i : indices(size))
-                number(static_cast<double>(values[i]), key.size > 1 ? i + 1 : 0);
+            for (const auto i : indices(size)) number(double(values[i]), key.size > 1 ? i + 1 : 0);
         };
         const auto size = at(key.size);
         if (const auto* n = std::get_if<int*>(&slot)) each(*n, size);
@@ -234,8 +233,8 @@ private:
         if (list.empty()) return;
         const std::string name = std::string(key).substr(std::string_view(key).find('%') + 1);
         require(!whole, {whole_key, key}, name, " are given as well; give only one of the two");
-        require(static_cast<double>(list.size()) == levels_, {key, by_}, list.size(),
-                " values for ", count(levels_), " levels");
+        require(double(list.size()) == levels_, {key, by_}, list.size(), " values for ",
+                count(levels_), " levels");
         require(std::ranges::adjacent_find(list, std::ranges::greater_equal()) == list.end(), {key},
                 "must increase from each level to the next");
     }
@@ -451,7 +450,7 @@ private:
 
     void check_flow() {
         const Case::Output& o = c_.output;
-        const bool field = std::ranges::count(o.fields, static_cast<double>(Field::flow)) > 0;
+        const bool field = std::ranges::count(o.fields, double(Field::flow)) > 0;
         require(!field || o.flow, {"output%fields", "output%flow"},
                 "'flow' needs output%flow = .true.");
         if (!o.flow) return;
@@ -492,7 +491,7 @@ private:
 
     void check_tractions() {
         const Case::Output& o = c_.output;
-        if (std::ranges::count(o.fields, static_cast<double>(Field::traction)) == 0) return;
+        if (std::ranges::count(o.fields, double(Field::traction)) == 0) return;
         require(c_.solids.friction > 0, {"output%fields", "solids%friction"},
                 "'traction' needs solids%friction > 0");
         require(elements_ || !(c_.solids.friction > 0), {"output%fields", "solver%model"},

@@ -63,7 +63,7 @@ void put(Slot& slot, long element, Number value) {
                           std::is_same_v<T, double*>)
                 place[element - 1] = static_cast<std::remove_pointer_t<T>>(value);
             else if constexpr (std::is_same_v<T, std::optional<double>*>)
-                place[element - 1] = static_cast<double>(value);
+                place[element - 1] = double(value);
         },
         slot);
 }
@@ -83,7 +83,7 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
     } else if (key.type == Type::integer || key.type == Type::long_integer) {
         const auto value = item.quoted ? std::nullopt : namelist::to_integer(item.text);
         const bool small = key.type == Type::integer;
-        if (!value || (small && *value != static_cast<int>(*value))) {
+        if (!value || (small && *value != int(*value))) {
             const bool digits = !item.quoted &&
                                 item.text.find_first_not_of("+-0123456789") == std::string::npos &&
                                 item.text.size() > 5;
@@ -103,7 +103,7 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
             (item.commented || !(item.counted || (item.text[0] >= '0' && item.text[0] <= '9'))))
             return "text must be in quotes, found " + quote(item);
         const std::string text = trimmed(item.text);
-        if (!word && static_cast<long>(text.size()) > key.length)
+        if (!word && long(text.size()) > key.length)
             return "a text of more than " + std::to_string(key.length) + " characters";
         if (!word) {
             *std::get<std::string*>(slot) = text;
@@ -114,7 +114,7 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
         if (found == key.choices.end())
             return quote(item) + " is none of " + list_choices(key) +
                    namelist::suggestion(lower, {key.choices.begin(), key.choices.end()});
-        const auto number = static_cast<int>(found - key.choices.begin());
+        const auto number = int(found - key.choices.begin());
         if (key.word && (element != 1 || !entry.values.empty() || entry.word))
             return "one word, or a list of numbers";
         if (key.word)
@@ -207,7 +207,7 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
     // Elements are marked as given if a value, not a null, is stored in them; the elements of a
     // text are its characters.
     const long elements = is_text ? 1 : walk.count;
-    const long before = static_cast<long>(entry.given.size());
+    const long before = long(entry.given.size());
     const auto mark = [&](long first, long count, const namelist::Position& place) {
         if (entry.faulty) return;  // one message for a key given several times is enough
         for (const auto& [element, where] : std::span(entry.given).first(at(before)))
@@ -376,8 +376,7 @@ std::string get_key(const Case& settings, std::string_view name) {
     // Slots point to non-const values; here they are only read.
     const Slot slot = key->slot(const_cast<Case&>(settings));
     long size = key->size;
-    if (const auto* list = std::get_if<std::vector<double>*>(&slot))
-        size = static_cast<long>((*list)->size());
+    if (const auto* list = std::get_if<std::vector<double>*>(&slot)) size = long((*list)->size());
     if (key->word && size == 0) {
         const ChoiceSlot word = std::get<ChoiceSlot>(key->word(const_cast<Case&>(settings)));
         return namelist::from_string(key->choices.at(at(word.get(word.object))));

@@ -155,7 +155,7 @@ std::vector<Member> expand_study(const Case& base, const Study& study) {
     std::size_t wrong_members = 0;
     for (const auto m : indices(count)) {
         Member& member = members[m];
-        member.index = static_cast<int>(m + 1);
+        member.index = int(m + 1);
         member.settings = base;
         std::size_t slower = count;
         for (const Study::Axis& axis : study.axes) {

@@ -167,7 +167,7 @@ Level Path::at_force(double N) {
 Level Path::in_steps(double from, double to, Reach reach) {
     const double end = time_, length = end - accepted_.value_or(end);
     const bool first = !std::isfinite(from), slides = clock() == PathClock::distance;
-    const int steps = first ? 1 : static_cast<int>(steps_of_time(length, shortest_time()));
+    const int steps = first ? 1 : int(steps_of_time(length, shortest_time()));
     const bool halved = slides && !first && length > 0;
     std::optional<State> before;
     if (steps > 1 || halved) before = state();
@@ -201,7 +201,7 @@ Level Path::in_equal_steps(int steps, double from, double to, Reach reach) {
     std::int64_t products = 0;
     Level level;
     for (int k = 1; k <= steps; ++k) {
-        const double part = static_cast<double>(k) / steps;
+        const double part = double(k) / steps;
         time_ = k < steps ? start + part * (end - start) : end;
         level = (this->*reach)(k < steps ? from + part * (to - from) : to);
         iterations += level.iterations;

@@ -41,7 +41,7 @@ struct Samples {
     std::array<double, count> c, s;  // cos t, sin t
     Samples() {
         for (const auto k : indices(count)) {
-            t[k] = kStart + 2 * pi * static_cast<double>(k) / (count - 1);
+            t[k] = kStart + 2 * pi * double(k) / (count - 1);
             c[k] = std::cos(t[k]);
             s[k] = std::sin(t[k]);
         }

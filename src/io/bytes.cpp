@@ -21,12 +21,12 @@ void check_grid(const std::string& path, std::size_t nx, std::size_t ny) {
     if (nx < 3 || ny < 3) bad_input(path, ": ", what, "; at least 3 x 3 are needed");
     if (std::max(nx, ny) > at(std::numeric_limits<int>::max()))
         bad_input(path, ": ", what, "; at most 2147483647 points a side are possible");
-    check_memory(path, what, static_cast<double>(nx) * static_cast<double>(ny));
+    check_memory(path, what, double(nx) * double(ny));
 }
 
 HeightMap allocate_map(std::size_t nx, std::size_t ny) {
     HeightMap map;
-    map.allocate(static_cast<int>(nx), static_cast<int>(ny), static_cast<std::ptrdiff_t>(nx));
+    map.allocate(int(nx), int(ny), std::ptrdiff_t(nx));
     return map;
 }
 

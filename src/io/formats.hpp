@@ -89,10 +89,10 @@ void reverse_rows(HeightMap& map);
 // Reads all bytes of a file. Throws Error(bad_input) if they cannot be read.
 inline std::string read_bytes(const std::string& path) {
     std::ifstream file(path, std::ios::binary | std::ios::ate);
-    const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : -1;
+    const std::streamoff size = file ? std::streamoff(file.tellg()) : -1;
     if (size < 0) bad_input(path, ": cannot be read");
-    check_memory(path, "the file", static_cast<double>(size) / sizeof(double));
-    std::string bytes(static_cast<std::size_t>(size), '\0');
+    check_memory(path, "the file", double(size) / sizeof(double));
+    std::string bytes(std::size_t(size), '\0');
     file.seekg(0);
     file.read(bytes.data(), size);
     if (file.gcount() != size) bad_input(path, ": reading failed");

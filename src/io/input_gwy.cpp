@@ -203,8 +203,8 @@ HeightMap read_gwy(const std::string& path, const std::string& channel,
     if (!(field.Lx > 0 && field.Ly > 0 && std::isfinite(field.Lx) && std::isfinite(field.Ly)))
         bad_input(name, ": sides of ", field.Lx, " and ", field.Ly, " must be positive");
     HeightMap map = allocate_map(field.nx, field.ny);
-    map.dx = field.Lx * *factor_xy / static_cast<double>(field.nx);
-    map.dy = field.Ly * *factor_xy / static_cast<double>(field.ny);
+    map.dx = field.Lx * *factor_xy / double(field.nx);
+    map.dy = field.Ly * *factor_xy / double(field.ny);
     for (const auto k : indices(points))
         map.data[k] = *factor_z * ByteReader::value<double>(field.data.data() + k * sizeof(double));
     if (const auto mask = file.field(base + "/mask")) {

@@ -27,8 +27,8 @@ std::string checksum_line(const char* bytes, std::size_t size) {
 bool require_sound(const std::string& path) {
     std::ifstream in(path, std::ios::binary | std::ios::ate);
     std::string line = line_of(0);
-    const std::streamoff length = static_cast<std::streamoff>(line.size()), digits = 9,
-                         size = in ? static_cast<std::streamoff>(in.tellg()) : 0;
+    const std::streamoff length = std::streamoff(line.size()), digits = 9,
+                         size = in ? std::streamoff(in.tellg()) : 0;
     if (size < length) return false;
     const std::string start = line.substr(0, line.size() - digits);
     in.seekg(size - length);
@@ -42,7 +42,7 @@ bool require_sound(const std::string& path) {
     uLong crc = 0;
     in.seekg(0);
     for (std::streamoff left = size - length; left > 0 && in;) {
-        in.read(buffer.data(), std::min(left, static_cast<std::streamoff>(buffer.size())));
+        in.read(buffer.data(), std::min(left, std::streamoff(buffer.size())));
         crc = crc32_z(crc, reinterpret_cast<const Bytef*>(buffer.data()), at(in.gcount()));
         left -= in.gcount();
     }
@@ -125,7 +125,7 @@ private:
     std::uint64_t number(int bytes) {
         unsigned char b[8] = {};
         if (!file_.read(reinterpret_cast<char*>(b), bytes)) damaged();
-        position_ += static_cast<std::uint64_t>(bytes);
+        position_ += std::uint64_t(bytes);
         std::uint64_t value = 0;
         for (int i = 0; i < bytes; ++i) value = value << 8 | b[i];
         return value;
@@ -144,7 +144,7 @@ private:
     void skip(std::uint64_t bytes) {
         bytes = (bytes + 3) / 4 * 4;
         if (bytes > length_ - std::min(position_, length_)) damaged();
-        file_.seekg(static_cast<std::streamoff>(bytes), std::ios::cur);
+        file_.seekg(std::streamoff(bytes), std::ios::cur);
         position_ += bytes;
     }
     void name() { skip(bounded(count())); }
@@ -205,7 +205,7 @@ std::optional<double> default_fill(nc_type type) {
         case NC_DOUBLE: return NC_FILL_DOUBLE;
         case NC_INT: return NC_FILL_INT;
         case NC_SHORT: return NC_FILL_SHORT;
-        case NC_INT64: return static_cast<double>(NC_FILL_INT64);
+        case NC_INT64: return double(NC_FILL_INT64);
         default: return {};
     }
 }
@@ -376,7 +376,7 @@ struct NetcdfInput::Packing {
     double typed(double value) const {
         const double wrap = type == NC_BYTE ? 0x1p8 : type == NC_SHORT ? 0x1p16 : 0x1p32;
         return is_unsigned && value < 0 ? value + wrap
-               : type == NC_FLOAT       ? static_cast<double>(static_cast<float>(value))
+               : type == NC_FLOAT       ? double(float(value))
                                         : value;
     }
     bool is_missing(double stored) const {
@@ -470,7 +470,7 @@ std::vector<double> NetcdfInput::values(const std::string& name, std::size_t ran
         bad_input(path_, ": ", name, ", numeric over ",
                   rank == 1 ? "one dimension" : "two dimensions", ", was expected, not ",
                   v->shape());
-    check_memory(path_, v->shape(), 8.0 * static_cast<double>(v->count()));
+    check_memory(path_, v->shape(), 8.0 * double(v->count()));
     std::vector<double> all(v->count());
     read(*v, all.data());
     const double factor = unit_factor(*v, length_unit, power).value_or(1.0);

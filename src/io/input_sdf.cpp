@@ -43,9 +43,9 @@ HeightMap prepare(const std::string& path, const Header& h, const std::string& l
 template <class T>
 bool is_missing(double value, bool bcr) {
     using Limits = std::numeric_limits<T>;
-    const bool least = std::is_signed_v<T> && value == static_cast<double>(Limits::lowest());
+    const bool least = std::is_signed_v<T> && value == double(Limits::lowest());
     const bool largest_counts = bcr || std::is_unsigned_v<T>;
-    return least || (largest_counts && value == static_cast<double>(Limits::max()));
+    return least || (largest_counts && value == double(Limits::max()));
 }
 
 template <class T>
@@ -53,7 +53,7 @@ void take_values(ByteReader& in, HeightMap& map, double factor, bool bcr) {
     const std::size_t points = map.points();
     const char* const bytes = in.take(points, sizeof(T), "heights").data();
     for (const auto k : indices(points)) {
-        const auto value = static_cast<double>(ByteReader::value<T>(bytes + k * sizeof(T)));
+        const auto value = double(ByteReader::value<T>(bytes + k * sizeof(T)));
         map.data[k] = is_missing<T>(value, bcr) ? std::nan("") : factor * value;
     }
 }
@@ -144,9 +144,8 @@ public:
             else
                 return namelist::to_integer(text);
         }();
-        if (!read ||
-            (std::is_integral_v<Value> &&
-             (*read < 0 || !std::in_range<std::uint32_t>(static_cast<std::int64_t>(*read)))))
+        if (!read || (std::is_integral_v<Value> &&
+                      (*read < 0 || !std::in_range<std::uint32_t>(std::int64_t(*read)))))
             bad_input(path_, ":", at, ": ", name, ": a number was expected, not ", shown(text));
         value = static_cast<Value>(*read);
     }

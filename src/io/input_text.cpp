@@ -220,7 +220,7 @@ bool after_sides(const std::vector<Mention>& found, long line) {
     if (n < 2 || (found[n - 2].kind == Mention::width && found[n - 1].kind == Mention::height))
         return false;
     for (const std::size_t k : {n - 2, n - 1})
-        if (!(found[k].size > 0) || found[k].line != line - static_cast<long>(n - k)) return false;
+        if (!(found[k].size > 0) || found[k].line != line - long(n - k)) return false;
     return true;
 }
 
@@ -292,14 +292,13 @@ static void add_empty_column(TextTable& table) {
     std::vector<double> wider;
     wider.reserve(table.values.size() + table.line.size());
     for (const auto row : indices(table.line)) {
-        const auto start = table.values.begin() + static_cast<std::ptrdiff_t>(row * table.columns);
-        wider.insert(wider.end(), start, start + static_cast<std::ptrdiff_t>(table.columns));
+        const auto start = table.values.begin() + std::ptrdiff_t(row * table.columns);
+        wider.insert(wider.end(), start, start + std::ptrdiff_t(table.columns));
         wider.push_back(std::nan(""));
     }
-    wider.insert(
-        wider.end(),
-        table.values.begin() + static_cast<std::ptrdiff_t>(table.line.size() * table.columns),
-        table.values.end());
+    wider.insert(wider.end(),
+                 table.values.begin() + std::ptrdiff_t(table.line.size() * table.columns),
+                 table.values.end());
     table.values = std::move(wider);
     ++table.columns;
 }

@@ -86,7 +86,7 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
     axis.first = c.front();
     const double range = c.back() - c.front();
     // Less than any uniform step.
-    const double same = 1e-3 * range / static_cast<double>(table.rows);
+    const double same = 1e-3 * range / double(table.rows);
     // The smallest gap between values is nearly the step; a wider one is several steps, where all
     // points of a column are missing.
     double least = range;
@@ -98,10 +98,8 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
     if (axis.count < 2)
         bad_input(path, ": three columns are read as x y z of a map; column ", name, " is ",
                   axis.first, " throughout");
-    axis.step = range / static_cast<double>(axis.count - 1);
-    const auto uniform = [&](double v) {
-        return axis.first + static_cast<double>(axis.index(v)) * axis.step;
-    };
+    axis.step = range / double(axis.count - 1);
+    const auto uniform = [&](double v) { return axis.first + double(axis.index(v)) * axis.step; };
     double off = 0;
     for (const double v : c) off = std::max(off, std::abs(v - uniform(v)));
     if (off <= kUniformText * axis.step) return axis;
@@ -149,9 +147,8 @@ HeightMap read_text_triples(const std::string& path, const TextTable& table,
     if (const auto empty = std::ranges::find(line, 0L); empty != line.end()) {
         const auto point = at(empty - line.begin());
         bad_input(path, ": three columns are read as x y z of a map of ", x.count, " x ", y.count,
-                  " points, but there is none at x = ",
-                  x.first + static_cast<double>(point % x.count) * x.step,
-                  ", y = ", y.first + static_cast<double>(point / x.count) * y.step,
+                  " points, but there is none at x = ", x.first + double(point % x.count) * x.step,
+                  ", y = ", y.first + double(point / x.count) * y.step,
                   "; surface%missing = 'fill' fills such points");
     }
     map.x0 = x.first;
@@ -251,12 +248,11 @@ double text_height_factor(const std::string& path, const TextTable& table, const
 
 // True if the values are uniform to the rounding of their digits.
 bool is_uniform(const std::vector<double>& c) {
-    const double step = (c.back() - c.front()) / static_cast<double>(c.size() - 1);
+    const double step = (c.back() - c.front()) / double(c.size() - 1);
     if (!(std::abs(step) > 0)) return false;  // also where one is missing
     const double rounding = 1.01 * last_digit(c);
     for (const auto i : indices(c))
-        if (!(std::abs(c[i] - (c.front() + static_cast<double>(i) * step)) <= rounding))
-            return false;
+        if (!(std::abs(c[i] - (c.front() + double(i) * step)) <= rounding)) return false;
     return true;
 }
 
@@ -264,7 +260,7 @@ bool is_uniform(const std::vector<double>& c) {
 void refuse_coordinates(const std::string& path, const TextTable& table) {
     if (!std::isnan(table.values[0]) || table.rows < 4 || table.columns < 4) return;
     const std::vector<double> x(table.values.begin() + 1,
-                                table.values.begin() + static_cast<std::ptrdiff_t>(table.columns));
+                                table.values.begin() + std::ptrdiff_t(table.columns));
     std::vector<double> y;
     for (std::size_t j = 1; j < table.rows; ++j) y.push_back(table.values[j * table.columns]);
     if (!is_uniform(x) || !is_uniform(y)) return;
@@ -307,7 +303,7 @@ std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variab
     axis.reversed = c.back() < c.front();
     if (axis.reversed) std::ranges::reverse(c);
     axis.first = c.front();
-    axis.step = (c.back() - c.front()) / static_cast<double>(n - 1);
+    axis.step = (c.back() - c.front()) / double(n - 1);
     if (!(axis.step > 0))
         bad_input(file.path(), ": coordinate ", name, " does not vary: it begins and ends at ",
                   c.front());
@@ -315,7 +311,7 @@ std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variab
     const double largest = std::max(std::abs(c.front()), std::abs(c.back()));
     const double rounding = variable->type == NC_FLOAT ? 1.2e-7 * largest : 4.5e-16 * largest;
     for (const auto i : indices(n)) {
-        const double uniform = axis.first + static_cast<double>(i) * axis.step;
+        const double uniform = axis.first + double(i) * axis.step;
         if (std::abs(c[i] - uniform) > kUniform * axis.step + rounding)
             bad_input(file.path(), ": coordinate ", name, " is not uniform to 1e-6 of its step ",
                       axis.step, ": ", name, "(", axis.reversed ? n - 1 - i : i,
@@ -443,7 +439,7 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L,
 std::string first_bytes(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::string start(4096, '\0');
-    file.read(start.data(), static_cast<std::streamsize>(start.size()));
+    file.read(start.data(), std::streamsize(start.size()));
     start.resize(at(file.gcount()));
     return start;
 }
@@ -544,12 +540,12 @@ static bool ends_in_code(std::span<const double> heights, double code, bool lowe
     points = std::ranges::count(heights, code);
     if (points < 2 || !(least < most)) return false;  // one is an outlier
     const double next = lowest ? least : most;
-    if (static_cast<double>(points) > many && std::abs(next - code) > most - least) return true;
+    if (double(points) > many && std::abs(next - code) > most - least) return true;
     const long at_next = std::ranges::count(heights, next);
     constexpr double kDeviations = 5;
-    const auto more = static_cast<double>(points - at_next);
+    const auto more = double(points - at_next);
     return 2 * points < std::ssize(heights) &&
-           more > kDeviations * std::sqrt(static_cast<double>(points + at_next));
+           more > kDeviations * std::sqrt(double(points + at_next));
 }
 
 std::optional<double> likely_code(const HeightMap& map, long& points) {
@@ -560,7 +556,7 @@ std::optional<double> likely_code(const HeightMap& map, long& points) {
         low = std::fmin(low, z);
         high = std::fmax(high, z);
     }
-    const double many = kShare * static_cast<double>(map.points());
+    const double many = kShare * double(map.points());
     for (const double code : {low, high})
         if (ends_in_code(heights, code, code == low, many, points)) return code;
     long zero_blocks = 0, other_blocks = 0;
@@ -572,8 +568,8 @@ std::optional<double> likely_code(const HeightMap& map, long& points) {
                 for (int a = -1; a <= 1; ++a) block = block && map(i + a, j + b) == map(i, j);
             if (block) ++(map(i, j) == 0 ? zero_blocks : other_blocks);
         }
-    const bool blocks = static_cast<double>(zero_blocks) > many && zero_blocks > 100 * other_blocks;
-    if (blocks && 2 * points < static_cast<long>(map.points())) return 0.0;
+    const bool blocks = double(zero_blocks) > many && zero_blocks > 100 * other_blocks;
+    if (blocks && 2 * points < long(map.points())) return 0.0;
     return {};
 }
 
@@ -615,9 +611,8 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
                                       std::to_string(j) + ", counted from 0" +
                                       (instrument ? " with y upwards" : "");
             if (std::isnan(z))
-                bad_input(path, ": ", count_missing(map), " of ",
-                          static_cast<long>(map.nx) * map.ny, " points are missing",
-                          channels ? " or masked" : "", ", the first", place,
+                bad_input(path, ": ", count_missing(map), " of ", long(map.nx) * map.ny,
+                          " points are missing", channels ? " or masked" : "", ", the first", place,
                           "; surface%missing = 'fill' fills them");
             bad_input(path, ": a height ", kNumberBounds, ", not ", z, " as", place);
         }

@@ -293,9 +293,7 @@ void NetcdfFile::define_and_put(int ncid, Format format, int compression,
                                  ? NC_CHAR
                                  : NC_DOUBLE;
         int varid = -1;
-        check(nc_def_var(ncid, v.name.c_str(), type, static_cast<int>(ids.size()), ids.data(),
-                         &varid),
-              path);
+        check(nc_def_var(ncid, v.name.c_str(), type, int(ids.size()), ids.data(), &varid), path);
         if (v.may_be_absent)
             put_attribute(ncid, varid, "_FillValue", std::vector<double>{NC_FILL_DOUBLE}, path);
         if (format == Format::netcdf4 && !ids.empty() && values_of(shape(v)) >= kChunked) {
@@ -329,7 +327,7 @@ void NetcdfFile::write(const std::string& path, Format format, int compression) 
 
     double bytes = 0;
     for (const NetcdfVariable& v : variables_)
-        bytes += (v.bytes ? 1 : 8) * static_cast<double>(values_of(shape(v)));
+        bytes += (v.bytes ? 1 : 8) * double(values_of(shape(v)));
     // The image of the file is copied when it grows, and once more for reading.
     require_memory(3 * bytes + (32 << 20), "for '" + path + "'",
                    "; write less (&output contacts, heights, map_cells)");

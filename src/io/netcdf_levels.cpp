@@ -49,7 +49,7 @@ void ResultTable::global_attributes(const std::string& history) {
     file_.attribute("case", r_.case_text);
     if (r_.settings.run.seed >= std::numeric_limits<std::int32_t>::min() &&
         r_.settings.run.seed <= std::numeric_limits<std::int32_t>::max())
-        file_.attribute("seed", static_cast<std::int32_t>(r_.settings.run.seed));
+        file_.attribute("seed", std::int32_t(r_.settings.run.seed));
     else  // the classic data model has no integers longer than 32 bits
         file_.attribute("seed", std::to_string(r_.settings.run.seed));
 }
@@ -104,8 +104,7 @@ void ResultTable::levels() {
             add(q.name, dims, units(q), q.meaning, values, attributes);
         else if (q.of_step)
             add(q.name, {"step"}, units(q), q.meaning,
-                std::vector<double>(values.begin(),
-                                    values.begin() + static_cast<std::ptrdiff_t>(o_.steps)),
+                std::vector<double>(values.begin(), values.begin() + std::ptrdiff_t(o_.steps)),
                 attributes);
         else if (q.z)
             add_absent(q.name, {"realization", "step", "tensor_component"}, units(q), q.meaning,
@@ -352,9 +351,8 @@ void ResultTable::friction() {
     if (f.points == 0) return;
     file_.dimension("point", f.points);
     add("point", {"point"}, "1", "point of a slide at constant separation", one_to(f.points),
-        {{"first_loading", std::vector<std::int32_t>{1, static_cast<std::int32_t>(f.first)}},
-         {"cycle", std::vector<std::int32_t>{static_cast<std::int32_t>(f.first) + 1,
-                                             static_cast<std::int32_t>(f.points)}},
+        {{"first_loading", std::vector<std::int32_t>{1, std::int32_t(f.first)}},
+         {"cycle", std::vector<std::int32_t>{std::int32_t(f.first) + 1, std::int32_t(f.points)}},
          {"comment",
           "first and last point of the first loading, from 0 to full slip, and of the cycle at 90 "
           "% of it, closed"}});
@@ -376,11 +374,11 @@ void ResultTable::two_flats(const Moments& m) {
     const double E = r_.indenter.E_star, A0 = r_.indenter.period.area();
     double summits = 0, kappa = 0, m2 = 0;
     for (const SurfaceStatistics& s : o_.surface) {
-        summits += static_cast<double>(s.summits);
+        summits += double(s.summits);
         kappa += s.mean_kappa_g;
         m2 += s.m2;
     }
-    const auto n = static_cast<double>(o_.surface.size());
+    const auto n = double(o_.surface.size());
     // of the generated surfaces: for a band that begins at L their slope differs from that of
     // m2_theory
     m2 /= n;

@@ -99,7 +99,7 @@ void ResultTable::distributions() {
     std::vector<std::int32_t> step;
     for (double level : o_.options.pdf_levels) wanted.push_back(level / r_.sigma);
     for (const ShownDistributions& f : o_.distributions) {
-        used.push_back(f.sum.separation / static_cast<double>(f.sum.levels) / r_.sigma);
+        used.push_back(f.sum.separation / double(f.sum.levels) / r_.sigma);
         step.push_back(f.sum.step);
     }
     add("pdf_level", {"pdf_level"}, "1", "requested Z0/sigma", wanted);
@@ -242,7 +242,7 @@ void ResultTable::contact_mask() {
     for (const auto s : indices(r_.pixels)) {
         const LevelPixels& p = r_.pixels[s];
         if (p.index.empty() && p.cohesive.empty()) continue;
-        steps.push_back(static_cast<std::int32_t>(s));
+        steps.push_back(std::int32_t(s));
         for (const auto* pixels : {&p.index, &p.cohesive})
             for (const std::int32_t k : *pixels) {
                 left = std::min(left, k % p.columns);
@@ -372,8 +372,8 @@ void ResultTable::heights() {
                     wears(r_.settings) ? "height of the worn surface after the last level"
                                        : "height of the surface",
                     RowFiller([&h](std::size_t j, std::span<double> row) {
-                        std::copy_n(h.data.get() + static_cast<std::ptrdiff_t>(j) * h.stride,
-                                    row.size(), row.begin());
+                        std::copy_n(h.data.get() + std::ptrdiff_t(j) * h.stride, row.size(),
+                                    row.begin());
                     }),
                     comment(h.periodic ? "periodic in x and y" : ""),
                     false});

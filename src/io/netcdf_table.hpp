@@ -15,10 +15,9 @@ inline constexpr const char* kAbsentMeans = "_FillValue: missing";
 // The classic data model has no integers longer than 32 bits; larger counts are written as the
 // largest one.
 inline std::int32_t clamped(std::int64_t n) {
-    return static_cast<std::int32_t>(
-        std::min<std::int64_t>(n, std::numeric_limits<std::int32_t>::max()));
+    return std::int32_t(std::min<std::int64_t>(n, std::numeric_limits<std::int32_t>::max()));
 }
-inline std::int32_t clamped(double n) { return clamped(static_cast<std::int64_t>(n)); }
+inline std::int32_t clamped(double n) { return clamped(std::int64_t(n)); }
 
 // Numbers of levels, asperities, ... counted from 1, as in the file, and the attribute that tells
 // it.
@@ -48,7 +47,7 @@ NetcdfAttributes flags(const std::array<const char*, n>& names, std::size_t firs
     std::vector<std::int32_t> values;
     std::string meanings;
     for (std::size_t k = first; k < n; ++k) {
-        values.push_back(static_cast<std::int32_t>(k));
+        values.push_back(std::int32_t(k));
         if (k > first) meanings += ' ';
         meanings += names[k];
     }

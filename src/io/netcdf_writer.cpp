@@ -68,8 +68,7 @@ void ResultTable::measured_form(const Measured& m) {
                     "least-squares fit to the valid points, subtracted; slopes and second "
                     "derivatives in the middle of the map: x, y, xx, xy "
                     "and yy; the radius of a sphere is positive for a dome"});
-    add("form_removed", "1", "form subtracted from the heights",
-        static_cast<std::int32_t>(m.form.how), form);
+    add("form_removed", "1", "form subtracted from the heights", std::int32_t(m.form.how), form);
     add("filter_cutoff", unit(1), "cutoff of the Gaussian filter of the heights; 0: none",
         m.filter_cutoff,
         comment("ISO 16610-61: exp(-pi (alpha cutoff/lambda)^2), alpha = sqrt(ln 2/pi)"));
@@ -106,7 +105,7 @@ void ResultTable::measured_heights(const Measured& m) {
         comment("below 4 slopes, curvatures and summits are determined by the grid or by noise"));
 
     file_.dimension("height_bin", m.height_pdf.size());
-    const int bins = static_cast<int>(m.height_pdf.size());
+    const int bins = int(m.height_pdf.size());
     add("height_bin", {"height_bin"}, unit(1), "middle of the bin of heights about their mean",
         each_of(bins, [&](int i) { return (i + 0.5 - 0.5 * bins) * m.height_bin; }));
     add("height_pdf", {"height_bin"}, unit(-1), "probability density of the heights", m.height_pdf);

@@ -47,7 +47,7 @@ ObserveOptions observe_options(const Case& c, const Domain& domain, const Indent
 double typical_sqrt_m4(const Asperities& asperities) {
     double sum = 0;
     for (double r : asperities.radius) sum += r;
-    return sum > 0 ? 0.9 * static_cast<double>(asperities.size()) / sum : 0;
+    return sum > 0 ? 0.9 * double(asperities.size()) / sum : 0;
 }
 
 Result make_result(const Case& c, std::string case_text, const Indenter& indenter, double sigma,
@@ -73,8 +73,8 @@ void keep_contacts(Result& result, std::vector<Level>& levels, Contacts keep) {
             bad_input(
                 "&output contacts: too many contacts for the indices of the result file; use "
                 "contacts='last' or 'none'");
-        packed.start.push_back(static_cast<std::int32_t>(packed.force.size()));
-        packed.count.push_back(static_cast<std::int32_t>(count));
+        packed.start.push_back(std::int32_t(packed.force.size()));
+        packed.count.push_back(std::int32_t(count));
         if (!kept) continue;
         if (level.pixels.index.empty()) {
             append(packed.asperity, level.asperity);
@@ -107,7 +107,7 @@ Moments regime_moments(const Result& result) {
         mean.m2 += s.m2;
         mean.m4 += s.m4;
     }
-    const auto n = static_cast<double>(surfaces.size());
+    const auto n = double(surfaces.size());
     return {mean.m0 / n,
             mean.m2 / n,
             mean.m4 / n,
@@ -233,7 +233,7 @@ void read_distributions(const Columns& file, Accumulators& sums) {
     for_each_number(one, sums.options.pdf, [&count](auto&, double) { ++count; });
     const std::vector<double> numbers = file.values("pdf_sums", {levels, count});
     for (const auto d : indices(levels)) {
-        sums.distributions[d].step = static_cast<std::int32_t>(step[d]) - 1;
+        sums.distributions[d].step = std::int32_t(step[d]) - 1;
         for (std::size_t k = d * count; k < (d + 1) * count; ++k)
             sums.distributions[d].numbers.push_back({numbers[k], 0});
     }
@@ -245,7 +245,7 @@ Accumulators read_sums(const std::string& path, const ObserveOptions& options, s
     const Columns file(path);
     Accumulators sums(options, steps);
     for (const double number : file.values("realization", {file.length("realization")}))
-        sums.realization.push_back(static_cast<std::int64_t>(number));
+        sums.realization.push_back(std::int64_t(number));
     require_same_axes(file, options);
     read_levels(file, sums);
     read_surfaces(file, sums);
@@ -266,8 +266,8 @@ std::optional<LevelCount> count_levels(const std::string& path) {
     const auto status = file.find("status");
     if (!status) return {};
     const std::vector<double> values = file.values("status", status->lengths);
-    const auto failed = std::ranges::count(values, static_cast<double>(LevelStatus::not_converged));
-    return LevelCount{static_cast<long>(values.size()), static_cast<long>(failed)};
+    const auto failed = std::ranges::count(values, double(LevelStatus::not_converged));
+    return LevelCount{long(values.size()), long(failed)};
 }
 
 }  // namespace rsc

@@ -66,7 +66,7 @@ bool begins_with(const std::string& path, const std::string& start) {
     if (!fs::is_regular_file(path, ignored)) return false;
     std::string there(start.size(), '\0');
     std::ifstream in(path, std::ios::binary);
-    return in.read(there.data(), static_cast<std::streamsize>(there.size())) && there == start;
+    return in.read(there.data(), std::streamsize(there.size())) && there == start;
 }
 
 int lock_file(int fd) {

@@ -29,7 +29,7 @@ public:
                 const std::function<std::optional<Accumulators>()>& earlier)
         : first_(job.settings.run.first_realization),
           count_(job.settings.run.realizations),
-          window_(static_cast<std::int64_t>(4 * workers + 32)),
+          window_(std::int64_t(4 * workers + 32)),
           sums_(job.observe, job.levels.size()),
           checkpoint_(checkpoint) {
         Checkpoint::Contents contents = checkpoint.take_contents();
@@ -69,7 +69,7 @@ public:
     std::size_t finished() const { return added() + waiting_.size(); }
 
 private:
-    std::int64_t next_to_add() const { return first_ + static_cast<std::int64_t>(added()); }
+    std::int64_t next_to_add() const { return first_ + std::int64_t(added()); }
     void take(std::string record) {
         const std::int64_t number = realization_of(record);
         if (number >= next_to_add() && number < first_ + count_)
@@ -131,8 +131,7 @@ Result campaign_result(const Job& job, const Accumulators& sums, std::ostream* t
     const Case& settings = job.settings;
     Observations observations = sums.finish();
     const std::vector<LevelValues> first(
-        observations.rows.begin(),
-        observations.rows.begin() + static_cast<std::ptrdiff_t>(observations.steps));
+        observations.rows.begin(), observations.rows.begin() + std::ptrdiff_t(observations.steps));
     ComparedLevels compared;
     if (compares(job, false))
         compared = compare_levels(job, settings.run.first_realization, 1, first, table,
@@ -162,7 +161,7 @@ void run_remaining(Team& team, std::int32_t member, Progressing& state, std::siz
             const std::size_t before = state.added();
             state.collect(std::move(record));
             if (state.added() / batch > before / batch) tell_batch();
-            line.show(static_cast<double>(state.finished()), static_cast<double>(total));
+            line.show(double(state.finished()), double(total));
         },
         1);
 }
@@ -190,11 +189,11 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
     if (table) print_campaign_heading(*table, *job, team.workers(), already);
     if (options.report)
         team.meanwhile = [&] {
-            if (options.report(static_cast<double>(state.finished()), static_cast<double>(total)))
+            if (options.report(double(state.finished()), double(total)))
                 throw Interrupted(0, "stopped");
         };
     try {
-        ProgressLine line(options, "realizations", static_cast<double>(already));
+        ProgressLine line(options, "realizations", double(already));
         run_remaining(team, member, state, total, line, [&] {
             if (!table) return;
             line.wipe();
@@ -307,7 +306,7 @@ RunSummary merge_campaigns(const std::vector<std::string>& files, const std::str
 
     Case whole = parts.front().settings;
     whole.output.file = output;
-    whole.run.realizations = static_cast<int>(parts.back().last() - parts.front().first() + 1);
+    whole.run.realizations = int(parts.back().last() - parts.front().first() + 1);
     const Job job = prepare(whole);
     Accumulators sums = read_sums(parts.front().file, job.observe, job.levels.size());
     for (std::size_t k = 1; k < parts.size(); ++k) {

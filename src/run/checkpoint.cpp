@@ -42,7 +42,7 @@ uLong add(uLong crc, const void* data, std::size_t n) {
 // CRC-32 of kind, length and bytes.
 std::uint32_t checksum_of(const FrameHead& head, std::string_view bytes) {
     const uLong crc = add(add(0, &head.kind, sizeof head.kind), &head.length, sizeof head.length);
-    return static_cast<std::uint32_t>(add(crc, bytes.data(), bytes.size()));
+    return std::uint32_t(add(crc, bytes.data(), bytes.size()));
 }
 
 std::string frame(std::uint32_t kind, const std::string& bytes) {
@@ -93,7 +93,7 @@ std::string inputs_line(const Case& settings) {
     for (const std::string& name : input_files(settings)) {
         std::ifstream in(name, std::ios::binary);
         std::vector<char> part(std::size_t{1} << 20);
-        while (in.read(part.data(), static_cast<std::streamsize>(part.size())), in.gcount() > 0)
+        while (in.read(part.data(), std::streamsize(part.size())), in.gcount() > 0)
             crc = add(crc, part.data(), at(in.gcount()));
     }
     return "! inputs " + std::to_string(crc) + "\n";

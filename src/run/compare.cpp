@@ -224,12 +224,8 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads,
         const auto error = [&](double model, double elements) {
             return found && elements != 0 ? model / elements - 1 : kNotComputed;
         };
-        ComparedLevel row{static_cast<std::int32_t>(step),
-                          truth.separation,
-                          truth.force,
-                          truth.area,
-                          truth.area_pixels,
-                          truth.residual};
+        ComparedLevel row{std::int32_t(step), truth.separation,  truth.force,
+                          truth.area,         truth.area_pixels, truth.residual};
         row.force_error_expected = truth.force_error_expected;
         row.area_error_expected = truth.area_error_expected;
         row.contacts = truth.contacts;

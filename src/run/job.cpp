@@ -22,8 +22,7 @@ std::vector<double> times_of(const Case::Indentation& keys, std::size_t levels) 
     const std::optional<double>& whole = keys.slides() ? keys.sliding : keys.duration;
     if (!whole) return keys.slides() ? keys.distances : keys.times;
     std::vector<double> times(levels, 0.0);
-    for (std::size_t k = 1; k < levels; ++k)
-        times[k] = *whole * static_cast<double>(k) / static_cast<double>(levels - 1);
+    for (std::size_t k = 1; k < levels; ++k) times[k] = *whole * double(k) / double(levels - 1);
     return times;
 }
 
@@ -41,7 +40,7 @@ void move_to(const Domain& place, HeightMap& map, std::int64_t number) {
 
 // As many files as realizations, and all of the size of the first. Only the sizes are read here.
 void require_maps(const Case& settings, const Domain& first) {
-    const auto files = static_cast<std::int64_t>(matching_files(settings.surface.file).size());
+    const auto files = std::int64_t(matching_files(settings.surface.file).size());
     const std::int64_t last =
         std::int64_t{settings.run.first_realization} + settings.run.realizations - 1;
     if (last > files)
@@ -61,7 +60,7 @@ double m2_of_pressures(const Job& job) {
     if (!job.spectrum) return job.given ? job.given->statistics.m2 + other : kAbsent;
     const Case& c = job.settings;
     if (c.run.realizations > 1) return discrete_moments(*job.spectrum).m2 + other;
-    const int n = 2 * static_cast<int>(std::ceil(shortest_wave(*job.spectrum))) +
+    const int n = 2 * int(std::ceil(shortest_wave(*job.spectrum))) +
                   2;  // the modes are the same on every grid
     return RowSource(*job.spectrum, n, c.surface.normalise, c.run.seed, c.run.first_realization, 1)
                .sampled()
@@ -84,8 +83,7 @@ double seam(const HeightMap& map) {
             ++(at_end ? n_across : n_within);
             ++(at_top ? n_across : n_within);
         }
-    return std::sqrt(across / static_cast<double>(n_across) /
-                     (within / static_cast<double>(n_within)));
+    return std::sqrt(across / double(n_across) / (within / double(n_within)));
 }
 
 // The key that asks for the largest pressure, as messages begin.
@@ -132,7 +130,7 @@ std::vector<std::int32_t> steps_of_fields(const Job& job) {
     for (const double wanted : keys.field_levels)
         steps.push_back(slides ? nearest_level(job.times, wanted)
                                : nearest_level(job.levels, wanted * job.level_unit));
-    if (steps.empty()) steps.push_back(static_cast<std::int32_t>(job.levels.size()) - 1);
+    if (steps.empty()) steps.push_back(std::int32_t(job.levels.size()) - 1);
     return steps;
 }
 
@@ -141,7 +139,7 @@ FieldsAsked fields_asked(const Job& job) {
     const auto& w = settings.output.field_window;
     const auto has = [&](Field f) {
         const auto& all = settings.output.fields;
-        return contains(all, static_cast<double>(f));
+        return contains(all, double(f));
     };
     FieldsAsked asked;
     asked.pressure = has(Field::pressure);
@@ -358,10 +356,9 @@ void require_feasible(const Job& job) {
         require_resolved(job.indenter.E_star, job.solver.physics.adhesion, side);
     }
     if (settings.output.flow)
-        require_flow_memory(settings,
-                            job.given_heights
-                                ? static_cast<double>(job.given_heights->nx) * job.given_heights->ny
-                                : std::pow(element_points(settings, *job.spectrum), 2.0));
+        require_flow_memory(settings, job.given_heights
+                                          ? double(job.given_heights->nx) * job.given_heights->ny
+                                          : std::pow(element_points(settings, *job.spectrum), 2.0));
 }
 
 }  // namespace
@@ -460,9 +457,8 @@ Prepared prepared_surface(const Job& job, std::int64_t number, int threads, Real
     const Measured* const measured = s.measured.get();
     s.judged.filled = filled_points(measured, job.domain.x0, job.domain.y0, job.indenter);
     if (measured)
-        s.judged.scattered =
-            static_cast<double>(measured->missing - std::ranges::count(measured->filled, 1)) /
-            static_cast<double>(measured->points());
+        s.judged.scattered = double(measured->missing - std::ranges::count(measured->filled, 1)) /
+                             double(measured->points());
     return s;
 }
 
@@ -486,7 +482,7 @@ void require_reachable(const Job& job, Path& contact) {
 FieldLevel field_level(const Job& job, const Realization& r, Path& contact, std::size_t k,
                        const Level& level, std::vector<double> flow) {
     const auto yielding = contact.asperities();
-    return {static_cast<std::int32_t>(k), &level,
+    return {std::int32_t(k), &level,
             yielding ? lowered_summits(heights_of(job, r), job.indenter.period.finite(), *yielding,
                                        contact.residual_depths())
                      : contact.residual_profile(),
@@ -517,7 +513,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     require_reachable(job, *contact);
     const auto take = [&](std::size_t k, Level solved) {
         Level& level = r.levels.emplace_back(std::move(solved));
-        const bool field = contains(field_steps, static_cast<std::int32_t>(k));
+        const bool field = contains(field_steps, std::int32_t(k));
         std::vector<double> flow;
         if (has_gap(settings))
             measure_gap(heights_of(job, r), *contact, level, job.observe.pdf, settings.output.flow,

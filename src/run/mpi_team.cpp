@@ -42,7 +42,7 @@ public:
                 Failure::internal,
                 "a result of more than 2 GiB cannot be sent by MPI; use fewer map_cells or levels");
         Letter& letter = letters_.emplace_back(Letter{std::move(bytes), MPI_REQUEST_NULL});
-        MPI_Isend(letter.bytes.data(), static_cast<int>(letter.bytes.size()), MPI_BYTE, rank, tag,
+        MPI_Isend(letter.bytes.data(), int(letter.bytes.size()), MPI_BYTE, rank, tag,
                   MPI_COMM_WORLD, &letter.request);
     }
     void tidy() {
@@ -76,11 +76,11 @@ std::string packed(const std::exception_ptr& error) {
     try {
         std::rethrow_exception(error);
     } catch (const Error& e) {
-        return bytes_of(static_cast<std::int32_t>(e.kind())) + e.what();
+        return bytes_of(std::int32_t(e.kind())) + e.what();
     } catch (const std::bad_alloc&) {
-        return bytes_of(static_cast<std::int32_t>(Failure::no_memory)) + "out of memory";
+        return bytes_of(std::int32_t(Failure::no_memory)) + "out of memory";
     } catch (const std::exception& e) {
-        return bytes_of(static_cast<std::int32_t>(Failure::internal)) + e.what();
+        return bytes_of(std::int32_t(Failure::internal)) + e.what();
     }
 }
 
@@ -142,7 +142,7 @@ private:
                     if (rank == 0)
                         local.push(*task);
                     else
-                        outbox_.send(static_cast<int>(rank), kTask, bytes_of(*task));
+                        outbox_.send(int(rank), kTask, bytes_of(*task));
                 }
         std::size_t sum = 0;
         for (std::size_t n : at_work) sum += n;
@@ -171,14 +171,14 @@ MpiJob::MpiJob(int& argc, char**& argv) {
 MpiJob::~MpiJob() { MPI_Finalize(); }
 
 std::unique_ptr<Team> MpiJob::team(Work work, std::size_t threads, const std::string& case_text) {
-    const std::string text = bytes_of(static_cast<std::uint64_t>(threads)) + case_text;
+    const std::string text = bytes_of(std::uint64_t(threads)) + case_text;
     for (int rank = 1; rank < size_; ++rank)
-        MPI_Send(text.data(), static_cast<int>(text.size()), MPI_BYTE, rank, kCase, MPI_COMM_WORLD);
+        MPI_Send(text.data(), int(text.size()), MPI_BYTE, rank, kCase, MPI_COMM_WORLD);
     return std::make_unique<MpiTeam>(std::move(work), threads, size_);
 }
 
 void MpiJob::dismiss(int status) {
-    const auto value = static_cast<std::int32_t>(status);
+    const auto value = std::int32_t(status);
     for (int rank = 1; rank < size_; ++rank)
         MPI_Send(&value, sizeof value, MPI_BYTE, rank, kStop, MPI_COMM_WORLD);
     // Results that are no longer needed must still be received until all ranks have left, because
@@ -218,7 +218,7 @@ int MpiJob::serve(const std::function<Work(const std::string&, std::size_t)>& ma
             if (stop) break;
             if (caught_signal() != 0 && !told) {
                 told = true;
-                outbox.send(0, kSignal, bytes_of(static_cast<std::int32_t>(caught_signal())));
+                outbox.send(0, kSignal, bytes_of(std::int32_t(caught_signal())));
             }
             std::optional<WorkerThreads::Done> done;
             if (threads)

@@ -22,9 +22,9 @@ Detail detail_of(const Case& settings) {
 double rms(const std::vector<double>& values) {
     double mean = 0, square = 0;
     for (double v : values) mean += v;
-    mean /= static_cast<double>(values.size());
+    mean /= double(values.size());
     for (double v : values) square += (v - mean) * (v - mean);
-    return std::sqrt(square / static_cast<double>(values.size()));
+    return std::sqrt(square / double(values.size()));
 }
 
 void count_summits(const SummitCount& count, SurfaceStatistics& s) {
@@ -55,7 +55,7 @@ void require_summits(const SurfaceModel& model, const std::string& name, const s
 std::string map_file(const std::string& name, std::int64_t number) {
     if (!is_pattern(name)) return name;
     const std::vector<std::string> files = matching_files(name);
-    if (number < 1 || number > static_cast<std::int64_t>(files.size()))
+    if (number < 1 || number > std::int64_t(files.size()))
         bad_input(name, ": realization ", number, " is requested, but only ", files.size(),
                   " files match");
     return files[at(number - 1)];
@@ -68,8 +68,8 @@ HeightMap part_of(const HeightMap& map, const std::optional<double> (&window)[4]
     constexpr double slack = 1e-6;
     const auto range = [](double from, double to, double origin, double step, int n) {
         const auto place = [&](double x) { return std::clamp((x - origin) / step, -1.0, n + 0.0); };
-        return std::pair(std::max(0, static_cast<int>(std::ceil(place(from) - slack))),
-                         std::min(n - 1, static_cast<int>(std::floor(place(to) + slack))));
+        return std::pair(std::max(0, int(std::ceil(place(from) - slack))),
+                         std::min(n - 1, int(std::floor(place(to) + slack))));
     };
     const auto [i0, i1] = range(*window[0], *window[1], map.x0, map.dx, map.nx);
     const auto [j0, j1] = range(*window[2], *window[3], map.y0, map.dy, map.ny);
@@ -134,7 +134,7 @@ SurfaceModel read_list(const Case& settings) {
     make_law(settings.asperities.law, model.asperities,
              1);  // refuses asperities without the properties that the law needs
     model.domain = list_domain(model.asperities, keys.L, "the asperities in " + keys.file);
-    model.statistics.summits = static_cast<std::int64_t>(model.asperities.size());
+    model.statistics.summits = std::int64_t(model.asperities.size());
     model.statistics.sigma = model.domain.sigma;
     model.list = true;
     return model;
@@ -202,9 +202,8 @@ Surface make_surface(const Case& settings, std::int64_t number, int threads) {
 }
 
 int element_points(const Case& settings, const Spectrum& spectrum) {
-    return fast_size(
-        static_cast<int>(std::ceil(settings.elements.points_per_wave * shortest_wave(spectrum))),
-        2);
+    return fast_size(int(std::ceil(settings.elements.points_per_wave * shortest_wave(spectrum))),
+                     2);
 }
 
 std::string too_large_for_elements(const Case& settings, const Spectrum& spectrum) {
@@ -237,7 +236,7 @@ std::vector<double> spaced(const Case::Indentation& keys) {
     if (!keys.levels.empty()) return keys.levels;
     std::vector<double> values(at(keys.steps));
     for (const auto k : indices(values)) {
-        const double t = keys.steps > 1 ? static_cast<double>(k) / (keys.steps - 1) : 0.0;
+        const double t = keys.steps > 1 ? double(k) / (keys.steps - 1) : 0.0;
         values[k] = keys.spacing == Spacing::log ? keys.start * std::pow(keys.stop / keys.start, t)
                                                  : keys.start + t * (keys.stop - keys.start);
     }
@@ -316,8 +315,7 @@ SurfaceDomain list_domain(const Asperities& asperities, std::optional<double> L,
     domain.sigma = rms(asperities.z);
     domain.guessed = !L;
     if (L || extent > 0)
-        domain.mean_spacing =
-            std::sqrt(domain.Lx * domain.Ly / static_cast<double>(asperities.size()));
+        domain.mean_spacing = std::sqrt(domain.Lx * domain.Ly / double(asperities.size()));
     return domain;
 }
 
@@ -361,7 +359,7 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
     require_summits(model, surface.name, map.periodic ? "" : " inside the map");
     if (!surface.theory)
         model.domain.mean_spacing =
-            std::sqrt(map.Lx() * map.Ly() / static_cast<double>(model.asperities.size()));
+            std::sqrt(map.Lx() * map.Ly() / double(model.asperities.size()));
     if (!map.periodic) model.domain.marks = marks_of(map, *breaks);
     count_summits(count, model.statistics);
     return model;
@@ -449,8 +447,7 @@ Shape shape_of(const Case& settings) {
         if (!by_elements(settings))
             (void)find_asperities(second.map, settings.asperities.curvature, &count, 1);
         if (count.summits > 0)
-            made.spacing =
-                std::sqrt(second.map.Lx() * second.map.Ly() / static_cast<double>(count.summits));
+            made.spacing = std::sqrt(second.map.Lx() * second.map.Ly() / double(count.summits));
         made.shortest_wave =
             second.measured->points_per_wave() * std::max(second.map.dx, second.map.dy);
         auto map = std::make_shared<HeightMap>(std::move(second.map));

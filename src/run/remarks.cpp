@@ -36,7 +36,7 @@ public:
     Sayings(std::ostream& out, std::span<const LevelValues> levels) : out_(out), levels_(levels) {}
     template <class Holds>
     long count(Holds holds) const {
-        return static_cast<long>(std::ranges::count_if(levels_, holds));
+        return long(std::ranges::count_if(levels_, holds));
     }
     template <class Holds>
     void say(Holds holds, const std::string& what) const {
@@ -76,7 +76,7 @@ void print_doubts(std::ostream& out, std::span<const LevelValues> levels, const 
                   bool elements) {
     const Sayings levels_with(out, levels);
     for (const auto k : indices(kCauseNames)) {
-        const Cause cause{static_cast<int>(k)};
+        const Cause cause{int(k)};
         levels_with.say([&](const LevelValues& l) { return (l.doubts & bit(cause)) != 0; },
                         words_of_doubts(bit(cause)) + " - " + sentence(cause, elements) +
                             remedy_of(cause, job, elements));
@@ -218,7 +218,7 @@ void print_tabor(std::ostream& out, const Job& job) {
     else if (job.given && job.given->asperities.size() > 0) {
         summit = 0;
         for (double r : job.given->asperities.radius)
-            summit += r / static_cast<double>(job.given->asperities.radius.size());
+            summit += r / double(job.given->asperities.radius.size());
     }
     const double R = job.indenter.shape->hertz_radius(), range = c.solids.adhesion_range;
     if (summit > 0 && range > 0)
@@ -354,7 +354,7 @@ void tell_unreached_heights(std::ostream& out, std::span<const SurfaceStatistics
     const HeightShape wish =
         job.spectrum->heights ? job.spectrum->heights->shape() : job.spectrum->shape;
     HeightShape mean{0, 0};
-    const double all = static_cast<double>(surfaces.size());
+    const double all = double(surfaces.size());
     long missed = 0;
     for (const SurfaceStatistics& s : surfaces) {
         mean.skewness += s.skewness / all;

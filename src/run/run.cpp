@@ -43,9 +43,8 @@ RunSummary summary_of(const Result& result) {
     // The means of a single level that did not converge are missing, but it has values.
     const bool one = o.realizations == 1;
     const LevelValues& last = o.rows.back();
-    return {static_cast<long>(o.rows.size() + result.compared.levels.size()),
-            static_cast<long>(failed) + result.compared.failed,
-            one ? last.separation : o.separation.mean.back(),
+    return {long(o.rows.size() + result.compared.levels.size()),
+            long(failed) + result.compared.failed, one ? last.separation : o.separation.mean.back(),
             one ? last.force : o.force.mean.back(), one ? last.area : o.area.mean.back()};
 }
 
@@ -125,8 +124,8 @@ std::string twins_text(const Job& job, const std::string& result) {
     twins.surface.source = Source::spectrum;
     twins.surface.file = result;
     twins.surface.L = L;
-    twins.surface.n = 2 * static_cast<int>(std::ceil(m.spectrum.wavenumber.back() * L /
-                                                     (2 * std::numbers::pi) * (1 - 1e-12))) +
+    twins.surface.n = 2 * int(std::ceil(m.spectrum.wavenumber.back() * L / (2 * std::numbers::pi) *
+                                        (1 - 1e-12))) +
                       2;  // one more point for heights of any distribution
     twins.surface.twins = m.isotropy < kIsotropic ? Twins::directional : Twins::radial;
     twins.surface.twin_heights = m.gaussian() ? TwinHeights::gaussian : TwinHeights::measured;
@@ -252,10 +251,10 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     const bool replaces = check_result_path(settings, options);
     const Contacts keep = contacts_kept(settings);
     Job job = prepare(settings);
-    const int threads = static_cast<int>(most_threads(settings.run.threads));
+    const int threads = int(most_threads(settings.run.threads));
     const LoopThreads loops(threads);
     std::ostream* const table = options.table;
-    const double total = static_cast<double>(job.levels.size());
+    const double total = double(job.levels.size());
     double done = 0;
     const auto go_on = [&] {
         leave_if_interrupted("; nothing is written");
@@ -272,7 +271,7 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
         r = realize(job, settings.run.first_realization, threads,
                     [&](std::size_t k, const Level& level) {
                         if (table) print_level(*table, job, k, level);
-                        done = static_cast<double>(k + 1);
+                        done = double(k + 1);
                         progress.show(done, total);
                         go_on();
                     });

@@ -307,11 +307,8 @@ void print_result(std::ostream& out, const std::string& file, bool replaces) {
 std::string duration(double seconds) {
     if (seconds < 1) return format("%.0f ms", 1000 * seconds);
     if (seconds < 100) return format("%.1f s", seconds);
-    if (seconds < 5400)
-        return format("%d min %02d s", static_cast<int>(seconds) / 60,
-                      static_cast<int>(seconds) % 60);
-    return format("%d h %02d min", static_cast<int>(seconds / 3600),
-                  static_cast<int>(seconds / 60) % 60);
+    if (seconds < 5400) return format("%d min %02d s", int(seconds) / 60, int(seconds) % 60);
+    return format("%d h %02d min", int(seconds / 3600), int(seconds / 60) % 60);
 }
 
 // Seconds from which the time of the rest is said, and before which the preparation of the surface
@@ -357,7 +354,7 @@ void ProgressLine::show(double done, double total) {
         rate > 0 ? format("%.3g a second, ", rate) + duration((total - done) / rate) + " left" : "";
     if (terminal_) {
         constexpr int width = 30;
-        const int filled = static_cast<int>(width * done / total);
+        const int filled = int(width * done / total);
         *out_ << "\r[" << std::string(at(filled), '#') << std::string(at(width - filled), '.')
               << format("] %.0f/%.0f %s, %s\033[K", done, total, unit_, left.c_str()) << std::flush;
     } else {
@@ -411,8 +408,7 @@ void print_batch(std::ostream& out, const Job& job, const Accumulators& sums, do
     const bool prescribed = job.settings.indentation.control != Control::separation;
     out << format("%12zu %14.8g %10.3g %14.8g %10.3g %12s %10.3g\n", count, force.mean[0],
                   prescribed ? 0.0 : scatter(force), area.mean[0], scatter(area),
-                  duration(seconds).c_str(),
-                  static_cast<double>(done_in_this_run) / std::max(seconds, 1e-3))
+                  duration(seconds).c_str(), double(done_in_this_run) / std::max(seconds, 1e-3))
         << std::flush;
 }
 
@@ -436,7 +432,7 @@ void print_campaign_summary(std::ostream& out, const Job& job, const Observation
     if (!o.surface.empty() && o.surface.front().m2 > 0) {
         double m2 = 0;
         for (const SurfaceStatistics& surface : o.surface)
-            m2 += surface.m2 / static_cast<double>(o.surface.size());
+            m2 += surface.m2 / double(o.surface.size());
         out << format("surfaces: rms slope %.4g", std::sqrt(2 * m2))
             << slope_remark(std::sqrt(2 * m2)) << '\n';
     }

@@ -253,7 +253,7 @@ public:
                 line.wipe();
                 tell(**std::ranges::find_if(members, at), summary);
                 add(summary);
-                line.show(static_cast<double>(++done), static_cast<double>(members.size()));
+                line.show(double(++done), double(members.size()));
             },
             0);
     }
@@ -326,7 +326,7 @@ CampaignWork make_work(const std::vector<Member>& members, const RunOptions& opt
     for (const Member& member : members) {
         cases.push_back(member.settings);
         cases.back().run.threads =
-            static_cast<int>(std::max<std::size_t>(1, threads / std::min(threads, members.size())));
+            int(std::max<std::size_t>(1, threads / std::min(threads, members.size())));
     }
     return {std::move(cases), options};
 }
@@ -345,10 +345,9 @@ double check_members(const ReadCase& read, std::optional<int> only, const RunOpt
         if (estimated == samples) return prepare_once(member.settings, files_read);
         ++estimated;
         // Members of one realization run in parallel.
-        const double side_by_side = campaign || wanted.size() == 1
-                                        ? 1.0
-                                        : static_cast<double>(std::min(threads, wanted.size()));
-        const double workers = static_cast<double>(threads);
+        const double side_by_side =
+            campaign || wanted.size() == 1 ? 1.0 : double(std::min(threads, wanted.size()));
+        const double workers = double(threads);
         megabytes = std::max(megabytes,
                              expected_megabytes(prepare(member.settings), workers) * side_by_side);
     });

@@ -62,7 +62,7 @@ void mark_border_pixels(const Level& level, const Indenter& indenter, double Ly,
                         const std::function<void(std::int32_t)>& mark) {
     const LevelPixels& p = level.pixels;
     const bool ends = indenter.shape->keys().map != nullptr;
-    const auto rows = static_cast<std::int32_t>(std::lround(Ly / p.dy));
+    const auto rows = std::int32_t(std::lround(Ly / p.dy));
     const auto at_border = [&](std::int32_t pixel) {
         const std::int32_t column = pixel % p.columns, row = pixel / p.columns;
         const Period& period = indenter.period;
@@ -113,7 +113,7 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
             else
                 cut[at(contact)] = true;
         });
-    const auto count = static_cast<std::int32_t>(std::ranges::count(cut, true));
+    const auto count = std::int32_t(std::ranges::count(cut, true));
     level.edge_contacts = attracts ? std::max(count, 1) : count;
     if (options.surface.marks && !(pixels.dx > 0))
         level.edge_contacts += border_contacts(level, indenter, *options.surface.marks);
@@ -123,14 +123,13 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
 
 void count_contacts(Level& level, const Indenter& indenter, const SolverOptions& options) {
     const auto larger_than = [&](double most) {
-        return static_cast<std::int32_t>(
-            std::ranges::count_if(level.a, [&](double a) { return a > most; }));
+        return std::int32_t(std::ranges::count_if(level.a, [&](double a) { return a > most; }));
     };
     if (options.surface.mean_spacing > 0)
         level.large_contacts = larger_than(options.surface.mean_spacing / 4);
     if (indenter.layers.count > 0 && level.pixels.dx == 0)
         level.wide_contacts = larger_than(indenter.layers.layer[0].thickness / 5) /
-                              std::max(static_cast<double>(level.a.size()), 1.0);
+                              std::max(double(level.a.size()), 1.0);
     count_edges(level, indenter, options);
     level.nominal_area = nominal_area(level, indenter, options.surface.extent);
 }

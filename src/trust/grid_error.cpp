@@ -44,9 +44,9 @@ double edge_share(const Indenter& indenter, double side) {
 // The clearance of the points of a row, z - s.
 void clearances(const HeightMap& map, const Indenter& indenter, int row,
                 std::vector<double>& line) {
-    line.resize(static_cast<std::size_t>(map.nx));
+    line.resize(std::size_t(map.nx));
     for (int i = 0; i < map.nx; ++i)
-        line[static_cast<std::size_t>(i)] = indenter.clearance(map.x(i), map.y(row), map(i, row));
+        line[std::size_t(i)] = indenter.clearance(map.x(i), map.y(row), map(i, row));
 }
 
 // Column and row of the highest point under the indenter.
@@ -55,16 +55,15 @@ std::array<int, 2> highest_point(const HeightMap& map, const Indenter& indenter)
         double z;
         int column;
     };
-    std::vector<Top> tops(static_cast<std::size_t>(map.ny));
+    std::vector<Top> tops(std::size_t(map.ny));
     parallel_for(map.ny, kRows, 0, [&](int j) {
         std::vector<double> line;
         clearances(map, indenter, j, line);
         const auto top = std::ranges::max_element(line);
-        tops[static_cast<std::size_t>(j)] = {std::isnan(*top) ? -kInfinity : *top,
-                                             static_cast<int>(top - line.begin())};
+        tops[std::size_t(j)] = {std::isnan(*top) ? -kInfinity : *top, int(top - line.begin())};
     });
     const auto highest = std::ranges::max_element(tops, {}, &Top::z);
-    return {highest->column, static_cast<int>(highest - tops.begin())};
+    return {highest->column, int(highest - tops.begin())};
 }
 
 // Along an axis that repeats the points of the coarse map are evenly spaced over the period,
@@ -84,8 +83,7 @@ HeightMap coarser_period(const HeightMap& map, const Period& period, std::array<
             step = 2 * step_;
         }
         int at(int k) const {
-            return repeats ? wrapped(first + static_cast<int>(std::int64_t{k} * n / points), n)
-                           : first + 2 * k;
+            return repeats ? wrapped(first + int(std::int64_t{k} * n / points), n) : first + 2 * k;
         }
     };
     const Axis x(map.nx, first[0], map.dx, std::isfinite(period.x)),
@@ -213,14 +211,14 @@ double touch_between_points(const HeightMap& map, const Indenter& indenter) {
     for (int j = 0; j < map.ny; ++j) {
         clearances(map, indenter, continued(j + 1, map.ny, repeats_y), above);
         for (int i = 0; i < map.nx; ++i) {
-            const auto k = static_cast<std::size_t>(i);
+            const auto k = std::size_t(i);
             const double top = here[k];
             const auto rise = [&](double one, double other) {
                 const double lower = std::min(one, other);
                 return std::isfinite(lower) ? 0.5 * (top - lower) : 0.0;
             };
             const auto beside = [&](int way) {
-                return here[static_cast<std::size_t>(continued(i + way, map.nx, repeats_x))];
+                return here[std::size_t(continued(i + way, map.nx, repeats_x))];
             };
             const double left = beside(-1), right = beside(1);
             if (std::isfinite(top) && top >= left && top >= right && top >= below[k] &&

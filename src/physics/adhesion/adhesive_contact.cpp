@@ -183,10 +183,10 @@ std::vector<double> AdhesiveAsperities::write() const {
     if (past.separation == kInfinity) return {};
     const Indenter& tip = path_->indenter;
     std::vector<double> numbers = {tip.x0,      tip.y0,           past.separation,
-                                   past.lost,   past.least_force, static_cast<double>(past.jumps),
+                                   past.lost,   past.least_force, double(past.jumps),
                                    past.margin, past.most_energy};
     for (const auto k : indices(past.asperity))
-        append(numbers, {static_cast<double>(past.asperity[k]), past.s[k]});
+        append(numbers, {double(past.asperity[k]), past.s[k]});
     return numbers;
 }
 
@@ -205,15 +205,15 @@ void AdhesiveAsperities::read(const std::vector<double>& numbers) {
             past.separation = numbers[2];
             past.lost = numbers[3];
             past.least_force = numbers[4];
-            past.jumps = static_cast<int>(numbers[5]);
+            past.jumps = int(numbers[5]);
             past.margin = numbers[6];
             past.most_energy = numbers[7];
         }
         for (std::size_t k = kBefore; sound && k + 1 < numbers.size(); k += 2) {
-            sound = numbers[k] >= 0 && numbers[k] < static_cast<double>(my.asperities.size()) &&
-                    numbers[k + 1] > 0;
+            sound =
+                numbers[k] >= 0 && numbers[k] < double(my.asperities.size()) && numbers[k + 1] > 0;
             if (!sound) break;
-            past.asperity.push_back(static_cast<int>(numbers[k]));
+            past.asperity.push_back(int(numbers[k]));
             past.s.push_back(numbers[k + 1]);
         }
         if (!sound) bad_input("the state does not belong to these asperities");

@@ -51,7 +51,7 @@ private:
     }
 
     void read(const std::vector<double>& numbers) override {
-        const auto points = static_cast<double>(state_.clearance.size());
+        const auto points = double(state_.clearance.size());
         const bool any = !numbers.empty();
         bool sound =
             !any || (numbers.size() >= kKept && (numbers.size() - kKept) % 2 == 0 &&
@@ -60,7 +60,7 @@ private:
         AdhesivePixels::Past past;
         for (std::size_t k = kKept; k < numbers.size() && sound; k += 2) {
             sound = numbers[k] >= 0 && numbers[k] < points;
-            past.attracting.push_back(static_cast<std::int32_t>(numbers[k]));
+            past.attracting.push_back(std::int32_t(numbers[k]));
             past.share.push_back(numbers[k + 1]);
         }
         if (!sound) bad_input("this is not the state of a contact of this surface");
@@ -70,7 +70,7 @@ private:
         past.force = numbers[1];
         past.least_force = numbers[2];
         past.lost = numbers[3];
-        past.jumps = static_cast<std::int32_t>(numbers[4]);
+        past.jumps = std::int32_t(numbers[4]);
         if (numbers[5] != state_.indenter.x0 || numbers[6] != state_.indenter.y0) {
             state_.indenter.move(numbers[5], numbers[6]);
             state_.set_clearances();

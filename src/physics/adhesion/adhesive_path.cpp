@@ -94,7 +94,7 @@ bool AdhesivePath::cover(double lowest, const std::vector<int>& attached, const 
         std::vector<std::pair<int, double>> order;
         for (const auto j : indices(attached)) {
             const auto found = std::ranges::find(set.asperity, attached[j]);
-            order.emplace_back(static_cast<int>(found - set.asperity.begin()), s[j]);
+            order.emplace_back(int(found - set.asperity.begin()), s[j]);
         }
         std::ranges::sort(order);
         here.active.clear();
@@ -369,8 +369,8 @@ AdhesivePath::Found AdhesivePath::descend(Point& there, bool jump, double accura
                 if (relaxed && !relaxed->gone) continue;
                 if (relaxed) weakest = *relaxed->gone;
             }
-            there.active.erase(there.active.begin() + static_cast<std::ptrdiff_t>(weakest));
-            there.s.erase(there.s.begin() + static_cast<std::ptrdiff_t>(weakest));
+            there.active.erase(there.active.begin() + std::ptrdiff_t(weakest));
+            there.s.erase(there.s.begin() + std::ptrdiff_t(weakest));
             continue;
         }
         if (const double more = raised(); more > margin) {
@@ -512,7 +512,7 @@ void AdhesivePath::accept(Point there, const Step& step) {
         const bool detaches = std::ranges::none_of(changed, attaches);
         now.lost += dissipated(there, step.ahead, detaches);
     } else {
-        jumps += static_cast<int>(changed.size());
+        jumps += int(changed.size());
         for (const int position : changed)
             now.lost += sticking.loss(at_place(position), attaches(position));
     }

@@ -392,7 +392,7 @@ Level AdhesivePixels::step(double Z, const Past* start) {
     gap.resize(clearance.size());
     for (const auto i : indices(gap)) gap[i] = Z - clearance[i];
     const bool converged = renew(Z, level);
-    level.candidates = static_cast<std::int32_t>(reach.size());
+    level.candidates = std::int32_t(reach.size());
     now.separation = Z;
     now.attracting.clear();
     now.share.clear();
@@ -525,7 +525,7 @@ std::int32_t AdhesivePixels::count_jumps() const {
     std::vector<std::size_t> points(at(sets));
     for (const int of : set) ++points[at(of)];
     const auto large = std::ranges::count_if(points, [](std::size_t n) { return n >= kFewest; });
-    return std::max(1, static_cast<std::int32_t>(large));
+    return std::max(1, std::int32_t(large));
 }
 
 void AdhesivePixels::restore(const Past& past) {

@@ -83,12 +83,11 @@ private:
     void trace() {
         line_.assign(length_, 0);
         Reached at = end();
-        for (std::size_t a = at.a; a < length_; ++a) line_[a] = static_cast<std::int32_t>(at.c);
+        for (std::size_t a = at.a; a < length_; ++a) line_[a] = std::int32_t(at.c);
         while (at.a > 0) {
             const Reached next = before(at.a, at.c);
             if (next.a == at.a) break;
-            for (std::size_t a = next.a; a < at.a; ++a)
-                line_[a] = static_cast<std::int32_t>(next.c);
+            for (std::size_t a = next.a; a < at.a; ++a) line_[a] = std::int32_t(next.c);
             at = next;
         }
     }
@@ -100,7 +99,7 @@ private:
         };
         for (std::size_t a = length_ - (oblique() && length_ > 1 ? 2 : 1); a < length_; ++a)
             for (const auto c : indices(width_)) {
-                const auto parity = static_cast<std::int32_t>(a + c) + first_ + band_.low;
+                const auto parity = std::int32_t(a + c) + first_ + band_.low;
                 if (oblique() && parity % 2 != 0) continue;
                 const std::int32_t points = points_[index(a, c)];
                 if (points < best.points ||
@@ -155,7 +154,7 @@ private:
     std::int32_t fewest(std::int32_t Place::*across, int n) const {
         std::vector<std::uint32_t> count(at(n), 0);
         for (const Place& p : places_) ++count[at(p.*across % n)];
-        return static_cast<std::int32_t>(std::ranges::min_element(count) - count.begin());
+        return std::int32_t(std::ranges::min_element(count) - count.begin());
     }
 
     // Cuts the part into halves, these again, and puts the points of each line behind its halves.
@@ -181,8 +180,7 @@ private:
             else
                 last_[third++] = p;
         }
-        const auto rest =
-            std::copy_n(other_.begin(), second, part.begin() + static_cast<std::ptrdiff_t>(first));
+        const auto rest = std::copy_n(other_.begin(), second, part.begin() + std::ptrdiff_t(first));
         std::copy_n(last_.begin(), third, rest);
         return {first, first + second};
     }
@@ -205,7 +203,7 @@ private:
         }
         Band best;
         for (const auto d : indices(kDirections)) {
-            const Band band = middle(d, low[d], static_cast<double>(part.size()));
+            const Band band = middle(d, low[d], double(part.size()));
             if (band.score < best.score) best = band;
         }
         return best;

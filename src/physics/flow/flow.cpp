@@ -25,8 +25,8 @@ void add_gap(LevelValues& level, const GapMap& map) {
         }
         return row;
     });
-    level.gap_mean = sum / static_cast<double>(map.points());
-    level.gap_mean_open = open > 0 ? sum / static_cast<double>(open) : 0;
+    level.gap_mean = sum / double(map.points());
+    level.gap_mean_open = open > 0 ? sum / double(open) : 0;
     const Openings openings(
         map, [&](std::size_t k, std::size_t l) { return map.gap[k] > 0 && map.gap[l] > 0; });
     level.percolates_x = openings.any_winds_x() ? 1 : 0;

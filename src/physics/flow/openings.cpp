@@ -20,7 +20,7 @@ Openings::Openings(const GapMap& map, const Linked& open)
         const std::size_t first = at(band) * kBand * nx,
                           end = std::min(first + kBand * nx, node_.size());
         std::uint8_t& all = winding[at(band)];
-        for (std::size_t k = first; k < end; ++k) node_[k].parent = static_cast<std::uint32_t>(k);
+        for (std::size_t k = first; k < end; ++k) node_[k].parent = std::uint32_t(k);
         for (std::size_t k = first; k < end; ++k) {
             const std::size_t right = map.right_of(k);
             if (open(k, right)) all |= link(k, right, right <= k ? 1 : 0, 0);
@@ -48,7 +48,7 @@ std::size_t Openings::root(std::size_t k) {
         Node& node = node_[k];
         const std::size_t next = node.parent;
         const std::int32_t step_x = node.x, step_y = node.y;
-        node = {static_cast<std::uint32_t>(top), x, y};
+        node = {std::uint32_t(top), x, y};
         x -= step_x;
         y -= step_y;
         k = next;
@@ -64,11 +64,11 @@ std::uint8_t Openings::link(std::size_t k, std::size_t l, int period_x, int peri
     const std::int32_t y = (a == k ? 0 : node_[k].y) + period_y - (b == l ? 0 : node_[l].y);
     const std::size_t into = std::min(a, b);
     if (a == b) {
-        winds_[a] |= static_cast<std::uint8_t>((x != 0 ? 1 : 0) | (y != 0 ? 2 : 0));
+        winds_[a] |= std::uint8_t((x != 0 ? 1 : 0) | (y != 0 ? 2 : 0));
     } else {
         const std::size_t from = std::max(a, b);
         const std::int32_t sign = from == b ? 1 : -1;
-        node_[from] = {static_cast<std::uint32_t>(into), sign * x, sign * y};
+        node_[from] = {std::uint32_t(into), sign * x, sign * y};
         winds_[into] |= winds_[from];
     }
     return winds_[into];

@@ -187,10 +187,9 @@ public:
           order_(dissection(map.nx, map.ny, used_)),
           place_(map.points(), kNone),
           winds_(map.points(), 0) {
-        for (const auto p : indices(order_)) place_[order_[p]] = static_cast<std::uint32_t>(p);
+        for (const auto p : indices(order_)) place_[order_[p]] = std::uint32_t(p);
         for (const std::uint32_t k : order_)
-            winds_[k] = static_cast<std::uint8_t>((openings.winds_x(k) ? 1 : 0) |
-                                                  (openings.winds_y(k) ? 2 : 0));
+            winds_[k] = std::uint8_t((openings.winds_x(k) ? 1 : 0) | (openings.winds_y(k) ? 2 : 0));
         assemble(openings);
     }
 
@@ -266,7 +265,7 @@ private:
                 const double c = link(k, l, along_x);
                 if (!(c > 0)) continue;
                 for (const auto d : indices(2)) {
-                    const double flux = c * drop(p[d], static_cast<int>(d), k, l, along_x);
+                    const double flux = c * drop(p[d], int(d), k, l, along_x);
                     r[place + d * n] += flux;
                     r[place_[l] + d * n] -= flux;
                 }
@@ -388,7 +387,7 @@ Permeability permeability(const GapMap& map, std::vector<double>* flow) {
         const std::optional<Pressures> pressures = equations.solve();
         if (!pressures) continue;
         if (flow) *flow = flux_of(map, equations, (*pressures)[0], conductance.unit());
-        const double unit = conductance.unit() / static_cast<double>(map.points());
+        const double unit = conductance.unit() / double(map.points());
         const double stretch = map.dx / map.dy;
         const Permeability k = equations.dissipation(*pressures);
         return {unit * stretch * k.xx, unit * k.yy / stretch, unit * k.xy};

@@ -287,7 +287,7 @@ void FrictionHistory::slip(LoadCurve& curve, State& state, double dd, Slide dxi,
         return;
     }
     const std::vector<Node> before = std::move(state.nodes);
-    std::vector<Node> after(free.begin(), free.begin() + static_cast<std::ptrdiff_t>(inside));
+    std::vector<Node> after(free.begin(), free.begin() + std::ptrdiff_t(inside));
     Slide direction;
     double edge = touch;
     if (inside == 0) {  // full slip
@@ -448,26 +448,24 @@ SlideCycle slide_cycle(LoadCurve& curve, const Friction& friction, double delta,
     const auto whole = curve.load(delta);
     LoadCurve::Load at_top;
     for (std::size_t k = 1; k < n; ++k) {
-        const auto inner =
-            curve.load(delta - (delta - touch) * static_cast<double>(k) / static_cast<double>(n));
+        const auto inner = curve.load(delta - (delta - touch) * double(k) / double(n));
         drop[k] = whole.force - inner.force;
         if (k == top) at_top = inner;
     }
     drop[n] = whole.force;
     SlideCycle cycle;
     cycle.first = n + 1;
-    const double step = c * (delta - touch) / static_cast<double>(n);
+    const double step = c * (delta - touch) / double(n);
     const auto put = [&](double xi, double Q) {
         cycle.displacement.push_back(xi);
         cycle.force.push_back(Q);
     };
-    for (std::size_t k = 0; k <= n; ++k) put(step * static_cast<double>(k), mu * drop[k]);
-    const double xi_A = step * static_cast<double>(top), Q_A = mu * drop[top];
-    for (std::size_t k = 0; k <= top; ++k)
-        put(xi_A - 2 * step * static_cast<double>(k), Q_A - 2 * mu * drop[k]);
+    for (std::size_t k = 0; k <= n; ++k) put(step * double(k), mu * drop[k]);
+    const double xi_A = step * double(top), Q_A = mu * drop[top];
+    for (std::size_t k = 0; k <= top; ++k) put(xi_A - 2 * step * double(k), Q_A - 2 * mu * drop[k]);
     for (std::size_t k = 1; k <= top; ++k)
-        put(-xi_A + 2 * step * static_cast<double>(k), -Q_A + 2 * mu * drop[k]);
-    const double depth = (delta - touch) * static_cast<double>(top) / static_cast<double>(n);
+        put(-xi_A + 2 * step * double(k), -Q_A + 2 * mu * drop[k]);
+    const double depth = (delta - touch) * double(top) / double(n);
     cycle.work =
         4 * mu * c * ((whole.force + at_top.force) * depth - 2 * (whole.energy - at_top.energy));
     return cycle;

@@ -27,7 +27,7 @@ public:
         elastic_->prepare(asperities);
         for (int i : asperities) {
             if (place_[at(i)] >= 0) continue;
-            place_[at(i)] = static_cast<int>(summits_.size());
+            place_[at(i)] = int(summits_.size());
             Summit s;
             s.H = hardness_.H0 * std::sqrt(1 + hardness_.length / radius_[at(i)]);
             s.yield = elastic_->yield_penetration(i, s.H);
@@ -225,27 +225,25 @@ public:
     }
     // Pairs of the index of a yielded asperity and its largest penetration.
     void write(std::vector<double>& numbers) const override {
-        for (const int i : law_.yielded())
-            append(numbers, {static_cast<double>(i), law_.deepest(i)});
+        for (const int i : law_.yielded()) append(numbers, {double(i), law_.deepest(i)});
     }
     void read(std::span<const double> numbers) override {
         std::vector<int> yielded;
         std::vector<double> deepest;
         for (std::size_t k = 0; k + 1 < numbers.size(); k += 2) {
-            if (!(numbers[k] >= 0 && numbers[k] < static_cast<double>(asperities_) &&
+            if (!(numbers[k] >= 0 && numbers[k] < double(asperities_) &&
                   std::isfinite(numbers[k + 1])))
                 bad_input("the state does not belong to a contact of these asperities");
-            yielded.push_back(static_cast<int>(numbers[k]));
+            yielded.push_back(int(numbers[k]));
             deepest.push_back(numbers[k + 1]);
         }
         law_.forget();
         law_.prepare(yielded);
-        law_.commit(static_cast<int>(yielded.size()), yielded.data(), deepest.data());
+        law_.commit(int(yielded.size()), yielded.data(), deepest.data());
     }
     std::vector<double> residual_depths() const override {
         std::vector<double> depths;
-        for (const auto i : indices(asperities_))
-            depths.push_back(law_.residual_depth(static_cast<int>(i)));
+        for (const auto i : indices(asperities_)) depths.push_back(law_.residual_depth(int(i)));
         return depths;
     }
 

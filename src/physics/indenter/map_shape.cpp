@@ -68,8 +68,8 @@ public:
             const double from = low / step + 0.5 * (n - 1) - 1,
                          to = high / step + 0.5 * (n - 1) + 1;
             if (to < 0 || from > n - 1) return false;
-            first = std::clamp(static_cast<int>(from), 0, n - 1) / kBlock;
-            last = std::clamp(static_cast<int>(to), 0, n - 1) / kBlock;
+            first = std::clamp(int(from), 0, n - 1) / kBlock;
+            last = std::clamp(int(to), 0, n - 1) / kBlock;
             return true;
         };
         int i0, i1, j0, j1;
@@ -79,7 +79,7 @@ public:
         double top = -kInfinity;
         for (int j = j0; j <= j1; ++j)
             for (int i = i0; i <= i1; ++i)
-                top = std::max(top, tops_[static_cast<std::size_t>(j * blocks_x_ + i)]);
+                top = std::max(top, tops_[std::size_t(j * blocks_x_ + i)]);
         return -top;
     }
     double reach() const override { return 0.5 * std::hypot(map_.Lx(), map_.Ly()); }
@@ -106,7 +106,7 @@ private:
     bool place(double offset, double step, int n, int orders, Along& along) const {
         const double at = offset / step + 0.5 * (n - 1);
         if (!map_.periodic && !(at >= -0.5 - kOnPoint && at <= n - 0.5 + kOnPoint)) return false;
-        int middle = static_cast<int>(std::floor(at + 0.5));
+        int middle = int(std::floor(at + 0.5));
         int reach = kReach;
         if (!map_.periodic) {
             reach = std::clamp(std::min(middle, n - 1 - middle), 1, kReach);
@@ -119,7 +119,7 @@ private:
             along.reach = reach;
             along.t = t;
             along.orders = orders;
-            stencils_[static_cast<std::size_t>(reach - 1)].weights(t, orders, along.weight);
+            stencils_[std::size_t(reach - 1)].weights(t, orders, along.weight);
         }
         along.first = middle - reach;
         return true;

@@ -27,7 +27,7 @@ Shape make_shape(int shape, const ShapeKeys& keys) {
 int shape_number(const char* name) {
     const auto row = std::ranges::find_if(
         kShapes, [name](const ShapeRow& r) { return std::strcmp(r.name, name) == 0; });
-    return static_cast<int>(row - kShapes.begin());
+    return int(row - kShapes.begin());
 }
 
 std::vector<Vec2> circle(double radius) {

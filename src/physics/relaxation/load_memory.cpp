@@ -68,7 +68,7 @@ double LoadMemory::stored() const {
 void LoadMemory::forget() { *this = LoadMemory(Creep(creep_)); }
 
 void LoadMemory::write(std::vector<double>& numbers) const {
-    append(numbers, {static_cast<double>(places_.size()), ff_, lost_});
+    append(numbers, {double(places_.size()), ff_, lost_});
     append(numbers, yf_);
     append(numbers, yy_);
     append(numbers, places_);
@@ -93,7 +93,7 @@ std::size_t LoadMemory::read(std::span<const double> numbers) {
     lost_ = *next++;
     take(yf_, terms);
     take(yy_, terms);
-    for (const auto i : indices(n)) places_.push_back(static_cast<std::int32_t>(*next++));
+    for (const auto i : indices(n)) places_.push_back(std::int32_t(*next++));
     take(f_, n);
     for (auto& y : y_) take(y, n);
     if (!std::ranges::is_sorted(places_) || (n > 0 && places_[0] < 0))

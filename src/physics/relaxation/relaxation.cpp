@@ -53,7 +53,7 @@ std::vector<Branch> branches_of(const Relaxation& body, double& total) {
     for (std::size_t k = own.size(); k-- > 1;) {
         if (own[k].rate > own[k - 1].rate) continue;
         own[k - 1].share += own[k].share;
-        own.erase(own.begin() + static_cast<std::ptrdiff_t>(k));
+        own.erase(own.begin() + std::ptrdiff_t(k));
     }
     return own;
 }

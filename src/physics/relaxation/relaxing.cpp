@@ -97,7 +97,7 @@ public:
             int& place = place_[at(asperity[k])];
             if (place < 0 && !(u[k] > 0)) continue;
             if (place < 0) {
-                place = static_cast<int>(summits_.size());
+                place = int(summits_.size());
                 Summit s;
                 s.asperity = asperity[k];
                 s.nodes.push_back(
@@ -124,8 +124,7 @@ public:
     // For each summit: asperity, number of nodes, dissipated work, and for each node s, w and d.
     void write(std::vector<double>& numbers) const override {
         for (const Summit& s : summits_) {
-            append(numbers,
-                   {static_cast<double>(s.asperity), static_cast<double>(s.nodes.size()), s.lost});
+            append(numbers, {double(s.asperity), double(s.nodes.size()), s.lost});
             for (const Node& node : s.nodes) {
                 append(numbers, {node.s, node.w});
                 append(numbers, node.d);
@@ -139,11 +138,11 @@ public:
         for (std::size_t next = 0; next < numbers.size();) {
             if (numbers.size() - next < 3) wrong();
             const double index = numbers[next], count = numbers[next + 1];
-            if (!(index >= 0 && index < static_cast<double>(place_.size()) && count >= 1) ||
-                !(count <= static_cast<double>((numbers.size() - next - 3) / (2 + terms))))
+            if (!(index >= 0 && index < double(place_.size()) && count >= 1) ||
+                !(count <= double((numbers.size() - next - 3) / (2 + terms))))
                 wrong();
             Summit s;
-            s.asperity = static_cast<int>(index);
+            s.asperity = int(index);
             s.lost = numbers[next + 2];
             next += 3;
             elastic_->prepare(std::span<const int>(&s.asperity, 1));
@@ -156,7 +155,7 @@ public:
                 s.nodes.push_back(node(s.asperity, from[0], from[1], {from + 2, from + 2 + terms}));
             }
             if (place_[at(s.asperity)] >= 0) wrong();
-            place_[at(s.asperity)] = static_cast<int>(summits_.size());
+            place_[at(s.asperity)] = int(summits_.size());
             s.stored = stored_in(s);
             touched_.push_back(s.asperity);
             summits_.push_back(std::move(s));
@@ -285,7 +284,7 @@ private:
         for (const auto k : indices(d)) d[k] = a.d[k] + share * (b.d[k] - a.d[k]);
         Node added = node(s.asperity, place, a.w + share * (b.w - a.w), std::move(d));
         added.release = u;
-        s.nodes.insert(s.nodes.begin() + static_cast<std::ptrdiff_t>(j) + 1, std::move(added));
+        s.nodes.insert(s.nodes.begin() + std::ptrdiff_t(j) + 1, std::move(added));
     }
 
     // Integral of S'(s) a b ds for two functions given at the nodes, by parts, since S(0) = 0 and a

@@ -15,7 +15,7 @@ std::vector<double> deflections(Products& products, const std::vector<double>& x
     if (f.empty()) return phi;
     std::vector<int> first(f.size());
     std::iota(first.begin(), first.end(), 0);
-    products.set_points(static_cast<int>(x.size()), x.data(), y.data());
+    products.set_points(int(x.size()), x.data(), y.data());
     products.set_active(first);
     if (products.inner_error() <= tolerance)
         products.inner_everywhere(f.data(), phi.data());
@@ -96,7 +96,7 @@ void RelaxingAsperities::lower(Candidates& candidates, Products& products) {
 
 void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& solution,
                                 Products& products, Level& level) {
-    law_.commit(static_cast<int>(solution.v.size()), candidates.asperity.data(), solution.v.data());
+    law_.commit(int(solution.v.size()), candidates.asperity.data(), solution.v.data());
     std::vector<double> x, y;
     add_places(x, y, law_.touched());
     const auto deflected_by = [&](const std::vector<double>& f) {

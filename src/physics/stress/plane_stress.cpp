@@ -284,7 +284,7 @@ LargestStress stress_below(const PointGrid& grid, const LevelPixels& pixels,
                            StressPlane* plane) {
     if (body.period.finite()) {
         Planes planes(grid.nx, grid.ny);
-        load(planes, pixels, {}, 1 / static_cast<double>(grid.points()));
+        load(planes, pixels, {}, 1 / double(grid.points()));
         solve_periodic(planes, grid, body, depth);
         return measure(
             planes, [&](int i) { return window.first_column + i; },
@@ -301,8 +301,7 @@ LargestStress stress_below(const PointGrid& grid, const LevelPixels& pixels,
     const Axis rows(from.first_row, from.rows, window.first_row, window.rows,
                     body.period.along_y() ? grid.ny : 0);
     Planes planes(columns.size, rows.size);
-    load(planes, pixels, {columns.from, rows.from, 0, 0},
-         1 / (static_cast<double>(planes.nx) * planes.ny));
+    load(planes, pixels, {columns.from, rows.from, 0, 0}, 1 / (double(planes.nx) * planes.ny));
     fill_kernel(planes, columns, rows, grid, body, depth);
     convolve(planes);
     return measure(
@@ -316,8 +315,7 @@ GridWindow stressed_window(const PointGrid& grid, const LevelPixels& pixels, con
     if (contact.columns == 0) return {};
     const auto widened = [&](int first, int count, double step, int n, double repeats, int& begin,
                              int& size) {
-        const int margin =
-            std::max(4, static_cast<int>(std::ceil(std::min(2 * depth / step, 1.0 * n))));
+        const int margin = std::max(4, int(std::ceil(std::min(2 * depth / step, 1.0 * n))));
         begin = std::isfinite(repeats) ? 0 : std::max(0, first - margin);
         size = (std::isfinite(repeats) ? n : std::min(n, first + count + margin)) - begin;
     };

@@ -30,7 +30,7 @@ public:
             deepest = std::max(deepest, depth);
             sum += height - depth;
         });
-        const double points = static_cast<double>(map.nx) * map.ny, mean = sum / points;
+        const double points = double(map.nx) * map.ny, mean = sum / points;
         each([&](double height, double depth) {
             squares += (height - depth - mean) * (height - depth - mean);
         });
