@@ -32,8 +32,7 @@ Vec2 place_of(const rsc_contact& contact, double x0, double y0) {
     if (indenter.period.along_x()) x0 = onto(x0, domain.x0, domain.Lx);
     if (indenter.period.along_y()) y0 = onto(y0, domain.y0, domain.Ly);
     if (const Rectangle& known = contact.options.surface.extent; known.known()) {
-        domain = {known.x0, known.y0, known.Lx, known.Ly};
-        domain.guessed = false;
+        domain = {{known.x0, known.y0, known.Lx, known.Ly}, {}};
     }
     require_tip_above(domain, indenter.shape, x0, y0);
     return {x0, y0};

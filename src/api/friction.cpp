@@ -82,7 +82,7 @@ int32_t rsc_stiffness_ratio(const double* E, const double* nu, double* ratio) {
     return on(E, "E", 1, [&] {
         require(nu, 2, "nu");
         require(ratio, 3, "ratio");
-        for (int i = 0; i < 2; ++i)
+        for (const int i : indices(2))
             if (!(nu[i] >= -1 && nu[i] <= 0.5)) refuse(2, "nu", "must be between -1 and 0.5");
         const double moduli[2] = {E[0], E[1]}, ratios[2] = {nu[0], nu[1]};
         put(ratio, tangential_ratio(moduli, ratios));

@@ -39,7 +39,7 @@ double digest(const SurfaceModel& on) {
                    values.size() * sizeof(double));
     }
     if (on.points)
-        for (int j = 0; j < on.points->ny; ++j)
+        for (const int j : indices(on.points->ny))
             hash = mix(hash, on.points->row(j), at(on.points->nx) * sizeof(double));
     return double(hash >> 11);  // exact as a double
 }

@@ -139,7 +139,7 @@ int32_t rsc_surface_heights(const rsc_surface* surface, int64_t n, double* heigh
         const HeightMap& map = surface->surface.map;
         if (n != static_cast<int64_t>(map.nx) * map.ny) refuse(2, "n", "must be nx*ny");
         require(heights, 3, "heights");
-        for (int j = 0; j < map.ny; ++j)
+        for (const int j : indices(map.ny))
             std::copy(map.row(j), map.row(j) + map.nx, heights + std::ptrdiff_t(j) * map.nx);
     });
 }

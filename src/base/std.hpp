@@ -58,28 +58,32 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t at(auto k) { return std::size_t(k); }
 
 // The indices 0, 1, ..., n - 1, for loops over them.
+template <class Number>
 class Indices {
 public:
-    explicit constexpr Indices(std::size_t n) : n_(n) {}
+    explicit constexpr Indices(Number n) : n_(n) {}
     struct Index {
-        std::size_t k;
-        constexpr std::size_t operator*() const { return k; }
+        Number k;
+        constexpr Number operator*() const { return k; }
         constexpr Index& operator++() {
             ++k;
             return *this;
         }
-        constexpr bool operator==(const Index&) const = default;
+        constexpr bool operator!=(const Index& end) const { return k < end.k; }
     };
     constexpr Index begin() const { return {0}; }
     constexpr Index end() const { return {n_}; }
 
 private:
-    std::size_t n_;
+    Number n_;
 };
-constexpr Indices indices(std::size_t n) { return Indices(n); }
-// Of the values that there are now.
-constexpr Indices indices(const auto& values) requires requires { values.size(); }
-{ return Indices(values.size()); }
+// Of a number, or of the values that a container has now.
+constexpr auto indices(const auto& n) {
+    if constexpr (requires { n.size(); })
+        return Indices(n.size());
+    else
+        return Indices(n);
+}
 
 template <class T>
 void append(std::vector<T>& to, const auto& more) {

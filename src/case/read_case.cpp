@@ -4,10 +4,10 @@
 #include "base/reason.hpp"
 
 namespace rsc {
-namespace {
 
-using namelist::Fault;
-using namelist::Position;
+using namespace namelist;
+
+namespace {
 
 // The position where a key, or an element of it, was given; line 0 if it was not.
 Position place(const Ledger& ledger, const Problem& problem) {
@@ -53,7 +53,7 @@ std::string limited_text(std::istream& in, const std::string& name) {
     char buffer[65536];
     while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
         text.append(buffer, at(in.gcount()));
-        if (text.size() > namelist::kLargestText) break;  // read_case_text refuses it
+        if (text.size() > kLargestText) break;  // read_case_text refuses it
     }
     if (in.bad()) bad_input(name, ": cannot be read");
     return text;
@@ -96,11 +96,11 @@ std::string quoted_words(const Key& key, const std::string& value) {
     const std::size_t first = value.find_first_not_of(' ');
     if (first == std::string::npos || value[first] == '\'' || value[first] == '"') return value;
     const std::string word = value.substr(first, value.find_last_not_of(' ') + 1 - first);
-    if (key.type == Type::string) return namelist::from_string(word);
-    if (key.choices.empty() || (key.type != Type::choice && namelist::to_real(word)) ||
+    if (key.type == Type::string) return from_string(word);
+    if (key.choices.empty() || (key.type != Type::choice && to_real(word)) ||
         (key.type != Type::choice && std::isalpha(static_cast<unsigned char>(word[0])) == 0))
         return value;
-    if (!key.list || key.type != Type::choice) return namelist::from_string(word);
+    if (!key.list || key.type != Type::choice) return from_string(word);
     std::string all;
     std::istringstream words(word);
     for (std::string one; std::getline(words, one, ',');)
@@ -144,15 +144,15 @@ std::string apply_set(Case& settings, const std::string& argument,
 
 Reading read_namelist(std::string_view text) {
     Reading reading;
-    namelist::Document document = namelist::parse(text, group_names());
+    Document document = parse(text, group_names());
     reading.faults = std::move(document.faults);
     reading.warnings = std::move(document.warnings);
-    std::vector<const namelist::Group*> seen;
-    for (const namelist::Group& group : document.groups) {
-        const auto same = std::ranges::find_if(
-            seen, [&](const namelist::Group* g) { return g->name == group.name; });
+    std::vector<const Group*> seen;
+    for (const Group& group : document.groups) {
+        const auto same =
+            std::ranges::find_if(seen, [&](const Group* g) { return g->name == group.name; });
         if (same != seen.end()) {
-            if (reading.duplicates.size() < namelist::kMostFaults)
+            if (reading.duplicates.size() < kMostFaults)
                 reading.duplicates.emplace_back(group.at, "&", group.name,
                                                 ": this group is already at line ",
                                                 (*same)->at.line);
@@ -164,8 +164,8 @@ Reading read_namelist(std::string_view text) {
             reading.study = read_study(group, reading.faults);
             continue;
         }
-        for (const namelist::Assignment& assignment : group.assignments) {
-            if (reading.faults.size() >= namelist::kMostFaults) break;
+        for (const Assignment& assignment : group.assignments) {
+            if (reading.faults.size() >= kMostFaults) break;
             if (const Key* key = find_key(group.name, assignment.key))
                 assign(reading.settings, *key, assignment, reading.ledger, reading.faults);
             else
@@ -181,8 +181,8 @@ Reading read_namelist(std::string_view text) {
 namespace {
 
 void require_text(std::string_view text, const std::string& name) {
-    if (text.size() > namelist::kLargestText)
-        bad_input(name, ": larger than ", namelist::kLargestText, " bytes, the limit for a case");
+    if (text.size() > kLargestText)
+        bad_input(name, ": larger than ", kLargestText, " bytes, the limit for a case");
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
         bad_input(name, ": is text in UTF-16; save it as UTF-8 or plain ASCII");
     if (text.starts_with("CDF") || text.starts_with("\x89HDF"))
@@ -216,16 +216,15 @@ void refuse_faults(const std::string& name, std::vector<Fault>& faults,
     std::string message;
     std::size_t count = 0;
     const auto line = [&](const std::string& text_line) {
-        if (++count <= namelist::kMostFaults) message += (message.empty() ? "" : "\n") + text_line;
+        if (++count <= kMostFaults) message += (message.empty() ? "" : "\n") + text_line;
     };
-    for (const Fault& fault : faults) line(namelist::format(name, fault));
+    for (const Fault& fault : faults) line(format(name, fault));
     for (const std::string& fault : set_faults) line(fault);
     if (count > 0) bad_input(message);
 }
 
 void warn(const std::string& name, const Reading& reading, ReadCase& read) {
-    for (const Fault& warning : reading.warnings)
-        read.warnings.push_back(namelist::format(name, warning));
+    for (const Fault& warning : reading.warnings) read.warnings.push_back(format(name, warning));
     for (const char* const key_name : {"E", "nu", "R"}) {
         const Ledger::Entry* entry = reading.ledger.find(*find_key("solids", key_name));
         if (!entry || entry->given.size() != 1) continue;

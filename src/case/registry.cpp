@@ -5,6 +5,9 @@
 #include "physics/indenter/shapes.hpp"
 
 namespace rsc {
+
+using namespace namelist;
+
 namespace {
 
 constexpr double kNoLimit = Case::kInfinity;
@@ -469,20 +472,20 @@ const char* group_meaning(std::string_view group) {
 }
 
 const Key* find_key(std::string_view group, std::string_view name) {
-    const std::string g = namelist::lower_case(group), n = namelist::lower_case(name);
+    const std::string g = lower_case(group), n = lower_case(name);
     for (const Key& key : registry())
-        if (g == key.group && n == namelist::lower_case(key.name)) return &key;
+        if (g == key.group && n == lower_case(key.name)) return &key;
     return nullptr;
 }
 
 std::string suggest_key(std::string_view group, std::string_view name) {
     std::vector<std::string_view> here;
     for (const Key& key : registry())
-        if (namelist::lower_case(group) == key.group) here.push_back(key.name);
+        if (lower_case(group) == key.group) here.push_back(key.name);
     for (const Key& key : registry())
         if (find_key(key.group, name))
             return "; '" + std::string(name) + "' belongs to &" + find_key(key.group, name)->group;
-    return namelist::suggestion(name, here);
+    return suggestion(name, here);
 }
 
 const Key& key_of(std::string_view name) {
@@ -494,16 +497,16 @@ const Key& key_of(std::string_view name) {
     if (percent == std::string_view::npos) {
         std::string meant;
         for (const Key& key : registry())
-            if (namelist::lower_case(strip(name)) == namelist::lower_case(key.name))
+            if (lower_case(strip(name)) == lower_case(key.name))
                 meant += (meant.empty() ? "" : " or ") + full_name(key);
-        bad_input("expected group%key, found '", name, "'",
-                  meant.empty() ? namelist::suggestion(name, group_names())
-                                : "; did you mean " + meant + "?");
+        bad_input(
+            "expected group%key, found '", name, "'",
+            meant.empty() ? suggestion(name, group_names()) : "; did you mean " + meant + "?");
     }
     const std::string_view group = strip(name.substr(0, percent)),
                            bare = strip(name.substr(percent + 1));
-    if (!group_meaning(namelist::lower_case(group)))
-        bad_input("unknown group '", group, "'", namelist::suggestion(group, group_names()));
+    if (!group_meaning(lower_case(group)))
+        bad_input("unknown group '", group, "'", suggestion(group, group_names()));
     const Key* const key = find_key(group, bare);
     if (!key) bad_input("unknown key '", bare, "'", suggest_key(group, bare));
     return *key;
@@ -520,7 +523,7 @@ std::string Bounds::text() const {
     const auto number = [](double value) {
         if (value == std::floor(value) && std::abs(value) < 1e15)
             return std::to_string(static_cast<long long>(value));
-        return namelist::from_real(value);
+        return from_real(value);
     };
     std::string result;
     if (std::isfinite(low) && std::isfinite(high))

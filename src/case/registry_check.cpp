@@ -10,6 +10,9 @@
 #include "surface/asperities.hpp"
 
 namespace rsc {
+
+using namespace namelist;
+
 namespace {
 
 constexpr double kMostMapValues = 1e9;  // of one map variable: 8 GB
@@ -77,8 +80,7 @@ private:
                 {{&key},
                  long(element),
                  std::string(key.name) + (element > 0 ? "(" + std::to_string(element) + ")" : "") +
-                     " = " +
-                     (key.type == Type::integer ? count(value) : namelist::from_real(value)) +
+                     " = " + (key.type == Type::integer ? count(value) : from_real(value)) +
                      ": must be " + bounds +
                      (bounds.empty()                                ? "finite"
                       : std::isfinite(value) || key.bounds.infinity ? ""
@@ -207,7 +209,7 @@ private:
         as_many(s.relaxation_time, shares, "solids%relaxation_time", "solids%relaxation_share");
         const double sum = sum_of(s.relaxation_share);
         require(!(sum > 1 + 1e-12), {"solids%relaxation_share"}, "the shares add up to ",
-                namelist::from_real(sum), ", more than 1");
+                from_real(sum), ", more than 1");
         if (!std::isinf(s.E[0])) return;
         require(layers > 0 || !std::isinf(s.E[1]), {"solids%E"},
                 "two rigid bodies do not deform; at most one body may be rigid");
@@ -265,8 +267,7 @@ private:
             return;
         }
         require(s.kurtosis > s.skewness * s.skewness + 1, {"surface%kurtosis", "surface%skewness"},
-                "must be greater than skewness^2 + 1 = ",
-                namelist::from_real(s.skewness * s.skewness + 1),
+                "must be greater than skewness^2 + 1 = ", from_real(s.skewness * s.skewness + 1),
                 ", the lower bound for any distribution");
         require(s.n % 2 == 0, {"surface%n"}, "must be even");
         const bool measured = s.twin_heights == TwinHeights::measured,
@@ -280,16 +281,15 @@ private:
         require(!directional, {"surface%twins", "surface%source"}, "needs source = 'spectrum'");
         require(!measured, {"surface%twin_heights", "surface%source"}, "needs source = 'spectrum'");
         require(s.L_lambda_s > s.L_lambda_l, {"surface%L_lambda_s", "surface%L_lambda_l"},
-                "must be larger than L_lambda_l = ", namelist::from_real(s.L_lambda_l));
+                "must be larger than L_lambda_l = ", from_real(s.L_lambda_l));
         require(s.n > 2 * shortest(), {"surface%n", "surface%L_lambda_s", "surface%aspect"},
                 "must be larger than 2 L_lambda_s", s.aspect == 1 ? "" : " sqrt(aspect)", " = ",
-                namelist::from_real(2 * shortest()),
-                " so that the grid resolves the shortest wavelength");
+                from_real(2 * shortest()), " so that the grid resolves the shortest wavelength");
         const double L = s.L.value_or(1.0);
         require(std::ranges::none_of(c_.indentation.centre,
                                      [&](const auto& x) { return x && (*x < 0 || *x > L); }),
                 {"indentation%centre", "surface%L"},
-                "must lie on the surface, 0 to L = ", namelist::from_real(L));
+                "must lie on the surface, 0 to L = ", from_real(L));
     }
 
     // L over the shortest wavelength of a synthetic surface, in the direction across its lay.
@@ -442,7 +442,7 @@ private:
             i.levels.empty() ? std::max(i.start, i.stop) : std::ranges::max(i.levels);
         require(most < kClosingPressure,
                 {i.levels.empty() ? "indentation%start" : "indentation%levels", "indentation%unit"},
-                "a pressure of ", namelist::from_real(most),
+                "a pressure of ", from_real(most),
                 " E* sqrt(2 m2): at 1 and above less than 5 % of the area is gap, too little "
                 "for the asperity model; use solver%model = "
                 "'elements', which is valid up to full contact");

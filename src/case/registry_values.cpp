@@ -4,11 +4,10 @@
 #include "case/registry.hpp"
 
 namespace rsc {
-namespace {
 
-using namelist::Assignment;
-using namelist::Fault;
-using namelist::Item;
+using namespace namelist;
+
+namespace {
 
 // Elements of an assignment, 1-based: first, first + step, ..., `count` in all.
 struct Walk {
@@ -24,7 +23,7 @@ std::string list_choices(const Key& key) {
 
 std::string quote(const Item& item) {
     const std::string shown = item.text.size() > 60 ? item.text.substr(0, 60) + "..." : item.text;
-    return item.quoted ? namelist::from_string(shown) : "'" + shown + "'";
+    return item.quoted ? from_string(shown) : "'" + shown + "'";
 }
 
 // For a number that is wrong, or surplus: the most frequent causes.
@@ -43,7 +42,7 @@ std::string trimmed(std::string text) {
 // The elements of a subscript, or an error message. (i) alone extends to the end of the array, as
 // in gfortran.
 std::string resolve(const Assignment& a, long size, Walk& walk, const std::string& what) {
-    const namelist::Subscript& s = *a.subscript;
+    const Subscript& s = *a.subscript;
     const long first = s.first.value_or(1);
     const long last = s.section ? s.last.value_or(size) : size;
     const auto outside = [&](long i) { return i < 1 || i > size; };
@@ -77,11 +76,11 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
     };
     const bool word = key.type == Type::choice || (key.word && item.quoted);
     if (key.type == Type::logical) {
-        const auto value = item.quoted ? std::nullopt : namelist::to_logical(item.text);
+        const auto value = item.quoted ? std::nullopt : to_logical(item.text);
         if (!value) return "expected .true. or .false., found " + quote(item);
         *std::get<bool*>(slot) = *value;
     } else if (key.type == Type::integer || key.type == Type::long_integer) {
-        const auto value = item.quoted ? std::nullopt : namelist::to_integer(item.text);
+        const auto value = item.quoted ? std::nullopt : to_integer(item.text);
         const bool small = key.type == Type::integer;
         if (!value || (small && *value != int(*value))) {
             const bool digits = !item.quoted &&
@@ -94,7 +93,7 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
         put(slot, element, *value);
     } else if (key.type == Type::real && !word) {
         if (entry.word) return "one word, or a list of numbers";
-        const auto value = item.quoted ? std::nullopt : namelist::to_real(item.text);
+        const auto value = item.quoted ? std::nullopt : to_real(item.text);
         if (!value) return "expected a real number, found " + quote(item) + hint(item);
         key.list ? to_list(*value) : put(slot, element, *value);
     } else {
@@ -109,11 +108,11 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
             *std::get<std::string*>(slot) = text;
             return {};
         }
-        const std::string lower = namelist::lower_case(text);
+        const std::string lower = lower_case(text);
         const auto found = std::ranges::find(key.choices, lower);
         if (found == key.choices.end())
             return quote(item) + " is none of " + list_choices(key) +
-                   namelist::suggestion(lower, {key.choices.begin(), key.choices.end()});
+                   suggestion(lower, {key.choices.begin(), key.choices.end()});
         const auto number = int(found - key.choices.begin());
         if (key.word && (element != 1 || !entry.values.empty() || entry.word))
             return "one word, or a list of numbers";
@@ -147,7 +146,7 @@ std::string store_substring(Slot slot, const Key& key, const Walk& walk, Item it
     return {};
 }
 
-std::string at_line(const namelist::Position& at) {
+std::string at_line(const Position& at) {
     return at.line > 0 ? " at line " + std::to_string(at.line) : "";
 }
 
@@ -191,7 +190,7 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
     Ledger::Entry& entry = ledger.entry(key);
     if (entry.at.line == 0) entry.at = a.at;
     const std::string context = "&" + std::string(key.group) + ": " + key.name + ": ";
-    const auto fault = [&](const namelist::Position& at, const auto&... text) {
+    const auto fault = [&](const Position& at, const auto&... text) {
         faults.emplace_back(at, context, text...);
         entry.faulty = true;
     };
@@ -208,7 +207,7 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
     // text are its characters.
     const long elements = is_text ? 1 : walk.count;
     const long before = long(entry.given.size());
-    const auto mark = [&](long first, long count, const namelist::Position& place) {
+    const auto mark = [&](long first, long count, const Position& place) {
         if (entry.faulty) return;  // one message for a key given several times is enough
         for (const auto& [element, where] : std::span(entry.given).first(at(before)))
             if (element >= first && element < first + count) {
@@ -288,8 +287,7 @@ struct Named {
 Named named(std::string_view name, std::string_view value) {
     const Key& key = key_of(name.substr(0, name.find('(')));
     const std::string_view rest = name.substr(name.find_first_not_of(' ', name.find('%') + 1));
-    const namelist::Document document =
-        namelist::parse_assignments(std::string(rest) + " = " + std::string(value));
+    const Document document = parse_assignments(std::string(rest) + " = " + std::string(value));
     if (!document.faults.empty()) bad_input(document.faults.front().text);
     const std::vector<Assignment>& assignments = document.groups.front().assignments;
     if (assignments.size() != 1) bad_input("expected one value for one key");
@@ -298,20 +296,20 @@ Named named(std::string_view name, std::string_view value) {
 
 std::string element_text(const Key& key, const Slot& slot, long element) {
     const auto i = at(element - 1);
-    if (auto* b = std::get_if<bool*>(&slot)) return namelist::from_logical(**b);
+    if (auto* b = std::get_if<bool*>(&slot)) return from_logical(**b);
     if (auto* n = std::get_if<int*>(&slot)) return std::to_string((*n)[i]);
     if (auto* n = std::get_if<std::int64_t*>(&slot)) return std::to_string((*n)[i]);
-    if (auto* x = std::get_if<double*>(&slot)) return namelist::from_real((*x)[i]);
+    if (auto* x = std::get_if<double*>(&slot)) return from_real((*x)[i]);
     if (auto* o = std::get_if<std::optional<double>*>(&slot))
-        return (*o)[i] ? namelist::from_real(*(*o)[i]) : "";
-    if (auto* s = std::get_if<std::string*>(&slot)) return namelist::from_string(**s);
+        return (*o)[i] ? from_real(*(*o)[i]) : "";
+    if (auto* s = std::get_if<std::string*>(&slot)) return from_string(**s);
     if (auto* v = std::get_if<std::vector<double>*>(&slot)) {
         if (i >= (*v)->size()) return "";
-        return key.type == Type::choice ? namelist::from_string(key.choices.at(at((**v)[i])))
-                                        : namelist::from_real((**v)[i]);
+        return key.type == Type::choice ? from_string(key.choices.at(at((**v)[i])))
+                                        : from_real((**v)[i]);
     }
     const ChoiceSlot& choice = std::get<ChoiceSlot>(slot);
-    return namelist::from_string(key.choices.at(at(choice.get(choice.object))));
+    return from_string(key.choices.at(at(choice.get(choice.object))));
 }
 
 // The part of check_case for one key.
@@ -379,7 +377,7 @@ std::string get_key(const Case& settings, std::string_view name) {
     if (const auto* list = std::get_if<std::vector<double>*>(&slot)) size = long((*list)->size());
     if (key->word && size == 0) {
         const ChoiceSlot word = std::get<ChoiceSlot>(key->word(const_cast<Case&>(settings)));
-        return namelist::from_string(key->choices.at(at(word.get(word.object))));
+        return from_string(key->choices.at(at(word.get(word.object))));
     }
     Walk walk{1, 1, size};
     if (assignment.subscript) {

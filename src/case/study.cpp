@@ -4,12 +4,13 @@
 #include "case/registry.hpp"
 
 namespace rsc {
+
+using namespace namelist;
+
 namespace {
 
-using namelist::Fault;
-
 // "solids%r" with subscript (2) -> "solids%R(2)"; empty and a fault if there is no such key.
-std::string axis_key(const namelist::Assignment& a, std::vector<Fault>& faults) {
+std::string axis_key(const Assignment& a, std::vector<Fault>& faults) {
     const auto fault = [&](const auto&... text) {
         faults.emplace_back(a.at, "&study: ", text...);
         return std::string();
@@ -51,20 +52,20 @@ std::string values_text(const Member& member) {
     return text;
 }
 
-Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
+Study read_study(const Group& group, std::vector<Fault>& faults) {
     Study study;
     study.at = group.at;
     bool mode_given = false;
-    for (const namelist::Assignment& a : group.assignments) {
-        if (faults.size() >= namelist::kMostFaults) break;
-        const auto fault = [&](const namelist::Position& at, const auto&... text) {
+    for (const Assignment& a : group.assignments) {
+        if (faults.size() >= kMostFaults) break;
+        const auto fault = [&](const Position& at, const auto&... text) {
             faults.emplace_back(at, "&study: ", text...);
         };
         if (a.key == "mode") {
             if (mode_given) fault(a.at, "mode: given twice");
             mode_given = true;
             const std::string word = !a.items.empty() && a.items[0].quoted && !a.subscript
-                                         ? namelist::lower_case(a.items[0].text)
+                                         ? lower_case(a.items[0].text)
                                          : "";
             study.mode = word == "zip" ? StudyMode::zip : StudyMode::product;
             const bool more = std::any_of(a.items.begin() + !a.items.empty(), a.items.end(),
@@ -83,7 +84,7 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
         }
         const std::size_t before = faults.size();
         for (const auto i : indices(a.items)) {
-            const namelist::Item& item = a.items[i];
+            const Item& item = a.items[i];
             if (item.null && !item.counted && i + 1 == a.items.size())
                 break;  // a comma after the last value
             if (item.null) {
@@ -94,7 +95,7 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
                 fault(item.at, axis.key, ": more than ", kMostMembers, " values");
                 break;
             }
-            const std::string value = item.quoted ? namelist::from_string(item.text) : item.text;
+            const std::string value = item.quoted ? from_string(item.text) : item.text;
             axis.values.insert(axis.values.end(), at(item.repeat), value);
             axis.places.insert(axis.places.end(), at(item.repeat), item.at);
         }
@@ -120,8 +121,7 @@ std::vector<Fault> check_study(const Case& base, const Study& study) {
                  base.indentation.levels.size(), " explicit levels each: more than ", kMostLevels,
                  " levels in all; give indentation%start, stop and steps instead"}};
     for (const Study::Axis& axis : study.axes)
-        for (std::size_t i = 0; i < axis.values.size() && faults.size() < namelist::kMostFaults;
-             ++i) {
+        for (std::size_t i = 0; i < axis.values.size() && faults.size() < kMostFaults; ++i) {
             if (i > 0 && axis.values[i] == axis.values[i - 1])
                 continue;  // a repeated value, 10000*0.1, is checked and reported once
             Case trial = base;
@@ -168,7 +168,7 @@ std::vector<Member> expand_study(const Case& base, const Study& study) {
         for (const auto& [key, value] : member.values) set_key(member.settings, key, value);
         member.settings.output.file = member_file(member.settings.output.file, member.index, count);
         for (const Problem& problem : check_case(member.settings))
-            if (++wrong_members <= namelist::kMostFaults)
+            if (++wrong_members <= kMostFaults)
                 wrong += (wrong.empty() ? "" : "\n") + std::string("&study: member ") +
                          std::to_string(member.index) + " (" + values_text(member) + "): &" +
                          problem.keys.front()->group + ": " + problem.text;

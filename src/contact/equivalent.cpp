@@ -13,7 +13,7 @@ namespace {
 
 double equivalent_modulus(const double (&E)[2], const double (&nu)[2]) {
     double compliance = 0;
-    for (int i = 0; i < 2; ++i) {
+    for (const int i : indices(2)) {
         if (!(E[i] > 0)) refuse("Young's modulus", i, "positive (Infinity for a rigid body)");
         if (!(nu[i] >= -1 && nu[i] <= 0.5)) refuse("Poisson's ratio", i, "between -1 and 0.5");
         compliance += (1 - nu[i] * nu[i]) / E[i];  // 0 for E = Infinity
@@ -25,7 +25,7 @@ double equivalent_modulus(const double (&E)[2], const double (&nu)[2]) {
 
 double equivalent_radius(const double (&R)[2]) {
     double curvature = 0;
-    for (int i = 0; i < 2; ++i) {
+    for (const int i : indices(2)) {
         if (!(R[i] > 0)) refuse("radius", i, "positive (Infinity for a flat body)");
         curvature += 1 / R[i];
     }
@@ -35,7 +35,7 @@ double equivalent_radius(const double (&R)[2]) {
 double tangential_ratio(const double (&E)[2], const double (&nu)[2]) {
     const double E_star = equivalent_modulus(E, nu);
     double compliance = 0;  // 1/(2 G*)
-    for (int i = 0; i < 2; ++i) compliance += (2 - nu[i]) * (1 + nu[i]) / E[i];
+    for (const int i : indices(2)) compliance += (2 - nu[i]) * (1 + nu[i]) / E[i];
     return 2 / (E_star * compliance);
 }
 

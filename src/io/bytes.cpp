@@ -35,7 +35,7 @@ void scale_heights(HeightMap& map, double factor) {
 }
 
 void reverse_columns(HeightMap& map) {
-    for (int j = 0; j < map.ny; ++j) std::reverse(map.row(j), map.row(j) + map.nx);
+    for (const int j : indices(map.ny)) std::reverse(map.row(j), map.row(j) + map.nx);
 }
 
 void reverse_rows(HeightMap& map) {

@@ -127,7 +127,7 @@ private:
         if (!file_.read(reinterpret_cast<char*>(b), bytes)) damaged();
         position_ += std::uint64_t(bytes);
         std::uint64_t value = 0;
-        for (int i = 0; i < bytes; ++i) value = value << 8 | b[i];
+        for (const int i : indices(bytes)) value = value << 8 | b[i];
         return value;
     }
     std::uint64_t count() { return number(version_ == 5 ? 8 : 4); }
@@ -311,7 +311,7 @@ std::vector<NetcdfInput::Variable> NetcdfInput::variables() const {
     int count = 0;
     must(nc_inq_nvars(id_, &count), "the list of variables");
     std::vector<Variable> all;
-    for (int id = 0; id < count; ++id) all.push_back(variable(id));
+    for (const int id : indices(count)) all.push_back(variable(id));
     return all;
 }
 

@@ -389,8 +389,8 @@ void apply_mask(const NetcdfInput& file, const NetcdfInput::Variable& heights, H
 // Exchanges the axes of a map without padding.
 HeightMap transposed(const HeightMap& map) {
     HeightMap turned = allocate_map(at(map.ny), at(map.nx));
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) turned.row(i)[j] = map(i, j);
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) turned.row(i)[j] = map(i, j);
     return turned;
 }
 
@@ -603,8 +603,8 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
     for (const double origin : {map.x0, map.y0})
         if (!usable(origin))
             bad_input(path, ": the first coordinate ", kNumberBounds, ", not ", origin);
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) {
             const double z = map(i, j);
             if (usable(z) || (fill && std::isnan(z))) continue;
             const std::string place = " in column " + std::to_string(i) + " of row " +

@@ -31,7 +31,7 @@ inline const std::pair<std::string, NetcdfAttribute> kFromOne{"start_index", std
 template <class Value>
 std::vector<double> each_of(int n, Value value) {
     std::vector<double> all;
-    for (int k = 0; k < n; ++k) all.push_back(value(k));
+    for (const int k : indices(n)) all.push_back(value(k));
     return all;
 }
 // 1, 2, ..., n

@@ -93,7 +93,7 @@ int write_all(int fd, std::span<const char> bytes) {
 // A temporary file that no process has locked was left by an interrupted writer. Without working
 // locks it is kept.
 void remove_parts_left(const std::string& path) {
-    for (int k = 0; k < kPartsLookedAt; ++k) {
+    for (const int k : indices(kPartsLookedAt)) {
         const std::string name = part_name(path, k);
         const int fd = ::open(name.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
         if (fd < 0) continue;

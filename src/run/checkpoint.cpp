@@ -305,42 +305,22 @@ template <class Archive, class T>
 void transfer(Archive& a, T& x) {
     using Type = std::remove_const_t<T>;
     if constexpr (std::is_same_v<Type, Histogram>) {
-        a(x.weight);
-        a(x.overflow);
-        a(x.total);
-        a(x.squares);
-        a(x.power);
+        a(x.weight, x.overflow, x.total, x.squares, x.power);
     } else if constexpr (std::is_same_v<Type, Distributions>) {
-        a(x.separation);
-        a(x.levels);
-        a(x.step);
-        transfer(a, x.mean_pressure);
-        transfer(a, x.pressure);
-        transfer(a, x.spot_area);
-        transfer(a, x.gap);
+        a(x.separation, x.levels, x.step);
+        for (auto* histogram : {&x.mean_pressure, &x.pressure, &x.spot_area, &x.gap})
+            transfer(a, *histogram);
     } else if constexpr (std::is_same_v<Type, MapLevel>) {
-        a(x.cell);
-        a(x.area);
-        a(x.force);
-        a(x.outside);
+        a(x.cell, x.area, x.force, x.outside);
     } else if constexpr (std::is_same_v<Type, DistributionSums>) {
-        a(x.step);
-        a(x.numbers);
-    } else if constexpr (std::is_same_v<Type, RealizationRecord>) {
-        a(x.realization);
-        a(x.surface);
-        a(x.levels);
-        a(x.stresses);
-        transfer_each(a, x.maps);
-        transfer_each(a, x.distributions);
+        a(x.step, x.numbers);
     } else if constexpr (std::is_same_v<Type, std::vector<CellSums>>) {
         a(x);
     } else {
-        static_assert(std::is_same_v<Type, Accumulators>);
-        a(x.realization);
-        a(x.surface);
-        a(x.rows);
-        a(x.stresses);
+        if constexpr (std::is_same_v<Type, RealizationRecord>)
+            a(x.realization, x.surface, x.levels, x.stresses);
+        else
+            a(x.realization, x.surface, x.rows, x.stresses);
         transfer_each(a, x.maps);
         transfer_each(a, x.distributions);
     }

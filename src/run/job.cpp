@@ -73,8 +73,8 @@ double m2_of_pressures(const Job& job) {
 double seam(const HeightMap& map) {
     double across = 0, within = 0;
     long n_across = 0, n_within = 0;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) {
             const double right = map((i + 1) % map.nx, j) - map(i, j),
                          up = map(i, (j + 1) % map.ny) - map(i, j);
             const bool at_end = i + 1 == map.nx, at_top = j + 1 == map.ny;
@@ -105,7 +105,7 @@ void require_open(const Job& job) {
     for (int j = 0; job.given && job.given_heights && j < job.given_heights->ny; ++j) {
         const HeightMap& map = *job.given_heights;
         double row = 0;
-        for (int i = 0; i < map.nx; ++i)
+        for (const int i : indices(map.nx))
             row += job.indenter.clearance(map.x(i), map.y(j), map(i, j)) / map.nx;
         mean += row / map.ny;
     }
@@ -306,8 +306,8 @@ double highest_touch(const Job& job) {
     double highest = job.points_touch;
     if (!job.given || !job.given_heights) return highest;
     const HeightMap& map = *job.given_heights;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i)
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx))
             highest = std::max(highest, job.indenter.clearance(map.x(i), map.y(j), map(i, j)));
     return highest;
 }

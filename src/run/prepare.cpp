@@ -272,7 +272,7 @@ Surface make_element_surface(const Case& settings, std::int64_t number, int thre
         finer, spectrum, number, threads, [&](int row, int first, int count, const double* z) {
             double before = top, highest = -kInfinity;
             const double from = std::min(least, before);
-            for (int k = 0; k < count; ++k)
+            for (const int k : indices(count))
                 if (z[k] > from)
                     highest = std::max(highest,
                                        indenter->clearance((first + k) * step, row * step, z[k]));
@@ -287,10 +287,11 @@ Surface make_element_surface(const Case& settings, std::int64_t number, int thre
 
 SurfaceDomain synthetic_domain(const Spectrum& spectrum, int n) {
     const Moments theory = theoretical_moments(spectrum);
-    SurfaceDomain domain{
-        {0, 0, spectrum.L, spectrum.L}, spectrum.sigma, false, theory.mean_spacing()};
+    SurfaceDomain domain{{0, 0, spectrum.L, spectrum.L}, {}};
+    domain.sigma = spectrum.sigma;
+    domain.mean_spacing = theory.mean_spacing();
     domain.points_per_wave = n / spectrum.L_lambda_s;
-    domain.step = spectrum.L / n;
+    domain.grid_step = spectrum.L / n;
     domain.gentlest_slope = theory.tensor.gentlest_slope();
     domain.repeats = true;
     domain.measured = spectrum.directional() || !spectrum.gaussian();
@@ -306,11 +307,12 @@ SurfaceDomain list_domain(const Asperities& asperities, std::optional<double> L,
         bad_input("surface%L = ", *L, " is less than the extent of ", whose, ", ", extent);
     SurfaceDomain domain;
     if (L && std::min(left, below) >= 0 && std::max(right, above) <= *L) {
-        domain = {0, 0, *L, *L};
+        domain = {{0, 0, *L, *L}, {}};
     } else {
         const double side = L.value_or(extent > 0 ? extent : 1.0);
-        domain = {0.5 * (left + right) - 0.5 * side, 0.5 * (below + above) - 0.5 * side, side,
-                  side};
+        domain = {
+            {0.5 * (left + right) - 0.5 * side, 0.5 * (below + above) - 0.5 * side, side, side},
+            {}};
     }
     domain.sigma = rms(asperities.z);
     domain.guessed = !L;
@@ -324,7 +326,7 @@ std::shared_ptr<const MapMarks> marks_of(const HeightMap& map, const Breaks& bre
     const auto border = [&](int i, int j) {
         marks->border.push_back({map.x(i), map.y(j), map(i, j)});
     };
-    for (int i = 0; i < map.nx; ++i) {
+    for (const int i : indices(map.nx)) {
         border(i, 0);
         border(i, map.ny - 1);
     }
@@ -369,7 +371,7 @@ SurfaceModel make_bare_model(const Surface& surface) {
     const HeightMap& map = surface.map;
     SurfaceModel model;
     model.measured = surface.measured;
-    model.domain = {map.x0, map.y0, map.Lx(), map.Ly()};
+    model.domain = {{map.x0, map.y0, map.Lx(), map.Ly()}, {}};
     model.domain.measured = !surface.theory;
     if (!surface.theory) {
         model.domain.half_step_x = 0.5 * map.dx;
@@ -379,7 +381,7 @@ SurfaceModel make_bare_model(const Surface& surface) {
     model.domain.sigma = surface.sigma;
     model.domain.points_per_wave =
         model.measured ? model.measured->points_per_wave() : surface.points_per_wave;
-    model.domain.step = std::max(map.dx, map.dy);
+    model.domain.grid_step = std::max(map.dx, map.dy);
     if (surface.theory) model.domain.mean_spacing = surface.theory->mean_spacing();
     auto& s = model.statistics;
     const Moments grid = surface.differences ? *surface.differences
@@ -431,7 +433,7 @@ Shape shape_of(const Case& settings) {
     const Case::IndenterKeys& keys = settings.indenter;
     ShapeKeys made;
     made.R = equivalent_radius(settings.solids.R);
-    for (int k = 0; k < 2; ++k)
+    for (const int k : indices(2))
         made.radii[k] =
             equivalent_radius({settings.solids.R[0], keys.radii[k].value_or(settings.solids.R[1])});
     made.angle = keys.angle * std::numbers::pi / 180;

@@ -99,17 +99,14 @@ SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     options.interaction = settings.solver.interaction;
     options.selection = settings.indentation.selection;
     options.selection_factor = settings.indentation.selection_factor;
+    options.surface = domain;
     options.surface.sigma = sigma_of(settings, domain);
     options.tolerance = settings.solver.tolerance;
     options.max_iterations = settings.solver.max_iterations;
     options.delta0 = settings.solver.delta0;
-    options.surface.mean_spacing = domain.mean_spacing;
-    options.surface.points_per_wave = domain.points_per_wave;
-    options.surface.grid_step = domain.step;
-    options.surface.gentlest_slope = domain.gentlest_slope;
     const bool free = settings.indentation.boundary != Boundary::periodic;
     options.surface.measured = domain.measured || !settings.indenter.file.empty();
-    if (free) options.surface.marks = domain.marks;
+    if (!free) options.surface.marks = nullptr;
     if (!domain.guessed && free)
         options.surface.extent = {domain.x0, domain.y0, domain.Lx, domain.Ly};
     if (!(options.surface.sigma > 0) &&

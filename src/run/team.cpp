@@ -15,7 +15,7 @@ void leave_if_interrupted(const std::string& state) {
 WorkerThreads::WorkerThreads(const Work& work, std::size_t threads) : work_(work) {
     threads_.reserve(threads);
     try {
-        for (const auto k : indices(threads)) threads_.emplace_back([this] { loop(); });
+        for (std::size_t k = 0; k < threads; ++k) threads_.emplace_back([this] { loop(); });
     } catch (const std::system_error&) {
         if (threads_.empty()) throw Error(Failure::no_memory, "the system cannot start a thread");
     }

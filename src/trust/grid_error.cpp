@@ -45,7 +45,7 @@ double edge_share(const Indenter& indenter, double side) {
 void clearances(const HeightMap& map, const Indenter& indenter, int row,
                 std::vector<double>& line) {
     line.resize(std::size_t(map.nx));
-    for (int i = 0; i < map.nx; ++i)
+    for (const int i : indices(map.nx))
         line[std::size_t(i)] = indenter.clearance(map.x(i), map.y(row), map(i, row));
 }
 
@@ -96,7 +96,7 @@ HeightMap coarser_period(const HeightMap& map, const Period& period, std::array<
     coarse.y0 = map.y(y.first);
     coarse.periodic = map.periodic;
     parallel_for(y.points, kRows, 0, [&](int j) {
-        for (int i = 0; i < x.points; ++i) coarse.row(j)[i] = map(x.at(i), y.at(j));
+        for (const int i : indices(x.points)) coarse.row(j)[i] = map(x.at(i), y.at(j));
     });
     return coarse;
 }
@@ -108,16 +108,16 @@ double crest_height(const HeightMap& map, const Indenter& indenter,
     const bool repeats_x = std::isfinite(indenter.period.x),
                repeats_y = std::isfinite(indenter.period.y);
     double z[3][3];
-    for (int b = 0; b < 3; ++b)
-        for (int a = 0; a < 3; ++a) {
+    for (const int b : indices(3))
+        for (const int a : indices(3)) {
             const int i = continued(column + a - 1, map.nx, repeats_x),
                       j = continued(row + b - 1, map.ny, repeats_y);
             z[b][a] = indenter.clearance(map.x(i), map.y(j), curvature ? 0.0 : map(i, j));
         }
     // Beyond the edge of the indenter, which lies somewhere between two points, the face is as
     // steep as if it rose to half-way between.
-    for (int b = 0; b < 3; ++b)
-        for (int a = 0; a < 3; ++a)
+    for (const int b : indices(3))
+        for (const int a : indices(3))
             if (const double opposite = z[2 - b][2 - a]; !std::isfinite(z[b][a]))
                 z[b][a] = std::isfinite(opposite) ? 3 * opposite - 2 * z[1][1] : z[1][1];
     PointDifferences d = differences(z[0], z[1], z[2], 0, 1, 2);
@@ -208,9 +208,9 @@ double touch_between_points(const HeightMap& map, const Indenter& indenter) {
     clearances(map, indenter, continued(-1, map.ny, repeats_y), below);
     clearances(map, indenter, 0, here);
     double highest = -kInfinity;
-    for (int j = 0; j < map.ny; ++j) {
+    for (const int j : indices(map.ny)) {
         clearances(map, indenter, continued(j + 1, map.ny, repeats_y), above);
-        for (int i = 0; i < map.nx; ++i) {
+        for (const int i : indices(map.nx)) {
             const auto k = std::size_t(i);
             const double top = here[k];
             const auto rise = [&](double one, double other) {

@@ -188,8 +188,8 @@ AdhesivePixels::AdhesivePixels(const HeightMap& heights_, const Indenter& indent
 void AdhesivePixels::set_clearances() {
     cut_open(indenter, 1);
     clearance.resize(at(heights.nx) * at(heights.ny));
-    for (int j = 0; j < heights.ny; ++j)
-        for (int i = 0; i < heights.nx; ++i) {
+    for (const int j : indices(heights.ny))
+        for (const int i : indices(heights.nx)) {
             const double z = indenter.clearance(heights.x0 + i * heights.dx,
                                                 heights.y0 + j * heights.dy, heights(i, j));
             clearance[at(j) * at(heights.nx) + at(i)] = z;
@@ -219,13 +219,13 @@ void AdhesivePixels::gather(double Z) {
                 wanted[at(place({x, y}))] = 1;
     };
     for (int j = 0; j < heights.ny && !flats; ++j)
-        for (int i = 0; i < heights.nx; ++i) {
+        for (const int i : indices(heights.nx)) {
             const std::size_t k = at(place({i, j}));
             if (share[k] > 0 || clearance[k] > Z - z0 - margin - bulged) include(i, j);
         }
     std::vector<Pixel> pixels;
-    for (int j = 0; j < heights.ny; ++j)
-        for (int i = 0; i < heights.nx; ++i) {
+    for (const int j : indices(heights.ny))
+        for (const int i : indices(heights.nx)) {
             const std::int32_t k = place({i, j});
             q[at(k)] = wanted[at(k)] ? q[at(k)] : 0.0;
             if (!wanted[at(k)]) continue;
@@ -555,7 +555,7 @@ void AdhesivePixels::move(double x0, double y0) {
     const double nearest = accepted.separation - z0 - margin - bulged;
     const auto highest = [&] {
         double z = -kInfinity;
-        for (int j = 0; j < heights.ny; ++j)
+        for (const int j : indices(heights.ny))
             z = std::max(z, *std::max_element(heights.row(j), heights.row(j) + heights.nx));
         return z;
     };

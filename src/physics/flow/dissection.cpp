@@ -120,7 +120,7 @@ class Dissection {
 public:
     Dissection(int nx, int ny, const std::vector<std::uint8_t>& used) {
         std::uint32_t k = 0;
-        for (int y = 0; y < ny; ++y)
+        for (const int y : indices(ny))
             for (int x = 0; x < nx; ++x, ++k)
                 if (used[k]) places_.push_back({k, x, y});
         other_.resize(places_.size());

@@ -28,7 +28,7 @@ Openings::Openings(const GapMap& map, const Linked& open)
         }
     });
     for (const std::uint8_t ways : winding) all_ |= ways;
-    for (int band = 0; band < bands; ++band) {
+    for (const int band : indices(bands)) {
         const std::size_t end = std::min(at(band + 1) * kBand * nx, node_.size());
         for (std::size_t k = end - nx; k < end; ++k) all_ |= link_above(k);
     }

@@ -43,7 +43,7 @@ public:
 
     void respond(int n, const int* asperity, const double* u, double* force, double* slope,
                  double* work) const override {
-        for (int k = 0; k < n; ++k) {
+        for (const int k : indices(n)) {
             const Summit& s = summit(asperity[k]);
             if (!(u[k] > s.rest)) {  // rest is 0 if it has never yielded
                 force[k] = slope[k] = work[k] = 0;
@@ -123,7 +123,7 @@ public:
     }
 
     void commit(int n, const int* asperity, const double* u) override {
-        for (int k = 0; k < n; ++k) {
+        for (const int k : indices(n)) {
             Summit& s = summits_[at(place_[at(asperity[k])])];
             if (!(u[k] > s.yield && u[k] > s.deepest)) continue;
             const Flat now = flat(asperity[k], u[k]);

@@ -39,7 +39,7 @@ public:
     void heights(int n, const double* x, double y, double* s) const override {
         Along u, v;
         const bool inside = place(y, map_.dy, map_.ny, 1, v);
-        for (int k = 0; k < n; ++k)
+        for (const int k : indices(n))
             s[k] = inside && place(x[k], map_.dx, map_.nx, 1, u) ? -sum(u, 0, v, 0) : kInfinity;
     }
     Vec2 gradient(double x, double y) const override {
@@ -146,8 +146,8 @@ private:
     // Upper bounds of the heights of blocks: the highest point in and around a block plus a quarter
     // of the range, for values between points.
     void find_tops() {
-        for (int bj = 0; bj < blocks_y_; ++bj)
-            for (int bi = 0; bi < blocks_x_; ++bi) {
+        for (const int bj : indices(blocks_y_))
+            for (const int bi : indices(blocks_x_)) {
                 double low = kInfinity, high = -kInfinity;
                 for (int j = std::max(bj * kBlock - 1, 0);
                      j <= std::min((bj + 1) * kBlock, map_.ny - 1); ++j)

@@ -33,7 +33,7 @@ int shape_number(const char* name) {
 std::vector<Vec2> circle(double radius) {
     constexpr int points = 180;
     std::vector<Vec2> curve;
-    for (int k = 0; k < points; ++k) {
+    for (const int k : indices(points)) {
         const double t = 2 * std::numbers::pi * k / points;
         curve.push_back({radius * std::cos(t), radius * std::sin(t)});
     }

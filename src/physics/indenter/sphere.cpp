@@ -16,7 +16,7 @@ public:
 
     double height(double x, double y) const override { return of_square(x * x + y * y); }
     void heights(int n, const double* x, double y, double* s) const override {
-        for (int k = 0; k < n; ++k) s[k] = of_square(x[k] * x[k] + y * y);
+        for (const int k : indices(n)) s[k] = of_square(x[k] * x[k] + y * y);
     }
     Vec2 gradient(double x, double y) const override {
         const double up = std::sqrt(R_ * R_ - (x * x + y * y));

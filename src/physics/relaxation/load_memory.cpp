@@ -93,7 +93,7 @@ std::size_t LoadMemory::read(std::span<const double> numbers) {
     lost_ = *next++;
     take(yf_, terms);
     take(yy_, terms);
-    for (const auto i : indices(n)) places_.push_back(std::int32_t(*next++));
+    for (std::size_t i = 0; i < n; ++i) places_.push_back(std::int32_t(*next++));
     take(f_, n);
     for (auto& y : y_) take(y, n);
     if (!std::ranges::is_sorted(places_) || (n > 0 && places_[0] < 0))

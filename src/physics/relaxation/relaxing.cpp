@@ -63,9 +63,9 @@ public:
     void respond(int n, const int* asperity, const double* u, double* force, double* slope,
                  double* work) const override {
         std::vector<double> edge(at(n));
-        for (int k = 0; k < n; ++k) edge[at(k)] = edge_of(asperity[k], u[k]);
+        for (const int k : indices(n)) edge[at(k)] = edge_of(asperity[k], u[k]);
         elastic_->respond(n, asperity, edge.data(), force, slope, work);
-        for (int k = 0; k < n; ++k) {
+        for (const int k : indices(n)) {
             if (const Summit* s = summit(asperity[k])) {
                 const Node& a = s->nodes[node_below(*s, u[k])];
                 if (!(u[k] > s->nodes[0].release)) {
@@ -93,7 +93,7 @@ public:
 
     void commit(int n, const int* asperity, const double* u) override {
         std::vector<double> reached(summits_.size(), -kInfinity);
-        for (int k = 0; k < n; ++k) {
+        for (const int k : indices(n)) {
             int& place = place_[at(asperity[k])];
             if (place < 0 && !(u[k] > 0)) continue;
             if (place < 0) {

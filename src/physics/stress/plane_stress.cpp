@@ -229,7 +229,7 @@ void fill_kernel(Planes& planes, const Axis& columns, const Axis& rows, const Po
         std::vector<StressTensor> above = corners(block * kRows), below;
         for (int j = block * kRows; j < std::min(rows.kernel, (block + 1) * kRows); ++j) {
             below = corners(j + 1);
-            for (int i = 0; i < columns.kernel; ++i) {
+            for (const int i : indices(columns.kernel)) {
                 StressTensor s = below[at(i) + 1];
                 s += below[at(i)] * -1;
                 s += above[at(i) + 1] * -1;
@@ -246,7 +246,7 @@ void convolve(Planes& planes) {
     parallel_pieces(6, 0, [&](std::size_t c, std::size_t) {
         Plane& plane = planes.components[c];
         planes.to_modes(plane);
-        for (int j = 0; j < planes.ny; ++j)
+        for (const int j : indices(planes.ny))
             for (int i = 0; i <= planes.nx / 2; ++i)
                 plane.modes(j)[i] *= planes.pressure.modes(j)[i];
         planes.to_values(plane);
@@ -262,7 +262,7 @@ LargestStress measure(Planes& planes, Column&& column, Row&& row, const PointGri
             values->assign(window.points(), 0.0);
     std::vector<LargestStress> rows(at(window.rows));
     parallel_for(window.rows, kRows, 0, [&](int j) {
-        for (int i = 0; i < window.columns; ++i) {
+        for (const int i : indices(window.columns)) {
             const StressMeasures m = measures_of(planes.stress(column(i), row(j)));
             rows[at(j)].take(m, grid.x(window.first_column + i), grid.y(window.first_row + j));
             if (!plane) continue;

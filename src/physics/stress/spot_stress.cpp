@@ -60,7 +60,7 @@ LargestStress stress_below(const Level& level, double nu, double depth) {
         const double x = level.x[k], y = level.y[k];
         each[k].take(stress(x, y), x, y);
         for (const double radius : {0.5 * level.a[k], level.a[k]})
-            for (int p = 0; p < around; ++p) {
+            for (const int p : indices(around)) {
                 const double angle = 2 * std::numbers::pi * p / around;
                 const double px = x + radius * std::cos(angle), py = y + radius * std::sin(angle);
                 each[k].take(stress(px, py), px, py);

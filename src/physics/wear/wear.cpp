@@ -21,8 +21,8 @@ public:
                  const std::vector<double>& depths) const override {
         double volume = 0, deepest = 0, sum = 0, squares = 0;
         const auto each = [&](auto&& visit) {
-            for (int j = 0; j < map.ny; ++j)
-                for (int i = 0; i < map.nx; ++i)
+            for (const int j : indices(map.ny))
+                for (const int i : indices(map.nx))
                     visit(map(i, j), depths.empty() ? 0.0 : depths[at(j) * at(map.nx) + at(i)]);
         };
         each([&](double height, double depth) {
