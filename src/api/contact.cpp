@@ -168,11 +168,11 @@ bool of_map(std::string_view name) {
 
 std::string known_values() {
     std::string names;
-    for (const Derived& d : kDerived) names += (names.empty() ? "" : ", ") + std::string(d.name);
+    for (const Derived& d : kDerived) enlist(names, ", ", d.name);
     for (const LevelQuantity& q : level_quantities()) {
         const bool derived =
             std::ranges::any_of(kDerived, [&](const Derived& d) { return d.name == q.name; });
-        if (!derived && !of_map(q.name)) names += std::string(", ") + q.name;
+        if (!derived && !of_map(q.name)) enlist(names, ", ", q.name);
     }
     return names;
 }

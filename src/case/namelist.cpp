@@ -512,8 +512,7 @@ Document parse_assignments(std::string_view text) {
 
 std::string format(const std::string& name, const Fault& fault) {
     if (fault.at.line == 0) return name + ": " + fault.text;
-    return name + ":" + std::to_string(fault.at.line) + ":" + std::to_string(fault.at.column) +
-           ": " + fault.text;
+    return joined(name, ":", fault.at.line, ":", fault.at.column, ": ", fault.text);
 }
 
 }  // namespace rsc::namelist

@@ -52,7 +52,7 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
 std::string suggestion(std::string_view word, const std::vector<std::string_view>& candidates,
                        const char* mark) {
     const std::string_view near = nearest(word, candidates);
-    return near.empty() ? "" : std::string("; did you mean '") + mark + std::string(near) + "'?";
+    return near.empty() ? "" : joined("; did you mean '", mark, near, "'?");
 }
 
 std::string lower_case(std::string_view word) {

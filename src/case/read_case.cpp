@@ -43,8 +43,7 @@ bool varied(const Study& study, const Problem& problem) {
 
 std::string known_groups_text() {
     std::string text;
-    for (const std::string_view group : group_names())
-        text += (text.empty() ? "&" : ", &") + std::string(group);
+    for (const std::string_view group : group_names()) enlist(text, ", ", "&", group);
     return text;
 }
 
@@ -104,7 +103,7 @@ std::string quoted_words(const Key& key, const std::string& value) {
     std::string all;
     std::istringstream words(word);
     for (std::string one; std::getline(words, one, ',');)
-        all += (all.empty() ? "" : ",") + quoted_words(key_of("output%file"), one);
+        enlist(all, ",", quoted_words(key_of("output%file"), one);
     return all;
 }
 
@@ -216,7 +215,7 @@ void refuse_faults(const std::string& name, std::vector<Fault>& faults,
     std::string message;
     std::size_t count = 0;
     const auto line = [&](const std::string& text_line) {
-        if (++count <= kMostFaults) message += (message.empty() ? "" : "\n") + text_line;
+        if (++count <= kMostFaults) enlist(message, "\n", text_line);
     };
     for (const Fault& fault : faults) line(format(name, fault));
     for (const std::string& fault : set_faults) line(fault);
@@ -229,7 +228,7 @@ void warn(const std::string& name, const Reading& reading, ReadCase& read) {
         const Ledger::Entry* entry = reading.ledger.find(*find_key("solids", key_name));
         if (!entry || entry->given.size() != 1) continue;
         const std::string other =
-            std::string("solids%") + key_name + (entry->given.front().first == 1 ? "(2)" : "(1)");
+            joined("solids%", key_name, entry->given.front().first == 1 ? "(2)" : "(1)");
         read.warnings.push_back(name + ": &solids: " + key_name + ": one value of two; " + other +
                                 " = " + get_key(read.settings, other) + " taken by default");
     }

@@ -498,7 +498,7 @@ const Key& key_of(std::string_view name) {
         std::string meant;
         for (const Key& key : registry())
             if (lower_case(strip(name)) == lower_case(key.name))
-                meant += (meant.empty() ? "" : " or ") + full_name(key);
+                enlist(meant, " or ", full_name(key));
         bad_input(
             "expected group%key, found '", name, "'",
             meant.empty() ? suggestion(name, group_names()) : "; did you mean " + meant + "?");
@@ -512,7 +512,7 @@ const Key& key_of(std::string_view name) {
     return *key;
 }
 
-std::string full_name(const Key& key) { return std::string(key.group) + "%" + key.name; }
+std::string full_name(const Key& key) { return joined(key.group, "%", key.name); }
 
 bool Bounds::hold(double value) const {
     if (std::isnan(value) || (std::isinf(value) && !infinity)) return false;

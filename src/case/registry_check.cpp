@@ -79,12 +79,12 @@ private:
             problems_.push_back(
                 {{&key},
                  long(element),
-                 std::string(key.name) + (element > 0 ? "(" + std::to_string(element) + ")" : "") +
-                     " = " + (key.type == Type::integer ? count(value) : from_real(value)) +
-                     ": must be " + bounds +
-                     (bounds.empty()                                ? "finite"
-                      : std::isfinite(value) || key.bounds.infinity ? ""
-                                                                    : " and finite")});
+                 joined(key.name, element > 0 ? joined("(", element, ")") : "", " = ",
+                        key.type == Type::integer ? count(value) : from_real(value), ": must be ",
+                        bounds,
+                        bounds.empty()                                ? "finite"
+                        : std::isfinite(value) || key.bounds.infinity ? ""
+                                                                      : " and finite")});
         };
         const auto each = [&](const auto* values, std::size_t size) {
             for (const auto i : indices(size)) number(double(values[i]), key.size > 1 ? i + 1 : 0);
@@ -98,10 +98,9 @@ private:
         if (const auto* v = std::get_if<std::vector<double>*>(&slot)) {
             const std::vector<double>& list = **v;
             if (list.size() > size)
-                problems_.push_back(
-                    {{&key}, 0, key.name + (": at most " + std::to_string(size)) + " values"});
+                problems_.push_back({{&key}, 0, joined(key.name, ": at most ", size, " values")});
             if (list.empty() && !*key.unset && !key.word)
-                problems_.push_back({{&key}, 0, std::string(key.name) + ": at least one value"});
+                problems_.push_back({{&key}, 0, joined(key.name, ": at least one value")});
             each(list.data(), std::min(list.size(), size));
         }
         if (const auto* s = std::get_if<std::string*>(&slot)) check_text(key, **s);
@@ -119,7 +118,7 @@ private:
             wrong = "at most " + std::to_string(key.length) + " characters";
         else if (!text.empty() && text.back() == ' ')
             wrong = "blanks at the end are not allowed";
-        if (!wrong.empty()) problems_.push_back({{&key}, 0, std::string(key.name) + ": " + wrong});
+        if (!wrong.empty()) problems_.push_back({{&key}, 0, joined(key.name, ": ", wrong)});
     }
 
     void check_units() {
@@ -336,15 +335,14 @@ private:
         for (const Key& key : registry()) {
             if (key.group != std::string_view("indenter") || key.name == std::string_view("shape"))
                 continue;
-            const std::string name = std::string("indenter%") + key.name;
+            const std::string name = joined("indenter%", key.name);
             const bool given = get_key(c_, name) != get_key(Case{}, name);
             if (!given && takes(row, key.name, true))
                 complain({"indenter%shape", name}, "needs ", key.name);
             if (!given || takes(row, key.name, false)) continue;
             std::string shapes;
             for (const ShapeRow& other : kShapes)
-                if (takes(other, key.name, false))
-                    shapes += (shapes.empty() ? "'" : " or '") + std::string(other.name) + "'";
+                if (takes(other, key.name, false)) enlist(shapes, " or ", "'", other.name, "'");
             complain({name, "indenter%shape"}, "is only for shape = ", shapes,
                      ", here shape = ", get_key(c_, "indenter%shape"));
         }
@@ -545,7 +543,7 @@ void require_valid(const Case& settings, std::initializer_list<std::string_view>
             return name == key.group || name == full_name(key);
         };
         if (names.size() == 0 || std::ranges::any_of(names, is_key))
-            text += (text.empty() ? "&" : "\n&") + std::string(key.group) + ": " + problem.text;
+            enlist(text, "\n", "&", key.group, ": ", problem.text);
     }
     if (!text.empty()) bad_input(text);
 }

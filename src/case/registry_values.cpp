@@ -16,8 +16,7 @@ struct Walk {
 
 std::string list_choices(const Key& key) {
     std::string text;
-    for (const char* choice : key.choices)
-        text += (text.empty() ? "'" : ", '") + std::string(choice) + "'";
+    for (const char* choice : key.choices) enlist(text, ", ", "'", choice, "'");
     return text;
 }
 
@@ -189,7 +188,7 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
             std::vector<Fault>& faults) {
     Ledger::Entry& entry = ledger.entry(key);
     if (entry.at.line == 0) entry.at = a.at;
-    const std::string context = "&" + std::string(key.group) + ": " + key.name + ": ";
+    const std::string context = joined("&", key.group, ": ", key.name, ": ");
     const auto fault = [&](const Position& at, const auto&... text) {
         faults.emplace_back(at, context, text...);
         entry.faulty = true;
@@ -287,7 +286,7 @@ struct Named {
 Named named(std::string_view name, std::string_view value) {
     const Key& key = key_of(name.substr(0, name.find('(')));
     const std::string_view rest = name.substr(name.find_first_not_of(' ', name.find('%') + 1));
-    const Document document = parse_assignments(std::string(rest) + " = " + std::string(value));
+    const Document document = parse_assignments(joined(rest, " = ", value));
     if (!document.faults.empty()) bad_input(document.faults.front().text);
     const std::vector<Assignment>& assignments = document.groups.front().assignments;
     if (assignments.size() != 1) bad_input("expected one value for one key");
@@ -360,7 +359,7 @@ void set_key(Case& settings, std::string_view name, std::string_view value, bool
     finish_lists(changed, ledger, faults);
     if (!faults.empty()) {
         // The name includes the group.
-        const std::string context = "&" + std::string(key->group) + ": ";
+        const std::string context = joined("&", key->group, ": ");
         const std::string& text = faults.front().text;
         bad_input(text.starts_with(context) ? text.substr(context.size()) : text);
     }

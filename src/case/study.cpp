@@ -47,8 +47,7 @@ std::size_t member_count(const Study& study) {
 
 std::string values_text(const Member& member) {
     std::string text;
-    for (const auto& [key, value] : member.values)
-        text += (text.empty() ? "" : " ") + key + "=" + value;
+    for (const auto& [key, value] : member.values) enlist(text, " ", key, "=", value);
     return text;
 }
 
@@ -146,8 +145,7 @@ std::vector<Fault> check_study(const Case& base, const Study& study) {
 
 std::vector<Member> expand_study(const Case& base, const Study& study) {
     std::string wrong;
-    for (const Fault& fault : check_study(base, study))
-        wrong += (wrong.empty() ? "" : "\n") + fault.text;
+    for (const Fault& fault : check_study(base, study)) enlist(wrong, "\n", fault.text);
     if (!wrong.empty()) bad_input(wrong);
 
     const std::size_t count = member_count(study);
@@ -169,9 +167,8 @@ std::vector<Member> expand_study(const Case& base, const Study& study) {
         member.settings.output.file = member_file(member.settings.output.file, member.index, count);
         for (const Problem& problem : check_case(member.settings))
             if (++wrong_members <= kMostFaults)
-                wrong += (wrong.empty() ? "" : "\n") + std::string("&study: member ") +
-                         std::to_string(member.index) + " (" + values_text(member) + "): &" +
-                         problem.keys.front()->group + ": " + problem.text;
+                enlist(wrong, "\n", "&study: member ", member.index, " (", values_text(member),
+                       "): &", problem.keys.front()->group, ": ", problem.text);
     }
     if (!wrong.empty()) bad_input(wrong);
     return members;

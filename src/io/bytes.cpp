@@ -16,8 +16,7 @@ void check_memory(const std::string& path, const std::string& what, double count
 }
 
 void check_grid(const std::string& path, std::size_t nx, std::size_t ny) {
-    const std::string what =
-        "a height map of " + std::to_string(nx) + " x " + std::to_string(ny) + " points";
+    const std::string what = joined("a height map of ", nx, " x ", ny, " points");
     if (nx < 3 || ny < 3) bad_input(path, ": ", what, "; at least 3 x 3 are needed");
     if (std::max(nx, ny) > at(std::numeric_limits<int>::max()))
         bad_input(path, ": ", what, "; at most 2147483647 points a side are possible");

@@ -171,8 +171,8 @@ HeightMap read_gwy(const std::string& path, const std::string& channel,
     for (const long n : file.channels()) {
         const std::string title = file.title(n);
         const auto field = file.field(format("/%ld/data", n));
-        names += (names.empty() ? "'" : ", '") + printable(title) + "' (" + std::to_string(n) +
-                 ") in '" + printable(field->unit_z) + "'";
+        enlist(names, ", ", "'", printable(title), "' (", n, ") in '", printable(field->unit_z),
+               "'");
         if (channel == std::to_string(n)) numbered = n;
         if (!chosen && (channel.empty() ? factor_of(field->unit_z, length_unit).has_value()
                                         : title == channel))

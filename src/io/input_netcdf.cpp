@@ -210,7 +210,7 @@ std::optional<double> default_fill(nc_type type) {
     }
 }
 
-std::string indices(const NetcdfInput::Variable& v, std::size_t flat) {
+std::string value_name(const NetcdfInput::Variable& v, std::size_t flat) {
     std::string text;
     for (std::size_t d = v.lengths.size(); d-- > 0;) {
         text = v.axes[d] + " = " + std::to_string(flat % v.lengths[d]) +
@@ -278,10 +278,9 @@ void NetcdfInput::must(int status, const std::string& what) const {
 }
 
 std::string NetcdfInput::Variable::shape() const {
-    std::string text = name + "(";
-    for (const auto d : indices(axes))
-        text += (d > 0 ? ", " : "") + axes[d] + " = " + std::to_string(lengths[d]);
-    return text + ")";
+    std::string text;
+    for (const auto d : indices(axes)) enlist(text, ", ", axes[d], " = ", lengths[d]);
+    return name + "(" + text + ")";
 }
 
 std::size_t NetcdfInput::Variable::count() const {
@@ -437,11 +436,11 @@ void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) con
             continue;
         }
         if (filled)
-            bad_input(path_, ": ", indices(v, i), " is missing (", stored,
+            bad_input(path_, ": ", value_name(v, i), " is missing (", stored,
                       " is a fill value or not valid); every value must be known");
         out[i] = stored * packing.scale + packing.offset;
         if (!std::isfinite(out[i]))
-            bad_input(path_, ": ", indices(v, i), " is not finite; every value must be known");
+            bad_input(path_, ": ", value_name(v, i), " is not finite; every value must be known");
     }
 }
 

@@ -330,9 +330,8 @@ static void refuse_heading(const std::string& path, std::istream& file, std::str
         refuse(path, line, "the head of an instrument's file. ", gwyddion_advice(path));
     std::string lower(first.substr(0, 5));
     std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
-    const std::string lines =
-        last > line ? "lines " + std::to_string(line) + " to " + std::to_string(last) + " begin"
-                    : "line " + std::to_string(line) + " begins";
+    const std::string lines = last > line ? joined("lines ", line, " to ", last, " begin")
+                                          : joined("line ", line, " begins");
     refuse(path, line, lines, " with a word, not a number: put '#' before each line of text",
            lower == "ncols" ? ", and give an ESRI grid's cellsize as surface%pixel and its "
                               "NODATA_value as surface%missing_value"
@@ -379,9 +378,8 @@ TextTable read_table(const std::string& path, std::size_t columns, bool missing)
         open_ends = open_ends && row.open_end;
         if (row.count != table.columns) {
             const std::string wanted = columns > 0
-                                           ? std::to_string(columns)
-                                           : std::to_string(table.columns) + " as in line " +
-                                                 std::to_string(table.line[0]);
+                                           ? joined(columns)
+                                           : joined(table.columns, " as in line ", table.line[0]);
             refuse(path, line, row.count, " values where ", wanted, " were expected");
         }
         table.line.push_back(line);

@@ -337,7 +337,7 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& c
     std::string names;
     for (const auto& v : file.variables())
         if (is_map(v) && v.name != "mask") {
-            names += (maps.empty() ? "" : ", ") + v.shape();
+            enlist(names, ", ", v.shape());
             maps.push_back(v);
         }
     if (maps.empty())
@@ -607,9 +607,8 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
         for (const int i : indices(map.nx)) {
             const double z = map(i, j);
             if (usable(z) || (fill && std::isnan(z))) continue;
-            const std::string place = " in column " + std::to_string(i) + " of row " +
-                                      std::to_string(j) + ", counted from 0" +
-                                      (instrument ? " with y upwards" : "");
+            const std::string place = joined(" in column ", i, " of row ", j, ", counted from 0",
+                                             instrument ? " with y upwards" : "");
             if (std::isnan(z))
                 bad_input(path, ": ", count_missing(map), " of ", long(map.nx) * map.ny,
                           " points are missing", channels ? " or masked" : "", ", the first", place,

@@ -48,8 +48,7 @@ NetcdfAttributes flags(const std::array<const char*, n>& names, std::size_t firs
     std::string meanings;
     for (std::size_t k = first; k < n; ++k) {
         values.push_back(std::int32_t(k));
-        if (k > first) meanings += ' ';
-        meanings += names[k];
+        enlist(meanings, " ", names[k]);
     }
     return {{"flag_values", values}, {"flag_meanings", meanings}};
 }

@@ -114,7 +114,7 @@ std::optional<Accumulators> earlier_sums(const Job& job, std::ostream* messages)
         if (input_is_newer(job.settings)) bad_input("an input has changed since");
         for (const std::string& line :
              Checkpoint::differences(there.settings, without_idle_keys(job.settings)))
-            why += (why.empty() ? "" : "; ") + line;
+            enlist(why, "; ", line);
         if (why.empty()) return read_sums(file, job.observe, job.levels.size());
     } catch (const Error& error) {
         why = error.what();
@@ -143,9 +143,9 @@ Result campaign_result(const Job& job, const Accumulators& sums, std::ostream* t
 }
 
 std::string how_far(const Progressing& state, const Case& settings) {
-    return std::to_string(state.finished()) + " of " + std::to_string(settings.run.realizations) +
-           " realizations are finished and saved in '" + checkpoint_name(settings.output.file) +
-           "'";
+    return joined(state.finished(), " of ", settings.run.realizations,
+                  " realizations are finished and saved in '",
+                  checkpoint_name(settings.output.file), "'");
 }
 
 // Runs the realizations that are not finished, and calls tell_batch() after each twentieth of all.
@@ -201,8 +201,8 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
                         state.finished() - already);
         });
     } catch (const Interrupted& stop) {
-        throw Interrupted(stop.signal(), std::string(stop.what()) + "; " +
-                                             how_far(state, settings) + ": " + kGoesOn);
+        throw Interrupted(stop.signal(), stop.what(), "; ", how_far(state, settings), ": ",
+                          kGoesOn);
     } catch (const Error& error) {
         throw Error(error.kind() == Failure::bad_input ? Failure::internal : error.kind(),
                     error.what(), "\n", how_far(state, settings), ": ", kGoesOn);
@@ -253,8 +253,7 @@ struct Part {
 };
 
 std::string numbers(std::int64_t from, std::int64_t to) {
-    return (from == to ? "realization " : "realizations ") + std::to_string(from) +
-           (from == to ? "" : " to " + std::to_string(to));
+    return from == to ? joined("realization ", from) : joined("realizations ", from, " to ", to);
 }
 
 Part open_part(const std::string& file) {

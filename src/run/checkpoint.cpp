@@ -82,9 +82,7 @@ bool still_named(int fd, const std::string& name) {
            open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
-std::string header_start() {
-    return std::string("rsc ") + RSC_VERSION + "\n" + archive_layout() + "\n";
-}
+std::string header_start() { return joined("rsc " RSC_VERSION "\n", archive_layout(), "\n"); }
 
 // A comment of the namelist with the CRC-32 of the input files: realizations of changed inputs are
 // not those of one campaign.
@@ -267,8 +265,7 @@ std::vector<std::string> Checkpoint::differences(const Case& there, const Case& 
         return value.empty() ? std::string("unset") : value;
     };
     for (const Key& key : registry()) {
-        const std::string name = std::string(key.group) + "%" + key.name, a = get_key(there, name),
-                          b = get_key(now, name);
+        const std::string name = full_name(key), a = get_key(there, name), b = get_key(now, name);
         // A campaign may grow: realizations of the smaller one are part of the larger one.
         if (name == "run%realizations" && there.run.realizations < now.run.realizations) continue;
         if (a != b && key.changes == Changes::numbers)
@@ -374,8 +371,7 @@ std::string archive_layout() {
     const std::uint32_t order = 0x01020304;
     char first = 0;
     std::memcpy(&first, &order, 1);
-    return "5," + std::to_string(first) + "," + std::to_string(sizeof(SurfaceStatistics)) + "," +
-           std::to_string(sizeof(LevelValues));
+    return joined("5,", int(first), ",", sizeof(SurfaceStatistics), ",", sizeof(LevelValues));
 }
 
 }  // namespace rsc

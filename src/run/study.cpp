@@ -133,16 +133,15 @@ void write_manifest(const ReadCase& read, const std::vector<Member>& members,
 
 // "member 3 (surface%sigma=0.001)"; empty for a case that is no member of a study.
 static std::string member_name(const Member& member) {
-    return member.values.empty()
-               ? ""
-               : "member " + std::to_string(member.index) + " (" + values_text(member) + ")";
+    return member.values.empty() ? ""
+                                 : joined("member ", member.index, " (", values_text(member), ")");
 }
 
 std::string list_members(const std::vector<Member>& members) {
     std::string text;
     for (const Member& member : members)
-        text += std::to_string(member.index) + "  " + member.settings.output.file + "  " +
-                values_text(member) + "\n";
+        text += joined(member.index, "  ", member.settings.output.file, "  ", values_text(member),
+                       "\n");
     return text;
 }
 
@@ -202,9 +201,9 @@ std::vector<const Member*> wanted_of(const ReadCase& read, const std::vector<Mem
     for (const Member& member : all)
         if (!only || member.index == *only) wanted.push_back(&member);
     if (only && (!read.study || wanted.empty()))
-        bad_input(read.study ? "--member " + std::to_string(*only) + ": the study has " +
-                                   std::to_string(all.size()) + " members (--list names them)"
-                             : "--member: the case has no &study");
+        bad_input("--member", read.study ? joined(" ", *only, ": the study has ", all.size(),
+                                                  " members (--list names them)")
+                                         : ": the case has no &study");
     return wanted;
 }
 
@@ -395,10 +394,8 @@ RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunO
         }
     } catch (const Interrupted& stop) {
         if (wanted.size() == 1) throw;
-        throw Interrupted(stop.signal(),
-                          std::string(stop.what()) + "; " + std::to_string(run.finished()) +
-                              " of " + std::to_string(wanted.size()) +
-                              " members are finished; the same command with --resume keeps them");
+        throw Interrupted(stop.signal(), stop.what(), "; ", run.finished(), " of ", wanted.size(),
+                          " members are finished; the same command with --resume keeps them");
     }
     if (read.study && options.table)
         *options.table << wanted.size() << " of " << all.size()

@@ -9,7 +9,7 @@ namespace rsc {
 
 void leave_if_interrupted(const std::string& state) {
     if (const int signal = caught_signal())
-        throw Interrupted(signal, std::string("stopped by ") + signal_name(signal) + state);
+        throw Interrupted(signal, "stopped by ", signal_name(signal), state);
 }
 
 WorkerThreads::WorkerThreads(const Work& work, std::size_t threads) : work_(work) {

@@ -31,8 +31,7 @@ std::string sentence(Cause cause, bool elements) {
 std::string words_of_doubts(std::int32_t doubts) {
     std::string words;
     for (const auto k : indices(kCauseNames))
-        if (doubts & (std::int32_t{1} << k))
-            words += (words.empty() ? "" : ", ") + std::string(kCauseNames[k]);
+        if (doubts & (std::int32_t{1} << k)) enlist(words, ", ", kCauseNames[k]);
     std::replace(words.begin(), words.end(), '_', ' ');
     return words;
 }
