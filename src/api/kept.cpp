@@ -180,6 +180,8 @@ void visit_arrays(Level& level, Visit&& visit) {
     visit("pixel_attraction", level.pixels.attraction);
 }
 
+constexpr const char* kComponents[] = {"", ".y", ".z"};  // of a quantity of a level
+
 void put_state(Entries& to, const std::string& prefix, const Path::State& state) {
     to.numbers[prefix + "tip"] = {state.x0, state.y0};
     to.numbers[prefix + "accepted"] = {state.time, state.separation, state.force};
@@ -187,11 +189,9 @@ void put_state(Entries& to, const std::string& prefix, const Path::State& state)
     if (!state.level) return;
     Level level = *state.level;
     to.numbers[prefix + "level"] = {level.separation, state.level_x0, state.level_y0};
-    for (const LevelQuantity& q : level_quantities()) {
-        to.numbers[prefix + "level." + q.name] = {q.of(level)};
-        if (q.y) to.numbers[prefix + "level." + q.name + ".y"] = {level.*q.y};
-        if (q.z) to.numbers[prefix + "level." + q.name + ".z"] = {level.*q.z};
-    }
+    for (const LevelQuantity& q : level_quantities())
+        for (const auto c : indices(q.components()))
+            to.numbers[prefix + "level." + q.name + kComponents[c]] = {q.of(level, c)};
     visit_arrays(level, [&](const char* name, const auto& values) {
         to.numbers[prefix + "level." + name] = {values.begin(), values.end()};
     });
@@ -233,13 +233,12 @@ Path::State get_state(const Entries& from, const std::string& prefix, const rsc_
     level.separation = known[0];
     state.level_x0 = known[1];
     state.level_y0 = known[2];
-    for (const LevelQuantity& q :
-         level_quantities()) {  // entries missing in files of earlier versions keep their defaults
-        const std::string name = prefix + "level." + q.name;
-        if (from.numbers.contains(name)) q.put(level, from.one(name));
-        if (q.y && from.numbers.contains(name + ".y")) level.*q.y = from.one(name + ".y");
-        if (q.z && from.numbers.contains(name + ".z")) level.*q.z = from.one(name + ".z");
-    }
+    // Entries missing in files of earlier versions keep their defaults.
+    for (const LevelQuantity& q : level_quantities())
+        for (const auto c : indices(q.components()))
+            if (const std::string name = prefix + "level." + q.name + kComponents[c];
+                from.numbers.contains(name))
+                q.put(level, from.one(name), c);
     visit_arrays(level, [&](const char* name, auto& values) {
         const auto found = from.numbers.find(prefix + "level." + name);
         if (found == from.numbers.end()) return;

@@ -103,7 +103,7 @@ std::string quoted_words(const Key& key, const std::string& value) {
     std::string all;
     std::istringstream words(word);
     for (std::string one; std::getline(words, one, ',');)
-        enlist(all, ",", quoted_words(key_of("output%file"), one);
+        enlist(all, ",", quoted_words(key_of("output%file"), one));
     return all;
 }
 

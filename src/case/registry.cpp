@@ -212,6 +212,11 @@ std::vector<Key> keys_of_surface() {
                "the spectrum was measured on"),
         choice(RSC_KEY(surface, normalise), kNormaliseNames,
                "sample: each surface has exactly the rms height sigma; ensemble: on average"),
+    };
+}
+
+std::vector<Key> keys_of_height_maps() {
+    return {
         choice(RSC_KEY(surface, detrend), kDetrendNames,
                "form to subtract from a height map, fitted by least squares; separations are "
                "measured from z = 0 afterwards"),
@@ -424,9 +429,9 @@ std::vector<Key> keys_of_output() {
 
 std::vector<Key> make_registry() {
     std::vector<Key> all;
-    for (const auto keys :
-         {keys_of_run, keys_of_solids, keys_of_surface, keys_of_asperities, keys_of_indenter,
-          keys_of_indentation, keys_of_solver, keys_of_elements, keys_of_compare, keys_of_output})
+    for (const auto keys : {keys_of_run, keys_of_solids, keys_of_surface, keys_of_height_maps,
+                            keys_of_asperities, keys_of_indenter, keys_of_indentation,
+                            keys_of_solver, keys_of_elements, keys_of_compare, keys_of_output})
         for (Key& key : keys()) all.push_back(std::move(key));
     return all;
 }

@@ -143,7 +143,8 @@ private:
                    paper = c_.indentation.selection == Selection::paper;
         const bool size_effect = hard && s.size_effect > 0,
                    resistivity = s.resistivity[0] > 0 || s.resistivity[1] > 0;
-        const bool fourth_order = c_.asperities.law == LawKind::fourth_order;
+        const bool fourth_order = c_.asperities.law == LawKind::fourth_order,
+                   line = c_.indentation.line();
         const struct {
             bool both;
             const char *key, *other, *why;
@@ -173,6 +174,9 @@ private:
             {resistivity && layers, "solids%resistivity", "solids%layer_thickness",
              "the resistance of coated bodies is not computed: where spots are smaller than the "
              "thickness of the coating, give its resistivity and no layer"},
+            {line && layers, "indentation%boundary", "solids%layer_thickness", ""},
+            {line && relaxes, "indentation%boundary", "solids%relaxation_share", ""},
+            {line && adhesion, "indentation%boundary", "solids%adhesion", ""},
             {wears && adhesion, "solids%wear_coefficient", "solids%adhesion", ""},
             {wears && relaxes, "solids%wear_coefficient", "solids%relaxation_share", ""},
             {wears && hard, "solids%wear_coefficient", "solids%hardness", ""},
@@ -376,17 +380,9 @@ private:
     void check_line() {
         const Case::Indentation& i = c_.indentation;
         const Case::IndenterKeys& body = c_.indenter;
-        const std::string boundary = get_key(c_, "indentation%boundary");
         const char axis = i.boundary == Boundary::periodic_x ? 'x' : 'y';
         require(elements_, {"indentation%boundary", "solver%model"},
                 "line contact is solved by model = 'elements'");
-        require(c_.solids.layer_thickness.empty(),
-                {"indentation%boundary", "solids%layer_thickness"}, boundary,
-                " is not available for bodies with layers");
-        require(!relaxes(c_), {"indentation%boundary", "solids%relaxation_share"}, boundary,
-                " is not available for relaxing bodies");
-        require(!(c_.solids.adhesion > 0), {"indentation%boundary", "solids%adhesion"}, boundary,
-                " is not available with adhesion");
         const std::string repeats = std::string("body 2 must repeat along ") + axis;
         if (shape() == "sphere")
             require(std::isinf(c_.solids.R[0]) && std::isinf(c_.solids.R[1]),

@@ -21,6 +21,17 @@ struct Verdict {
     double next;
 };
 
+// Of all solutions on the way to a level.
+struct Effort {
+    std::int32_t iterations = 0;
+    std::int64_t products = 0;
+    // Adds that of a solution, which then has the sum.
+    void add(Level& level) {
+        level.iterations = iterations += level.iterations;
+        level.products = products += level.products;
+    }
+};
+
 // Near N = 0 the force of bodies that attract is the difference of pressure and attraction, and no
 // more exact than these.
 bool has_force(const Level& level, double N, double tolerance) {
@@ -99,14 +110,12 @@ template <class Judge, class Reach>
 Level search(Model& model, double begin, double below, double above, int most, Judge&& judge,
              Reach&& reach, bool& stuck) {
     Level level;
-    std::int32_t iterations = 0;
-    std::int64_t products = 0;
+    Effort effort;
     double z = begin, low = below, high = above;
     int trials = kTrials, i = 0;
     const auto solve = [&](bool trial) {
         level = model.solve(z, trial);
-        iterations += level.iterations;
-        products += level.products;
+        effort.add(level);
         return judge(level, z);
     };
     const auto begin_without_trials = [&] {
@@ -146,8 +155,6 @@ Level search(Model& model, double begin, double below, double above, int most, J
         }
         z = next;
     }
-    level.iterations = iterations;
-    level.products = products;
     return level;
 }
 
@@ -197,19 +204,15 @@ Level Path::in_steps(double from, double to, Reach reach) {
 
 Level Path::in_equal_steps(int steps, double from, double to, Reach reach) {
     const double end = time_, start = accepted_.value_or(end);
-    std::int32_t iterations = 0;
-    std::int64_t products = 0;
+    Effort effort;
     Level level;
     for (int k = 1; k <= steps; ++k) {
         const double part = double(k) / steps;
         time_ = k < steps ? start + part * (end - start) : end;
         level = (this->*reach)(k < steps ? from + part * (to - from) : to);
-        iterations += level.iterations;
-        products += level.products;
+        effort.add(level);
         if (!level.converged) break;
     }
-    level.iterations = iterations;
-    level.products = products;
     return level;
 }
 
@@ -221,8 +224,7 @@ Level Path::in_equal_steps(int steps, double from, double to, Reach reach) {
 Level Path::in_halved_steps(double from, double to, Reach reach, const State& before) {
     const bool by_force = reach == &Path::to_force;
     const double start = *accepted_, end = time_;
-    std::int32_t iterations = 0;
-    std::int64_t products = 0;
+    Effort effort;
     double last = kNotComputed, last_area = kNotComputed;
     for (int n = 0;; n = std::max(2 * n, 1)) {
         if (!std::isnan(last)) restore_history(before);
@@ -234,8 +236,7 @@ Level Path::in_halved_steps(double from, double to, Reach reach, const State& be
             time_ = part < 1 ? start + part * (end - start) : end;
             level =
                 in_equal_steps(steps, from + begin * (to - from), from + part * (to - from), reach);
-            level.iterations = iterations += level.iterations;
-            level.products = products += level.products;
+            effort.add(level);
         };
         if (n > 0) {
             const double part = 1 - 0.125 / n;
@@ -566,13 +567,12 @@ Level Path::follow_to_force(double N) {
 // Accepts the levels on the way but the last one, if the model has followed its path to them.
 Level Path::approach_force(double N) {
     const double range = history()->attraction();
-    std::int32_t iterations = 0, jumps = 0;
-    std::int64_t products = 0;
+    Effort effort;
+    std::int32_t jumps = 0;
     double least_on_path = 0;
     const auto solve = [&](double z, bool trial) {
         Level there = model_->solve(z, trial);
-        there.iterations = iterations += there.iterations;
-        there.products = products += there.products;
+        effort.add(there);
         there.jumps += jumps;
         return there;
     };

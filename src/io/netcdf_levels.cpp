@@ -97,23 +97,20 @@ void ResultTable::levels() {
                 attributes);
             continue;
         }
-        const std::vector<double> values = of_rows([&](const LevelValues& l) { return q.of(l); });
-        if (q.always &&
-            std::ranges::none_of(o_.rows,
-                                 absent))  // levels that did not converge may have no force
-            add(q.name, dims, units(q), q.meaning, values, attributes);
-        else if (q.of_step)
-            add(q.name, {"step"}, units(q), q.meaning,
-                std::vector<double>(values.begin(), values.begin() + std::ptrdiff_t(o_.steps)),
-                attributes);
-        else if (q.z)
-            add_absent(q.name, {"realization", "step", "tensor_component"}, units(q), q.meaning,
-                       tensors(q), q.comment);
-        else if (q.y)
-            add_absent(q.name, {"realization", "step", "component"}, units(q), q.meaning,
-                       pairs(values, of_rows(q.y)), q.comment);
+        std::vector<double> values;
+        for (const LevelValues& level : o_.rows)
+            for (const auto c : indices(q.components())) values.push_back(q.of(level, c));
+        Names shape = dims;
+        if (q.of_step) {
+            shape = {"step"};
+            values.resize(o_.steps);
+        }
+        if (q.components() > 1) shape.push_back(components(q.components()));
+        // Levels that did not converge may have no force.
+        if (q.of_step || (q.always && std::ranges::none_of(o_.rows, absent)))
+            add(q.name, shape, units(q), q.meaning, values, attributes);
         else
-            add_absent(q.name, dims, units(q), q.meaning, values, q.comment);
+            add_absent(q.name, shape, units(q), q.meaning, values, q.comment);
     }
     std::vector<double> pull_off(o_.realizations, std::numeric_limits<double>::quiet_NaN());
     bool adhesive = false;
@@ -138,27 +135,17 @@ bool ResultTable::computed(const std::vector<double>& values) {
     return !std::ranges::all_of(values, [](double v) { return std::isnan(v); });
 }
 
-// The components of a vector as the last dimension, which is declared on the first call.
-void ResultTable::component() {
-    if (components_) return;
-    components_ = true;
-    file_.dimension("component", 2);
-    add("component", {"component"}, "1", "component of a vector", one_to(2),
-        {{"flag_values", one_to(2)}, {"flag_meanings", "x y"}});
-}
-
-// The components xx, yy, xy of a symmetric tensor as the last dimension.
-std::vector<double> ResultTable::tensors(const LevelQuantity& q) {
-    file_.dimension("tensor_component", 3);
-    add("tensor_component", {"tensor_component"}, "1", "component of a symmetric tensor", one_to(3),
-        {{"flag_values", one_to(3)}, {"flag_meanings", "xx yy xy"}});
-    std::vector<double> all;
-    for (const LevelValues& l : o_.rows) {
-        all.push_back(q.of(l));
-        all.push_back(l.*q.y);
-        all.push_back(l.*q.z);
-    }
-    return all;
+// The dimension of the components of a vector, or of a symmetric tensor, which is declared on the
+// first call.
+std::string ResultTable::components(std::size_t number) {
+    const bool vector = number == 2;
+    const std::string name = vector ? "component" : "tensor_component";
+    if (!components_.insert(number).second) return name;
+    file_.dimension(name, number);
+    add(name, {name}, "1", vector ? "component of a vector" : "component of a symmetric tensor",
+        one_to(number),
+        {{"flag_values", one_to(number)}, {"flag_meanings", vector ? "x y" : "xx yy xy"}});
+    return name;
 }
 
 void ResultTable::means() {
@@ -192,11 +179,11 @@ void ResultTable::means() {
         bool fewer = s.count != o_.force.count;
         if (q.y) {
             const LevelStatistics y =
-                o_.statistics([&](const LevelValues& l) { return seen(l.*q.y); });
+                o_.statistics([&](const LevelValues& l) { return seen(q.of(l, 1)); });
             fewer = fewer || y.count != o_.force.count;
             s = {pairs(s.mean, y.mean), pairs(s.deviation, y.deviation), pairs(s.error, y.error),
                  pairs(s.count, y.count)};
-            dims.push_back("component");
+            dims.push_back(components(2));
         }
         // A prescribed force scatters as little as the solver leaves of it.
         if (r_.force_control() && name == "force")

@@ -2,6 +2,7 @@
 // the writer.
 #pragma once
 
+#include "base/format.hpp"
 #include "case/units.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/result.hpp"
@@ -104,19 +105,14 @@ private:
     void axes();
     void levels();
     static bool computed(const std::vector<double>& values);
-    void component();  // the dimension of vectors, once
+    std::string components(std::size_t number);
+    std::set<std::size_t> components_;  // whose dimensions are declared
     template <class T>
-    std::vector<T> pairs(const std::vector<T>& x, const std::vector<T>& y) {
-        component();
+    static std::vector<T> pairs(const std::vector<T>& x, const std::vector<T>& y) {
         std::vector<T> both;
-        for (const auto k : indices(x)) {
-            both.push_back(x[k]);
-            both.push_back(y[k]);
-        }
+        for (const auto k : indices(x)) append(both, {x[k], y[k]});
         return both;
     }
-    std::vector<double> tensors(const LevelQuantity& q);
-    bool components_ = false;  // the dimension of vectors is declared
     std::string units(const LevelQuantity& q) const {
         if (!q.unit) return unit(q.length_power, q.force_power);
         return std::string(q.unit) == "time" ? r_.settings.run.time_unit : q.unit;

@@ -168,16 +168,14 @@ void read_levels(const Columns& file, Accumulators& sums) {
         sums.rows[k].separation = separation[of_each ? k : k % steps];
     for (const LevelQuantity& q : level_quantities()) {
         if (!file.find(q.name) && !q.always) continue;  // no level has it
-        const std::size_t parts = q.z ? 3 : q.y ? 2 : 1;
+        const std::size_t parts = q.components();
         std::vector<std::size_t> lengths{count, steps};
         if (q.of_step) lengths = {steps};
-        if (q.y) lengths.push_back(parts);
+        if (parts > 1) lengths.push_back(parts);
         const std::vector<double> values = file.values(q.name, lengths);
-        for (const auto k : indices(sums.rows)) {
-            q.put(sums.rows[k], values[q.of_step ? k % steps : k * parts]);
-            if (q.y) sums.rows[k].*q.y = values[k * parts + 1];
-            if (q.z) sums.rows[k].*q.z = values[k * parts + 2];
-        }
+        for (const auto k : indices(sums.rows))
+            for (const auto c : indices(parts))
+                q.put(sums.rows[k], values[(q.of_step ? k % steps : k) * parts + c], c);
     }
 }
 

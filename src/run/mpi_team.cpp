@@ -71,6 +71,15 @@ T first_of(std::string_view bytes) {
     return from_bytes<T>(bytes.substr(0, sizeof(T)));
 }
 
+// Results that are no longer needed must still be received until all ranks have left, because their
+// senders wait for it.
+void leave_together() {
+    MPI_Request left = MPI_REQUEST_NULL;
+    MPI_Ibarrier(MPI_COMM_WORLD, &left);
+    for (int all = 0; !all; MPI_Test(&left, &all, MPI_STATUS_IGNORE))
+        if (!receive()) std::this_thread::sleep_for(1ms);
+}
+
 // An exception as kind and text, and back.
 std::string packed(const std::exception_ptr& error) {
     try {
@@ -181,12 +190,7 @@ void MpiJob::dismiss(int status) {
     const auto value = std::int32_t(status);
     for (int rank = 1; rank < size_; ++rank)
         MPI_Send(&value, sizeof value, MPI_BYTE, rank, kStop, MPI_COMM_WORLD);
-    // Results that are no longer needed must still be received until all ranks have left, because
-    // their senders wait for it.
-    MPI_Request left = MPI_REQUEST_NULL;
-    MPI_Ibarrier(MPI_COMM_WORLD, &left);
-    for (int all = 0; !all; MPI_Test(&left, &all, MPI_STATUS_IGNORE))
-        if (!receive()) std::this_thread::sleep_for(1ms);
+    leave_together();
 }
 
 int MpiJob::serve(const std::function<Work(const std::string&, std::size_t)>& make) {
@@ -231,10 +235,7 @@ int MpiJob::serve(const std::function<Work(const std::string&, std::size_t)>& ma
             outbox.tidy();
         }
     }
-    MPI_Request left = MPI_REQUEST_NULL;
-    MPI_Ibarrier(MPI_COMM_WORLD, &left);
-    for (int all = 0; !all; MPI_Test(&left, &all, MPI_STATUS_IGNORE))
-        std::this_thread::sleep_for(1ms);
+    leave_together();
     return status;
 }
 
