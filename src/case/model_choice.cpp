@@ -43,7 +43,7 @@ std::optional<double> radius_of(const Case& c) {
     const std::string_view shape = kShapes[at(c.indenter.shape)].name;
     if (shape == "sphere") return equivalent_radius(c.solids.R);
     if (shape != "paraboloid") return std::nullopt;
-    double smallest = Case::kInfinity;
+    double smallest = kInfinity;
     for (const auto& radius : c.indenter.radii)
         smallest =
             std::min(smallest, equivalent_radius({c.solids.R[0], radius.value_or(c.solids.R[1])}));
@@ -120,10 +120,9 @@ const char* why_asperities(const Case& c) {
         {c.surface.source == Source::asperities, "only asperities are given"},
         {c.surface.source == Source::spectrum, "the surface is synthetic"},
         {c.compare.listed(), "compare%levels compares them with elements"},
-        {c.solids.adhesion > 0 && !(c.solids.adhesion_range > 0),
+        {attracts(c) && !(c.solids.adhesion_range > 0),
          "solids%adhesion without adhesion_range needs them"},
-        {c.solids.hardness < Case::kInfinity && c.solids.size_effect > 0,
-         "solids%size_effect needs them"},
+        {yields(c) && c.solids.size_effect > 0, "solids%size_effect needs them"},
         {c.asperities.law != LawKind::hertz || c.asperities.curvature != Curvature::geometric,
          "&asperities is set"},
         {c.solver.method != Method::automatic, "solver%method needs them"},

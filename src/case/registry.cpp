@@ -10,7 +10,7 @@ using namespace namelist;
 
 namespace {
 
-constexpr double kNoLimit = Case::kInfinity;
+constexpr double kNoLimit = kInfinity;
 constexpr Bounds kAny{};
 constexpr Bounds kPositive{0, kNoLimit, true, false};
 constexpr Bounds kNotNegative{0, kNoLimit, false, false};

@@ -135,8 +135,8 @@ private:
     // Pairs of keys that exclude each other.
     void check_exclusive() {
         const Case::Solids& s = c_.solids;
-        const bool adhesion = s.adhesion > 0, range = s.adhesion_range > 0;
-        const bool hard = std::isfinite(s.hardness), friction = s.friction > 0;
+        const bool adhesion = attracts(c_), range = s.adhesion_range > 0;
+        const bool hard = yields(c_), friction = s.friction > 0;
         const bool relaxes = rsc::relaxes(c_), wears = rsc::wears(c_);
         const bool layers = !s.layer_thickness.empty(), compare = c_.compare.listed();
         const bool dgesv = c_.solver.method == Method::dgesv,
@@ -200,7 +200,7 @@ private:
     void check_solids() {
         const Case::Solids& s = c_.solids;
         const std::size_t layers = s.layer_thickness.size(), shares = s.relaxation_share.size();
-        require(s.adhesion > 0 || !(s.adhesion_range > 0),
+        require(attracts(c_) || !(s.adhesion_range > 0),
                 {"solids%adhesion_range", "solids%adhesion"}, "needs solids%adhesion > 0");
         const auto as_many = [&](const std::vector<double>& values, std::size_t wanted,
                                  const char* key, const char* other) {
@@ -216,7 +216,7 @@ private:
         if (!std::isinf(s.E[0])) return;
         require(layers > 0 || !std::isinf(s.E[1]), {"solids%E"},
                 "two rigid bodies do not deform; at most one body may be rigid");
-        require(layers > 0 || !std::isfinite(s.hardness), {"solids%hardness", "solids%E"},
+        require(layers > 0 || !yields(c_), {"solids%hardness", "solids%E"},
                 "the asperities of body 1 yield, so body 1 must not be rigid (E(1) = Infinity)");
         require(!relaxes(c_), {"solids%relaxation_share", "solids%E"},
                 "E(1) = Infinity makes body 1 rigid");
@@ -364,8 +364,8 @@ private:
         const Case::Indentation& i = c_.indentation;
         const bool separation = i.control == Control::separation,
                    with_log = i.spacing == Spacing::log && i.levels.empty();
-        if (separation ? !with_log : c_.solids.adhesion > 0 && !with_log) return;
-        const std::string of = separation || c_.solids.adhesion > 0 ? "spacing" : "control";
+        if (separation ? !with_log : attracts(c_) && !with_log) return;
+        const std::string of = separation || attracts(c_) ? "spacing" : "control";
         const std::string text =
             "must be positive with " + of + " = " + get_key(c_, "indentation%" + of);
         if (!i.levels.empty()) {
@@ -474,7 +474,7 @@ private:
         require(c_.solids.layer_thickness.empty(),
                 {"output%stress_depths", "solids%layer_thickness"},
                 "stresses below the surface are not available in layers");
-        require(elements_ || !(c_.solids.adhesion > 0), {"output%stress_depths", "solids%adhesion"},
+        require(elements_ || !attracts(c_), {"output%stress_depths", "solids%adhesion"},
                 "with adhesion stresses are available for model = 'elements'");
         if (!o.sliding_direction) return;
         require(c_.solids.friction > 0, {"output%sliding_direction", "solids%friction"},

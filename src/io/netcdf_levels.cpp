@@ -36,7 +36,7 @@ void ResultTable::global_attributes(const std::string& history) {
                     "in the attribute `case` "
                     "reproduces this file, "
                     "except for the attribute `history`.");
-    if (r_.path_dependent())
+    if (path_dependent(r_.settings))
         file_.attribute(
             "path",
             wears(r_.settings)     ? "each level depends on the previous ones: the surface remains "

@@ -91,7 +91,7 @@ void keep_contacts(Result& result, std::vector<Level>& levels, Contacts keep) {
             packed.minor.push_back(spot.minor);
             packed.angle.push_back(spot.angle);
         }
-        if (std::isfinite(result.settings.solids.hardness)) append(packed.yields, level.yields);
+        if (yields(result.settings)) append(packed.yields, level.yields);
         result.pixels.resize(levels.size());
         result.pixels[s] = std::move(level.pixels);
     }

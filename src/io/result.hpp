@@ -95,11 +95,6 @@ struct Result {
     std::shared_ptr<const Measured> measured;  // of a measured map; null: not written
     ComparedLevels compared;                   // empty: not written
 
-    // Levels depend on the levels before.
-    bool path_dependent() const {
-        return relaxes(settings) || wears(settings) || std::isfinite(settings.solids.hardness) ||
-               settings.solids.adhesion > 0;
-    }
     // The separation of a level differs between realizations.
     bool force_control() const { return settings.indentation.control != Control::separation; }
 };

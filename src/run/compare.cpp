@@ -177,8 +177,7 @@ bool compares(const Job& job, bool automatically) {
         return false;
     const bool possible = c.surface.source != Source::asperities &&
                           c.solver.interaction == Interaction::point &&
-                          !(std::isfinite(c.solids.hardness) && c.solids.size_effect > 0) &&
-                          !relaxes(c) && !(c.solids.adhesion > 0);
+                          !(yields(c) && c.solids.size_effect > 0) && !relaxes(c) && !attracts(c);
     if (!possible || (job.spectrum && !too_large_for_elements(c, *job.spectrum).empty()))
         return false;
     if (job.levels.empty()) return false;

@@ -98,8 +98,8 @@ std::string key_of_largest(const Case::Indentation& keys) {
 // Two elastic flats by elements have no level at the separation of their mean planes, where they
 // are in full contact, nor below it.
 void require_open(const Job& job) {
-    if (!job.indenter.period.finite() || std::isfinite(job.settings.solids.hardness) ||
-        wears(job.settings) || job.levels.empty())
+    if (!job.indenter.period.finite() || yields(job.settings) || wears(job.settings) ||
+        job.levels.empty())
         return;
     double mean = 0;  // that of a synthetic surface
     for (int j = 0; job.given && job.given_heights && j < job.given_heights->ny; ++j) {
@@ -348,7 +348,7 @@ void require_feasible(const Job& job) {
     if (elements && indentation.control == Control::separation &&
         (job.given_heights || (job.spectrum && job.indenter.shape->flat())))
         require_open(job);
-    if (elements && settings.solids.adhesion > 0) {
+    if (elements && attracts(settings)) {
         const double side =
             job.given_heights ? std::max(job.given_heights->dx, job.given_heights->dy)
             : job.spectrum    ? job.spectrum->L / element_points(settings, *job.spectrum)

@@ -39,9 +39,8 @@ struct Remarks {
             });
         // the hardness of hardened steel; softer bodies bear E*/10
         constexpr double kHardest = 5e9;  // [Pa]
-        if (job.indenter.E_star / 10 * pascals(c) > kHardest && !std::isfinite(c.solids.hardness) &&
-            !relaxes(c) && extreme != levels.end() &&
-            extreme->extreme_area_fraction > kExtremeShare)
+        if (job.indenter.E_star / 10 * pascals(c) > kHardest && !yields(c) && !relaxes(c) &&
+            extreme != levels.end() && extreme->extreme_area_fraction > kExtremeShare)
             out << format(
                 "  pressures above E*/10 on %.0f %% of the contact area at %s: no metal stays "
                 "elastic "
@@ -94,7 +93,7 @@ struct Remarks {
     // Advice where the surface is known beyond a list of asperities, so that elements can solve it.
     std::string to_elements(const char* reason = " solves the surface itself") const {
         if (c.surface.source == Source::asperities) return "";
-        const bool ranged = c.solids.adhesion > 0 && c.solids.adhesion_range == 0;
+        const bool ranged = attracts(c) && c.solids.adhesion_range == 0;
         return std::string("; solver%model = 'elements'") +
                (ranged ? " with a solids%adhesion_range" : "") + reason;
     }
@@ -140,7 +139,7 @@ struct Remarks {
         };
         const bool flats = c.indentation.boundary == Boundary::periodic;
         std::string remedy = "raise solver%max_iterations or the tolerance";
-        if (!elements && c.solids.adhesion > 0)
+        if (!elements && attracts(c))
             remedy = "contacts overlap too much to follow their path" + to_elements();
         else if (!elements && (!c.solids.layer_thickness.empty() || flats))
             remedy =
@@ -213,7 +212,7 @@ struct Remarks {
                 "%s. Results depend on the loading history.\n",
                 last.worn_volume, l, last.wear_depth_max, l, last.worn_rms, l);
         }
-        if (!std::isfinite(c.solids.hardness) || levels.empty()) return;
+        if (!yields(c) || levels.empty()) return;
         const auto most =
             std::ranges::max_element(levels, [](const LevelValues& p, const LevelValues& q) {
                 return p.plastic_contacts < q.plastic_contacts;
@@ -285,7 +284,7 @@ struct Remarks {
 
     // The summary of a run with adhesion.
     void print_sticking() const {
-        if (!(c.solids.adhesion > 0) || levels.empty()) return;
+        if (!attracts(c) || levels.empty()) return;
         long jumps = 0;
         double lost = 0, least = 0, attracting = 0;
         for (const LevelValues& level : levels) {
