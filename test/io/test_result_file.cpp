@@ -154,7 +154,7 @@ TEST(test_edges) {
     c.run.seed = 1234567890123;
     Indenter flat;
     flat.E_star = 1;
-    flat.shape = Case::kInfinity;
+    flat.shape = kInfinity;
     flat.x0 = 3;
     const ObserveOptions options = observe_options(c, {0, 0, 1, 0.5}, flat, 0, 0);
     Accumulators sums(options, 2);
