@@ -10,7 +10,6 @@
 #include "contact/equivalent.hpp"
 #include "interaction/lattice.hpp"
 #include "support/height_maps.hpp"
-#include "support/judged.hpp"
 #include "support/paths.hpp"
 #include "support/random_asperities.hpp"
 #include "truth/elimination.hpp"
@@ -113,17 +112,6 @@ TEST(answers) {
         CHECK_RELATIVE(layered_answer(body, 18 / layers[0].thickness), 1, 1e-9);
         CHECK_CLOSE(layered_answer(body, 1e5 / layers[0].thickness), 1, 0);
     }
-    // The closed form for one layer (x = k h).
-    for (const double r : {0.05, 0.6, 30.0})
-        for (const double x : {0.01, 0.7, 2.0, 6.0}) {
-            const double nl = 0.1, nb = 0.45, b = (r - 1) / (r + 3 - 4 * nl),
-                         n = 1 - 4 * (1 - nl) / (1 + r * (3 - 4 * nb)), e = std::exp(-2 * x);
-            const double T = (1 + 4 * b * x * e - b * n * e * e) /
-                             (1 - (b + n + 4 * b * x * x) * e + b * n * e * e);
-            CHECK_RELATIVE(
-                layered_answer(body_of({{1, r * 2 * (1 + nl), nl}}, 2 * (1 + nb), nb), x), T,
-                1e-12);
-        }
     // Thin, incompressible, on a rigid base: T -> (2/3) x^3, less 0.8 of x^2 of it, without losing
     // digits.
     for (const double x : {1e-6, 1e-4, 1e-2})
@@ -304,30 +292,15 @@ TEST(limits) {
     }
 }
 
-// All ways to solve for asperities agree, and say what is too wide.
-TEST(methods) {
+// The hardness is that of what lies on top: no contact bears more.
+TEST(hardness_of_the_top) {
     const Asperities asperities = random_asperities(1200, 0.005, 0.01, 2e-3, 0.5, 3);
     const Indenter tip = layered(body_of({{0.1, 3, 0.4}, {0.1, 9, 0.2}}, 1, 0.3), 100.0, 0.5, 0.5);
     SolverOptions options{.method = Method::direct, .tolerance = 1e-9, .surface = {.sigma = 0.01}};
-    Path direct = asperity_path(asperities, tip, options);
-    const Level truth = judged(direct.at_separation(0.012), direct, options);
-    CHECK(truth.contacts > 50 && truth.wide_contacts == 0);
-    for (const Method method : {Method::mesh, Method::dgesv}) {
-        options.method = method;
-        Path contact = asperity_path(asperities, tip, options);
-        const Level level = judged(contact.at_separation(0.012), contact, options);
-        CHECK(level.method == method);
-        same(contact, level, direct, truth, 1e-8);
-    }
-    options.method = Method::direct;
-    Path wide = asperity_path(asperities,
-                              layered(body_of({{0.01, 3, 0.4}}, 1, 0.3), 100.0, 0.5, 0.5), options);
-    const Level deep = judged(wide.at_separation(0.012), wide, options);
-    CHECK(deep.wide_contacts > 0 && deep.wide_contacts <= 1 && (deep.doubts & bit(Cause::layer)));
-    // The hardness is that of what lies on top: no contact bears more.
-    options.physics.hardness.H0 = 1e-2 * truth.force / truth.area;
+    const Level elastic = asperity_path(asperities, tip, options).at_separation(0.012);
+    options.physics.hardness.H0 = 1e-2 * elastic.force / elastic.area;
     const Level yields = asperity_path(asperities, tip, options).at_separation(0.012);
-    CHECK(yields.force > 0 && yields.force < truth.force &&
+    CHECK(yields.force > 0 && yields.force < elastic.force &&
           yields.force <= options.physics.hardness.H0 * yields.area * (1 + 1e-9));
     // The same table for the same body, as long as it is in use.
     CHECK(layers_of(tip.layers, tip.E_star) == layers_of(tip.layers, tip.E_star));

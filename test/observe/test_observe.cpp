@@ -68,46 +68,10 @@ TEST(test_oblong_maps) {
     }
 }
 
-// n values at the quantiles (i - 1/2)/n, through the same counting as contacts.
-Distributions quantiles(const PdfBins& bins, int n, bool pressure, double scale) {
-    Level level;
-    for (int i = 0; i < n; ++i) {
-        const double q = -std::log1p(-(i + 0.5) / n);
-        const double area = pressure ? 1e-4 : scale * q,
-                     p = pressure ? scale * std::sqrt(2 * q) : 1;
-        level.asperity.push_back(i);
-        level.a.push_back(std::sqrt(area / pi));
-        level.f.push_back(p * area);
-    }
-    return distributions_of(bins, level, 0);
-}
-
-// Rayleigh and exponential values: skewness 2 sqrt(pi) (pi - 3)/(4 - pi)^(3/2) and 2; densities.
-TEST(test_moments_of_quantiles) {
-    const int n = 20000;
-    const PdfBins bins{60, 5.0, 8.0};
-    // Midpoint quantiles miss the moments by O(log n / n) and the cumulative by 1/(2n).
-    const ShownDistributions rayleigh = shown_distributions(bins, quantiles(bins, n, true, 0.8));
-    CHECK_RELATIVE(rayleigh.mean_pressure_moments.mean, 0.8 * std::sqrt(pi / 2), 5e-5);
-    CHECK_CLOSE(rayleigh.mean_pressure_moments.skewness, 0.6311, 2e-3);
-    CHECK_CLOSE(rayleigh.mean_pressure_moments.kurtosis, 3.2451, 1e-2);
-    const ShownDistributions exponential =
-        shown_distributions(bins, quantiles(bins, n, false, 0.6));
-    CHECK_RELATIVE(exponential.spot_area_moments.mean, 0.6, 5e-5);
-    CHECK_RELATIVE(exponential.spot_area_moments.deviation, 0.6, 5e-3);
-    double below = 0;
-    for (int b = 0; b < 60; ++b) {
-        below += exponential.spot_area_pdf[static_cast<std::size_t>(b)] * bins.area_width();
-        CHECK_CLOSE(below, -std::expm1(-bins.area_width() * (b + 1) / 0.6), 1e-4);
-    }
-    // No contacts: absent, not zero.
-    const ShownDistributions none = shown_distributions(bins, distributions_of(bins, Level{}, 0));
-    CHECK(std::isnan(none.spot_area_moments.mean) && std::isnan(none.mean_pressure_pdf[0]));
-}
-
 __extension__ using Wide = __int128;
 
-// Of two spots one is under tension: it has an area, but no place among the pressures.
+// Of two spots one is under tension: it has an area, but no place among the pressures. Without
+// contacts numbers are absent, not zero.
 TEST(test_tension) {
     Level level;
     level.least_force = -1;
@@ -117,6 +81,8 @@ TEST(test_tension) {
     const ShownDistributions fit = shown_distributions(bins, distributions_of(bins, level, 0));
     CHECK_RELATIVE(fit.spot_area_moments.mean, std::numbers::pi * 1.25 / 2, 1e-14);
     CHECK_RELATIVE(fit.mean_pressure_moments.mean, 1 / std::numbers::pi, 1e-14);
+    const ShownDistributions none = shown_distributions(bins, distributions_of(bins, Level{}, 0));
+    CHECK(std::isnan(none.spot_area_moments.mean) && std::isnan(none.mean_pressure_pdf[0]));
 }
 
 // Against integers: in any order, in any groups.

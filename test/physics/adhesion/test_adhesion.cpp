@@ -79,47 +79,6 @@ TEST(test_one) {
     }
 }
 
-// Symmetric groups: one equation g0 = u(a) + c f(a), c the sum of 1/(pi E* d) over the others.
-TEST(test_groups) {
-    for (int n : {2, 6}) {
-        for (double distance : {0.2, 0.6}) {
-            const Jkr jkr{0.5, 0.01};
-            std::vector<double> x, y;
-            const double circle = n == 2 ? 0.5 * distance : distance;
-            for (int k = 0; k < n; ++k) {
-                x.push_back(circle * std::cos(2 * pi * k / n));
-                y.push_back(circle * std::sin(2 * pi * k / n));
-            }
-            double c = 0;
-            for (int k = 1; k < n; ++k)
-                c += 1 / (pi * kE * std::hypot(x[std::size_t(k)] - x[0], y[std::size_t(k)] - y[0]));
-            const auto one = static_cast<std::size_t>(n);
-            const Asperities a{
-                x,  y, std::vector<double>(one, 0.0), std::vector<double>(one, jkr.r), {}, {},
-                {}, {}};
-            const auto contact = make_asperity_contact(a, {kE, kFlat, 0, 0}, sticky(jkr.w));
-            const auto g0 = [&](double radius) { return jkr.u(radius) + c * jkr.f(radius); };
-            // Where they let go together: the smallest g0.
-            double low = 0.3 * jkr.least(), high = 30 * jkr.least();
-            for (int k = 0; k < 300; ++k) {
-                const double p = low + (high - low) / 3, q = high - (high - low) / 3;
-                (g0(p) < g0(q) ? high : low) = g0(p) < g0(q) ? q : p;
-            }
-            const double last = 0.5 * (low + high), length = -g0(last);
-            for (double g : {0.1, 1.0, 5.0, 0.5, -0.1, -0.6, -0.9, -0.999, -1 + 1e-5}) {
-                const Level level = contact->at_separation(-g * length);
-                CHECK(level.contacts == n);
-                const double radius = root([&](double r) { return g0(r) - g * length; }, last);
-                CHECK_CLOSE(level.force, n * jkr.f(radius),
-                            1e-9 * std::max(std::abs(level.force), n * pi * jkr.w * jkr.r));
-            }
-            const Level away = contact->at_separation((1 + 1e-5) * length);
-            CHECK(away.contacts == 0);
-            CHECK(away.jumps == 1);
-        }
-    }
-}
-
 // Two that let go together while a third one far away, a little higher, is nearer to the state in
 // which it lets go alone: it stays until then.
 TEST(test_third_stays) {
@@ -460,23 +419,6 @@ TEST(test_lost) {
     }
 }
 
-// Two flats that repeat: one asperity a period feels its images, c f with c = 2.28472/(pi E* L)
-// from the mean plane up.
-TEST(test_periodic) {
-    const Jkr jkr{0.5, 0.01};
-    const Asperities a{{0.5}, {0.5}, {0.0}, {jkr.r}, {}, {}, {}, {}};
-    const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5, {1, 1}}, sticky(jkr.w));
-    const double c = -3.90026492 / (pi * kE);  // of what a force does to its own place
-    for (double g0 : {0.004, 0.01, 0.0, -0.004}) {
-        const Level level = contact->at_separation(-g0);
-        CHECK(level.contacts == 1);
-        const double radius =
-            root([&](double r) { return jkr.u(r) + c * jkr.f(r) - g0; }, 1.5 * jkr.least());
-        CHECK_CLOSE(level.force, jkr.f(radius), 1e-8 * std::max(std::abs(level.force), jkr.w));
-        CHECK_RELATIVE(level.pressure, level.force, 1e-12);
-    }
-}
-
 // Under a given force, in either direction; beyond the smallest one it holds there and says so, and
 // goes on from there.
 TEST(test_force) {
@@ -526,51 +468,6 @@ TEST(test_elastic_limit) {
             before = apart;
         }
         CHECK(before < 1e-4);
-    }
-}
-
-// Without interaction: caps of one radius with Gaussian heights, pulled off after all have
-// attached. The mean force of 100 surfaces is the integral over the heights of those that still
-// hold on (Fuller and Tabor, Proc. R. Soc. A 345, 1975), within its standard error.
-TEST(test_fuller_tabor) {
-    const Jkr jkr{0.5, 1e-3};
-    const double length = -jkr.u(jkr.least()), sigma = 1.5 * length;
-    SolverOptions options = sticky(jkr.w);
-    options.interaction = Interaction::none;
-    std::mt19937 generator(7);
-    std::normal_distribution<double> height(0, sigma);
-    const auto force = [&](double u) {
-        return u > -length ? jkr.f(root([&](double a) { return jkr.u(a) - u; }, jkr.least())) : 0.0;
-    };
-    for (double Z : {0.5 * sigma, 1.5 * sigma}) {
-        constexpr int surfaces = 100, caps = 25;
-        double sum = 0, squares = 0;
-        for (int k = 0; k < surfaces; ++k) {
-            std::vector<double> x(caps), y(caps, 0.0), z(caps);
-            double own = 0;
-            for (int i = 0; i < caps; ++i) {
-                x[std::size_t(i)] = i;
-                z[std::size_t(i)] = height(generator);
-                own += force(z[std::size_t(i)] - Z);
-            }
-            const Asperities a{x, y, z, std::vector<double>(caps, jkr.r), {}, {}, {}, {}};
-            const auto contact = make_asperity_contact(a, {kE, kFlat, 0, 0}, options);
-            (void)contact->at_separation(-8 * sigma);
-            const double N = contact->at_separation(Z).force;
-            CHECK_CLOSE(N, own, 1e-8 * caps * jkr.w);
-            sum += N / caps;
-            squares += N / caps * N / caps;
-        }
-        const double mean = sum / surfaces,
-                     error = std::sqrt((squares / surfaces - mean * mean) / surfaces);
-        double integral = 0;
-        const double first = Z - length, last = 8 * sigma, step = (last - first) / 4000;
-        for (int k = 0; k < 4000; ++k) {
-            const double h = first + (k + 0.5) * step;
-            integral += step * force(h - Z) * std::exp(-0.5 * h * h / (sigma * sigma)) /
-                        (sigma * std::sqrt(2 * pi));
-        }
-        CHECK_CLOSE(mean, integral, 3 * error);
     }
 }
 

@@ -172,7 +172,7 @@ TEST(all_shapes) {
     keys.radius = 0.05;
     // Hertz's ellipse (Johnson 1985, section 4.2). Turned along the diagonal it is the same
     // contact.
-    for (const double ratio : {1.0, 3.0, 10.0}) {
+    for (const double ratio : {3.0, 10.0}) {
         keys.radii[0] = 1;
         keys.radii[1] = ratio;
         closed_form("paraboloid", keys, 1e-3, ratio > 3 ? 0.24 : 0.16, 24, 1e-3, 1.5e-2, 0.5);
@@ -180,32 +180,12 @@ TEST(all_shapes) {
     keys.angle = 0.25 * std::numbers::pi;
     keys.radii[1] = 3;
     closed_form("paraboloid", keys, 1e-3, 0.16, 24, 1e-3, 1.5e-2, 0.5);
-    closed_form("sphere", keys, 1e-3, 0.1, 24, 1e-3, 1.5e-2, 0.5);
     closed_form("cone", keys, 5e-3, 0.1, 24, 1e-3, 1.5e-2, 0.5);
     closed_form("punch", keys, 1e-3, 0.12, 24, 1e-2, 2e-2, 0.5);
 
     for (const char* name : {"paraboloid", "cone", "punch"})
         friction(name, keys, name[0] == 'c' ? 5e-3 : 1e-3, 0.14);
 
-    // A cylinder along y, ending at the border: away from the ends the peak pressure and the
-    // half-width b of line contact, p0 = E* b/(2 R).
-    keys.angle = 0;
-    keys.radii[0] = 1;
-    keys.radii[1] = kInfinity;
-    const int nx = 65, ny = 129;
-    const HeightMap strip = flat_map(nx, ny, 0.1 / 64);
-    const auto roller =
-        make_element_contact(strip, {kE, shape("paraboloid", keys), 0, 0}, elements());
-    const Level line = roller->at_separation(-2e-3);
-    double sum = 0, peak = 0;
-    for (std::size_t k = 0; k < line.pixels.index.size(); ++k)
-        if (line.pixels.index[k] / nx == ny / 2) {
-            sum += line.pixels.pressure[k] * strip.dx;
-            peak = std::max(peak, line.pixels.pressure[k]);
-        }
-    // N' = pi E* b^2/(4 R) and N' = pi p0 b/2.
-    const double b = 2 * sum / (std::numbers::pi * peak);
-    CHECK_RELATIVE(peak, kE * b / 2, 1e-2);
 
     // Lateral forces of every shape, on asperities and on the points of a surface.
     keys.rim_radius = 0.5;
