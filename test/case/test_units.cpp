@@ -3,11 +3,8 @@
 
 #include <netcdf.h>
 
-#include "case/read_case.hpp"
-#include "check.hpp"
-#include "run/run.hpp"
 #include "support/refused.hpp"
-#include "support/result_reader.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace test_units {
@@ -56,21 +53,17 @@ TEST(every_variable) {
     const Folder folder;
     const auto result = [&](const std::string& units, const std::string& lengths,
                             const std::string& moduli) {
-        Case c = read_case_text(
-                     "&run " + units + " / &surface n=64 L_lambda_l=2 L_lambda_s=8 " + lengths +
-                         " friction=0.25 " + moduli +
-                         " / &indentation levels=1, 0.5 / &output map_cells=6 heights=.true. /",
-                     "case.nml")
-                     .settings;
-        c.output.file = folder / (c.run.length_unit + ".nc");
-        CHECK(run_case(c, {}) == 0);
-        return c.output.file;
+        return run_to(folder / "units.nc",
+                      "&run " + units + " / &surface n=64 L_lambda_l=2 L_lambda_s=8 " + lengths +
+                          " friction=0.25 " + moduli +
+                          " / &indentation levels=1, 0.5 / &output map_cells=6 heights=.true. /");
     };
-    const Reader mm(result("length_unit='mm' force_unit='N'",
-                           "L=2.0 sigma=0.01 / &solids R=3.0,5.0",
-                           "E=1e3,3e3 resistivity=1e-5,3e-5")),
-        um(result("length_unit='um' force_unit='mN'", "L=2e3 sigma=10.0 / &solids R=3e3,5e3",
-                  "E=1.0,3.0 resistivity=1e-2,3e-2"));
+    const Reader mm = result("length_unit='mm' force_unit='N'",
+                             "L=2.0 sigma=0.01 / &solids R=3.0,5.0",
+                             "E=1e3,3e3 resistivity=1e-5,3e-5"),
+                 um = result("length_unit='um' force_unit='mN'",
+                             "L=2e3 sigma=10.0 / &solids R=3e3,5e3",
+                             "E=1.0,3.0 resistivity=1e-2,3e-2");
     CHECK(mm.text("radial_pressure", "units") == "N mm-2" &&
           mm.text("map_pressure", "units") == "N mm-2");
     int variables = 0;

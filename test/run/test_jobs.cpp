@@ -2,13 +2,12 @@
 // by hand from the case's own numbers, and what is refused just beyond its bound.
 #include "base/format.hpp"
 #include "case/registry.hpp"
-#include "check.hpp"
 #include "contact/equivalent.hpp"
 #include "physics/indenter/shapes.hpp"
-#include "run/job.hpp"
 #include "run/prepare.hpp"
-#include "run/run.hpp"
+#include "support/height_maps.hpp"
 #include "support/refused.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "trust/doubts.hpp"
 
@@ -55,14 +54,6 @@ std::string map_file(const std::string& name, double x0, double y0, double dx = 
     return write(name, text);
 }
 
-Case of_map(const std::string& file) {
-    Case c;
-    c.surface.source = Source::heights;
-    c.surface.file = file;
-    c.output.pdf_levels = {2};
-    c.solver.model = ModelKind::asperities;
-    return c;
-}
 
 // A duration is spread evenly over the levels, both ends included.
 TEST(times) {
@@ -136,7 +127,8 @@ TEST(maps) {
     map_file("p1.txt", -3, 7);
     map_file("p2.txt", 11, -5, 0.5, 0.25, 1.5);
     map_file("p3.txt", 0, 0, 0.5, 0.25, 0.5);
-    Case c = of_map(folder / "p?.txt");
+    Case c = case_of_map(folder / "p?.txt");
+    c.solver.model = ModelKind::asperities;
     c.run.realizations = 3;
     c.indentation.levels = {1.0};
     const Job job = prepare(c);
@@ -189,7 +181,7 @@ TEST(maps) {
     }
     // Elements stand on the points themselves: as read, copied, or made on a grid of their own.
     map_file("p4.txt", 4, -9);
-    Case elements = of_map(folder / "p4.txt");
+    Case elements = case_of_map(folder / "p4.txt");
     elements.solver.model = ModelKind::elements;
     const Surface read = make_surface(elements, 1, 1);
     const SurfaceModel copied = make_surface_model(read, elements, 1),
@@ -289,14 +281,11 @@ TEST(closed_flats) {
 // A sharp punch on a plane by elements: N = 2 a E* d. The edge lies between the points of the grid,
 // in another way at each place: nine of ten levels are within their expected error.
 TEST(punch_on_plane) {
-    constexpr int n = 64, kPlaces = 10, kOutside = 1;
-    std::string text;
-    for (int j = 0; j < n; ++j, text += '\n')
-        for (int i = 0; i < n; ++i) text += (i * 7 + j * 3) % 5 == 0 ? " 1e-12" : " 0";
-    Case c = of_map(write("plane.txt", text));
+    constexpr int kPlaces = 10, kOutside = 1;
+    Case c = case_of_map(write("plane.txt", rows_of_text(64, 64, [](int i, int j) {
+                                   return (i * 7 + j * 3) % 5 == 0 ? 1e-12 : 0;
+                               })));
     c.surface.L = 0.4;
-    c.surface.detrend = Detrend::none;
-    c.output.pdf_levels = {};
     c.solver.model = ModelKind::elements;
     c.indenter.shape = shape_number("punch");
     c.indentation.control = Control::force;
@@ -322,23 +311,21 @@ TEST(punch_on_plane) {
 // it, and say so.
 TEST(exchanged_maps) {
     constexpr int n = 96, kWaves = 12;
-    std::string smooth, rough;
-    for (int j = 0; j < n; ++j, smooth += '\n', rough += '\n')
-        for (int i = 0; i < n; ++i) {
-            const double x = 2 * kPi * i / n, y = 2 * kPi * j / n;
-            smooth +=
-                format(" %.12g", 1e-3 * (std::cos(x + 1) + std::cos(y + 2) + std::cos(2 * x - y)));
-            rough += format(" %.12g", 2e-4 * (std::cos(kWaves * x + 0.3) + std::cos(kWaves * y) +
-                                              std::cos(9 * x - 7 * y + 2)));
-        }
-    const std::string files[] = {write("smooth.txt", smooth), write("rough.txt", rough)};
+    const double q = 2 * kPi / n;
+    const auto smooth = [q](int i, int j) {
+        return 1e-3 * (std::cos(q * i + 1) + std::cos(q * j + 2) + std::cos(2 * q * i - q * j));
+    };
+    const auto rough = [q](int i, int j) {
+        return 2e-4 * (std::cos(kWaves * q * i + 0.3) + std::cos(kWaves * q * j) +
+                       std::cos(9 * q * i - 7 * q * j + 2));
+    };
+    const std::string files[] = {write("smooth.txt", rows_of_text(n, n, smooth)),
+                                 write("rough.txt", rows_of_text(n, n, rough))};
     for (const ModelKind model : {ModelKind::elements, ModelKind::asperities}) {
         Level level[2];
         for (const int first : {0, 1}) {
-            Case c = of_map(files[first]);
+            Case c = case_of_map(files[first]);
             c.surface.pixel = 1.0 / n;
-            c.surface.detrend = Detrend::none;
-            c.output.pdf_levels = {};
             c.solver.model = model;
             c.solver.tolerance = 1e-10;
             c.solids.R[0] = c.solids.R[1] = HUGE_VAL;

@@ -1,16 +1,12 @@
 // Measured maps: the namelist of their twins, and no contact near points that were filled.
 #include "base/error.hpp"
-#include "base/format.hpp"
-#include "case/read_case.hpp"
 #include "case/registry.hpp"
-#include "check.hpp"
 #include "io/inputs.hpp"
-#include "run/job.hpp"
-#include "run/run.hpp"
 #include "support/height_maps.hpp"
-#include "support/judged.hpp"
 #include "support/map_files.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
+#include "trust/doubts.hpp"
 #include "surface/defects.hpp"
 #include "surface/synthesis.hpp"
 
@@ -35,7 +31,7 @@ TEST(twins_of_an_oblong_map) {
     set_key(settings, "surface%file", "'" + file + "'");
     set_key(settings, "indentation%centre", "0.3, 0.1");
     const Job job = prepare(settings);
-    const Case twins = read_case_text(twins_text(job, "oblong.nc"), "twins.nml").settings;
+    const Case twins = settings_of(twins_text(job, "oblong.nc"));
     CHECK(twins.surface.source == Source::spectrum && twins.surface.file == "oblong.nc" &&
           twins.output.file == "oblong_twins.nc");
     CHECK_RELATIVE(*twins.surface.L, 1.0, 1e-12);
@@ -48,8 +44,7 @@ TEST(twins_of_an_oblong_map) {
     // height.
     set_key(settings, "surface%sigma", "0.02");
     set_key(settings, "indentation%levels", "3, 1.5");
-    const Case scaled =
-        read_case_text(twins_text(prepare(settings), "oblong.nc"), "twins.nml").settings;
+    const Case scaled = settings_of(twins_text(prepare(settings), "oblong.nc"));
     CHECK(scaled.indentation.unit == LevelUnit::length &&
           (scaled.indentation.levels == std::vector<double>{3 * 0.02, 1.5 * 0.02}));
     CHECK(scaled.indentation.start == 4 * 0.02 && scaled.indentation.stop == 0.02 &&
@@ -60,8 +55,7 @@ TEST(twins_of_an_oblong_map) {
     for (const char* key : {"solids%R=Infinity,Infinity", "indentation%boundary='periodic'",
                             "indentation%control='force'"})
         set_key(settings, std::string(key, std::strchr(key, '=')), std::strchr(key, '=') + 1);
-    const Case flat =
-        read_case_text(twins_text(prepare(settings), "oblong.nc"), "twins.nml").settings;
+    const Case flat = settings_of(twins_text(prepare(settings), "oblong.nc"));
     CHECK(flat.indentation.control == Control::pressure &&
           flat.indentation.unit == LevelUnit::pressure);
     CHECK_RELATIVE(flat.indentation.levels.at(0), 3 / (1.0 * 0.5), 1e-12);
@@ -69,24 +63,17 @@ TEST(twins_of_an_oblong_map) {
 
 // What belongs to body 2 is kept, with its map alone; what is for one realization is not.
 TEST(twins_with_a_second_map) {
-    std::string rows;
-    for (int j = 0; j < 32; ++j) {
-        for (int i = 0; i < 32; ++i)
-            rows +=
-                std::to_string(1e-3 * std::sin(0.9 * i) * std::cos(0.7 * j) + 1e-4 * (i * j % 7)) +
-                " ";
-        rows += "\n";
-    }
-    const std::string file = folder.write("rows.txt", rows);
+    const std::string file =
+        folder.write("rows.txt", rows_of_text(32, 32, [](int i, int j) {
+                         return 1e-3 * std::sin(0.9 * i) * std::cos(0.7 * j) + 1e-4 * (i * j % 7);
+                     }));
     const auto twins = [&](std::string keys) {
-        const Case one = read_case_text("&surface source='heights' file='" + file +
-                                            "' pixel=0.03 outliers=8 filter_cutoff=0.1 "
-                                            "missing='fill' missing_value=-9999 / "
-                                            "&solids R=Infinity,Infinity friction=0.1 / " +
-                                            "&output fields='pressure' / " + keys,
-                                        "one.nml")
-                             .settings;
-        return read_case_text(twins_text(prepare(one), "t.nc"), "twins.nml").settings;
+        const Case one = settings_of("&surface source='heights' file='" + file +
+                                     "' pixel=0.03 outliers=8 filter_cutoff=0.1 "
+                                     "missing='fill' missing_value=-9999 / "
+                                     "&solids R=Infinity,Infinity friction=0.1 / " +
+                                     "&output fields='pressure' / " + keys);
+        return settings_of(twins_text(prepare(one), "t.nc"));
     };
     const Case two = twins("&indenter shape='map' file='" + file + "' /");
     CHECK(two.surface.pixel == 0.03 && two.surface.outliers == 8 &&
@@ -101,29 +88,22 @@ TEST(twins_with_a_second_map) {
 // The gap between two bodies is all that counts: a rough body 2 on a smooth body 1 is the surface
 // upside down on a smooth body 2.
 TEST(smooth_on_rough) {
-    std::string wave, zero;
-    for (int j = 0; j < 32; ++j) {
-        for (int i = 0; i < 32; ++i) {
-            wave += format("%.17g ", 1e-3 * std::cos(std::numbers::pi * i / 8) *
-                                         std::cos(std::numbers::pi * j / 16));
-            zero += "0 ";
-        }
-        wave += "\n";
-        zero += "\n";
-    }
     const auto level = [&](const std::string& first, const std::string& second) {
-        const Case c = read_case_text(
-                           "&solids E=1e4,Infinity nu=0.3,0.0 R=Infinity,Infinity / &surface "
-                           "source='heights' pixel=0.03125 sigma=1e-3 file='" +
-                               first + "' / &indenter shape='map' file='" + second +
-                               "' / &indentation boundary='periodic' control='pressure' "
-                               "unit='pressure' levels=1.0 /",
-                           "c.nml")
-                           .settings;
+        const Case c = settings_of(
+            "&solids E=1e4,Infinity nu=0.3,0.0 R=Infinity,Infinity / &surface source='heights' "
+            "pixel=0.03125 sigma=1e-3 file='" +
+            first + "' / &indenter shape='map' file='" + second +
+            "' / &indentation boundary='periodic' control='pressure' unit='pressure' levels=1.0 "
+            "/");
         return realize(prepare(c), 1, 1).levels.at(0);
     };
-    const std::string rough = folder.write("wave.txt", wave),
-                      smooth = folder.write("zero.txt", zero);
+    const auto wave = [](int i, int j) {
+        return 1e-3 * std::cos(std::numbers::pi * i / 8) * std::cos(std::numbers::pi * j / 16);
+    };
+    const std::string rough = folder.write("wave.txt", rows_of_text(32, 32, wave)),
+                      smooth = folder.write("zero.txt", rows_of_text(32, 32, [](int, int) {
+                                                return 0.0;
+                                            }));
     const Level below = level(rough, smooth), above = level(smooth, rough);
     CHECK(above.area > 0);
     CHECK_RELATIVE(above.area, below.area, 1e-9);

@@ -1,9 +1,8 @@
 // The remarks at the end of a run, on both sides of each threshold; and the number of candidates
 // that --check foresees.
-#include "case/read_case.hpp"
-#include "check.hpp"
 #include "run/memory.hpp"
 #include "run/screen.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "trust/doubts.hpp"
 
@@ -77,9 +76,7 @@ TEST(thresholds) {
 TEST(moduli) {
     const auto warned = [](const std::string& units, double E) {
         std::ostringstream out;
-        Case c = read_case_text("&run " + units + " / &surface n=64 L_lambda_l=2 L_lambda_s=8 /",
-                                "case.nml")
-                     .settings;
+        Case c = settings_of("&run " + units + " / &surface n=64 L_lambda_l=2 L_lambda_s=8 /");
         c.solids.E[0] = E;
         print_heading(out, prepare(c));
         return out.str().find("warning: solids%E") != std::string::npos;
@@ -148,7 +145,7 @@ TEST(memory) {
              << " 0.05\n";
     list.close();
     const auto job_of = [](const std::string& text) {
-        return prepare(read_case_text(text, "case.nml").settings);
+        return prepare(settings_of(text));
     };
     const std::string text = "&surface source='asperities' L=1.5 sigma=0.01 file='" +
                              folder / "many.txt" + "' / &indentation ";

@@ -15,6 +15,15 @@ rsc::HeightMap height_map(int nx, int ny, double dx, double dy, Height&& z) {
         for (int i = 0; i < nx; ++i) map.row(j)[i] = z(i, j);
     return map;
 }
+// The same as the rows of a text file, without a unit or a spacing.
+template <class Height>
+std::string rows_of_text(int nx, int ny, Height&& z) {
+    std::ostringstream text;
+    text.precision(17);
+    for (int j = 0; j < ny; ++j, text << '\n')
+        for (int i = 0; i < nx; ++i) text << ' ' << z(i, j);
+    return text.str();
+}
 inline rsc::HeightMap flat_map(int nx, int ny, double dx, double dy) {
     return height_map(nx, ny, dx, dy, [](int, int) { return 0.0; });
 }

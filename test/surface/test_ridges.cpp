@@ -1,9 +1,6 @@
 // The errors that elements tell on ridges, whose crests may lie between the points.
-#include "base/format.hpp"
-#include "case/registry.hpp"
-#include "check.hpp"
-#include "run/job.hpp"
-#include "run/prepare.hpp"
+#include "support/height_maps.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "trust/judge.hpp"
 
@@ -68,17 +65,10 @@ TEST(ridges) {
     for (const int points : {4, 6, 8, 12})
         for (const double beside : {0.0, 0.2, 0.5}) {
             const int n = points * waves;
-            Case c;
-            c.surface.source = Source::heights;
-            c.surface.file = folder / "ridges.txt";
+            Case c = case_of_map(folder.write("ridges.txt", rows_of_text(n, n, [&](int, int j) {
+                return Delta * std::cos(2 * pi * (j - beside) / points);
+            })));
             c.surface.L = 1.0;
-            c.surface.detrend = Detrend::none;
-            std::ofstream file(c.surface.file);
-            for (int j = 0; j < n; ++j)
-                for (int i = 0; i < n; ++i)
-                    file << format("%.17g", Delta * std::cos(2 * pi * (j - beside) / points))
-                         << (i + 1 < n ? ' ' : '\n');
-            file.close();
             c.solids.R[0] = c.solids.R[1] = HUGE_VAL;
             c.indentation.boundary = Boundary::periodic;
             c.indentation.unit = LevelUnit::length;

@@ -1,15 +1,14 @@
 // What a level is worth: status, expected errors, grids of elements, borders, filled points.
 #include "case/registry.hpp"
-#include "check.hpp"
 #include "contact/make.hpp"
 #include "contact/spots.hpp"
 #include "elements/pixel_spots.hpp"
 #include "observe/map.hpp"
 #include "observe/record.hpp"
 #include "run/compare.hpp"
-#include "run/job.hpp"
 #include "run/prepare.hpp"
 #include "support/height_maps.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "trust/judge.hpp"
 
@@ -136,23 +135,15 @@ TEST(filled) {
     CHECK(share_on_filled(level, {&map, 1}, ball, low) == 1);
     // The same points on body 2, whose middle is above the tip: a cap with a hole at its top.
     const Folder folder;
-    const auto write = [&](const std::string& name, auto&& height) {
-        std::ofstream file(folder / name);
-        for (int j = 0; j < 32; ++j)
-            for (int i = 0; i < 32; ++i)
-                file << height(std::hypot(i - 15.5, j - 15.5)) << (i < 31 ? ' ' : '\n');
-        return folder / name;
-    };
-    Case c;
-    c.surface.source = Source::heights;
-    c.surface.file = write("flat.txt", [](double) { return "0.0"; });
+    Case c = case_of_map(
+        folder.write("flat.txt", rows_of_text(32, 32, [](int, int) { return 0.0; })));
     c.surface.pixel = 1.0;
     c.surface.sigma = 1e-3;
     c.surface.missing = Missing::fill;
-    c.surface.detrend = Detrend::none;
-    c.indenter.file = write("cap.txt", [](double r) {
-        return r < 2 ? std::string("nan") : std::to_string(-0.5e-3 * r * r);
-    });
+    c.indenter.file = folder.write("cap.txt", rows_of_text(32, 32, [](int i, int j) {
+                                       const double r = std::hypot(i - 15.5, j - 15.5);
+                                       return r < 2 ? std::nan("") : -0.5e-3 * r * r;
+                                   }));
     set_key(c, "indenter%shape", "'map'");
     c.indentation.unit = LevelUnit::length;
     c.indentation.levels = {-0.01};
@@ -173,15 +164,9 @@ TEST(pixels_of_contacts) {
 
 TEST(resolution) {
     const Folder folder;
-    const std::string path = folder / "flat.txt";
-    std::ofstream file(path);
-    for (int j = 0; j < 24; ++j)
-        for (int i = 0; i < 24; ++i)
-            file << ((i + j) % 2 ? "1e-9" : "-1e-9") << (i < 23 ? ' ' : '\n');
-    file.close();
-    Case c;
-    c.surface.source = Source::heights;
-    c.surface.file = path;
+    Case c = case_of_map(folder.write("flat.txt", rows_of_text(24, 24, [](int i, int j) {
+                                          return (i + j) % 2 ? 1e-9 : -1e-9;
+                                      })));
     c.surface.L = 24.0;
     c.indentation.unit = LevelUnit::length;
     c.indentation.levels = {-0.004, -0.03, -0.2};
@@ -408,17 +393,10 @@ TEST(alike_in_every_order) {
     const Folder folder;
     for (const int n : {15, 33})
         for (const bool flats : {false, true}) {
-            Case m;
-            m.surface.source = Source::heights;
-            m.surface.file = folder / "map.txt";
+            Case m = case_of_map(folder.write("map.txt", rows_of_text(n, n, [n](int i, int j) {
+                return 1e-3 * std::sin(2 * pi * i / n) * std::sin(2 * pi * j / n);
+            })));
             m.surface.L = 1.0;
-            m.surface.detrend = Detrend::none;
-            std::ofstream file(m.surface.file);
-            for (int j = 0; j < n; ++j)
-                for (int i = 0; i < n; ++i)
-                    file << 1e-3 * std::sin(2 * pi * i / n) * std::sin(2 * pi * j / n)
-                         << (i + 1 < n ? ' ' : '\n');
-            file.close();
             if (flats) m.indentation.boundary = Boundary::periodic;
             m.solids.R[1] = flats ? HUGE_VAL : 3;
             m.indentation.unit = LevelUnit::length;

@@ -1,13 +1,9 @@
 // Flow through the gap of two flats: closed forms, an independent solver, symmetries, percolation,
 // a level of a contact.
-#include "case/read_case.hpp"
-#include "check.hpp"
 #include "physics/flow/dissection.hpp"
 #include "physics/flow/flow.hpp"
-#include "run/job.hpp"
-#include "run/run.hpp"
 #include "support/library.hpp"
-#include "support/result_reader.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "truth/flow.hpp"
 
@@ -208,7 +204,7 @@ constexpr const char* kFlats =
     "&output flow = .true. fields = 'gap', 'flow' field_levels = 0.01, 0.02 /\n";
 
 TEST(the_gap_of_a_level) {
-    const Job job = prepare(read_case_text(kFlats, "case").settings);
+    const Job job = prepare(settings_of(kFlats));
     const Realization r = realize(job, 1, 1);
     const int n = static_cast<int>(r.fields.x.size());
     const std::size_t points = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
@@ -243,19 +239,13 @@ TEST(the_gap_of_a_level) {
 // of the first, and its sums over all.
 TEST(the_distribution_of_gaps) {
     const Folder folder;
-    const auto solved = [&](int realizations, const char* fields) {
-        const std::string path = folder / (std::to_string(realizations) + ".nc");
-        const Case settings =
-            read_case_text(std::string(kFlats).substr(0, std::string(kFlats).find("&output")) +
-                               "&run realizations = " + std::to_string(realizations) +
-                               " /\n&output " + fields +
-                               " pdf_levels = 1.0, pdf_bins = 25, file = '" + path + "' /\n",
-                           "case")
-                .settings;
-        CHECK(run_case(settings, {.command = "rsc", .inputs = {}, .report = {}}) == 0);
-        return path;
+    const auto solved = [&](const std::string& realizations, const char* fields) {
+        return run_to(folder / (realizations + ".nc"),
+                      std::string(kFlats).substr(0, std::string(kFlats).find("&output")) +
+                          "&run realizations = " + realizations + " /\n&output " + fields +
+                          " pdf_levels = 1.0, pdf_bins = 25 /\n");
     };
-    const Reader one(solved(1, "fields = 'gap' field_levels = 0.01, 0.02, 0.3"));
+    const Reader one = solved("1", "fields = 'gap' field_levels = 0.01, 0.02, 0.3");
     const auto gap = one.values("field_gap");
     const std::size_t points = gap.size() / 3;
     const auto step = static_cast<std::size_t>(one.values("pdf_step")[0]) - 1;
@@ -272,7 +262,7 @@ TEST(the_distribution_of_gaps) {
         CHECK_RELATIVE(one.values("gap_pdf")[b], counts[b] / (open * width), 1e-12);
     CHECK_RELATIVE(one.numbers("gap_pdf", "mean")[0], one.values("gap_mean_open")[step], 1e-12);
 
-    const Reader three(solved(3, ""));
+    const Reader three = solved("3", "");
     double all = 0, sum = 0;
     for (const double n : three.values("gap_count")) all += n;
     for (std::size_t k = 0; k < 3; ++k)

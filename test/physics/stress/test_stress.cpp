@@ -1,11 +1,8 @@
 // Stresses below the surface: sums of point forces, Hertz's sphere and line, sliding, equilibrium.
-#include "case/read_case.hpp"
-#include "check.hpp"
 #include "physics/stress/pixel_stress.hpp"
 #include "physics/stress/plane_stress.hpp"
 #include "physics/stress/spot_stress.hpp"
-#include "run/run.hpp"
-#include "support/result_reader.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "truth/stress.hpp"
 
@@ -312,10 +309,7 @@ TEST(spots_of_asperities) {
 
 std::vector<double> values_of(const std::string& text, const std::string& path,
                               const std::vector<std::string>& names) {
-    Case c = read_case_text(text, "case.nml").settings;
-    c.output.file = path;
-    CHECK(run_case(c, {.command = "rsc", .inputs = {}, .report = {}}) == 0);
-    const Reader file(path);
+    const Reader file = run_to(path, text);
     std::vector<double> all;
     for (const std::string& name : names)
         for (const double value : file.values(name)) all.push_back(value);
@@ -324,17 +318,16 @@ std::vector<double> values_of(const std::string& text, const std::string& path,
 
 TEST(a_file_holds_the_stresses_of_its_pressures) {
     const Folder folder;
-    const std::string path = folder / "stress.nc";
-    const std::string text =
-        "&solids E = 200, 200  nu = 0.25, 0.3  R = Infinity, 50  friction = 0.2 /\n"
-        "&surface L = 1, L_lambda_l = 2, L_lambda_s = 8, sigma = 1e-3 /\n"
-        "&indentation control = 'force', levels = 0.02, 0.1 /\n"
-        "&solver model = 'elements' /\n"
-        "&output stress_depths = 0.02, 0.1, sliding_direction = 120,"
-        " fields = 'pressure', 'mises', 'shear', 'tension' /\n";
-    const auto pressure = values_of(text, path, {"field_pressure"});
-    const Reader file(path);
-    const auto x = file.values("field_x"), y = file.values("field_y");
+    const Reader file =
+        run_to(folder / "stress.nc",
+               "&solids E = 200, 200  nu = 0.25, 0.3  R = Infinity, 50  friction = 0.2 /\n"
+               "&surface L = 1, L_lambda_l = 2, L_lambda_s = 8, sigma = 1e-3 /\n"
+               "&indentation control = 'force', levels = 0.02, 0.1 /\n"
+               "&solver model = 'elements' /\n"
+               "&output stress_depths = 0.02, 0.1, sliding_direction = 120,"
+               " fields = 'pressure', 'mises', 'shear', 'tension' /\n");
+    const auto x = file.values("field_x"), y = file.values("field_y"),
+               pressure = file.values("field_pressure");
     const double half = 0.5 * (x[1] - x[0]), qx = 0.2 * std::cos(2 * pi / 3),
                  qy = 0.2 * std::sin(2 * pi / 3);
     const std::array<const char*, 3> names{"mises", "shear", "tension"};

@@ -1,13 +1,10 @@
 // Wear by sliding: a worn ball by rings, volumes, waves in full contact, steps, states, files.
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "case/read_case.hpp"
-#include "check.hpp"
 #include "contact/make.hpp"
 #include "physics/indenter/shapes.hpp"
-#include "run/run.hpp"
 #include "support/height_maps.hpp"
-#include "support/result_reader.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "truth/wear.hpp"
 
@@ -196,10 +193,7 @@ TEST(files) {
             "&indentation boundary='periodic' control='pressure' unit='pressure' levels=3*100 ",
         made = " / &surface L=1 L_lambda_l=2 L_lambda_s=8 n=128 sigma=1e-3 /";
     const auto run = [&](const std::string& text, const std::string& name) {
-        Case c = read_case_text(common + text, "case").settings;
-        c.output.file = folder / name;
-        CHECK(run_case(c, {.command = "rsc", .inputs = {}, .report = {}}) == 0);
-        return Reader(c.output.file);
+        return run_to(folder / name, common + text);
     };
     const Reader whole = run("distances=0, 10, 20" + made +
                                  "&output heights=.true. fields='heights','gap','contact' "
