@@ -8,6 +8,9 @@
 
 #include "base/std.hpp"
 
+using rsc::kInfinity;
+using std::numbers::pi;
+
 namespace check {
 
 inline std::atomic<int> failures = 0, checks = 0;  // also from threads of a test

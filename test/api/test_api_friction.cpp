@@ -59,7 +59,7 @@ TEST(same_as_core) {
     std::int64_t n = 0;
     CHECK(rsc_friction_spots(friction, 0, &n, nullptr, nullptr, nullptr, nullptr, nullptr) == -2 &&
           n > 5);
-    std::vector<double> fx(static_cast<std::size_t>(n)), inner(static_cast<std::size_t>(n), 1.0);
+    std::vector<double> fx(n), inner(n, 1.0);
     OK(rsc_friction_spots(friction, n, &n, nullptr, nullptr, inner.data(), fx.data(), nullptr));
     for (std::size_t i = 0; i < fx.size(); ++i) {
         sum += fx[i];

@@ -96,12 +96,11 @@ TEST(many_contacts) {
     const AsperitiesHandle asperities = make(1);
     std::vector<double> one, force(n), separation(n), forces(n);
     std::vector<std::int32_t> status(n);
-    for (int k = 0; k < n; ++k) force[static_cast<std::size_t>(k)] = 0.1 + 0.2 * k;
+    for (int k = 0; k < n; ++k) force[k] = 0.1 + 0.2 * k;
     const auto contacts = [&] {
         std::vector<rsc_contact*> made(n, nullptr);
         for (int k = 0; k < n; ++k)
-            OK(rsc_contact_create(&made[static_cast<std::size_t>(k)], asperities, 94e3, 2.5,
-                                  0.4 + 0.01 * k, 0.5, nullptr));
+            OK(rsc_contact_create(&made[k], asperities, 94e3, 2.5, 0.4 + 0.01 * k, 0.5, nullptr));
         return made;
     };
     for (std::int32_t threads : {1, 2, 0}) {

@@ -79,17 +79,16 @@ void level_by_calls(const Reader& file, rsc_contact* contact, std::size_t s,
     CHECK(static_cast<double>(candidates) == of("candidates") &&
           static_cast<double>(iterations) == of("iterations"));
     // Spots: the file's contacts of this level, counted from 1 there.
-    const auto first = static_cast<std::size_t>(of("contact_start")) - 1,
-               size = static_cast<std::size_t>(n);
+    const auto first = static_cast<std::size_t>(of("contact_start")) - 1;
     CHECK(static_cast<double>(n) == of("contact_count"));
-    std::vector<std::int32_t> which(size);
-    Values force(size), radius(size), penetration(size);
+    std::vector<std::int32_t> which(n);
+    Values force(n), radius(n), penetration(n);
     OK(rsc_contact_spots(contact, n, which.data(), force.data(), radius.data(),
                          penetration.data()));
     const auto part = [&](const char* name) {
         const Values all = file.values(name);
         return Values(all.begin() + static_cast<std::ptrdiff_t>(first),
-                      all.begin() + static_cast<std::ptrdiff_t>(first + size));
+                      all.begin() + static_cast<std::ptrdiff_t>(first + n));
     };
     same("contact_force", part("contact_force"), force);
     same("contact_radius", part("contact_radius"), radius);

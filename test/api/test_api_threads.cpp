@@ -50,8 +50,7 @@ Answer work(int number) {
 std::vector<Answer> at_once(const std::function<Answer(int)>& work_of) {
     std::vector<Answer> answers(kThreads);
     std::vector<std::thread> threads;
-    for (int t = 0; t < kThreads; ++t)
-        threads.emplace_back([&, t] { answers[static_cast<std::size_t>(t)] = work_of(t); });
+    for (int t = 0; t < kThreads; ++t) threads.emplace_back([&, t] { answers[t] = work_of(t); });
     for (auto& t : threads) t.join();
     return answers;
 }

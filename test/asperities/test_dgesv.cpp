@@ -47,8 +47,7 @@ TEST(matrix) {
         for (std::size_t i = 0; i < n; ++i)
             for (std::size_t j = 0; j < n; ++j)
                 if (j != i)
-                    v[i] -= F[j] / (std::numbers::pi *
-                                    std::hypot(set.x[i] - set.x[j], set.y[i] - set.y[j]));
+                    v[i] -= F[j] / (pi * std::hypot(set.x[i] - set.x[j], set.y[i] - set.y[j]));
         return v;
     };
     const std::vector<double> v = penetrations(force);

@@ -13,10 +13,7 @@ namespace test_edges {
 using namespace rsc;
 
 constexpr double kE = 94.0e3;
-constexpr double kFlat = std::numeric_limits<double>::infinity();
 const Method kMethods[] = {Method::direct, Method::dgesv, Method::mesh, Method::automatic};
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 SolverOptions options(Method method, double tolerance = 1e-10) {
     return {.method = method, .tolerance = tolerance, .surface = {.sigma = 0.01}};
@@ -52,7 +49,7 @@ void sane(const Level& level, const char* what) {
 // whatever the solver left out.
 double residual(const Asperities& a, const Indenter& indenter, double Z0, const Level& level) {
     std::vector<long double> F(a.size(), 0);
-    for (std::size_t k = 0; k < level.f.size(); ++k) F[at(level.asperity[k])] = level.f[k];
+    for (std::size_t k = 0; k < level.f.size(); ++k) F[level.asperity[k]] = level.f[k];
     long double error2 = 0, force2 = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         const long double dx = a.x[i] - indenter.x0, dy = a.y[i] - indenter.y0,
@@ -134,18 +131,18 @@ TEST(overlapping) {
         const Asperities a = set_of({0.5 - d / 2, 0.5 + d / 2}, {0.5, 0.5}, {g, g}, r);
         for (Method method : kMethods) {
             const Level level =
-                asperity_path(a, {kE, kFlat, 0.5, 0.5}, options(method)).at_separation(0.0);
+                asperity_path(a, {kE, kInfinity, 0.5, 0.5}, options(method)).at_separation(0.0);
             sane(level, "overlapping");
-            CHECK(residual(a, {kE, kFlat, 0.5, 0.5}, 0.0, level) <= 2e-10);
+            CHECK(residual(a, {kE, kInfinity, 0.5, 0.5}, 0.0, level) <= 2e-10);
             bool overlap = level.f.size() == 2 && d < level.a[0] + level.a[1];
             CHECK(level.overlapping_pairs == overlap);
             // Beyond (2/pi) a of the radius each would have alone, the largest any solution can
             // have, there is one solution only; far within it there are others, and this is told.
-            const double unique_from = 2 / std::numbers::pi * std::sqrt(r * g);
+            const double unique_from = 2 / pi * std::sqrt(r * g);
             if (d > 1.2 * unique_from) CHECK(level.unique && level.converged);
             if (d < 0.5 * unique_from) CHECK(!level.unique);
             if (level.f.size() == 2)
-                CHECK(d >= 2 / std::numbers::pi * std::sqrt(level.a[0] * level.a[1]) * (1 - 1e-6));
+                CHECK(d >= 2 / pi * std::sqrt(level.a[0] * level.a[1]) * (1 - 1e-6));
             else
                 CHECK(!level.unique);
         }
@@ -156,7 +153,7 @@ TEST(overlapping) {
 // by its neighbours.
 TEST(depths) {
     const Asperities a = random_asperities(200, 0.03, 0.01, 1e-3, 0.5, 12);
-    for (double R : {2.5, 1e6, kFlat}) {
+    for (double R : {2.5, 1e6, kInfinity}) {
         double last = 0;
         for (double Z0 : {1e6, 1.0, 0.04, 0.02, 0.0, -0.05, -0.5, -10.0, -1e3, -1e6}) {
             for (Method method : kMethods)
@@ -174,7 +171,7 @@ TEST(depths) {
         CHECK(last > 0);
     }
     // The flat gives what a very large sphere gives.
-    const double flat = asperity_path(a, {kE, kFlat, 0.5, 0.5}, options(Method::direct, 1e-12))
+    const double flat = asperity_path(a, {kE, kInfinity, 0.5, 0.5}, options(Method::direct, 1e-12))
                             .at_separation(0.0)
                             .force;
     CHECK_RELATIVE(asperity_path(a, {kE, 1e12, 0.5, 0.5}, options(Method::direct, 1e-12))
@@ -193,17 +190,18 @@ TEST(forces) {
         // Z0 has neighbours only so near, and the force with it: the last term is what one summit
         // of radius 5e-3 or less takes.
         const double ulp =
-            std::nextafter(std::abs(level.separation), kFlat) - std::abs(level.separation);
+            std::nextafter(std::abs(level.separation), kInfinity) - std::abs(level.separation);
         CHECK(level.converged);
         CHECK_CLOSE(level.force, N,
                     1e-10 * N + 4 * ulp * std::abs(contact.stiffness()) +
                         kE * 0.1 * std::pow(4 * ulp, 1.5));
     }
     Path contact = asperity_path(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
-    for (double N : {0.0, -1.0, 1e-20, std::nan(""), kFlat})
+    for (double N : {0.0, -1.0, 1e-20, std::nan(""), kInfinity})
         CHECK_THROWS(contact.at_force(N), Error);
-    for (double Z0 : {std::nan(""), kFlat, -kFlat}) CHECK_THROWS(contact.at_separation(Z0), Error);
-    for (double E : {0.0, -1.0, std::nan(""), kFlat})
+    for (double Z0 : {std::nan(""), kInfinity, -kInfinity})
+        CHECK_THROWS(contact.at_separation(Z0), Error);
+    for (double E : {0.0, -1.0, std::nan(""), kInfinity})
         CHECK_THROWS(asperity_path(a, {E, 2.5, 0.5, 0.5}, options(Method::direct)), Error);
     for (double R : {0.0, -1.0, std::nan("")})
         CHECK_THROWS(asperity_path(a, {kE, R, 0.5, 0.5}, options(Method::direct)), Error);
@@ -215,10 +213,10 @@ TEST(beyond_squares) {
         CHECK_RELATIVE(relative_residual({3 * size, 4 * size}, {50 * size, 0}), 0.1, 1e-15);
     CHECK(relative_residual({0, 0}, {0, 0}) == 0);
     CHECK(relative_residual({1e-300, 0}, {0, 0}) == 1);
-    CHECK(relative_residual({1, 0}, {__builtin_huge_val(), 0}) == 1);
+    CHECK(relative_residual({1, 0}, {kInfinity, 0}) == 1);
     const Asperities a = set_of({0, 1e-3, 0}, {0, 0, 1e-3}, {0, 0, 0}, 0.5e-3);
     for (Method method : {Method::direct, Method::dgesv}) {
-        const Level level = asperity_path(a, {kE, kFlat, 0, 0}, options(method))
+        const Level level = asperity_path(a, {kE, kInfinity, 0, 0}, options(method))
                                 .at_separation(-1e170);  // forces of some 1e258
         CHECK(std::isfinite(level.residual));
         CHECK(level.residual < 1

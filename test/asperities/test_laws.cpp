@@ -57,7 +57,7 @@ TEST(ellipse_against_quadrature) {
         // The integrands peak at pi/2 when e is near 1: split there.
         const auto whole = [&](auto f) {
             double sum = 0, left = 0;
-            for (double piece : {0.8, 1.3, 1.5, 1.56, 0.5 * std::numbers::pi}) {
+            for (double piece : {0.8, 1.3, 1.5, 1.56, 0.5 * pi}) {
                 sum += integrate(left, piece, f);
                 left = piece;
             }
@@ -68,7 +68,7 @@ TEST(ellipse_against_quadrature) {
         // Curvatures (p0 = E* = 1): 2 kappa = second derivatives of u: kappa along x: b D/a^2 2
         // /..., along y: B/b.
         const double kx = 2 * b * D / (a * a), ky = 2 * B / b;
-        const double ratio = ky / kx, delta = b * K, force = 2.0 / 3 * std::numbers::pi * a * b;
+        const double ratio = ky / kx, delta = b * K, force = 2.0 / 3 * pi * a * b;
         const EllipseFactors f = ellipse_factors(ratio);
         CHECK_RELATIVE(f.axes, axes, 1e-9);
         const double R = 1 / std::sqrt(kx * ky);
@@ -117,7 +117,7 @@ TEST(everything_of_every_law) {
             law->prepare(both);  // once more changes nothing
             CHECK(law->convex() && !law->path_dependent() && law->work_lost() == 0);
             for (const int i : both) {
-                const auto k = static_cast<std::size_t>(i);
+                const auto k = i;
                 const EllipseFactors f = kind == LawKind::hertz
                                              ? EllipseFactors{}
                                              : ellipse_factors(s.kappa1[k] / s.kappa2[k]);
@@ -146,9 +146,7 @@ TEST(everything_of_every_law) {
                 for (double u = 1e-4 * most; u < most; u *= 1.31) {
                     const Answer r = respond(u);
                     CHECK_RELATIVE(law->force(i, u), r.force, 1e-14);
-                    CHECK_RELATIVE(r.slope,
-                                   2 * kE * std::sqrt(r.area / std::numbers::pi) / (f.F1 * f.F2),
-                                   1e-12);
+                    CHECK_RELATIVE(r.slope, 2 * kE * std::sqrt(r.area / pi) / (f.F1 * f.F2), 1e-12);
                     CHECK(law->beyond(i, u) == (u > last));
                     // From the last penetration to this one, in the root of it, and up to the end
                     // of the law's own range apart.
@@ -206,7 +204,7 @@ TEST(fourth_order_to_the_last_digits) {
             const long double half = sign > 0 ? std::sin(x / 2) : std::sinh(x / 2);
             const Answer r = ask(*law, static_cast<double>(2 * A * half * half));
             const double slack = kRounding / static_cast<double>(std::abs(v));
-            CHECK_RELATIVE(std::sqrt(r.area / std::numbers::pi) * q, static_cast<double>(x), slack);
+            CHECK_RELATIVE(std::sqrt(r.area / pi) * q, static_cast<double>(x), slack);
             if (k < 30) continue;  // the closed form of P cancels
             CHECK_RELATIVE(r.force, static_cast<double>(2 * kE * A / q * sign * (v - x * c)),
                            slack);

@@ -80,7 +80,7 @@ TEST(shift_is_the_highest_point) {
         constexpr int around = 2000, out = 100;
         for (int a = 0; a < around; ++a)
             for (int r = 1; r <= out; ++r) {
-                const double t = 2 * std::numbers::pi * a / around, d = farthest * r / out,
+                const double t = 2 * pi * a / around, d = farthest * r / out,
                              here = clearance(d * std::cos(t), d * std::sin(t));
                 if (here > best) {
                     best = here;
@@ -157,7 +157,7 @@ TEST(summits_of_maps) {
         Case c = polished(1e-3, "asperities");
         c.surface.n = 128;  // four points in the shortest wave
         if (flat) {
-            c.solids.R[1] = std::numeric_limits<double>::infinity();
+            c.solids.R[1] = kInfinity;
             c.indentation.boundary = Boundary::periodic;
         }
         c.asperities.law = LawKind::elliptic;

@@ -20,7 +20,7 @@ Vector dense(const Vector& x, const Vector& y, const Vector& a) {
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t j = 0; j < n; ++j) {
             const double d = std::hypot(x[i] - x[j], y[i] - y[j]);
-            M[i * n + j] = i == j ? 1.0 : 2 / std::numbers::pi * std::sqrt(a[i] * a[j]) / d;
+            M[i * n + j] = i == j ? 1.0 : 2 / pi * std::sqrt(a[i] * a[j]) / d;
         }
     }
     return M;
@@ -78,8 +78,7 @@ std::vector<Vector> all_minima(const Law& law, double E_star, const Asperities& 
                 v[i] = g0[i];
                 for (std::size_t j = 0; j < n; ++j) {
                     if (j != i)
-                        v[i] -= F[j] / (std::numbers::pi * E_star *
-                                        std::hypot(p.x[i] - p.x[j], p.y[i] - p.y[j]));
+                        v[i] -= F[j] / (pi * E_star * std::hypot(p.x[i] - p.x[j], p.y[i] - p.y[j]));
                 }
                 const double f = law.force(static_cast<int>(i), v[i]);
                 change = std::max(change, std::abs(f - F[i]));
@@ -99,12 +98,12 @@ std::vector<Vector> all_minima(const Law& law, double E_star, const Asperities& 
 
 // Where a second solution exists, uniqueness is never told; where none does, nearly always.
 TEST(told_only_where_it_is_so) {
-    constexpr double E_star = 1 / std::numbers::pi;
+    constexpr double E_star = 1 / pi;
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(0, 1);
     int unique = 0, several = 0, told = 0, several_wide = 0;
     for (int set = 0; set < 8000; ++set) {
-        const std::size_t n = 2 + static_cast<std::size_t>(set) % 5;
+        const std::size_t n = 2 + set % 5;
         const bool wide =
             // radii over decades: a flat asperity far outside the spot of a sharp one may be its
             // rival

@@ -76,9 +76,7 @@ std::string another_value(const Key& key, int salt) {
                                       ? static_cast<int>(key.bounds.high) - salt % 2
                                       : 12345 + salt);
         case Type::string: return "'it''s a \"text\", number " + std::to_string(salt) + "!'";
-        case Type::choice:
-            return std::string("'") +
-                   key.choices[static_cast<std::size_t>(salt) % key.choices.size()] + "'";
+        case Type::choice: return std::string("'") + key.choices[salt % key.choices.size()] + "'";
         case Type::real: break;
     }
     // No short decimal: all 17 digits are needed.

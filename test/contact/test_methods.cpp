@@ -28,16 +28,14 @@ TEST(levels_do_not_remember) {
         Path down = asperity_path(a, indenter, options(Method::direct)),
              up = asperity_path(a, indenter, options(Method::direct));
         std::vector<double> forward(levels), backward(levels);
-        for (int k = 0; k < levels; ++k)
-            forward[static_cast<std::size_t>(k)] = down.at_separation(separation(k)).force;
-        for (int k = levels - 1; k >= 0; --k)
-            backward[static_cast<std::size_t>(k)] = up.at_separation(separation(k)).force;
+        for (int k = 0; k < levels; ++k) forward[k] = down.at_separation(separation(k)).force;
+        for (int k = levels - 1; k >= 0; --k) backward[k] = up.at_separation(separation(k)).force;
         for (int k = 0; k < levels; ++k) {
             const double alone = asperity_path(a, indenter, options(Method::direct))
                                      .at_separation(separation(k))
                                      .force;
-            CHECK_CLOSE(forward[static_cast<std::size_t>(k)], alone, kTolerance * alone);
-            CHECK_CLOSE(backward[static_cast<std::size_t>(k)], alone, kTolerance * alone);
+            CHECK_CLOSE(forward[k], alone, kTolerance * alone);
+            CHECK_CLOSE(backward[k], alone, kTolerance * alone);
         }
     }
 }
@@ -77,7 +75,7 @@ TEST(of_two_the_first_met_carries) {
             a.radius = {larger * r, r};
             for (Method method : {Method::direct, Method::dgesv, Method::mesh}) {
                 const Level level =
-                    asperity_path(a, {kE, HUGE_VAL, 0.5, 0.5}, options(method)).at_separation(0);
+                    asperity_path(a, {kE, kInfinity, 0.5, 0.5}, options(method)).at_separation(0);
                 CHECK(!level.unique);
                 CHECK(level.asperity == std::vector<int>{1});
                 CHECK_RELATIVE(level.force, 4.0 / 3.0 * kE * std::sqrt(r) * std::pow(g, 1.5), 1e-9);
@@ -102,7 +100,7 @@ TEST(auto_chooses) {
         SolverOptions o = options(method);
         o.tolerance = 1e-4;
         o.interaction = interaction;
-        const Level level = asperity_path(a, {kE, HUGE_VAL, 0.5, 0.5, period}, o).at_separation(0);
+        const Level level = asperity_path(a, {kE, kInfinity, 0.5, 0.5, period}, o).at_separation(0);
         CHECK(level.candidates == side * side && level.converged);
         CHECK(level.fallback == (method == Method::mesh && level.method != method
                                      ? Fallback::no_interaction

@@ -17,7 +17,7 @@ TEST(test_way) {
     const double way[][2] = {{0.5, 0.5},       {0.5001, 0.5001}, {0.5002, 0.5002}, {0.5003, 0.5003},
                              {0.5005, 0.5005}, {0.5005, 0.502},  {0.503, 0.502},   {0.501, 0.502},
                              {0.7, 0.3},       {0.7, 0.3},       {0.71, 0.3},      {0.72, 0.3}};
-    for (const double R : {2.0, std::numeric_limits<double>::infinity(), 0.3}) {
+    for (const double R : {2.0, kInfinity, 0.3}) {
         if (R < 1) {
             asperities.x[17] = asperities.y[17] = 0.49;
             asperities.z[17] = 0.05;

@@ -7,10 +7,8 @@
 namespace test_periodic {
 
 using namespace rsc;
-using std::numbers::pi;
 
 constexpr double kE = 3.0;
-constexpr double kInfinity = Period{}.x;
 constexpr double kSelf = -3.900264920001955886982;  // of the square lattice (test_lattice.cpp)
 
 SolverOptions options(Method method, double tolerance = 1e-11, LawKind law = LawKind::hertz) {

@@ -5,7 +5,6 @@
 namespace test_spots {
 
 using namespace rsc;
-using std::numbers::pi;
 
 // What circles of radii r and s share at distance d.
 double lens(double r, double s, double d) {

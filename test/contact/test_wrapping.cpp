@@ -23,8 +23,7 @@ struct Round {
               rsc_surface_heights(surface, kN * kN, z.data()) == RSC_SUCCESS);
         for (int j = 0; j < kN; ++j)
             for (int i = 0; i < kN; ++i)
-                turned[static_cast<std::size_t>((j + kN / 2) % kN * kN + (i + kN / 2) % kN)] =
-                    z[static_cast<std::size_t>(j * kN + i)];
+                turned[(j + kN / 2) % kN * kN + (i + kN / 2) % kN] = z[j * kN + i];
         for (int k = 0; k < 2; ++k) {
             OK(rsc_surface_take(&surface, kN, kN, 1.0 / kN, 1.0 / kN, 0, 0, 1,
                                 (k == 0 ? z : turned).data()));

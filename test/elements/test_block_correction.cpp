@@ -8,7 +8,6 @@ namespace test_block_correction {
 using namespace rsc;
 
 constexpr int kSide = 256, kReach = 6;
-constexpr double kPi = 3.14159265358979;
 
 struct Fixture {
     std::vector<std::size_t> rows = {0};
@@ -48,7 +47,7 @@ double product(const std::vector<float>& a, const std::vector<float>& b) {
 // wave; with blocks, on which waves are not smooth, some tens of per cent remain.
 TEST(long_wave) {
     Fixture all([](int, int) { return true; });
-    const double k = 2 * kPi / kSide;
+    const double k = 2 * pi / kSide;
     std::vector<float> r;
     for (const std::int32_t i : all.column) r.push_back(static_cast<float>(std::cos(k * i)));
     const double exact = 0.5 * k * product(r, r);

@@ -88,7 +88,7 @@ void settled_sets() {
 TEST(element_force) {
     settled_sets();
     first_levels();
-    const double flat = std::numeric_limits<double>::infinity();
+    const double flat = kInfinity;
     compare(5.0, {0.1, 1.0, 30.0, 1000.0});
     compare(flat, {500.0, 1000.0, 3000.0, 10000.0});  // the last ones in full contact
 }

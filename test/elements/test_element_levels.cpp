@@ -15,16 +15,13 @@
 namespace test_element_levels {
 
 using namespace rsc;
-using std::numbers::pi;
 
 using Vector = std::vector<double>;
-constexpr double kE = 3.0, kFlat = __builtin_huge_val();
+constexpr double kE = 3.0;
 // Levels are asked for a residual of 1e-11; the matrices' condition is some hundreds. Sums over
 // pixels that touch come down to rounding.
 constexpr double kSame = 1e-8, kTolerance = 1e-11;
 constexpr double kResistivity[2] = {2, 3};
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 struct Truth {
     const HeightMap& map;
@@ -61,7 +58,7 @@ struct Truth {
     std::size_t shifted(std::size_t l, std::size_t k) const {
         const int i = static_cast<int>(l) % nx() - static_cast<int>(k) % nx(),
                   j = static_cast<int>(l) / nx() - static_cast<int>(k) / nx();
-        return at((j + ny()) % ny() * nx() + (i + nx()) % nx());
+        return (j + ny()) % ny() * nx() + (i + nx()) % nx();
     }
     // The modes that the pixels carry, each with 2/(E* |k|).
     double answer(int i, int j) const {
@@ -84,7 +81,7 @@ struct Truth {
                    ? z[k] +
                          std::sqrt(tip.shape->hertz_radius() * tip.shape->hertz_radius() - rho2) -
                          tip.shape->hertz_radius()
-                   : -kFlat;
+                   : -kInfinity;
     }
 
     // p and w at a separation; false: the conditions of contact were not met.
@@ -199,18 +196,18 @@ void whole_level(const Level& level, const Truth& t, double Z0) {
     if (level.pixels.index.size() != touching.size()) return;
     // The highest pressure of each contact, and the penetration that its pressures need where this
     // is.
-    std::vector<std::size_t> peak(at(level.contacts), t.n());
+    std::vector<std::size_t> peak(level.contacts, t.n());
     for (std::size_t k = 0; k < touching.size(); ++k) {
         same(level.pixels.pressure[k], t.p[touching[k]], most, "pressure of a pixel");
         same(level.pixels.x(k), t.x(touching[k]), 1, "x of a pixel");
         same(level.pixels.y(k), t.y(touching[k]), 1, "y of a pixel");
-        std::size_t& top = peak[at(level.pixels.contact[k])];
+        std::size_t& top = peak[level.pixels.contact[k]];
         if (top == t.n() || t.p[touching[k]] > t.p[top]) top = touching[k];
     }
     for (std::size_t c = 0; c < peak.size(); ++c) {
         double alone = 0;
         for (std::size_t k = 0; k < touching.size(); ++k) {
-            if (at(level.pixels.contact[k]) != c) continue;
+            if (std::cmp_not_equal(level.pixels.contact[k], c)) continue;
             double dx = t.x(touching[k]) - t.x(peak[c]), dy = t.y(touching[k]) - t.y(peak[c]);
             if (t.repeats()) {
                 dx = std::remainder(dx, t.tip.period.x);
@@ -258,7 +255,7 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
         whole_level(level, t, Z0);
         for (const auto& [x, y] : {std::pair{0.41, -0.02}, {0.7, 0.11}})
             same(deflection(level, *kernel, x, y), t.down(x, y), 0.01, "deflection");
-        double top = -kFlat;
+        double top = -kInfinity;
         for (std::size_t k = 0; k < t.n(); ++k) top = std::max(top, t.height(k));
         same(contact->first_touch(), top, 0.01, "first touch");
         deepest = level.force;
@@ -309,9 +306,9 @@ TEST(element_levels) {
     });
     map.x0 = 0.2;
     map.y0 = -0.15;
-    const Indenter sphere{kE, 20.0, 0.47, 0.07, {}}, flat{kE, kFlat, 0.47, 0.07, {}},
-        repeating{kE, kFlat, 0.47, 0.07, {map.Lx(), map.Ly()}};
-    for (const double hardness : {kFlat, 0.35}) {
+    const Indenter sphere{kE, 20.0, 0.47, 0.07, {}}, flat{kE, kInfinity, 0.47, 0.07, {}},
+        repeating{kE, kInfinity, 0.47, 0.07, {map.Lx(), map.Ly()}};
+    for (const double hardness : {kInfinity, 0.35}) {
         along_a_path(map, sphere, hardness, "sphere");
         along_a_path(map, flat, hardness, "flat");
         map.periodic = true;

@@ -45,7 +45,7 @@ double by_conjugate_gradients(const HeightMap& map, const std::vector<std::int32
 TEST(flat_stiffness) {
     const Spectrum spectrum{1, 0.8, 4, 20, false, 0.01};
     const HeightMap map = synthesize(spectrum, 160, Normalise::sample, 1, 1, nullptr, 1);
-    const Indenter flat{kE, std::numeric_limits<double>::infinity(), 0, 0, {map.Lx(), map.Ly()}};
+    const Indenter flat{kE, kInfinity, 0, 0, {map.Lx(), map.Ly()}};
     const double slope = std::sqrt(2 * theoretical_moments(spectrum).m2);
     for (const double pressure : {0.005, 0.02, 0.3}) {
         const auto contact =

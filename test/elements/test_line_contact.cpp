@@ -9,8 +9,6 @@ namespace test_line_contact {
 
 using namespace rsc;
 
-const double pi = std::numbers::pi;
-
 HeightMap map_of(int nx, int ny, double step, const std::function<double(double, double)>& z) {
     HeightMap map;
     map.allocate(nx, ny, nx);
@@ -87,8 +85,8 @@ TEST(hertz_line) {
         const double most = *std::ranges::max_element(level.pixels.pressure);
         errors.push_back(std::abs(most / p0 - 1));
         // Equal along the axis.
-        const std::size_t each = level.pixels.index.size() / static_cast<std::size_t>(along);
-        CHECK(each * static_cast<std::size_t>(along) == level.pixels.index.size());
+        const std::size_t each = level.pixels.index.size() / along;
+        CHECK(each * along == level.pixels.index.size());
         for (std::size_t k = each; k < level.pixels.pressure.size(); ++k)
             CHECK_CLOSE(level.pixels.pressure[k], level.pixels.pressure[k % each], 1e-6 * p0);
         CHECK_CLOSE(level.area / period, 2 * b, 1.5 * step);

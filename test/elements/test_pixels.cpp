@@ -69,14 +69,13 @@ TEST(kernel) {
 std::vector<Pixel> clusters(int spots, int radius, int extent, unsigned seed) {
     std::mt19937 random(seed);
     std::vector<Pixel> pixels;
-    std::vector<char> taken(static_cast<std::size_t>(extent) * static_cast<std::size_t>(extent), 0);
+    std::vector<char> taken(extent * extent, 0);
     for (int k = 0; k < spots; ++k) {
         const int cx = static_cast<int>(random() % static_cast<unsigned>(extent)),
                   cy = static_cast<int>(random() % static_cast<unsigned>(extent));
         for (int y = std::max(0, cy - radius); y < std::min(extent, cy + radius); ++y)
             for (int x = std::max(0, cx - radius); x < std::min(extent, cx + radius); ++x) {
-                auto& t = taken[static_cast<std::size_t>(y) * static_cast<std::size_t>(extent) +
-                                static_cast<std::size_t>(x)];
+                auto& t = taken[y * extent + x];
                 if (t || (x - cx) * (x - cx) + (y - cy) * (y - cy) >= radius * radius) continue;
                 t = 1;
                 pixels.push_back({x - extent / 3, y - extent / 2});
@@ -112,8 +111,8 @@ TEST(products) {
                 mixed[k] = positive[k] - 0.5;
                 if (k % 5 == 3) positive[k] = 0;
             }
-            const double scale = 1 / (std::numbers::pi * E);
-            const auto size = static_cast<std::size_t>(family.extent);
+            const double scale = 1 / (pi * E);
+            const std::size_t size = family.extent;
             std::vector<double> table(size * size);
             for (std::size_t y = 0; y < size; ++y)
                 for (std::size_t x = 0; x < size; ++x)
@@ -122,9 +121,8 @@ TEST(products) {
                                      0.5 * dx, 0.5 * dy);
             for (std::size_t k = 0; k < n; ++k)
                 for (std::size_t l = 0; l < n; ++l) {
-                    const double K =
-                        table[static_cast<std::size_t>(std::abs(pixels[k].y - pixels[l].y)) * size +
-                              static_cast<std::size_t>(std::abs(pixels[k].x - pixels[l].x))];
+                    const double K = table[std::abs(pixels[k].y - pixels[l].y) * size +
+                                           std::abs(pixels[k].x - pixels[l].x)];
                     exact_positive[k] += K * positive[l];
                     exact_mixed[k] += K * mixed[l];
                 }
@@ -153,10 +151,8 @@ TEST(products) {
             std::fill(some.begin() + static_cast<std::ptrdiff_t>((n + 1) / 2), some.end(), 0.0);
             for (std::size_t k = 0; k < n; ++k)
                 for (std::size_t l = 0; l < (n + 1) / 2; ++l)
-                    expected[k] +=
-                        some[l] *
-                        table[static_cast<std::size_t>(std::abs(pixels[k].y - pixels[l].y)) * size +
-                              static_cast<std::size_t>(std::abs(pixels[k].x - pixels[l].x))];
+                    expected[k] += some[l] * table[std::abs(pixels[k].y - pixels[l].y) * size +
+                                                   std::abs(pixels[k].x - pixels[l].x)];
             tree->set_pixels({});
             tree->elsewhere(some.data(), pixels, w.data());
             CHECK(difference(w, expected) <= 1e-5);
@@ -183,7 +179,7 @@ TEST(products) {
 TEST(pixels_without_pressure) {
     const auto products = make_tree_products(3.0, 0.01, 0.01, 1e-3, 1e-6);
     const auto [own, other] = of_unit_pressure(*products, {1, 0});
-    ElementsSolver solver(*products, std::numeric_limits<double>::infinity());
+    ElementsSolver solver(*products, kInfinity);
     for (const double penetration : {0.5, -0.5}) {
         std::vector<double> p{1, 0};
         const ElementsOutcome start =

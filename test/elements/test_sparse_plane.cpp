@@ -16,7 +16,7 @@ struct Spots {
 // Discs of random size and place, some across the edges.
 Spots spots(int nx, int ny) {
     std::mt19937 random(3);
-    std::vector<double> plane(static_cast<std::size_t>(nx * ny), 0.0);
+    std::vector<double> plane(nx * ny, 0.0);
     for (int s = 0; s < 20; ++s) {
         const int x = static_cast<int>(random() % static_cast<unsigned>(nx)),
                   y = static_cast<int>(random() % static_cast<unsigned>(ny));
@@ -24,13 +24,13 @@ Spots spots(int nx, int ny) {
         for (int b = -8; b <= 8; ++b)
             for (int a = -8; a <= 8; ++a)
                 if (a * a + b * b < r2)
-                    plane[static_cast<std::size_t>((y + b + ny) % ny * nx + (x + a + nx) % nx)] =
+                    plane[(y + b + ny) % ny * nx + (x + a + nx) % nx] =
                         std::sqrt(r2 - a * a - b * b);
     }
     Spots all;
     for (int j = 0; j < ny; ++j) {
         for (int i = 0; i < nx; ++i)
-            if (const double p = plane[static_cast<std::size_t>(j * nx + i)]; p > 0) {
+            if (const double p = plane[j * nx + i]; p > 0) {
                 all.column.push_back(i);
                 all.p.push_back(p);
             }
@@ -72,20 +72,14 @@ void stencil(int nx, int ny) {
         convolved(second, all_pixels(width, width), width, width, one);
     for (int k = 0; k < width * width; ++k) {
         const int off = std::abs(k - reach * width - reach);
-        CHECK_CLOSE(differences[static_cast<std::size_t>(k)],
-                    off == 0   ? 2.0
-                    : off == 1 ? -1.0
-                               : 0.0,
-                    1e-5);
+        CHECK_CLOSE(differences[k], off == 0 ? 2.0 : off == 1 ? -1.0 : 0.0, 1e-5);
     }
     const Spots set = spots(nx, ny);
     const std::vector<float> some = convolved(taps, set, nx, ny, {set.p.begin(), set.p.end()});
-    std::vector<float> plane(static_cast<std::size_t>(nx * ny), 0.0f);
+    std::vector<float> plane(nx * ny, 0.0f);
     std::vector<std::size_t> place;
     for (std::size_t j = 0, k = 0; j + 1 < set.rows.size(); ++j)
-        for (; k < set.rows[j + 1]; ++k)
-            place.push_back(j * static_cast<std::size_t>(nx) +
-                            static_cast<std::size_t>(set.column[k]));
+        for (; k < set.rows[j + 1]; ++k) place.push_back(j * nx + set.column[k]);
     for (std::size_t k = 0; k < place.size(); ++k) plane[place[k]] = static_cast<float>(set.p[k]);
     const std::vector<float> everywhere = convolved(taps, all_pixels(nx, ny), nx, ny, plane);
     for (std::size_t k = 0; k < place.size(); ++k) CHECK_CLOSE(some[k], everywhere[place[k]], 1e-4);
@@ -96,18 +90,16 @@ void split(int nx, int ny, double aspect, double tolerance,
     CHECK(SplitPixels::suits(nx, ny, aspect, share));
     const Spots set = spots(nx, ny);
     PeriodicPixels<double> exact(nx, ny, 1, aspect, share);
-    const auto n = static_cast<std::size_t>(nx);
+    const auto n = nx;
     std::vector<double> truth(set.p.size()), Kx, again;
     exact.apply(
         [&](int j, double* row) {
             std::fill_n(row, n, 0.0);
-            for (std::size_t k = set.rows[static_cast<std::size_t>(j)];
-                 k < set.rows[static_cast<std::size_t>(j) + 1]; ++k)
+            for (std::size_t k = set.rows[j]; k < set.rows[j + 1]; ++k)
                 row[set.column[k]] = set.p[k];
         },
         [&](int j, const double* row) {
-            for (std::size_t k = set.rows[static_cast<std::size_t>(j)];
-                 k < set.rows[static_cast<std::size_t>(j) + 1]; ++k)
+            for (std::size_t k = set.rows[j]; k < set.rows[j + 1]; ++k)
                 truth[k] = row[set.column[k]];
         });
     SplitPixels fast(nx, ny, aspect, share);

@@ -76,7 +76,7 @@ TEST(random_points) {
 TEST(one_huge_spot) {
     std::mt19937_64 random(4);
     std::uniform_real_distribution<double> uniform(0, 1);
-    for (double huge : {0.1, 0.5, 2.0, 1e6, std::numeric_limits<double>::infinity()}) {
+    for (double huge : {0.1, 0.5, 2.0, 1e6, kInfinity}) {
         Vector x, y, reach;
         for (int i = 0; i < 1500; ++i) {
             x.push_back(uniform(random));

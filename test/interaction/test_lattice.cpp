@@ -9,7 +9,6 @@
 namespace test_lattice {
 
 using namespace rsc;
-using std::numbers::pi;
 
 constexpr double kSum = 1e-12;  // of 1/L: what the lattice promises
 // 4 zeta(1/2) beta(1/2), the square lattice's own sum

@@ -18,11 +18,9 @@ namespace test_layers {
 
 using namespace rsc;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity(), kPi = std::numbers::pi;
-
 LayeredBody body_of(const std::vector<Layer>& layers, double E, double nu) {
     LayeredBody body;
-    for (const Layer& layer : layers) body.layer[static_cast<std::size_t>(body.count++)] = layer;
+    for (const Layer& layer : layers) body.layer[body.count++] = layer;
     body.E = E;
     body.nu = nu;
     return body;
@@ -33,7 +31,7 @@ LayeredBody body_of(const std::vector<Layer>& layers, double E, double nu) {
 // tractions and displacements continuous (6 for one layer), in long double.
 double by_boundary_conditions(const LayeredBody& body, double wavenumber) {
     using Real = long double;
-    const auto layers = static_cast<std::size_t>(body.count);
+    const std::size_t layers = body.count;
     const bool rigid = std::isinf(body.E);
     const std::size_t n = 4 * layers + (rigid ? 0 : 2);
     const Real k = wavenumber, unit = body.layer[0].E;  // of stresses
@@ -61,8 +59,8 @@ double by_boundary_conditions(const LayeredBody& body, double wavenumber) {
         if (l == 0) {
             for (int c = 0; c < 4; ++c) {
                 const State s = state(below, c, 0);
-                A[0][static_cast<std::size_t>(c)] = s.normal;
-                A[1][static_cast<std::size_t>(c)] = s.shear;
+                A[0][c] = s.normal;
+                A[1][c] = s.shear;
             }
             b[0] = -1;
             continue;
@@ -71,20 +69,16 @@ double by_boundary_conditions(const LayeredBody& body, double wavenumber) {
         const int conditions = l == layers && rigid ? 2 : 4;
         const auto put = [&](std::size_t column, const State& s, Real sign) {
             const Real values[] = {s.along, s.down, s.normal, s.shear};
-            for (int c = 0; c < conditions; ++c)
-                A[row + static_cast<std::size_t>(c)][column] = sign * values[c];
+            for (int c = 0; c < conditions; ++c) A[row + c][column] = sign * values[c];
         };
-        for (int c = 0; c < 4; ++c)
-            put(4 * (l - 1) + static_cast<std::size_t>(c), state(above, c, above.thickness), 1);
+        for (int c = 0; c < 4; ++c) put(4 * (l - 1) + c, state(above, c, above.thickness), 1);
         if (conditions == 4)
-            for (int c = 0; c < (l < layers ? 4 : 2); ++c)
-                put(4 * l + static_cast<std::size_t>(c), state(below, c, 0), -1);
-        row += static_cast<std::size_t>(conditions);
+            for (int c = 0; c < (l < layers ? 4 : 2); ++c) put(4 * l + c, state(below, c, 0), -1);
+        row += conditions;
     }
     const std::vector<Real> x = solved(A, b);
     Real down = 0;
-    for (int c = 0; c < 4; ++c)
-        down += x[static_cast<std::size_t>(c)] * state(body.layer[0], c, 0).down;
+    for (int c = 0; c < 4; ++c) down += x[c] * state(body.layer[0], c, 0).down;
     const Real nu = body.layer[0].nu;  // a half-space: 2 (1 - nu^2)/(E k)
     return static_cast<double>(down * k / (2 * (1 - nu * nu)));
 }
@@ -131,7 +125,7 @@ double transformed(const LayeredBody& body, double d) {
                 return (layered_answer(body, q) - 1) * boost::math::cyl_bessel_j(0, q * d);
             },
             k, std::min(end, k + step));
-    return sum / (kPi * E_1);
+    return sum / (pi * E_1);
 }
 
 TEST(transforms) {
@@ -145,7 +139,7 @@ TEST(transforms) {
         for (const double ratio : {0.0, 1e-4, 0.01, 0.3, 1.0, 4.0, 30.0, 300.0, 1e4}) {
             if (ratio > 300 && &body != bodies) continue;  // the quadrature takes long
             const double d = 0.3 * ratio,
-                         point = 1 / (kPi * E_1 * std::max(d, 0.3));  // what G is, about
+                         point = 1 / (pi * E_1 * std::max(d, 0.3));  // what G is, about
             CHECK_CLOSE(smooth->at(d), transformed(body, d), 1e-9 * point);
         }
         for (const double k : {1e-3, 0.1, 1.0, 10.0, 100.0})
@@ -194,16 +188,15 @@ Pressed axisymmetric(const LayeredBody& body, double R, double a) {
         for (std::size_t j = 0; j <= n; ++j) {
             double sum = 0;
             for (std::size_t q = 0; q < k.size(); ++q) sum += rest[q] * wave[i][q] * wave[j][q];
-            A[i][j] = (i == j ? 1.0 : 0.0) + 2 / kPi * weight[j] * sum;
+            A[i][j] = (i == j ? 1.0 : 0.0) + 2 / pi * weight[j] * sum;
         }
-    std::vector<double> flat(n + 1, E / kPi), curved;
-    for (double x : t) curved.push_back(E / kPi * x * x / R);
+    std::vector<double> flat(n + 1, E / pi), curved;
+    for (double x : t) curved.push_back(E / pi * x * x / R);
     flat = solved(A, flat);
     curved = solved(A, curved);
     const double depth = curved[n] / flat[n];
     double force = 0;
-    for (std::size_t i = 0; i < n; ++i)
-        force += 2 * kPi * weight[i] * (depth * flat[i] - curved[i]);
+    for (std::size_t i = 0; i < n; ++i) force += 2 * pi * weight[i] * (depth * flat[i] - curved[i]);
     return {depth, force};
 }
 
@@ -222,7 +215,7 @@ TEST(sphere_on_a_layer) {
             const auto contact = make_element_contact(map, sphere, {.tolerance = 1e-5});
             const Level level = contact->at_separation(-truth.depth);
             CHECK_RELATIVE(level.force, truth.force, 0.005);
-            CHECK_RELATIVE(level.area, kPi * a * a, 0.02);
+            CHECK_RELATIVE(level.area, pi * a * a, 0.02);
         }
 }
 
@@ -312,14 +305,14 @@ TEST(repeating) {
     const LayeredBody body = body_of({{0.1, 3, 0.5}, {0.1, 9, 0.2}}, 1, 0.3);
     const double E_1 = 3 / (1 - 0.25), Lx = 2, Ly = 1.5;
     const auto smooth = make_layers(body, E_1);
-    const Lattice lattice({Lx, Ly}, smooth.get(), 1 / (kPi * E_1)), plain({Lx, Ly});
+    const Lattice lattice({Lx, Ly}, smooth.get(), 1 / (pi * E_1)), plain({Lx, Ly});
     for (const auto& [x, y] : {std::pair{0.1, 0.2}, {0.9, 0.7}, {0.37, 0.05}, {1.9, -3.3}}) {
         double sum = 0;
         for (int m = -80; m <= 80; ++m)
             for (int n = -60; n <= 60; ++n) {
-                const double kx = 2 * kPi * m / Lx, ky = 2 * kPi * n / Ly, k = std::hypot(kx, ky);
+                const double kx = 2 * pi * m / Lx, ky = 2 * pi * n / Ly, k = std::hypot(kx, ky);
                 if (k > 0)
-                    sum += 2 * kPi / (Lx * Ly * k) * (layered_answer(body, k) - 1) *
+                    sum += 2 * pi / (Lx * Ly * k) * (layered_answer(body, k) - 1) *
                            std::cos(kx * x + ky * y);
             }
         CHECK_CLOSE(lattice.at(x, y), plain.at(x, y) + sum, 1e-8 * (1 + std::abs(sum)));

@@ -47,7 +47,7 @@ Vector random_forces(std::size_t n, unsigned seed, bool signs) {
     return f;
 }
 
-const auto kUnit = make_kernel(Interaction::point, 1 / std::numbers::pi);  // 1/d
+const auto kUnit = make_kernel(Interaction::point, 1 / pi);  // 1/d
 
 Vector product(MeshPotential& potential, const Vector& f) {
     Vector phi(f.size(), std::nan(""));

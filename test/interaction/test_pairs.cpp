@@ -54,8 +54,7 @@ double distance(const std::vector<T>& a, const std::vector<double>& b,
     for (std::size_t i = 0; i < b.size(); ++i) {
         const double error = std::abs(static_cast<double>(a[i]) - b[i]);
         const double relative = size[i] > 0 ? error / size[i] : error;
-        if (!(relative <= largest))
-            largest = std::isnan(relative) ? std::numeric_limits<double>::infinity() : relative;
+        if (!(relative <= largest)) largest = std::isnan(relative) ? kInfinity : relative;
     }
     return largest;
 }
@@ -68,7 +67,7 @@ constexpr double kSingle = 2e-6;
 
 // The fixed-point coordinates of the single loop keep (extent / d) 2^-31 of a pair's term.
 double single_tolerance(const Points& p) {
-    double closest2 = std::numeric_limits<double>::infinity(), extent2 = 0;
+    double closest2 = kInfinity, extent2 = 0;
     for (std::size_t i = 0; i < p.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
             const double d2 = std::pow(p.x[i] - p.x[j], 2) + std::pow(p.y[i] - p.y[j], 2);
@@ -80,7 +79,7 @@ double single_tolerance(const Points& p) {
 
 // The sums of 1/d.
 const Kernel& unit_kernel() {
-    static const auto kernel = make_kernel(Interaction::point, 1 / std::numbers::pi);
+    static const auto kernel = make_kernel(Interaction::point, 1 / pi);
     return *kernel;
 }
 

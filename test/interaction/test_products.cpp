@@ -22,7 +22,7 @@ double error_of(const Vector& value, const Vector& truth) {
 
 Vector some(const Vector& of, const std::vector<int>& which) {
     Vector out;
-    for (int k : which) out.push_back(of[static_cast<std::size_t>(k)]);
+    for (int k : which) out.push_back(of[k]);
     return out;
 }
 
@@ -35,7 +35,7 @@ struct Kind {
 void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, const char* name) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> uniform(0, 1);
-    const auto size = static_cast<std::size_t>(n), others = size / 3 + 7;
+    const std::size_t size = n, others = size / 3 + 7;
     Vector x, y, force, xo, yo;
     for (std::size_t k = 0; k < size; ++k) {
         x.push_back(5 + kWide * uniform(random));
@@ -68,14 +68,12 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
             const Vector f = some(force, active);
             Vector truth(size, 0.0), elsewhere(others, 0.0);
             for (std::size_t i = 0; i < size; ++i)
-                for (int j : active) {
-                    const auto k = static_cast<std::size_t>(j);
+                for (const std::size_t k : active) {
                     truth[i] +=
                         force[k] * (i == k ? kernel->self() : kernel->at(x[i] - x[k], y[i] - y[k]));
                 }
             for (std::size_t i = 0; i < others; ++i)
-                for (int j : active) {
-                    const auto k = static_cast<std::size_t>(j);
+                for (const std::size_t k : active) {
                     elsewhere[i] += force[k] * kernel->at(xo[i] - x[k], yo[i] - y[k]);
                 }
             const Vector among = some(truth, active), beside = some(truth, passive);
@@ -105,10 +103,9 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
         for (int k = 0; k < few; k += 2) active.push_back(k);
         p.set_active(active);
         const Vector f = some(force, active);
-        Vector truth(static_cast<std::size_t>(few), 0.0), all(truth);
+        Vector truth(few, 0.0), all(truth);
         for (std::size_t i = 0; i < truth.size(); ++i)
-            for (int j : active) {
-                const auto k = static_cast<std::size_t>(j);
+            for (const std::size_t k : active) {
                 truth[i] +=
                     force[k] * (i == k ? kernel->self() : kernel->at(y[i] - y[k], x[i] - x[k]));
             }
@@ -128,7 +125,7 @@ TEST(all_products) {
     // lie.
     for (const double depth : {0.02, 0.3})
         for (const double share : {-0.7, 2.0}) {
-            const double near = share / (std::numbers::pi * kE);
+            const double near = share / (pi * kE);
             const auto smooth = std::make_shared<const SmoothPart>(
                 [=](double d) { return near / std::hypot(d, depth); },
                 [=](double k) { return share * std::exp(-k * depth); }, depth);

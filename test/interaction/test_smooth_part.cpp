@@ -15,7 +15,7 @@ namespace test_smooth_part {
 
 using namespace rsc;
 
-constexpr double kE = 3.0, kNear = 1 / (std::numbers::pi * kE);
+constexpr double kE = 3.0, kNear = 1 / (pi * kE);
 
 struct Artificial {
     double c, depth;
@@ -77,7 +77,7 @@ TEST(table) {
 template <class Real>
 void wave(int nx, int ny, int m, int n) {
     const Artificial s{2.0, 0.7};
-    const double dx = 0.3, dy = 0.2, pi = std::numbers::pi;
+    const double dx = 0.3, dy = 0.2;
     PeriodicPixels<Real> pixels(nx, ny, dx, dy, [s](double k) { return s.share(k); });
     const double kx = 2 * pi * m / (nx * dx), ky = 2 * pi * n / (ny * dy), k = std::hypot(kx, ky);
     const auto value = [&](int i, int j) { return std::cos(kx * i * dx + ky * j * dy + 0.4); };

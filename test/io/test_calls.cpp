@@ -35,7 +35,7 @@ std::string path_of(int fd) {
     char path[4096];
     const ssize_t n =
         ::readlink(("/proc/self/fd/" + std::to_string(fd)).c_str(), path, sizeof path);
-    return n > 0 ? std::string(path, static_cast<std::size_t>(n)) : "?";
+    return n > 0 ? std::string(path, n) : "?";
 }
 
 // Calls the function of the next library of that name.
@@ -94,7 +94,7 @@ namespace {
 // Place of the last call of these words before `end`, or -1.
 long last_call(const std::string& words, long end) {
     for (long k = end - 1; k >= 0; --k)
-        if (calls[static_cast<std::size_t>(k)] == words) return k;
+        if (calls[k] == words) return k;
     return -1;
 }
 

@@ -223,9 +223,9 @@ TEST(test_flat_maps) {
 TEST(test_lay) {
     for (const auto& [kx, ky] : {std::pair{4, 0}, {0, 3}, {3, 3}, {5, -2}}) {
         HeightMap map = height_map(64, 64, 1, 1, [kx = kx, ky = ky](int i, int j) {
-            return std::cos(2 * std::numbers::pi * (kx * i + ky * j) / 64);
+            return std::cos(2 * pi * (kx * i + ky * j) / 64);
         });
-        const double crest = 180 / std::numbers::pi * std::atan2(ky, kx) + 90;
+        const double crest = 180 / pi * std::atan2(ky, kx) + 90;
         const double off = measure_spectrum(map, 1, 0).lay - crest;
         CHECK_CLOSE(std::remainder(off, 180), 0, 0.5);
     }

@@ -175,7 +175,7 @@ TEST(lists) {
         {"asperity_radius", "inch", 25.4, &Asperities::radius, {31, 32, 33}},
         {"asperity_kappa1", "um-1", 1e3, &Asperities::kappa1, {41, 42, 43}},
         {"asperity_kappa2", "m-1", 1e-3, &Asperities::kappa2, {1, 2, 4}},
-        {"asperity_angle", "degree", std::numbers::pi / 180, &Asperities::angle, {0.1, 0.2, 0.4}},
+        {"asperity_angle", "degree", pi / 180, &Asperities::angle, {0.1, 0.2, 0.4}},
         {"asperity_biharmonic", "um-3", 1e9, &Asperities::biharmonic, {-5, 6, 7}}};
     const auto file = [&](const std::set<std::string>& without, bool units) {
         std::vector<Variable> variables;

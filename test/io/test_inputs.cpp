@@ -50,7 +50,7 @@ TEST(bad_heights_from_netcdf) {
     std::vector<double> z = counted(15, 0, 1);
     z[7] = std::nan("");
     REFUSED(read_heights(heights_file("nan", x, y, z), std::nullopt), "height(y = 1, x = 2),");
-    z[7] = HUGE_VAL;
+    z[7] = kInfinity;
     REFUSED(read_heights(heights_file("inf", x, y, z, {}, 0), std::nullopt),
             "height(y = 1, x = 2)");
     z[7] = -99;

@@ -105,9 +105,9 @@ void write_map(const HeightMap& map, const std::string& path) {
     const auto mm = [](const char* name, std::vector<std::string> over, Vector v) {
         return Variable{name, NC_DOUBLE, over, v, {{"units", "mm"}}};
     };
-    write(path, {{"y", at(map.ny)}, {"x", at(map.nx)}},
-          {mm("y", {"y"}, counted(at(map.ny), map.y0, map.dy)),
-           mm("x", {"x"}, counted(at(map.nx), map.x0, map.dx)),
+    const std::size_t nx = map.nx, ny = map.ny;
+    write(path, {{"y", ny}, {"x", nx}},
+          {mm("y", {"y"}, counted(ny, map.y0, map.dy)), mm("x", {"x"}, counted(nx, map.x0, map.dx)),
            mm("height", {"y", "x"}, {map.data.get(), map.data.get() + map.nx * map.ny})});
 }
 

@@ -9,9 +9,7 @@
 namespace test_observe {
 
 using namespace rsc;
-using std::numbers::pi;
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-13;  // a few hundred operations on numbers of order one
 
 // The nearest level, the first of two that are equally near: rounding does not decide.
@@ -58,10 +56,9 @@ TEST(test_oblong_maps) {
         CHECK_RELATIVE(std::accumulate(map.force.begin(), map.force.end(), 0.0), force, 1e-13);
         CHECK_RELATIVE(std::accumulate(map.area.begin(), map.area.end(), 0.0), Lx * Ly, 1e-13);
         CHECK(map.outside == 0);
-        std::vector<double> pressure(static_cast<std::size_t>(grid.cells()));
+        std::vector<double> pressure(grid.cells());
         for (std::size_t k = 0; k < map.cell.size(); ++k)
-            pressure[static_cast<std::size_t>(map.cell[k])] =
-                map.force[k] / (grid.side * grid.side);
+            pressure[map.cell[k]] = map.force[k] / (grid.side * grid.side);
         const RadialMean mean(grid, 0.5 * Lx, 0.5 * Ly, 9);
         CHECK_RELATIVE(mean.radii().back(), 0.5 * Ly * 17 / 18, 1e-13);
         for (const double value : mean(pressure.data())) CHECK_RELATIVE(value, p, 1e-12);
@@ -79,8 +76,8 @@ TEST(test_tension) {
     level.add_contact(1, 0, 0, -0.1, 0.5, 0);
     const PdfBins bins = make_pdf_bins(10, 1, 1, 1, 1);
     const ShownDistributions fit = shown_distributions(bins, distributions_of(bins, level, 0));
-    CHECK_RELATIVE(fit.spot_area_moments.mean, std::numbers::pi * 1.25 / 2, 1e-14);
-    CHECK_RELATIVE(fit.mean_pressure_moments.mean, 1 / std::numbers::pi, 1e-14);
+    CHECK_RELATIVE(fit.spot_area_moments.mean, pi * 1.25 / 2, 1e-14);
+    CHECK_RELATIVE(fit.mean_pressure_moments.mean, 1 / pi, 1e-14);
     const ShownDistributions none = shown_distributions(bins, distributions_of(bins, Level{}, 0));
     CHECK(std::isnan(none.spot_area_moments.mean) && std::isnan(none.mean_pressure_pdf[0]));
 }

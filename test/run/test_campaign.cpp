@@ -72,7 +72,7 @@ TEST(test_archive) {
     left.append(right);
     CHECK(to_bytes(left) == to_bytes(sums));
     const Observations o = sums.finish();
-    std::vector<double> area(static_cast<std::size_t>(job.observe.map.cells())), pressure = area;
+    std::vector<double> area(job.observe.map.cells()), pressure = area;
     for (std::size_t s = 0; s < sums.steps; ++s) {
         o.map_area_fraction.fill(s, area);
         o.map_pressure.fill(s, pressure);
@@ -86,8 +86,7 @@ TEST(test_archive) {
 std::vector<std::string> some_records() {
     std::vector<std::string> records;
     for (int k = 0; k < 4; ++k)
-        records.push_back(
-            std::string(static_cast<std::size_t>(40 + 13 * k), static_cast<char>('a' + k)));
+        records.push_back(std::string(40 + 13 * k, static_cast<char>('a' + k)));
     return records;
 }
 

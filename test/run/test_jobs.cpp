@@ -14,8 +14,6 @@
 namespace test_jobs {
 
 using namespace rsc;
-
-constexpr double kPi = std::numbers::pi;
 constexpr double kRounding = 1e-13;
 const Folder folder;
 
@@ -54,7 +52,6 @@ std::string map_file(const std::string& name, double x0, double y0, double dx = 
     return write(name, text);
 }
 
-
 // A duration is spread evenly over the levels, both ends included.
 TEST(times) {
     Case c = synthetic();
@@ -68,7 +65,7 @@ TEST(places) {
     // A rectangle that does not begin at 0, in a domain of unlike sides.
     SurfaceDomain domain;
     domain = {-2, 5, 4, 1};
-    for (const double R : {0.5, HUGE_VAL})
+    for (const double R : {0.5, kInfinity})
         for (const bool guessed : {false, true}) {
             domain.guessed = guessed;
             const double beyond = guessed ? R : 0;
@@ -229,7 +226,7 @@ TEST(pressures) {
         c.surface.n = 128;
         c.surface.aspect = 4;
         c.surface.direction = direction;
-        c.solids.R[0] = HUGE_VAL;
+        c.solids.R[0] = kInfinity;
         c.indentation.boundary = Boundary::periodic;
         c.indentation.control = Control::pressure;
         c.indentation.unit = LevelUnit::relative;
@@ -245,10 +242,10 @@ TEST(pressures) {
         for (int k = 0; k < points * points; ++k)
             wave +=
                 format("%.12g %.12g %.12g\n", 3.0 * (k % points) / points,
-                       3.0 * (k / points) / points, a * std::cos(2 * kPi * (k % points) / points));
+                       3.0 * (k / points) / points, a * std::cos(2 * pi * (k % points) / points));
         c.indenter.file = write("wave.txt", wave);
         set_key(c, "indenter%shape", "'map'");
-        const double both = m2 + std::pow(2 * kPi * a / 3, 2) / 4;
+        const double both = m2 + std::pow(2 * pi * a / 3, 2) / 4;
         const Job two = prepare(c);
         CHECK_RELATIVE(two.levels[0], 0.01 * two.indenter.E_star * std::sqrt(2 * both) * 3 * 3,
                        of_differences);
@@ -259,7 +256,7 @@ TEST(pressures) {
 // are solved.
 TEST(closed_flats) {
     Case c = synthetic();
-    c.solids.R[0] = c.solids.R[1] = HUGE_VAL;
+    c.solids.R[0] = c.solids.R[1] = kInfinity;
     c.solver.model = ModelKind::elements;
     c.indentation.boundary = Boundary::periodic;
     c.indentation.levels = {2, 1, 0.1};
@@ -311,7 +308,7 @@ TEST(punch_on_plane) {
 // it, and say so.
 TEST(exchanged_maps) {
     constexpr int n = 96, kWaves = 12;
-    const double q = 2 * kPi / n;
+    const double q = 2 * pi / n;
     const auto smooth = [q](int i, int j) {
         return 1e-3 * (std::cos(q * i + 1) + std::cos(q * j + 2) + std::cos(2 * q * i - q * j));
     };
@@ -328,7 +325,7 @@ TEST(exchanged_maps) {
             c.surface.pixel = 1.0 / n;
             c.solver.model = model;
             c.solver.tolerance = 1e-10;
-            c.solids.R[0] = c.solids.R[1] = HUGE_VAL;
+            c.solids.R[0] = c.solids.R[1] = kInfinity;
             c.indenter.file = files[1 - first];
             set_key(c, "indenter%shape", "'map'");
             c.indentation.boundary = Boundary::periodic;

@@ -6,9 +6,9 @@
 #include "support/map_files.hpp"
 #include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
-#include "trust/doubts.hpp"
 #include "surface/defects.hpp"
 #include "surface/synthesis.hpp"
+#include "trust/doubts.hpp"
 
 namespace test_measured_contact {
 
@@ -98,12 +98,11 @@ TEST(smooth_on_rough) {
         return realize(prepare(c), 1, 1).levels.at(0);
     };
     const auto wave = [](int i, int j) {
-        return 1e-3 * std::cos(std::numbers::pi * i / 8) * std::cos(std::numbers::pi * j / 16);
+        return 1e-3 * std::cos(pi * i / 8) * std::cos(pi * j / 16);
     };
     const std::string rough = folder.write("wave.txt", rows_of_text(32, 32, wave)),
-                      smooth = folder.write("zero.txt", rows_of_text(32, 32, [](int, int) {
-                                                return 0.0;
-                                            }));
+                      smooth = folder.write("zero.txt",
+                                            rows_of_text(32, 32, [](int, int) { return 0.0; }));
     const Level below = level(rough, smooth), above = level(smooth, rough);
     CHECK(above.area > 0);
     CHECK_RELATIVE(above.area, below.area, 1e-9);

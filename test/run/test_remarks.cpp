@@ -123,7 +123,7 @@ TEST(sticks) {
     job.theory->m4 = 30;
     job.settings.solids.adhesion_range = 1e-3;
     const double slope = 0.2, curvature = std::sqrt(80.0);  // rms of the gradient; of the Laplacian
-    const double needed = 100.0 * slope * 1e-3 / (2 * std::numbers::pi) *
+    const double needed = 100.0 * slope * 1e-3 / (2 * pi) *
                           std::pow(16.0 / 3 * slope * slope / (curvature * 1e-3), 2.0 / 3);
     for (const double share : {0.98, 1.02}) {
         job.settings.solids.adhesion = share * needed;
@@ -144,9 +144,7 @@ TEST(memory) {
         list << 0.05 * (k % 20) << ' ' << 0.07 * (k / 20) << ' ' << 0.01 * std::sin(7.3 * k)
              << " 0.05\n";
     list.close();
-    const auto job_of = [](const std::string& text) {
-        return prepare(settings_of(text));
-    };
+    const auto job_of = [](const std::string& text) { return prepare(settings_of(text)); };
     const std::string text = "&surface source='asperities' L=1.5 sigma=0.01 file='" +
                              folder / "many.txt" + "' / &indentation ";
     const Job job = job_of(text + "levels=0.5,0,-0.5 / &solver method='direct' /");
@@ -190,9 +188,9 @@ TEST(memory) {
         const double d2 = std::pow(rough.domain.mean_spacing, 2);
         for (const double t : {2.0, 0.5, -1.0}) {
             const double above = 0.5 * std::erfc(t / std::sqrt(2.0)),
-                         density = std::exp(-0.5 * t * t) / std::sqrt(2 * 3.14159265358979);
+                         density = std::exp(-0.5 * t * t) / std::sqrt(2 * pi);
             const double everywhere = 1.69 * above,
-                         under = 2 * 3.14159265358979 * 1.0 * 0.004 * (density - t * above);
+                         under = 2 * pi * 1.0 * 0.004 * (density - t * above);
             CHECK_RELATIVE(expected_candidates(rough, 0.004 * t),
                            (flats ? everywhere : std::min(everywhere, under)) / d2, 1e-2);
         }

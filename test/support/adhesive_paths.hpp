@@ -41,14 +41,12 @@ inline rsc::SolverOptions sticky(double w, double range) {
 // quadratic one, then force and penetration.
 struct Maugis {
     double r, w, lambda, E;
-    double range() const {
-        return w / (lambda / 2 * std::cbrt(16 * std::numbers::pi * w * E * E / (9 * r)));
-    }
+    double range() const { return w / (lambda / 2 * std::cbrt(16 * pi * w * E * E / (9 * r))); }
     struct State {
         double a, f, u, c;
     };
     State at(double m) const {
-        const double q = std::sqrt(m * m - 1), t = std::atan(q), pi = std::numbers::pi;
+        const double q = std::sqrt(m * m - 1), t = std::atan(q);
         const double b = lambda / 2 * (q + (m * m - 2) * t),
                      d = 4 * lambda * lambda / 3 * (q * t - m + 1);
         const double a = 2 / (std::sqrt(d * d + 4 * b) + d),
@@ -155,9 +153,7 @@ private:
             return (i == j ? repeats_->self()
                            : repeats_->at(a_.x[i] - a_.x[j], a_.y[i] - a_.y[j])) -
                    repeats_->shift();
-        return i == j
-                   ? 0
-                   : 1 / (std::numbers::pi * E_ * std::hypot(a_.x[i] - a_.x[j], a_.y[i] - a_.y[j]));
+        return i == j ? 0 : 1 / (pi * E_ * std::hypot(a_.x[i] - a_.x[j], a_.y[i] - a_.y[j]));
     }
     // Equilibrium at given radii, u = g0 - B f(u), by Newton's method and elimination.
     void solve() {

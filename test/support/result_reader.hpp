@@ -31,7 +31,7 @@ public:
         std::vector<std::string> names;
         for (int d = 0; d < n; ++d) {
             char text[NC_MAX_NAME + 1] = "";
-            nc_inq_dimname(id_, ids[static_cast<std::size_t>(d)], text);
+            nc_inq_dimname(id_, ids[d], text);
             names.emplace_back(text);
         }
         return names;

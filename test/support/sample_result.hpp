@@ -27,7 +27,7 @@ inline Asperities asperities(int k) {
         a.radius.push_back(kRadius * (0.5 + fraction(97.3 * w)));
         a.kappa1.push_back(1.4 / a.radius.back());
         a.kappa2.push_back(1 / (1.4 * a.radius.back()));
-        a.angle.push_back((v - 0.5) * std::numbers::pi);
+        a.angle.push_back((v - 0.5) * pi);
     }
     return a;
 }
@@ -46,7 +46,7 @@ inline std::vector<Level> levels(const Asperities& a) {
                               4.0 / 3.0 * kEStar * std::sqrt(a.radius[i]) * g * std::sqrt(g),
                               std::sqrt(a.radius[i] * g), g);
             level.force += level.f.back();
-            level.area += std::numbers::pi * level.a.back() * level.a.back();
+            level.area += pi * level.a.back() * level.a.back();
         }
         level.candidates = static_cast<int>(level.asperity.size());
         level.iterations = s;

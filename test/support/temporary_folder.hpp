@@ -16,9 +16,8 @@ struct Folder {
         return *this / name;
     }
     std::size_t files() const {
-        return static_cast<std::size_t>(
-            std::distance(std::filesystem::recursive_directory_iterator(path),
-                          std::filesystem::recursive_directory_iterator()));
+        return std::distance(std::filesystem::recursive_directory_iterator(path),
+                             std::filesystem::recursive_directory_iterator());
     }
 };
 

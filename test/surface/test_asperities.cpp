@@ -8,8 +8,6 @@ namespace test_asperities {
 
 using namespace rsc;
 
-constexpr double kPi = std::numbers::pi;
-
 HeightMap make_map(int nx, int ny, bool periodic, int stride) {
     HeightMap map;
     map.allocate(nx, ny, stride);
@@ -153,7 +151,7 @@ TEST(against_theory) {
         CHECK(error < 0.01 * truth);
     };
     compare(g, 1.356);
-    compare(a, 8 / (3 * std::sqrt(kPi)));
+    compare(a, 8 / (3 * std::sqrt(pi)));
     compare(density, 1);
 }
 

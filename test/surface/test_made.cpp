@@ -71,9 +71,9 @@ TEST(summits) {
             worst = check::worse(worst,
                                  std::hypot(all.x[k] - found.x[i], all.y[k] - found.y[i]) / map.dx);
             worst = check::worse(worst, std::abs(all.kappa1[k] / found.kappa1[i] - 1));
-            worst = check::worse(
-                worst, std::abs(std::remainder(all.angle[k] - found.angle[i], std::numbers::pi)) *
-                           (all.kappa1[k] / all.kappa2[k] - 1));
+            worst =
+                check::worse(worst, std::abs(std::remainder(all.angle[k] - found.angle[i], pi)) *
+                                        (all.kappa1[k] / all.kappa2[k] - 1));
         }
         CHECK(worst < 1e-9);
     }
@@ -137,7 +137,7 @@ TEST(circle) {
             const Isotropy slopes = isotropy(map);
             const SelfAffineFit fit =
                 fit_self_affine(measure_spectrum(map, 1 / slopes.ratio, slopes.direction));
-            constexpr double tau = 2 * std::numbers::pi;
+            constexpr double tau = 2 * pi;
             // At aspect 10 the shortest waves have 2.5 points: differences see them flatter, and
             // the ratio of slopes is low.
             CHECK_CLOSE(fit.hurst.value, hurst, aspect > 3 ? 0.15 : 0.05);
@@ -190,8 +190,8 @@ double amplitude(const HeightMap& map, int kx, int ky) {
     std::complex<double> sum = 0;
     for (int j = 0; j < map.ny; ++j)
         for (int i = 0; i < map.nx; ++i)
-            sum += map(i, j) * std::polar(1.0, -2 * std::numbers::pi *
-                                                   (1.0 * kx * i / map.nx + 1.0 * ky * j / map.ny));
+            sum += map(i, j) *
+                   std::polar(1.0, -2 * pi * (1.0 * kx * i / map.nx + 1.0 * ky * j / map.ny));
     return std::abs(sum) / (map.nx * map.ny);
 }
 
@@ -229,9 +229,9 @@ TEST(tabulated) {
         constexpr std::size_t angles = 360;
         std::vector<double> rings, psd;
         for (double q = 1; q <= 100; q *= 1.01) {
-            rings.push_back(2 * std::numbers::pi * q);
+            rings.push_back(2 * pi * q);
             for (std::size_t a = 0; a < angles; ++a) {
-                const double angle = std::numbers::pi * static_cast<double>(a) / angles;
+                const double angle = pi * static_cast<double>(a) / angles;
                 psd.push_back(relative_psd(s, q * std::cos(angle), q * std::sin(angle)));
             }
         }

@@ -14,8 +14,6 @@ namespace test_measured {
 
 using namespace rsc;
 
-constexpr double kPi = std::numbers::pi;
-
 template <class Height>
 HeightMap make(int nx, int ny, double dx, double dy, Height height) {
     return height_map(nx, ny, dx, dy, [&](int i, int j) { return height(i * dx, j * dy); });
@@ -97,7 +95,7 @@ TEST(forms) {
                 };
                 HeightMap ball = make(80, 50, 0.1, 0.15, sphere);
                 ball.row(7)[9] = std::nan("");
-                double span = 0, lowest = HUGE_VAL, highest = -HUGE_VAL;
+                double span = 0, lowest = kInfinity, highest = -kInfinity;
                 for (int j = 0; j < 50; ++j)
                     for (int i = 0; i < 80; ++i) {
                         lowest = std::fmin(lowest, ball(i, j));
@@ -187,16 +185,16 @@ TEST(missing_points) {
 }
 
 TEST(filtering) {
-    CHECK_RELATIVE(gaussian_transmission(0.8, 2 * kPi / 0.8), 0.5, 1e-14);
+    CHECK_RELATIVE(gaussian_transmission(0.8, 2 * pi / 0.8), 0.5, 1e-14);
     // A wave of the cutoff's length comes out at half its height (on a periodic map, where it is a
     // mode).
     HeightMap wave = make(64, 48, 0.1, 0.2, [](double x, double y) {
-        return std::cos(2 * kPi * (2 * x / 6.4 + 3 * y / 9.6));
+        return std::cos(2 * pi * (2 * x / 6.4 + 3 * y / 9.6));
     });
     wave.periodic = true;
-    const double k = 2 * kPi * std::hypot(2 / 6.4, 3 / 9.6);
+    const double k = 2 * pi * std::hypot(2 / 6.4, 3 / 9.6);
     HeightMap half = wave.copy();
-    gaussian_filter(half, 2 * kPi / k);
+    gaussian_filter(half, 2 * pi / k);
     double error = 0;
     for (int j = 0; j < 48; ++j)
         for (int i = 0; i < 64; ++i)
@@ -212,7 +210,7 @@ TEST(filtering) {
     const HeightMap before = map.copy();
     const double cutoff = 2.4,
                  alpha = std::sqrt(std::log(2.0) /
-                                   kPi);  // 18 steps and more: no aliasing of the weights
+                                   pi);  // 18 steps and more: no aliasing of the weights
     gaussian_filter(map, cutoff);
     const auto reflected = [](int i, int n) {
         i = ((i % (2 * n)) + 2 * n) % (2 * n);
@@ -226,7 +224,7 @@ TEST(filtering) {
                 for (int a = -110; a <= 110; ++a) {
                     const double r2 = (a * map.dx * a * map.dx + b * map.dy * b * map.dy) /
                                       (alpha * alpha * cutoff * cutoff);
-                    const double w = std::exp(-kPi * r2);
+                    const double w = std::exp(-pi * r2);
                     sum += w * before(reflected(i + a, 40), reflected(j + b, 31));
                     weight += w;
                 }
@@ -251,7 +249,7 @@ TEST(circle) {
                                  .L_lambda_s = high,
                                  .plateau = plateau,
                                  .sigma = 0.02};
-                const double step = 2 * kPi / s.L;
+                const double step = 2 * pi / s.L;
                 double mean_hurst = 0, mean_kl = 0, mean_ks = 0, mean_phi = 0, scatter = 0,
                        told = 0;
                 for (int k = 1; k <= kSurfaces; ++k) {

@@ -42,8 +42,7 @@ TEST(measured_slopes) {
         for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i)
                 map.row(j)[i] +=
-                    share * coarse(i, j) *
-                    (everywhere + std::abs(std::cos(std::numbers::pi * (i + 0.5) / n)));
+                    share * coarse(i, j) * (everywhere + std::abs(std::cos(pi * (i + 0.5) / n)));
         return map;
     };
     const auto like_twins = [&](const HeightMap& map) {

@@ -8,8 +8,6 @@ namespace test_ridges {
 
 using namespace rsc;
 
-constexpr double pi = std::numbers::pi;
-
 // Along a lay, just after first touch: two surfaces
 // against the same on a grid four times as fine.
 TEST(lay) {
@@ -66,10 +64,11 @@ TEST(ridges) {
         for (const double beside : {0.0, 0.2, 0.5}) {
             const int n = points * waves;
             Case c = case_of_map(folder.write("ridges.txt", rows_of_text(n, n, [&](int, int j) {
-                return Delta * std::cos(2 * pi * (j - beside) / points);
-            })));
+                                                  return Delta *
+                                                         std::cos(2 * pi * (j - beside) / points);
+                                              })));
             c.surface.L = 1.0;
-            c.solids.R[0] = c.solids.R[1] = HUGE_VAL;
+            c.solids.R[0] = c.solids.R[1] = kInfinity;
             c.indentation.boundary = Boundary::periodic;
             c.indentation.unit = LevelUnit::length;
             const double share[] = {1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.2};

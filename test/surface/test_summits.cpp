@@ -10,8 +10,6 @@ namespace test_summits {
 
 using namespace rsc;
 
-constexpr double kPi = std::numbers::pi;
-
 // A surface as a list of waves, z = sum of 2 Re[c exp(2 pi i (kx x + ky y)/L)], evaluated without
 // any grid.
 struct Waves {
@@ -26,7 +24,7 @@ struct Waves {
         const std::complex<double> i(0, 1);
         double sum = 0;
         for (const Wave& w : waves) {
-            const double kx = 2 * kPi / L * w.kx, ky = 2 * kPi / L * w.ky;
+            const double kx = 2 * pi / L * w.kx, ky = 2 * pi / L * w.ky;
             sum += 2 * (w.c * std::pow(i * kx, p) * std::pow(i * ky, q) *
                         std::exp(i * (kx * x + ky * y)))
                            .real();
@@ -40,7 +38,7 @@ struct Waves {
     // Moved by (x, y).
     Waves moved(double x, double y) const {
         Waves m = *this;
-        for (Wave& w : m.waves) w.c *= std::polar(1.0, -2 * kPi / L * (w.kx * x + w.ky * y));
+        for (Wave& w : m.waves) w.c *= std::polar(1.0, -2 * pi / L * (w.kx * x + w.ky * y));
         return m;
     }
     HeightMap map(int nx, int ny) const {
@@ -146,7 +144,7 @@ TEST(against_the_fourier_sum) {
 TEST(closed_form) {
     Waves w;
     w.L = 3;
-    const double k = 2 * kPi / w.L * 4, x0 = 0.1234, y0 = 0.3217, A = 0.02, B = 0.05;
+    const double k = 2 * pi / w.L * 4, x0 = 0.1234, y0 = 0.3217, A = 0.02, B = 0.05;
     w.waves = {{4, 0, 0.5 * A * std::polar(1.0, -k * x0)},
                {0, 4, 0.5 * B * std::polar(1.0, -k * y0)}};
     for (const auto [nx, ny] : {std::array{16, 16}, {20, 32}, {50, 24}}) {
@@ -239,9 +237,9 @@ TEST(once_each) {
 TEST(all_summits) {
     {  // pits, saddles and points at the border of a body above are no summits
         Asperities none;
-        for (const SecondOrder& second : {SecondOrder{1, 1, 0}, {-1, 1, 0}, {-HUGE_VAL, -1, 0}})
+        for (const SecondOrder& second : {SecondOrder{1, 1, 0}, {-1, 1, 0}, {-kInfinity, -1, 0}})
             CHECK(!append_summit(0, 0, 0, second, Curvature::geometric, none));
-        CHECK(!append_summit(0, 0, HUGE_VAL, {-1, -1, 0}, Curvature::geometric, none) &&
+        CHECK(!append_summit(0, 0, kInfinity, {-1, -1, 0}, Curvature::geometric, none) &&
               none.size() == 0);
     }
 }

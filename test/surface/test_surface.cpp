@@ -11,8 +11,6 @@ namespace test_surface {
 
 using namespace rsc;
 
-constexpr double kPi = std::numbers::pi;
-
 double rms(const HeightMap& map) {
     double sum = 0;
     for (int j = 0; j < map.ny; ++j)
@@ -41,7 +39,7 @@ std::vector<double> by_cosines(const Spectrum& s, int n, NoiseKey key) {
         for (int i = 0; i < n; ++i) {
             double h = 0;
             for (const Mode& m : modes)
-                h += 2 * (m.c * std::polar(1.0, 2 * kPi * (m.kx * i + m.ky * j) / n)).real();
+                h += 2 * (m.c * std::polar(1.0, 2 * pi * (m.kx * i + m.ky * j) / n)).real();
             z.push_back(h * s.sigma / std::sqrt(expected));
         }
     return z;
@@ -63,8 +61,7 @@ TEST(against_cosines) {
             double worst = 0;
             for (int j = 0; j < n; ++j)
                 for (int i = 0; i < n; ++i)
-                    worst = check::worse(
-                        worst, std::abs(map(i, j) - z[static_cast<std::size_t>(j * n + i)]));
+                    worst = check::worse(worst, std::abs(map(i, j) - z[j * n + i]));
             CHECK_CLOSE(worst, 0.0,
                         1e-13 * 0.1 * 10);  // rounding of the slow sum over some 700 modes
             CHECK(map.periodic && map.nx == n && map.ny == n && map.x0 == 0 && map.y0 == 0);
@@ -81,8 +78,7 @@ TEST(against_cosines) {
         const HeightMap map = synthesize(s, n, Normalise::ensemble, 4, 2, nullptr, 3);
         const std::vector<double> z = by_cosines(s, n, {4, 2});
         for (int j = 0; j < n; ++j)
-            for (int i = 0; i < n; ++i)
-                CHECK_CLOSE(map(i, j), z[static_cast<std::size_t>(j * n + i)], 1e-13);
+            for (int i = 0; i < n; ++i) CHECK_CLOSE(map(i, j), z[j * n + i], 1e-13);
     }
 }
 

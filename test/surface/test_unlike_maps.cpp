@@ -10,8 +10,6 @@
 namespace test_unlike_maps {
 
 using namespace rsc;
-
-constexpr double kPi = std::numbers::pi;
 constexpr double kRounding = 1e-11;  // sums over some hundred points in another order
 
 // Waves of many directions and noise on a form.
@@ -71,8 +69,8 @@ TEST(spectra) {
             map.periodic = periodic;
             const auto w = [&](int i, int j) {
                 return periodic ? 1.0
-                                : std::pow(std::sin(kPi * (i + 0.5) / nx), 2) *
-                                      std::pow(std::sin(kPi * (j + 0.5) / ny), 2);
+                                : std::pow(std::sin(pi * (i + 0.5) / nx), 2) *
+                                      std::pow(std::sin(pi * (j + 0.5) / ny), 2);
             };
             double mean = 0, weight = 0, squares = 0;
             for (int j = 0; j < ny; ++j)
@@ -82,8 +80,7 @@ TEST(spectra) {
                     squares += w(i, j) * w(i, j);
                 }
             mean /= weight;
-            const double sx = 2 * kPi / (nx * dx), sy = 2 * kPi / (ny * dy),
-                         ring = std::min(sx, sy);
+            const double sx = 2 * pi / (nx * dx), sy = 2 * pi / (ny * dy), ring = std::min(sx, sy);
             std::vector<double> power(60, 0.0), modes(60, 0.0);
             for (int q = -((ny - 1) / 2); q <= ny / 2; ++q)
                 for (int p = -((nx - 1) / 2); p <= nx / 2; ++p) {
@@ -91,11 +88,10 @@ TEST(spectra) {
                     for (int j = 0; j < ny; ++j)
                         for (int i = 0; i < nx; ++i)
                             sum += w(i, j) * (map(i, j) - mean) *
-                                   std::polar(1.0, -2 * kPi *
+                                   std::polar(1.0, -2 * pi *
                                                        (static_cast<double>(p * i) / nx +
                                                         static_cast<double>(q * j) / ny));
-                    const auto r =
-                        static_cast<std::size_t>(std::lround(std::hypot(sx * p, sy * q) / ring));
+                    const std::size_t r = std::lround(std::hypot(sx * p, sy * q) / ring);
                     if (r < power.size()) {
                         power[r] += std::norm(sum) / (nx * ny * squares * sx * sy);
                         modes[r] += 1;
@@ -103,7 +99,7 @@ TEST(spectra) {
                 }
             const MeasuredSpectrum s = measure_spectrum(map);
             std::size_t k = 0;
-            const auto rings = static_cast<std::size_t>(std::lround(kPi / std::max(dx, dy) / ring));
+            const std::size_t rings = std::lround(pi / std::max(dx, dy) / ring);
             for (std::size_t r = 1; r <= rings; ++r) {
                 if (modes[r] == 0) continue;
                 CHECK(k < s.psd.size());
@@ -227,7 +223,7 @@ TEST(symmetries) {
 // Points by their distance to the nearest measured one, which the mask counts in steps along rows
 // and columns.
 void depths(int nx, int ny) {
-    const auto at = [nx](int i, int j) { return static_cast<std::size_t>(j * nx + i); };
+    const auto at = [nx](int i, int j) { return j * nx + i; };
     std::vector<std::uint8_t> hole(at(0, ny), 0);
     for (int j = 0; j < ny; ++j)
         for (int i = 0; i < nx; ++i)

@@ -46,7 +46,7 @@ TEST(coverage) {
                     for (int k = 1; k <= kWindows; ++k) {
                         const SelfAffineFit fit =
                             fit_self_affine(measure_spectrum(window(s, k + 100 * all, k % 2 == 0)));
-                        const double step = 2 * std::numbers::pi, found = fit.kl.value / step;
+                        const double step = 2 * pi, found = fit.kl.value / step;
                         ++all;
                         hurst += std::abs(fit.hurst.value - h) <= fit.hurst.error;
                         bias += fit.hurst.value - h;

@@ -15,8 +15,6 @@
 namespace test_trust {
 
 using namespace rsc;
-
-constexpr double pi = std::numbers::pi;
 constexpr double kRounding = 1e-12;
 
 bool has(const LevelValues& level, Cause cause) { return level.doubts & bit(cause); }
@@ -102,7 +100,7 @@ TEST(mirrored) {
             const HeightMap map = height_map(n, n + 3, 1, 1, z),
                             other = height_map(n, n + 3, 1, 1,
                                                [&](int i, int j) { return z(n - 1 - i, j); });
-            Indenter flat{1e3, HUGE_VAL, 0, 0};
+            Indenter flat{1e3, kInfinity, 0, 0};
             if (flats) flat.period = {n * 1.0, n + 3.0};
             const HeightMap a = coarser_map(map, flat), b = coarser_map(other, flat);
             std::vector<double> left, right;
@@ -135,8 +133,8 @@ TEST(filled) {
     CHECK(share_on_filled(level, {&map, 1}, ball, low) == 1);
     // The same points on body 2, whose middle is above the tip: a cap with a hole at its top.
     const Folder folder;
-    Case c = case_of_map(
-        folder.write("flat.txt", rows_of_text(32, 32, [](int, int) { return 0.0; })));
+    Case c =
+        case_of_map(folder.write("flat.txt", rows_of_text(32, 32, [](int, int) { return 0.0; })));
     c.surface.pixel = 1.0;
     c.surface.sigma = 1e-3;
     c.surface.missing = Missing::fill;
@@ -157,16 +155,15 @@ TEST(pixels_of_contacts) {
     const std::vector<Pixel> touching{{6, 0}, {1, 1}, {2, 1}, {3, 1}, {1, 2}, {2, 2},
                                       {3, 2}, {1, 3}, {2, 3}, {3, 3}, {5, 5}, {0, 7}};
     Level level;
-    add_pixels(level, flat_map(8, 8, 1, 1), {1.0, 2.0, 0, 0}, HUGE_VAL, touching,
+    add_pixels(level, flat_map(8, 8, 1, 1), {1.0, 2.0, 0, 0}, kInfinity, touching,
                std::vector<double>(touching.size(), 1.0));
     CHECK(level.contacts == 4 && level.pixels_per_contact == 9);
 }
 
 TEST(resolution) {
     const Folder folder;
-    Case c = case_of_map(folder.write("flat.txt", rows_of_text(24, 24, [](int i, int j) {
-                                          return (i + j) % 2 ? 1e-9 : -1e-9;
-                                      })));
+    Case c = case_of_map(folder.write(
+        "flat.txt", rows_of_text(24, 24, [](int i, int j) { return (i + j) % 2 ? 1e-9 : -1e-9; })));
     c.surface.L = 24.0;
     c.indentation.unit = LevelUnit::length;
     c.indentation.levels = {-0.004, -0.03, -0.2};
@@ -315,7 +312,7 @@ TEST(each_doubt) {
     }));
     CHECK(raises(outside_calibration, [](Sound& s) { s.options.interaction = Interaction::none; }));
     const auto flat = [](Sound& s) {
-        s.indenter.shape = Shape(HUGE_VAL);
+        s.indenter.shape = Shape(kInfinity);
         s.Z0 = -1e-5;
     };
     CHECK(!raises(outside_calibration, flat));
@@ -394,11 +391,12 @@ TEST(alike_in_every_order) {
     for (const int n : {15, 33})
         for (const bool flats : {false, true}) {
             Case m = case_of_map(folder.write("map.txt", rows_of_text(n, n, [n](int i, int j) {
-                return 1e-3 * std::sin(2 * pi * i / n) * std::sin(2 * pi * j / n);
-            })));
+                                                  return 1e-3 * std::sin(2 * pi * i / n) *
+                                                         std::sin(2 * pi * j / n);
+                                              })));
             m.surface.L = 1.0;
             if (flats) m.indentation.boundary = Boundary::periodic;
-            m.solids.R[1] = flats ? HUGE_VAL : 3;
+            m.solids.R[1] = flats ? kInfinity : 3;
             m.indentation.unit = LevelUnit::length;
             m.indentation.levels = {flats ? 2e-4 : -2e-3};
             const Level level = pressed(m, ModelKind::elements).front();

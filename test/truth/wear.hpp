@@ -8,7 +8,6 @@ namespace truth {
 // Deflection at the radius r under a unit pressure on a disc of radius a, E* = 1 (Johnson 1985,
 // equation 3.29).
 inline double under_disc(double r, double a) {
-    const double pi = std::numbers::pi;
     if (a == 0) return 0;
     if (r <= a) return 4 * a / pi * std::comp_ellint_2(r / a);
     const double k = a / r;
@@ -23,8 +22,8 @@ struct WornBall {
 // rings of equal width up to the radius `most`, and implicit steps that grow from the beginning on.
 inline WornBall worn_ball(double E_star, double R, double N, double k, double s, double most,
                           int rings, int steps) {
-    const auto n = static_cast<std::size_t>(rings);
-    const double width = most / rings, pi = std::numbers::pi;
+    const std::size_t n = rings;
+    const double width = most / rings;
     std::vector<double> r(n), area(n), K(n * n), worn(n, 0.0), p(n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
         r[i] = (static_cast<double>(i) + 0.5) * width;

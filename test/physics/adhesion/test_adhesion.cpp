@@ -8,9 +8,8 @@
 namespace test_adhesion {
 
 using namespace rsc;
-using std::numbers::pi;
 
-constexpr double kE = 5.0, kFlat = std::numeric_limits<double>::infinity();
+constexpr double kE = 5.0;
 
 // Johnson, Kendall and Roberts on a sphere, by the radius of the contact.
 struct Jkr {
@@ -50,7 +49,7 @@ TEST(test_one) {
     for (double w : {1e-6, 0.01, 0.3}) {
         const Jkr jkr{0.7, w};
         const Asperities a{{0.5}, {0.5}, {0.1}, {jkr.r}, {}, {}, {}, {}};
-        const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(w));
+        const auto contact = make_asperity_contact(a, {kE, kInfinity, 0.5, 0.5}, sticky(w));
         const double unit = pi * w * jkr.r, length = -jkr.u(jkr.least());
         const auto check = [&](double u, bool attached, const char*) {
             const Level level = contact->at_separation(0.1 - u);
@@ -93,7 +92,7 @@ TEST(test_third_stays) {
     const double height = -least * (1 + later) + jkr.u(jkr.least());
     const Asperities a{
         {0, distance, far}, {0, 0, 0}, {0, 0, height}, {jkr.r, jkr.r, jkr.r}, {}, {}, {}, {}};
-    const auto contact = make_asperity_contact(a, {kE, kFlat, 0, 0}, sticky(jkr.w));
+    const auto contact = make_asperity_contact(a, {kE, kInfinity, 0, 0}, sticky(jkr.w));
     CHECK(contact->at_separation(-0.001).contacts == 3);
     CHECK(contact->at_separation(-least * (1 - 0.1 * later)).contacts == 3);
     const Level one = contact->at_separation(-least * (1 + 0.1 * later));
@@ -129,7 +128,7 @@ TEST(test_minimiser) {
             random_asperities(2 + static_cast<int>(seed % 7), seed, 0.2);
         PathMinimiser slow(system.asperities, kE, JkrEdge{system.asperities, system.w});
         const auto contact =
-            make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
+            make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5}, sticky(system.w));
         const double length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
         slow.Z = 0.02;
         for (int k = 0; k <= 60; ++k) {
@@ -152,8 +151,8 @@ TEST(test_flats_apart) {
     const RandomAsperities system = random_asperities(8, 101, 0.14);
     const Kernel kernel(Interaction::point, Substrate(kE), {1, 1});
     PathMinimiser slow(system.asperities, kE, JkrEdge{system.asperities, system.w}, &kernel);
-    const auto contact =
-        make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5, {1, 1}}, sticky(system.w));
+    const auto contact = make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5, {1, 1}},
+                                               sticky(system.w));
     slow.Z = 0.05;
     const double length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
     for (const double Z : {-0.5 * length, 0.01 + length, 0.01 + 1.4 * length}) {
@@ -183,8 +182,8 @@ TEST(test_first_state) {
                 slow.go_to(slow.Z - step, step);
                 now = slow.force();
             }
-            const auto contact =
-                make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
+            const auto contact = make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5},
+                                                       sticky(system.w));
             const Level level = contact->at_force(N);
             CHECK(level.contacts == slow.attached());
             CHECK(level.separation >= slow.Z && level.separation < slow.Z + step);
@@ -284,7 +283,8 @@ TEST(test_moves_cut) {
 // stiffness is that of the state at its end.
 TEST(test_stiffness_past_the_fold) {
     const Asperities two{{0.25, 0.75}, {0.5, 0.5}, {0.0, 0.0}, {1.0, 1.0}, {}, {}, {}, {}};
-    const auto contact = make_asperity_contact(two, {kE, kFlat, 0.5, 0.5}, sticky(0.05 * kE / 1e3));
+    const auto contact =
+        make_asperity_contact(two, {kE, kInfinity, 0.5, 0.5}, sticky(0.05 * kE / 1e3));
     for (double Z = 1e-3; Z < 1e-2; Z += 3e-4) {
         contact->forget();
         (void)contact->at_separation(-0.002);
@@ -301,14 +301,14 @@ TEST(test_stiffness_past_the_fold) {
 // However the way down and up is cut, it ends in the same state, with the same loss; also on a
 // stiff coat, where what a force does to its own place shifts the detachment.
 TEST(test_cutting) {
-    Indenter coated{kE, kFlat, 0.5, 0.5};
+    Indenter coated{kE, kInfinity, 0.5, 0.5};
     constexpr double nu = 0.3, E = kE * (1 - nu * nu);
     coated.layers.count = 1;
     coated.layers.layer[0] = {0.02, E, nu};
     coated.layers.E = E / 3;
     coated.layers.nu = nu;
     for (const auto& [seed, indenter] :
-         {std::pair{21u, Indenter{kE, kFlat, 0.5, 0.5}}, {22u, coated}}) {
+         {std::pair{21u, Indenter{kE, kInfinity, 0.5, 0.5}}, {22u, coated}}) {
         const RandomAsperities system = random_asperities(12, seed, 0.2);
         double force = 0, lost = 0;
         for (int cuts : {1, 10, 100}) {
@@ -339,7 +339,7 @@ TEST(test_far_jumps) {
         std::vector<double> lost;
         for (int cuts : {1, 12}) {
             const auto contact =
-                make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(3e-3));
+                make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5}, sticky(3e-3));
             for (int k = 1; k < cuts; ++k) (void)contact->at_separation(0.03 - 0.018 * k / cuts);
             lost.push_back(contact->at_separation(0.012).energy_lost);
         }
@@ -351,7 +351,7 @@ TEST(test_far_jumps) {
 TEST(test_interrupted) {
     const RandomAsperities system = random_asperities(60, 51, 0.06);
     const auto make = [&] {
-        return make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(3e-3));
+        return make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5}, sticky(3e-3));
     };
     const auto whole = make();
     for (int k = 0; k <= 24; ++k) {
@@ -371,7 +371,7 @@ TEST(test_work) {
     for (unsigned seed : {31u, 32u}) {
         const RandomAsperities system = random_asperities(5, seed, 0.2);
         const auto contact =
-            make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
+            make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5}, sticky(system.w));
         check_work_of_cycle(*contact, 0.05, -0.01);
     }
 }
@@ -388,7 +388,7 @@ TEST(test_loss_under_load) {
             options.tolerance = tolerance;
             options.interaction = interaction;
             const auto contact =
-                make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, options);
+                make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5}, options);
             for (double Z : {0.02, -0.03}) (void)contact->at_separation(Z);
             return contact->at_separation(0.03).energy_lost;
         };
@@ -411,7 +411,7 @@ TEST(test_lost) {
         SolverOptions options = sticky(system.w);
         options.physics.adhesion.range = range;
         const auto contact =
-            make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, options);
+            make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5}, options);
         const Level lost = contact->at_separation(0);
         CHECK(!lost.converged && std::isnan(lost.force) && std::isnan(contact->energy()));
         const Level away = contact->at_separation(0.05);
@@ -424,7 +424,7 @@ TEST(test_lost) {
 TEST(test_force) {
     const Jkr jkr{0.7, 0.01};
     const Asperities a{{0.5}, {0.5}, {0.1}, {jkr.r}, {}, {}, {}, {}};
-    const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(jkr.w));
+    const auto contact = make_asperity_contact(a, {kE, kInfinity, 0.5, 0.5}, sticky(jkr.w));
     const double unit = pi * jkr.w * jkr.r;
     for (double N : {2.0, 20.0, 0.0, -1.0, -1.499, 0.5}) {
         const Level level = contact->at_force(N * unit);
@@ -457,7 +457,7 @@ TEST(test_elastic_limit) {
     for (LawKind law : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order}) {
         double before = 1;
         for (double w : {1e-6, 1e-8, 1e-10, 1e-12}) {
-            const Indenter tip{kE, kFlat, 0.5, 0.5};
+            const Indenter tip{kE, kInfinity, 0.5, 0.5};
             const Level e =
                 make_asperity_contact(system.asperities, tip, sticky(0, law))->at_separation(0.004);
             const auto contact = make_asperity_contact(system.asperities, tip, sticky(w, law));

@@ -58,24 +58,23 @@ void test_conditions(bool flats, const LayeredBody& body, bool fine) {
         std::vector<double> p(kSide * kSide, 0.0);
         std::vector<char> contacts(p.size(), 0);
         for (std::size_t m = 0; m < level.pixels.index.size(); ++m) {
-            const auto i = static_cast<std::size_t>(level.pixels.index[m]);
+            const auto i = level.pixels.index[m];
             p[i] = level.pixels.pressure[m];
             contacts[i] = 1;
             CHECK(p[i] >= -s0);
         }
         for (std::size_t m = 0; m < level.pixels.cohesive.size(); ++m)
-            p[static_cast<std::size_t>(level.pixels.cohesive[m])] = level.pixels.attraction[m];
+            p[level.pixels.cohesive[m]] = level.pixels.attraction[m];
         for (int i = 0; i < kSide * kSide; i += 3) {
             double gap = level.separation - tip.clearance(i % kSide * kStep, i / kSide * kStep,
                                                           map(i % kSide, i / kSide));
             for (int j = 0; j < kSide * kSide; ++j)
-                gap += p[static_cast<std::size_t>(j)] *
-                       kernel[static_cast<std::size_t>(std::abs(i / kSide - j / kSide) * kSide +
-                                                       std::abs(i % kSide - j % kSide))];
+                gap += p[j] * kernel[std::abs(i / kSide - j / kSide) * kSide +
+                                     std::abs(i % kSide - j % kSide)];
             // The gap is linear between points: a part of s0 acts where a neighbour is within the
             // range, all of it where all are.
-            const double own = p[static_cast<std::size_t>(i)];
-            if (contacts[static_cast<std::size_t>(i)])
+            const double own = p[i];
+            if (contacts[i])
                 CHECK_CLOSE(gap, 0, 1e-5 * kRange);
             else
                 CHECK(gap > -1e-5 * kRange && own <= 0 && own >= -s0 * (1 + 1e-9));

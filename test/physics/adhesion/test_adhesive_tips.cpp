@@ -17,8 +17,7 @@ constexpr double kWork = 0.01, kPlace = 0.7;
 // points later.
 HeightMap waves(int n, double side, double height, int turned = 0) {
     HeightMap map = height_map(n, n, side / n, side / n, [=](int i, int j) {
-        const double x = 10 * std::numbers::pi / n * (i + turned + 0.5),
-                     y = 10 * std::numbers::pi / n * (j + 0.5);
+        const double x = 10 * pi / n * (i + turned + 0.5), y = 10 * pi / n * (j + 0.5);
         return height * (std::cos(x) + std::cos(y) + 0.6 * std::cos(x + 2 * y + 1) +
                          0.5 * std::sin(2 * x - y));
     });
@@ -185,7 +184,7 @@ TEST(test_moment) {
             map.row(j)[i] =
                 0.3 *
                 std::exp(-8 * (std::pow((i - 10) * map.dx, 2) + std::pow((j - 13) * map.dy, 2)));
-    const Indenter flats{1.0, std::numeric_limits<double>::infinity(), 1.0, 1.0, {2, 2}};
+    const Indenter flats{1.0, kInfinity, 1.0, 1.0, {2, 2}};
     const auto contact = make_element_contact(map, flats, sticky(kWork, 0.12));
     (void)contact->at_separation(0.25);
     for (const double Z : {0.25, 0.35}) {

@@ -7,9 +7,8 @@
 namespace test_dugdale_paths {
 
 using namespace rsc;
-using std::numbers::pi;
 
-constexpr double kE = 5.0, kFlat = std::numeric_limits<double>::infinity();
+constexpr double kE = 5.0;
 
 // A paraboloid with the traction s0 out to the radius c, by the transform chi(t) = u - t^2/r in the
 // contact, -(2 s0/E*) sqrt(c^2 - t^2) around it: f = 2 E* int_0^c chi dt, deflection at c = (2/pi)
@@ -66,7 +65,7 @@ TEST(test_minimiser) {
         const double range = range_of(system.w, lambda),
                      length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
         PathMinimiser slow(system.asperities, kE, DugdaleEdge{system.asperities, system.w, range});
-        const auto contact = make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5},
+        const auto contact = make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5},
                                                    sticky(system.w, range));
         const double top = 0.02 + range, bottom = 0;
         slow.Z = top;
@@ -92,7 +91,7 @@ TEST(test_work) {
     for (double lambda : {0.3, 2.0}) {
         const RandomAsperities system = random_asperities(5, 31, 0.2);
         const double range = range_of(system.w, lambda);
-        const auto contact = make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5},
+        const auto contact = make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5},
                                                    sticky(system.w, range));
         check_work_of_cycle(*contact, 0.05 + range, -0.005);
     }
@@ -107,7 +106,7 @@ TEST(test_reversible) {
     for (unsigned seed = 1; seed <= 8; ++seed) {
         const RandomAsperities system = random_asperities(12, seed, 0.1);
         const auto contact =
-            make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(w, range));
+            make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5}, sticky(w, range));
         std::vector<double> down;
         for (std::size_t k = 0; k < 2 * steps; ++k) {
             const std::size_t place = std::min(k, 2 * steps - 1 - k);

@@ -26,7 +26,7 @@ Permeability solved(const truth::Gap& m) { return permeability(view(m)); }
 std::vector<double> noise(int nx, int ny, int most, unsigned seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
-    std::vector<double> z(static_cast<std::size_t>(nx * ny), 0.0);
+    std::vector<double> z(nx * ny, 0.0);
     double power = 0;
     for (int a = -most; a <= most; ++a)
         for (int b = 0; b <= most; ++b) {
@@ -36,10 +36,9 @@ std::vector<double> noise(int nx, int ny, int most, unsigned seed) {
             for (int j = 0; j < ny; ++j)
                 for (int i = 0; i < nx; ++i) {
                     const double phase =
-                        2 * std::numbers::pi *
+                        2 * pi *
                         (a * static_cast<double>(i) / nx + b * static_cast<double>(j) / ny);
-                    z[static_cast<std::size_t>(j * nx + i)] +=
-                        c * std::cos(phase) + s * std::sin(phase);
+                    z[j * nx + i] += c * std::cos(phase) + s * std::sin(phase);
                 }
         }
     for (double& h : z) h /= std::sqrt(power);
@@ -49,9 +48,7 @@ std::vector<double> noise(int nx, int ny, int most, unsigned seed) {
 // A rough gap that is closed on about a third of the cell.
 truth::Gap rough(int nx, int ny, double dx, double dy, unsigned seed) {
     const std::vector<double> z = noise(nx, ny, 5, seed);
-    return gap(nx, ny, dx, dy, [&](int i, int j) {
-        return std::max(0.0, z[static_cast<std::size_t>(j * nx + i)] + 0.45);
-    });
+    return gap(nx, ny, dx, dy, [&](int i, int j) { return std::max(0.0, z[j * nx + i] + 0.45); });
 }
 
 void same(const Permeability& a, const Permeability& b, double tolerance) {
@@ -184,7 +181,7 @@ TEST(percolation_by_walks) {
 TEST(every_point_is_eliminated_once) {
     std::mt19937 random(9);
     for (const auto& [nx, ny] : {std::pair{1, 1}, {1, 20}, {37, 2}, {60, 45}}) {
-        std::vector<std::uint8_t> used(static_cast<std::size_t>(nx * ny));
+        std::vector<std::uint8_t> used(nx * ny);
         for (auto& u : used) u = random() % 3 > 0;
         std::vector<std::uint32_t> order = dissection(nx, ny, used);
         std::sort(order.begin(), order.end());
@@ -207,7 +204,7 @@ TEST(the_gap_of_a_level) {
     const Job job = prepare(settings_of(kFlats));
     const Realization r = realize(job, 1, 1);
     const int n = static_cast<int>(r.fields.x.size());
-    const std::size_t points = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
+    const std::size_t points = n * n;
     for (std::size_t s = 0; s < 2; ++s) {
         const Level& level = r.levels[s];
         truth::Gap m{n, n, r.fields.x[1] - r.fields.x[0], r.fields.y[1] - r.fields.y[0], {}};
@@ -252,8 +249,7 @@ TEST(the_distribution_of_gaps) {
     const double width = 2 * one.values("gap_bin")[0];
     std::vector<double> counts(26, 0.0);
     for (std::size_t k = step * points; k < (step + 1) * points; ++k)
-        if (gap[k] > 0)
-            ++counts[std::min<std::size_t>(25, static_cast<std::size_t>(gap[k] / width))];
+        if (gap[k] > 0) ++counts[std::min(25, static_cast<int>(gap[k] / width))];
     const double open = std::accumulate(counts.begin(), counts.end(), 0.0);
     CHECK(one.numbers("gap_count", "overflow")[0] == counts.back());
     counts.pop_back();

@@ -9,9 +9,8 @@
 namespace test_hardness {
 
 using namespace rsc;
-using std::numbers::pi;
 
-constexpr double kE = 94.0e3, kFlat = std::numeric_limits<double>::infinity();
+constexpr double kE = 94.0e3;
 
 // A Hertz asperity that yields, written down once more, in long double.
 struct Yielding {
@@ -114,7 +113,7 @@ TEST(test_sinking) {
     a.biharmonic = {0};
     SolverOptions options = options_with(H);
     options.law = LawKind::fourth_order;
-    Path contact = asperity_path(a, {kE, kFlat, 0.5, 0.5}, options);
+    Path contact = asperity_path(a, {kE, kInfinity, 0.5, 0.5}, options);
     const double uc = std::pow(3 * pi * H / (4 * kE), 2) * r, ac = std::sqrt(r * uc),
                  b = r * 4 * H / (pi * kE);
     for (const double times : {1.001, 1.5, 4.0, 30.0}) {
@@ -221,7 +220,7 @@ TEST(test_independent) {
         options.surface.sigma = 0.01;
         options.method = method;
         if (method == Method::mesh) options.tolerance = 1e-11;
-        Path contact = asperity_path(a, {kE, kFlat, 0.5, 0.5}, options);
+        Path contact = asperity_path(a, {kE, kInfinity, 0.5, 0.5}, options);
         std::vector<Yielding> laws;
         for (double r : a.radius)
             laws.push_back({r, H0 * std::sqrt(1 + static_cast<long double>(length) / r)});
@@ -256,7 +255,7 @@ TEST(test_independent) {
 TEST(test_path) {
     std::mt19937 random(3);
     const Asperities a = few(random, 30);
-    const Indenter flat{kE, kFlat, 0.5, 0.5};
+    const Indenter flat{kE, kInfinity, 0.5, 0.5};
     const double top = 0.011, bottom = 0.002;
     Path contact = asperity_path(a, flat, options_with(2000));
     // Composite Simpson over each half of the cycle; kinks where asperities touch and yield leave
@@ -308,7 +307,7 @@ TEST(test_limits) {
     std::mt19937 random(5);
     const Asperities a = few(random, 40);
     const Indenter tip{kE, 3.0, 0.5, 0.5};
-    Path elastic = asperity_path(a, tip, options_with(kFlat)),
+    Path elastic = asperity_path(a, tip, options_with(kInfinity)),
          hard = asperity_path(a, tip, options_with(1e30)),
          soft = asperity_path(a, tip, options_with(1e-3));
     for (const double Z0 : {0.008, 0.004, 0.006, 0.0}) {

@@ -11,9 +11,8 @@
 namespace test_hardness_elements {
 
 using namespace rsc;
-using std::numbers::pi;
 
-constexpr double kE = 94706.168, kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kE = 94706.168;
 constexpr double kSigma = 0.01;
 const Indenter kTip{kE, 2.5, 0.47, 0.52};
 

@@ -12,11 +12,9 @@ namespace test_indenter {
 
 using namespace rsc;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // A second body of a few waves, n x n points on the unit square.
 std::shared_ptr<const HeightMap> waves(int n, bool periodic) {
-    const double k = 2 * std::numbers::pi / n;
+    const double k = 2 * pi / n;
     auto map = std::make_shared<HeightMap>(height_map(n, n, 1.0 / n, 1.0 / n, [k](int i, int j) {
         return 0.01 * (std::cos(3 * k * i + 1) * std::cos(2 * k * j) + std::sin(k * (i - 2 * j)));
     }));

@@ -13,7 +13,7 @@ namespace test_shapes {
 
 using namespace rsc;
 
-constexpr double kE = 100, kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kE = 100;
 
 // The origin between points, or on one.
 HeightMap flat_map(int nx, int ny, double h) {
@@ -140,7 +140,7 @@ void friction(const char* name, const ShapeKeys& keys, double depth, double side
 // of mean planes.
 TEST(two_maps) {
     constexpr int n = 32;
-    const double q = 2 * std::numbers::pi / n;
+    const double q = 2 * pi / n;
     const auto one_of = [&](auto height) {
         HeightMap map = height_map(n, n, 1.0 / n, 1.0 / n, height);
         map.x0 = map.y0 = -0.5 * (n - 1) / n;
@@ -177,7 +177,7 @@ TEST(all_shapes) {
         keys.radii[1] = ratio;
         closed_form("paraboloid", keys, 1e-3, ratio > 3 ? 0.24 : 0.16, 24, 1e-3, 1.5e-2, 0.5);
     }
-    keys.angle = 0.25 * std::numbers::pi;
+    keys.angle = 0.25 * pi;
     keys.radii[1] = 3;
     closed_form("paraboloid", keys, 1e-3, 0.16, 24, 1e-3, 1.5e-2, 0.5);
     closed_form("cone", keys, 5e-3, 0.1, 24, 1e-3, 1.5e-2, 0.5);
@@ -186,14 +186,13 @@ TEST(all_shapes) {
     for (const char* name : {"paraboloid", "cone", "punch"})
         friction(name, keys, name[0] == 'c' ? 5e-3 : 1e-3, 0.14);
 
-
     // Lateral forces of every shape, on asperities and on the points of a surface.
     keys.rim_radius = 0.5;
     keys.angle = 0.4;
     keys.radii[0] = 0.5;
     keys.radii[1] = 2;
     HeightMap rough = flat_map(48, 48, 1.0 / 48);
-    const double q = 2 * std::numbers::pi / 48;
+    const double q = 2 * pi / 48;
     keys.map =
         std::make_shared<HeightMap>(height_map(96, 96, 1.0 / 48, 1.0 / 48, [q](int i, int j) {
             return 4e-3 * std::sin(2 * q * i + 1) * std::cos(3 * q * j);

@@ -80,7 +80,7 @@ struct One {
     void step(double dt) { law->step(dt); }
     double force(double u) const { return law->modulus() * law->force(0, u); }
     // a^2/r, that is, the penetration at which the elastic contact is as large.
-    double size(double u) const { return law->area(0, u) / (std::numbers::pi * kRadius); }
+    double size(double u) const { return law->area(0, u) / (pi * kRadius); }
     double go(double u) {  // the force there, accepted
         const double f = force(u);
         constexpr int first = 0;

@@ -13,13 +13,13 @@ namespace test_relaxing_contact {
 
 using namespace rsc;
 
-constexpr double kE = 10, kFlat = std::numeric_limits<double>::infinity();
+constexpr double kE = 10;
 const Relaxation kBody{{0.3, 0.4}, {0.9, 3}};  // levels closer than 0.9/16 are one step of time
 
 HeightMap waves() {
     constexpr int n = 24;
     return height_map(n, n, 1.0 / n, 1.0 / n, [](int i, int j) {
-        const double x = 2 * std::numbers::pi * i / n, y = 2 * std::numbers::pi * j / n;
+        const double x = 2 * pi * i / n, y = 2 * pi * j / n;
         return 0.01 * (std::cos(x) * std::cos(2 * y + 1) + 0.7 * std::cos(3 * x + 2 * y) +
                        0.4 * std::sin(5 * y - 2 * x));
     });
@@ -55,7 +55,7 @@ std::unique_ptr<Path> make(const Kind& model, const Relaxation& body) {
         return a;
     }();
     SolverOptions options{.law = model.law, .tolerance = 1e-11, .physics = {.relaxation = body}};
-    Indenter indenter{kE, model.periodic ? kFlat : 4.0, 0.5, 0.5,
+    Indenter indenter{kE, model.periodic ? kInfinity : 4.0, 0.5, 0.5,
                       model.periodic ? Period{1, 1} : Period{}};
     if (model.elements) return make_element_contact(map, indenter, options);
     return make_asperity_contact(asperities, indenter, options);

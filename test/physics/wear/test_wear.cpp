@@ -12,8 +12,6 @@ namespace test_wear {
 
 using namespace rsc;
 
-const double pi = std::numbers::pi;
-
 SolverOptions wearing(double k, double tolerance = 1e-7) {
     SolverOptions options;
     options.tolerance = tolerance;

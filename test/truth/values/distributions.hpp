@@ -6,7 +6,6 @@
 namespace values {
 
 using namespace rsc;
-using std::numbers::pi;
 
 // Skewness and kurtosis are absent where values do not spread beyond rounding.
 struct Moments1 {
@@ -54,7 +53,7 @@ inline Moments1 moments_of(const std::vector<Part>& parts) {
 
 inline void distributions(CheckedFile& f, const Truth& t) {
     const auto& wanted = t.c.output.pdf_levels;
-    const std::size_t n = at(t.c.output.pdf_bins), D = wanted.size();
+    const std::size_t n = t.c.output.pdf_bins, D = wanted.size();
     double sqrt_m4 = std::sqrt(t.regime.m4);
     if (t.list) sqrt_m4 = 0.9 / mean(t.r[0].asperities.radius);
     if (t.c.surface.source == Source::heights) sqrt_m4 = std::sqrt(t.heights[0].differences().m4);

@@ -11,7 +11,6 @@
 namespace values {
 
 using namespace rsc;
-using std::numbers::pi;
 
 inline void header(CheckedFile& f, const Truth& t) {
     const std::string text = f.reader().text("", "case");
@@ -81,7 +80,7 @@ struct Pressed {
     double rest = 0, lost = 0;
 };
 inline Pressed pressed_flat(const Truth& t, std::int32_t i, double deepest) {
-    const double r = t.r[0].asperities.radius[at(i)], H = t.hardness(i),
+    const double r = t.r[0].asperities.radius[i], H = t.hardness(i),
                  uc = std::pow(3 * pi * H / (4 * t.E), 2) * r;
     if (!(deepest > uc)) return {};
     const double area = pi * r * (2 * deepest - uc), force = H * area, a = std::sqrt(area / pi),
@@ -115,12 +114,12 @@ struct CellSums {
     double outside = 0, crowded = 0;
 };
 inline CellSums cells_of(const Contacts2& c, const Cells& cells) {
-    CellSums out{Vector(at(cells.nx * cells.ny)), Vector(at(cells.nx * cells.ny)), 0, 0};
+    CellSums out{Vector(cells.nx * cells.ny), Vector(cells.nx * cells.ny), 0, 0};
     const auto put = [&](double x, double y, double area, double force) {
         const long cell = cells.cell(x, y);
         if (cell < 0) return;
-        out.area[at(cell)] += area;
-        out.force[at(cell)] += force;
+        out.area[cell] += area;
+        out.force[cell] += force;
     };
     // Pixels begin at their points; each cell has what lies in it, the last one also what sticks
     // out.
@@ -137,8 +136,8 @@ inline CellSums cells_of(const Contacts2& c, const Cells& cells) {
         for (long j = 0; j < cells.ny; ++j)
             for (long i = 0; i < cells.nx; ++i) {
                 const double part = share(u, w, i, cells.nx) * share(v, h, j, cells.ny);
-                out.area[at(j * cells.nx + i)] += part * area;
-                out.force[at(j * cells.nx + i)] += part * force;
+                out.area[j * cells.nx + i] += part * area;
+                out.force[j * cells.nx + i] += part * force;
             }
     };
     Vector count(c.spots.size());
@@ -184,8 +183,8 @@ inline void levels(CheckedFile& f, const Truth& t) {
             a += p.area;
             if (!ellipses) continue;
             const double root = std::sqrt(law(k, p.index).axes(p.index));
-            union_of.push_back({p.x, p.y, p.radius() / root, p.radius() * root,
-                                t.r[k].asperities.angle[at(p.index)]});
+            union_of.push_back(
+                {p.x, p.y, p.radius() / root, p.radius() * root, t.r[k].asperities.angle[p.index]});
         }
         return ellipses ? union_area(union_of, nullptr, t.periodic ? Period{t.Lx, t.Ly} : Period{})
                         : a;
@@ -323,9 +322,9 @@ inline void levels(CheckedFile& f, const Truth& t) {
                 bool flows = p.yields;
                 if (!t.elements) {
                     const double u = level(k, s).u[i];
-                    flows = p.pressure() > (1 - 1e-9) * t.hardness(p.index) &&
-                            u >= deepest[at(p.index)];
-                    deepest[at(p.index)] = std::max(deepest[at(p.index)], u);
+                    flows =
+                        p.pressure() > (1 - 1e-9) * t.hardness(p.index) && u >= deepest[p.index];
+                    deepest[p.index] = std::max(deepest[p.index], u);
                 }
                 CHECK(flows == p.yields);
                 n += flows;

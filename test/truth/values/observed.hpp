@@ -6,7 +6,6 @@
 namespace values {
 
 using namespace rsc;
-using std::numbers::pi;
 
 inline void surfaces(CheckedFile& f, const Truth& t) {
     std::vector<Moments4> own, grid;
@@ -134,7 +133,7 @@ inline double cubic(long n, const std::function<double(long)>& f, double s) {
 
 inline void maps(CheckedFile& f, const Truth& t) {
     const Cells g(t);
-    const std::size_t cells = at(g.nx * g.ny);
+    const std::size_t cells = g.nx * g.ny;
     Vector x, y;
     for (long i = 0; i < g.nx; ++i) x.push_back(g.x0 + g.side * (static_cast<double>(i) + 0.5));
     for (long j = 0; j < g.ny; ++j) y.push_back(g.y0 + g.side * (static_cast<double>(j) + 0.5));
@@ -168,7 +167,7 @@ inline void maps(CheckedFile& f, const Truth& t) {
         std::min({t.tip_x - t.x0, t.x0 + t.Lx - t.tip_x, t.tip_y - t.y0, t.y0 + t.Ly - t.tip_y});
     if (!(largest > 0))
         return CHECK(!f.has("radius") && !f.has("radial_pressure"));  // the tip is not over the map
-    const auto bins = at(t.c.output.radial_bins);
+    const std::size_t bins = t.c.output.radial_bins;
     Vector radius;
     for (std::size_t b = 0; b < bins; ++b)
         radius.push_back((number(b) + 0.5) * largest / number(bins));
@@ -190,7 +189,7 @@ inline void maps(CheckedFile& f, const Truth& t) {
                             return cubic(
                                 g.nx,
                                 [&](long i) {
-                                    return map[s * cells + at(j * g.nx + i)] /
+                                    return map[s * cells + (j * g.nx + i)] /
                                            (j == g.ny - 1 ? covered : 1);
                                 },
                                 u);

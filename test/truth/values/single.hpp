@@ -9,7 +9,6 @@
 namespace values {
 
 using namespace rsc;
-using std::numbers::pi;
 
 inline void asperities(CheckedFile& f, const Truth& t) {
     if (t.elements || t.M > 1) return CHECK(!f.has("asperity_x"));
@@ -92,7 +91,7 @@ inline void contacts(CheckedFile& f, const Truth& t) {
         const double root = std::sqrt(law->axes(i));
         major.push_back(radius[k] / root);
         minor.push_back(radius[k] * root);
-        angle.push_back(t.r[0].asperities.angle[at(i)]);
+        angle.push_back(t.r[0].asperities.angle[i]);
     }
     f.same("contact_major", major, kRounding);
     f.same("contact_minor", minor, kRounding);
@@ -120,10 +119,8 @@ inline void contact_mask(CheckedFile& f, const Truth& t) {
     const auto place = [](const Vector& centres, double at) {
         const auto next = std::ranges::upper_bound(centres, at) - centres.begin();
         const auto near = std::max<std::ptrdiff_t>(next - 1, 0);
-        const bool above =
-            next < std::ssize(centres) && centres[static_cast<std::size_t>(next)] - at <
-                                              at - centres[static_cast<std::size_t>(near)];
-        return static_cast<std::size_t>(above ? next : near);
+        const bool above = next < std::ssize(centres) && centres[next] - at < at - centres[near];
+        return above ? next : near;
     };
     for (std::size_t k = 0; k < steps.size(); ++k) {
         const Contacts2& c = t.contacts[0][static_cast<std::size_t>(steps[k]) - 1];
@@ -190,15 +187,15 @@ inline void friction(CheckedFile& f, const Truth& t) {
         const double full = mu / m * (touch - Z);
         for (int k = 0; k <= 40; ++k) {
             xi.push_back(full * k / 40);
-            Q.push_back(mu * drop[at(k)]);
+            Q.push_back(mu * drop[k]);
         }
         for (int k = 0; k <= 36; ++k) {
             xi.push_back(full * (36 - 2 * k) / 40);
-            Q.push_back(mu * (drop[36] - 2 * drop[at(k)]));
+            Q.push_back(mu * (drop[36] - 2 * drop[k]));
         }
         for (int k = 1; k <= 36; ++k) {
             xi.push_back(full * (2 * k - 36) / 40);
-            Q.push_back(mu * (2 * drop[at(k)] - drop[36]));
+            Q.push_back(mu * (2 * drop[k] - drop[36]));
         }
         stiffness.push_back(-m * t.r[0].levels[s].stiffness);
         // 4 (mu^2/m) times the integral of [N - (N + N_top)/2 ...]: that of the load between the
@@ -364,7 +361,7 @@ inline void compared(CheckedFile& f, const Truth& t, const std::vector<Vector>& 
         } else {
             for (std::size_t k = 0; k + 1 < path[i].size(); ++k)
                 elements->at_separation(path[i][k] * t.sigma);
-            s = at(std::lround(path[i].back()));
+            s = std::lround(path[i].back());
         }
         const Level& level = t.r[0].levels[s];
         while (surface.map.nx < columns.at(i)) {

@@ -10,7 +10,6 @@
 namespace values {
 
 using namespace rsc;
-using std::numbers::pi;
 
 // sums of some hundred terms, and differences of few digits
 inline constexpr double kRounding = 1e-11;
@@ -21,7 +20,6 @@ inline double sum(const Vector& v) {
     return s;
 }
 inline double mean(const Vector& v) { return sum(v) / static_cast<double>(v.size()); }
-inline std::size_t at(long k) { return static_cast<std::size_t>(k); }
 inline double number(std::size_t n) { return static_cast<double>(n); }
 
 // --- Surfaces
@@ -37,7 +35,7 @@ struct Grid {
     bool periodic = false;
     bool joined = false;  // differences across the border are those of the surface
     Vector z;
-    double at_point(long i, long j) const { return z[at((j + ny) % ny * nx + (i + nx) % nx)]; }
+    double at_point(long i, long j) const { return z[(j + ny) % ny * nx + (i + nx) % nx]; }
     double x(long i) const { return x0 + dx * static_cast<double>(i); }
     double y(long j) const { return y0 + dy * static_cast<double>(j); }
 
@@ -92,18 +90,17 @@ struct Grid {
         const auto root = [](long k, long n) {
             return std::polar(1.0, -2 * pi * static_cast<double>(k % n) / static_cast<double>(n));
         };
-        std::vector<Complex> rows(z.size()), wx(at(nx)), wy(at(ny));
-        for (long k = 0; k < nx; ++k) wx[at(k)] = root(k, nx);
-        for (long k = 0; k < ny; ++k) wy[at(k)] = root(k, ny);
+        std::vector<Complex> rows(z.size()), wx(nx), wy(ny);
+        for (long k = 0; k < nx; ++k) wx[k] = root(k, nx);
+        for (long k = 0; k < ny; ++k) wy[k] = root(k, ny);
         for (long j = 0; j < ny; ++j)
             for (long k = 0; k <= nx / 2; ++k)
-                for (long i = 0; i < nx; ++i)
-                    rows[at(j * nx + k)] += z[at(j * nx + i)] * wx[at(i * k % nx)];
+                for (long i = 0; i < nx; ++i) rows[j * nx + k] += z[j * nx + i] * wx[i * k % nx];
         Moments4 m{0, 0, 0};
         for (long k = 0; k <= nx / 2; ++k)
             for (long l = 0; l < ny; ++l) {
                 Complex h = 0;
-                for (long j = 0; j < ny; ++j) h += rows[at(j * nx + k)] * wy[at(j * l % ny)];
+                for (long j = 0; j < ny; ++j) h += rows[j * nx + k] * wy[j * l % ny];
                 const double both = k == 0 || 2 * k == nx ? 1 : 2,
                              power = both * std::norm(h / number(z.size()));
                 const double kx = 2 * pi * static_cast<double>(k) / (dx * static_cast<double>(nx));
@@ -158,7 +155,7 @@ struct Spot2 {
 };
 struct Pixel2 {
     double x, y, p;
-    std::size_t contact;
+    std::int32_t contact;
 };
 struct Contacts2 {
     std::vector<Spot2> spots;
@@ -174,8 +171,8 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
     out.pixel = q.dx * q.dy;
     out.dx = q.dx;
     out.dy = q.dy;
-    std::vector<long> place(at(nx * ny), -1), own(q.index.size(), -1);
-    for (std::size_t k = 0; k < q.index.size(); ++k) place[at(q.index[k])] = static_cast<long>(k);
+    std::vector<long> place(nx * ny, -1), own(q.index.size(), -1);
+    for (std::size_t k = 0; k < q.index.size(); ++k) place[q.index[k]] = static_cast<long>(k);
     const auto neighbours = [&](std::size_t k) {
         std::vector<long> found;
         const long i = q.index[k] % nx, j = q.index[k] / nx;
@@ -185,8 +182,8 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
                 u = (u + nx) % nx;
                 v = (v + ny) % ny;
             }
-            if (u >= 0 && u < nx && v >= 0 && v < ny && place[at(v * nx + u)] >= 0)
-                found.push_back(place[at(v * nx + u)]);
+            if (u >= 0 && u < nx && v >= 0 && v < ny && place[v * nx + u] >= 0)
+                found.push_back(place[v * nx + u]);
         }
         return found;
     };
@@ -206,9 +203,9 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
             const std::size_t k = open.back();
             open.pop_back();
             for (const long l : neighbours(k))
-                if (own[at(l)] < 0) {
-                    own[at(l)] = own[first];
-                    open.push_back(at(l));
+                if (own[l] < 0) {
+                    own[l] = own[first];
+                    open.push_back(l);
                 }
         }
     }
@@ -216,31 +213,31 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
         double n = 0, hard = 0, sides = 0, px = 0, py = 0, peak = 0;
         long i = 0, j = 0;
     };
-    std::vector<Sum> sums(at(sets));
-    out.spots.resize(at(sets));
+    std::vector<Sum> sums(sets);
+    out.spots.resize(sets);
     for (std::size_t k = 0; k < own.size(); ++k) {
         const auto [there, fresh] = library.insert({own[k], q.contact[k]});
         CHECK(there->second == q.contact[k]);
-        Sum& s = sums[at(q.contact[k])];
+        Sum& s = sums[q.contact[k]];
         const bool hard = q.pressure[k] >= H;
         s.n += 1;
         s.hard += hard;
         if (!hard) s.sides += 4 - number(neighbours(k).size()) - beyond(k);
-        out.spots[at(q.contact[k])].cut = out.spots[at(q.contact[k])].cut || beyond(k) > 0;
+        out.spots[q.contact[k]].cut = out.spots[q.contact[k]].cut || beyond(k) > 0;
         if (q.pressure[k] > s.peak) {
             s.peak = q.pressure[k];
             s.i = q.index[k] % nx;
             s.j = q.index[k] / nx;
         }
-        out.spots[at(q.contact[k])].f += q.pressure[k] * out.pixel;
-        out.spots[at(q.contact[k])].yields = out.spots[at(q.contact[k])].yields || hard;
+        out.spots[q.contact[k]].f += q.pressure[k] * out.pixel;
+        out.spots[q.contact[k]].yields = out.spots[q.contact[k]].yields || hard;
         out.pixels.push_back({q.x0 + q.dx * static_cast<double>(q.index[k] % nx),
                               q.y0 + q.dy * static_cast<double>(q.index[k] / nx), q.pressure[k],
-                              at(q.contact[k])});
+                              q.contact[k]});
     }
     CHECK(static_cast<long>(library.size()) == sets);
     for (std::size_t k = 0; k < own.size(); ++k) {  // middles, from the peak
-        Sum& s = sums[at(q.contact[k])];
+        Sum& s = sums[q.contact[k]];
         long a = q.index[k] % nx - s.i, b = q.index[k] / nx - s.j;
         if (periodic) a -= nx * std::lround(static_cast<double>(a) / static_cast<double>(nx));
         if (periodic) b -= ny * std::lround(static_cast<double>(b) / static_cast<double>(ny));
@@ -391,8 +388,7 @@ struct Truth {
         return v;
     }
     double hardness(std::int32_t i) const {
-        return c.solids.hardness *
-               std::sqrt(1 + c.solids.size_effect / r[0].asperities.radius[at(i)]);
+        return c.solids.hardness * std::sqrt(1 + c.solids.size_effect / r[0].asperities.radius[i]);
     }
 };
 
