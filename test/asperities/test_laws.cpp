@@ -90,9 +90,6 @@ TEST(ellipse_limits) {
     // Smooth through the switches of the evaluation: neighbouring ratios give neighbouring factors.
     for (double ratio = 1.0; ratio < 3; ratio += 1e-3)
         CHECK_CLOSE(ellipse_factors(ratio + 1e-9).F2, ellipse_factors(ratio).F2, 1e-9);
-    // The force factor F2^(-3/2) at the mode of the summits' curvatures and at 10.
-    CHECK_CLOSE(std::pow(ellipse_factors(2.21).F2, -1.5), 1.0131, 1e-4);
-    CHECK_CLOSE(std::pow(ellipse_factors(10).F2, -1.5), 1.109, 1e-3);
     CHECK_THROWS(ellipse_factors(0.5), Error);
 }
 

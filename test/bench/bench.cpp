@@ -17,30 +17,6 @@ extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 using namespace rsc;
 using bench::kGold, bench::middle, bench::now, bench::shortest;
 
-namespace bench {
-
-// About n asperities on a jittered lattice in the unit square, Gaussian heights, lognormal radii,
-// under a nearly flat sphere.
-Asperities lattice(int n) {
-    const int side = static_cast<int>(std::lround(std::sqrt(n)));
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> jitter(-0.4, 0.4);
-    std::normal_distribution<double> normal;
-    const double h = 1.0 / side;
-    Asperities a;
-    for (int j = 0; j < side; ++j) {
-        for (int i = 0; i < side; ++i) {
-            a.x.push_back((i + 0.5 + jitter(random)) * h);
-            a.y.push_back((j + 0.5 + jitter(random)) * h);
-            a.z.push_back(0.05 * h * normal(random));
-            a.radius.push_back(0.25 * h * std::exp(0.3 * normal(random)));
-        }
-    }
-    return a;
-}
-
-}  // namespace bench
-
 namespace {
 
 Asperities surface(double sigma, std::int64_t realization) {
@@ -209,7 +185,6 @@ const Part kParts[] = {
     {"elements", bench::elements},
     {"element_flats", bench::element_flats, true},
     {"scaling", bench::scaling, true},
-    {"threads", bench::threads, true},
 };
 
 int main(int argc, char** argv) {

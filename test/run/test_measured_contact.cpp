@@ -85,30 +85,6 @@ TEST(twins_with_a_second_map) {
     CHECK(!alone.surface.pixel && alone.surface.missing_value.empty());
 }
 
-// The gap between two bodies is all that counts: a rough body 2 on a smooth body 1 is the surface
-// upside down on a smooth body 2.
-TEST(smooth_on_rough) {
-    const auto level = [&](const std::string& first, const std::string& second) {
-        const Case c = settings_of(
-            "&solids E=1e4,Infinity nu=0.3,0.0 R=Infinity,Infinity / &surface source='heights' "
-            "pixel=0.03125 sigma=1e-3 file='" +
-            first + "' / &indenter shape='map' file='" + second +
-            "' / &indentation boundary='periodic' control='pressure' unit='pressure' levels=1.0 "
-            "/");
-        return realize(prepare(c), 1, 1).levels.at(0);
-    };
-    const auto wave = [](int i, int j) {
-        return 1e-3 * std::cos(pi * i / 8) * std::cos(pi * j / 16);
-    };
-    const std::string rough = folder.write("wave.txt", rows_of_text(32, 32, wave)),
-                      smooth = folder.write("zero.txt",
-                                            rows_of_text(32, 32, [](int, int) { return 0.0; }));
-    const Level below = level(rough, smooth), above = level(smooth, rough);
-    CHECK(above.area > 0);
-    CHECK_RELATIVE(above.area, below.area, 1e-9);
-    CHECK_RELATIVE(above.separation, below.separation, 1e-6);
-}
-
 // A surface of 256 x 256 points as a map, whose point (i, j) `change` may alter.
 Case map_case(double L_lambda_s, const std::function<void(int, int, double&)>& change) {
     const HeightMap surface =

@@ -184,37 +184,6 @@ TEST(resolution) {
     CHECK(r.levels[2].force_error_expected < r.levels[0].force_error_expected);
 }
 
-// The errors expected of elements hold: three surfaces with 8 points in the shortest wave against
-// the same with 32, at levels away from the border. (Under a larger ball no level is.)
-TEST(finer) {
-    Case c;
-    c.surface.L_lambda_l = 4;
-    c.surface.L_lambda_s = 16;
-    c.surface.hurst = 1;
-    c.surface.sigma = 2.4e-3;
-    c.solids.R[1] = 31;
-    c.solver.model = ModelKind::elements;
-    c.indentation.levels = {2, 1.5, 1, 0.5, 0};
-    int levels = 0, force = 0, area = 0;
-    for (const int seed : {1, 2, 3}) {
-        c.run.seed = seed;
-        const auto pressed = [&](double points) {
-            c.elements.points_per_wave = points;
-            return realize(prepare(c), 1, 1).levels;
-        };
-        const std::vector<Level> coarse = pressed(8), fine = pressed(32);
-        for (std::size_t k = 0; k < coarse.size(); ++k) {
-            if (!(fine[k].force > 0) || coarse[k].edge_contacts > 0) continue;
-            ++levels;
-            const double dN = std::abs(coarse[k].force / fine[k].force - 1),
-                         dA = std::abs(coarse[k].area / fine[k].area - 1);
-            force += dN <= coarse[k].force_error_expected;
-            area += dA <= coarse[k].area_error_expected;
-        }
-    }
-    CHECK(levels >= 7 && 10 * force >= 9 * levels && 10 * area >= 9 * levels);
-}
-
 std::vector<Level> pressed(Case c, ModelKind model) {
     c.solver.model = model;
     return realize(prepare(c), 1, 1).levels;

@@ -51,13 +51,6 @@ truth::Gap rough(int nx, int ny, double dx, double dy, unsigned seed) {
     return gap(nx, ny, dx, dy, [&](int i, int j) { return std::max(0.0, z[j * nx + i] + 0.45); });
 }
 
-void same(const Permeability& a, const Permeability& b, double tolerance) {
-    const double scale = std::max(b.xx, b.yy);
-    CHECK_CLOSE(a.xx, b.xx, tolerance * scale);
-    CHECK_CLOSE(a.yy, b.yy, tolerance * scale);
-    CHECK_CLOSE(a.xy, b.xy, tolerance * scale);
-}
-
 TEST(stripes_along_and_across_the_flow) {
     const auto width = [](int k) { return 1.3 + std::sin(0.7 * k) + 0.2 * (k % 3); };
     const int n = 17;
@@ -97,22 +90,6 @@ TEST(rough_gaps_by_conjugate_gradients) {
     CHECK(worst < 1e-8);
 }
 
-TEST(mirrored_transposed_moved_and_scaled_gaps) {
-    const int nx = 40, ny = 32;
-    const truth::Gap m = rough(nx, ny, 0.5, 0.6, 3);
-    const Permeability K = solved(m);
-    CHECK(K.xx > 0 && K.yy > 0 && std::abs(K.xy) > 1e-3 * K.xx);
-    same(solved(gap(nx, ny, 0.5, 0.6, [&](int i, int j) { return m.at(-i, j); })),
-         {K.xx, K.yy, -K.xy}, 1e-11);
-    same(solved(gap(ny, nx, 0.6, 0.5, [&](int i, int j) { return m.at(j, i); })),
-         {K.yy, K.xx, K.xy}, 1e-11);
-    same(solved(gap(nx, ny, 0.5, 0.6, [&](int i, int j) { return m.at(i + 13, j - 7); })), K,
-         1e-11);
-    same(solved(gap(nx, ny, 5, 6, [&](int i, int j) { return 1e-3 * m.at(i, j); })),
-         {1e-9 * K.xx, 1e-9 * K.yy, 1e-9 * K.xy}, 1e-11);
-    same(solved(gap(3 * nx, 2 * ny, 0.5, 0.6, [&](int i, int j) { return m.at(i, j); })), K, 1e-11);
-}
-
 TEST(channels_dead_ends_and_islands) {
     // A channel one pixel wide along x carries what its resistance lets through; a pocket beside
     // it, and an island, carry nothing.
@@ -133,7 +110,8 @@ TEST(channels_dead_ends_and_islands) {
     const Permeability both = solved(
         gap(8, 8, 1, 1, [](int i, int j) { return i == j || i == (j + 1) % 8 ? 1.0 : 0.0; }));
     CHECK(both.xx > 0);
-    same(both, {both.xx, both.xx, both.xx}, 1e-12);
+    CHECK_RELATIVE(both.yy, both.xx, 1e-12);
+    CHECK_RELATIVE(both.xy, both.xx, 1e-12);
     // Wide islands behind gaps so narrow that rounding hides them do not spoil the rest.
     const auto hidden = [](double neck) {
         return gap(12, 12, 1, 1, [neck](int i, int j) {
