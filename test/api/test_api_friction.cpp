@@ -1,9 +1,9 @@
 // Friction through the C interface: what it does is that of the core.
 #include "check.hpp"
 #include "physics/friction/contact_curve.hpp"
+#include "support/asperities.hpp"
 #include "support/library.hpp"
 #include "support/paths.hpp"
-#include "support/random_asperities.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace test_api_friction {

@@ -4,8 +4,8 @@
 #include <sys/stat.h>
 
 #include "check.hpp"
+#include "support/asperities.hpp"
 #include "support/library.hpp"
-#include "support/random_asperities.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace test_api_kept {

@@ -2,6 +2,7 @@
 // read by all. Made for
 // ThreadSanitizer, too.
 #include "check.hpp"
+#include "support/asperities.hpp"
 #include "support/library.hpp"
 
 namespace test_api_threads {
@@ -67,14 +68,7 @@ TEST(api_threads) {
     // One contact, one set of asperities and one case, read by all; each thread works on a copy of
     // the contact.
     const CaseHandle c = case_of("&run threads=1 /");
-    const rsc::Asperities list{.x = {0, 1, 2},
-                               .y = {0, 0, 0},
-                               .z = {0, 0.1, 0},
-                               .radius = {1, 1, 1},
-                               .kappa1 = {},
-                               .kappa2 = {},
-                               .angle = {},
-                               .biharmonic = {}};
+    const rsc::Asperities list = asperities_at({{0, 0, 0, 1}, {1, 0, 0.1, 1}, {2, 0, 0, 1}});
     const AsperitiesHandle a = take(list);
     ContactHandle k;
     OK(rsc_contact_create(&k, a, 1e5, 10, 1, 0, c));

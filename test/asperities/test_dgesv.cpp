@@ -4,8 +4,8 @@
 #include "asperities/dgesv.hpp"
 
 #include "check.hpp"
+#include "support/asperities.hpp"
 #include "support/paths.hpp"
-#include "support/random_asperities.hpp"
 
 namespace test_dgesv {
 
@@ -121,11 +121,7 @@ TEST(says_what_it_did) {
     CHECK(plain.iterations > 0 && uncut.iterations == 30 + plain.iterations &&
           uncut.products == plain.products + 1);
     // Two asperities so close that the solution the iteration finds is a saddle of the energy.
-    Asperities pair;
-    pair.x = {0.499, 0.501};
-    pair.y = {0.5, 0.5};
-    pair.z = {0.01, 0.01};
-    pair.radius = {1e-2, 1e-2};
+    const Asperities pair = asperities_at({{0.499, 0.5, 0.01, 1e-2}, {0.501, 0.5, 0.01, 1e-2}});
     options.delta_cut = 5;
     options.delta0 = 0.01;
     const Level saddle = asperity_path(pair, {1.0, 1e9, 0.5, 0.5}, options).at_separation(0.0);

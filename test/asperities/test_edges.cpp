@@ -4,8 +4,8 @@
 #include "asperities/ranking.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
+#include "support/asperities.hpp"
 #include "support/paths.hpp"
-#include "support/random_asperities.hpp"
 #include "support/refused.hpp"
 
 namespace test_edges {
@@ -17,16 +17,6 @@ const Method kMethods[] = {Method::direct, Method::dgesv, Method::mesh, Method::
 
 SolverOptions options(Method method, double tolerance = 1e-10) {
     return {.method = method, .tolerance = tolerance, .surface = {.sigma = 0.01}};
-}
-
-Asperities set_of(std::vector<double> x, std::vector<double> y, std::vector<double> z,
-                  double radius) {
-    Asperities a;
-    a.radius.assign(x.size(), radius);
-    a.x = std::move(x);
-    a.y = std::move(y);
-    a.z = std::move(z);
-    return a;
 }
 
 // Everything in the level is finite, contacts are contacts, and sums are sums.
@@ -94,7 +84,11 @@ void check_answer(const Asperities& a, const Indenter& indenter, double Z0, Meth
 // Two asperities at one point have an infinite interaction. They are refused where asperities come
 // from outside; the solver itself is never given them, and must not answer with NaN all the same.
 TEST(coincident) {
-    const Asperities a = set_of({0.5, 0.5, 0.6}, {0.5, 0.5, 0.5}, {0.01, 0.012, 0.01}, 1e-3);
+    const auto three = [](double gap) {
+        return asperities_at(
+            {{0.5, 0.5, 0.01, 1e-3}, {0.5 + gap, 0.5, 0.012, 1e-3}, {0.6, 0.5, 0.01, 1e-3}});
+    };
+    const Asperities a = three(0);
     CHECK_THROWS(validate(a, [](std::size_t i) { return "asperity " + std::to_string(i); }), Error);
     for (Method method : kMethods)
         refusal([&] {
@@ -105,8 +99,7 @@ TEST(coincident) {
     // have. Nearer than the coordinates of the inner products resolve (2^-31 of the surface's
     // extent), the level may be said not to have converged instead.
     for (double gap : {1.2e-16, 1e-14, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4}) {
-        const Asperities near =
-            set_of({0.5, 0.5 + gap, 0.6}, {0.5, 0.5, 0.5}, {0.01, 0.012, 0.01}, 1e-3);
+        const Asperities near = three(gap);
         for (Method method : kMethods) {
             const Level level =
                 asperity_path(near, {kE, 2.5, 0.5, 0.5}, options(method)).at_separation(0.0);
@@ -128,7 +121,7 @@ TEST(coincident) {
 TEST(overlapping) {
     const double r = 1e-2, g = 0.01;
     for (double d : {0.03, 0.015, 0.008, 0.004, 0.001, 1e-4}) {
-        const Asperities a = set_of({0.5 - d / 2, 0.5 + d / 2}, {0.5, 0.5}, {g, g}, r);
+        const Asperities a = asperities_at({{0.5 - d / 2, 0.5, g, r}, {0.5 + d / 2, 0.5, g, r}});
         for (Method method : kMethods) {
             const Level level =
                 asperity_path(a, {kE, kInfinity, 0.5, 0.5}, options(method)).at_separation(0.0);
@@ -214,7 +207,8 @@ TEST(beyond_squares) {
     CHECK(relative_residual({0, 0}, {0, 0}) == 0);
     CHECK(relative_residual({1e-300, 0}, {0, 0}) == 1);
     CHECK(relative_residual({1, 0}, {kInfinity, 0}) == 1);
-    const Asperities a = set_of({0, 1e-3, 0}, {0, 0, 1e-3}, {0, 0, 0}, 0.5e-3);
+    const Asperities a =
+        asperities_at({{0, 0, 0, 0.5e-3}, {1e-3, 0, 0, 0.5e-3}, {0, 1e-3, 0, 0.5e-3}});
     for (Method method : {Method::direct, Method::dgesv}) {
         const Level level = asperity_path(a, {kE, kInfinity, 0, 0}, options(method))
                                 .at_separation(-1e170);  // forces of some 1e258

@@ -1,7 +1,7 @@
 // Hundreds of random systems against the independent slow solver (independent.hpp).
 #include "check.hpp"
+#include "support/asperities.hpp"
 #include "support/paths.hpp"
-#include "support/random_asperities.hpp"
 #include "truth/independent.hpp"
 
 namespace test_independent {

@@ -3,25 +3,13 @@
 #include "asperities/law.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
+#include "support/asperities.hpp"
 
 namespace test_laws {
 
 using namespace rsc;
 
 constexpr double kE = 94.0e3;
-
-Asperities summit(double kappa1, double kappa2, double biharmonic) {
-    Asperities a;
-    a.x = {0};
-    a.y = {0};
-    a.z = {0};
-    a.radius = {1 / std::sqrt(kappa1 * kappa2)};
-    a.kappa1 = {kappa1};
-    a.kappa2 = {kappa2};
-    a.angle = {0};
-    a.biharmonic = {biharmonic};
-    return a;
-}
 
 struct Answer {
     double force, slope, work, area;
@@ -98,13 +86,9 @@ TEST(ellipse_limits) {
 // that area and goes on straight; the penetration where a mean pressure is reached is the first.
 // Nothing before touching. Of two summits, so that each is asked for its own.
 TEST(everything_of_every_law) {
-    Asperities s = summit(9000, 4000, 0);
-    for (auto* v : {&s.x, &s.y, &s.z}) v->push_back(1);
-    s.radius.push_back(1 / 300.0);
-    s.kappa1.push_back(900);
-    s.kappa2.push_back(100);
-    s.angle.push_back(1);
-    s.biharmonic.push_back(0);
+    Asperities s = curved(asperities_at({{0, 0, 0, 1 / 6000.0}, {1, 1, 1, 1 / 300.0}}), 1.5);
+    s.kappa1[1] = 900;
+    s.kappa2[1] = 100;
     const std::vector<int> both = {0, 1};
     for (LawKind kind : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order})
         for (double flattening : {-4e11, -1e7, 0.0, 1e7, 2e11, 3e12}) {
@@ -193,7 +177,8 @@ TEST(fourth_order_to_the_last_digits) {
     constexpr double kRounding = 3e-14;
     const double kappa = 6000, q = 400, A = 2 * kappa / (q * q);
     for (int sign : {1, -1}) {
-        const Asperities s = summit(kappa, kappa, sign * 2 * kappa * q * q);
+        const Asperities s =
+            curved(asperities_at({{0, 0, 0, 1 / kappa}}), 1, 0, sign * 2 * kappa * q * q);
         const auto law = make_law(LawKind::fourth_order, s, kE);
         for (int k = 1; k < 300; ++k) {
             const long double x = k * 0.0103L, c = sign > 0 ? std::cos(x) : std::cosh(x),

@@ -9,9 +9,9 @@
 #include "check.hpp"
 #include "contact/equivalent.hpp"
 #include "interaction/lattice.hpp"
+#include "support/asperities.hpp"
 #include "support/height_maps.hpp"
 #include "support/paths.hpp"
-#include "support/random_asperities.hpp"
 #include "truth/elimination.hpp"
 
 namespace test_layers {

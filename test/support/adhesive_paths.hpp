@@ -8,6 +8,7 @@
 
 #include "check.hpp"
 #include "contact/path.hpp"
+#include "support/asperities.hpp"
 #include "truth/elimination.hpp"
 
 // Asperities on the unit square at distances of at least `apart`, and a work of adhesion.

@@ -7,6 +7,7 @@
 #include "observe/record.hpp"
 #include "run/compare.hpp"
 #include "run/prepare.hpp"
+#include "support/asperities.hpp"
 #include "support/height_maps.hpp"
 #include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
@@ -225,7 +226,7 @@ TEST(doubts_combined_once) {
 
 // A contact of asperities that nothing but the model's own error is held against.
 struct Sound {
-    Asperities asperities;
+    Asperities asperities = curved(asperities_at({{0.5, 0.5, 0, 1}}), 1, 0, 100);
     SolverOptions options{.law = LawKind::fourth_order,
                           .surface = {.sigma = 1e-3,
                                       .mean_spacing = 0.1,
@@ -235,15 +236,6 @@ struct Sound {
                                       .extent = {0, 0, 1, 1}}};
     Indenter indenter{1e3, 10, 0.5, 0.5};
     double Z0 = -1e-4;
-    Sound() {
-        asperities.x = {0.5};
-        asperities.y = {0.5};
-        asperities.z = {0};
-        asperities.radius = {1};
-        asperities.kappa1 = asperities.kappa2 = {1};
-        asperities.angle = {0};
-        asperities.biharmonic = {100};
-    }
     Level judged() const {
         const auto contact = make_asperity_contact(asperities, indenter, options);
         Level level = contact->at_separation(Z0);

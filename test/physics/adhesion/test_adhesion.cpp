@@ -48,7 +48,7 @@ SolverOptions sticky(double w, LawKind law = LawKind::hertz) {
 TEST(test_one) {
     for (double w : {1e-6, 0.01, 0.3}) {
         const Jkr jkr{0.7, w};
-        const Asperities a{{0.5}, {0.5}, {0.1}, {jkr.r}, {}, {}, {}, {}};
+        const Asperities a = asperities_at({{0.5, 0.5, 0.1, jkr.r}});
         const auto contact = make_asperity_contact(a, {kE, kInfinity, 0.5, 0.5}, sticky(w));
         const double unit = pi * w * jkr.r, length = -jkr.u(jkr.least());
         const auto check = [&](double u, bool attached, const char*) {
@@ -90,8 +90,8 @@ TEST(test_third_stays) {
     for (double radius = jkr.least(); radius < 10 * jkr.least(); radius *= 1.0001)
         least = std::min(least, g0(radius));
     const double height = -least * (1 + later) + jkr.u(jkr.least());
-    const Asperities a{
-        {0, distance, far}, {0, 0, 0}, {0, 0, height}, {jkr.r, jkr.r, jkr.r}, {}, {}, {}, {}};
+    const Asperities a =
+        asperities_at({{0, 0, 0, jkr.r}, {distance, 0, 0, jkr.r}, {far, 0, height, jkr.r}});
     const auto contact = make_asperity_contact(a, {kE, kInfinity, 0, 0}, sticky(jkr.w));
     CHECK(contact->at_separation(-0.001).contacts == 3);
     CHECK(contact->at_separation(-least * (1 - 0.1 * later)).contacts == 3);
@@ -264,7 +264,7 @@ TEST(test_moves_cut) {
     Path::State other_bodies = second->state();
     other_bodies.history = {1.0, 2.0};
     CHECK_THROWS(second->restore(other_bodies), Error);
-    const Asperities two{{0.3, 0.7}, {0.5, 0.5}, {0.0, 0.001}, {0.5, 0.5}, {}, {}, {}, {}};
+    const Asperities two = asperities_at({{0.3, 0.5, 0, 0.5}, {0.7, 0.5, 0.001, 0.5}});
     SolverOptions alone = sticky(1e-3);
     alone.interaction = Interaction::none;
     const auto moved = make_asperity_contact(two, {kE, 10.0, 0.3, 0.5}, alone);
@@ -282,7 +282,7 @@ TEST(test_moves_cut) {
 // Past the smallest force of two that interact, found on the way between two of its steps, the
 // stiffness is that of the state at its end.
 TEST(test_stiffness_past_the_fold) {
-    const Asperities two{{0.25, 0.75}, {0.5, 0.5}, {0.0, 0.0}, {1.0, 1.0}, {}, {}, {}, {}};
+    const Asperities two = asperities_at({{0.25, 0.5, 0, 1}, {0.75, 0.5, 0, 1}});
     const auto contact =
         make_asperity_contact(two, {kE, kInfinity, 0.5, 0.5}, sticky(0.05 * kE / 1e3));
     for (double Z = 1e-3; Z < 1e-2; Z += 3e-4) {
@@ -423,7 +423,7 @@ TEST(test_lost) {
 // goes on from there.
 TEST(test_force) {
     const Jkr jkr{0.7, 0.01};
-    const Asperities a{{0.5}, {0.5}, {0.1}, {jkr.r}, {}, {}, {}, {}};
+    const Asperities a = asperities_at({{0.5, 0.5, 0.1, jkr.r}});
     const auto contact = make_asperity_contact(a, {kE, kInfinity, 0.5, 0.5}, sticky(jkr.w));
     const double unit = pi * jkr.w * jkr.r;
     for (double N : {2.0, 20.0, 0.0, -1.0, -1.499, 0.5}) {
@@ -443,24 +443,14 @@ TEST(test_force) {
 
 // With w falling the elastic answer, of each law: N differs by 3 sqrt(2) (w/w_0)^(1/2) at most.
 TEST(test_elastic_limit) {
-    RandomAsperities system = random_asperities(12, 51, 0.2);
-    system.asperities.kappa1.clear();
-    system.asperities.kappa2.clear();
-    system.asperities.angle.clear();
-    system.asperities.biharmonic.clear();
-    for (double r : system.asperities.radius) {
-        system.asperities.kappa1.push_back(1.4 / r);
-        system.asperities.kappa2.push_back(1 / (1.4 * r));
-        system.asperities.angle.push_back(0.3);
-        system.asperities.biharmonic.push_back(40 / (r * r));
-    }
+    const Asperities asperities = curved(random_asperities(12, 51, 0.2).asperities, 1.4, 0.3, 400);
     for (LawKind law : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order}) {
         double before = 1;
         for (double w : {1e-6, 1e-8, 1e-10, 1e-12}) {
             const Indenter tip{kE, kInfinity, 0.5, 0.5};
             const Level e =
-                make_asperity_contact(system.asperities, tip, sticky(0, law))->at_separation(0.004);
-            const auto contact = make_asperity_contact(system.asperities, tip, sticky(w, law));
+                make_asperity_contact(asperities, tip, sticky(0, law))->at_separation(0.004);
+            const auto contact = make_asperity_contact(asperities, tip, sticky(w, law));
             const Level s = contact->at_separation(0.004);
             CHECK(s.contacts >= e.contacts);
             const double apart = std::abs(s.force / e.force - 1);

@@ -62,14 +62,7 @@ TEST(test_tension) {
     }
 }
 
-Asperities one_asperity() {
-    Asperities a;
-    a.x = {0.5};
-    a.y = {0.5};
-    a.z = {0.1};
-    a.radius = {0.7};
-    return a;
-}
+const Asperities kOne = asperities_at({{0.5, 0.5, 0.1, 0.7}});
 
 // The deflected surface of one asperity touches the flat in the contact and is below it around.
 // With a range the gap at the edge of the ring is the range. The deflection times half of the
@@ -78,9 +71,8 @@ TEST(test_one) {
     constexpr double w = 0.01, r = 0.7;
     const auto kernel = make_kernel(Interaction::point, Substrate(kE), {});
     for (const double range : {0.0, 0.004, 0.02}) {
-        const Asperities asperities = one_asperity();
         const auto contact =
-            make_asperity_contact(asperities, {kE, kInfinity, 0.5, 0.5}, sticky(w, range));
+            make_asperity_contact(kOne, {kE, kInfinity, 0.5, 0.5}, sticky(w, range));
         for (const double u : {-0.5 * range, 0.01, 0.03, 0.0, -0.003}) {
             const Level level = contact->at_separation(0.1 - u);
             if (level.tractions.x.empty()) continue;
@@ -158,9 +150,8 @@ TEST(test_asperity_fields) {
     const Indenter tip{kE, kInfinity, 0.5, 0.5};
     const auto kernel = make_kernel(Interaction::point, Substrate(kE), {});
     for (const double range : {0.0, 0.004}) {
-        const Asperities asperities = one_asperity();
         const Level level =
-            make_asperity_contact(asperities, tip, sticky(0.01, range))->at_separation(0.095);
+            make_asperity_contact(kOne, tip, sticky(0.01, range))->at_separation(0.095);
         const double a = level.tractions.a.at(0), c = level.tractions.c.at(0), step = c / 60;
         const HeightMap map = map_of(201, step, 0.7);
         const Fields f = fields_of(map, tip, Interaction::point, {{0, &level, {}}}, kAll);

@@ -17,7 +17,7 @@ TEST(test_one) {
     for (double lambda : {0.1, 1.0, 5.0}) {
         const Maugis truth{0.7, 0.01, lambda, kE};
         const double unit = pi * truth.w * truth.r, range = truth.range();
-        const Asperities a{{0.5}, {0.5}, {0.0}, {truth.r}, {}, {}, {}, {}};
+        const Asperities a = asperities_at({{0.5, 0.5, 0, truth.r}});
         const auto contact =
             make_asperity_contact(a, {kE, kInfinity, 0.5, 0.5}, sticky(truth.w, range));
         CHECK(contact->at_separation(range * (1 + 1e-7)).force == 0);
@@ -44,7 +44,7 @@ TEST(test_one) {
 // difference: it attached again at once, a thousand times.)
 TEST(test_narrow_loop) {
     const Maugis weak{0.7, 0.01, 0.04, kE};
-    const Asperities a{{0.5}, {0.5}, {0.0}, {weak.r}, {}, {}, {}, {}};
+    const Asperities a = asperities_at({{0.5, 0.5, 0, weak.r}});
     const double range = weak.range();
     std::vector<double> lost;
     for (const int levels : {1, 7, 200}) {
@@ -66,19 +66,7 @@ TEST(test_narrow_loop) {
 // With a range that goes to 0 the answer is JKR's, for circular and elliptic contacts and many of
 // them.
 TEST(test_limit) {
-    std::mt19937 generator(3);
-    std::uniform_real_distribution<double> uniform(0, 1);
-    Asperities a;
-    for (int k = 0; k < 12; ++k) {
-        a.x.push_back(uniform(generator));
-        a.y.push_back(uniform(generator));
-        a.z.push_back(0.02 * uniform(generator));
-        const double r = 0.1 + 0.3 * uniform(generator);
-        a.radius.push_back(r);
-        a.kappa1.push_back(1.4 / r);
-        a.kappa2.push_back(1 / (1.4 * r));
-        a.angle.push_back(0.3);
-    }
+    const Asperities a = curved(random_asperities(12, 3, 0.1).asperities, 1.4, 0.3, 400);
     for (LawKind law : {LawKind::hertz, LawKind::elliptic}) {
         double before = 1;
         for (double range : {3e-4, 1e-4, 3e-5}) {
@@ -97,7 +85,6 @@ TEST(test_limit) {
     }
     SolverOptions refused = sticky(1e-3, 1e-4);
     refused.law = LawKind::fourth_order;
-    a.biharmonic.assign(a.x.size(), 400.0);
     CHECK_THROWS((void)make_asperity_contact(a, {kE, kInfinity, 0.5, 0.5}, refused), Error);
 }
 

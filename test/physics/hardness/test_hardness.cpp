@@ -2,8 +2,8 @@
 // they take, and against a slow solver of its own.
 #include "check.hpp"
 #include "physics/hardness/hardness.hpp"
+#include "support/asperities.hpp"
 #include "support/paths.hpp"
-#include "support/random_asperities.hpp"
 #include "surface/detection.hpp"
 
 namespace test_hardness {
@@ -41,12 +41,11 @@ struct Yielding {
     }
 };
 
-Asperities one(double r) {
-    Asperities a;
-    a.x = a.y = {0.5};
-    a.z = {0.0};
-    a.radius = {r};
-    return a;
+constexpr double kRadius = 0.004;
+const Asperities kOne = asperities_at({{0.5, 0.5, 0, kRadius}});
+// A bent one, of the biharmonic `flattening` times 10^4 of its curvatures.
+Asperities bent(double flattening) {
+    return curved(kOne, 1.6, 0.3, 1e4 * flattening * (1.6 + 1 / 1.6) / kRadius);
 }
 
 SolverOptions options_with(double H0, double length = 0) {
@@ -57,14 +56,10 @@ SolverOptions options_with(double H0, double length = 0) {
 // derivative and the integral of the force. The flattest profile passes its highest mean pressure
 // (law.cpp) within the penetrations asked for, the others do not.
 TEST(test_laws) {
-    Asperities a = one(0.004);
-    a.kappa1 = {1.6 / 0.004};
-    a.kappa2 = {1 / (1.6 * 0.004)};
-    a.angle = {0.3};
     const int i = 0;
     for (const auto kind : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order})
         for (const double flattening : {8.0, -5.0, 0.01, 300.0}) {
-            a.biharmonic = {flattening * (a.kappa1[0] + a.kappa2[0]) * 1e4};
+            const Asperities a = bent(flattening);
             const auto elastic = make_law(kind, a, kE);
             const auto law = make_yielding(make_law(kind, a, kE), a, {4000, 0}, traits(kind).sinks);
             for (Law* l : {elastic.get(), law.get()}) l->prepare({&i, 1});
@@ -106,14 +101,11 @@ TEST(test_laws) {
 // fourth_order on a sphere: the summit pressed flat sinks in, a^2 = a_c^2 + 2 r [u - u_c - k (a -
 // a_c)], k = 4 H/(pi E*).
 TEST(test_sinking) {
-    const double r = 0.004, H = 3000;
-    Asperities a = one(r);
-    a.kappa1 = a.kappa2 = {1 / r};
-    a.angle = {0};
-    a.biharmonic = {0};
+    const double r = kRadius, H = 3000;
     SolverOptions options = options_with(H);
     options.law = LawKind::fourth_order;
-    Path contact = asperity_path(a, {kE, kInfinity, 0.5, 0.5}, options);
+    const Asperities round = curved(kOne, 1);
+    Path contact = asperity_path(round, {kE, kInfinity, 0.5, 0.5}, options);
     const double uc = std::pow(3 * pi * H / (4 * kE), 2) * r, ac = std::sqrt(r * uc),
                  b = r * 4 * H / (pi * kE);
     for (const double times : {1.001, 1.5, 4.0, 30.0}) {
@@ -128,14 +120,10 @@ TEST(test_sinking) {
 // A cycle of one asperity, pressed to any depth: what the loop encloses is the work lost, and never
 // less than nothing.
 TEST(test_cycle) {
-    Asperities a = one(0.004);
-    a.kappa1 = {1.6 / 0.004};
-    a.kappa2 = {1 / (1.6 * 0.004)};
-    a.angle = {0.3};
     const int i = 0;
     for (const auto kind : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order})
         for (const double flattening : {30.0, -5.0}) {
-            a.biharmonic = {flattening * (a.kappa1[0] + a.kappa2[0]) * 1e4};
+            const Asperities a = bent(flattening);
             for (const double times : {1.0001, 1.1, 1.3, 1.5, 3.0, 20.0}) {
                 const auto law =
                     make_yielding(make_law(kind, a, kE), a, {16000, 0}, traits(kind).sinks);

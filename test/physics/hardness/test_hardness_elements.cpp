@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "check.hpp"
 #include "interaction/pixel_kernels.hpp"
+#include "support/asperities.hpp"
 #include "support/height_maps.hpp"
 #include "support/paths.hpp"
 #include "surface/synthesis.hpp"
@@ -92,12 +93,7 @@ TEST(test_sphere) {
     const HeightMap map = flat_map(n, n, h, h);
     const auto contact = make_element_contact(
         map, {kE, R, (0.5 * n + 0.31) * h, (0.5 * n - 0.17) * h}, options(H, 1e-8));
-    Asperities one;
-    one.x = one.y = {0.5 * n * h};
-    one.z = {0.0};
-    one.radius = {R};
-    one.kappa1 = one.kappa2 = {1 / R};
-    one.angle = one.biharmonic = {0.0};
+    const Asperities one = curved(asperities_at({{0.5 * n * h, 0.5 * n * h, 0, R}}), 1);
     SolverOptions law = options(H);
     law.law = LawKind::fourth_order;
     Path asperity = asperity_path(one, {kE, kInfinity, 0.5 * n * h, 0.5 * n * h}, law);

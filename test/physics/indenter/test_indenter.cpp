@@ -4,8 +4,8 @@
 #include "check.hpp"
 #include "contact/indentation.hpp"
 #include "physics/indenter/shapes.hpp"
+#include "support/asperities.hpp"
 #include "support/height_maps.hpp"
-#include "support/random_asperities.hpp"
 #include "surface/surface.hpp"
 
 namespace test_indenter {

@@ -5,9 +5,9 @@
 #include "physics/friction/contact_curve.hpp"
 #include "physics/friction/friction.hpp"
 #include "physics/indenter/shapes.hpp"
+#include "support/asperities.hpp"
 #include "support/height_maps.hpp"
 #include "support/paths.hpp"
-#include "support/random_asperities.hpp"
 
 namespace test_shapes {
 

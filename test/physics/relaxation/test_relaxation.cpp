@@ -3,6 +3,7 @@
 // (1960) and of Ting (1966), by integrals worked out here.
 #include "check.hpp"
 #include "physics/relaxation/relaxing.hpp"
+#include "support/asperities.hpp"
 
 namespace test_relaxation {
 
@@ -66,13 +67,11 @@ TEST(test_creep) {
 // --- one asperity
 
 struct One {
-    Asperities asperities;
+    Asperities asperities = asperities_at({{0, 0, 0, kRadius}});
     std::unique_ptr<RelaxingLaw> law;
     const Creep creep;
 
     explicit One(const Relaxation& body) : creep(body) {
-        asperities.x = asperities.y = asperities.z = {0.0};
-        asperities.radius = {kRadius};
         law = make_relaxing(make_law(LawKind::hertz, asperities, kE), 1, creep);
         constexpr int first = 0;
         law->prepare(std::span(&first, 1));

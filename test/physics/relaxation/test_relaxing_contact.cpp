@@ -6,8 +6,8 @@
 #include "contact/deflection.hpp"
 #include "contact/make.hpp"
 #include "physics/relaxation/relaxation.hpp"
+#include "support/asperities.hpp"
 #include "support/height_maps.hpp"
-#include "support/random_asperities.hpp"
 
 namespace test_relaxing_contact {
 
@@ -40,20 +40,13 @@ constexpr Kind kModels[] = {{"asperities", false, false},
 
 std::unique_ptr<Path> make(const Kind& model, const Relaxation& body) {
     static const HeightMap map = waves();
-    static const Asperities asperities = [] {
-        Asperities a;
-        a.x = {0.2, 0.35, 0.7, 0.8, 0.4, 0.6};
-        a.y = {0.3, 0.4, 0.2, 0.75, 0.8, 0.5};
-        a.z = {0.002, 0.0, -0.004, 0.006, 0.003, -0.01};
-        a.radius = {0.2, 0.1, 0.15, 0.1, 0.3, 0.25};
-        for (double r : a.radius) {
-            a.kappa1.push_back(1.3 / r);
-            a.kappa2.push_back(1 / (1.3 * r));
-        }
-        a.angle = {0, 1, 2, 0.5, 0.3, 0.1};
-        a.biharmonic = {20, 30, 10, 40, 5, 9};
-        return a;
-    }();
+    static const Asperities asperities = curved(asperities_at({{0.2, 0.3, 0.002, 0.2},
+                                                               {0.35, 0.4, 0, 0.1},
+                                                               {0.7, 0.2, -0.004, 0.15},
+                                                               {0.8, 0.75, 0.006, 0.1},
+                                                               {0.4, 0.8, 0.003, 0.3},
+                                                               {0.6, 0.5, -0.01, 0.25}}),
+                                                1.3, 0.5, 20);
     SolverOptions options{.law = model.law, .tolerance = 1e-11, .physics = {.relaxation = body}};
     Indenter indenter{kE, model.periodic ? kInfinity : 4.0, 0.5, 0.5,
                       model.periodic ? Period{1, 1} : Period{}};
