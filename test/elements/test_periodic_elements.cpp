@@ -111,6 +111,18 @@ TEST(any_grid) {
     }
 }
 
+// On surfaces with the same points in their shortest waves the number of products does not grow
+// with the number of points, also near full contact: the preconditioner knows long waves.
+TEST(products_do_not_grow) {
+    const auto products = [](int n) {
+        double slope = 0;
+        const HeightMap map = rough(n, n / 8.0, &slope);
+        const auto contact = make_element_contact(map, flat(map), options(1e-6));
+        return contact->at_force(0.2 * kE * slope * map.Lx() * map.Ly()).products;
+    };
+    CHECK(products(512) <= products(128));
+}
+
 TEST(threads_change_no_bit) {
     const HeightMap map = rough(640, 40);
     std::vector<Level> levels;

@@ -1,5 +1,5 @@
-// Products over some pixels of a periodic plane: stencils against their transform, second
-// differences and the same on all pixels; split products against transforms over all pixels.
+// Products over some pixels of a periodic plane, split into near and far parts, against transforms
+// over all pixels.
 #include "check.hpp"
 #include "elements/sparse_plane.hpp"
 
@@ -39,52 +39,6 @@ Spots spots(int nx, int ny) {
     return all;
 }
 
-// All pixels of the plane.
-Spots all_pixels(int nx, int ny) {
-    Spots all;
-    for (int j = 0; j < ny; ++j) {
-        for (int i = 0; i < nx; ++i) all.column.push_back(i);
-        all.rows.push_back(all.column.size());
-    }
-    return all;
-}
-
-void stencil(int nx, int ny) {
-    constexpr int reach = 3, width = 2 * reach + 1;
-    const PixelStencil taps(
-        reach, [](double kx, double ky) { return kx + 2 * ky; },
-        [](int a) { return 1 - std::abs(a) / 4.0; });
-    const PixelStencil second(
-        reach, [](double kx, double) { return 2 - 2 * std::cos(kx); }, [](int) { return 1.0; });
-    const auto convolved = [](const PixelStencil& by, const Spots& on, int columns, int rows,
-                              const std::vector<float>& x) {
-        std::vector<float> y(x.size());
-        SparsePlane(columns, rows).convolve(by, {on.rows, on.column}, x.data(), y.data(), 1);
-        return y;
-    };
-    std::vector<float> one(width * width, 0.0f);
-    one[reach * width + reach] = 1;
-    double sum = 0;
-    for (const float t : convolved(taps, all_pixels(width, width), width, width, one))
-        sum += static_cast<double>(t);
-    CHECK_CLOSE(sum, taps.transform(0), 1e-5);
-    const std::vector<float> differences =
-        convolved(second, all_pixels(width, width), width, width, one);
-    for (int k = 0; k < width * width; ++k) {
-        const int off = std::abs(k - reach * width - reach);
-        CHECK_CLOSE(differences[k], off == 0 ? 2.0 : off == 1 ? -1.0 : 0.0, 1e-5);
-    }
-    const Spots set = spots(nx, ny);
-    const std::vector<float> some = convolved(taps, set, nx, ny, {set.p.begin(), set.p.end()});
-    std::vector<float> plane(nx * ny, 0.0f);
-    std::vector<std::size_t> place;
-    for (std::size_t j = 0, k = 0; j + 1 < set.rows.size(); ++j)
-        for (; k < set.rows[j + 1]; ++k) place.push_back(j * nx + set.column[k]);
-    for (std::size_t k = 0; k < place.size(); ++k) plane[place[k]] = static_cast<float>(set.p[k]);
-    const std::vector<float> everywhere = convolved(taps, all_pixels(nx, ny), nx, ny, plane);
-    for (std::size_t k = 0; k < place.size(); ++k) CHECK_CLOSE(some[k], everywhere[place[k]], 1e-4);
-}
-
 void split(int nx, int ny, double aspect, double tolerance,
            const std::function<double(double)>& share = {}) {
     CHECK(SplitPixels::suits(nx, ny, aspect, share));
@@ -116,8 +70,6 @@ void split(int nx, int ny, double aspect, double tolerance,
 }
 
 TEST(all_sparse_plane) {
-    stencil(48, 40);
-    stencil(37, 19);
     split(128, 128, 1, 5e-3);
     split(256, 128, 1.2, 3e-2);  // the B-splines are made up for as on square pixels
     for (const double h :
