@@ -14,13 +14,12 @@ inline void surfaces(CheckedFile& f, const Truth& t) {
         own.push_back(t.synthetic ? t.heights[k].modes() : grid.back());
         if (t.list) own.back().m0 = Truth::variance(t.r[k].asperities.z);
     }
-    f.same("sigma", t.each_surface([&](std::size_t k) { return std::sqrt(own[k].m0); }), 1e-10);
-    f.same("m2", t.each_surface([&](std::size_t k) { return own[k].m2; }), 1e-9);
-    f.same("m4", t.each_surface([&](std::size_t k) { return own[k].m4; }), 1e-9);
-    f.same("rms_slope", t.each_surface([&](std::size_t k) { return std::sqrt(2 * own[k].m2); }),
-           1e-9);
-    f.same("m2_grid", t.each_surface([&](std::size_t k) { return grid[k].m2; }), 1e-9);
-    f.same("m4_grid", t.each_surface([&](std::size_t k) { return grid[k].m4; }), 1e-9);
+    f.same("sigma", t.each_surface([&](auto k) { return std::sqrt(own[k].m0); }), 1e-10);
+    f.same("m2", t.each_surface([&](auto k) { return own[k].m2; }), 1e-9);
+    f.same("m4", t.each_surface([&](auto k) { return own[k].m4; }), 1e-9);
+    f.same("rms_slope", t.each_surface([&](auto k) { return std::sqrt(2 * own[k].m2); }), 1e-9);
+    f.same("m2_grid", t.each_surface([&](auto k) { return grid[k].m2; }), 1e-9);
+    f.same("m4_grid", t.each_surface([&](auto k) { return grid[k].m4; }), 1e-9);
     const bool own_summits =
         t.elements ||
         t.hertz;  // others touch at summits of the difference to the sphere: test_summits
@@ -33,23 +32,20 @@ inline void surfaces(CheckedFile& f, const Truth& t) {
             s += geometric ? std::sqrt(a.kappa1[i] * a.kappa2[i]) : (a.kappa1[i] + a.kappa2[i]) / 2;
         return a.kappa1.empty() || t.list ? kNone : s / number(a.size());
     };
-    f.same("mean_kappa_g", t.each_surface([&](std::size_t k) { return curvature(k, true); }),
-           kRounding);
-    f.same("mean_kappa_a", t.each_surface([&](std::size_t k) { return curvature(k, false); }),
-           kRounding);
+    f.same("mean_kappa_g", t.each_surface([&](auto k) { return curvature(k, true); }), kRounding);
+    f.same("mean_kappa_a", t.each_surface([&](auto k) { return curvature(k, false); }), kRounding);
     if (!t.elements) {
-        f.same("summits", t.each_surface([&](std::size_t k) {
+        f.same("summits", t.each_surface([&](auto k) {
             return own_summits ? number(t.r[k].asperities.size())
                                : static_cast<double>(t.r[k].statistics.summits);
         }));
         f.same("saddles",
-               t.each_surface(
-                   [&](std::size_t k) -> double {  // of summits between the points: every_value
-                       if (t.list || !t.hertz || (t.c.surface.missing == Missing::fill))
-                           return static_cast<double>(t.r[k].statistics.saddles);
-                       return static_cast<double>(t.heights[k].maxima()) -
-                              number(t.r[k].asperities.size());
-                   }));
+               t.each_surface([&](auto k) -> double {  // of summits between the points: every_value
+                   if (t.list || !t.hertz || (t.c.surface.missing == Missing::fill))
+                       return static_cast<double>(t.r[k].statistics.saddles);
+                   return static_cast<double>(t.heights[k].maxima()) -
+                          number(t.r[k].asperities.size());
+               }));
     }
 
     const Moments4& m = t.theory;
@@ -66,25 +62,25 @@ inline void regimes(CheckedFile& f, const Truth& t) {
     constexpr double kDigits = 3e-5;  // the paper's five of 212.66
     f.same("transition_force", {212.66 * std::pow(m2, 1.5) * t.E / m4}, kDigits);
     // r_g = 1/<kappa_g>, <kappa_g> = 1.356 sqrt(m4) of three digits.
-    f.same("area_I", t.each_step([&](std::size_t s) {
+    f.same("area_I", t.each_step([&](auto s) {
         return pi * std::pow(3 * 0.737 / std::sqrt(m4) * N[s] / (4 * t.E), 2.0 / 3);
     }),
            1e-3);
-    f.same("area_II", t.each_step([&](std::size_t s) {
+    f.same("area_II", t.each_step([&](auto s) {
         return 0.2 * std::sqrt(2 * pi) * N[s] / (std::sqrt(2 * m2) * t.E);
     }),
            1e-9);
     if (!t.periodic) {
-        f.same("area_hertz", t.each_step([&](std::size_t s) {
+        f.same("area_hertz", t.each_step([&](auto s) {
             return std::isinf(t.R) ? kNone : pi * std::pow(3 * N[s] * t.R / (4 * t.E), 2.0 / 3);
         }),
                kRounding);
         return;
     }
     const auto p = [&](std::size_t s) { return N[s] / (A0 * t.E * std::sqrt(2 * t.m2_made)); };
-    f.same("area_persson",
-           t.each_step([&](std::size_t s) { return std::erf(std::sqrt(2) * p(s)); }), 1e-9);
-    f.same("area_bgt", t.each_step([&](std::size_t s) { return std::sqrt(2 * pi) * p(s); }), 1e-9);
+    f.same("area_persson", t.each_step([&](auto s) { return std::erf(std::sqrt(2) * p(s)); }),
+           1e-9);
+    f.same("area_bgt", t.each_step([&](auto s) { return std::sqrt(2 * pi) * p(s); }), 1e-9);
     // Greenwood and Williamson by plain sums over heights t of the summits.
     double density = 0, kappa = 0;
     for (const Realization& r : t.r) {
@@ -102,7 +98,7 @@ inline void regimes(CheckedFile& f, const Truth& t) {
             total += std::pow(v - h, n) * std::exp(-v * v / 2) / std::sqrt(2 * pi) * step;
         return total;
     };
-    f.same("area_gw", t.each_step([&](std::size_t s) {
+    f.same("area_gw", t.each_step([&](auto s) {
         if (t.elements || !(s2 > 0)) return kNone;
         double low = -5, high = 6;
         for (int k = 0; k < 40; ++k) {
