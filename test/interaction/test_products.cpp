@@ -48,6 +48,17 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
         xo.push_back(4.9 + 1.2 * kWide * uniform(random));
         yo.push_back(-3.05 + kHigh * uniform(random));
     }
+    // At the first so many points of (tx, ty), of the forces at some of (sx, sy).
+    const auto sums = [&](std::size_t targets, const Vector& tx, const Vector& ty, const Vector& sx,
+                          const Vector& sy, const std::vector<int>& active) {
+        Vector truth(targets, 0.0);
+        for (std::size_t i = 0; i < targets; ++i)
+            for (const std::size_t k : active)
+                truth[i] +=
+                    force[k] * (&tx == &sx && i == k ? kernel->self()
+                                                     : kernel->at(tx[i] - sx[k], ty[i] - sy[k]));
+        return truth;
+    };
     Kind kinds[] = {
         {"direct", make_direct_products(kernel), 1e-13, 1e-6, 1e-5},
         {"mesh", make_mesh_products(kernel, 1e-7, 1e-3), 1e-7, 1e-3, 1e-5},
@@ -66,16 +77,8 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
             p.set_active(active);
             CHECK(p.active() == active && p.passive() == passive);
             const Vector f = some(force, active);
-            Vector truth(size, 0.0), elsewhere(others, 0.0);
-            for (std::size_t i = 0; i < size; ++i)
-                for (const std::size_t k : active) {
-                    truth[i] +=
-                        force[k] * (i == k ? kernel->self() : kernel->at(x[i] - x[k], y[i] - y[k]));
-                }
-            for (std::size_t i = 0; i < others; ++i)
-                for (const std::size_t k : active) {
-                    elsewhere[i] += force[k] * kernel->at(xo[i] - x[k], yo[i] - y[k]);
-                }
+            const Vector truth = sums(size, x, y, x, y, active),
+                         elsewhere = sums(others, xo, yo, x, y, active);
             const Vector among = some(truth, active), beside = some(truth, passive);
             Vector all(size, -1.0), part(active.size(), -1.0), rest(passive.size(), -1.0),
                 there(others, -1.0);
@@ -103,12 +106,8 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
         for (int k = 0; k < few; k += 2) active.push_back(k);
         p.set_active(active);
         const Vector f = some(force, active);
-        Vector truth(few, 0.0), all(truth);
-        for (std::size_t i = 0; i < truth.size(); ++i)
-            for (const std::size_t k : active) {
-                truth[i] +=
-                    force[k] * (i == k ? kernel->self() : kernel->at(y[i] - y[k], x[i] - x[k]));
-            }
+        const Vector truth = sums(few, y, x, y, x, active);
+        Vector all(few);
         p.full(f.data(), all.data());
         CHECK(error_of(all, truth) <= 2 * kind.full);
         if (check::failures > before)
