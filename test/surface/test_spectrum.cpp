@@ -6,6 +6,7 @@
 
 #include "base/vector_math.hpp"
 #include "check.hpp"
+#include "support/simpson.hpp"
 #include "surface/modes.hpp"
 
 namespace test_spectrum {
@@ -28,18 +29,9 @@ Moments by_quadrature(const Spectrum& s) {
     const double kl = 2 * pi * s.L_lambda_l / s.L, ks = 2 * pi * s.L_lambda_s / s.L,
                  k0 = 2 * pi / s.L;
     const auto radial = [&](double p, double from, double to, double exponent) {
-        if (!(to > from)) return 0.0;
-        const int steps = 4000;
-        const double h = std::log(to / from) / steps;
-        double sum = 0;
-        for (int i = 0; i <= steps; ++i) {
-            const double K = from * std::exp(i * h);
-            sum += (i == 0 || i == steps ? 1
-                    : i % 2              ? 4
-                                         : 2) *
-                   std::pow(K, p + 2) * std::pow(K / kl, exponent);
-        }
-        return sum * h / 3;
+        return simpson(std::log(from), std::log(to), 4000, [&](double k) {
+            return std::exp((p + 2) * k) * std::pow(std::exp(k) / kl, exponent);
+        });
     };
     const auto angular = [](int p) {
         double sum = 0;
@@ -121,17 +113,11 @@ TEST(tables) {
     CHECK_RELATIVE((*table)(17 * (1 + 1e-13)), 0.05, 1e-12);
     const auto integral = [&](int power) {
         double sum = 0;
-        for (std::size_t i = 1; i < k.size(); ++i) {
-            const int steps = 2000;
-            const double h = (k[i] - k[i - 1]) / steps;
-            for (int j = 0; j <= steps && psd[i] * psd[i - 1] > 0; ++j) {
-                const double x = k[i - 1] + j * h, value = j == steps ? psd[i] : slow(x);
-                sum += (j == 0 || j == steps ? 1
-                        : j % 2              ? 4
-                                             : 2) *
-                       value * std::pow(x, power) * h / 3;
-            }
-        }
+        for (std::size_t i = 1; i < k.size(); ++i)  // psd[i] at k[i], from either side
+            sum += simpson(k[i - 1], k[i], 2000, [&](double x) {
+                const bool gap = psd[i] * psd[i - 1] == 0;
+                return gap ? 0 : (x < k[i] ? slow(x) : psd[i]) * std::pow(x, power);
+            });
         return sum;
     };
     for (const auto& [p, circle] :

@@ -4,6 +4,7 @@
 #include "physics/hardness/hardness.hpp"
 #include "support/asperities.hpp"
 #include "support/paths.hpp"
+#include "support/simpson.hpp"
 #include "surface/detection.hpp"
 
 namespace test_hardness {
@@ -129,20 +130,11 @@ TEST(test_cycle) {
                     make_yielding(make_law(kind, a, kE), a, {16000, 0}, traits(kind).sinks);
                 law->prepare({&i, 1});
                 const double deepest = times * law->yield_penetration(0, 16000);
-                const auto work =
-                    [&] {  // int f du to `deepest`, Simpson over x with u = deepest (1 - x^2)
-                        const int steps = 4000;
-                        double sum = 0;
-                        for (int k = 0; k <= steps; ++k) {
-                            const double x = static_cast<double>(k) / steps,
-                                         weight = k == 0 || k == steps ? 1
-                                                  : k % 2 == 1         ? 4
-                                                                       : 2;
-                            sum += weight * law->force(0, deepest * (1 - x * x)) * 2 * x * deepest /
-                                   steps / 3;
-                        }
-                        return sum;
-                    };
+                const auto work = [&] {  // int f du to `deepest`, with u = deepest (1 - x^2)
+                    return simpson(0, 1, 4000, [&](double x) {
+                        return law->force(0, deepest * (1 - x * x)) * 2 * x * deepest;
+                    });
+                };
                 const double spent = work();
                 law->commit(1, &i, &deepest);
                 CHECK(law->work_lost() >= 0);
@@ -246,25 +238,17 @@ TEST(test_path) {
     const Indenter flat{kE, kInfinity, 0.5, 0.5};
     const double top = 0.011, bottom = 0.002;
     Path contact = asperity_path(a, flat, options_with(2000));
-    // Composite Simpson over each half of the cycle; kinks where asperities touch and yield leave
+    // Simpson over each half of the cycle; kinks where asperities touch and yield leave
     // some 1e-4 of the work at this step.
-    const int steps = 800;
-    double work = 0, spent = 0;
     Level level;
-    for (int half = 0; half < 2; ++half) {
-        for (int k = 0; k <= steps; ++k) {
-            const double t = static_cast<double>(k) / steps,
-                         Z0 = half == 0 ? top + t * (bottom - top) : bottom + t * (top - bottom);
-            level = contact.at_separation(Z0);
-            const double weight = k == 0 || k == steps ? 1 : k % 2 == 1 ? 4 : 2;
-            work += (half == 0 ? 1 : -1) * weight * level.force * (top - bottom) / steps / 3;
-        }
-        if (half == 0) {
-            spent = work;
-            CHECK_RELATIVE(work, contact.energy() + level.plastic_work, 2e-4);
-            CHECK(contact.energy() < 0.9 * work);
-        }
-    }
+    const auto force = [&](double Z0) {
+        level = contact.at_separation(Z0);
+        return level.force;
+    };
+    const double spent = -simpson(top, bottom, 800, force);
+    CHECK_RELATIVE(spent, contact.energy() + level.plastic_work, 2e-4);
+    CHECK(contact.energy() < 0.9 * spent);
+    const double work = spent - simpson(bottom, top, 800, force);
     CHECK(level.plastic_work > 0.1 * spent && level.force == 0);
     CHECK_RELATIVE(work, level.plastic_work, 2e-3);
 

@@ -4,6 +4,7 @@
 #include "check.hpp"
 #include "physics/relaxation/relaxing.hpp"
 #include "support/asperities.hpp"
+#include "support/simpson.hpp"
 
 namespace test_relaxation {
 
@@ -96,18 +97,11 @@ struct One {
 
 double elastic(double u) { return kFactor * std::sqrt(kRadius) * std::pow(u, 1.5); }
 
-double integral(double from, double to, const std::function<double(double)>& f) {
-    constexpr int n = 4000;
-    double sum = f(from) + f(to);
-    for (int k = 1; k < n; ++k) sum += (k % 2 ? 4 : 2) * f(from + (to - from) * k / n);
-    return sum * (to - from) / (3 * n);
-}
-
 // u = t up to the time 1, 2 - t from there: the force at t, and the time at which the contact was
 // last as large on its way up.
 std::pair<double, double> ting(const Creep& creep, double t) {
     const auto flow = [&](double from, double to) {
-        return integral(from, to, [&](double s) { return creep.modulus(t - s); });
+        return simpson(from, to, 4000, [&](double s) { return creep.modulus(t - s); });
     };
     double t1 = t;
     if (t > 1) {
@@ -119,8 +113,8 @@ std::pair<double, double> ting(const Creep& creep, double t) {
         if (t1 < 1e-9) return {0, 0};
     }
     // With s = x^2, (3/2) s^(1/2) ds = 3 x^2 dx.
-    return {elastic(1) * integral(0, std::sqrt(t1),
-                                  [&](double x) { return 3 * x * x * creep.modulus(t - x * x); }),
+    return {elastic(1) * simpson(0, std::sqrt(t1), 4000,
+                                 [&](double x) { return 3 * x * x * creep.modulus(t - x * x); }),
             t1};
 }
 
