@@ -61,7 +61,7 @@ TEST(same_as_core) {
           n > 5);
     std::vector<double> fx(n), inner(n, 1.0);
     OK(rsc_friction_spots(friction, n, &n, nullptr, nullptr, inner.data(), fx.data(), nullptr));
-    for (std::size_t i = 0; i < fx.size(); ++i) {
+    for (const auto i : indices(fx)) {
         sum += fx[i];
         CHECK(inner[i] == 0);
     }

@@ -123,7 +123,7 @@ void every_value(const Folder& folder, const Run& run) {
                                       Values{*std::min_element(least.begin(), least.end())});
     }
     std::vector<std::string> names;
-    for (std::size_t s = 0; s < separation.size(); ++s) {
+    for (const auto s : indices(separation)) {
         OK(run.force ? rsc_contact_press(k, std::round(force[s] * 1e4) / 1e4, nullptr)
                      : rsc_contact_indent(k, separation[s], nullptr));
         if (names.empty()) {  // all that can be asked for

@@ -24,7 +24,7 @@ void sane(const Level& level, const char* what) {
     bool ok = std::isfinite(level.force) && std::isfinite(level.area) &&
               std::isfinite(level.residual) && level.force >= 0;
     double sum = 0;
-    for (std::size_t k = 0; k < level.f.size(); ++k) {
+    for (const auto k : indices(level.f)) {
         ok = ok && level.f[k] > 0 && std::isfinite(level.f[k]) && level.a[k] > 0 &&
              std::isfinite(level.a[k]) && level.u[k] > 0;
         ok = ok && (k == 0 || level.asperity[k] > level.asperity[k - 1]);
@@ -39,16 +39,16 @@ void sane(const Level& level, const char* what) {
 // whatever the solver left out.
 double residual(const Asperities& a, const Indenter& indenter, double Z0, const Level& level) {
     std::vector<long double> F(a.size(), 0);
-    for (std::size_t k = 0; k < level.f.size(); ++k) F[level.asperity[k]] = level.f[k];
+    for (const auto k : indices(level.f)) F[level.asperity[k]] = level.f[k];
     long double error2 = 0, force2 = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
+    for (const auto i : indices(a)) {
         const long double dx = a.x[i] - indenter.x0, dy = a.y[i] - indenter.y0,
                           rho2 = dx * dx + dy * dy, R = indenter.shape->hertz_radius();
         if (!std::isinf(indenter.shape->hertz_radius()) && rho2 > R * R) continue;
         long double g =
             a.z[i] - static_cast<long double>(Z0) -
             (std::isinf(indenter.shape->hertz_radius()) ? 0 : rho2 / (R + std::sqrt(R * R - rho2)));
-        for (std::size_t j = 0; j < a.size(); ++j) {
+        for (const auto j : indices(a)) {
             if (j != i)
                 g -= F[j] / (std::numbers::pi_v<long double> * indenter.E_star *
                              std::hypot(static_cast<long double>(a.x[i]) - a.x[j],

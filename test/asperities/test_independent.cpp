@@ -39,7 +39,7 @@ void shape(Asperities& a, LawKind law, double deepest, unsigned seed) {
 
 std::vector<independent::Summit> summits_of(const Asperities& a, LawKind law) {
     std::vector<independent::Summit> out;
-    for (std::size_t i = 0; i < a.size(); ++i) {
+    for (const auto i : indices(a)) {
         independent::Summit s{a.x[i], a.y[i], a.z[i], 1 / static_cast<long double>(a.radius[i])};
         if (law != LawKind::hertz) {
             const long double k1 = a.kappa1[i], k2 = a.kappa2[i];
@@ -76,7 +76,7 @@ TEST(against_slow_solver) {
     int systems = 0;
     for (const Family& family : kFamilies) {
         int unique = 0;
-        for (int k = 0; k < family.systems; ++k) {
+        for (const int k : up_to(family.systems)) {
             const unsigned seed = 1000u + static_cast<unsigned>(k);
             Asperities a = random_asperities(1 + (k * family.n) / family.systems, family.spacing,
                                              0.01, family.radius, family.spread, seed);
@@ -100,9 +100,9 @@ TEST(against_slow_solver) {
                 CHECK_CLOSE(level.force, N, kTolerance * N);
                 CHECK_CLOSE(level.area, A, kTolerance * A);
                 std::vector<double> F(a.size(), 0.0);
-                for (std::size_t c = 0; c < level.f.size(); ++c) F[level.asperity[c]] = level.f[c];
+                for (const auto c : indices(level.f)) F[level.asperity[c]] = level.f[c];
                 double difference = 0;
-                for (std::size_t i = 0; i < a.size(); ++i) {
+                for (const auto i : indices(a)) {
                     difference = check::worse(
                         difference, std::abs(F[i] - static_cast<double>(reference.load[i]) * kE));
                 }

@@ -28,9 +28,9 @@ TEST(levels_do_not_remember) {
         Path down = asperity_path(a, indenter, options(Method::direct)),
              up = asperity_path(a, indenter, options(Method::direct));
         std::vector<double> forward(levels), backward(levels);
-        for (int k = 0; k < levels; ++k) forward[k] = down.at_separation(separation(k)).force;
+        for (const int k : up_to(levels)) forward[k] = down.at_separation(separation(k)).force;
         for (int k = levels - 1; k >= 0; --k) backward[k] = up.at_separation(separation(k)).force;
-        for (int k = 0; k < levels; ++k) {
+        for (const int k : up_to(levels)) {
             const double alone = asperity_path(a, indenter, options(Method::direct))
                                      .at_separation(separation(k))
                                      .force;
@@ -88,7 +88,7 @@ TEST(auto_chooses) {
     const auto method_of = [](int n, Method method, Interaction interaction, Period period) {
         std::vector<std::array<double, 4>> a;
         const int side = static_cast<int>(std::sqrt(n));
-        for (int i = 0; i < side * side; ++i)
+        for (const int i : up_to(side * side))
             a.push_back(
                 {(i % side + 0.5) / side, (i / side + 0.5) / side, i == 0 ? 1e-2 : 1e-9, 1e-3});
         SolverOptions o = options(method);

@@ -24,20 +24,20 @@ double by_conjugate_gradients(const HeightMap& map, const std::vector<std::int32
         K.apply(
             [&](int j, double* row) {
                 std::fill_n(row, map.nx, 0.0);
-                for (std::size_t k = 0; k < pixels.size(); ++k)
+                for (const auto k : indices(pixels))
                     if (pixels[k] / map.nx == j) row[pixels[k] % map.nx] = d[k];
             },
             [&](int j, const double* row) {
-                for (std::size_t k = 0; k < pixels.size(); ++k)
+                for (const auto k : indices(pixels))
                     if (pixels[k] / map.nx == j) image[k] = K.unit() / kE * row[pixels[k] % map.nx];
             });
         const double alpha = square / product(d, image);
-        for (std::size_t k = 0; k < q.size(); ++k) {
+        for (const auto k : indices(q)) {
             q[k] += alpha * d[k];
             r[k] -= alpha * image[k];
         }
         const double last = std::exchange(square, product(r, r));
-        for (std::size_t k = 0; k < q.size(); ++k) d[k] = r[k] + square / last * d[k];
+        for (const auto k : indices(q)) d[k] = r[k] + square / last * d[k];
     }
     return -map.dx * map.dy * std::accumulate(q.begin(), q.end(), 0.0);
 }

@@ -15,8 +15,8 @@ HeightMap map_of(int nx, int ny, double step, const std::function<double(double,
     map.dx = map.dy = step;
     map.x0 = -0.5 * (nx - 1) * step;
     map.y0 = -0.5 * (ny - 1) * step;
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i) map.row(j)[i] = z(map.x(i), map.y(j));
+    for (const int j : up_to(ny))
+        for (const int i : up_to(nx)) map.row(j)[i] = z(map.x(i), map.y(j));
     return map;
 }
 
@@ -157,7 +157,7 @@ TEST(the_middle_of_a_long_free_strip) {
     for (int i = 0; i < 20 && std::abs(force / N - 1) > 1e-3; ++i) {
         const Level level = free->at_force(total);
         force = area = 0;
-        for (std::size_t k = 0; k < level.pixels.index.size(); ++k)
+        for (const auto k : indices(level.pixels.index))
             if (std::abs(level.pixels.y(k)) < 0.5) {
                 force += level.pixels.pressure[k] * step * step;
                 area += step * step;

@@ -28,8 +28,8 @@ Spots spots(int nx, int ny) {
                         std::sqrt(r2 - a * a - b * b);
     }
     Spots all;
-    for (int j = 0; j < ny; ++j) {
-        for (int i = 0; i < nx; ++i)
+    for (const int j : up_to(ny)) {
+        for (const int i : up_to(nx))
             if (const double p = plane[j * nx + i]; p > 0) {
                 all.column.push_back(i);
                 all.p.push_back(p);
@@ -61,7 +61,7 @@ void split(int nx, int ny, double aspect, double tolerance,
     fast.multiply(plane, {set.rows, set.column}, set.p, Kx, 1);
     fast.multiply(plane, {set.rows, set.column}, set.p, again, 3);
     double worst = 0, largest = 0;
-    for (std::size_t k = 0; k < truth.size(); ++k) {
+    for (const auto k : indices(truth)) {
         worst = std::max(worst, std::abs(Kx[k] - truth[k]));
         largest = std::max(largest, std::abs(truth[k]));
     }

@@ -13,7 +13,7 @@ constexpr double kE = 3.0, kWide = 1.2, kHigh = 0.5;
 
 double error_of(const Vector& value, const Vector& truth) {
     double d = 0, s = 0;
-    for (std::size_t k = 0; k < truth.size(); ++k) {
+    for (const auto k : indices(truth)) {
         d += std::pow(value[k] - truth[k], 2);
         s += truth[k] * truth[k];
     }
@@ -52,7 +52,7 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
     const auto sums = [&](std::size_t targets, const Vector& tx, const Vector& ty, const Vector& sx,
                           const Vector& sy, const std::vector<int>& active) {
         Vector truth(targets, 0.0);
-        for (std::size_t i = 0; i < targets; ++i)
+        for (const std::size_t i : up_to(targets))
             for (const std::size_t k : active)
                 truth[i] +=
                     force[k] * (&tx == &sx && i == k ? kernel->self()
@@ -72,7 +72,7 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
         for (const int every : {1, 2, 9, n, n + 1,
                                 1}) {  // every so many a point carries a force; none; and all again
             std::vector<int> active, passive;
-            for (int k = 0; k < n; ++k)
+            for (const int k : up_to(n))
                 (k % every == (every > n ? n : every - 1) ? active : passive).push_back(k);
             p.set_active(active);
             CHECK(p.active() == active && p.passive() == passive);

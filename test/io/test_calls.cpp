@@ -103,7 +103,7 @@ long last_call(const std::string& words, long end) {
 void named_after_the_disk_has_it(const std::string& path, bool folder_too) {
     long renamed = -1;
     std::string from;
-    for (std::size_t k = 0; k < calls.size(); ++k) {
+    for (const auto k : indices(calls)) {
         CHECK(calls[k] != "unlink " + path);
         CHECK(calls[k] != "write " + path || renamed >= 0);
         if (!calls[k].starts_with("rename ") || !calls[k].ends_with(" > " + path)) continue;
@@ -159,7 +159,7 @@ void one_thread_in_netcdf(const Folder& folder) {
     most_inside = 0;
     const Result result = sample::result(3);
     std::vector<std::thread> threads;
-    for (int k = 0; k < 4; ++k)
+    for (const int k : up_to(4))
         threads.emplace_back(
             [&, k] { write_result(result, folder / ("thread" + std::to_string(k) + ".nc"), {}); });
     for (std::thread& thread : threads) thread.join();

@@ -19,14 +19,14 @@ namespace fs = std::filesystem;
 void test_conventions(const Reader& file) {
     int ndims = 0, nvars = 0, natts = 0, unlimited = 0;
     CHECK(nc_inq(file.id(), &ndims, &nvars, &natts, &unlimited) == NC_NOERR);
-    for (int v = 0; v < nvars; ++v) {
+    for (const int v : up_to(nvars)) {
         char name[NC_MAX_NAME + 1] = "";
         nc_type type = NC_NAT;
         int attributes = 0;
         nc_inq_var(file.id(), v, name, &type, nullptr, nullptr, &attributes);
         CHECK(type == NC_DOUBLE || type == NC_INT);
         CHECK(!file.text(name, "units").empty() && !file.text(name, "long_name").empty());
-        for (int a = 0; a < attributes; ++a) {
+        for (const int a : up_to(attributes)) {
             char attribute[NC_MAX_NAME + 1] = "";
             nc_type att_type = NC_NAT;
             nc_inq_attname(file.id(), v, a, attribute);
@@ -37,7 +37,7 @@ void test_conventions(const Reader& file) {
     }
     const std::set<std::string> lists = {"asperity", "contact",
                                          "outline_point"};  // dimensions without a variable
-    for (int d = 0; d < ndims; ++d) {
+    for (const int d : up_to(ndims)) {
         char name[NC_MAX_NAME + 1] = "";
         nc_inq_dimname(file.id(), d, name);
         if (!lists.contains(name)) CHECK(file.has(name));
@@ -90,7 +90,7 @@ TEST(test_sums) {
     const ObserveOptions options = r.observations.options;
     const Observations again = read_sums(path, options, sample::kSteps).finish();
     CHECK(again.map_pressure.cell == r.observations.map_pressure.cell);
-    for (std::size_t k = 0; k < again.map_pressure.value.size(); ++k)
+    for (const auto k : indices(again.map_pressure.value))
         CHECK_RELATIVE(again.map_pressure.value[k], r.observations.map_pressure.value[k], 1e-15);
     CHECK(again.distributions[1].pressure_pdf == r.observations.distributions[1].pressure_pdf);
     CHECK(again.realization == (std::vector<std::int64_t>{1, 2, 3}) &&

@@ -30,7 +30,7 @@ TEST(test_borders_of_cells) {
         for (const int cells : {7, 12, 49}) {
             const MapGrid grid = make_map_grid(0, 0, L, L, cells);
             const double dx = L / (3 * cells);
-            for (int i = 0; i < 3 * cells; ++i) CHECK(grid.cell(i * dx, 0) == i / 3);
+            for (const int i : up_to(3 * cells)) CHECK(grid.cell(i * dx, 0) == i / 3);
         }
 }
 
@@ -43,7 +43,7 @@ TEST(test_oblong_maps) {
     level.pixels.columns = 30;
     level.pixels.dx = dx;
     level.pixels.dy = dy;
-    for (int k = 0; k < 30 * 17; ++k) {
+    for (const int k : up_to(30 * 17)) {
         level.pixels.index.push_back(k);
         level.pixels.contact.push_back(0);
         level.pixels.pressure.push_back(p);
@@ -57,7 +57,7 @@ TEST(test_oblong_maps) {
         CHECK_RELATIVE(std::accumulate(map.area.begin(), map.area.end(), 0.0), Lx * Ly, 1e-13);
         CHECK(map.outside == 0);
         std::vector<double> pressure(grid.cells());
-        for (std::size_t k = 0; k < map.cell.size(); ++k)
+        for (const auto k : indices(map.cell))
             pressure[map.cell[k]] = map.force[k] / (grid.side * grid.side);
         const RadialMean mean(grid, 0.5 * Lx, 0.5 * Ly, 9);
         CHECK_RELATIVE(mean.radii().back(), 0.5 * Ly * 17 / 18, 1e-13);
@@ -98,7 +98,7 @@ TEST(test_exact_sums) {
     }
     for (int trial = 0; trial < 5; ++trial) {
         ExactSum whole, group;
-        for (std::size_t k = 0; k < values.size(); ++k) {
+        for (const auto k : indices(values)) {
             group.add(exact_term(values[k], quantum));
             if (random() % 10 == 0 || k + 1 == values.size()) {
                 whole.add(group);

@@ -40,8 +40,8 @@ Case synthetic() {
 std::string map_file(const std::string& name, double x0, double y0, double dx = 0.5,
                      double dy = 0.25, double high = 1) {
     std::string text;
-    for (int j = 0; j < 20; ++j)
-        for (int i = 0; i < 30; ++i) {
+    for (const int j : up_to(20))
+        for (const int i : up_to(30)) {
             char line[100];
             std::snprintf(line, sizeof line, "%.10g %.10g %.17g\n", x0 + dx * i, y0 + dy * j,
                           high * 0.01 *
@@ -192,8 +192,8 @@ TEST(maps) {
         CHECK(m.dx > 0.49 && m.dy < 0.26 && m.periodic == read.map.periodic &&
               g->domain.Lx == m.Lx() && g->domain.Ly == m.Ly());
         long same = 0;
-        for (int j = 0; j < 20; ++j)
-            for (int i = 0; i < 30; ++i) same += m(i, j) == read.map(i, j);
+        for (const int j : up_to(20))
+            for (const int i : up_to(30)) same += m(i, j) == read.map(i, j);
         CHECK(same == 600);
     }
     Case made = synthetic();
@@ -239,7 +239,7 @@ TEST(pressures) {
         constexpr int points = 64;
         constexpr double a = 0.05, of_differences = 2e-3;
         std::string wave;
-        for (int k = 0; k < points * points; ++k)
+        for (const int k : up_to(points * points))
             wave +=
                 format("%.12g %.12g %.12g\n", 3.0 * (k % points) / points,
                        3.0 * (k / points) / points, a * std::cos(2 * pi * (k % points) / points));
@@ -289,7 +289,7 @@ TEST(punch_on_plane) {
     c.indentation.levels = {1};
     for (const double a : {0.05, 0.1}) {
         int outside = 0;
-        for (int k = 0; k < kPlaces; ++k) {
+        for (const int k : up_to(kPlaces)) {
             c.indenter.radius = a;
             c.indentation.centre[0] = 0.2 + 0.0007 * k;
             c.indentation.centre[1] = 0.2 - 0.0011 * k;
@@ -350,14 +350,14 @@ TEST(groups_of_levels) {
     c.solver.model = ModelKind::elements;
     c.solver.tolerance = 1e-9;
     c.compare.levels = {};
-    for (int k = 0; k < 37; ++k) c.indentation.levels.push_back(2.5 - 0.05 * k);
+    for (const int k : up_to(37)) c.indentation.levels.push_back(2.5 - 0.05 * k);
     const Job job = prepare(c);
     std::vector<std::size_t> order;
     const auto note = [&](std::size_t k, const Level&) { order.push_back(k); };
     const std::vector<Level> one = realize(job, 1, 1, note).levels,
                              three = realize(job, 1, 3).levels;
     CHECK(order.size() == one.size() && std::ranges::is_sorted(order));
-    for (std::size_t k = 0; k < one.size(); ++k) {
+    for (const auto k : indices(one)) {
         CHECK(one[k].force == three[k].force && one[k].area == three[k].area);
         CHECK(one[k].stiffness == three[k].stiffness && one[k].doubts == three[k].doubts);
         CHECK(one[k].separation_error_expected == three[k].separation_error_expected ||

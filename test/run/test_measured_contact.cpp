@@ -23,7 +23,7 @@ TEST(twins_of_an_oblong_map) {
     const HeightMap surface = synthesize(s, 128, Normalise::sample, 4, 1);
     map_files::Map map{128, 64, 1e-3 / 128, 1e-3 / 128, {}};
     for (int j = 63; j >= 0; --j)
-        for (int i = 0; i < 128; ++i) map.z.push_back(1e-3 * surface(i, j));
+        for (const int i : up_to(128)) map.z.push_back(1e-3 * surface(i, j));
     const std::string file =
         folder.write("oblong.gwy", map_files::gwy_file(map_files::gwy_channel(0, "T", map)));
     Case settings;
@@ -92,7 +92,7 @@ Case map_case(double L_lambda_s, const std::function<void(int, int, double&)>& c
                    Normalise::sample, 4, 1);
     map_files::Map map{256, 256, 1e-3 / 256, 1e-3 / 256, {}};
     for (int j = 255; j >= 0; --j)
-        for (int i = 0; i < 256; ++i) change(i, j, map.z.emplace_back(1e-3 * surface(i, j)));
+        for (const int i : up_to(256)) change(i, j, map.z.emplace_back(1e-3 * surface(i, j)));
     Case settings;
     set_key(settings, "surface%source", "'heights'");
     set_key(settings, "surface%file",
@@ -126,7 +126,7 @@ TEST(holes) {
     CHECK(job.measured->missing > 1200 && job.measured->missing < 1300);
     const auto outside = [&](const Asperities& a) {
         long count = 0;
-        for (std::size_t k = 0; k < a.size(); ++k)
+        for (const auto k : indices(a))
             count += std::hypot(a.x[k] - 0.5, a.y[k] - 0.5) > (radius + 5) / 256;
         return count;
     };
@@ -153,7 +153,7 @@ TEST(holes) {
         };
         const std::vector<Level> filled = solved(map_case(24, scattered)),
                                  known = solved(map_case(24, [](int, int, double&) {}));
-        for (std::size_t k = 0; k < known.size(); ++k) {
+        for (const auto k : indices(known)) {
             CHECK_RELATIVE(filled[k].force, known[k].force, 1e-4);
             CHECK(!(filled[k].filled_share > 0.01));
         }

@@ -35,7 +35,7 @@ TEST(thresholds) {
         return remarks([](V&) {}).find(word) == std::string::npos &&
                remarks(change).find(word) != std::string::npos;
     };
-    for (std::size_t k = 0; k < kCauseNames.size(); ++k) {
+    for (const auto k : indices(kCauseNames)) {
         const Cause cause{static_cast<int>(k)};
         CHECK(said(words_of_doubts(bit(cause)).c_str(), [&](V& v) { v.doubts = bit(cause); }));
     }
@@ -140,7 +140,7 @@ TEST(sticks) {
 TEST(memory) {
     const Folder folder;
     std::ofstream list(folder / "many.txt");
-    for (int k = 0; k < 300; ++k)
+    for (const int k : up_to(300))
         list << 0.05 * (k % 20) << ' ' << 0.07 * (k / 20) << ' ' << 0.01 * std::sin(7.3 * k)
              << " 0.05\n";
     list.close();
@@ -152,7 +152,7 @@ TEST(memory) {
     const Asperities& a = job.given->asperities;
     for (const double Z0 : {0.005, 0.0, -0.005}) {
         double count = 0;
-        for (std::size_t i = 0; i < a.size(); ++i) {
+        for (const auto i : indices(a)) {
             const double rho2 = std::pow(a.x[i] - 0.75, 2) + std::pow(a.y[i] - 0.75, 2);
             count += a.z[i] - (2.5 - std::sqrt(2.5 * 2.5 - rho2)) > Z0;
         }

@@ -1,7 +1,7 @@
 // A fresh folder, removed with everything in it.
 #pragma once
 
-#include "base/std.hpp"
+#include "support/indices.hpp"
 
 struct Folder {
     std::string name = (std::filesystem::temp_directory_path() / "rsc-test-XXXXXX").string();

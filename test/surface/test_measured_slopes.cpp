@@ -39,8 +39,8 @@ TEST(measured_slopes) {
     const auto map_with = [&](double share, double everywhere) {
         HeightMap map = fine.copy();
         map.periodic = false;
-        for (int j = 0; j < n; ++j)
-            for (int i = 0; i < n; ++i)
+        for (const int j : up_to(n))
+            for (const int i : up_to(n))
                 map.row(j)[i] +=
                     share * coarse(i, j) * (everywhere + std::abs(std::cos(pi * (i + 0.5) / n)));
         return map;

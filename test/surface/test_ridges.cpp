@@ -18,7 +18,7 @@ TEST(lay) {
     c.surface.sigma = 1e-3;
     c.solids.R[1] = 10;
     c.solver.model = ModelKind::elements;
-    for (int k = 0; k < 20; ++k) c.indentation.levels.push_back(2.9 - 0.1 * k);
+    for (const int k : up_to(20)) c.indentation.levels.push_back(2.9 - 0.1 * k);
     int levels = 0, force = 0, area = 0;
     for (const bool campaign : {false, true}) {
         c.surface.direction = campaign ? 90 : 0;
@@ -34,7 +34,7 @@ TEST(lay) {
             kept.output.heights = true;
             kept.elements.points_per_wave = 5;
             const std::vector<Level> all = realize(prepare(kept), 1, 1).levels;
-            for (std::size_t k = 0; k < coarse.size(); ++k) {
+            for (const auto k : indices(coarse)) {
                 if (!(coarse[k].force > 0)) continue;
                 CHECK(all[k].force_error_expected == coarse[k].force_error_expected);
                 const double dN = std::abs(coarse[k].force - fine[k].force),
@@ -76,7 +76,7 @@ TEST(ridges) {
                 c.indentation.levels.push_back(Delta * (1 - s + s * std::log(s)));
             const Job job = prepare(c);
             const std::vector<Level> found = realize(job, 1, 1).levels;
-            for (std::size_t k = 0; k < found.size(); ++k) {
+            for (const auto k : indices(found)) {
                 const Level& level = found[k];
                 const double N = share[k] * pi * job.indenter.E_star * Delta * waves,
                              A = 2 / pi * std::asin(std::sqrt(share[k]));

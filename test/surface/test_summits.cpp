@@ -47,8 +47,8 @@ struct Waves {
         map.dx = L / nx;
         map.dy = L / ny;
         map.periodic = true;
-        for (int j = 0; j < ny; ++j)
-            for (int i = 0; i < nx; ++i) map.row(j)[i] = derivative(i * map.dx, j * map.dy, 0, 0);
+        for (const int j : up_to(ny))
+            for (const int i : up_to(nx)) map.row(j)[i] = derivative(i * map.dx, j * map.dy, 0, 0);
         return map;
     }
 };
@@ -86,7 +86,7 @@ double rms(const std::vector<double>& v) {
 std::array<double, 4> errors(const Asperities& a, const Waves& w) {
     std::array<double, 4> worst{};
     const double z_scale = rms(a.z), kappa = rms(a.kappa1), quartic = rms(a.biharmonic);
-    for (std::size_t i = 0; i < a.size(); ++i) {
+    for (const auto i : indices(a)) {
         const auto d = [&](int p, int q) { return w.derivative(a.x[i], a.y[i], p, q); };
         const double xx = d(2, 0), yy = d(0, 2), xy = d(1, 1);
         const double trace = xx + yy, root = std::hypot(xx - yy, 2 * xy);
@@ -121,7 +121,7 @@ TEST(against_the_fourier_sum) {
               1e-7);
         CHECK(e[3] < 2e-7);
         CHECK(a.size() == a.biharmonic.size() && static_cast<long>(a.size()) == count.summits);
-        for (std::size_t i = 0; i < a.size(); ++i) {
+        for (const auto i : indices(a)) {
             CHECK(a.x[i] >= 0 && a.x[i] < s.L && a.y[i] >= 0 && a.y[i] < s.L);
             CHECK_RELATIVE(a.radius[i], 1 / std::sqrt(a.kappa1[i] * a.kappa2[i]), 1e-12);
         }
@@ -130,8 +130,8 @@ TEST(against_the_fourier_sum) {
             CHECK(
                 // nothing is missed any more: 32 points in lambda_s tell all apart No summit twice.
                 a.size() == fine_summits);
-        for (std::size_t i = 0; i < a.size(); ++i)
-            for (std::size_t j = 0; j < i; ++j) {
+        for (const auto i : indices(a))
+            for (const std::size_t j : up_to(i)) {
                 const double x = std::remainder(a.x[i] - a.x[j], s.L),
                              y = std::remainder(a.y[i] - a.y[j], s.L);
                 CHECK(std::hypot(x, y) > 1e-3 * s.L / n);
@@ -152,7 +152,7 @@ TEST(closed_form) {
         const Asperities a =
             find_asperities(w.map(nx, ny), Curvature::algebraic, &count, 1, Detail::subgrid, 4);
         CHECK(a.size() == 16 && count.saddles == 0 && count.repeated == 0);
-        for (std::size_t i = 0; i < a.size(); ++i) {
+        for (const auto i : indices(a)) {
             CHECK_CLOSE(std::remainder(a.x[i] - x0, w.L / 4), 0, 1e-9);
             CHECK_CLOSE(std::remainder(a.y[i] - y0, w.L / 4), 0, 1e-9);
             CHECK_RELATIVE(a.z[i], A + B, 1e-9);
@@ -183,8 +183,8 @@ TEST(polynomial) {
         map.x0 = 3;
         map.y0 = -1;
         const double x0 = 4.23, y0 = 0.87;
-        for (int j = 0; j < 21; ++j)
-            for (int i = 0; i < 25; ++i) {
+        for (const int j : up_to(21))
+            for (const int i : up_to(25)) {
                 const double x = 3 + 0.1 * i - x0, y = -1 + 0.2 * j - y0;
                 map.row(j)[i] = 1 - (round ? 1.5 * (x * x + y * y) : 2 * x * x + y * y + x * y) +
                                 0.3 * x * x * x - 0.5 * x * x * x * x - 0.25 * x * x * y * y -
@@ -219,11 +219,11 @@ TEST(once_each) {
                                    Detail::subgrid, 4);
         };
         const Asperities a = found(w);
-        for (std::size_t i = 0; i < a.size(); ++i)
+        for (const auto i : indices(a))
             for (const auto [dx, dy] : {std::array{0.02, 0.02}, {0.025, 0.0}, {0.0, 0.025}}) {
                 const Asperities b = found(w.moved(dx * s.L - a.x[i], dy * s.L - a.y[i]));
                 long here = 0;
-                for (std::size_t j = 0; j < b.size(); ++j)
+                for (const auto j : indices(b))
                     here += std::hypot(std::remainder(b.x[j] - dx * s.L, s.L),
                                        std::remainder(b.y[j] - dy * s.L, s.L)) < 1e-5 * s.L;
                 CHECK(here <= 1);

@@ -2,7 +2,7 @@
 // nothing of it is shared with src/physics/stress.
 #pragma once
 
-#include "base/std.hpp"
+#include "support/indices.hpp"
 
 namespace truth {
 
@@ -41,9 +41,9 @@ inline Tensor point_force(int along, double x, double y, double z, double nu) {
 inline Tensor rectangle(double x, double y, double z, double a, double b, double nu,
                         std::array<double, 3> traction, int n) {
     Tensor sum{};
-    for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j)
-            for (int along = 0; along < 3; ++along) {
+    for (const int i : up_to(n))
+        for (const int j : up_to(n))
+            for (const int along : up_to(3)) {
                 const Tensor t = point_force(along, x + a - 2 * a * (i + 0.5) / n,
                                              y + b - 2 * b * (j + 0.5) / n, z, nu);
                 for (std::size_t c = 0; c < 6; ++c)

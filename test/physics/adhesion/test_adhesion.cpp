@@ -1,15 +1,11 @@
 // Asperities that stick (physics/adhesion/adhesive_contact.hpp), against closed forms, scalar
 // equations, and a slow minimiser of the energy.
 #include "base/error.hpp"
-#include "check.hpp"
-#include "contact/make.hpp"
 #include "support/adhesive_paths.hpp"
 
 namespace test_adhesion {
 
 using namespace rsc;
-
-constexpr double kE = 5.0;
 
 // Johnson, Kendall and Roberts on a sphere, by the radius of the contact.
 struct Jkr {
@@ -49,7 +45,7 @@ TEST(test_one) {
     for (double w : {1e-6, 0.01, 0.3}) {
         const Jkr jkr{0.7, w};
         const Asperities a = asperities_at({{0.5, 0.5, 0.1, jkr.r}});
-        const auto contact = make_asperity_contact(a, {kE, kInfinity, 0.5, 0.5}, sticky(w));
+        const auto contact = under_flat(a, sticky(w));
         const double unit = pi * w * jkr.r, length = -jkr.u(jkr.least());
         const auto check = [&](double u, bool attached, const char*) {
             const Level level = contact->at_separation(0.1 - u);
@@ -92,7 +88,7 @@ TEST(test_third_stays) {
     const double height = -least * (1 + later) + jkr.u(jkr.least());
     const Asperities a =
         asperities_at({{0, 0, 0, jkr.r}, {distance, 0, 0, jkr.r}, {far, 0, height, jkr.r}});
-    const auto contact = make_asperity_contact(a, {kE, kInfinity, 0, 0}, sticky(jkr.w));
+    const auto contact = under_flat(a, sticky(jkr.w));
     CHECK(contact->at_separation(-0.001).contacts == 3);
     CHECK(contact->at_separation(-least * (1 - 0.1 * later)).contacts == 3);
     const Level one = contact->at_separation(-least * (1 + 0.1 * later));
@@ -127,9 +123,8 @@ TEST(test_minimiser) {
         const RandomAsperities system =
             random_asperities(2 + static_cast<int>(seed % 7), seed, 0.2);
         PathMinimiser slow(system.asperities, kE, JkrEdge{system.asperities, system.w});
-        const auto contact =
-            make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5}, sticky(system.w));
-        const double length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
+        const auto contact = under_flat(system.asperities, sticky(system.w));
+        const double length = reach(system.w);
         slow.Z = 0.02;
         for (int k = 0; k <= 60; ++k) {
             const double depth = 0.02 + length,
@@ -154,7 +149,7 @@ TEST(test_flats_apart) {
     const auto contact = make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5, {1, 1}},
                                                sticky(system.w));
     slow.Z = 0.05;
-    const double length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
+    const double length = reach(system.w);
     for (const double Z : {-0.5 * length, 0.01 + length, 0.01 + 1.4 * length}) {
         slow.go_to(Z, 0.03 * length);
         const Level level = contact->at_separation(Z);
@@ -169,8 +164,7 @@ TEST(test_first_state) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
         RandomAsperities system = random_asperities(6, 200 + seed, 0.2);
         system.w = 1e-4;  // they attach one after the other
-        const double length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25),
-                     step = 0.03 * length;
+        const double length = reach(system.w), step = 0.03 * length;
         for (const double share : {1.5, 6.0}) {
             const double N = share * pi * system.w * 0.25;
             PathMinimiser slow(system.asperities, kE, JkrEdge{system.asperities, system.w});
@@ -182,8 +176,7 @@ TEST(test_first_state) {
                 slow.go_to(slow.Z - step, step);
                 now = slow.force();
             }
-            const auto contact = make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5},
-                                                       sticky(system.w));
+            const auto contact = under_flat(system.asperities, sticky(system.w));
             const Level level = contact->at_force(N);
             CHECK(level.contacts == slow.attached());
             CHECK(level.separation >= slow.Z && level.separation < slow.Z + step);
@@ -198,7 +191,7 @@ TEST(test_moves) {
         const RandomAsperities system =
             random_asperities(2 + static_cast<int>(seed % 5), seed, 0.2);
         const Indenter tip{kE, 10.0, 0.5, 0.5};
-        const double length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
+        const double length = reach(system.w);
         Asperities under = system.asperities;
         set_clearances(under, system.asperities, tip, 0.5, 0.5);
         const double top = *std::max_element(under.z.begin(), under.z.end()), Z = top - 3 * length;
@@ -283,8 +276,7 @@ TEST(test_moves_cut) {
 // stiffness is that of the state at its end.
 TEST(test_stiffness_past_the_fold) {
     const Asperities two = asperities_at({{0.25, 0.5, 0, 1}, {0.75, 0.5, 0, 1}});
-    const auto contact =
-        make_asperity_contact(two, {kE, kInfinity, 0.5, 0.5}, sticky(0.05 * kE / 1e3));
+    const auto contact = under_flat(two, sticky(0.05 * kE / 1e3));
     for (double Z = 1e-3; Z < 1e-2; Z += 3e-4) {
         contact->forget();
         (void)contact->at_separation(-0.002);
@@ -338,8 +330,7 @@ TEST(test_far_jumps) {
         const RandomAsperities system = random_asperities(60, seed, 0.06);
         std::vector<double> lost;
         for (int cuts : {1, 12}) {
-            const auto contact =
-                make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5}, sticky(3e-3));
+            const auto contact = under_flat(system.asperities, sticky(3e-3));
             for (int k = 1; k < cuts; ++k) (void)contact->at_separation(0.03 - 0.018 * k / cuts);
             lost.push_back(contact->at_separation(0.012).energy_lost);
         }
@@ -350,9 +341,7 @@ TEST(test_far_jumps) {
 // A contact that goes on from a memory gives the bits of one that was not interrupted.
 TEST(test_interrupted) {
     const RandomAsperities system = random_asperities(60, 51, 0.06);
-    const auto make = [&] {
-        return make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5}, sticky(3e-3));
-    };
+    const auto make = [&] { return under_flat(system.asperities, sticky(3e-3)); };
     const auto whole = make();
     for (int k = 0; k <= 24; ++k) {
         const auto other = make();
@@ -370,8 +359,7 @@ TEST(test_interrupted) {
 TEST(test_work) {
     for (unsigned seed : {31u, 32u}) {
         const RandomAsperities system = random_asperities(5, seed, 0.2);
-        const auto contact =
-            make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5}, sticky(system.w));
+        const auto contact = under_flat(system.asperities, sticky(system.w));
         check_work_of_cycle(*contact, 0.05, -0.01);
     }
 }
@@ -387,8 +375,7 @@ TEST(test_loss_under_load) {
             SolverOptions options = sticky(w);
             options.tolerance = tolerance;
             options.interaction = interaction;
-            const auto contact =
-                make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5}, options);
+            const auto contact = under_flat(system.asperities, options);
             for (double Z : {0.02, -0.03}) (void)contact->at_separation(Z);
             return contact->at_separation(0.03).energy_lost;
         };
@@ -410,8 +397,7 @@ TEST(test_lost) {
         const RandomAsperities system = random_asperities(8, 9, 0.03);
         SolverOptions options = sticky(system.w);
         options.physics.adhesion.range = range;
-        const auto contact =
-            make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5}, options);
+        const auto contact = under_flat(system.asperities, options);
         const Level lost = contact->at_separation(0);
         CHECK(!lost.converged && std::isnan(lost.force) && std::isnan(contact->energy()));
         const Level away = contact->at_separation(0.05);
@@ -424,7 +410,7 @@ TEST(test_lost) {
 TEST(test_force) {
     const Jkr jkr{0.7, 0.01};
     const Asperities a = asperities_at({{0.5, 0.5, 0.1, jkr.r}});
-    const auto contact = make_asperity_contact(a, {kE, kInfinity, 0.5, 0.5}, sticky(jkr.w));
+    const auto contact = under_flat(a, sticky(jkr.w));
     const double unit = pi * jkr.w * jkr.r;
     for (double N : {2.0, 20.0, 0.0, -1.0, -1.499, 0.5}) {
         const Level level = contact->at_force(N * unit);

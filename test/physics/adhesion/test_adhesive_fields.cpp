@@ -1,8 +1,6 @@
 // Deflections and fields of contacts with adhesion, and fields of elliptic spots
 // (contact/deflection.hpp, observe/fields.hpp).
-#include "check.hpp"
 #include "contact/deflection.hpp"
-#include "contact/make.hpp"
 #include "observe/fields.hpp"
 #include "support/adhesive_paths.hpp"
 #include "support/height_maps.hpp"
@@ -10,8 +8,6 @@
 namespace test_adhesive_fields {
 
 using namespace rsc;
-
-constexpr double kE = 5.0;
 
 // Boussinesq's integral 1/(pi E*) int int p dl dphi over the chords of the disc of radius c through
 // a point at the distance d, by the midpoint rule; l = L sin(t) along a half chord L, which removes
@@ -21,12 +17,12 @@ double boussinesq(Pressure&& pressure, double c, double d) {
     constexpr int n = 1000;
     const double widest = d > c ? std::asin(c / d) : pi / 2;
     double sum = 0;
-    for (int j = 0; j < n; ++j) {
+    for (const int j : up_to(n)) {
         const double s = (2 * j + 1.0) / n - 1,
                      angle = widest * std::sin(pi / 2 * s);  // dense at the tangents
         const double h = d * std::sin(angle), half = std::sqrt(std::max(c * c - h * h, 0.0));
         double chord = 0;
-        for (int i = 0; i < n; ++i) {
+        for (const int i : up_to(n)) {
             const double t = pi / 2 * ((2 * i + 1.0) / n - 1), l = half * std::sin(t);
             chord += pressure(std::sqrt(h * h + l * l)) * half * std::cos(t) * pi / n;
         }
@@ -45,7 +41,7 @@ TEST(test_tension) {
         };
         double force = 0;
         constexpr int n = 200000;
-        for (int k = 0; k < n; ++k) {
+        for (const int k : up_to(n)) {
             const double t = pi / 2 * (k + 0.5) / n, r = c * std::sin(t);
             force += 2 * pi * r * pressure(r) * c * std::cos(t) * pi / 2 / n;
         }
@@ -71,8 +67,7 @@ TEST(test_one) {
     constexpr double w = 0.01, r = 0.7;
     const auto kernel = make_kernel(Interaction::point, Substrate(kE), {});
     for (const double range : {0.0, 0.004, 0.02}) {
-        const auto contact =
-            make_asperity_contact(kOne, {kE, kInfinity, 0.5, 0.5}, sticky(w, range));
+        const auto contact = under_flat(kOne, sticky(w, range));
         for (const double u : {-0.5 * range, 0.01, 0.03, 0.0, -0.003}) {
             const Level level = contact->at_separation(0.1 - u);
             if (level.tractions.x.empty()) continue;
@@ -99,7 +94,7 @@ TEST(test_one) {
                            1e-9);  // Griffith: K^2/(2 E*) = w
             double elastic = 0;
             constexpr int n = 2000;
-            for (int k = 0; k < n; ++k) {
+            for (const int k : up_to(n)) {
                 const double t = pi / 2 * (k + 0.5) / n;
                 const double p = 1.5 * pressed / (pi * a * a) * std::cos(t) +
                                  pulled / (2 * pi * a * a) / std::cos(t);
@@ -138,7 +133,7 @@ TEST(test_oblong) {
     pressed.add_contact(0, 0.8, 2.1, 1.5, 1.0, 0.1);
     const Fields f = fields_of(map, tip, Interaction::point,
                                {{0, &open, {{0.5}, {4.0}, {0.03}}}, {1, &pressed, {}}}, kAll);
-    for (int k = 0; k < 12; ++k)
+    for (const int k : up_to(12))
         CHECK_CLOSE(f.gap[k], 5 - map(k % 4, k / 4) + (k == 9 ? 0.03 : 0), 1e-14);
     CHECK_RELATIVE(std::accumulate(f.pressure.begin() + 12, f.pressure.end(), 0.0) * 0.5 * 2, 1.5,
                    1e-14);
@@ -156,7 +151,7 @@ TEST(test_asperity_fields) {
         const HeightMap map = map_of(201, step, 0.7);
         const Fields f = fields_of(map, tip, Interaction::point, {{0, &level, {}}}, kAll);
         double force = 0, area = 0;
-        for (std::size_t k = 0; k < f.pressure.size(); ++k) {
+        for (const auto k : indices(f.pressure)) {
             const double d = std::hypot(f.x[k % f.x.size()] - 0.5, f.y[k / f.x.size()] - 0.5),
                          p = f.pressure[k];
             force += p * step * step;
@@ -201,7 +196,7 @@ TEST(test_element_fields) {
             asked.window = {0, 1, 0, 1};
             const Fields f = fields_of(map, tip, Interaction::point, {{0, &level, {}}}, asked);
             double force = 0, cohesive = 0;
-            for (std::size_t k = 0; k < f.pressure.size(); ++k) {
+            for (const auto k : indices(f.pressure)) {
                 const double p = f.pressure[k], g = f.gap[k], area = step * step;
                 force += p * area;
                 if (f.contact[k] == 0) cohesive -= p * range / w * area;
@@ -233,7 +228,7 @@ TEST(test_elliptic_spot) {
     const Fields fields = fields_of(map_of(501, step, 0.7), {kE, kInfinity, 0.5, 0.5},
                                     Interaction::point, {{0, &level, {}}}, kAll);
     double force = 0, area = 0, x = 0, y = 0, along = 0, across = 0;
-    for (std::size_t k = 0; k < fields.pressure.size(); ++k) {
+    for (const auto k : indices(fields.pressure)) {
         const double dx = fields.x[k % fields.x.size()] - 0.53,
                      dy = fields.y[k / fields.x.size()] - 0.46,
                      p = fields.pressure[k] * step * step;

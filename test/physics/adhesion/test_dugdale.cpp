@@ -1,15 +1,11 @@
 // Asperities that attract within a range (law/sticking.hpp): against Maugis's equations, and JKR as
 // its limit.
 #include "base/error.hpp"
-#include "check.hpp"
-#include "contact/make.hpp"
 #include "support/adhesive_paths.hpp"
 
 namespace test_dugdale {
 
 using namespace rsc;
-
-constexpr double kE = 5.0;
 
 // The loop of one asperity: at the penetrations of Maugis's states it carries his force; the
 // energy's derivative is the force; it attaches at u = -z0; the work of a cycle is the energy lost.
@@ -18,8 +14,7 @@ TEST(test_one) {
         const Maugis truth{0.7, 0.01, lambda, kE};
         const double unit = pi * truth.w * truth.r, range = truth.range();
         const Asperities a = asperities_at({{0.5, 0.5, 0, truth.r}});
-        const auto contact =
-            make_asperity_contact(a, {kE, kInfinity, 0.5, 0.5}, sticky(truth.w, range));
+        const auto contact = under_flat(a, sticky(truth.w, range));
         CHECK(contact->at_separation(range * (1 + 1e-7)).force == 0);
         CHECK(contact->at_separation(range * (1 - 1e-7)).force < 0);
         for (double m = 1 + 0.01 / lambda; m < 30; m *= 1.02) {
@@ -48,8 +43,7 @@ TEST(test_narrow_loop) {
     const double range = weak.range();
     std::vector<double> lost;
     for (const int levels : {1, 7, 200}) {
-        const auto contact =
-            make_asperity_contact(a, {kE, kInfinity, 0.5, 0.5}, sticky(weak.w, range));
+        const auto contact = under_flat(a, sticky(weak.w, range));
         int jumps = 0;
         Level level;
         for (int k = -levels; k <= levels; ++k) {
@@ -72,8 +66,7 @@ TEST(test_limit) {
         for (double range : {3e-4, 1e-4, 3e-5}) {
             SolverOptions with = sticky(1e-3, range), jkr = sticky(1e-3, 0);
             with.law = jkr.law = law;
-            const auto one = make_asperity_contact(a, {kE, kInfinity, 0.5, 0.5}, with),
-                       other = make_asperity_contact(a, {kE, kInfinity, 0.5, 0.5}, jkr);
+            const auto one = under_flat(a, with), other = under_flat(a, jkr);
             (void)one->at_separation(-0.01);
             (void)other->at_separation(-0.01);
             const double there = other->at_separation(0.005).force,
@@ -85,7 +78,7 @@ TEST(test_limit) {
     }
     SolverOptions refused = sticky(1e-3, 1e-4);
     refused.law = LawKind::fourth_order;
-    CHECK_THROWS((void)make_asperity_contact(a, {kE, kInfinity, 0.5, 0.5}, refused), Error);
+    CHECK_THROWS((void)under_flat(a, refused), Error);
 }
 
 }  // namespace test_dugdale

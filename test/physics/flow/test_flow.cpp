@@ -13,8 +13,8 @@ using namespace rsc;
 
 truth::Gap gap(int nx, int ny, double dx, double dy, const std::function<double(int, int)>& at) {
     truth::Gap m{nx, ny, dx, dy, {}};
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i) m.g.push_back(at(i, j));
+    for (const int j : up_to(ny))
+        for (const int i : up_to(nx)) m.g.push_back(at(i, j));
     return m;
 }
 
@@ -33,8 +33,8 @@ std::vector<double> noise(int nx, int ny, int most, unsigned seed) {
             if (a * a + b * b > most * most || (b == 0 && a <= 0)) continue;
             const double c = normal(random), s = normal(random);
             power += 1;
-            for (int j = 0; j < ny; ++j)
-                for (int i = 0; i < nx; ++i) {
+            for (const int j : up_to(ny))
+                for (const int i : up_to(nx)) {
                     const double phase =
                         2 * pi *
                         (a * static_cast<double>(i) / nx + b * static_cast<double>(j) / ny);
@@ -55,7 +55,7 @@ TEST(stripes_along_and_across_the_flow) {
     const auto width = [](int k) { return 1.3 + std::sin(0.7 * k) + 0.2 * (k % 3); };
     const int n = 17;
     double cube = 0, inverse = 0;
-    for (int k = 0; k < n; ++k) {
+    for (const int k : up_to(n)) {
         const double w = std::abs(width(k)) + 0.01;
         cube += w * w * w / n;
         inverse += 1 / (w * w * w) / n;
@@ -102,7 +102,7 @@ TEST(channels_dead_ends_and_islands) {
         });
     };
     double inverse = 0;
-    for (int i = 0; i < 10; ++i) inverse += 0.1 * std::pow(1.0 + 0.1 * i, -3);
+    for (const int i : up_to(10)) inverse += 0.1 * std::pow(1.0 + 0.1 * i, -3);
     const Permeability K = solved(channel(true));
     CHECK_RELATIVE(K.xx, 1 / (12 * inverse) / 12, 1e-12);
     CHECK(K.yy == 0 && K.xy == 0);
@@ -131,7 +131,7 @@ TEST(the_flux_at_each_point_adds_up) {
     const Permeability K = permeability(view(m), &flow);
     const double mean = std::accumulate(flow.begin(), flow.end(), 0.0) / (40 * 32);
     CHECK(mean > std::hypot(K.xx, K.xy));  // the mean of magnitudes
-    for (std::size_t k = 0; k < flow.size(); ++k) CHECK(m.g[k] > 0 || flow[k] == 0);
+    for (const auto k : indices(flow)) CHECK(m.g[k] > 0 || flow[k] == 0);
     permeability(view(gap(6, 9, 0.3, 0.7, [](int, int) { return 2.0; })), &flow);
     for (const double q : flow) CHECK_RELATIVE(q, 8.0 / 12, 1e-12);
 }
@@ -139,7 +139,7 @@ TEST(the_flux_at_each_point_adds_up) {
 TEST(percolation_by_walks) {
     std::mt19937 random(5);
     int along[2] = {0, 0};
-    for (int sample = 0; sample < 300; ++sample) {
+    for (const int sample : up_to(300)) {
         const int nx = 3 + sample % 11, ny = 2 + sample % 8;
         const truth::Gap m =
             gap(nx, ny, 1, 1, [&](int, int) { return random() % 1000 < 580 ? 1.0 : 0.0; });
@@ -232,7 +232,7 @@ TEST(the_distribution_of_gaps) {
     CHECK(one.numbers("gap_count", "overflow")[0] == counts.back());
     counts.pop_back();
     CHECK(one.values("gap_count") == counts);
-    for (std::size_t b = 0; b < counts.size(); ++b)
+    for (const auto b : indices(counts))
         CHECK_RELATIVE(one.values("gap_pdf")[b], counts[b] / (open * width), 1e-12);
     CHECK_RELATIVE(one.numbers("gap_pdf", "mean")[0], one.values("gap_mean_open")[step], 1e-12);
 

@@ -35,10 +35,10 @@ std::vector<Real> slip_problem(const Asperities& a, const Level& level, Real xi)
     const Real mu = kFriction.coefficient, m = kFriction.ratio, pi = std::numbers::pi_v<Real>;
     std::vector<Real> q(n, 0);
     for (int sweep = 0; sweep < 400; ++sweep) {
-        for (std::size_t i = 0; i < n; ++i) {
+        for (const std::size_t i : up_to(n)) {
             const auto at = level.asperity[i];
             Real moved = 0;
-            for (std::size_t j = 0; j < n; ++j) {
+            for (const std::size_t j : up_to(n)) {
                 const auto to = level.asperity[j];
                 if (j != i)
                     moved += q[j] / (m * pi * kE *
@@ -71,7 +71,7 @@ TEST(spots_against_slip_problem) {
         const auto spots = slip_of_spots(slid.curve, path);
         Real Q = 0;
         CHECK(spots.size() == q.size());
-        for (std::size_t i = 0; i < q.size(); ++i) {
+        for (const auto i : indices(q)) {
             Q += q[i];
             CHECK_CLOSE(spots[i].force.y, static_cast<double>(q[i]),
                         1e-8 * kFriction.coefficient * level.force);
@@ -98,8 +98,8 @@ TEST(spots_against_slip_problem) {
 double conductance_of_spots(const Asperities& a, const Level& level) {
     const std::size_t n = level.asperity.size();
     std::vector<Real> A(n * n);
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j) {
+    for (const std::size_t i : up_to(n))
+        for (const std::size_t j : up_to(n)) {
             const auto p = level.asperity[i], q = level.asperity[j];
             const Real d = std::hypot(Real(a.x[p]) - a.x[q], Real(a.y[p]) - a.y[q]);
             A[i * n + j] =

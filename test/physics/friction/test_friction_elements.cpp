@@ -9,7 +9,6 @@ using namespace rsc;
 
 using Values = std::vector<double>;
 
-
 Values row(const Values& all, std::size_t k, std::size_t n) {
     return {all.begin() + static_cast<std::ptrdiff_t>(k * n),
             all.begin() + static_cast<std::ptrdiff_t>((k + 1) * n)};
@@ -30,7 +29,7 @@ struct Slip {
         const auto pressure = file.values("field_pressure"),
                    traction = file.values("field_traction");
         double stuck = 0, touches = 0, sum = 0, pressed = 0;
-        for (std::size_t k = 0; k < pressure.size(); ++k) {
+        for (const auto k : indices(pressure)) {
             CHECK(traction[k] >= -1e-9 * mu * pressure[k] &&
                   traction[k] <= (1 + 1e-9) * mu * pressure[k]);
             touches += pressure[k] > 0;
@@ -63,7 +62,7 @@ TEST(smooth_sphere_of_cattaneo_and_mindlin) {
         const auto slide = row(x, k, points), force = row(Q, k, points);
         // Some 20 and 35 pixels over a: elements are within 0.2 %.
         CHECK_RELATIVE(slide[first - 1], full, 2e-3);
-        for (std::size_t i = 0; i < first; ++i)
+        for (const std::size_t i : up_to(first))
             CHECK_CLOSE(force[i], mu * N * (1 - std::pow(std::max(0.0, 1 - slide[i] / full), 1.5)),
                         2e-3 * mu * N);
         CHECK_CLOSE(force[first - 1], mu * N, 1e-6 * mu * N);
@@ -81,14 +80,13 @@ TEST(smooth_sphere_of_cattaneo_and_mindlin) {
 TEST(line_of_cattaneo) {
     // Stick over |x| < c with Q = mu P (1 - c^2/b^2) (Johnson 1985, section 7.2).
     const Folder folder;
-    const Slip slip(
-        run_to(folder / "line.nc",
-               "&solids E = 200e3, 200e3  nu = 0.3, 0.3  friction = 0.3 /\n"
-               "&indenter shape = 'paraboloid', radii = 10, Infinity /\n"
-               "&surface L = 0.2, L_lambda_l = 2, L_lambda_s = 16, sigma = 1e-9 /\n"
-               "&indentation boundary = 'periodic_y', control = 'force', levels = 4 /\n"
-               "&output fields = 'pressure', 'traction' /\n"),
-        0.3);
+    const Slip slip(run_to(folder / "line.nc",
+                           "&solids E = 200e3, 200e3  nu = 0.3, 0.3  friction = 0.3 /\n"
+                           "&indenter shape = 'paraboloid', radii = 10, Infinity /\n"
+                           "&surface L = 0.2, L_lambda_l = 2, L_lambda_s = 16, sigma = 1e-9 /\n"
+                           "&indentation boundary = 'periodic_y', control = 'force', levels = 4 /\n"
+                           "&output fields = 'pressure', 'traction' /\n"),
+                    0.3);
     const double c = slip.sticks;
     CHECK(c > 0.5 && c < 0.9);
     CHECK_CLOSE(slip.force, 1 - c * c, 0.03);  // one pixel of 22
@@ -131,7 +129,7 @@ TEST(rough_surfaces_slide_as_their_asperities_do) {
             // At the origin the stiffness is that of stick.
             CHECK_RELATIVE(q[1] / a[1], T[1][k], 0.05);
             CHECK_RELATIVE(loop_area(a, q, first), work[1][k], 0.01);
-            for (std::size_t i = 0; i < first; ++i)
+            for (const std::size_t i : up_to(first))
                 CHECK_CLOSE(q[i] / (0.2 * N[1][k]), p[i] / (0.2 * N[0][k]), 0.03);
             CHECK_RELATIVE(a[first - 1], b[first - 1], 0.1);
         }
@@ -152,7 +150,7 @@ TEST(loads_between_levels_are_those_of_levels) {
     };
     const auto one = force("levels = 0.5"), all = force("start = 4, stop = 0.5, steps = 40");
     const auto many = row(all, 39, one.size());
-    for (std::size_t k = 0; k < one.size(); ++k) CHECK_CLOSE(one[k], many[k], 4e-3 * one[40]);
+    for (const auto k : indices(one)) CHECK_CLOSE(one[k], many[k], 4e-3 * one[40]);
 }
 
 }  // namespace test_friction_elements

@@ -165,9 +165,9 @@ std::vector<long double> solve_slowly(const Asperities& a, const std::vector<Yie
     std::vector<long double> f(n, 0), u(n, 0);
     for (int sweep = 0; sweep < 3000; ++sweep) {
         long double moved = 0, largest = 0;
-        for (std::size_t i = 0; i < n; ++i) {
+        for (const std::size_t i : up_to(n)) {
             long double lowered = 0;
-            for (std::size_t j = 0; j < n; ++j)
+            for (const std::size_t j : up_to(n))
                 if (j != i)
                     lowered += f[j] / (std::numbers::pi_v<long double> * kE *
                                        std::hypot(static_cast<long double>(a.x[i]) - a.x[j],
@@ -188,7 +188,7 @@ TEST(test_independent) {
     std::uniform_real_distribution<double> uniform(0, 1);
     int compared = 0;
     double worst = 0;
-    for (int system = 0; system < 120; ++system) {
+    for (const int system : up_to(120)) {
         const int n = 2 + system % 7;
         const Asperities a = few(random, n);
         const double H0 = 200 * std::pow(100.0, uniform(random)),
@@ -211,7 +211,7 @@ TEST(test_independent) {
             CHECK(level.converged);
             const auto u = solve_slowly(a, laws, Z0);
             long double N = 0, A = 0;
-            for (std::size_t i = 0; i < u.size(); ++i) {
+            for (const auto i : indices(u)) {
                 N += laws[i].at(u[i]).force;
                 A += laws[i].at(u[i]).area;
                 laws[i].deepest = std::max(laws[i].deepest, u[i]);

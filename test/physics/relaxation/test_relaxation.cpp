@@ -22,7 +22,7 @@ double talbot(const Relaxation& body, double t) {
     constexpr int terms = 28;
     const auto transform = [&](C s) {
         C e = 1;
-        for (std::size_t k = 0; k < body.share.size(); ++k)
+        for (const auto k : indices(body.share))
             e -= C(body.share[k]) / (C(1) + s * C(body.time[k]));
         return (C(body.soft) / e + C(1 - body.soft)) / s;
     };
@@ -40,7 +40,7 @@ TEST(test_creep) {
     const std::vector<double> shares{0.05, 0.2, 0.1, 0.3, 0.02, 0.08},
         times{1e-3, 0.02, 0.3, 0.31, 7, 2e3};
     Relaxation sixteen;
-    for (int k = 0; k < kMostRelaxations; ++k) {
+    for (const int k : up_to(kMostRelaxations)) {
         sixteen.share.push_back(0.06);
         sixteen.time.push_back(std::pow(3.0, k - 8));
     }

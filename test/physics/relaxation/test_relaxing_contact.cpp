@@ -70,7 +70,7 @@ void test_growing(const Kind& model) {
             const Passage rest(creep, 2.0 / steps);
             const double left = 2 - t;
             double mean = creep.last();
-            for (std::size_t b = 0; b < creep.branches().size(); ++b)
+            for (const auto b : indices(creep.branches()))
                 mean += creep.branches()[b].share * rest.decays[b].change *
                         std::exp(-creep.branches()[b].rate * left);
             expected += mean * (e.force - last);
@@ -115,7 +115,7 @@ void test_limits(const Kind& model) {
     CHECK_RELATIVE(soft->energy() + relaxed.energy_lost, elastic->energy(),
                    1e-5);  // no work; a few pixels leave and enter the contact
     const auto pressed = make(model, kBody);
-    for (int k = 0; k < 7; ++k) {
+    for (const int k : up_to(7)) {
         pressed->set_time(1e4 * k);
         (void)pressed->at_force(0.3 * e.force);
     }
@@ -194,7 +194,7 @@ void test_far_apart(const Kind& model) {
     };
     for (const bool by_force : {false, true}) {
         const auto coarse = run(1, by_force), fine = run(20, by_force);
-        for (std::size_t k = 0; k < fine.size(); ++k) CHECK_RELATIVE(coarse[k], fine[k], bound);
+        for (const auto k : indices(fine)) CHECK_RELATIVE(coarse[k], fine[k], bound);
     }
 }
 

@@ -202,7 +202,7 @@ TEST(files) {
     const std::size_t points = worn.size();
     CHECK(before.size() == 2 * points);
     double lost = 0, deepest = 0, mean = 0, square = 0;
-    for (std::size_t i = 0; i < points; ++i) {
+    for (const std::size_t i : up_to(points)) {
         CHECK(before[points + i] == worn[i]);
         lost += before[i] - worn[i];
         deepest = std::max(deepest, before[i] - worn[i]);
@@ -216,7 +216,7 @@ TEST(files) {
     // Where the bodies touch there is no gap, elsewhere there is one.
     const std::vector<double> gap = whole.values("field_gap"),
                               contact = whole.values("field_contact");
-    for (std::size_t i = 0; i < gap.size(); ++i) CHECK((gap[i] == 0) == (contact[i] == 1));
+    for (const auto i : indices(gap)) CHECK((gap[i] == 0) == (contact[i] == 1));
 
     const Reader first = run("distances=0, 5, 10" + made + "&output heights=.true. /", "first.nc");
     const Reader second =

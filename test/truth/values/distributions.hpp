@@ -21,8 +21,7 @@ inline Moments1 moments_of(const Vector& values, const Vector& weights) {
     const double all = sum(weights);
     const auto power = [&](double about, int n) {
         double s = 0;
-        for (std::size_t i = 0; i < values.size(); ++i)
-            s += weights[i] * std::pow(values[i] - about, n);
+        for (const auto i : indices(values)) s += weights[i] * std::pow(values[i] - about, n);
         return s / all;
     };
     const double m = power(0, 1), d = std::sqrt(power(m, 2));
@@ -64,7 +63,7 @@ inline void distributions(CheckedFile& f, const Truth& t) {
                  width_A = 10 * t.sigma / sqrt_m4 / number(n);
     const auto axis = [&](const std::string& name, double width) {
         Vector v;
-        for (std::size_t b = 0; b < n; ++b) v.push_back((number(b) + 0.5) * width);
+        for (const std::size_t b : up_to(n)) v.push_back((number(b) + 0.5) * width);
         f.same(name, v, 1e-9);
         f.attribute(name, "bin_width", {width}, 1e-9);
     };
@@ -80,11 +79,11 @@ inline void distributions(CheckedFile& f, const Truth& t) {
     Vector counts, count_over, count_pdf, spot_counts, spot_over, spot_pdf, areas, area_over,
         area_pdf, independent;
     std::array<std::vector<Moments1>, 3> moments;
-    for (std::size_t d = 0; d < D; ++d) {
+    for (const std::size_t d : up_to(D)) {
         Vector p, A, one, count(n), spot(n), area(n);
         std::vector<Part> parts;
         double over = 0, over_A = 0, over_q = 0, Z = 0, squares = 0, where = -1;
-        for (std::size_t k = 0; k < t.M; ++k) {
+        for (const std::size_t k : up_to(t.M)) {
             std::size_t s = 0;
             for (std::size_t i = 1; i < t.steps; ++i)
                 if (std::abs(t.r[k].levels[i].separation - wanted[d] * t.sigma) <
@@ -110,7 +109,7 @@ inline void distributions(CheckedFile& f, const Truth& t) {
             for (double a : pixels) squares += a * a;
         }
         const auto put = [&](Vector& into, double& beyond, double value, double width) {
-            for (std::size_t b = 0; b < n; ++b)
+            for (const std::size_t b : up_to(n))
                 if (value >= number(b) * width && value < (number(b) + 1) * width)
                     return void(into[b] += 1);
             beyond += 1;
@@ -124,7 +123,7 @@ inline void distributions(CheckedFile& f, const Truth& t) {
                        : edge > q.p ? 1.0
                                     : 0.0;
             };
-            for (std::size_t b = 0; b < n; ++b)
+            for (const std::size_t b : up_to(n))
                 area[b] += q.area * (below((number(b) + 1) * width_q) - below(number(b) * width_q));
             over_q += q.area * (1 - below(number(n) * width_q));
             total += q.area;
@@ -135,7 +134,7 @@ inline void distributions(CheckedFile& f, const Truth& t) {
         count_over.push_back(over);
         spot_over.push_back(over_A);
         area_over.push_back(over_q);
-        for (std::size_t b = 0; b < n; ++b) {
+        for (const std::size_t b : up_to(n)) {
             counts.push_back(count[b]);
             spot_counts.push_back(spot[b]);
             areas.push_back(area[b]);

@@ -64,12 +64,12 @@ inline void separations(CheckedFile& f, const Truth& t) {
            1e-15);
     f.same("separation_mean", t.each_step([&](std::size_t s) {
         double m = 0;
-        for (std::size_t k = 0; k < t.M; ++k) m += Z[k * t.steps + s] / number(t.M);
+        for (const std::size_t k : up_to(t.M)) m += Z[k * t.steps + s] / number(t.M);
         return m;
     }),
            1e-14);
     const Vector N = f.values("force");
-    for (std::size_t i = 0; i < N.size(); ++i)
+    for (const auto i : indices(N))
         CHECK_RELATIVE(N[i], asked[i % t.steps], 10 * t.c.solver.tolerance);
 }
 
@@ -131,8 +131,8 @@ inline CellSums cells_of(const Contacts2& c, const Cells& cells) {
         if (cells.cell(x, y) < 0) return;
         const double u = (x - cells.x0) / cells.side, v = (y - cells.y0) / cells.side,
                      w = c.dx / cells.side, h = c.dy / cells.side;
-        for (long j = 0; j < cells.ny; ++j)
-            for (long i = 0; i < cells.nx; ++i) {
+        for (const long j : up_to(cells.ny))
+            for (const long i : up_to(cells.nx)) {
                 const double part = share(u, w, i, cells.nx) * share(v, h, j, cells.ny);
                 out.area[j * cells.nx + i] += part * area;
                 out.force[j * cells.nx + i] += part * force;
@@ -215,7 +215,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         const Asperities& a = t.r[k].asperities;
         for (std::size_t i = 0; i < a.size() && !t.elements; ++i) place(a.x[i], a.y[i], a.z[i]);
         for (long j = 0; t.elements && j < t.heights[k].ny; ++j)
-            for (long i = 0; i < t.heights[k].nx; ++i)
+            for (const long i : up_to(t.heights[k].nx))
                 place(t.heights[k].x(i), t.heights[k].y(j), t.heights[k].at_point(i, j));
         return n;
     }));
@@ -237,7 +237,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         double n = 0;
         const auto& p = spots(k, s);
         for (std::size_t i = 0; i < p.size() && !t.elements; ++i)
-            for (std::size_t j = 0; j < i; ++j)
+            for (const std::size_t j : up_to(i))
                 n += t.distance(p[i].x, p[i].y, p[j].x, p[j].y) < p[i].radius() + p[j].radius();
         return n;
     });
@@ -296,7 +296,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         if (level(k, s).doubts != 0) return 1;
         return pairs[k * t.steps + s] > 0 ? 2 : 0;
     }));
-    for (std::size_t i = 0; i < with_border.size(); ++i)
+    for (const auto i : indices(with_border))
         CHECK(!(with_border[i] > 0) ||
               level(i / t.steps, i % t.steps).status != LevelStatus::converged);
 
@@ -305,7 +305,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
     Vector plastic, work;
     for (std::size_t k = 0; k < t.M && yields; ++k) {
         std::fill(deepest.begin(), deepest.end(), 0.0);
-        for (std::size_t s = 0; s < t.steps; ++s) {
+        for (const std::size_t s : up_to(t.steps)) {
             double n = 0, lost = 0;
             for (std::size_t i = 0; i < spots(k, s).size(); ++i) {
                 const Spot2& p = spots(k, s)[i];
@@ -319,7 +319,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
                 CHECK(flows == p.yields);
                 n += flows;
             }
-            for (std::size_t i = 0; i < deepest.size(); ++i)
+            for (const auto i : indices(deepest))
                 lost += pressed_flat(t, static_cast<std::int32_t>(i), deepest[i]).lost;
             plastic.push_back(n);
             work.push_back(t.hertz ? lost : level(k, s).plastic_work);
@@ -329,7 +329,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
     if (yields) f.same("plastic_work", work, 1e-9);
     if (yields && !t.elements) {
         Vector rest;
-        for (std::size_t i = 0; i < deepest.size(); ++i)
+        for (const auto i : indices(deepest))
             rest.push_back(t.hertz ? pressed_flat(t, static_cast<std::int32_t>(i), deepest[i]).rest
                                    : t.r[0].residual_depth[i]);
         f.same("asperity_residual_depth", rest, 1e-9);
@@ -370,12 +370,12 @@ inline void levels(CheckedFile& f, const Truth& t) {
     // Stiffness and energy themselves: test_periodic, test_friction_contact, test_hardness,
     // test_element_levels.
     Vector S = t.rows([&](auto k, auto s) { return level(k, s).stiffness; }), W = S;
-    for (std::size_t i = 0; i < W.size(); ++i) W[i] = level(i / t.steps, i % t.steps).energy;
+    for (const auto i : indices(W)) W[i] = level(i / t.steps, i % t.steps).energy;
     f.same("stiffness", S);
     f.same("energy", W);
     const auto pushed = [&](bool moment) {
         Vector v;
-        for (std::size_t i = 0; i < N.size(); ++i) {
+        for (const auto i : indices(N)) {
             double x = 0, y = 0;
             const auto add = [&](double px, double py, double force) {
                 const double dx = px - t.tip_x, dy = py - t.tip_y;
@@ -428,9 +428,9 @@ inline void levels(CheckedFile& f, const Truth& t) {
         const Vector all = f.values(name);
         const std::size_t n = all.size() / t.M;
         Vector middle(n), deviation(n);
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t k = 0; k < t.M; ++k) middle[i] += all[k * n + i] / number(t.M);
-            for (std::size_t k = 0; k < t.M; ++k)
+        for (const std::size_t i : up_to(n)) {
+            for (const std::size_t k : up_to(t.M)) middle[i] += all[k * n + i] / number(t.M);
+            for (const std::size_t k : up_to(t.M))
                 deviation[i] += std::pow(all[k * n + i] - middle[i], 2);
             deviation[i] = t.M > 1 ? std::sqrt(deviation[i] / (number(t.M) - 1)) : kNone;
         }

@@ -9,7 +9,7 @@ using namespace rsc;
 
 inline void surfaces(CheckedFile& f, const Truth& t) {
     std::vector<Moments4> own, grid;
-    for (std::size_t k = 0; k < t.M; ++k) {
+    for (const std::size_t k : up_to(t.M)) {
         grid.push_back(t.list ? Moments4{} : t.heights[k].differences());
         own.push_back(t.synthetic ? t.heights[k].modes() : grid.back());
         if (t.list) own.back().m0 = Truth::variance(t.r[k].asperities.z);
@@ -28,7 +28,7 @@ inline void surfaces(CheckedFile& f, const Truth& t) {
             return geometric ? t.r[k].statistics.mean_kappa_g : t.r[k].statistics.mean_kappa_a;
         const Asperities& a = t.r[k].asperities;
         double s = 0;
-        for (std::size_t i = 0; i < a.kappa1.size(); ++i)
+        for (const auto i : indices(a.kappa1))
             s += geometric ? std::sqrt(a.kappa1[i] * a.kappa2[i]) : (a.kappa1[i] + a.kappa2[i]) / 2;
         return a.kappa1.empty() || t.list ? kNone : s / number(a.size());
     };
@@ -86,7 +86,7 @@ inline void regimes(CheckedFile& f, const Truth& t) {
     for (const Realization& r : t.r) {
         density += number(r.asperities.size()) / A0 / number(t.M);
         double g = 0;
-        for (std::size_t i = 0; i < r.asperities.size(); ++i)
+        for (const auto i : indices(r.asperities))
             g += std::sqrt(r.asperities.kappa1[i] * r.asperities.kappa2[i]);
         kappa += g / number(r.asperities.size()) / number(t.M);
     }
@@ -131,8 +131,8 @@ inline void maps(CheckedFile& f, const Truth& t) {
     const Cells g(t);
     const std::size_t cells = g.nx * g.ny;
     Vector x, y;
-    for (long i = 0; i < g.nx; ++i) x.push_back(g.x0 + g.side * (static_cast<double>(i) + 0.5));
-    for (long j = 0; j < g.ny; ++j) y.push_back(g.y0 + g.side * (static_cast<double>(j) + 0.5));
+    for (const long i : up_to(g.nx)) x.push_back(g.x0 + g.side * (static_cast<double>(i) + 0.5));
+    for (const long j : up_to(g.ny)) y.push_back(g.y0 + g.side * (static_cast<double>(j) + 0.5));
     f.same("x", x, kRounding);
     f.same("y", y, kRounding);
     f.same("map_cell_side", {g.side}, kRounding);
@@ -141,16 +141,16 @@ inline void maps(CheckedFile& f, const Truth& t) {
     f.attribute("y", "share_of_last_row", {covered}, 1e-12);
     Vector area(t.steps * cells), force(area);
     std::vector<long double> area_sum(area.size()), force_sum(area.size());
-    for (std::size_t k = 0; k < t.M; ++k)
-        for (std::size_t s = 0; s < t.steps; ++s) {
+    for (const std::size_t k : up_to(t.M))
+        for (const std::size_t s : up_to(t.steps)) {
             const CellSums c = cells_of(t.contacts[k][s], g);
-            for (std::size_t i = 0; i < cells; ++i) {
+            for (const std::size_t i : up_to(cells)) {
                 area_sum[s * cells + i] += c.area[i];
                 force_sum[s * cells + i] += c.force[i];
             }
         }
     const double divisor = g.side * g.side * number(t.M);
-    for (std::size_t i = 0; i < area.size(); ++i) {
+    for (const auto i : indices(area)) {
         area[i] = static_cast<double>(area_sum[i]) / divisor;
         force[i] = static_cast<double>(force_sum[i]) / divisor;
     }
@@ -165,17 +165,17 @@ inline void maps(CheckedFile& f, const Truth& t) {
         return CHECK(!f.has("radius") && !f.has("radial_pressure"));  // the tip is not over the map
     const std::size_t bins = t.c.output.radial_bins;
     Vector radius;
-    for (std::size_t b = 0; b < bins; ++b)
+    for (const std::size_t b : up_to(bins))
         radius.push_back((number(b) + 0.5) * largest / number(bins));
     f.same("radius", radius, kRounding);
     const auto radial = [&](const Vector& map) {
         Vector out;
-        for (std::size_t s = 0; s < t.steps; ++s)
+        for (const std::size_t s : up_to(t.steps))
             for (double r : radius) {
                 const int angles =
                     4 * std::max(16, static_cast<int>(std::ceil(4 * pi * r / g.side)));
                 double total = 0;
-                for (int k = 0; k < angles; ++k) {
+                for (const int k : up_to(angles)) {
                     const double phi = 2 * pi * (k + 0.5) / angles;
                     const double u = (t.tip_x + r * std::cos(phi) - g.x0) / g.side - 0.5,
                                  v = (t.tip_y + r * std::sin(phi) - g.y0) / g.side - 0.5;
@@ -200,7 +200,7 @@ inline void maps(CheckedFile& f, const Truth& t) {
     f.same("radial_pressure", radial(force), 1e-10, 1e-12 * scale);
     const Vector N = f.values("force_mean");
     Vector hertz;
-    for (std::size_t s = 0; s < t.steps; ++s)
+    for (const std::size_t s : up_to(t.steps))
         for (double r : radius) {
             const double a = std::cbrt(3 * N[s] * t.R / (4 * t.E));
             hertz.push_back(r < a ? 3 * N[s] / (2 * pi * a * a) * std::sqrt(1 - r * r / (a * a))

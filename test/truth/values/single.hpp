@@ -27,7 +27,7 @@ inline void asperities(CheckedFile& f, const Truth& t) {
     CHECK((t.c.asperities.law == LawKind::hertz) == a.biharmonic.empty());
     if (!t.hertz || t.list) return;  // those between the points: test_summits
     const Grid& g = t.heights[0];
-    for (std::size_t k = 0; k < a.size(); ++k) {
+    for (const auto k : indices(a)) {
         const long i = std::lround((a.x[k] - g.x0) / g.dx), j = std::lround((a.y[k] - g.y0) / g.dy);
         CHECK_CLOSE(a.x[k], g.x(i), 1e-12 * t.Lx);
         CHECK_CLOSE(a.y[k], g.y(j), 1e-12 * t.Ly);
@@ -50,7 +50,7 @@ inline void contacts(CheckedFile& f, const Truth& t) {
     if (t.M > 1 || t.c.output.contacts == Contacts::none)
         return CHECK(!f.has("contact_start") && !f.has("contact_force"));
     Vector start, count, which, x, y, force, radius, yields;
-    for (std::size_t s = 0; s < t.steps; ++s) {
+    for (const std::size_t s : up_to(t.steps)) {
         const auto& spots = t.contacts[0][s].spots;
         const bool kept = t.c.output.contacts != Contacts::last || s + 1 == t.steps;
         start.push_back(number(force.size()) + 1);
@@ -85,7 +85,7 @@ inline void contacts(CheckedFile& f, const Truth& t) {
     // Other laws: what they answer to the penetrations.
     const auto law = make_law(t.c.asperities.law, t.r[0].asperities, t.E);
     Vector major, minor, angle;
-    for (std::size_t k = 0; k < which.size(); ++k) {
+    for (const auto k : indices(which)) {
         const int i = static_cast<int>(which[k]) - 1;
         law->prepare({&i, 1});
         const double root = std::sqrt(law->axes(i));
@@ -99,7 +99,7 @@ inline void contacts(CheckedFile& f, const Truth& t) {
     f.same("contact_spot_x", x, kRounding, 1e-12 * t.Lx);
     f.same("contact_spot_y", y, kRounding, 1e-12 * t.Ly);
     for (std::size_t s = 0; s < t.steps && !std::isfinite(t.c.solids.hardness); ++s)
-        for (std::size_t k = 0; k < t.contacts[0][s].spots.size(); ++k) {
+        for (const auto k : indices(t.contacts[0][s].spots)) {
             const Spot2& p = t.contacts[0][s].spots[k];
             law->prepare(std::array{static_cast<int>(p.index)});
             CHECK_RELATIVE(p.f, law->force(p.index, t.r[0].levels[s].u[k]), 1e-4);
@@ -122,7 +122,7 @@ inline void contact_mask(CheckedFile& f, const Truth& t) {
         const bool above = next < std::ssize(centres) && centres[next] - at < at - centres[near];
         return above ? next : near;
     };
-    for (std::size_t k = 0; k < steps.size(); ++k) {
+    for (const auto k : indices(steps)) {
         const Contacts2& c = t.contacts[0][static_cast<std::size_t>(steps[k]) - 1];
         const auto level = std::span(mask).subspan(k * x.size() * y.size(), x.size() * y.size());
         std::size_t touching = 0;
@@ -139,8 +139,8 @@ inline void heights(CheckedFile& f, const Truth& t) {
     if (!t.c.output.heights) return CHECK(!f.has("height"));
     const Grid& g = t.heights[0];
     Vector x, y;
-    for (long i = 0; i < g.nx; ++i) x.push_back(g.x(i));
-    for (long j = 0; j < g.ny; ++j) y.push_back(g.y(j));
+    for (const long i : up_to(g.nx)) x.push_back(g.x(i));
+    for (const long j : up_to(g.ny)) y.push_back(g.y(j));
     f.same("height_x", x, 0, 1e-13 * t.Lx);
     f.same("height_y", y, 0, 1e-13 * t.Ly);
     f.same("height", g.z);
@@ -161,11 +161,10 @@ inline void friction(CheckedFile& f, const Truth& t) {
     const double m = 4 / ((2 - nu[0]) / G1 + (2 - nu[1]) / G2) / t.E, mu = t.c.solids.friction;
     double touch = -kInfinity;
     const Asperities& a = t.r[0].asperities;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        touch = std::max(touch, a.z[i] + t.top(a.x[i], a.y[i]));
+    for (const auto i : indices(a)) touch = std::max(touch, a.z[i] + t.top(a.x[i], a.y[i]));
     const Vector xi = f.values("tangential_displacement"), Q = f.values("tangential_force");
     Vector stiffness;
-    for (std::size_t s = 0; s < t.steps; ++s) {
+    for (const std::size_t s : up_to(t.steps)) {
         const Level& level = t.r[0].levels[s];
         const std::size_t begin = s * points, full = begin + first - 1;
         const bool touches = level.separation < touch;
@@ -189,8 +188,8 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
     if (!as_read) return CHECK(!f.has("sq") && !f.has("filled_points"));
     HeightMap map = as_read->copy();
     long missing = 0;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) missing += std::isnan(map(i, j));
+    for (const int j : up_to(map.ny))
+        for (const int i : up_to(map.nx)) missing += std::isnan(map(i, j));
     const auto& keys = t.c.surface;
     const Measured m = measure(map, {keys.missing, keys.detrend, keys.filter_cutoff});
     Grid g = t.heights[0];
@@ -222,7 +221,7 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
     f.same("sdq", {std::sqrt(2 * last.m2)}, 1e-9);
     // Mean square slopes in all directions.
     double low = 1e300, high = 0;
-    for (int k = 0; k < 3600; ++k) {
+    for (const int k : up_to(3600)) {
         const double c = std::cos(pi * k / 3600), s = std::sin(pi * k / 3600);
         static double xx, xy, yy;
         if (k == 0) {
@@ -247,7 +246,7 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
     f.same("points_per_wave", {m.shortest_wave / std::max(g.dx, g.dy)}, kRounding);
     Vector middles, density(60);
     const double width = sq / 6, level = mean(g.z);
-    for (int b = 0; b < 60; ++b) middles.push_back((b - 29.5) * width);
+    for (const int b : up_to(60)) middles.push_back((b - 29.5) * width);
     for (double z : g.z)
         for (std::size_t b = 0; b < 60; ++b)
             if (z - level >= middles[b] - width / 2 && z - level < middles[b] + width / 2)
@@ -266,7 +265,7 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
             constexpr int angles = 180;
             for (double k : m.spectrum.wavenumber) {
                 double sum = 0;
-                for (int a = 0; a < angles; ++a) {
+                for (const int a : up_to(angles)) {
                     const double way = pi * (a + 0.5) / angles, g2 = fit.aspect;
                     const double q = k * std::sqrt(g2 * std::pow(std::cos(way), 2) +
                                                    std::pow(std::sin(way), 2) / g2);

@@ -48,8 +48,8 @@ struct Grid {
           y0(map.y0),
           periodic(map.periodic),
           joined(map.periodic) {
-        for (int j = 0; j < map.ny; ++j)
-            for (int i = 0; i < map.nx; ++i) z.push_back(map(i, j));
+        for (const int j : up_to(map.ny))
+            for (const int i : up_to(map.nx)) z.push_back(map(i, j));
     }
     double power(int p) const {
         const double level = mean(z);
@@ -91,16 +91,16 @@ struct Grid {
             return std::polar(1.0, -2 * pi * static_cast<double>(k % n) / static_cast<double>(n));
         };
         std::vector<Complex> rows(z.size()), wx(nx), wy(ny);
-        for (long k = 0; k < nx; ++k) wx[k] = root(k, nx);
-        for (long k = 0; k < ny; ++k) wy[k] = root(k, ny);
-        for (long j = 0; j < ny; ++j)
+        for (const long k : up_to(nx)) wx[k] = root(k, nx);
+        for (const long k : up_to(ny)) wy[k] = root(k, ny);
+        for (const long j : up_to(ny))
             for (long k = 0; k <= nx / 2; ++k)
-                for (long i = 0; i < nx; ++i) rows[j * nx + k] += z[j * nx + i] * wx[i * k % nx];
+                for (const long i : up_to(nx)) rows[j * nx + k] += z[j * nx + i] * wx[i * k % nx];
         Moments4 m{0, 0, 0};
         for (long k = 0; k <= nx / 2; ++k)
-            for (long l = 0; l < ny; ++l) {
+            for (const long l : up_to(ny)) {
                 Complex h = 0;
-                for (long j = 0; j < ny; ++j) h += rows[j * nx + k] * wy[j * l % ny];
+                for (const long j : up_to(ny)) h += rows[j * nx + k] * wy[j * l % ny];
                 const double both = k == 0 || 2 * k == nx ? 1 : 2,
                              power = both * std::norm(h / number(z.size()));
                 const double kx = 2 * pi * static_cast<double>(k) / (dx * static_cast<double>(nx));
@@ -172,7 +172,7 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
     out.dx = q.dx;
     out.dy = q.dy;
     std::vector<long> place(nx * ny, -1), own(q.index.size(), -1);
-    for (std::size_t k = 0; k < q.index.size(); ++k) place[q.index[k]] = static_cast<long>(k);
+    for (const auto k : indices(q.index)) place[q.index[k]] = static_cast<long>(k);
     const auto neighbours = [&](std::size_t k) {
         std::vector<long> found;
         const long i = q.index[k] % nx, j = q.index[k] / nx;
@@ -195,7 +195,7 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
     };
     std::map<long, std::int32_t> library;  // my number to the level's
     long sets = 0;
-    for (std::size_t first = 0; first < own.size(); ++first) {
+    for (const auto first : indices(own)) {
         if (own[first] >= 0) continue;
         std::vector<std::size_t> open{first};
         own[first] = sets++;
@@ -215,7 +215,7 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
     };
     std::vector<Sum> sums(sets);
     out.spots.resize(sets);
-    for (std::size_t k = 0; k < own.size(); ++k) {
+    for (const auto k : indices(own)) {
         const auto [there, fresh] = library.insert({own[k], q.contact[k]});
         CHECK(there->second == q.contact[k]);
         Sum& s = sums[q.contact[k]];
@@ -236,7 +236,7 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
                               q.contact[k]});
     }
     CHECK(static_cast<long>(library.size()) == sets);
-    for (std::size_t k = 0; k < own.size(); ++k) {  // middles, from the peak
+    for (const auto k : indices(own)) {  // middles, from the peak
         Sum& s = sums[q.contact[k]];
         long a = q.index[k] % nx - s.i, b = q.index[k] / nx - s.j;
         if (periodic) a -= nx * std::lround(static_cast<double>(a) / static_cast<double>(nx));
@@ -244,7 +244,7 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
         s.px += q.pressure[k] * static_cast<double>(a);
         s.py += q.pressure[k] * static_cast<double>(b);
     }
-    for (std::size_t c = 0; c < sums.size(); ++c) {
+    for (const auto c : indices(sums)) {
         const Sum& s = sums[c];
         Spot2& spot = out.spots[c];
         const double border =
@@ -278,7 +278,7 @@ struct Truth {
 
     explicit Truth(const Case& settings) : c(settings) {
         job = prepare(c);
-        for (int k = 0; k < c.run.realizations; ++k)
+        for (const int k : up_to(c.run.realizations))
             r.push_back(realize(job, c.run.first_realization + k, 1));
         steps = r[0].levels.size();
         M = r.size();
@@ -337,7 +337,7 @@ struct Truth {
             m2_made = 0;
             for (const Grid& g : heights) m2_made += g.modes().m2 / number(M);
         }
-        for (std::size_t k = 0; k < M; ++k) {
+        for (const std::size_t k : up_to(M)) {
             contacts.emplace_back();
             for (const Level& l : r[k].levels) contacts.back().push_back(contacts_of(l, k));
         }
@@ -351,7 +351,7 @@ struct Truth {
         if (elements)
             return of_pixels(l, heights[k].nx, heights[k].ny, periodic, c.solids.hardness);
         Contacts2 out;
-        for (std::size_t i = 0; i < l.f.size(); ++i) {
+        for (const auto i : indices(l.f)) {
             out.spots.push_back({l.x[i], l.y[i], l.f[i], pi * l.a[i] * l.a[i], l.asperity[i],
                                  !l.yields.empty() && l.yields[i] != 0});
             out.spots.back().own = l.own_area.empty() ? out.spots.back().area : l.own_area[i];
@@ -373,18 +373,18 @@ struct Truth {
     // A value of every level, realization by realization.
     Vector rows(const std::function<double(std::size_t, std::size_t)>& of) const {
         Vector v;
-        for (std::size_t k = 0; k < M; ++k)
-            for (std::size_t s = 0; s < steps; ++s) v.push_back(of(k, s));
+        for (const std::size_t k : up_to(M))
+            for (const std::size_t s : up_to(steps)) v.push_back(of(k, s));
         return v;
     }
     Vector each_step(const std::function<double(std::size_t)>& of) const {
         Vector v;
-        for (std::size_t s = 0; s < steps; ++s) v.push_back(of(s));
+        for (const std::size_t s : up_to(steps)) v.push_back(of(s));
         return v;
     }
     Vector each_surface(const std::function<double(std::size_t)>& of) const {
         Vector v;
-        for (std::size_t k = 0; k < M; ++k) v.push_back(of(k));
+        for (const std::size_t k : up_to(M)) v.push_back(of(k));
         return v;
     }
     double hardness(std::int32_t i) const {
