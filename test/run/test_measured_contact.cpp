@@ -27,27 +27,29 @@ TEST(twins_of_an_oblong_map) {
     const std::string file =
         folder.write("oblong.gwy", map_files::gwy_file(map_files::gwy_channel(0, "T", map)));
     Case settings;
+    set_key(settings, "run%length_unit", "'um'");  // of 1 mm x 0.5 mm
     set_key(settings, "surface%source", "'heights'");
     set_key(settings, "surface%file", "'" + file + "'");
-    set_key(settings, "indentation%centre", "0.3, 0.1");
+    set_key(settings, "solids%R(2)", "2500.0");
+    set_key(settings, "indentation%centre", "300, 100");
     const Job job = prepare(settings);
     const Case twins = settings_of(twins_text(job, "oblong.nc"));
     CHECK(twins.surface.source == Source::spectrum && twins.surface.file == "oblong.nc" &&
           twins.output.file == "oblong_twins.nc");
-    CHECK_RELATIVE(*twins.surface.L, 1.0, 1e-12);
+    CHECK_RELATIVE(*twins.surface.L, 1e3, 1e-12);
     CHECK_RELATIVE(*twins.surface.sigma, job.measured->parameters.sq, 1e-12);
-    CHECK_RELATIVE(*twins.indentation.centre[0], 0.3, 1e-12);
-    CHECK_RELATIVE(*twins.indentation.centre[1], 0.1 + 0.25, 1e-12);
+    CHECK_RELATIVE(*twins.indentation.centre[0], 300, 1e-12);
+    CHECK_RELATIVE(*twins.indentation.centre[1], 100 + 250, 1e-12);
     // Rings end at the Nyquist wavenumber, pi/dx: two points more than the longer side has.
     CHECK(twins.surface.n == 130 && twins.run.realizations == 100);
     // A sigma that was given is a length that the levels are in; the twins' own is their rms
     // height.
-    set_key(settings, "surface%sigma", "0.02");
+    set_key(settings, "surface%sigma", "20");
     set_key(settings, "indentation%levels", "3, 1.5");
     const Case scaled = settings_of(twins_text(prepare(settings), "oblong.nc"));
     CHECK(scaled.indentation.unit == LevelUnit::length &&
-          (scaled.indentation.levels == std::vector<double>{3 * 0.02, 1.5 * 0.02}));
-    CHECK(scaled.indentation.start == 4 * 0.02 && scaled.indentation.stop == 0.02 &&
+          (scaled.indentation.levels == std::vector<double>{3 * 20, 1.5 * 20}));
+    CHECK(scaled.indentation.start == 4 * 20 && scaled.indentation.stop == 20 &&
           *scaled.surface.sigma == *twins.surface.sigma);
     CHECK(twins.indentation.unit == LevelUnit::sigma && twins.indentation.start == 4 &&
           twins.indentation.stop == 1);
@@ -58,7 +60,7 @@ TEST(twins_of_an_oblong_map) {
     const Case flat = settings_of(twins_text(prepare(settings), "oblong.nc"));
     CHECK(flat.indentation.control == Control::pressure &&
           flat.indentation.unit == LevelUnit::pressure);
-    CHECK_RELATIVE(flat.indentation.levels.at(0), 3 / (1.0 * 0.5), 1e-12);
+    CHECK_RELATIVE(flat.indentation.levels.at(0), 3 / (1e3 * 500), 1e-12);
 }
 
 // What belongs to body 2 is kept, with its map alone; what is for one realization is not.
