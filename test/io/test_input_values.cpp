@@ -67,6 +67,11 @@ TEST(units_and_directions) {
                 }
 }
 
+HeightMap filled(const std::vector<Variable>& variables) {
+    return read_heights(netcdf("t.nc", {{"y", 3}, {"x", 4}}, variables), 2.0, "mm", "",
+                        Missing::fill);
+}
+
 // The numbers of every type, as they are and packed, and what each type has for "nothing was
 // written".
 TEST(types) {
@@ -106,8 +111,7 @@ TEST(types) {
         z[7] = 12;
         Variable v{"height", NC_SHORT, {"y", "x"}, z, {}, {{"scale_factor", {3}}}};
         if (own) v.numbers.push_back({"_FillValue", {12}});
-        const HeightMap m =
-            read_heights(netcdf("t.nc", {{"y", 3}, {"x", 4}}, {v}), 2.0, "mm", "", Missing::fill);
+        const HeightMap m = filled({v});
         CHECK(std::isnan(m(2, 1)) == !own && std::isnan(m(3, 1)) == own && m(0, 1) == 30);
         CHECK(std::isnan(m(0, 2)) == false && m(0, 2) == 60);
     }
@@ -128,8 +132,7 @@ TEST(types) {
     // Limits of packed integers are packed, too; real numbers are heights.
     Variable v{"height", NC_SHORT, {"y", "x"}, heights()};
     v.numbers = {{"scale_factor", {-0.1}}, {"add_offset", {5}}, {"valid_range", {2.8, 9}}};
-    const HeightMap packed =
-        read_heights(netcdf("t.nc", {{"y", 3}, {"x", 4}}, {v}), 2.0, "mm", "", Missing::fill);
+    const HeightMap packed = filled({v});
     CHECK(std::isnan(packed(3, 2)) && !std::isnan(packed(2, 2)) && packed(0, 0) == 5);
     Values z = heights();
     z[5] = -25536;

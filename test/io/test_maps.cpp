@@ -47,6 +47,13 @@ HeightMap in_micrometres(const std::string& path, const std::string& channel = "
     return read_heights(path, std::nullopt, "um", channel, missing);
 }
 
+HeightMap of_gwy(const Map& map) {
+    return in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", map))));
+}
+HeightMap of_sdf(const std::string& content, Missing missing = Missing::refuse) {
+    return in_micrometres(write("t.sdf", content), "", missing);
+}
+
 TEST(gwy) {
     const Map map = sample();
     Map in_own_units = map;
@@ -137,16 +144,13 @@ TEST(gwy) {
         REFUSED(in_micrometres(write("cut.gwy", whole.substr(0, size))), "at byte ");
     Map wrong = map;
     wrong.nx = 7;
-    REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))),
-            "w.gwy: channel 'T': 24 values for 7 x 4 points");
+    REFUSED(of_gwy(wrong), "w.gwy: channel 'T': 24 values for 7 x 4 points");
     wrong.nx = 2000000000;
     wrong.ny = 2000000000;
-    REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))),
-            "GB; this machine has");
+    REFUSED(of_gwy(wrong), "GB; this machine has");
     wrong = map;
     wrong.ny = -4;
-    REFUSED(in_micrometres(write("w.gwy", gwy_file(gwy_channel(0, "T", wrong)))),
-            ": /0/data yres = -4: must be positive");
+    REFUSED(of_gwy(wrong), ": /0/data yres = -4: must be positive");
     Map small = map;
     small.ny = 3;
     small.z.resize(18);
@@ -178,8 +182,7 @@ void sdf_type(int type, T missing) {
         if (sizeof(T) == 1) {  // too few numbers for the sample: the type alone
             std::vector<T> values(24, T{3});
             if (hole) values[6 + 4] = missing;
-            const HeightMap m = in_micrometres(write("t.sdf", sdf_binary(map, type, 1e-9, values)),
-                                               "", Missing::fill);
+            const HeightMap m = of_sdf(sdf_binary(map, type, 1e-9, values), Missing::fill);
             CHECK_RELATIVE(m(0, 0), 3e-3, 1e-12);
             CHECK(std::isnan(m(4, 2)) == hole);
             continue;
@@ -204,10 +207,8 @@ TEST(sdf) {
     sdf_type<double>(7, std::nan(""));
     sdf_type<double>(7, std::numeric_limits<double>::lowest());
     const auto i16 = values_of<std::int16_t>(map, 1e-9, 0, false);
-    check_sample(in_micrometres(write("t.sdf", sdf_binary(map, 5, 1e-9, i16, "bISO-2.0"))), -1);
-    check_sample(
-        in_micrometres(write("t.sdf", sdf_binary(map, 5, 1e-9, i16, "bBCR-1.0") + "a trailer")),
-        -1);
+    check_sample(of_sdf(sdf_binary(map, 5, 1e-9, i16, "bISO-2.0")), -1);
+    check_sample(of_sdf(sdf_binary(map, 5, 1e-9, i16, "bBCR-1.0") + "a trailer"), -1);
     // BCR also marks a missing point by the largest value; in ISO this is a height.
     for (const std::int16_t mark : {std::int16_t{-32768}, std::int16_t{32767}})
         for (const char* const version : {"bBCR-1.0", "bISO-1.0"}) {
@@ -224,61 +225,52 @@ TEST(sdf) {
     // Olympus: eight bytes more in the header.
     std::string olympus = sdf_binary(map, 5, 1e-9, i16);
     olympus.insert(81, bytes(std::uint32_t{5}) + bytes(std::uint32_t{1}));
-    check_sample(in_micrometres(write("t.sdf", olympus)), -1);
+    check_sample(of_sdf(olympus), -1);
 
     std::vector<std::string> words;
     for (const double z : map.z) words.push_back(std::to_string(std::lround(z * 1e9)));
-    check_sample(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))), -1);
+    check_sample(of_sdf(sdf_text(map, 1e-9, words)), -1);
     words[6 + 4] = "BAD";
-    check_sample(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words)), "", Missing::fill), 4);
+    check_sample(of_sdf(sdf_text(map, 1e-9, words), Missing::fill), 4);
     words[6 + 4] = "-32768";
-    check_sample(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words, 5)), "", Missing::fill),
-                 4);
-    REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words, 5))),
-            "1 of 24 points are missing");
+    check_sample(of_sdf(sdf_text(map, 1e-9, words, 5), Missing::fill), 4);
+    REFUSED(of_sdf(sdf_text(map, 1e-9, words, 5)), "1 of 24 points are missing");
     words[6 + 4] = "-2147483648";
-    check_sample(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words, 6)), "", Missing::fill),
-                 4);
-    CHECK_RELATIVE(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words, 7)))(4, 2),
-                   -2147483.648, 1e-12);  // a number like others
+    check_sample(of_sdf(sdf_text(map, 1e-9, words, 6), Missing::fill), 4);
+    CHECK_RELATIVE(of_sdf(sdf_text(map, 1e-9, words, 7))(4, 2), -2147483.648,
+                   1e-12);  // a number like others
     words[6 + 4] = "NaN";
-    check_sample(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words, 6)), "", Missing::fill),
-                 4);
+    check_sample(of_sdf(sdf_text(map, 1e-9, words, 6), Missing::fill), 4);
     for (const std::string word : {"1O4", "10-4"}) {
         words[6 + 4] = word;
-        REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))),
-                "t.sdf:17: '" + word + "' is not a number");
+        REFUSED(of_sdf(sdf_text(map, 1e-9, words)), "t.sdf:17: '" + word + "' is not a number");
     }
     words.pop_back();
     words[6 + 4] = "104";
-    REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))),
+    REFUSED(of_sdf(sdf_text(map, 1e-9, words)),
             ": 23 heights where 6 x 4 were expected; is the file complete?");
     words.resize(25, "0");
-    REFUSED(in_micrometres(write("t.sdf", sdf_text(map, 1e-9, words))),
-            "'0' after the last of 6 x 4 heights");
+    REFUSED(of_sdf(sdf_text(map, 1e-9, words)), "'0' after the last of 6 x 4 heights");
     words.resize(24);
     for (const auto& [from, to, place] :
          {std::tuple{"NumPoints = 6", "NumPoints = -6", "t.sdf:6: NumPoints"},
           {"\r\nYscale", " mm\r\nYscale", "t.sdf:8: Xscale"}}) {
         std::string odd = sdf_text(map, 1e-9, words);
-        REFUSED(in_micrometres(write("t.sdf", odd.replace(odd.find(from), std::strlen(from), to))),
-                place);
+        REFUSED(of_sdf(odd.replace(odd.find(from), std::strlen(from), to)), place);
     }
     // Cut anywhere, and absurd headers.
     const std::string binary = sdf_binary(map, 5, 1e-9, i16);
     for (std::size_t size = 8; size < binary.size(); ++size)
-        REFUSED(in_micrometres(write("t.sdf", binary.substr(0, size))), "at byte ");
+        REFUSED(of_sdf(binary.substr(0, size)), "at byte ");
     Map wrong = map;
     wrong.nx = wrong.ny = 65535;
-    REFUSED(in_micrometres(write("t.sdf", sdf_binary(wrong, 5, 1e-9, i16))),
-            "65535 x 65535 heights of 2 bytes each, but");
+    REFUSED(of_sdf(sdf_binary(wrong, 5, 1e-9, i16)), "65535 x 65535 heights of 2 bytes each, but");
     std::string packed = binary;
     packed[78] = 1;
-    REFUSED(in_micrometres(write("t.sdf", packed)),
-            "t.sdf: Compression = 1: only 0 (none) is known");
+    REFUSED(of_sdf(packed), "t.sdf: Compression = 1: only 0 (none) is known");
     packed = binary;
     packed[80] = 2;
-    REFUSED(in_micrometres(write("t.sdf", packed)), "t.sdf: CheckType = 2: only 0 (none) is known");
+    REFUSED(of_sdf(packed), "t.sdf: CheckType = 2: only 0 (none) is known");
     REFUSED(read_sdf(write("t.sdf", "cISO-1.0"), "mm"),
             "t.sdf: is no surface data file (ISO 25178-71)");
     REFUSED(in_micrometres(write("t.sdf", binary), "Height"), "has no channel 'Height'; only");
