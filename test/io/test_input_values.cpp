@@ -123,10 +123,7 @@ TEST(types) {
                                         {"valid_min", {1}}}) {
         Values z = heights();
         z[6] = numbers == Values{1} ? 0.5 : numbers.back() + (numbers.back() > 1 ? 10 : 0);
-        const HeightMap m =
-            read_heights(netcdf("t.nc", {{"y", 3}, {"x", 4}},
-                                {{"height", NC_FLOAT, {"y", "x"}, z, {}, {{name, numbers}}}}),
-                         2.0, "mm", "", Missing::fill);
+        const HeightMap m = filled({{"height", NC_FLOAT, {"y", "x"}, z, {}, {{name, numbers}}}});
         CHECK(std::isnan(m(2, 1)) && m(1, 1) == 11 && m(3, 2) == 23);
     }
     // Limits of packed integers are packed, too; real numbers are heights.
@@ -137,11 +134,8 @@ TEST(types) {
     Values z = heights();
     z[5] = -25536;
     z[6] = -1;
-    const HeightMap u = read_heights(
-        netcdf(
-            "t.nc", {{"y", 3}, {"x", 4}},
-            {{"height", NC_SHORT, {"y", "x"}, z, {{"_Unsigned", "true"}}, {{"_FillValue", {-1}}}}}),
-        2.0, "mm", "", Missing::fill);
+    const HeightMap u = filled(
+        {{"height", NC_SHORT, {"y", "x"}, z, {{"_Unsigned", "true"}}, {{"_FillValue", {-1}}}}});
     CHECK(u(1, 1) == 40000 && std::isnan(u(2, 1)) && u(3, 2) == 23);
     // Coordinates in single precision are as uniform as that allows, no less.
     for (const auto& [off, even] : {std::pair{0.0, true}, {1e-5, true}, {1e-3, false}}) {
