@@ -183,10 +183,9 @@ int run_program(int argc, char** argv, Job& job) {
         std::cout << rsc::effective_namelist(read);
         if (!options.quiet)
             std::cerr << "rsc: the inputs can be read and the result can be written"
-                      << (megabytes > 0
-                              ? rsc::format("; %.0f MB of memory with %zu thread%s are expected",
-                                            megabytes, threads, threads == 1 ? "" : "s")
-                              : "")
+                      << (megabytes > 0 ? rsc::format("; about %.0f MB of memory with %zu thread%s",
+                                                      megabytes, threads, threads == 1 ? "" : "s")
+                                        : "")
                       << '\n';
         return 0;
     }

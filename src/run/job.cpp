@@ -344,11 +344,29 @@ double unit_of_pressures(const Job& job) {
     return unit * job.indenter.period.area();
 }
 
-// Refuses what elements cannot resolve or hold in memory.
+// Refuses adhesion that closes all gaps of the roughness: the contacts of asperities merge. It does
+// where the work of adhesion is more than the elastic energy of flat surfaces, (E*/4) <q> sigma^2
+// for each area with wavenumbers q (Persson and Tosatti, 2001), which is at most E* sigma h'/4,
+// since <q>^2 <= <q^2>.
+void require_separate_contacts(const Job& job) {
+    const double w = job.settings.solids.adhesion;
+    if (!(w > 0) || !job.theory) return;
+    const double flat = 0.25 * job.indenter.E_star * job.sigma * job.theory->rms_slope();
+    if (w >= flat)
+        bad_input(
+            format("solids%%adhesion = %g: more than the elastic energy that flattens the "
+                   "roughness, at most E* sigma h'/4 = %.3g for each unit of area; the contacts of "
+                   "asperities merge, and asperities do not hold; give adhesion_range > 0 and "
+                   "solver%%model = 'elements'",
+                   w, flat));
+}
+
+// Refuses what asperities or elements cannot resolve or hold in memory.
 void require_feasible(const Job& job) {
     const Case& settings = job.settings;
     const auto& indentation = settings.indentation;
     const bool elements = by_elements(settings);
+    if (!elements) require_separate_contacts(job);
     if (elements && indentation.control == Control::separation &&
         (job.given_heights || (job.spectrum && job.indenter.shape->flat())))
         require_open(job);

@@ -131,73 +131,123 @@ ElementSize element_size(const Job& job, double Z0, double points_per_wave) {
     return {points, points_under(job, Z0, points)};
 }
 
-double expected_megabytes(const Job& job, double workers) {
-    const double contacts_at_once =
-        std::max(1.0, std::min(workers, static_cast<double>(job.settings.run.realizations)));
-    if (!by_elements(job.settings)) {
-        if (job.settings.solids.layer_thickness.empty() || job.indenter.period.finite()) return 0;
-        // Kept values of the kernel, of the contacts among each other and onto the other
-        // candidates. Bytes from the peaks of six runs, within 5 %; a mesh keeps fewer.
-        constexpr double coated_program = 55e6, touching_share = 0.4, bytes = 33, most_bytes = 11;
+namespace {
+
+// The memory of elements, by its parts [byte].
+class ElementBytes {
+public:
+    ElementBytes(const Job& job, double workers)
+        : job_(job),
+          workers_(workers),
+          points_(points_of_elements(job, job.settings.elements.points_per_wave)) {
+        const bool yields = std::isfinite(job.settings.solids.hardness),
+                   sticks = job.settings.solids.adhesion > 0, worn = wears(job.settings);
+        // Depths of lowered points, and with wear those of the level before.
+        each_ = (sticks ? 49 : 0) + (yields ? 8 : 0) + (worn ? 58 : 0);
+    }
+
+    // Of a realization: the largest of a level, and what it stores of all levels.
+    double realization() const {
+        const bool flats = job_.indenter.period.finite();
+        double most = 0, stored = 0;
+        for (const double level : job_.levels) {
+            const double contact =
+                flats ? points_ * share_in_contact(job_, level, by_force()) : under(level);
+            most = std::max(
+                most, (flats ? between_flats(contact) : pressed(contact)) + stresses(contact));
+            if (flats && job_.settings.run.realizations == 1) stored += kPixel * contact;
+        }
+        constexpr double record = 0.3e6;
+        return most + stored + record * static_cast<double>(job_.levels.size());
+    }
+
+private:
+    static constexpr double kPixel = 24;  // pressures that the result stores
+
+    bool by_force() const { return job_.settings.indentation.control != Control::separation; }
+    double under(double level) const {
+        return points_under(job_, likely_separation(job_, level), points_);
+    }
+
+    double between_flats(double contact) const {
+        constexpr double transforms = 28, touching = 150, gap = 80;
+        const double flow = job_.settings.output.flow ? permeability_bytes(points_) : 0;
+        return points_ * (transforms + each_ + gap) + touching * contact + flow;
+    }
+
+    double pressed(double under) const {
+        // Of the heights that can touch whole pages are stored, after the modes were: of waves that
+        // are 8 points long, most in a row of 4096 points.
+        constexpr double in_pages = 32 * 8, row = 4096, of_modes = 8, of_heights = 8.4;
+        const bool high = reads_high_points(job_.settings);
+        const double heights =
+            high ? std::min(8 * points_, in_pages * under * std::min(1.0, row / std::sqrt(points_)))
+                 : (of_heights + each_) * points_;
+        const double modes = high ? of_modes / job_.settings.elements.points_per_wave * points_ : 0;
+        // Where most of the surface is under the indenter, its far products take more.
+        constexpr double of_contact = 170, deep = 50, of_table = 1500, most_tables = 90e6;
+        const double tables = std::min(most_tables, of_table * under);
+        const double level = tables + heights + (of_contact + deep * under / points_) * under;
+        // Groups of levels side by side (job.hpp): a contact and its second grid for each thread.
+        const double beside = tables + 1.25 * of_contact * under + heights / 4;
+        return std::max(modes, level + (groups_at_once(under) - 1) * beside);
+    }
+
+    double groups_at_once(double under) const {
+        const double groups = std::ceil(static_cast<double>(job_.levels.size()) / kGroup);
+        const bool alone =
+            groups < kFewestGroups || job_.settings.run.realizations > 1 || under > kFewPoints;
+        return alone ? 1 : std::min(workers_, groups);
+    }
+
+    // Of the stresses below a contact of so many points, and of the requested fields.
+    double stresses(double contact) const {
+        const auto& fields = job_.settings.output.fields;
+        const auto depths = static_cast<double>(job_.observe.stress_depths.size());
+        // Pressures and six components on a plane that holds the contact beside its surroundings
+        // (plane_stress.cpp), which at the largest depth are all of the surface.
+        constexpr double components = 7 * sizeof(double);
+        const double extent = job_.indenter.period.finite() ? 0 : std::sqrt(contact),
+                     planes = components * std::pow(std::sqrt(points_) + extent, 2);
         double values = 0;
-        for (const double level : job.levels) {
-            const double all = expected_candidates(job, likely_separation(job, level));
-            values = std::max(values, touching_share * (1 - 0.5 * touching_share) * all * all);
-        }
-        return 1e-6 *
-               (coated_program +
-                std::min(bytes * values, most_bytes * 2.0 * kMostKeptValues) * contacts_at_once);
+        for (const double field : fields)
+            values += is_stress(static_cast<Field>(static_cast<int>(field))) ? depths : 1;
+        const std::size_t levels =
+            std::max<std::size_t>(1, job_.settings.output.field_levels.size());
+        // Vectors that grow hold up to twice as much.
+        return (depths > 0 ? planes : 0) +
+               2 * sizeof(double) * values * points_ * static_cast<double>(levels);
     }
-    // Bytes for each point of the surface (heights, modes; transforms of two flats), and for each
-    // point under the indenter or in contact, from the peaks of some 40 runs (of the largest tables
-    // of interpolation, of two); a single realization keeps the pixels of all its levels, and the
-    // result some numbers a level. Stresses below the surface are not counted.
-    constexpr double program = 40e6, tables = 90e6, table = 1500, record = 0.3e6;
-    constexpr double under = 170, adhesion = 49, lowered = 8, states = 50;
-    constexpr double flats = 28, touching = 150, pixel = 24;
-    const double sticking = job.settings.solids.adhesion > 0 ? adhesion : 0;
-    // Depths of lowered points, and with wear those of the level before.
-    const double lowering = (std::isfinite(job.settings.solids.hardness) ? lowered : 0.0) +
-                            (wears(job.settings) ? lowered + states : 0.0);
-    const double heights = 8.4 + sticking + lowering;
-    // Of the heights that can touch whole pages are kept, after the modes were: of waves that are 8
-    // points long, most in a row of 4096 points.
-    constexpr double in_pages = 32 * 8, row = 4096, modes = 8;
-    const bool high = reads_high_points(job.settings),
-               force = job.settings.indentation.control != Control::separation;
-    const double points = points_of_elements(job, job.settings.elements.points_per_wave);
-    // Where most of the surface is under the indenter, its far products take more.
-    constexpr double deep = 50;
-    // The gap of two flats, and what its permeability takes where it is open everywhere.
-    constexpr double of_gap = 80;
-    const double gap =
-        of_gap * points + (job.settings.output.flow ? permeability_bytes(points) : 0);
-    // Groups of levels side by side (job.hpp): a contact and its second grid for each thread.
-    const double groups = static_cast<double>((job.levels.size() + kGroup - 1) / kGroup),
-                 beside = groups < kFewestGroups || job.settings.run.realizations > 1
-                              ? 0.0
-                              : std::min(workers, groups) - 1;
-    double most = 0, kept = 0;
+
+    const Job& job_;
+    double workers_, points_;
+    double each_;  // bytes for each point of the surface, of hardness, adhesion and wear
+};
+
+// Of the stored values of the kernel of coated asperities, of the contacts among each other and
+// onto the other candidates [byte]. From the peaks of six runs, within 5 %; a mesh stores fewer.
+double coated_asperities(const Job& job) {
+    constexpr double touching_share = 0.4, bytes = 33, most_bytes = 11;
+    double values = 0;
     for (const double level : job.levels) {
-        if (job.indenter.period.finite()) {
-            const double share = share_in_contact(job, level, force);
-            most = std::max(most, points * (flats + sticking + lowering + touching * share) + gap);
-            if (job.settings.run.realizations == 1) kept += pixel * share * points;
-            continue;
-        }
-        const double below = points_under(job, likely_separation(job, level), points);
-        const double stored =
-            high ? std::min(8 * points, in_pages * below * std::min(1.0, row / std::sqrt(points)))
-                 : heights * points;
-        most = std::max(
-            {most, high ? modes / job.settings.elements.points_per_wave * points : 0.0,
-             std::min(tables, table * below) + stored + (under + deep * below / points) * below +
-                 (below > kFewPoints ? 0.0
-                                     : beside * (std::min(tables, table * below) +
-                                                 (1 + 0.25) * under * below + stored / 4))});
+        const double all = expected_candidates(job, likely_separation(job, level));
+        values = std::max(values, touching_share * (1 - 0.5 * touching_share) * all * all);
     }
-    return 1e-6 * (program + record * static_cast<double>(job.levels.size()) + kept +
-                   most * contacts_at_once);
+    return std::min(bytes * values, most_bytes * 2.0 * kMostKeptValues);
+}
+
+}  // namespace
+
+double expected_megabytes(const Job& job, double workers) {
+    const bool elements = by_elements(job.settings),
+               coated = !job.settings.solids.layer_thickness.empty();
+    if (!elements && (!coated || job.indenter.period.finite())) return 0;
+    const double realization =
+        elements ? ElementBytes(job, workers).realization() : coated_asperities(job);
+    const double realizations = static_cast<double>(job.settings.run.realizations),
+                 at_once = std::max(1.0, std::min(workers, realizations));
+    constexpr double element_program = 40e6, coated_program = 55e6;
+    return 1e-6 * ((elements ? element_program : coated_program) + realization * at_once);
 }
 
 }  // namespace rsc

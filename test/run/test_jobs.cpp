@@ -303,6 +303,29 @@ TEST(punch_on_plane) {
     }
 }
 
+// Adhesion is refused for asperities where it flattens the roughness: the energy of a flat surface,
+// E* q/4 times the mean square of each wave, is summed over the modes.
+TEST(adhesion_that_flattens) {
+    Case c = synthetic();
+    c.solver.model = ModelKind::asperities;
+    c.surface.L_lambda_l = 12;
+    double energy = 0, squares = 0;
+    for (int i = -16; i <= 16; ++i)
+        for (int j = -16; j <= 16; ++j) {
+            const double wave = std::hypot(i, j);
+            if (wave < 12 || wave > 16) continue;
+            const double square = std::pow(wave, -2 * (1 + c.surface.hurst));
+            squares += square;
+            energy += 2 * kPi * wave / *c.surface.L * square;
+        }
+    energy *= 0.25 * equivalent_modulus(c.solids.E, c.solids.nu) * std::pow(*c.surface.sigma, 2) /
+              squares;
+    c.solids.adhesion = 0.9 * energy;
+    CHECK(accepted([&] { prepare(c); }));
+    c.solids.adhesion = 1.1 * energy;
+    REFUSED(prepare(c), "solids%adhesion");
+}
+
 // A smooth map and a rough one between flats: by elements it is the same contact whichever is body
 // 2. The summits of the smooth one are not those of the contact, so that asperities are no model of
 // it, and say so.

@@ -180,6 +180,15 @@ TEST(memory) {
     CHECK_RELATIVE(elements(4, 2, 3) - elements(4, 2, 2), elements(4, 2, 2) - elements(4, 2, 1),
                    1e-9);
     CHECK(elements(4, 2, 2) - elements(4, 2, 1) > 8e-6 * 1024 * 1024);
+    // Stresses below two flats need the pressures and six components at all points.
+    const auto flats_with = [&](const std::string& output) {
+        return expected_megabytes(
+            job_of("&solids R=Infinity,Infinity / &surface L_lambda_s=128 / &solver "
+                   "model='elements' / &indentation boundary='periodic' levels=2 / &output " +
+                   output + " /"),
+            1);
+    };
+    CHECK_RELATIVE(flats_with("stress_depths=0.1") - flats_with(""), 7 * 8e-6 * 1024 * 1024, 1e-9);
     for (const bool flats : {false, true}) {
         const Job rough =
             job_of(std::string("&surface n=512 L_lambda_l=8 L_lambda_s=128 sigma=0.004 L=1.3 / ") +
