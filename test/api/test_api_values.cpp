@@ -97,4 +97,19 @@ TEST(copy_of_a_surface) {
           map.heights_of(copy) == z);
 }
 
+// What was made for one model is no surface for the other.
+TEST(models) {
+    const std::string surface = "&surface n=64 L_lambda_l=4 L_lambda_s=16 / &solver model=";
+    CaseHandle c[2] = {case_of((surface + "'asperities' /").c_str()),
+                       case_of((surface + "'elements' /").c_str())};
+    for (const int made : {0, 1}) {
+        AsperitiesHandle a;
+        OK(rsc_asperities_make(&a, c[made], 1));
+        for (const int asked : {0, 1}) {
+            ContactHandle contact;
+            CHECK(rsc_contact_create_from_case(&contact, a, c[asked]) == (made == asked ? 0 : -3));
+        }
+    }
+}
+
 }  // namespace test_api_values

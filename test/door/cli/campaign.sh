@@ -111,8 +111,10 @@ test_refused() {
     sed 's/300/30000/' case.nml > long.nml
     kill_with_state "$rsc" -q long.nml
     cp out.nc.checkpoint before
-    expect 2 "$rsc" long.nml
-    says "out.nc.checkpoint.*--resume"
+    for check in "" --check; do
+        expect 2 "$rsc" $check long.nml
+        says "out.nc.checkpoint.*--resume"
+    done
     expect 2 "$rsc" --resume -s surface%hurst=0.75 -s run%seed=2 long.nml
     says "surface%hurst: 0.7 there, 0.75 now"
     says "run%seed: 1 there, 2 now"

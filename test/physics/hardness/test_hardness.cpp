@@ -275,6 +275,7 @@ TEST(test_path) {
     CHECK_RELATIVE(pressed.at_separation(back).force, indented.at_separation(back).force, 1e-11);
     // Without its past a contact is a new one.
     pressed.forget();
+    CHECK(pressed.at_separation(top).plastic_work == 0);
     const Level again = pressed.at_separation(bottom);
     CHECK(again.force == end(1).force && again.plastic_work == end(1).plastic_work);
 }

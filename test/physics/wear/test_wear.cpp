@@ -113,6 +113,9 @@ TEST(volume) {
         const Level held = path->at_separation(begin.separation);
         CHECK(held.force < 0.9 * begin.force && held.worn_volume > begin.worn_volume);
         CHECK_THROWS(path->set_time(2.9), Error);
+        // Without its past a contact is a new one.
+        path->forget();
+        CHECK(same(slid(*path, 0, body.force), first));
     }
 }
 
