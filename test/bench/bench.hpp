@@ -43,7 +43,6 @@ inline double peak_memory_mb() {
 
 inline const rsc::Indenter kGold{78.0e3 / (1 - 0.42 * 0.42), 2.5, 0.5, 0.5};
 
-
 // bench_scaling.cpp
 void scaling();
 // bench_elements.cpp
