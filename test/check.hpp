@@ -6,7 +6,10 @@
 #include <iterator>
 #include <random>
 
-#include "base/std.hpp"
+#include "support/indices.hpp"
+
+using rsc::kInfinity;
+using std::numbers::pi;
 
 namespace check {
 

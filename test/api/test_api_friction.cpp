@@ -1,9 +1,9 @@
 // Friction through the C interface: what it does is that of the core.
 #include "check.hpp"
 #include "physics/friction/contact_curve.hpp"
+#include "support/asperities.hpp"
 #include "support/library.hpp"
 #include "support/paths.hpp"
-#include "support/random_asperities.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace test_api_friction {
@@ -43,29 +43,25 @@ TEST(same_as_core) {
     // All slips now: mu N, and no spot sticks.
     double slide = 0, most = 0, sum = 0;
     const auto [now, x, y, N, qx, qy, normal, tangential, lost, stuck] = state(friction);
-    CHECK_RELATIVE(std::hypot(qx, qy), 0.3 * N, 1e-12);
     OK(rsc_friction_full_slip(friction, &slide, &most));
     CHECK_RELATIVE(most, 0.3 * N, 1e-15);
-    const double slides[4] = {0, 0.3 * slide, slide, 2 * slide};
-    double Q[4], stick[4], back = 0;
-    OK(rsc_friction_first_loading(friction, 4, slides, Q, stick));
-    CHECK(Q[0] == 0 && Q[1] > 0 && Q[1] < most);
-    CHECK_RELATIVE(Q[2], most, 1e-14);
-    CHECK_RELATIVE(Q[3], most, 1e-14);
+    const double slides[2] = {0.3 * slide, 2 * slide};
+    double Q[2], stick[2], back = 0;
+    OK(rsc_friction_first_loading(friction, 2, slides, Q, stick));
+    CHECK(Q[0] > 0 && Q[0] < most);
+    CHECK_RELATIVE(Q[1], most, 1e-14);
     // Spots that touch at a separation stick up to a slide of mu/m times how much deeper the sphere
     // is.
-    CHECK(stick[0] == now);
-    CHECK_RELATIVE(stick[1] - now, slides[1] * 0.8 / 0.3, 1e-12);
-    CHECK_RELATIVE(stick[2] - now, slide * 0.8 / 0.3, 1e-12);
-    CHECK(stick[3] == stick[2]);
-    OK(rsc_friction_slide(friction, Q[1], &back));
-    CHECK_RELATIVE(back, slides[1], 1e-7);
+    CHECK_RELATIVE(stick[0] - now, slides[0] * 0.8 / 0.3, 1e-12);
+    CHECK_RELATIVE(stick[1] - now, slide * 0.8 / 0.3, 1e-12);
+    OK(rsc_friction_slide(friction, Q[0], &back));
+    CHECK_RELATIVE(back, slides[0], 1e-7);
     std::int64_t n = 0;
     CHECK(rsc_friction_spots(friction, 0, &n, nullptr, nullptr, nullptr, nullptr, nullptr) == -2 &&
           n > 5);
-    std::vector<double> fx(static_cast<std::size_t>(n)), inner(static_cast<std::size_t>(n), 1.0);
+    std::vector<double> fx(n), inner(n, 1.0);
     OK(rsc_friction_spots(friction, n, &n, nullptr, nullptr, inner.data(), fx.data(), nullptr));
-    for (std::size_t i = 0; i < fx.size(); ++i) {
+    for (const auto i : indices(fx)) {
         sum += fx[i];
         CHECK(inner[i] == 0);
     }

@@ -4,8 +4,8 @@
 #include <sys/stat.h>
 
 #include "check.hpp"
+#include "support/asperities.hpp"
 #include "support/library.hpp"
-#include "support/random_asperities.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace test_api_kept {
@@ -17,7 +17,7 @@ AsperitiesHandle make(unsigned seed) {
 // Force, place and stiffness along a path that moves the tip and presses as well.
 std::vector<double> go_on(rsc_contact* contact) {
     std::vector<double> answers;
-    for (int k = 0; k < 12; ++k) {
+    for (const int k : up_to(12)) {
         double force = 0, separation = 0, stiffness = 0, energy = 0;
         if (k % 5 == 2) OK(rsc_contact_move_tip(contact, 0.5 + 0.003 * k, 0.5 - 0.002 * k));
         if (k % 4 == 3)
@@ -96,12 +96,11 @@ TEST(many_contacts) {
     const AsperitiesHandle asperities = make(1);
     std::vector<double> one, force(n), separation(n), forces(n);
     std::vector<std::int32_t> status(n);
-    for (int k = 0; k < n; ++k) force[static_cast<std::size_t>(k)] = 0.1 + 0.2 * k;
+    for (const int k : up_to(n)) force[k] = 0.1 + 0.2 * k;
     const auto contacts = [&] {
         std::vector<rsc_contact*> made(n, nullptr);
-        for (int k = 0; k < n; ++k)
-            OK(rsc_contact_create(&made[static_cast<std::size_t>(k)], asperities, 94e3, 2.5,
-                                  0.4 + 0.01 * k, 0.5, nullptr));
+        for (const int k : up_to(n))
+            OK(rsc_contact_create(&made[k], asperities, 94e3, 2.5, 0.4 + 0.01 * k, 0.5, nullptr));
         return made;
     };
     for (std::int32_t threads : {1, 2, 0}) {
@@ -111,12 +110,12 @@ TEST(many_contacts) {
         if (one.empty()) {
             auto alone = contacts();
             one.resize(n);
-            for (std::size_t k = 0; k < n; ++k) OK(rsc_contact_press(alone[k], force[k], &one[k]));
+            for (const std::size_t k : up_to(n)) OK(rsc_contact_press(alone[k], force[k], &one[k]));
             for (auto& c : alone) OK(rsc_contact_destroy(&c));
         }
         CHECK(separation == one);
         OK(rsc_contacts_indent(n, made.data(), separation.data(), forces.data(), nullptr, threads));
-        for (std::size_t k = 0; k < n; ++k)
+        for (const std::size_t k : up_to(n))
             CHECK_RELATIVE(forces[k], force[k], 2e-6);  // solver%tolerance, twice
         for (auto& c : made) OK(rsc_contact_destroy(&c));
     }

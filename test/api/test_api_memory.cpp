@@ -2,7 +2,7 @@
 // lost or broken, and the next call works.
 #include "check.hpp"
 #include "rsc.h"
-#include "support/random_asperities.hpp"
+#include "support/asperities.hpp"
 
 namespace {
 

@@ -2,6 +2,7 @@
 // read by all. Made for
 // ThreadSanitizer, too.
 #include "check.hpp"
+#include "support/asperities.hpp"
 #include "support/library.hpp"
 
 namespace test_api_threads {
@@ -50,17 +51,16 @@ Answer work(int number) {
 std::vector<Answer> at_once(const std::function<Answer(int)>& work_of) {
     std::vector<Answer> answers(kThreads);
     std::vector<std::thread> threads;
-    for (int t = 0; t < kThreads; ++t)
-        threads.emplace_back([&, t] { answers[static_cast<std::size_t>(t)] = work_of(t); });
+    for (const int t : up_to(kThreads)) threads.emplace_back([&, t] { answers[t] = work_of(t); });
     for (auto& t : threads) t.join();
     return answers;
 }
 
 TEST(api_threads) {
     std::vector<Answer> alone;
-    for (int t = 0; t < kThreads; ++t) alone.push_back(work(t));
+    for (const int t : up_to(kThreads)) alone.push_back(work(t));
     const std::vector<Answer> together = at_once(work);
-    for (std::size_t t = 0; t < kThreads; ++t) {
+    for (const std::size_t t : up_to(kThreads)) {
         CHECK(alone[t].failures == 0 && alone[t].values.back() > 0 && alone[t] == together[t]);
         if (t > 0) CHECK(alone[t] != alone[0]);
     }
@@ -68,14 +68,7 @@ TEST(api_threads) {
     // One contact, one set of asperities and one case, read by all; each thread works on a copy of
     // the contact.
     const CaseHandle c = case_of("&run threads=1 /");
-    const rsc::Asperities list{.x = {0, 1, 2},
-                               .y = {0, 0, 0},
-                               .z = {0, 0.1, 0},
-                               .radius = {1, 1, 1},
-                               .kappa1 = {},
-                               .kappa2 = {},
-                               .angle = {},
-                               .biharmonic = {}};
+    const rsc::Asperities list = asperities_at({{0, 0, 0, 1}, {1, 0, 0.1, 1}, {2, 0, 0, 1}});
     const AsperitiesHandle a = take(list);
     ContactHandle k;
     OK(rsc_contact_create(&k, a, 1e5, 10, 1, 0, c));

@@ -4,7 +4,6 @@
 
 namespace test_api_values {
 
-constexpr double kPi = std::numbers::pi, kInfinity = std::numeric_limits<double>::infinity();
 using Values = std::vector<double>;
 
 // A map of nx by ny points from (x0, y0) on.
@@ -13,12 +12,12 @@ struct Map {
     double dx = 0.125, dy = 0.1875, x0 = -0.75, y0 = 2.0;
     double x(int i) const { return x0 + i * dx; }
     double y(int j) const { return y0 + j * dy; }
-    std::size_t size() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
+    std::size_t size() const { return nx * ny; }
     template <class Height>
     Values heights(Height&& z) const {
         Values all;
-        for (int j = 0; j < ny; ++j)
-            for (int i = 0; i < nx; ++i) all.push_back(z(i, j));
+        for (const int j : up_to(ny))
+            for (const int i : up_to(nx)) all.push_back(z(i, j));
         return all;
     }
     SurfaceHandle take(const Values& z, bool periodic = false) const {

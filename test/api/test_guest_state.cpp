@@ -132,7 +132,7 @@ void test_asked_later(const std::string& keys) {
         for (rsc_contact* one : {at_once.contact.get(), later.contact.get()})
             CHECK(force_at(one, 0.007) > 0);
         CHECK(lateral(later.contact) != now);
-        for (std::size_t k = 0; k < now.size(); ++k)
+        for (const auto k : indices(now))
             CHECK(std::abs(lateral(later.contact)[k] - lateral(at_once.contact)[k]) <
                   1e-4 * value(later.contact, "force"));
     }

@@ -4,8 +4,8 @@
 #include "asperities/dgesv.hpp"
 
 #include "check.hpp"
+#include "support/asperities.hpp"
 #include "support/paths.hpp"
-#include "support/random_asperities.hpp"
 
 namespace test_dgesv {
 
@@ -16,7 +16,7 @@ constexpr double kResidual = 1e-8;  // of the unregularised equation
 
 WorkingSet candidates(const Asperities& a, const Indenter& indenter, double Z0) {
     WorkingSet set;
-    for (std::size_t i = 0; i < a.size(); ++i) {
+    for (const auto i : indices(a)) {
         const double g0 = indenter.clearance(a.x[i], a.y[i], a.z[i]) - Z0;
         if (!(g0 > 0)) continue;
         set.asperity.push_back(static_cast<int>(i));
@@ -40,15 +40,14 @@ TEST(matrix) {
     CHECK(n > 20);
     const double delta = 0.005;
     std::vector<double> force(n), K(n * n), unused(n * n), above, below, R;
-    for (std::size_t i = 0; i < n; ++i)
+    for (const std::size_t i : up_to(n))
         force[i] = 2e-5 * (1 + std::sin(3.0 * static_cast<double>(i)));
     const auto penetrations = [&](const std::vector<double>& F) {
         std::vector<double> v = set.g0;
-        for (std::size_t i = 0; i < n; ++i)
-            for (std::size_t j = 0; j < n; ++j)
+        for (const std::size_t i : up_to(n))
+            for (const std::size_t j : up_to(n))
                 if (j != i)
-                    v[i] -= F[j] / (std::numbers::pi *
-                                    std::hypot(set.x[i] - set.x[j], set.y[i] - set.y[j]));
+                    v[i] -= F[j] / (pi * std::hypot(set.x[i] - set.x[j], set.y[i] - set.y[j]));
         return v;
     };
     const std::vector<double> v = penetrations(force);
@@ -57,7 +56,7 @@ TEST(matrix) {
     CHECK(near > 2 && inside > 2 && outside > 2);
     paper_equations(*law, *kernel, set, delta, force, v, R, K.data());
     double largest = 0, worst = 0;
-    for (std::size_t j = 0; j < n; ++j) {
+    for (const std::size_t j : up_to(n)) {
         // of forces near 1e-5: truncation and rounding of the difference are both below 1e-5 of K
         const double h = 1e-9;
         std::vector<double> F = force;
@@ -65,7 +64,7 @@ TEST(matrix) {
         paper_equations(*law, *kernel, set, delta, F, penetrations(F), above, unused.data());
         F[j] = force[j] - h;
         paper_equations(*law, *kernel, set, delta, F, penetrations(F), below, unused.data());
-        for (std::size_t i = 0; i < n; ++i) {
+        for (const std::size_t i : up_to(n)) {
             worst = std::max(worst, std::abs((above[i] - below[i]) / (2 * h) - K[j * n + i]));
             if (i != j) largest = std::max(largest, std::abs(K[j * n + i]));
         }
@@ -88,7 +87,7 @@ TEST(slopes) {
                          v, force, slope)
               .converged);
     int touching = 0;
-    for (std::size_t i = 0; i < v.size(); ++i) {
+    for (const auto i : indices(v)) {
         const double h = kShare * std::abs(v[i]), rise = law->force(set.asperity[i], v[i] + h) -
                                                          law->force(set.asperity[i], v[i] - h);
         CHECK_RELATIVE(slope[i], rise / (2 * h), kDifference);
@@ -122,11 +121,7 @@ TEST(says_what_it_did) {
     CHECK(plain.iterations > 0 && uncut.iterations == 30 + plain.iterations &&
           uncut.products == plain.products + 1);
     // Two asperities so close that the solution the iteration finds is a saddle of the energy.
-    Asperities pair;
-    pair.x = {0.499, 0.501};
-    pair.y = {0.5, 0.5};
-    pair.z = {0.01, 0.01};
-    pair.radius = {1e-2, 1e-2};
+    const Asperities pair = asperities_at({{0.499, 0.5, 0.01, 1e-2}, {0.501, 0.5, 0.01, 1e-2}});
     options.delta_cut = 5;
     options.delta0 = 0.01;
     const Level saddle = asperity_path(pair, {1.0, 1e9, 0.5, 0.5}, options).at_separation(0.0);

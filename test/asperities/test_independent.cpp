@@ -1,7 +1,7 @@
 // Hundreds of random systems against the independent slow solver (independent.hpp).
 #include "check.hpp"
+#include "support/asperities.hpp"
 #include "support/paths.hpp"
-#include "support/random_asperities.hpp"
 #include "truth/independent.hpp"
 
 namespace test_independent {
@@ -9,7 +9,6 @@ namespace test_independent {
 using namespace rsc;
 
 constexpr double kE = 94.0e3;
-constexpr double kFlat = std::numeric_limits<double>::infinity();
 // Of the total load, a force or the load itself: the solver is asked for residuals of 1e-13, and
 // errors are larger than residuals by the condition of I + S B S, below 100 where the solution is
 // unique by the solver's own proof.
@@ -18,8 +17,6 @@ constexpr double kTolerance = 1e-10;
 SolverOptions options(Method method, LawKind law = LawKind::hertz) {
     return {.method = method, .law = law, .tolerance = 1e-13, .surface = {.sigma = 0.01}};
 }
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Principal curvatures and biharmonics for asperities that have only radii: ratios up to 10;
 // flatter summits than paraboloids, mostly, as those of rough surfaces are, within the range of the
@@ -42,7 +39,7 @@ void shape(Asperities& a, LawKind law, double deepest, unsigned seed) {
 
 std::vector<independent::Summit> summits_of(const Asperities& a, LawKind law) {
     std::vector<independent::Summit> out;
-    for (std::size_t i = 0; i < a.size(); ++i) {
+    for (const auto i : indices(a)) {
         independent::Summit s{a.x[i], a.y[i], a.z[i], 1 / static_cast<long double>(a.radius[i])};
         if (law != LawKind::hertz) {
             const long double k1 = a.kappa1[i], k2 = a.kappa2[i];
@@ -68,7 +65,7 @@ struct Family {
 const Family kFamilies[] = {
     {"few", 150, 12, 0.02, 5e-4, 0.5, 2.5, LawKind::hertz},
     {"ordinary", 100, 60, 0.03, 1e-3, 0.7, 2.5, LawKind::hertz},
-    {"flat", 60, 50, 0.03, 1e-3, 0.5, kFlat, LawKind::hertz},
+    {"flat", 60, 50, 0.03, 1e-3, 0.5, kInfinity, LawKind::hertz},
     {"small sphere", 40, 80, 0.02, 5e-4, 0.5, 0.3, LawKind::hertz},
     {"ten decades", 40, 40, 0.04, 1e-5, 5.0, 2.5, LawKind::hertz},
     {"elliptic", 60, 50, 0.03, 1e-3, 0.5, 2.5, LawKind::elliptic},
@@ -79,7 +76,7 @@ TEST(against_slow_solver) {
     int systems = 0;
     for (const Family& family : kFamilies) {
         int unique = 0;
-        for (int k = 0; k < family.systems; ++k) {
+        for (const int k : up_to(family.systems)) {
             const unsigned seed = 1000u + static_cast<unsigned>(k);
             Asperities a = random_asperities(1 + (k * family.n) / family.systems, family.spacing,
                                              0.01, family.radius, family.spread, seed);
@@ -103,10 +100,9 @@ TEST(against_slow_solver) {
                 CHECK_CLOSE(level.force, N, kTolerance * N);
                 CHECK_CLOSE(level.area, A, kTolerance * A);
                 std::vector<double> F(a.size(), 0.0);
-                for (std::size_t c = 0; c < level.f.size(); ++c)
-                    F[at(level.asperity[c])] = level.f[c];
+                for (const auto c : indices(level.f)) F[level.asperity[c]] = level.f[c];
                 double difference = 0;
-                for (std::size_t i = 0; i < a.size(); ++i) {
+                for (const auto i : indices(a)) {
                     difference = check::worse(
                         difference, std::abs(F[i] - static_cast<double>(reference.load[i]) * kE));
                 }

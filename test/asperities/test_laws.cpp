@@ -3,25 +3,13 @@
 #include "asperities/law.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
+#include "support/asperities.hpp"
 
 namespace test_laws {
 
 using namespace rsc;
 
 constexpr double kE = 94.0e3;
-
-Asperities summit(double kappa1, double kappa2, double biharmonic) {
-    Asperities a;
-    a.x = {0};
-    a.y = {0};
-    a.z = {0};
-    a.radius = {1 / std::sqrt(kappa1 * kappa2)};
-    a.kappa1 = {kappa1};
-    a.kappa2 = {kappa2};
-    a.angle = {0};
-    a.biharmonic = {biharmonic};
-    return a;
-}
 
 struct Answer {
     double force, slope, work, area;
@@ -40,7 +28,7 @@ template <class F>
 double integrate(double from, double to, F f) {
     const double node = std::sqrt(0.6), h = (to - from) / 64;
     double sum = 0;
-    for (int i = 0; i < 64; ++i) {
+    for (const int i : up_to(64)) {
         const double m = from + (i + 0.5) * h;
         sum += h * (5 * f(m - 0.5 * h * node) + 8 * f(m) + 5 * f(m + 0.5 * h * node)) / 18;
     }
@@ -57,7 +45,7 @@ TEST(ellipse_against_quadrature) {
         // The integrands peak at pi/2 when e is near 1: split there.
         const auto whole = [&](auto f) {
             double sum = 0, left = 0;
-            for (double piece : {0.8, 1.3, 1.5, 1.56, 0.5 * std::numbers::pi}) {
+            for (double piece : {0.8, 1.3, 1.5, 1.56, 0.5 * pi}) {
                 sum += integrate(left, piece, f);
                 left = piece;
             }
@@ -68,7 +56,7 @@ TEST(ellipse_against_quadrature) {
         // Curvatures (p0 = E* = 1): 2 kappa = second derivatives of u: kappa along x: b D/a^2 2
         // /..., along y: B/b.
         const double kx = 2 * b * D / (a * a), ky = 2 * B / b;
-        const double ratio = ky / kx, delta = b * K, force = 2.0 / 3 * std::numbers::pi * a * b;
+        const double ratio = ky / kx, delta = b * K, force = 2.0 / 3 * pi * a * b;
         const EllipseFactors f = ellipse_factors(ratio);
         CHECK_RELATIVE(f.axes, axes, 1e-9);
         const double R = 1 / std::sqrt(kx * ky);
@@ -90,9 +78,6 @@ TEST(ellipse_limits) {
     // Smooth through the switches of the evaluation: neighbouring ratios give neighbouring factors.
     for (double ratio = 1.0; ratio < 3; ratio += 1e-3)
         CHECK_CLOSE(ellipse_factors(ratio + 1e-9).F2, ellipse_factors(ratio).F2, 1e-9);
-    // The force factor F2^(-3/2) at the mode of the summits' curvatures and at 10.
-    CHECK_CLOSE(std::pow(ellipse_factors(2.21).F2, -1.5), 1.0131, 1e-4);
-    CHECK_CLOSE(std::pow(ellipse_factors(10).F2, -1.5), 1.109, 1e-3);
     CHECK_THROWS(ellipse_factors(0.5), Error);
 }
 
@@ -101,13 +86,9 @@ TEST(ellipse_limits) {
 // that area and goes on straight; the penetration where a mean pressure is reached is the first.
 // Nothing before touching. Of two summits, so that each is asked for its own.
 TEST(everything_of_every_law) {
-    Asperities s = summit(9000, 4000, 0);
-    for (auto* v : {&s.x, &s.y, &s.z}) v->push_back(1);
-    s.radius.push_back(1 / 300.0);
-    s.kappa1.push_back(900);
-    s.kappa2.push_back(100);
-    s.angle.push_back(1);
-    s.biharmonic.push_back(0);
+    Asperities s = curved(asperities_at({{0, 0, 0, 1 / 6000.0}, {1, 1, 1, 1 / 300.0}}), 1.5);
+    s.kappa1[1] = 900;
+    s.kappa2[1] = 100;
     const std::vector<int> both = {0, 1};
     for (LawKind kind : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order})
         for (double flattening : {-4e11, -1e7, 0.0, 1e7, 2e11, 3e12}) {
@@ -117,7 +98,7 @@ TEST(everything_of_every_law) {
             law->prepare(both);  // once more changes nothing
             CHECK(law->convex() && !law->path_dependent() && law->work_lost() == 0);
             for (const int i : both) {
-                const auto k = static_cast<std::size_t>(i);
+                const auto k = i;
                 const EllipseFactors f = kind == LawKind::hertz
                                              ? EllipseFactors{}
                                              : ellipse_factors(s.kappa1[k] / s.kappa2[k]);
@@ -146,9 +127,7 @@ TEST(everything_of_every_law) {
                 for (double u = 1e-4 * most; u < most; u *= 1.31) {
                     const Answer r = respond(u);
                     CHECK_RELATIVE(law->force(i, u), r.force, 1e-14);
-                    CHECK_RELATIVE(r.slope,
-                                   2 * kE * std::sqrt(r.area / std::numbers::pi) / (f.F1 * f.F2),
-                                   1e-12);
+                    CHECK_RELATIVE(r.slope, 2 * kE * std::sqrt(r.area / pi) / (f.F1 * f.F2), 1e-12);
                     CHECK(law->beyond(i, u) == (u > last));
                     // From the last penetration to this one, in the root of it, and up to the end
                     // of the law's own range apart.
@@ -198,7 +177,8 @@ TEST(fourth_order_to_the_last_digits) {
     constexpr double kRounding = 3e-14;
     const double kappa = 6000, q = 400, A = 2 * kappa / (q * q);
     for (int sign : {1, -1}) {
-        const Asperities s = summit(kappa, kappa, sign * 2 * kappa * q * q);
+        const Asperities s =
+            curved(asperities_at({{0, 0, 0, 1 / kappa}}), 1, 0, sign * 2 * kappa * q * q);
         const auto law = make_law(LawKind::fourth_order, s, kE);
         for (int k = 1; k < 300; ++k) {
             const long double x = k * 0.0103L, c = sign > 0 ? std::cos(x) : std::cosh(x),
@@ -206,7 +186,7 @@ TEST(fourth_order_to_the_last_digits) {
             const long double half = sign > 0 ? std::sin(x / 2) : std::sinh(x / 2);
             const Answer r = ask(*law, static_cast<double>(2 * A * half * half));
             const double slack = kRounding / static_cast<double>(std::abs(v));
-            CHECK_RELATIVE(std::sqrt(r.area / std::numbers::pi) * q, static_cast<double>(x), slack);
+            CHECK_RELATIVE(std::sqrt(r.area / pi) * q, static_cast<double>(x), slack);
             if (k < 30) continue;  // the closed form of P cancels
             CHECK_RELATIVE(r.force, static_cast<double>(2 * kE * A / q * sign * (v - x * c)),
                            slack);

@@ -17,10 +17,10 @@ using Vector = std::vector<double>;
 Vector dense(const Vector& x, const Vector& y, const Vector& a) {
     const std::size_t n = a.size();
     Vector M(n * n);
-    for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = 0; j < n; ++j) {
+    for (const std::size_t i : up_to(n)) {
+        for (const std::size_t j : up_to(n)) {
             const double d = std::hypot(x[i] - x[j], y[i] - y[j]);
-            M[i * n + j] = i == j ? 1.0 : 2 / std::numbers::pi * std::sqrt(a[i] * a[j]) / d;
+            M[i * n + j] = i == j ? 1.0 : 2 / pi * std::sqrt(a[i] * a[j]) / d;
         }
     }
     return M;
@@ -34,7 +34,7 @@ Points random_points(std::size_t n, double radius, double spread, unsigned seed)
     std::uniform_real_distribution<double> uniform(0, 1);
     std::normal_distribution<double> normal;
     Points p;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const std::size_t i : up_to(n)) {
         p.x.push_back(uniform(random));
         p.y.push_back(uniform(random));
         p.a.push_back(i % 7 == 6
@@ -69,17 +69,16 @@ std::vector<Vector> all_minima(const Law& law, double E_star, const Asperities& 
     std::vector<Vector> minima;
     for (unsigned subset = 0; subset < 1u << n; ++subset) {
         Vector F(n), v(n);
-        for (std::size_t i = 0; i < n; ++i)
+        for (const std::size_t i : up_to(n))
             F[i] = subset >> i & 1 ? law.force(static_cast<int>(i), g0[i]) : 0;
         double change = 1;
         for (int sweep = 0; sweep < 100000 && change > 1e-12; ++sweep) {
             change = 0;
-            for (std::size_t i = 0; i < n; ++i) {
+            for (const std::size_t i : up_to(n)) {
                 v[i] = g0[i];
-                for (std::size_t j = 0; j < n; ++j) {
+                for (const std::size_t j : up_to(n)) {
                     if (j != i)
-                        v[i] -= F[j] / (std::numbers::pi * E_star *
-                                        std::hypot(p.x[i] - p.x[j], p.y[i] - p.y[j]));
+                        v[i] -= F[j] / (pi * E_star * std::hypot(p.x[i] - p.x[j], p.y[i] - p.y[j]));
                 }
                 const double f = law.force(static_cast<int>(i), v[i]);
                 change = std::max(change, std::abs(f - F[i]));
@@ -87,7 +86,7 @@ std::vector<Vector> all_minima(const Law& law, double E_star, const Asperities& 
             }
         }
         const auto same = [&](const Vector& other) {
-            for (std::size_t i = 0; i < n; ++i) {
+            for (const std::size_t i : up_to(n)) {
                 if (std::abs(other[i] - v[i]) > 1e-6) return false;
             }
             return true;
@@ -99,12 +98,12 @@ std::vector<Vector> all_minima(const Law& law, double E_star, const Asperities& 
 
 // Where a second solution exists, uniqueness is never told; where none does, nearly always.
 TEST(told_only_where_it_is_so) {
-    constexpr double E_star = 1 / std::numbers::pi;
+    constexpr double E_star = 1 / pi;
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(0, 1);
     int unique = 0, several = 0, told = 0, several_wide = 0;
-    for (int set = 0; set < 8000; ++set) {
-        const std::size_t n = 2 + static_cast<std::size_t>(set) % 5;
+    for (const int set : up_to(8000)) {
+        const std::size_t n = 2 + set % 5;
         const bool wide =
             // radii over decades: a flat asperity far outside the spot of a sharp one may be its
             // rival
@@ -114,7 +113,7 @@ TEST(told_only_where_it_is_so) {
         Asperities p;
         Vector g0;
         std::vector<int> all;
-        for (std::size_t i = 0; i < n; ++i) {
+        for (const std::size_t i : up_to(n)) {
             p.x.push_back(side * uniform(random));
             p.y.push_back(side * uniform(random));
             p.z.push_back(0);
@@ -154,7 +153,7 @@ TEST(lanczos_finds_the_lowest) {
         for (int i = 0; i < 60; ++i) {
             const double shift = 0.5 * (low + high);
             Vector shifted = M;
-            for (std::size_t k = 0; k < n; ++k) shifted[k * n + k] -= shift;
+            for (const std::size_t k : up_to(n)) shifted[k * n + k] -= shift;
             (lapack::is_positive_definite(static_cast<int>(n), shifted.data()) ? low : high) =
                 shift;
         }
@@ -162,9 +161,9 @@ TEST(lanczos_finds_the_lowest) {
         const double found = lapack::lanczos_lowest(
             n,
             [&](const Vector& in, Vector& out) {
-                for (std::size_t i = 0; i < n; ++i) {
+                for (const std::size_t i : up_to(n)) {
                     out[i] = 0;
-                    for (std::size_t j = 0; j < n; ++j) out[i] += M[i * n + j] * in[j];
+                    for (const std::size_t j : up_to(n)) out[i] += M[i * n + j] * in[j];
                 }
             },
             vector);

@@ -66,7 +66,7 @@ bool stops(const std::function<void()>& loop) {
 
 void test_stopping() {
     std::vector<rsc::Pixel> pixels;
-    for (int k = 0; k < 128 * 128; ++k) pixels.push_back({k % 128, k / 128});
+    for (const int k : up_to(128 * 128)) pixels.push_back({k % 128, k / 128});
     const std::vector<double> p(pixels.size(), 1.0);
     std::vector<double> w(pixels.size());
     const auto products = rsc::make_tree_products(1.0, 1, 1, 1e-3, 1e-5);
@@ -116,9 +116,8 @@ void test_pieces() {
         std::vector<int> runs(1000, 0);
         std::atomic<bool> strange{false};
         rsc::parallel_for(100, 7, threads, [&](int i, std::size_t worker) {
-            if (worker >= static_cast<std::size_t>(threads)) strange = true;
-            rsc::parallel_for(10, 3, threads,
-                              [&](int j) { ++runs[static_cast<std::size_t>(10 * i + j)]; });
+            if (std::cmp_greater_equal(worker, threads)) strange = true;
+            rsc::parallel_for(10, 3, threads, [&](int j) { ++runs[10 * i + j]; });
         });
         CHECK(!strange && runs == std::vector<int>(1000, 1));
         const auto refuses = [](int k) {
@@ -141,7 +140,7 @@ void test_loops_inside_pieces() {
             const std::lock_guard lock(mutex);
             who.insert(std::this_thread::get_id());
             most = std::max(most, ++busy);
-            ++runs[static_cast<std::size_t>(k)];
+            ++runs[k];
         }
         usleep(5000);
         const std::lock_guard lock(mutex);

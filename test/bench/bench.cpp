@@ -5,10 +5,7 @@
 
 #include <fftw3.h>
 
-#include <random>
-
 #include "base/parallel.hpp"
-#include "interaction/pairs.hpp"
 #include "support/paths.hpp"
 #include "surface/detection.hpp"
 
@@ -16,30 +13,6 @@ extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 using namespace rsc;
 using bench::kGold, bench::middle, bench::now, bench::shortest;
-
-namespace bench {
-
-// About n asperities on a jittered lattice in the unit square, Gaussian heights, lognormal radii,
-// under a nearly flat sphere.
-Asperities lattice(int n) {
-    const int side = static_cast<int>(std::lround(std::sqrt(n)));
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> jitter(-0.4, 0.4);
-    std::normal_distribution<double> normal;
-    const double h = 1.0 / side;
-    Asperities a;
-    for (int j = 0; j < side; ++j) {
-        for (int i = 0; i < side; ++i) {
-            a.x.push_back((i + 0.5 + jitter(random)) * h);
-            a.y.push_back((j + 0.5 + jitter(random)) * h);
-            a.z.push_back(0.05 * h * normal(random));
-            a.radius.push_back(0.25 * h * std::exp(0.3 * normal(random)));
-        }
-    }
-    return a;
-}
-
-}  // namespace bench
 
 namespace {
 
@@ -132,41 +105,6 @@ void bench_realization() {
         1e3 * bare, 1e3 * make, 1e3 * solve, 1e3 * whole, whole / bare);
 }
 
-void bench_pairs() {
-    std::printf("\npairs: sums over pairs f/d, directed pairs a second on one core, %s\n",
-                pair_instruction_set());
-    std::mt19937_64 random(1);
-    std::uniform_real_distribution<double> uniform(0, 1);
-    for (std::size_t n : {200, 500, 2000, 10000}) {
-        std::vector<double> x(n), y(n), f(n), phi(n);
-        for (std::size_t k = 0; k < n; ++k) {
-            x[k] = uniform(random);
-            y[k] = uniform(random);
-            f[k] = uniform(random);
-        }
-        const auto kernel = make_kernel(Interaction::point, 1 / std::numbers::pi);
-        PairSums sums(*kernel);
-        sums.assign(n, x.data(), y.data());
-        const double pairs = static_cast<double>(n) * static_cast<double>(n);
-        const int repeat = static_cast<int>(1 + 2e8 / pairs);
-        const double t_double = shortest(5, [&] {
-            for (int i = 0; i < repeat; ++i) sums.among(false, f.data(), phi.data());
-        });
-        const double t_single = shortest(5, [&] {
-            for (int i = 0; i < repeat; ++i) sums.among(true, f.data(), phi.data());
-        });
-        const double t_apart = shortest(5, [&] {
-            for (int i = 0; i < repeat; ++i)
-                sums.onto(false, n, x.data(), y.data(), f.data(), phi.data());
-        });
-        std::printf(
-            "  n = %5zu: float %.2f G/s, double %.2f G/s, double with targets apart %.2f G/s "
-            "(wanted: 5 and 2)\n",
-            n, 1e-9 * pairs * repeat / t_single, 1e-9 * pairs * repeat / t_double,
-            1e-9 * pairs * repeat / t_apart);
-    }
-}
-
 // A loop of adhesive asperities, 100 levels from 3 sigma down to 1 sigma and 100 up, against the
 // elastic levels down.
 void bench_adhesion() {
@@ -201,15 +139,10 @@ struct Part {
     bool only_named = false;  // minutes or gigabytes: not run unless asked for
 };
 const Part kParts[] = {
-    {"pairs", bench_pairs},
-    {"realization", bench_realization},
-    {"solve", bench_solve},
-    {"adhesion", bench_adhesion},
-    {"calls", bench::calls},
-    {"elements", bench::elements},
-    {"element_flats", bench::element_flats, true},
+    {"realization", bench_realization}, {"solve", bench_solve},
+    {"adhesion", bench_adhesion},       {"calls", bench::calls},
+    {"elements", bench::elements},      {"element_flats", bench::element_flats, true},
     {"scaling", bench::scaling, true},
-    {"threads", bench::threads, true},
 };
 
 int main(int argc, char** argv) {

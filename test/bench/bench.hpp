@@ -43,13 +43,8 @@ inline double peak_memory_mb() {
 
 inline const rsc::Indenter kGold{78.0e3 / (1 - 0.42 * 0.42), 2.5, 0.5, 0.5};
 
-// About n asperities on a jittered lattice in the unit square, Gaussian heights, lognormal radii.
-rsc::Asperities lattice(int n);
-
 // bench_scaling.cpp
 void scaling();
-// bench_threads.cpp
-void threads();
 // bench_elements.cpp
 void elements();
 void element_flats();

@@ -72,16 +72,14 @@ std::string another_value(const Key& key, int salt) {
                                       ? static_cast<int>(key.bounds.high) - salt % 2
                                       : 12345 + salt);
         case Type::string: return "'it''s a \"text\", number " + std::to_string(salt) + "!'";
-        case Type::choice:
-            return std::string("'") +
-                   key.choices[static_cast<std::size_t>(salt) % key.choices.size()] + "'";
+        case Type::choice: return std::string("'") + key.choices[salt % key.choices.size()] + "'";
         case Type::real: break;
     }
     // No short decimal: all 17 digits are needed.
     const double low = std::isfinite(key.bounds.low) ? key.bounds.low : -3.0;
     const double high = std::isfinite(key.bounds.high) ? key.bounds.high : low + 10.0;
     std::string text;
-    for (int i = 0; i < (key.list ? 3 : key.size); ++i)
+    for (const int i : up_to((key.list ? 3 : key.size)))
         text +=
             (i > 0 ? ", " : "") + namelist::from_real(low + (high - low) * (salt + i + 1) /
                                                                 (salt + i + 1 + std::sqrt(2.0)));
@@ -91,7 +89,7 @@ std::string another_value(const Key& key, int salt) {
 TEST(test_round_trip) {
     CHECK_TEXT(effective_namelist(read_namelist(effective_namelist(Case{})).settings),
                effective_namelist(Case{}));
-    for (int salt = 0; salt < 40; ++salt) {
+    for (const int salt : up_to(40)) {
         std::string text;
         for (const std::string_view group : group_names()) {
             text += "&" + std::string(group) + "\n";

@@ -114,7 +114,7 @@ TEST(bounds) {
         if (key.list) expect(name, size + "*" + value + ", " + value, "too many values");
         if (!key.list && key.size == 2) expect(name, "0.25, 0.125, 1", "too many values");
         if (key.type == Type::string && name.find("unit") == std::string::npos) {
-            const auto length = static_cast<std::size_t>(key.length);
+            const auto length = key.length;
             expect(name, "'" + std::string(length, 'x') + "'", "");
             expect(name, "'" + std::string(length + 1, 'x') + "'", std::to_string(length));
         }

@@ -3,14 +3,9 @@
 
 #include <netcdf.h>
 
-#include "case/read_case.hpp"
-#include "check.hpp"
-#include "run/run.hpp"
-#include "support/map_files.hpp"
 #include "support/refused.hpp"
-#include "support/result_reader.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
-#include "surface/synthesis.hpp"
 
 namespace test_units {
 
@@ -58,27 +53,23 @@ TEST(every_variable) {
     const Folder folder;
     const auto result = [&](const std::string& units, const std::string& lengths,
                             const std::string& moduli) {
-        Case c = read_case_text(
-                     "&run " + units + " / &surface n=64 L_lambda_l=2 L_lambda_s=8 " + lengths +
-                         " friction=0.25 " + moduli +
-                         " / &indentation levels=1, 0.5 / &output map_cells=6 heights=.true. /",
-                     "case.nml")
-                     .settings;
-        c.output.file = folder / (c.run.length_unit + ".nc");
-        CHECK(run_case(c, {}) == 0);
-        return c.output.file;
+        return run_to(folder / "units.nc",
+                      "&run " + units + " / &surface n=64 L_lambda_l=2 L_lambda_s=8 " + lengths +
+                          " friction=0.25 " + moduli +
+                          " / &indentation levels=1, 0.5 / &output map_cells=6 heights=.true. /");
     };
-    const Reader mm(result("length_unit='mm' force_unit='N'",
-                           "L=2.0 sigma=0.01 / &solids R=3.0,5.0",
-                           "E=1e3,3e3 resistivity=1e-5,3e-5")),
-        um(result("length_unit='um' force_unit='mN'", "L=2e3 sigma=10.0 / &solids R=3e3,5e3",
-                  "E=1.0,3.0 resistivity=1e-2,3e-2"));
+    const Reader mm = result("length_unit='mm' force_unit='N'",
+                             "L=2.0 sigma=0.01 / &solids R=3.0,5.0",
+                             "E=1e3,3e3 resistivity=1e-5,3e-5"),
+                 um = result("length_unit='um' force_unit='mN'",
+                             "L=2e3 sigma=10.0 / &solids R=3e3,5e3",
+                             "E=1.0,3.0 resistivity=1e-2,3e-2");
     CHECK(mm.text("radial_pressure", "units") == "N mm-2" &&
           mm.text("map_pressure", "units") == "N mm-2");
     int variables = 0;
     nc_inq_nvars(mm.id(), &variables);
     CHECK(variables > 80);
-    for (int v = 0; v < variables; ++v) {
+    for (const int v : up_to(variables)) {
         char name[NC_MAX_NAME + 1] = "";
         nc_inq_varname(mm.id(), v, name);
         if (std::set<std::string>{"iterations", "products", "residual"}.contains(name))
@@ -111,57 +102,6 @@ TEST(every_variable) {
             std::printf("%s: %s, then %s, %g of %g\n", name, mm.text(name, "units").c_str(),
                         um.text(name, "units").c_str(), worst, largest);
         CHECK(same);
-    }
-}
-
-// A map in metres and newtons, in micrometres with heights in nanometres for millimetres and
-// millinewtons, and as a text of nanometres.
-TEST(mixed_units) {
-    const Folder folder;
-    const HeightMap z = synthesize({.L = 8e-5, .L_lambda_l = 2, .L_lambda_s = 8, .sigma = 2e-7}, 64,
-                                   Normalise::sample, 1, 1);
-    for (const std::string model : {"asperities", "elements"}) {
-        const auto result = [&](const std::string& file, const std::string& lengths,
-                                const std::string& E, const std::string& keys) {
-            Case c =
-                read_case_text("&run " + lengths + " / &solids E=2*" + E +
-                                   " / &surface source='heights' file='" + file + "' " + keys +
-                                   " / &indentation levels=1.5, 0.5 / &compare levels='none' / "
-                                   "&solver tolerance=1e-11 model='" +
-                                   model + "' / &output file='" + folder / (model + ".nc") + "' /",
-                               "case.nml")
-                    .settings;
-            CHECK(run_case(c, {}) == 0);
-            const Reader r(c.output.file);
-            return std::array{r.values("force")[1], r.values("contact_area")[1],
-                              r.values("stiffness")[1], r.values("points_per_wave")[0]};
-        };
-        const auto gwy = [&](double xy, const std::string& unit_xy, double unit,
-                             const std::string& unit_z) {
-            map_files::Map map{60, 50, z.dx * xy, z.dy * xy, {}};
-            for (int j = 50; j-- > 0;)
-                for (int i = 0; i < 60; ++i) map.z.push_back(z(i, j) * unit);
-            const std::string path = folder / (unit_z + ".gwy");
-            std::ofstream(path, std::ios::binary)
-                << map_files::gwy_file(map_files::gwy_channel(0, "T", map, unit_z, unit_xy));
-            return path;
-        };
-        std::ofstream text(folder / "map.txt");
-        text.precision(17);
-        for (int j = 0; j < 50; ++j, text << '\n')
-            for (int i = 0; i < 60; ++i) text << z(i, j) * 1e9 << ' ';
-        text.close();
-        const std::string ball = " R=Infinity,", milli = "length_unit='mm' force_unit='mN'";
-        const auto base = result(gwy(1, "m", 1, "m"), "length_unit='m' force_unit='N'",
-                                 "1e9" + ball + "1e-3", "");
-        for (const auto& other : {result(gwy(1e6, "um", 1e9, "nm"), milli, "1e6" + ball + "1", ""),
-                                  result(folder / "map.txt", milli, "1e6" + ball + "1",
-                                         "height_unit='nm' pixel=1.25e-3")}) {
-            constexpr std::array factor{1e3, 1e6, 1.0, 1.0};  // mN/mm = N/m
-            for (std::size_t k = 0; k < factor.size(); ++k)
-                CHECK_RELATIVE(other[k], factor[k] * base[k], 1e-9);
-            CHECK(base[0] > 0);
-        }
     }
 }
 

@@ -4,7 +4,7 @@
 #include "check.hpp"
 #include "contact/path.hpp"
 #include "physics/friction/contact_curve.hpp"
-#include "support/random_asperities.hpp"
+#include "support/asperities.hpp"
 
 namespace test_contact_control {
 

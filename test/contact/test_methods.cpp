@@ -2,8 +2,8 @@
 // which of these is the answer; which method 'auto' takes. That all methods give one answer:
 // test_independent, test_edges.
 #include "check.hpp"
+#include "support/asperities.hpp"
 #include "support/paths.hpp"
-#include "support/random_asperities.hpp"
 
 namespace test_methods {
 
@@ -28,16 +28,14 @@ TEST(levels_do_not_remember) {
         Path down = asperity_path(a, indenter, options(Method::direct)),
              up = asperity_path(a, indenter, options(Method::direct));
         std::vector<double> forward(levels), backward(levels);
-        for (int k = 0; k < levels; ++k)
-            forward[static_cast<std::size_t>(k)] = down.at_separation(separation(k)).force;
-        for (int k = levels - 1; k >= 0; --k)
-            backward[static_cast<std::size_t>(k)] = up.at_separation(separation(k)).force;
-        for (int k = 0; k < levels; ++k) {
+        for (const int k : up_to(levels)) forward[k] = down.at_separation(separation(k)).force;
+        for (int k = levels - 1; k >= 0; --k) backward[k] = up.at_separation(separation(k)).force;
+        for (const int k : up_to(levels)) {
             const double alone = asperity_path(a, indenter, options(Method::direct))
                                      .at_separation(separation(k))
                                      .force;
-            CHECK_CLOSE(forward[static_cast<std::size_t>(k)], alone, kTolerance * alone);
-            CHECK_CLOSE(backward[static_cast<std::size_t>(k)], alone, kTolerance * alone);
+            CHECK_CLOSE(forward[k], alone, kTolerance * alone);
+            CHECK_CLOSE(backward[k], alone, kTolerance * alone);
         }
     }
 }
@@ -70,14 +68,11 @@ TEST(of_two_the_first_met_carries) {
     for (double lower : {0.7, 0.8, 0.9}) {
         for (double larger : {0.3, 1.0, 4.0}) {
             const double r = 1e-2, g = 0.01;
-            Asperities a;
-            a.x = {0.5, 0.5005};
-            a.y = {0.5, 0.5};
-            a.z = {lower * g, g};
-            a.radius = {larger * r, r};
+            const Asperities a =
+                asperities_at({{0.5, 0.5, lower * g, larger * r}, {0.5005, 0.5, g, r}});
             for (Method method : {Method::direct, Method::dgesv, Method::mesh}) {
                 const Level level =
-                    asperity_path(a, {kE, HUGE_VAL, 0.5, 0.5}, options(method)).at_separation(0);
+                    asperity_path(a, {kE, kInfinity, 0.5, 0.5}, options(method)).at_separation(0);
                 CHECK(!level.unique);
                 CHECK(level.asperity == std::vector<int>{1});
                 CHECK_RELATIVE(level.force, 4.0 / 3.0 * kE * std::sqrt(r) * std::pow(g, 1.5), 1e-9);
@@ -91,18 +86,16 @@ TEST(of_two_the_first_met_carries) {
 // the others are candidates only.
 TEST(auto_chooses) {
     const auto method_of = [](int n, Method method, Interaction interaction, Period period) {
-        Asperities a;
+        std::vector<std::array<double, 4>> a;
         const int side = static_cast<int>(std::sqrt(n));
-        for (int i = 0; i < side * side; ++i) {
-            a.x.push_back((i % side + 0.5) / side);
-            a.y.push_back((i / side + 0.5) / side);
-            a.z.push_back(i == 0 ? 1e-2 : 1e-9);
-            a.radius.push_back(1e-3);
-        }
+        for (const int i : up_to(side * side))
+            a.push_back(
+                {(i % side + 0.5) / side, (i / side + 0.5) / side, i == 0 ? 1e-2 : 1e-9, 1e-3});
         SolverOptions o = options(method);
         o.tolerance = 1e-4;
         o.interaction = interaction;
-        const Level level = asperity_path(a, {kE, HUGE_VAL, 0.5, 0.5, period}, o).at_separation(0);
+        const Level level =
+            asperity_path(asperities_at(a), {kE, kInfinity, 0.5, 0.5, period}, o).at_separation(0);
         CHECK(level.candidates == side * side && level.converged);
         CHECK(level.fallback == (method == Method::mesh && level.method != method
                                      ? Fallback::no_interaction

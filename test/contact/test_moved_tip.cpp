@@ -2,7 +2,7 @@
 // contact without a past.
 #include "check.hpp"
 #include "contact/make.hpp"
-#include "support/random_asperities.hpp"
+#include "support/asperities.hpp"
 
 namespace test_moved_tip {
 
@@ -17,7 +17,7 @@ TEST(test_way) {
     const double way[][2] = {{0.5, 0.5},       {0.5001, 0.5001}, {0.5002, 0.5002}, {0.5003, 0.5003},
                              {0.5005, 0.5005}, {0.5005, 0.502},  {0.503, 0.502},   {0.501, 0.502},
                              {0.7, 0.3},       {0.7, 0.3},       {0.71, 0.3},      {0.72, 0.3}};
-    for (const double R : {2.0, std::numeric_limits<double>::infinity(), 0.3}) {
+    for (const double R : {2.0, kInfinity, 0.3}) {
         if (R < 1) {
             asperities.x[17] = asperities.y[17] = 0.49;
             asperities.z[17] = 0.05;
@@ -92,11 +92,8 @@ TEST(not_unique) {
 // the other one before penetrations have changed by some per cent.
 TEST(one_of_two) {
     constexpr double between = 0.001, Z0 = -1e-4, step = 1e-4, late = 3e-3;
-    Asperities pair;
-    pair.x = {0.5 - 0.5 * between, 0.5 + 0.5 * between};
-    pair.y = {0.5, 0.5};
-    pair.z = {0, 0};
-    pair.radius = {1, 1};
+    const Asperities pair =
+        asperities_at({{0.5 - 0.5 * between, 0.5, 0, 1}, {0.5 + 0.5 * between, 0.5, 0, 1}});
     const auto at = [&](Path& contact, double x, bool force, double value) {
         contact.move_tip(x, 0.5);
         return force ? contact.at_force(value) : contact.at_separation(value);

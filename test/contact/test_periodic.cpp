@@ -1,16 +1,14 @@
 // Two flats that repeat: asperities and their images against scalar equations, a large period
 // against none, methods against each other, conservation and symmetry.
 #include "check.hpp"
+#include "support/asperities.hpp"
 #include "support/paths.hpp"
-#include "support/random_asperities.hpp"
 
 namespace test_periodic {
 
 using namespace rsc;
-using std::numbers::pi;
 
 constexpr double kE = 3.0;
-constexpr double kInfinity = Period{}.x;
 constexpr double kSelf = -3.900264920001955886982;  // of the square lattice (test_lattice.cpp)
 
 SolverOptions options(Method method, double tolerance = 1e-11, LawKind law = LawKind::hertz) {
@@ -41,9 +39,8 @@ TEST(asperities_and_images) {
     const double radius = 2e-3, L = 0.8;
     for (double Z0 : {0.0099, 0.005, -0.02}) {
         const double depth = 0.01 - Z0;
-        const Asperities one{{0.1}, {0.2}, {0.01}, {radius}, {}, {}, {}, {}};
-        const Asperities two{{0.1, 0.5}, {0.2, 0.6}, {0.01, 0.01}, {radius, radius},
-                             {},         {},         {},           {}};
+        const Asperities one = asperities_at({{0.1, 0.2, 0.01, radius}});
+        const Asperities two = asperities_at({{0.1, 0.2, 0.01, radius}, {0.5, 0.6, 0.01, radius}});
         for (Method method : {Method::direct, Method::dgesv}) {
             Path single = asperity_path(one, flats(L), options(method, 1e-14));
             const double u = pressed(kSelf / (pi * kE * L), depth, radius);

@@ -8,7 +8,6 @@
 namespace test_spot_fields {
 
 using namespace rsc;
-using std::numbers::pi;
 
 // Boussinesq's integral of the Hertz pressure: along a chord at distance h from the centre the
 // pressure adds up to p0 pi (a^2 - h^2)/(2a), and all chords through the point at distance d make w
@@ -18,7 +17,7 @@ double boussinesq(double f, double a, double d, double E_star) {
     const double p0 = 1.5 * f / (pi * a * a), half = d > a ? std::asin(a / d) : pi / 2;
     const int n = 200000;
     double sum = 0;
-    for (int k = 0; k < n; ++k) {
+    for (const int k : up_to(n)) {
         const double h = d * std::sin(half * ((2 * k + 1.0) / n - 1));
         sum += a * a - h * h;
     }
@@ -82,7 +81,7 @@ TEST(test_fields) {
 TEST(test_moment) {
     Level level;
     level.add_contact(0, 0.6, 0.2, 3.0, 0.01, 1e-3);
-    const Indenter flat{7e4, std::numeric_limits<double>::infinity(), 0.5, 0.5},
+    const Indenter flat{7e4, kInfinity, 0.5, 0.5},
         beside{7e4, flat.shape->hertz_radius(), 0.6, 0.5}, large{7e4, 1e7, 0.5, 0.5};
     const Vec2 both = tip_moment(flat, level), one = tip_moment(beside, level),
                sphere = tip_moment(large, level);

@@ -21,11 +21,10 @@ struct Round {
         std::vector<double> z(kN * kN), turned(kN * kN);
         CHECK(rsc_surface_synthesize(&surface, keys, 1) == RSC_SUCCESS &&
               rsc_surface_heights(surface, kN * kN, z.data()) == RSC_SUCCESS);
-        for (int j = 0; j < kN; ++j)
-            for (int i = 0; i < kN; ++i)
-                turned[static_cast<std::size_t>((j + kN / 2) % kN * kN + (i + kN / 2) % kN)] =
-                    z[static_cast<std::size_t>(j * kN + i)];
-        for (int k = 0; k < 2; ++k) {
+        for (const int j : up_to(kN))
+            for (const int i : up_to(kN))
+                turned[(j + kN / 2) % kN * kN + (i + kN / 2) % kN] = z[j * kN + i];
+        for (const int k : up_to(2)) {
             OK(rsc_surface_take(&surface, kN, kN, 1.0 / kN, 1.0 / kN, 0, 0, 1,
                                 (k == 0 ? z : turned).data()));
             OK(rsc_asperities_find(&on[k], surface, keys));
@@ -74,7 +73,7 @@ void test_contact(const std::string& keys, bool elastic) {
         double x0 = -1, y0 = -1;
         CHECK(rsc_contact_tip(far, &x0, &y0) == RSC_SUCCESS && x0 == x && y0 == y);
         const auto here = answers(one), turned = answers(other), periods = answers(far);
-        for (std::size_t k = 0; k < here.size(); ++k) {
+        for (const auto k : indices(here)) {
             if (!(std::abs(here[k] - turned[k]) <=
                   kTolerance * (std::abs(here[k]) + (k == 4 || k == 5 ? here[0] : 0))))
                 std::printf("%s: %s at %g, %g: %.9g and %.9g\n", keys.c_str(), kNames[k], x, y,
@@ -92,7 +91,7 @@ void test_contact(const std::string& keys, bool elastic) {
     }
     if (elastic) {
         double first[16] = {};
-        for (int k = 0; k < 32; ++k) {
+        for (const int k : up_to(32)) {
             const double N = press(one, 0.5 + k / 16.0, 0.03125, Z0);
             if (k < 16)
                 first[k] = N;
@@ -117,7 +116,7 @@ void test_path(const std::string& keys) {
 void test_relaxing(const std::string& keys) {
     const Round round(keys);
     const ContactHandle one = round.contact(0), other = round.contact(1);
-    for (int k = 0; k < 4; ++k) {
+    for (const int k : up_to(4)) {
         for (rsc_contact* contact : {one.get(), other.get()}) OK(rsc_contact_set_time(contact, k));
         const double N = press(one, 0.01 * k, 0.95, 0.01);
         CHECK_RELATIVE(N, press(other, 0.5 + 0.01 * k, 0.45, 0.01), kTolerance);

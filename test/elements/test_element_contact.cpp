@@ -14,7 +14,6 @@ namespace test_element_contact {
 using namespace rsc;
 
 constexpr double kE = 94706.168;  // the paper's gold under a rigid sphere
-constexpr double kPi = std::numbers::pi;
 
 SolverOptions options(double tolerance) { return {.tolerance = tolerance, .max_iterations = 200}; }
 
@@ -37,8 +36,8 @@ TEST(hertz) {
         const Level level = contact->at_separation(-delta);
         CHECK(level.converged);
         const double N = 4.0 / 3 * kE * std::sqrt(R * delta) * delta;
-        const double error = level.force / N - 1, area = level.area / (kPi * a * a) - 1,
-                     counted = level.area_pixels / (kPi * a * a) - 1;
+        const double error = level.force / N - 1, area = level.area / (pi * a * a) - 1,
+                     counted = level.area_pixels / (pi * a * a) - 1;
         CHECK(level.contacts == 1);
         CHECK_CLOSE(level.f[0], level.force, 1e-12 * N);
         // Within 0.5 % at 40 pixels a radius is asked for. The error is of second order: each
@@ -77,8 +76,8 @@ TEST(selection) {
         const auto count = [&](double Z0, double& top) {
             int places = 0;
             top = -1;
-            for (int j = 0; j < map.ny; ++j)
-                for (int i = 0; i < map.nx; ++i) {
+            for (const int j : up_to(map.ny))
+                for (const int i : up_to(map.nx)) {
                     const double z = tip.clearance(i * map.dx, j * map.dy, map(i, j));
                     if (z > top) top = z;
                     places += z > Z0;
@@ -101,7 +100,7 @@ TEST(selection) {
 // tight, under a sphere and between flats. A pixel more or less counts in A.
 TEST(tolerances) {
     const HeightMap map = rough(256, 32, 2);
-    for (const double R : {2.5, std::numeric_limits<double>::infinity()}) {
+    for (const double R : {2.5, kInfinity}) {
         const Indenter tip{kE, R, 0.5, 0.5, std::isinf(R) ? Period{1, 1} : Period{}};
         const auto solved = make_element_contact(map, tip, options(1e-7));
         (void)solved->at_separation(0.01);
@@ -149,7 +148,7 @@ TEST(between_points) {
     const HeightMap cap = height_map(n, n, h, h, [&](int i, int j) {
         return -(std::pow(i * h - x, 2) + std::pow(j * h - y, 2)) / (2 * R);
     });
-    Indenter flat{kE, std::numeric_limits<double>::infinity()};
+    Indenter flat{kE, kInfinity};
     touches(cap, flat);
     flat.period = {n * h, n * h};
     touches(cap, flat);

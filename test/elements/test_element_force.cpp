@@ -38,7 +38,7 @@ void compare(double R, const std::vector<double>& forces) {
     for (const Level& level : by_force.levels) separations.push_back(level.separation);
     const Run by_separation = run(
         map, tip, separations, [](Path& contact, double Z0) { return contact.at_separation(Z0); });
-    for (std::size_t k = 0; k < forces.size(); ++k) {
+    for (const auto k : indices(forces)) {
         CHECK(by_force.levels[k].converged);
         CHECK_RELATIVE(by_force.levels[k].force, forces[k], 1e-6);
         CHECK_RELATIVE(by_separation.levels[k].force, forces[k], 1e-6);
@@ -49,7 +49,7 @@ void compare(double R, const std::vector<double>& forces) {
     {
         const LoopThreads loops(3);
         const Run again = run(map, tip, forces, under_force);
-        for (std::size_t k = 0; k < forces.size(); ++k)
+        for (const auto k : indices(forces))
             CHECK(again.levels[k].separation == by_force.levels[k].separation);
     }
 }
@@ -88,7 +88,7 @@ void settled_sets() {
 TEST(element_force) {
     settled_sets();
     first_levels();
-    const double flat = std::numeric_limits<double>::infinity();
+    const double flat = kInfinity;
     compare(5.0, {0.1, 1.0, 30.0, 1000.0});
     compare(flat, {500.0, 1000.0, 3000.0, 10000.0});  // the last ones in full contact
 }

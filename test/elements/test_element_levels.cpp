@@ -15,16 +15,13 @@
 namespace test_element_levels {
 
 using namespace rsc;
-using std::numbers::pi;
 
 using Vector = std::vector<double>;
-constexpr double kE = 3.0, kFlat = __builtin_huge_val();
+constexpr double kE = 3.0;
 // Levels are asked for a residual of 1e-11; the matrices' condition is some hundreds. Sums over
 // pixels that touch come down to rounding.
 constexpr double kSame = 1e-8, kTolerance = 1e-11;
 constexpr double kResistivity[2] = {2, 3};
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 struct Truth {
     const HeightMap& map;
@@ -45,13 +42,13 @@ struct Truth {
 
     Truth(const HeightMap& map_, const Indenter& tip_, const SolverOptions& options_)
         : map(map_), tip(tip_), options(options_) {
-        for (int j = 0; j < ny(); ++j)
-            for (int i = 0; i < nx(); ++i) z.push_back(map(i, j));
+        for (const int j : up_to(ny()))
+            for (const int i : up_to(nx())) z.push_back(map(i, j));
         if (repeats()) lattice.emplace(tip.period);
         pressed.assign(n(), 0.0);
         K.assign(n(), Vector(n()));
-        for (std::size_t k = 0; k < n(); ++k)
-            for (std::size_t l = 0; l < n(); ++l)
+        for (const std::size_t k : up_to(n()))
+            for (const std::size_t l : up_to(n()))
                 K[k][l] = !repeats()
                               ? love(x(k) - x(l), y(k) - y(l), map.dx / 2, map.dy / 2) / (pi * kE)
                           : k > 0 ? K[0][shifted(l, k)]
@@ -61,13 +58,13 @@ struct Truth {
     std::size_t shifted(std::size_t l, std::size_t k) const {
         const int i = static_cast<int>(l) % nx() - static_cast<int>(k) % nx(),
                   j = static_cast<int>(l) / nx() - static_cast<int>(k) / nx();
-        return at((j + ny()) % ny() * nx() + (i + nx()) % nx());
+        return (j + ny()) % ny() * nx() + (i + nx()) % nx();
     }
     // The modes that the pixels carry, each with 2/(E* |k|).
     double answer(int i, int j) const {
         double sum = 0;
-        for (int b = 0; b < ny(); ++b)
-            for (int a = 0; a < nx(); ++a) {
+        for (const int b : up_to(ny()))
+            for (const int a : up_to(nx())) {
                 if (a == 0 && b == 0) continue;
                 const double kx = 2 * pi * (2 * a <= nx() ? a : a - nx()) / (nx() * map.dx),
                              ky = 2 * pi * (2 * b <= ny() ? b : b - ny()) / (ny() * map.dy);
@@ -84,35 +81,35 @@ struct Truth {
                    ? z[k] +
                          std::sqrt(tip.shape->hertz_radius() * tip.shape->hertz_radius() - rho2) -
                          tip.shape->hertz_radius()
-                   : -kFlat;
+                   : -kInfinity;
     }
 
     // p and w at a separation; false: the conditions of contact were not met.
     bool press(double Z0) {
         const double H = options.physics.hardness.H0;
         std::vector<int> state(n());  // 0 without pressure, 1 free, 2 at the hardness
-        for (std::size_t k = 0; k < n(); ++k) state[k] = height(k) > Z0;
+        for (const std::size_t k : up_to(n())) state[k] = height(k) > Z0;
         for (int round = 0; round < 200; ++round) {
             std::vector<std::size_t> free;
-            for (std::size_t k = 0; k < n(); ++k)
+            for (const std::size_t k : up_to(n()))
                 if (state[k] == 1) free.push_back(k);
             std::vector<Vector> A(free.size(), Vector(free.size()));
             Vector b(free.size());
-            for (std::size_t i = 0; i < free.size(); ++i) {
+            for (const auto i : indices(free)) {
                 b[i] = height(free[i]) - Z0;
-                for (std::size_t l = 0; l < n(); ++l)
+                for (const std::size_t l : up_to(n()))
                     if (state[l] == 2) b[i] -= K[free[i]][l] * H;
-                for (std::size_t j = 0; j < free.size(); ++j) A[i][j] = K[free[i]][free[j]];
+                for (const auto j : indices(free)) A[i][j] = K[free[i]][free[j]];
             }
             const Vector q = solved(A, b);
             p.assign(n(), 0.0);
             w.assign(n(), 0.0);
-            for (std::size_t i = 0; i < free.size(); ++i) p[free[i]] = q[i];
-            for (std::size_t k = 0; k < n(); ++k)
+            for (const auto i : indices(free)) p[free[i]] = q[i];
+            for (const std::size_t k : up_to(n()))
                 if (state[k] == 2) p[k] = H;
             bool settled = true;
-            for (std::size_t k = 0; k < n(); ++k) {
-                for (std::size_t l = 0; l < n(); ++l) w[k] += K[k][l] * p[l];
+            for (const std::size_t k : up_to(n())) {
+                for (const std::size_t l : up_to(n())) w[k] += K[k][l] * p[l];
                 w[k] -= height(k) - Z0;
                 if (state[k] == 1) w[k] = 0;
                 const int next = state[k] == 1   ? (p[k] <= 0   ? 0
@@ -131,7 +128,7 @@ struct Truth {
 
     // The level stays: what penetrates at the hardness is gone.
     void accept() {
-        for (std::size_t k = 0; k < n(); ++k)
+        for (const std::size_t k : up_to(n()))
             if (p[k] >= options.physics.hardness.H0 && w[k] < 0) {
                 pressed[k] -= w[k];
                 z[k] += w[k];
@@ -141,24 +138,24 @@ struct Truth {
 
     double energy() const {
         double sum = 0;
-        for (std::size_t k = 0; k < n(); ++k)
-            for (std::size_t l = 0; l < n(); ++l) sum += 0.5 * p[k] * K[k][l] * p[l];
+        for (const std::size_t k : up_to(n()))
+            for (const std::size_t l : up_to(n())) sum += 0.5 * p[k] * K[k][l] * p[l];
         return sum * pixel();
     }
     double stiffness() const {  // on the way back all pixels are elastic
         std::vector<std::size_t> touching;
-        for (std::size_t k = 0; k < n(); ++k)
+        for (const std::size_t k : up_to(n()))
             if (p[k] > 0) touching.push_back(k);
         std::vector<Vector> A(touching.size(), Vector(touching.size()));
-        for (std::size_t i = 0; i < touching.size(); ++i)
-            for (std::size_t j = 0; j < touching.size(); ++j) A[i][j] = K[touching[i]][touching[j]];
+        for (const auto i : indices(touching))
+            for (const auto j : indices(touching)) A[i][j] = K[touching[i]][touching[j]];
         double sum = 0;
         for (double q : solved(A, Vector(touching.size(), 1.0))) sum += q;
         return -sum * pixel();
     }
     double down(double px, double py) const {
         double sum = 0;
-        for (std::size_t k = 0; k < n(); ++k) {
+        for (const std::size_t k : up_to(n())) {
             double dx = px - x(k), dy = py - y(k);
             if (repeats()) {
                 dx = std::remainder(dx, tip.period.x);
@@ -183,7 +180,7 @@ void whole_level(const Level& level, const Truth& t, double Z0) {
     std::vector<std::size_t> touching;
     double force = 0, pressed = 0, most = 0;
     long candidates = 0;
-    for (std::size_t k = 0; k < t.n(); ++k) {
+    for (const std::size_t k : up_to(t.n())) {
         candidates += t.repeats() || t.height(k) + t.pressed[k] > Z0;
         pressed += t.pressed[k];
         if (!(t.p[k] > 0)) continue;
@@ -199,18 +196,18 @@ void whole_level(const Level& level, const Truth& t, double Z0) {
     if (level.pixels.index.size() != touching.size()) return;
     // The highest pressure of each contact, and the penetration that its pressures need where this
     // is.
-    std::vector<std::size_t> peak(at(level.contacts), t.n());
-    for (std::size_t k = 0; k < touching.size(); ++k) {
+    std::vector<std::size_t> peak(level.contacts, t.n());
+    for (const auto k : indices(touching)) {
         same(level.pixels.pressure[k], t.p[touching[k]], most, "pressure of a pixel");
         same(level.pixels.x(k), t.x(touching[k]), 1, "x of a pixel");
         same(level.pixels.y(k), t.y(touching[k]), 1, "y of a pixel");
-        std::size_t& top = peak[at(level.pixels.contact[k])];
+        std::size_t& top = peak[level.pixels.contact[k]];
         if (top == t.n() || t.p[touching[k]] > t.p[top]) top = touching[k];
     }
-    for (std::size_t c = 0; c < peak.size(); ++c) {
+    for (const auto c : indices(peak)) {
         double alone = 0;
-        for (std::size_t k = 0; k < touching.size(); ++k) {
-            if (at(level.pixels.contact[k]) != c) continue;
+        for (const auto k : indices(touching)) {
+            if (std::cmp_not_equal(level.pixels.contact[k], c)) continue;
             double dx = t.x(touching[k]) - t.x(peak[c]), dy = t.y(touching[k]) - t.y(peak[c]);
             if (t.repeats()) {
                 dx = std::remainder(dx, t.tip.period.x);
@@ -258,8 +255,8 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
         whole_level(level, t, Z0);
         for (const auto& [x, y] : {std::pair{0.41, -0.02}, {0.7, 0.11}})
             same(deflection(level, *kernel, x, y), t.down(x, y), 0.01, "deflection");
-        double top = -kFlat;
-        for (std::size_t k = 0; k < t.n(); ++k) top = std::max(top, t.height(k));
+        double top = -kInfinity;
+        for (const std::size_t k : up_to(t.n())) top = std::max(top, t.height(k));
         same(contact->first_touch(), top, 0.01, "first touch");
         deepest = level.force;
         large = std::max(large, level.contacts);
@@ -269,7 +266,7 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
     const ResidualProfile profile = contact->residual_profile();
     CHECK(profile.x.empty() || (profile.dx == map.dx && profile.dy == map.dy));
     std::size_t next = 0;
-    for (std::size_t k = 0; k < t.n(); ++k) {
+    for (const std::size_t k : up_to(t.n())) {
         if (!(t.pressed[k] > 0)) continue;
         CHECK(next < profile.depth.size());
         if (next == profile.depth.size()) break;
@@ -309,9 +306,9 @@ TEST(element_levels) {
     });
     map.x0 = 0.2;
     map.y0 = -0.15;
-    const Indenter sphere{kE, 20.0, 0.47, 0.07, {}}, flat{kE, kFlat, 0.47, 0.07, {}},
-        repeating{kE, kFlat, 0.47, 0.07, {map.Lx(), map.Ly()}};
-    for (const double hardness : {kFlat, 0.35}) {
+    const Indenter sphere{kE, 20.0, 0.47, 0.07, {}}, flat{kE, kInfinity, 0.47, 0.07, {}},
+        repeating{kE, kInfinity, 0.47, 0.07, {map.Lx(), map.Ly()}};
+    for (const double hardness : {kInfinity, 0.35}) {
         along_a_path(map, sphere, hardness, "sphere");
         along_a_path(map, flat, hardness, "flat");
         map.periodic = true;

@@ -24,20 +24,20 @@ double by_conjugate_gradients(const HeightMap& map, const std::vector<std::int32
         K.apply(
             [&](int j, double* row) {
                 std::fill_n(row, map.nx, 0.0);
-                for (std::size_t k = 0; k < pixels.size(); ++k)
+                for (const auto k : indices(pixels))
                     if (pixels[k] / map.nx == j) row[pixels[k] % map.nx] = d[k];
             },
             [&](int j, const double* row) {
-                for (std::size_t k = 0; k < pixels.size(); ++k)
+                for (const auto k : indices(pixels))
                     if (pixels[k] / map.nx == j) image[k] = K.unit() / kE * row[pixels[k] % map.nx];
             });
         const double alpha = square / product(d, image);
-        for (std::size_t k = 0; k < q.size(); ++k) {
+        for (const auto k : indices(q)) {
             q[k] += alpha * d[k];
             r[k] -= alpha * image[k];
         }
         const double last = std::exchange(square, product(r, r));
-        for (std::size_t k = 0; k < q.size(); ++k) d[k] = r[k] + square / last * d[k];
+        for (const auto k : indices(q)) d[k] = r[k] + square / last * d[k];
     }
     return -map.dx * map.dy * std::accumulate(q.begin(), q.end(), 0.0);
 }
@@ -45,7 +45,7 @@ double by_conjugate_gradients(const HeightMap& map, const std::vector<std::int32
 TEST(flat_stiffness) {
     const Spectrum spectrum{1, 0.8, 4, 20, false, 0.01};
     const HeightMap map = synthesize(spectrum, 160, Normalise::sample, 1, 1, nullptr, 1);
-    const Indenter flat{kE, std::numeric_limits<double>::infinity(), 0, 0, {map.Lx(), map.Ly()}};
+    const Indenter flat{kE, kInfinity, 0, 0, {map.Lx(), map.Ly()}};
     const double slope = std::sqrt(2 * theoretical_moments(spectrum).m2);
     for (const double pressure : {0.005, 0.02, 0.3}) {
         const auto contact =

@@ -9,16 +9,14 @@ namespace test_line_contact {
 
 using namespace rsc;
 
-const double pi = std::numbers::pi;
-
 HeightMap map_of(int nx, int ny, double step, const std::function<double(double, double)>& z) {
     HeightMap map;
     map.allocate(nx, ny, nx);
     map.dx = map.dy = step;
     map.x0 = -0.5 * (nx - 1) * step;
     map.y0 = -0.5 * (ny - 1) * step;
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i) map.row(j)[i] = z(map.x(i), map.y(j));
+    for (const int j : up_to(ny))
+        for (const int i : up_to(nx)) map.row(j)[i] = z(map.x(i), map.y(j));
     return map;
 }
 
@@ -87,8 +85,8 @@ TEST(hertz_line) {
         const double most = *std::ranges::max_element(level.pixels.pressure);
         errors.push_back(std::abs(most / p0 - 1));
         // Equal along the axis.
-        const std::size_t each = level.pixels.index.size() / static_cast<std::size_t>(along);
-        CHECK(each * static_cast<std::size_t>(along) == level.pixels.index.size());
+        const std::size_t each = level.pixels.index.size() / along;
+        CHECK(each * along == level.pixels.index.size());
         for (std::size_t k = each; k < level.pixels.pressure.size(); ++k)
             CHECK_CLOSE(level.pixels.pressure[k], level.pixels.pressure[k % each], 1e-6 * p0);
         CHECK_CLOSE(level.area / period, 2 * b, 1.5 * step);
@@ -159,7 +157,7 @@ TEST(the_middle_of_a_long_free_strip) {
     for (int i = 0; i < 20 && std::abs(force / N - 1) > 1e-3; ++i) {
         const Level level = free->at_force(total);
         force = area = 0;
-        for (std::size_t k = 0; k < level.pixels.index.size(); ++k)
+        for (const auto k : indices(level.pixels.index))
             if (std::abs(level.pixels.y(k)) < 0.5) {
                 force += level.pixels.pressure[k] * step * step;
                 area += step * step;

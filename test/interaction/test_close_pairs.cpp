@@ -21,7 +21,7 @@ Pairs found(const Vector& x, const Vector& y, const Vector& reach, const Period&
 
 Pairs by_double_loop(const Vector& x, const Vector& y, const Vector& reach, const Period& period) {
     Pairs pairs;
-    for (std::size_t i = 0; i < x.size(); ++i) {
+    for (const auto i : indices(x)) {
         for (std::size_t j = i + 1; j < x.size(); ++j) {
             const double dx = period.nearest_x(x[i] - x[j]), dy = period.nearest_y(y[i] - y[j]),
                          limit = reach[i] + reach[j];
@@ -54,13 +54,13 @@ TEST(random_points) {
     std::uniform_real_distribution<double> uniform(0, 1);
     std::normal_distribution<double> normal;
     long met = 0;
-    for (int set = 0; set < 240; ++set) {
+    for (const int set : up_to(240)) {
         const double flat = set % 3 == 0   ? 1
                             : set % 3 == 1 ? 0.01
                                            : 0,
                      spread = set % 5, side = set % 2 == 0 ? 1 : 1e-3;
         Vector x, y, reach;
-        for (int i = 0; i < 2 + set; ++i) {
+        for (const int i : up_to(2 + set)) {
             x.push_back(5 + side * uniform(random));
             y.push_back(-7 + side * flat * uniform(random));
             if (set % 7 == 0) std::swap(x.back(), y.back());
@@ -76,9 +76,9 @@ TEST(random_points) {
 TEST(one_huge_spot) {
     std::mt19937_64 random(4);
     std::uniform_real_distribution<double> uniform(0, 1);
-    for (double huge : {0.1, 0.5, 2.0, 1e6, std::numeric_limits<double>::infinity()}) {
+    for (double huge : {0.1, 0.5, 2.0, 1e6, kInfinity}) {
         Vector x, y, reach;
-        for (int i = 0; i < 1500; ++i) {
+        for (const int i : up_to(1500)) {
             x.push_back(uniform(random));
             y.push_back(uniform(random));
             reach.push_back(i == 700 ? huge : i % 300 == 0 ? 0.1 : 0.01 * uniform(random));
@@ -91,9 +91,9 @@ TEST(one_huge_spot) {
 TEST(repeating) {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> uniform(0, 1);
-    for (int set = 0; set < 60; ++set) {
+    for (const int set : up_to(60)) {
         Vector x, y, reach;
-        for (int i = 0; i < 80; ++i) {
+        for (const int i : up_to(80)) {
             x.push_back(uniform(random) + (i % 5 - 2));
             y.push_back(0.7 * uniform(random));
             reach.push_back(i % 9 == 0 ? 0

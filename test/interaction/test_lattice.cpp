@@ -9,7 +9,6 @@
 namespace test_lattice {
 
 using namespace rsc;
-using std::numbers::pi;
 
 constexpr double kSum = 1e-12;  // of 1/L: what the lattice promises
 // 4 zeta(1/2) beta(1/2), the square lattice's own sum
@@ -60,7 +59,7 @@ TEST(lattice_sums) {
         const Lattice lattice({Lx, Ly});
         double worst = std::abs(lattice.self() - ewald(0, 0, Lx, Ly, 1.4)) * size;
         std::vector<double> x, y, f, phi(1);
-        for (int k = 0; k < 150; ++k) {
+        for (const int k : up_to(150)) {
             x.push_back(Lx * uniform(random));
             y.push_back(Ly * uniform(random));
             f.push_back(uniform(random));
@@ -78,7 +77,7 @@ TEST(lattice_sums) {
         y[77] = 0.25 * Ly;
         const double xt = 0.125 * Lx, yt = 2.25 * Ly;
         double sum = f[77] * lattice.self();
-        for (std::size_t k = 0; k < f.size(); ++k)
+        for (const auto k : indices(f))
             if (k != 77) sum += f[k] * lattice.at(xt - x[k], yt - y[k]);
         lattice.potential(1, &xt, &yt, f.size(), x.data(), y.data(), f.data(), phi.data());
         CHECK_CLOSE(phi[0] * size, sum * size, 1e-11);
@@ -113,7 +112,7 @@ TEST(spots_wrap) {
     }
     std::vector<Spot> ring;
     const double r = 0.07, d = 0.1;
-    for (int i = 0; i < 10; ++i) ring.push_back({0.1 * i, 0.5, r, r, 0.3 * i});
+    for (const int i : up_to(10)) ring.push_back({0.1 * i, 0.5, r, r, 0.3 * i});
     const double lens = 2 * r * r * std::acos(d / (2 * r)) - d / 2 * std::sqrt(4 * r * r - d * d);
     CHECK_CLOSE(union_area(ring, nullptr, period), 10 * (pi * r * r - lens), 1e-14);
 }

@@ -9,21 +9,18 @@
 #include "check.hpp"
 #include "contact/equivalent.hpp"
 #include "interaction/lattice.hpp"
+#include "support/asperities.hpp"
 #include "support/height_maps.hpp"
-#include "support/judged.hpp"
 #include "support/paths.hpp"
-#include "support/random_asperities.hpp"
 #include "truth/elimination.hpp"
 
 namespace test_layers {
 
 using namespace rsc;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity(), kPi = std::numbers::pi;
-
 LayeredBody body_of(const std::vector<Layer>& layers, double E, double nu) {
     LayeredBody body;
-    for (const Layer& layer : layers) body.layer[static_cast<std::size_t>(body.count++)] = layer;
+    for (const Layer& layer : layers) body.layer[body.count++] = layer;
     body.E = E;
     body.nu = nu;
     return body;
@@ -34,7 +31,7 @@ LayeredBody body_of(const std::vector<Layer>& layers, double E, double nu) {
 // tractions and displacements continuous (6 for one layer), in long double.
 double by_boundary_conditions(const LayeredBody& body, double wavenumber) {
     using Real = long double;
-    const auto layers = static_cast<std::size_t>(body.count);
+    const std::size_t layers = body.count;
     const bool rigid = std::isinf(body.E);
     const std::size_t n = 4 * layers + (rigid ? 0 : 2);
     const Real k = wavenumber, unit = body.layer[0].E;  // of stresses
@@ -60,10 +57,10 @@ double by_boundary_conditions(const LayeredBody& body, double wavenumber) {
     for (std::size_t l = 0; l <= layers; ++l) {
         const Layer& below = l < layers ? body.layer[l] : base;
         if (l == 0) {
-            for (int c = 0; c < 4; ++c) {
+            for (const int c : up_to(4)) {
                 const State s = state(below, c, 0);
-                A[0][static_cast<std::size_t>(c)] = s.normal;
-                A[1][static_cast<std::size_t>(c)] = s.shear;
+                A[0][c] = s.normal;
+                A[1][c] = s.shear;
             }
             b[0] = -1;
             continue;
@@ -72,20 +69,16 @@ double by_boundary_conditions(const LayeredBody& body, double wavenumber) {
         const int conditions = l == layers && rigid ? 2 : 4;
         const auto put = [&](std::size_t column, const State& s, Real sign) {
             const Real values[] = {s.along, s.down, s.normal, s.shear};
-            for (int c = 0; c < conditions; ++c)
-                A[row + static_cast<std::size_t>(c)][column] = sign * values[c];
+            for (const int c : up_to(conditions)) A[row + c][column] = sign * values[c];
         };
-        for (int c = 0; c < 4; ++c)
-            put(4 * (l - 1) + static_cast<std::size_t>(c), state(above, c, above.thickness), 1);
+        for (const int c : up_to(4)) put(4 * (l - 1) + c, state(above, c, above.thickness), 1);
         if (conditions == 4)
-            for (int c = 0; c < (l < layers ? 4 : 2); ++c)
-                put(4 * l + static_cast<std::size_t>(c), state(below, c, 0), -1);
-        row += static_cast<std::size_t>(conditions);
+            for (const int c : up_to((l < layers ? 4 : 2))) put(4 * l + c, state(below, c, 0), -1);
+        row += conditions;
     }
     const std::vector<Real> x = solved(A, b);
     Real down = 0;
-    for (int c = 0; c < 4; ++c)
-        down += x[static_cast<std::size_t>(c)] * state(body.layer[0], c, 0).down;
+    for (const int c : up_to(4)) down += x[c] * state(body.layer[0], c, 0).down;
     const Real nu = body.layer[0].nu;  // a half-space: 2 (1 - nu^2)/(E k)
     return static_cast<double>(down * k / (2 * (1 - nu * nu)));
 }
@@ -96,7 +89,7 @@ TEST(answers) {
     const auto power = [&](double decades) {
         return std::pow(10.0, decades * (2 * uniform(random) - 1));
     };
-    for (int stack = 0; stack < 20; ++stack) {
+    for (const int stack : up_to(20)) {
         std::vector<Layer> layers;
         for (int l = 0; l < 1 + stack % 4; ++l)
             layers.push_back({0.1 * power(0.7), 1e5 * power(1.5), 0.499 * uniform(random)});
@@ -113,17 +106,6 @@ TEST(answers) {
         CHECK_RELATIVE(layered_answer(body, 18 / layers[0].thickness), 1, 1e-9);
         CHECK_CLOSE(layered_answer(body, 1e5 / layers[0].thickness), 1, 0);
     }
-    // The closed form for one layer (x = k h).
-    for (const double r : {0.05, 0.6, 30.0})
-        for (const double x : {0.01, 0.7, 2.0, 6.0}) {
-            const double nl = 0.1, nb = 0.45, b = (r - 1) / (r + 3 - 4 * nl),
-                         n = 1 - 4 * (1 - nl) / (1 + r * (3 - 4 * nb)), e = std::exp(-2 * x);
-            const double T = (1 + 4 * b * x * e - b * n * e * e) /
-                             (1 - (b + n + 4 * b * x * x) * e + b * n * e * e);
-            CHECK_RELATIVE(
-                layered_answer(body_of({{1, r * 2 * (1 + nl), nl}}, 2 * (1 + nb), nb), x), T,
-                1e-12);
-        }
     // Thin, incompressible, on a rigid base: T -> (2/3) x^3, less 0.8 of x^2 of it, without losing
     // digits.
     for (const double x : {1e-6, 1e-4, 1e-2})
@@ -143,7 +125,7 @@ double transformed(const LayeredBody& body, double d) {
                 return (layered_answer(body, q) - 1) * boost::math::cyl_bessel_j(0, q * d);
             },
             k, std::min(end, k + step));
-    return sum / (kPi * E_1);
+    return sum / (pi * E_1);
 }
 
 TEST(transforms) {
@@ -157,7 +139,7 @@ TEST(transforms) {
         for (const double ratio : {0.0, 1e-4, 0.01, 0.3, 1.0, 4.0, 30.0, 300.0, 1e4}) {
             if (ratio > 300 && &body != bodies) continue;  // the quadrature takes long
             const double d = 0.3 * ratio,
-                         point = 1 / (kPi * E_1 * std::max(d, 0.3));  // what G is, about
+                         point = 1 / (pi * E_1 * std::max(d, 0.3));  // what G is, about
             CHECK_CLOSE(smooth->at(d), transformed(body, d), 1e-9 * point);
         }
         for (const double k : {1e-3, 0.1, 1.0, 10.0, 100.0})
@@ -182,7 +164,7 @@ Pressed axisymmetric(const LayeredBody& body, double R, double a) {
     const double h = body.layer[0].thickness,
                  E = body.layer[0].E / (1 - body.layer[0].nu * body.layer[0].nu);
     std::vector<double> t, weight;
-    for (std::size_t i = 0; i < n / 2; ++i)
+    for (const std::size_t i : up_to(n / 2))
         for (const int side : {-1, 1}) {
             t.push_back(0.5 * a * (1 + side * Gauss::abscissa()[i]));
             weight.push_back(0.5 * a * Gauss::weights()[i]);
@@ -192,7 +174,7 @@ Pressed axisymmetric(const LayeredBody& body, double R, double a) {
     std::vector<double> k, rest;  // nodes over k, and (T - 1) times their weights
     const double step = std::min(0.25 / h, 2 / a);
     for (double from = 0; from < 20 / h; from += step)
-        for (std::size_t i = 0; i < n / 2; ++i)
+        for (const std::size_t i : up_to(n / 2))
             for (const int side : {-1, 1}) {
                 k.push_back(from + 0.5 * step * (1 + side * Gauss::abscissa()[i]));
                 rest.push_back(0.5 * step * Gauss::weights()[i] *
@@ -201,21 +183,21 @@ Pressed axisymmetric(const LayeredBody& body, double R, double a) {
     std::vector<std::vector<double>> A(n + 1, std::vector<double>(n + 1, 0.0)),
         wave(n + 1, std::vector<double>(k.size()));
     for (std::size_t i = 0; i <= n; ++i)
-        for (std::size_t q = 0; q < k.size(); ++q) wave[i][q] = std::cos(k[q] * t[i]);
+        for (const auto q : indices(k)) wave[i][q] = std::cos(k[q] * t[i]);
     for (std::size_t i = 0; i <= n; ++i)
         for (std::size_t j = 0; j <= n; ++j) {
             double sum = 0;
-            for (std::size_t q = 0; q < k.size(); ++q) sum += rest[q] * wave[i][q] * wave[j][q];
-            A[i][j] = (i == j ? 1.0 : 0.0) + 2 / kPi * weight[j] * sum;
+            for (const auto q : indices(k)) sum += rest[q] * wave[i][q] * wave[j][q];
+            A[i][j] = (i == j ? 1.0 : 0.0) + 2 / pi * weight[j] * sum;
         }
-    std::vector<double> flat(n + 1, E / kPi), curved;
-    for (double x : t) curved.push_back(E / kPi * x * x / R);
+    std::vector<double> flat(n + 1, E / pi), curved;
+    for (double x : t) curved.push_back(E / pi * x * x / R);
     flat = solved(A, flat);
     curved = solved(A, curved);
     const double depth = curved[n] / flat[n];
     double force = 0;
-    for (std::size_t i = 0; i < n; ++i)
-        force += 2 * kPi * weight[i] * (depth * flat[i] - curved[i]);
+    for (const std::size_t i : up_to(n))
+        force += 2 * pi * weight[i] * (depth * flat[i] - curved[i]);
     return {depth, force};
 }
 
@@ -234,7 +216,7 @@ TEST(sphere_on_a_layer) {
             const auto contact = make_element_contact(map, sphere, {.tolerance = 1e-5});
             const Level level = contact->at_separation(-truth.depth);
             CHECK_RELATIVE(level.force, truth.force, 0.005);
-            CHECK_RELATIVE(level.area, kPi * a * a, 0.02);
+            CHECK_RELATIVE(level.area, pi * a * a, 0.02);
         }
 }
 
@@ -282,7 +264,7 @@ TEST(limits) {
         if (model == 0) return make_asperity_contact(asperities, tip, options);
         return make_element_contact(map, tip, options);
     };
-    for (int model = 0; model < 3; ++model) {
+    for (const int model : up_to(3)) {
         const double Z0 = model == 0 ? 0.0 : 0.012;
         const auto plain = contact(base, model);
         const Level truth = plain->at_separation(Z0);
@@ -304,30 +286,15 @@ TEST(limits) {
     }
 }
 
-// All ways to solve for asperities agree, and say what is too wide.
-TEST(methods) {
+// The hardness is that of what lies on top: no contact bears more.
+TEST(hardness_of_the_top) {
     const Asperities asperities = random_asperities(1200, 0.005, 0.01, 2e-3, 0.5, 3);
     const Indenter tip = layered(body_of({{0.1, 3, 0.4}, {0.1, 9, 0.2}}, 1, 0.3), 100.0, 0.5, 0.5);
     SolverOptions options{.method = Method::direct, .tolerance = 1e-9, .surface = {.sigma = 0.01}};
-    Path direct = asperity_path(asperities, tip, options);
-    const Level truth = judged(direct.at_separation(0.012), direct, options);
-    CHECK(truth.contacts > 50 && truth.wide_contacts == 0);
-    for (const Method method : {Method::mesh, Method::dgesv}) {
-        options.method = method;
-        Path contact = asperity_path(asperities, tip, options);
-        const Level level = judged(contact.at_separation(0.012), contact, options);
-        CHECK(level.method == method);
-        same(contact, level, direct, truth, 1e-8);
-    }
-    options.method = Method::direct;
-    Path wide = asperity_path(asperities,
-                              layered(body_of({{0.01, 3, 0.4}}, 1, 0.3), 100.0, 0.5, 0.5), options);
-    const Level deep = judged(wide.at_separation(0.012), wide, options);
-    CHECK(deep.wide_contacts > 0 && deep.wide_contacts <= 1 && (deep.doubts & bit(Cause::layer)));
-    // The hardness is that of what lies on top: no contact bears more.
-    options.physics.hardness.H0 = 1e-2 * truth.force / truth.area;
+    const Level elastic = asperity_path(asperities, tip, options).at_separation(0.012);
+    options.physics.hardness.H0 = 1e-2 * elastic.force / elastic.area;
     const Level yields = asperity_path(asperities, tip, options).at_separation(0.012);
-    CHECK(yields.force > 0 && yields.force < truth.force &&
+    CHECK(yields.force > 0 && yields.force < elastic.force &&
           yields.force <= options.physics.hardness.H0 * yields.area * (1 + 1e-9));
     // The same table for the same body, as long as it is in use.
     CHECK(layers_of(tip.layers, tip.E_star) == layers_of(tip.layers, tip.E_star));
@@ -339,14 +306,14 @@ TEST(repeating) {
     const LayeredBody body = body_of({{0.1, 3, 0.5}, {0.1, 9, 0.2}}, 1, 0.3);
     const double E_1 = 3 / (1 - 0.25), Lx = 2, Ly = 1.5;
     const auto smooth = make_layers(body, E_1);
-    const Lattice lattice({Lx, Ly}, smooth.get(), 1 / (kPi * E_1)), plain({Lx, Ly});
+    const Lattice lattice({Lx, Ly}, smooth.get(), 1 / (pi * E_1)), plain({Lx, Ly});
     for (const auto& [x, y] : {std::pair{0.1, 0.2}, {0.9, 0.7}, {0.37, 0.05}, {1.9, -3.3}}) {
         double sum = 0;
         for (int m = -80; m <= 80; ++m)
             for (int n = -60; n <= 60; ++n) {
-                const double kx = 2 * kPi * m / Lx, ky = 2 * kPi * n / Ly, k = std::hypot(kx, ky);
+                const double kx = 2 * pi * m / Lx, ky = 2 * pi * n / Ly, k = std::hypot(kx, ky);
                 if (k > 0)
-                    sum += 2 * kPi / (Lx * Ly * k) * (layered_answer(body, k) - 1) *
+                    sum += 2 * pi / (Lx * Ly * k) * (layered_answer(body, k) - 1) *
                            std::cos(kx * x + ky * y);
             }
         CHECK_CLOSE(lattice.at(x, y), plain.at(x, y) + sum, 1e-8 * (1 + std::abs(sum)));

@@ -19,7 +19,7 @@ Points uniform_points(std::size_t n, unsigned seed, double length_x = 1, double 
     std::mt19937_64 engine(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
     Points p{Vector(n), Vector(n)};
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const std::size_t i : up_to(n)) {
         p.x[i] = length_x * uniform(engine);
         p.y[i] = length_y * uniform(engine);
     }
@@ -31,7 +31,7 @@ Points clustered_points(std::size_t n, unsigned seed) {
     std::mt19937_64 engine(seed);
     std::normal_distribution<double> normal;
     Points p = uniform_points(n, seed);
-    for (std::size_t i = 0; i < n - n / 10; ++i) {
+    for (const std::size_t i : up_to(n - n / 10)) {
         const double cluster = static_cast<double>(i % 9);
         p.x[i] = std::cos(cluster) + 0.01 * normal(engine);
         p.y[i] = std::sin(2 * cluster) + 0.01 * normal(engine);
@@ -47,7 +47,7 @@ Vector random_forces(std::size_t n, unsigned seed, bool signs) {
     return f;
 }
 
-const auto kUnit = make_kernel(Interaction::point, 1 / std::numbers::pi);  // 1/d
+const auto kUnit = make_kernel(Interaction::point, 1 / pi);  // 1/d
 
 Vector product(MeshPotential& potential, const Vector& f) {
     Vector phi(f.size(), std::nan(""));
@@ -61,7 +61,7 @@ double error_of(const Points& p, const Vector& f, const Vector& phi) {
     long double difference = 0, norm = 0;
     for (std::size_t i = 0; i < p.size(); i += step) {
         long double sum = 0;
-        for (std::size_t j = 0; j < p.size(); ++j) {
+        for (const auto j : indices(p)) {
             const long double dx = static_cast<long double>(p.x[i]) - p.x[j],
                               dy = static_cast<long double>(p.y[i]) - p.y[j];
             const long double d = std::sqrt(dx * dx + dy * dy);

@@ -18,7 +18,7 @@ Points random_points(std::size_t n, unsigned seed, double size = 1, double x0 = 
     std::mt19937_64 engine(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
     Points p{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const std::size_t i : up_to(n)) {
         p.x[i] = x0 + size * uniform(engine);
         p.y[i] = size * uniform(engine);
         p.f[i] = uniform(engine) - 0.3;
@@ -31,9 +31,9 @@ void truth(const Points& targets, const Points& sources, std::vector<double>& ph
            std::vector<double>& size) {
     phi.assign(targets.size(), 0);
     size.assign(targets.size(), 0);
-    for (std::size_t i = 0; i < targets.size(); ++i) {
+    for (const auto i : indices(targets)) {
         long double sum = 0, magnitude = 0;
-        for (std::size_t j = 0; j < sources.size(); ++j) {
+        for (const auto j : indices(sources)) {
             const long double dx = static_cast<long double>(targets.x[i]) - sources.x[j];
             const long double dy = static_cast<long double>(targets.y[i]) - sources.y[j];
             const long double d = std::sqrt(dx * dx + dy * dy);
@@ -51,11 +51,10 @@ template <class T>
 double distance(const std::vector<T>& a, const std::vector<double>& b,
                 const std::vector<double>& size) {
     double largest = 0;
-    for (std::size_t i = 0; i < b.size(); ++i) {
+    for (const auto i : indices(b)) {
         const double error = std::abs(static_cast<double>(a[i]) - b[i]);
         const double relative = size[i] > 0 ? error / size[i] : error;
-        if (!(relative <= largest))
-            largest = std::isnan(relative) ? std::numeric_limits<double>::infinity() : relative;
+        if (!(relative <= largest)) largest = std::isnan(relative) ? kInfinity : relative;
     }
     return largest;
 }
@@ -68,9 +67,9 @@ constexpr double kSingle = 2e-6;
 
 // The fixed-point coordinates of the single loop keep (extent / d) 2^-31 of a pair's term.
 double single_tolerance(const Points& p) {
-    double closest2 = std::numeric_limits<double>::infinity(), extent2 = 0;
-    for (std::size_t i = 0; i < p.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j) {
+    double closest2 = kInfinity, extent2 = 0;
+    for (const auto i : indices(p))
+        for (const std::size_t j : up_to(i)) {
             const double d2 = std::pow(p.x[i] - p.x[j], 2) + std::pow(p.y[i] - p.y[j], 2);
             if (d2 > 0) closest2 = std::min(closest2, d2);
             extent2 = std::max(extent2, d2);
@@ -80,7 +79,7 @@ double single_tolerance(const Points& p) {
 
 // The sums of 1/d.
 const Kernel& unit_kernel() {
-    static const auto kernel = make_kernel(Interaction::point, 1 / std::numbers::pi);
+    static const auto kernel = make_kernel(Interaction::point, 1 / pi);
     return *kernel;
 }
 
@@ -127,7 +126,7 @@ TEST(coincident) {
         p.y[i + 50] = p.y[i];
     }
     check_all_products(p, "coincident pairs");
-    for (std::size_t i = 0; i < p.size(); ++i) {
+    for (const auto i : indices(p)) {
         p.x[i] = 0.1;
         p.y[i] = -7;
     }
@@ -149,7 +148,7 @@ TEST(instruction_sets) {
     std::vector<std::int32_t> x(n), y(n);
     std::vector<float> f(p.f.begin(), p.f.end());
     const double unit = 0x1p30;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const std::size_t i : up_to(n)) {
         x[i] = static_cast<std::int32_t>(p.x[i] * unit);
         y[i] = static_cast<std::int32_t>(p.y[i] * unit);
     }

@@ -13,7 +13,7 @@ constexpr double kE = 3.0, kWide = 1.2, kHigh = 0.5;
 
 double error_of(const Vector& value, const Vector& truth) {
     double d = 0, s = 0;
-    for (std::size_t k = 0; k < truth.size(); ++k) {
+    for (const auto k : indices(truth)) {
         d += std::pow(value[k] - truth[k], 2);
         s += truth[k] * truth[k];
     }
@@ -22,7 +22,7 @@ double error_of(const Vector& value, const Vector& truth) {
 
 Vector some(const Vector& of, const std::vector<int>& which) {
     Vector out;
-    for (int k : which) out.push_back(of[static_cast<std::size_t>(k)]);
+    for (int k : which) out.push_back(of[k]);
     return out;
 }
 
@@ -35,7 +35,7 @@ struct Kind {
 void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, const char* name) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> uniform(0, 1);
-    const auto size = static_cast<std::size_t>(n), others = size / 3 + 7;
+    const std::size_t size = n, others = size / 3 + 7;
     Vector x, y, force, xo, yo;
     for (std::size_t k = 0; k < size; ++k) {
         x.push_back(5 + kWide * uniform(random));
@@ -48,6 +48,17 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
         xo.push_back(4.9 + 1.2 * kWide * uniform(random));
         yo.push_back(-3.05 + kHigh * uniform(random));
     }
+    // At the first so many points of (tx, ty), of the forces at some of (sx, sy).
+    const auto sums = [&](std::size_t targets, const Vector& tx, const Vector& ty, const Vector& sx,
+                          const Vector& sy, const std::vector<int>& active) {
+        Vector truth(targets, 0.0);
+        for (const std::size_t i : up_to(targets))
+            for (const std::size_t k : active)
+                truth[i] +=
+                    force[k] * (&tx == &sx && i == k ? kernel->self()
+                                                     : kernel->at(tx[i] - sx[k], ty[i] - sy[k]));
+        return truth;
+    };
     Kind kinds[] = {
         {"direct", make_direct_products(kernel), 1e-13, 1e-6, 1e-5},
         {"mesh", make_mesh_products(kernel, 1e-7, 1e-3), 1e-7, 1e-3, 1e-5},
@@ -61,23 +72,13 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
         for (const int every : {1, 2, 9, n, n + 1,
                                 1}) {  // every so many a point carries a force; none; and all again
             std::vector<int> active, passive;
-            for (int k = 0; k < n; ++k)
+            for (const int k : up_to(n))
                 (k % every == (every > n ? n : every - 1) ? active : passive).push_back(k);
             p.set_active(active);
             CHECK(p.active() == active && p.passive() == passive);
             const Vector f = some(force, active);
-            Vector truth(size, 0.0), elsewhere(others, 0.0);
-            for (std::size_t i = 0; i < size; ++i)
-                for (int j : active) {
-                    const auto k = static_cast<std::size_t>(j);
-                    truth[i] +=
-                        force[k] * (i == k ? kernel->self() : kernel->at(x[i] - x[k], y[i] - y[k]));
-                }
-            for (std::size_t i = 0; i < others; ++i)
-                for (int j : active) {
-                    const auto k = static_cast<std::size_t>(j);
-                    elsewhere[i] += force[k] * kernel->at(xo[i] - x[k], yo[i] - y[k]);
-                }
+            const Vector truth = sums(size, x, y, x, y, active),
+                         elsewhere = sums(others, xo, yo, x, y, active);
             const Vector among = some(truth, active), beside = some(truth, passive);
             Vector all(size, -1.0), part(active.size(), -1.0), rest(passive.size(), -1.0),
                 there(others, -1.0);
@@ -105,13 +106,8 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
         for (int k = 0; k < few; k += 2) active.push_back(k);
         p.set_active(active);
         const Vector f = some(force, active);
-        Vector truth(static_cast<std::size_t>(few), 0.0), all(truth);
-        for (std::size_t i = 0; i < truth.size(); ++i)
-            for (int j : active) {
-                const auto k = static_cast<std::size_t>(j);
-                truth[i] +=
-                    force[k] * (i == k ? kernel->self() : kernel->at(y[i] - y[k], x[i] - x[k]));
-            }
+        const Vector truth = sums(few, y, x, y, x, active);
+        Vector all(few);
         p.full(f.data(), all.data());
         CHECK(error_of(all, truth) <= 2 * kind.full);
         if (check::failures > before)
@@ -128,7 +124,7 @@ TEST(all_products) {
     // lie.
     for (const double depth : {0.02, 0.3})
         for (const double share : {-0.7, 2.0}) {
-            const double near = share / (std::numbers::pi * kE);
+            const double near = share / (pi * kE);
             const auto smooth = std::make_shared<const SmoothPart>(
                 [=](double d) { return near / std::hypot(d, depth); },
                 [=](double k) { return share * std::exp(-k * depth); }, depth);

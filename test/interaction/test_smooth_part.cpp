@@ -15,7 +15,7 @@ namespace test_smooth_part {
 
 using namespace rsc;
 
-constexpr double kE = 3.0, kNear = 1 / (std::numbers::pi * kE);
+constexpr double kE = 3.0, kNear = 1 / (pi * kE);
 
 struct Artificial {
     double c, depth;
@@ -37,8 +37,8 @@ double over(const Artificial& s, double x, double y, double a, double b) {
         return boost::math::quadrature::gauss<double, 7>::integrate(f, from, to);
     };
     double sum = 0;
-    for (int i = 0; i < nx; ++i)
-        for (int j = 0; j < ny; ++j)
+    for (const int i : up_to(nx))
+        for (const int j : up_to(ny))
             sum += integral(x - a + 2 * a * i / nx, x - a + 2 * a * (i + 1) / nx, [&](double u) {
                 return integral(y - b + 2 * b * j / ny, y - b + 2 * b * (j + 1) / ny,
                                 [&](double v) { return s.at(std::hypot(u, v)); });
@@ -77,7 +77,7 @@ TEST(table) {
 template <class Real>
 void wave(int nx, int ny, int m, int n) {
     const Artificial s{2.0, 0.7};
-    const double dx = 0.3, dy = 0.2, pi = std::numbers::pi;
+    const double dx = 0.3, dy = 0.2;
     PeriodicPixels<Real> pixels(nx, ny, dx, dy, [s](double k) { return s.share(k); });
     const double kx = 2 * pi * m / (nx * dx), ky = 2 * pi * n / (ny * dy), k = std::hypot(kx, ky);
     const auto value = [&](int i, int j) { return std::cos(kx * i * dx + ky * j * dy + 0.4); };
@@ -86,10 +86,10 @@ void wave(int nx, int ny, int m, int n) {
                      factor = back ? 1 / answer : answer;
         pixels.apply(
             [&](int j, Real* row) {
-                for (int i = 0; i < nx; ++i) row[i] = static_cast<Real>(value(i, j));
+                for (const int i : up_to(nx)) row[i] = static_cast<Real>(value(i, j));
             },
             [&](int j, const Real* row) {
-                for (int i = 0; i < nx; ++i)
+                for (const int i : up_to(nx))
                     CHECK_CLOSE(static_cast<double>(row[i]), factor * value(i, j),
                                 (sizeof(Real) == 4 ? 1e-5 : 1e-12) * factor);
             },

@@ -35,7 +35,7 @@ std::string path_of(int fd) {
     char path[4096];
     const ssize_t n =
         ::readlink(("/proc/self/fd/" + std::to_string(fd)).c_str(), path, sizeof path);
-    return n > 0 ? std::string(path, static_cast<std::size_t>(n)) : "?";
+    return n > 0 ? std::string(path, n) : "?";
 }
 
 // Calls the function of the next library of that name.
@@ -94,7 +94,7 @@ namespace {
 // Place of the last call of these words before `end`, or -1.
 long last_call(const std::string& words, long end) {
     for (long k = end - 1; k >= 0; --k)
-        if (calls[static_cast<std::size_t>(k)] == words) return k;
+        if (calls[k] == words) return k;
     return -1;
 }
 
@@ -103,7 +103,7 @@ long last_call(const std::string& words, long end) {
 void named_after_the_disk_has_it(const std::string& path, bool folder_too) {
     long renamed = -1;
     std::string from;
-    for (std::size_t k = 0; k < calls.size(); ++k) {
+    for (const auto k : indices(calls)) {
         CHECK(calls[k] != "unlink " + path);
         CHECK(calls[k] != "write " + path || renamed >= 0);
         if (!calls[k].starts_with("rename ") || !calls[k].ends_with(" > " + path)) continue;
@@ -160,7 +160,7 @@ void one_thread_in_netcdf(const Folder& folder) {
     most_inside = 0;
     const Result result = sample::result(3);
     std::vector<std::thread> threads;
-    for (int k = 0; k < 4; ++k)
+    for (const int k : up_to(4))
         threads.emplace_back(
             [&, k] { write_result(result, folder / ("thread" + std::to_string(k) + ".nc"), {}); });
     for (std::thread& thread : threads) thread.join();

@@ -24,7 +24,7 @@ using Values = std::vector<double>;
 // height(y = 3, x = 4): 10 row + column.
 std::vector<double> heights() {
     std::vector<double> z;
-    for (int k = 0; k < 12; ++k) z.push_back(10 * (k / 4) + k % 4);
+    for (const int k : up_to(12)) z.push_back(10 * (k / 4) + k % 4);
     return z;
 }
 
@@ -34,7 +34,7 @@ TEST(units_and_directions) {
     const std::vector<std::pair<const char*, double>> units = {
         {"mm", 1e-3}, {"um", 1e-6}, {"nm", 1e-9}, {"inch", 0.0254}};
     for (const auto& [wanted, metre] : units)
-        for (std::size_t k = 0; k < units.size(); ++k)
+        for (const auto k : indices(units))
             for (const bool left : {false, true})
                 for (const bool down : {false, true}) {
                     const auto& [uz, z] = units[k];
@@ -59,12 +59,17 @@ TEST(units_and_directions) {
                     CHECK_RELATIVE(m.dx, 1.5 * x / metre, 1e-13);
                     CHECK_RELATIVE(m.y0, -7 * y / metre, 1e-13);
                     CHECK_RELATIVE(m.dy, 2.5 * y / metre, 1e-13);
-                    for (int j = 0; j < 3; ++j)
-                        for (int i = 0; i < 4; ++i)
+                    for (const int j : up_to(3))
+                        for (const int i : up_to(4))
                             CHECK_RELATIVE(
                                 m(i, j), (10 * (down ? 2 - j : j) + (left ? 3 - i : i)) * z / metre,
                                 1e-13);
                 }
+}
+
+HeightMap filled(const std::vector<Variable>& variables) {
+    return read_heights(netcdf("t.nc", {{"y", 3}, {"x", 4}}, variables), 2.0, "mm", "",
+                        Missing::fill);
 }
 
 // The numbers of every type, as they are and packed, and what each type has for "nothing was
@@ -87,8 +92,8 @@ TEST(types) {
                 if (offset != 0) v.numbers.push_back({"add_offset", {offset}});
                 const HeightMap m = read_heights(netcdf("t.nc", {{"y", 3}, {"x", 4}}, {v}), 2.0);
                 CHECK(m.dx == 0.5 && m.dy == 0.5 && m.x0 == 0 && m.y0 == 0);
-                for (int j = 0; j < 3; ++j)
-                    for (int i = 0; i < 4; ++i) CHECK(m(i, j) == (10 * j + i) * scale + offset);
+                for (const int j : up_to(3))
+                    for (const int i : up_to(4)) CHECK(m(i, j) == (10 * j + i) * scale + offset);
             }
         std::vector<double> z = heights();
         z[6] = fill;
@@ -106,8 +111,7 @@ TEST(types) {
         z[7] = 12;
         Variable v{"height", NC_SHORT, {"y", "x"}, z, {}, {{"scale_factor", {3}}}};
         if (own) v.numbers.push_back({"_FillValue", {12}});
-        const HeightMap m =
-            read_heights(netcdf("t.nc", {{"y", 3}, {"x", 4}}, {v}), 2.0, "mm", "", Missing::fill);
+        const HeightMap m = filled({v});
         CHECK(std::isnan(m(2, 1)) == !own && std::isnan(m(3, 1)) == own && m(0, 1) == 30);
         CHECK(std::isnan(m(0, 2)) == false && m(0, 2) == 60);
     }
@@ -119,26 +123,19 @@ TEST(types) {
                                         {"valid_min", {1}}}) {
         Values z = heights();
         z[6] = numbers == Values{1} ? 0.5 : numbers.back() + (numbers.back() > 1 ? 10 : 0);
-        const HeightMap m =
-            read_heights(netcdf("t.nc", {{"y", 3}, {"x", 4}},
-                                {{"height", NC_FLOAT, {"y", "x"}, z, {}, {{name, numbers}}}}),
-                         2.0, "mm", "", Missing::fill);
+        const HeightMap m = filled({{"height", NC_FLOAT, {"y", "x"}, z, {}, {{name, numbers}}}});
         CHECK(std::isnan(m(2, 1)) && m(1, 1) == 11 && m(3, 2) == 23);
     }
     // Limits of packed integers are packed, too; real numbers are heights.
     Variable v{"height", NC_SHORT, {"y", "x"}, heights()};
     v.numbers = {{"scale_factor", {-0.1}}, {"add_offset", {5}}, {"valid_range", {2.8, 9}}};
-    const HeightMap packed =
-        read_heights(netcdf("t.nc", {{"y", 3}, {"x", 4}}, {v}), 2.0, "mm", "", Missing::fill);
+    const HeightMap packed = filled({v});
     CHECK(std::isnan(packed(3, 2)) && !std::isnan(packed(2, 2)) && packed(0, 0) == 5);
     Values z = heights();
     z[5] = -25536;
     z[6] = -1;
-    const HeightMap u = read_heights(
-        netcdf(
-            "t.nc", {{"y", 3}, {"x", 4}},
-            {{"height", NC_SHORT, {"y", "x"}, z, {{"_Unsigned", "true"}}, {{"_FillValue", {-1}}}}}),
-        2.0, "mm", "", Missing::fill);
+    const HeightMap u = filled(
+        {{"height", NC_SHORT, {"y", "x"}, z, {{"_Unsigned", "true"}}, {{"_FillValue", {-1}}}}});
     CHECK(u(1, 1) == 40000 && std::isnan(u(2, 1)) && u(3, 2) == 23);
     // Coordinates in single precision are as uniform as that allows, no less.
     for (const auto& [off, even] : {std::pair{0.0, true}, {1e-5, true}, {1e-3, false}}) {
@@ -175,7 +172,7 @@ TEST(lists) {
         {"asperity_radius", "inch", 25.4, &Asperities::radius, {31, 32, 33}},
         {"asperity_kappa1", "um-1", 1e3, &Asperities::kappa1, {41, 42, 43}},
         {"asperity_kappa2", "m-1", 1e-3, &Asperities::kappa2, {1, 2, 4}},
-        {"asperity_angle", "degree", std::numbers::pi / 180, &Asperities::angle, {0.1, 0.2, 0.4}},
+        {"asperity_angle", "degree", pi / 180, &Asperities::angle, {0.1, 0.2, 0.4}},
         {"asperity_biharmonic", "um-3", 1e9, &Asperities::biharmonic, {-5, 6, 7}}};
     const auto file = [&](const std::set<std::string>& without, bool units) {
         std::vector<Variable> variables;
@@ -267,11 +264,11 @@ TEST(texts) {
     CHECK(m.nx == 5 && m.ny == 3 && m.dx == 2 && m.dy == 2 && m.x0 == 0 && m.y0 == 0 &&
           !m.periodic);
     const double wanted[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, -11, 12, 13, 14, 15.5};
-    for (int k = 0; k < 15; ++k) CHECK(m(k % 5, k / 5) == wanted[k]);
+    for (const int k : up_to(15)) CHECK(m(k % 5, k / 5) == wanted[k]);
     // Triples in any order: 5 columns of 0.5 from -1, 4 rows of 2 from 3; a line left out and a
     // word for it.
     std::string all, some;
-    for (int k = 0; k < 20; ++k) {
+    for (const int k : up_to(20)) {
         const int p = 3 * k % 20, i = p % 5, j = p / 5;
         const std::string place =
             std::to_string(-1 + 0.5 * i) + " " + std::to_string(3 + 2 * j) + " ";
@@ -292,7 +289,7 @@ TEST(texts) {
         CHECK_CLOSE(map->y0, 3, 1e-14);
         CHECK_CLOSE(map->dx, 0.5, 1e-14);
         CHECK_CLOSE(map->dy, 2, 1e-14);
-        for (int p = 0; p < 20; ++p) {
+        for (const int p : up_to(20)) {
             const double z = (*map)(p % 5, p / 5);
             if (map == &h && (p == 7 || p == 13 || p == 16))
                 CHECK(std::isnan(z));

@@ -23,7 +23,7 @@ std::string heights_file(const std::string& name, std::vector<double> x, std::ve
                          std::vector<std::pair<std::string, std::vector<double>>> attributes = {},
                          int format = NC_NETCDF4) {
     if (z.empty())
-        for (int i = 0; i < 15; ++i) z.push_back(10 * (i / 5) + i % 5);
+        for (const int i : up_to(15)) z.push_back(10 * (i / 5) + i % 5);
     std::vector<Variable> all = {{"height", NC_DOUBLE, {"y", "x"}, z, {}, attributes}};
     if (!x.empty()) all.push_back({"x", NC_DOUBLE, {"x"}, x});
     if (!y.empty()) all.push_back({"y", NC_DOUBLE, {"y"}, y});
@@ -50,7 +50,7 @@ TEST(bad_heights_from_netcdf) {
     std::vector<double> z = counted(15, 0, 1);
     z[7] = std::nan("");
     REFUSED(read_heights(heights_file("nan", x, y, z), std::nullopt), "height(y = 1, x = 2),");
-    z[7] = HUGE_VAL;
+    z[7] = kInfinity;
     REFUSED(read_heights(heights_file("inf", x, y, z, {}, 0), std::nullopt),
             "height(y = 1, x = 2)");
     z[7] = -99;
@@ -98,6 +98,8 @@ TEST(bad_heights_from_netcdf) {
             ": a height map of 2000000000 x 2000000000 points needs 3.2e+10 GB; this machine has ");
 }
 
+HeightMap heights(const std::string& text) { return read_heights(write("t", text), 1.0); }
+
 TEST(heights_from_text) {
     REFUSED(read_heights(write("t", "1 2 3 4 5\n1 2 3 4 5\n1 2 3 4 5\n"), std::nullopt),
             "a text matrix has no spacing; surface%pixel must be given");
@@ -107,48 +109,43 @@ TEST(heights_from_text) {
                              "\xef\xbb\xbf"
                              "1 2 3 0 0\r\n4 5 6 0 0\r\n\r\n7 8 1e-400 0 0"),
                        3.0)(1, 2) == 8);
-    REFUSED(read_heights(write("t", "1 2 3\n4 5\n7 8 9\n"), 1.0),
-            "t:2: 2 values where 3 as in line 1 were expected");
-    REFUSED(read_heights(write("t", "# head\n1 2 3\n4 5 6 7\n"), 1.0),
+    REFUSED(heights("1 2 3\n4 5\n7 8 9\n"), "t:2: 2 values where 3 as in line 1 were expected");
+    REFUSED(heights("# head\n1 2 3\n4 5 6 7\n"),
             "t:3: 4 values where 3 as in line 2 were expected");
-    REFUSED(read_heights(write("t", "1 2 3\n4 abc 6\n"), 1.0),
-            "t:2: 'abc' in column 2 is not a number");
-    REFUSED(read_heights(write("t", "1 2 3\n4 12-3 6\n"), 1.0),
+    REFUSED(heights("1 2 3\n4 abc 6\n"), "t:2: 'abc' in column 2 is not a number");
+    REFUSED(heights("1 2 3\n4 12-3 6\n"),
             "t:2: '12-3'");  // two numbers, though Fortran reads 0.012
-    REFUSED(read_heights(write("t", "1 2 3\n4 5 nan\n"), 1.0),
-            "t:2: 'nan' in column 3 is not finite: every");
-    REFUSED(read_heights(write("t", "1 2 3\n1e999 5 3\n"), 1.0), "'1e999' in column 1");
-    REFUSED(read_heights(write("t", "1 2 3 4 5\n1 1e60 3 4 5\n1 2 3 4 5\n"), 1.0),
+    REFUSED(heights("1 2 3\n4 5 nan\n"), "t:2: 'nan' in column 3 is not finite: every");
+    REFUSED(heights("1 2 3\n1e999 5 3\n"), "'1e999' in column 1");
+    REFUSED(heights("1 2 3 4 5\n1 1e60 3 4 5\n1 2 3 4 5\n"),
             "a height must be finite and at most 1e50, not");
     REFUSED(read_heights(write("t", "1 2 3 4 5\n1 2 3 4 5\n1 2 3 4 5\n"), 1e-60),
             "t: the spacing must be from 1e-50 to 1e50, not 2e-61");
-    REFUSED(read_heights(write("t", "1,,3\n"), 1.0),
-            "t:1: nothing between the separators at column 2: empty cells");
-    REFUSED(read_heights(write("t", "1 2 3 4 5\n1 2 3 4 5\n"), 1.0),
+    REFUSED(heights("1,,3\n"), "t:1: nothing between the separators at column 2: empty cells");
+    REFUSED(heights("1 2 3 4 5\n1 2 3 4 5\n"),
             "t: a height map of 5 x 2 points; at least 3 x 3 are needed");
-    REFUSED(read_heights(write("t", "# nothing\n\n"), 1.0), "t: contains no numbers");
-    REFUSED(read_heights(write("t", ""), 1.0), "t: is empty");
-    REFUSED(read_heights(write("t", std::string("1 2\0 3\n", 7)), 1.0),
+    REFUSED(heights("# nothing\n\n"), "t: contains no numbers");
+    REFUSED(heights(""), "t: is empty");
+    REFUSED(heights(std::string("1 2\0 3\n", 7)),
             "t: neither NetCDF, .gwy, .sdf nor text. Gwyddion reads the files of most instruments: "
             "gwyddion --convert-to-gwy=map.gwy '" +
                 folder / "t" + "' makes one that rsc reads");
-    REFUSED(read_heights(write("t", std::string("\xff\xfe") + "1"), 1.0),
+    REFUSED(heights(std::string("\xff\xfe") + "1"),
             "t: is text in UTF-16: iconv -f UTF-16 -t UTF-8 '");
     // Heads of files: named with their lines, and what to do about them.
-    REFUSED(read_heights(write("t", "x,y (um)\n1,2\n3,4\n"), 1.0),
+    REFUSED(heights("x,y (um)\n1,2\n3,4\n"),
             "t:1: line 1 begins with a word, not a number: put '#'");
-    REFUSED(read_heights(write("t", "# a\nNCOLS 3\nnrows 3\ncellsize 50\n1 2 3\n"), 1.0),
+    REFUSED(heights("# a\nNCOLS 3\nnrows 3\ncellsize 50\n1 2 3\n"),
             "t:2: lines 2 to 4 begin with a word, not a number: put '#' before each line of text, "
             "and give an ESRI grid's cellsize as surface%pixel");
-    REFUSED(read_heights(write("t", "\\*File list\r\n\\Version: 7\r\n"), 1.0),
+    REFUSED(heights("\\*File list\r\n\\Version: 7\r\n"),
             "t:1: the head of an instrument's file. Gwyddion reads");
     const std::string late = std::string(3000, '\n') + "1 2 3\n" + std::string(3, '\0');
-    REFUSED(read_heights(write("t", "[DataSet]\n" + std::string(3000, '\n') + late), 1.0),
+    REFUSED(heights("[DataSet]\n" + std::string(3000, '\n') + late),
             "t:1: the head of an instrument's file. Gwyddion reads");
     CHECK(read_heights(write("t", "nan 2 3 4 5\n4 5 6 7 8\n7 8 9 1 2\n"), 1.0, "um", "",
                        Missing::fill)(2, 2) == 9);
-    REFUSED(read_heights(write("t", "1 2 3 1\n4 5 6 1\n7 8 9 1\n"), 1.0),
-            "four columns are a list of asperities x y z");
+    REFUSED(heights("1 2 3 1\n4 5 6 1\n7 8 9 1\n"), "four columns are a list of asperities x y z");
     // The header of Gwyddion's text exports: the unit of the heights.
     const std::string told = write("t",
                                    "# Channel: Height\r\n# Width: 5 mm\r\n# Value units: m\r\n1 2 "
@@ -186,16 +183,14 @@ TEST(separators) {
     REFUSED(row("1,2,3,4,5"),
             "t:2: semicolons before the end where line 1 has commas: one separator is expected "
             "throughout");
-    REFUSED(read_heights(write("t", std::string("1 2 3\n4 5 6\n", 12) + std::string(5000, ' ') +
-                                        std::string("\n1 \0", 4)),
-                         1.0),
+    REFUSED(heights(std::string("1 2 3\n4 5 6\n", 12) + std::string(5000, ' ') +
+                    std::string("\n1 \0", 4)),
             "t:4: neither text nor a NetCDF file (there is a zero byte)");
     // Decimal commas between blanks must not be read as separators, which would give twice the
     // columns.
-    REFUSED(read_heights(write("t", "0,01 0,02 0,03 0,04 0,05\n"), 1.0),
+    REFUSED(heights("0,01 0,02 0,03 0,04 0,05\n"),
             "t:1: blanks before '0' where the rest of the line has commas");
-    REFUSED(read_heights(write("t", "0,01 0,02 0,03 0,04 0,05\n"), 1.0),
-            "one separator is expected throughout;");
+    REFUSED(heights("0,01 0,02 0,03 0,04 0,05\n"), "one separator is expected throughout;");
 }
 
 std::string asperities_file(std::vector<double> x, std::vector<double> r) {

@@ -85,8 +85,8 @@ HeightMap measured_map() {
     map.dy = 0.07;
     map.x0 = 2;
     map.y0 = -1;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
+    for (const int j : up_to(map.ny))
+        for (const int i : up_to(map.nx)) {
             const double x = map.dx * i, y = map.dy * j;
             double z = 0.0005 * x * x - 0.001 * y * y + 0.0008 * x * y + 0.002 * x - 0.003 * y + 7;
             for (int k = 1; k < 12; ++k)  // waves of all directions, shorter and lower
@@ -105,9 +105,9 @@ void write_map(const HeightMap& map, const std::string& path) {
     const auto mm = [](const char* name, std::vector<std::string> over, Vector v) {
         return Variable{name, NC_DOUBLE, over, v, {{"units", "mm"}}};
     };
-    write(path, {{"y", at(map.ny)}, {"x", at(map.nx)}},
-          {mm("y", {"y"}, counted(at(map.ny), map.y0, map.dy)),
-           mm("x", {"x"}, counted(at(map.nx), map.x0, map.dx)),
+    const std::size_t nx = map.nx, ny = map.ny;
+    write(path, {{"y", ny}, {"x", nx}},
+          {mm("y", {"y"}, counted(ny, map.y0, map.dy)), mm("x", {"x"}, counted(nx, map.x0, map.dx)),
            mm("height", {"y", "x"}, {map.data.get(), map.data.get() + map.nx * map.ny})});
 }
 

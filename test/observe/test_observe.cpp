@@ -9,9 +9,7 @@
 namespace test_observe {
 
 using namespace rsc;
-using std::numbers::pi;
 
-constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-13;  // a few hundred operations on numbers of order one
 
 // The nearest level, the first of two that are equally near: rounding does not decide.
@@ -32,7 +30,7 @@ TEST(test_borders_of_cells) {
         for (const int cells : {7, 12, 49}) {
             const MapGrid grid = make_map_grid(0, 0, L, L, cells);
             const double dx = L / (3 * cells);
-            for (int i = 0; i < 3 * cells; ++i) CHECK(grid.cell(i * dx, 0) == i / 3);
+            for (const int i : up_to(3 * cells)) CHECK(grid.cell(i * dx, 0) == i / 3);
         }
 }
 
@@ -45,7 +43,7 @@ TEST(test_oblong_maps) {
     level.pixels.columns = 30;
     level.pixels.dx = dx;
     level.pixels.dy = dy;
-    for (int k = 0; k < 30 * 17; ++k) {
+    for (const int k : up_to(30 * 17)) {
         level.pixels.index.push_back(k);
         level.pixels.contact.push_back(0);
         level.pixels.pressure.push_back(p);
@@ -58,56 +56,19 @@ TEST(test_oblong_maps) {
         CHECK_RELATIVE(std::accumulate(map.force.begin(), map.force.end(), 0.0), force, 1e-13);
         CHECK_RELATIVE(std::accumulate(map.area.begin(), map.area.end(), 0.0), Lx * Ly, 1e-13);
         CHECK(map.outside == 0);
-        std::vector<double> pressure(static_cast<std::size_t>(grid.cells()));
-        for (std::size_t k = 0; k < map.cell.size(); ++k)
-            pressure[static_cast<std::size_t>(map.cell[k])] =
-                map.force[k] / (grid.side * grid.side);
+        std::vector<double> pressure(grid.cells());
+        for (const auto k : indices(map.cell))
+            pressure[map.cell[k]] = map.force[k] / (grid.side * grid.side);
         const RadialMean mean(grid, 0.5 * Lx, 0.5 * Ly, 9);
         CHECK_RELATIVE(mean.radii().back(), 0.5 * Ly * 17 / 18, 1e-13);
         for (const double value : mean(pressure.data())) CHECK_RELATIVE(value, p, 1e-12);
     }
 }
 
-// n values at the quantiles (i - 1/2)/n, through the same counting as contacts.
-Distributions quantiles(const PdfBins& bins, int n, bool pressure, double scale) {
-    Level level;
-    for (int i = 0; i < n; ++i) {
-        const double q = -std::log1p(-(i + 0.5) / n);
-        const double area = pressure ? 1e-4 : scale * q,
-                     p = pressure ? scale * std::sqrt(2 * q) : 1;
-        level.asperity.push_back(i);
-        level.a.push_back(std::sqrt(area / pi));
-        level.f.push_back(p * area);
-    }
-    return distributions_of(bins, level, 0);
-}
-
-// Rayleigh and exponential values: skewness 2 sqrt(pi) (pi - 3)/(4 - pi)^(3/2) and 2; densities.
-TEST(test_moments_of_quantiles) {
-    const int n = 20000;
-    const PdfBins bins{60, 5.0, 8.0};
-    // Midpoint quantiles miss the moments by O(log n / n) and the cumulative by 1/(2n).
-    const ShownDistributions rayleigh = shown_distributions(bins, quantiles(bins, n, true, 0.8));
-    CHECK_RELATIVE(rayleigh.mean_pressure_moments.mean, 0.8 * std::sqrt(pi / 2), 5e-5);
-    CHECK_CLOSE(rayleigh.mean_pressure_moments.skewness, 0.6311, 2e-3);
-    CHECK_CLOSE(rayleigh.mean_pressure_moments.kurtosis, 3.2451, 1e-2);
-    const ShownDistributions exponential =
-        shown_distributions(bins, quantiles(bins, n, false, 0.6));
-    CHECK_RELATIVE(exponential.spot_area_moments.mean, 0.6, 5e-5);
-    CHECK_RELATIVE(exponential.spot_area_moments.deviation, 0.6, 5e-3);
-    double below = 0;
-    for (int b = 0; b < 60; ++b) {
-        below += exponential.spot_area_pdf[static_cast<std::size_t>(b)] * bins.area_width();
-        CHECK_CLOSE(below, -std::expm1(-bins.area_width() * (b + 1) / 0.6), 1e-4);
-    }
-    // No contacts: absent, not zero.
-    const ShownDistributions none = shown_distributions(bins, distributions_of(bins, Level{}, 0));
-    CHECK(std::isnan(none.spot_area_moments.mean) && std::isnan(none.mean_pressure_pdf[0]));
-}
-
 __extension__ using Wide = __int128;
 
-// Of two spots one is under tension: it has an area, but no place among the pressures.
+// Of two spots one is under tension: it has an area, but no place among the pressures. Without
+// contacts numbers are absent, not zero.
 TEST(test_tension) {
     Level level;
     level.least_force = -1;
@@ -115,8 +76,10 @@ TEST(test_tension) {
     level.add_contact(1, 0, 0, -0.1, 0.5, 0);
     const PdfBins bins = make_pdf_bins(10, 1, 1, 1, 1);
     const ShownDistributions fit = shown_distributions(bins, distributions_of(bins, level, 0));
-    CHECK_RELATIVE(fit.spot_area_moments.mean, std::numbers::pi * 1.25 / 2, 1e-14);
-    CHECK_RELATIVE(fit.mean_pressure_moments.mean, 1 / std::numbers::pi, 1e-14);
+    CHECK_RELATIVE(fit.spot_area_moments.mean, pi * 1.25 / 2, 1e-14);
+    CHECK_RELATIVE(fit.mean_pressure_moments.mean, 1 / pi, 1e-14);
+    const ShownDistributions none = shown_distributions(bins, distributions_of(bins, Level{}, 0));
+    CHECK(std::isnan(none.spot_area_moments.mean) && std::isnan(none.mean_pressure_pdf[0]));
 }
 
 // Against integers: in any order, in any groups.
@@ -135,7 +98,7 @@ TEST(test_exact_sums) {
     }
     for (int trial = 0; trial < 5; ++trial) {
         ExactSum whole, group;
-        for (std::size_t k = 0; k < values.size(); ++k) {
+        for (const auto k : indices(values)) {
             group.add(exact_term(values[k], quantum));
             if (random() % 10 == 0 || k + 1 == values.size()) {
                 whole.add(group);

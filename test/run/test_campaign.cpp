@@ -72,8 +72,8 @@ TEST(test_archive) {
     left.append(right);
     CHECK(to_bytes(left) == to_bytes(sums));
     const Observations o = sums.finish();
-    std::vector<double> area(static_cast<std::size_t>(job.observe.map.cells())), pressure = area;
-    for (std::size_t s = 0; s < sums.steps; ++s) {
+    std::vector<double> area(job.observe.map.cells()), pressure = area;
+    for (const std::size_t s : up_to(sums.steps)) {
         o.map_area_fraction.fill(s, area);
         o.map_pressure.fill(s, pressure);
         restored.restore_map(s, area, pressure);
@@ -85,9 +85,8 @@ TEST(test_archive) {
 
 std::vector<std::string> some_records() {
     std::vector<std::string> records;
-    for (int k = 0; k < 4; ++k)
-        records.push_back(
-            std::string(static_cast<std::size_t>(40 + 13 * k), static_cast<char>('a' + k)));
+    for (const int k : up_to(4))
+        records.push_back(std::string(40 + 13 * k, static_cast<char>('a' + k)));
     return records;
 }
 
@@ -134,8 +133,7 @@ TEST(test_torn) {
             Checkpoint checkpoint(file, c, true);
             const auto contents = checkpoint.take_contents();
             CHECK(!contents.sums && contents.records.size() == kept);
-            for (std::size_t k = 0; k < contents.records.size(); ++k)
-                CHECK(contents.records[k] == records[k]);
+            for (const auto k : indices(contents.records)) CHECK(contents.records[k] == records[k]);
             checkpoint.append("one more");
         }
         Checkpoint checkpoint(file, c, true);
@@ -156,8 +154,7 @@ TEST(test_torn) {
         Checkpoint checkpoint(file, c, true);
         const auto contents = checkpoint.take_contents();
         CHECK(contents.records.size() == kept);
-        for (std::size_t k = 0; k < contents.records.size(); ++k)
-            CHECK(contents.records[k] == records[k]);
+        for (const auto k : indices(contents.records)) CHECK(contents.records[k] == records[k]);
     }
     write_bytes(state,
                 "something else that has nothing to do with rsc but has this name\n" + whole);

@@ -2,21 +2,18 @@
 // by hand from the case's own numbers, and what is refused just beyond its bound.
 #include "base/format.hpp"
 #include "case/registry.hpp"
-#include "check.hpp"
 #include "contact/equivalent.hpp"
 #include "physics/indenter/shapes.hpp"
-#include "run/job.hpp"
 #include "run/prepare.hpp"
-#include "run/run.hpp"
+#include "support/height_maps.hpp"
 #include "support/refused.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "trust/doubts.hpp"
 
 namespace test_jobs {
 
 using namespace rsc;
-
-constexpr double kPi = std::numbers::pi;
 constexpr double kRounding = 1e-13;
 const Folder folder;
 
@@ -43,8 +40,8 @@ Case synthetic() {
 std::string map_file(const std::string& name, double x0, double y0, double dx = 0.5,
                      double dy = 0.25, double high = 1) {
     std::string text;
-    for (int j = 0; j < 20; ++j)
-        for (int i = 0; i < 30; ++i) {
+    for (const int j : up_to(20))
+        for (const int i : up_to(30)) {
             char line[100];
             std::snprintf(line, sizeof line, "%.10g %.10g %.17g\n", x0 + dx * i, y0 + dy * j,
                           high * 0.01 *
@@ -53,15 +50,6 @@ std::string map_file(const std::string& name, double x0, double y0, double dx = 
             text += line;
         }
     return write(name, text);
-}
-
-Case of_map(const std::string& file) {
-    Case c;
-    c.surface.source = Source::heights;
-    c.surface.file = file;
-    c.output.pdf_levels = {2};
-    c.solver.model = ModelKind::asperities;
-    return c;
 }
 
 // A duration is spread evenly over the levels, both ends included.
@@ -77,7 +65,7 @@ TEST(places) {
     // A rectangle that does not begin at 0, in a domain of unlike sides.
     SurfaceDomain domain;
     domain = {-2, 5, 4, 1};
-    for (const double R : {0.5, HUGE_VAL})
+    for (const double R : {0.5, kInfinity})
         for (const bool guessed : {false, true}) {
             domain.guessed = guessed;
             const double beyond = guessed ? R : 0;
@@ -136,7 +124,8 @@ TEST(maps) {
     map_file("p1.txt", -3, 7);
     map_file("p2.txt", 11, -5, 0.5, 0.25, 1.5);
     map_file("p3.txt", 0, 0, 0.5, 0.25, 0.5);
-    Case c = of_map(folder / "p?.txt");
+    Case c = case_of_map(folder / "p?.txt");
+    c.solver.model = ModelKind::asperities;
     c.run.realizations = 3;
     c.indentation.levels = {1.0};
     const Job job = prepare(c);
@@ -189,7 +178,7 @@ TEST(maps) {
     }
     // Elements stand on the points themselves: as read, copied, or made on a grid of their own.
     map_file("p4.txt", 4, -9);
-    Case elements = of_map(folder / "p4.txt");
+    Case elements = case_of_map(folder / "p4.txt");
     elements.solver.model = ModelKind::elements;
     const Surface read = make_surface(elements, 1, 1);
     const SurfaceModel copied = make_surface_model(read, elements, 1),
@@ -203,8 +192,8 @@ TEST(maps) {
         CHECK(m.dx > 0.49 && m.dy < 0.26 && m.periodic == read.map.periodic &&
               g->domain.Lx == m.Lx() && g->domain.Ly == m.Ly());
         long same = 0;
-        for (int j = 0; j < 20; ++j)
-            for (int i = 0; i < 30; ++i) same += m(i, j) == read.map(i, j);
+        for (const int j : up_to(20))
+            for (const int i : up_to(30)) same += m(i, j) == read.map(i, j);
         CHECK(same == 600);
     }
     Case made = synthetic();
@@ -237,7 +226,7 @@ TEST(pressures) {
         c.surface.n = 128;
         c.surface.aspect = 4;
         c.surface.direction = direction;
-        c.solids.R[0] = HUGE_VAL;
+        c.solids.R[0] = kInfinity;
         c.indentation.boundary = Boundary::periodic;
         c.indentation.control = Control::pressure;
         c.indentation.unit = LevelUnit::relative;
@@ -250,13 +239,13 @@ TEST(pressures) {
         constexpr int points = 64;
         constexpr double a = 0.05, of_differences = 2e-3;
         std::string wave;
-        for (int k = 0; k < points * points; ++k)
+        for (const int k : up_to(points * points))
             wave +=
                 format("%.12g %.12g %.12g\n", 3.0 * (k % points) / points,
-                       3.0 * (k / points) / points, a * std::cos(2 * kPi * (k % points) / points));
+                       3.0 * (k / points) / points, a * std::cos(2 * pi * (k % points) / points));
         c.indenter.file = write("wave.txt", wave);
         set_key(c, "indenter%shape", "'map'");
-        const double both = m2 + std::pow(2 * kPi * a / 3, 2) / 4;
+        const double both = m2 + std::pow(2 * pi * a / 3, 2) / 4;
         const Job two = prepare(c);
         CHECK_RELATIVE(two.levels[0], 0.01 * two.indenter.E_star * std::sqrt(2 * both) * 3 * 3,
                        of_differences);
@@ -267,7 +256,7 @@ TEST(pressures) {
 // are solved.
 TEST(closed_flats) {
     Case c = synthetic();
-    c.solids.R[0] = c.solids.R[1] = HUGE_VAL;
+    c.solids.R[0] = c.solids.R[1] = kInfinity;
     c.solver.model = ModelKind::elements;
     c.indentation.boundary = Boundary::periodic;
     c.indentation.levels = {2, 1, 0.1};
@@ -289,21 +278,18 @@ TEST(closed_flats) {
 // A sharp punch on a plane by elements: N = 2 a E* d. The edge lies between the points of the grid,
 // in another way at each place: nine of ten levels are within their expected error.
 TEST(punch_on_plane) {
-    constexpr int n = 64, kPlaces = 10, kOutside = 1;
-    std::string text;
-    for (int j = 0; j < n; ++j, text += '\n')
-        for (int i = 0; i < n; ++i) text += (i * 7 + j * 3) % 5 == 0 ? " 1e-12" : " 0";
-    Case c = of_map(write("plane.txt", text));
+    constexpr int kPlaces = 10, kOutside = 1;
+    Case c = case_of_map(write("plane.txt", rows_of_text(64, 64, [](int i, int j) {
+                                   return (i * 7 + j * 3) % 5 == 0 ? 1e-12 : 0;
+                               })));
     c.surface.L = 0.4;
-    c.surface.detrend = Detrend::none;
-    c.output.pdf_levels = {};
     c.solver.model = ModelKind::elements;
     c.indenter.shape = shape_number("punch");
     c.indentation.control = Control::force;
     c.indentation.levels = {1};
     for (const double a : {0.05, 0.1}) {
         int outside = 0;
-        for (int k = 0; k < kPlaces; ++k) {
+        for (const int k : up_to(kPlaces)) {
             c.indenter.radius = a;
             c.indentation.centre[0] = 0.2 + 0.0007 * k;
             c.indentation.centre[1] = 0.2 - 0.0011 * k;
@@ -345,26 +331,24 @@ TEST(adhesion_that_flattens) {
 // it, and say so.
 TEST(exchanged_maps) {
     constexpr int n = 96, kWaves = 12;
-    std::string smooth, rough;
-    for (int j = 0; j < n; ++j, smooth += '\n', rough += '\n')
-        for (int i = 0; i < n; ++i) {
-            const double x = 2 * kPi * i / n, y = 2 * kPi * j / n;
-            smooth +=
-                format(" %.12g", 1e-3 * (std::cos(x + 1) + std::cos(y + 2) + std::cos(2 * x - y)));
-            rough += format(" %.12g", 2e-4 * (std::cos(kWaves * x + 0.3) + std::cos(kWaves * y) +
-                                              std::cos(9 * x - 7 * y + 2)));
-        }
-    const std::string files[] = {write("smooth.txt", smooth), write("rough.txt", rough)};
+    const double q = 2 * pi / n;
+    const auto smooth = [q](int i, int j) {
+        return 1e-3 * (std::cos(q * i + 1) + std::cos(q * j + 2) + std::cos(2 * q * i - q * j));
+    };
+    const auto rough = [q](int i, int j) {
+        return 2e-4 * (std::cos(kWaves * q * i + 0.3) + std::cos(kWaves * q * j) +
+                       std::cos(9 * q * i - 7 * q * j + 2));
+    };
+    const std::string files[] = {write("smooth.txt", rows_of_text(n, n, smooth)),
+                                 write("rough.txt", rows_of_text(n, n, rough))};
     for (const ModelKind model : {ModelKind::elements, ModelKind::asperities}) {
         Level level[2];
         for (const int first : {0, 1}) {
-            Case c = of_map(files[first]);
+            Case c = case_of_map(files[first]);
             c.surface.pixel = 1.0 / n;
-            c.surface.detrend = Detrend::none;
-            c.output.pdf_levels = {};
             c.solver.model = model;
             c.solver.tolerance = 1e-10;
-            c.solids.R[0] = c.solids.R[1] = HUGE_VAL;
+            c.solids.R[0] = c.solids.R[1] = kInfinity;
             c.indenter.file = files[1 - first];
             set_key(c, "indenter%shape", "'map'");
             c.indentation.boundary = Boundary::periodic;
@@ -389,14 +373,14 @@ TEST(groups_of_levels) {
     c.solver.model = ModelKind::elements;
     c.solver.tolerance = 1e-9;
     c.compare.levels = {};
-    for (int k = 0; k < 37; ++k) c.indentation.levels.push_back(2.5 - 0.05 * k);
+    for (const int k : up_to(37)) c.indentation.levels.push_back(2.5 - 0.05 * k);
     const Job job = prepare(c);
     std::vector<std::size_t> order;
     const auto note = [&](std::size_t k, const Level&) { order.push_back(k); };
     const std::vector<Level> one = realize(job, 1, 1, note).levels,
                              three = realize(job, 1, 3).levels;
     CHECK(order.size() == one.size() && std::ranges::is_sorted(order));
-    for (std::size_t k = 0; k < one.size(); ++k) {
+    for (const auto k : indices(one)) {
         CHECK(one[k].force == three[k].force && one[k].area == three[k].area);
         CHECK(one[k].stiffness == three[k].stiffness && one[k].doubts == three[k].doubts);
         CHECK(one[k].separation_error_expected == three[k].separation_error_expected ||

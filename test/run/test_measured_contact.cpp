@@ -1,18 +1,14 @@
 // Measured maps: the namelist of their twins, and no contact near points that were filled.
 #include "base/error.hpp"
-#include "base/format.hpp"
-#include "case/read_case.hpp"
 #include "case/registry.hpp"
-#include "check.hpp"
 #include "io/inputs.hpp"
-#include "run/job.hpp"
-#include "run/run.hpp"
 #include "support/height_maps.hpp"
-#include "support/judged.hpp"
 #include "support/map_files.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "surface/defects.hpp"
 #include "surface/synthesis.hpp"
+#include "trust/doubts.hpp"
 
 namespace test_measured_contact {
 
@@ -27,32 +23,33 @@ TEST(twins_of_an_oblong_map) {
     const HeightMap surface = synthesize(s, 128, Normalise::sample, 4, 1);
     map_files::Map map{128, 64, 1e-3 / 128, 1e-3 / 128, {}};
     for (int j = 63; j >= 0; --j)
-        for (int i = 0; i < 128; ++i) map.z.push_back(1e-3 * surface(i, j));
+        for (const int i : up_to(128)) map.z.push_back(1e-3 * surface(i, j));
     const std::string file =
         folder.write("oblong.gwy", map_files::gwy_file(map_files::gwy_channel(0, "T", map)));
     Case settings;
+    set_key(settings, "run%length_unit", "'um'");  // of 1 mm x 0.5 mm
     set_key(settings, "surface%source", "'heights'");
     set_key(settings, "surface%file", "'" + file + "'");
-    set_key(settings, "indentation%centre", "0.3, 0.1");
+    set_key(settings, "solids%R(2)", "2500.0");
+    set_key(settings, "indentation%centre", "300, 100");
     const Job job = prepare(settings);
-    const Case twins = read_case_text(twins_text(job, "oblong.nc"), "twins.nml").settings;
+    const Case twins = settings_of(twins_text(job, "oblong.nc"));
     CHECK(twins.surface.source == Source::spectrum && twins.surface.file == "oblong.nc" &&
           twins.output.file == "oblong_twins.nc");
-    CHECK_RELATIVE(*twins.surface.L, 1.0, 1e-12);
+    CHECK_RELATIVE(*twins.surface.L, 1e3, 1e-12);
     CHECK_RELATIVE(*twins.surface.sigma, job.measured->parameters.sq, 1e-12);
-    CHECK_RELATIVE(*twins.indentation.centre[0], 0.3, 1e-12);
-    CHECK_RELATIVE(*twins.indentation.centre[1], 0.1 + 0.25, 1e-12);
+    CHECK_RELATIVE(*twins.indentation.centre[0], 300, 1e-12);
+    CHECK_RELATIVE(*twins.indentation.centre[1], 100 + 250, 1e-12);
     // Rings end at the Nyquist wavenumber, pi/dx: two points more than the longer side has.
     CHECK(twins.surface.n == 130 && twins.run.realizations == 100);
     // A sigma that was given is a length that the levels are in; the twins' own is their rms
     // height.
-    set_key(settings, "surface%sigma", "0.02");
+    set_key(settings, "surface%sigma", "20");
     set_key(settings, "indentation%levels", "3, 1.5");
-    const Case scaled =
-        read_case_text(twins_text(prepare(settings), "oblong.nc"), "twins.nml").settings;
+    const Case scaled = settings_of(twins_text(prepare(settings), "oblong.nc"));
     CHECK(scaled.indentation.unit == LevelUnit::length &&
-          (scaled.indentation.levels == std::vector<double>{3 * 0.02, 1.5 * 0.02}));
-    CHECK(scaled.indentation.start == 4 * 0.02 && scaled.indentation.stop == 0.02 &&
+          (scaled.indentation.levels == std::vector<double>{3 * 20, 1.5 * 20}));
+    CHECK(scaled.indentation.start == 4 * 20 && scaled.indentation.stop == 20 &&
           *scaled.surface.sigma == *twins.surface.sigma);
     CHECK(twins.indentation.unit == LevelUnit::sigma && twins.indentation.start == 4 &&
           twins.indentation.stop == 1);
@@ -60,33 +57,25 @@ TEST(twins_of_an_oblong_map) {
     for (const char* key : {"solids%R=Infinity,Infinity", "indentation%boundary='periodic'",
                             "indentation%control='force'"})
         set_key(settings, std::string(key, std::strchr(key, '=')), std::strchr(key, '=') + 1);
-    const Case flat =
-        read_case_text(twins_text(prepare(settings), "oblong.nc"), "twins.nml").settings;
+    const Case flat = settings_of(twins_text(prepare(settings), "oblong.nc"));
     CHECK(flat.indentation.control == Control::pressure &&
           flat.indentation.unit == LevelUnit::pressure);
-    CHECK_RELATIVE(flat.indentation.levels.at(0), 3 / (1.0 * 0.5), 1e-12);
+    CHECK_RELATIVE(flat.indentation.levels.at(0), 3 / (1e3 * 500), 1e-12);
 }
 
 // What belongs to body 2 is kept, with its map alone; what is for one realization is not.
 TEST(twins_with_a_second_map) {
-    std::string rows;
-    for (int j = 0; j < 32; ++j) {
-        for (int i = 0; i < 32; ++i)
-            rows +=
-                std::to_string(1e-3 * std::sin(0.9 * i) * std::cos(0.7 * j) + 1e-4 * (i * j % 7)) +
-                " ";
-        rows += "\n";
-    }
-    const std::string file = folder.write("rows.txt", rows);
+    const std::string file =
+        folder.write("rows.txt", rows_of_text(32, 32, [](int i, int j) {
+                         return 1e-3 * std::sin(0.9 * i) * std::cos(0.7 * j) + 1e-4 * (i * j % 7);
+                     }));
     const auto twins = [&](std::string keys) {
-        const Case one = read_case_text("&surface source='heights' file='" + file +
-                                            "' pixel=0.03 outliers=8 filter_cutoff=0.1 "
-                                            "missing='fill' missing_value=-9999 / "
-                                            "&solids R=Infinity,Infinity friction=0.1 / " +
-                                            "&output fields='pressure' / " + keys,
-                                        "one.nml")
-                             .settings;
-        return read_case_text(twins_text(prepare(one), "t.nc"), "twins.nml").settings;
+        const Case one = settings_of("&surface source='heights' file='" + file +
+                                     "' pixel=0.03 outliers=8 filter_cutoff=0.1 "
+                                     "missing='fill' missing_value=-9999 / "
+                                     "&solids R=Infinity,Infinity friction=0.1 / " +
+                                     "&output fields='pressure' / " + keys);
+        return settings_of(twins_text(prepare(one), "t.nc"));
     };
     const Case two = twins("&indenter shape='map' file='" + file + "' /");
     CHECK(two.surface.pixel == 0.03 && two.surface.outliers == 8 &&
@@ -98,38 +87,6 @@ TEST(twins_with_a_second_map) {
     CHECK(!alone.surface.pixel && alone.surface.missing_value.empty());
 }
 
-// The gap between two bodies is all that counts: a rough body 2 on a smooth body 1 is the surface
-// upside down on a smooth body 2.
-TEST(smooth_on_rough) {
-    std::string wave, zero;
-    for (int j = 0; j < 32; ++j) {
-        for (int i = 0; i < 32; ++i) {
-            wave += format("%.17g ", 1e-3 * std::cos(std::numbers::pi * i / 8) *
-                                         std::cos(std::numbers::pi * j / 16));
-            zero += "0 ";
-        }
-        wave += "\n";
-        zero += "\n";
-    }
-    const auto level = [&](const std::string& first, const std::string& second) {
-        const Case c = read_case_text(
-                           "&solids E=1e4,Infinity nu=0.3,0.0 R=Infinity,Infinity / &surface "
-                           "source='heights' pixel=0.03125 sigma=1e-3 file='" +
-                               first + "' / &indenter shape='map' file='" + second +
-                               "' / &indentation boundary='periodic' control='pressure' "
-                               "unit='pressure' levels=1.0 /",
-                           "c.nml")
-                           .settings;
-        return realize(prepare(c), 1, 1).levels.at(0);
-    };
-    const std::string rough = folder.write("wave.txt", wave),
-                      smooth = folder.write("zero.txt", zero);
-    const Level below = level(rough, smooth), above = level(smooth, rough);
-    CHECK(above.area > 0);
-    CHECK_RELATIVE(above.area, below.area, 1e-9);
-    CHECK_RELATIVE(above.separation, below.separation, 1e-6);
-}
-
 // A surface of 256 x 256 points as a map, whose point (i, j) `change` may alter.
 Case map_case(double L_lambda_s, const std::function<void(int, int, double&)>& change) {
     const HeightMap surface =
@@ -137,7 +94,7 @@ Case map_case(double L_lambda_s, const std::function<void(int, int, double&)>& c
                    Normalise::sample, 4, 1);
     map_files::Map map{256, 256, 1e-3 / 256, 1e-3 / 256, {}};
     for (int j = 255; j >= 0; --j)
-        for (int i = 0; i < 256; ++i) change(i, j, map.z.emplace_back(1e-3 * surface(i, j)));
+        for (const int i : up_to(256)) change(i, j, map.z.emplace_back(1e-3 * surface(i, j)));
     Case settings;
     set_key(settings, "surface%source", "'heights'");
     set_key(settings, "surface%file",
@@ -171,7 +128,7 @@ TEST(holes) {
     CHECK(job.measured->missing > 1200 && job.measured->missing < 1300);
     const auto outside = [&](const Asperities& a) {
         long count = 0;
-        for (std::size_t k = 0; k < a.size(); ++k)
+        for (const auto k : indices(a))
             count += std::hypot(a.x[k] - 0.5, a.y[k] - 0.5) > (radius + 5) / 256;
         return count;
     };
@@ -198,7 +155,7 @@ TEST(holes) {
         };
         const std::vector<Level> filled = solved(map_case(24, scattered)),
                                  known = solved(map_case(24, [](int, int, double&) {}));
-        for (std::size_t k = 0; k < known.size(); ++k) {
+        for (const auto k : indices(known)) {
             CHECK_RELATIVE(filled[k].force, known[k].force, 1e-4);
             CHECK(!(filled[k].filled_share > 0.01));
         }

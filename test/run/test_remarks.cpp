@@ -1,9 +1,8 @@
 // The remarks at the end of a run, on both sides of each threshold; and the number of candidates
 // that --check foresees.
-#include "case/read_case.hpp"
-#include "check.hpp"
 #include "run/memory.hpp"
 #include "run/screen.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "trust/doubts.hpp"
 
@@ -36,7 +35,7 @@ TEST(thresholds) {
         return remarks([](V&) {}).find(word) == std::string::npos &&
                remarks(change).find(word) != std::string::npos;
     };
-    for (std::size_t k = 0; k < kCauseNames.size(); ++k) {
+    for (const auto k : indices(kCauseNames)) {
         const Cause cause{static_cast<int>(k)};
         CHECK(said(words_of_doubts(bit(cause)).c_str(), [&](V& v) { v.doubts = bit(cause); }));
     }
@@ -77,9 +76,7 @@ TEST(thresholds) {
 TEST(moduli) {
     const auto warned = [](const std::string& units, double E) {
         std::ostringstream out;
-        Case c = read_case_text("&run " + units + " / &surface n=64 L_lambda_l=2 L_lambda_s=8 /",
-                                "case.nml")
-                     .settings;
+        Case c = settings_of("&run " + units + " / &surface n=64 L_lambda_l=2 L_lambda_s=8 /");
         c.solids.E[0] = E;
         print_heading(out, prepare(c));
         return out.str().find("warning: solids%E") != std::string::npos;
@@ -126,7 +123,7 @@ TEST(sticks) {
     job.theory->m4 = 30;
     job.settings.solids.adhesion_range = 1e-3;
     const double slope = 0.2, curvature = std::sqrt(80.0);  // rms of the gradient; of the Laplacian
-    const double needed = 100.0 * slope * 1e-3 / (2 * std::numbers::pi) *
+    const double needed = 100.0 * slope * 1e-3 / (2 * pi) *
                           std::pow(16.0 / 3 * slope * slope / (curvature * 1e-3), 2.0 / 3);
     for (const double share : {0.98, 1.02}) {
         job.settings.solids.adhesion = share * needed;
@@ -143,13 +140,11 @@ TEST(sticks) {
 TEST(memory) {
     const Folder folder;
     std::ofstream list(folder / "many.txt");
-    for (int k = 0; k < 300; ++k)
+    for (const int k : up_to(300))
         list << 0.05 * (k % 20) << ' ' << 0.07 * (k / 20) << ' ' << 0.01 * std::sin(7.3 * k)
              << " 0.05\n";
     list.close();
-    const auto job_of = [](const std::string& text) {
-        return prepare(read_case_text(text, "case.nml").settings);
-    };
+    const auto job_of = [](const std::string& text) { return prepare(settings_of(text)); };
     const std::string text = "&surface source='asperities' L=1.5 sigma=0.01 file='" +
                              folder / "many.txt" + "' / &indentation ";
     const Job job = job_of(text + "levels=0.5,0,-0.5 / &solver method='direct' /");
@@ -157,7 +152,7 @@ TEST(memory) {
     const Asperities& a = job.given->asperities;
     for (const double Z0 : {0.005, 0.0, -0.005}) {
         double count = 0;
-        for (std::size_t i = 0; i < a.size(); ++i) {
+        for (const auto i : indices(a)) {
             const double rho2 = std::pow(a.x[i] - 0.75, 2) + std::pow(a.y[i] - 0.75, 2);
             count += a.z[i] - (2.5 - std::sqrt(2.5 * 2.5 - rho2)) > Z0;
         }
@@ -202,9 +197,9 @@ TEST(memory) {
         const double d2 = std::pow(rough.domain.mean_spacing, 2);
         for (const double t : {2.0, 0.5, -1.0}) {
             const double above = 0.5 * std::erfc(t / std::sqrt(2.0)),
-                         density = std::exp(-0.5 * t * t) / std::sqrt(2 * 3.14159265358979);
+                         density = std::exp(-0.5 * t * t) / std::sqrt(2 * pi);
             const double everywhere = 1.69 * above,
-                         under = 2 * 3.14159265358979 * 1.0 * 0.004 * (density - t * above);
+                         under = 2 * pi * 1.0 * 0.004 * (density - t * above);
             CHECK_RELATIVE(expected_candidates(rough, 0.004 * t),
                            (flats ? everywhere : std::min(everywhere, under)) / d2, 1e-2);
         }

@@ -7,7 +7,8 @@
 #pragma once
 
 #include "check.hpp"
-#include "contact/path.hpp"
+#include "contact/make.hpp"
+#include "support/asperities.hpp"
 #include "truth/elimination.hpp"
 
 // Asperities on the unit square at distances of at least `apart`, and a work of adhesion.
@@ -22,7 +23,7 @@ inline RandomAsperities random_asperities(int n, unsigned seed, double apart) {
     while (static_cast<int>(a.x.size()) < n) {
         const double px = uniform(generator), py = uniform(generator);
         bool close = false;
-        for (std::size_t k = 0; k < a.x.size(); ++k)
+        for (const auto k : indices(a.x))
             close = close || std::hypot(px - a.x[k], py - a.y[k]) < apart;
         if (close) continue;
         a.x.push_back(px);
@@ -37,18 +38,24 @@ inline rsc::SolverOptions sticky(double w, double range) {
     return {.tolerance = 1e-12, .physics = {.adhesion = {w, range}}};
 }
 
+inline constexpr double kE = 5.0;  // E* of these contacts
+inline std::unique_ptr<rsc::Path> under_flat(const rsc::Asperities& asperities,
+                                             const rsc::SolverOptions& options) {
+    return rsc::make_asperity_contact(asperities, {kE, kInfinity, 0.5, 0.5}, options);
+}
+// Three times the penetration at which an asperity of the radius 0.25 lets go.
+inline double reach(double w) { return 3 * std::cbrt(std::pow(pi * w / 8 / kE, 2) * 0.25); }
+
 // Maugis (1992) on a sphere of radius r by m = c/a: the contact radius from its equation, a
 // quadratic one, then force and penetration.
 struct Maugis {
     double r, w, lambda, E;
-    double range() const {
-        return w / (lambda / 2 * std::cbrt(16 * std::numbers::pi * w * E * E / (9 * r)));
-    }
+    double range() const { return w / (lambda / 2 * std::cbrt(16 * pi * w * E * E / (9 * r))); }
     struct State {
         double a, f, u, c;
     };
     State at(double m) const {
-        const double q = std::sqrt(m * m - 1), t = std::atan(q), pi = std::numbers::pi;
+        const double q = std::sqrt(m * m - 1), t = std::atan(q);
         const double b = lambda / 2 * (q + (m * m - 2) * t),
                      d = 4 * lambda * lambda / 3 * (q * t - m + 1);
         const double a = 2 / (std::sqrt(d * d + 4 * b) + d),
@@ -65,7 +72,7 @@ struct Maugis {
 inline void set_clearances(rsc::Asperities& under, const rsc::Asperities& asperities,
                            rsc::Indenter tip, double x, double y) {
     tip.move(x, y);
-    for (std::size_t i = 0; i < under.size(); ++i)
+    for (const auto i : indices(under))
         under.z[i] = tip.clearance(asperities.x[i], asperities.y[i], asperities.z[i]);
 }
 
@@ -155,31 +162,29 @@ private:
             return (i == j ? repeats_->self()
                            : repeats_->at(a_.x[i] - a_.x[j], a_.y[i] - a_.y[j])) -
                    repeats_->shift();
-        return i == j
-                   ? 0
-                   : 1 / (std::numbers::pi * E_ * std::hypot(a_.x[i] - a_.x[j], a_.y[i] - a_.y[j]));
+        return i == j ? 0 : 1 / (pi * E_ * std::hypot(a_.x[i] - a_.x[j], a_.y[i] - a_.y[j]));
     }
     // Equilibrium at given radii, u = g0 - B f(u), by Newton's method and elimination.
     void solve() {
         const std::size_t n = radius_.size();
         for (int step = 0; step < 60; ++step) {
             std::vector<double> slope(n), m(n * n), rest(n);
-            for (std::size_t i = 0; i < n; ++i)
+            for (const std::size_t i : up_to(n))
                 f_[i] = radius_[i] > 0 ? edge_.force(i, radius_[i], u_[i], slope[i]) : 0.0;
             double worst = 0;
-            for (std::size_t i = 0; i < n; ++i) {
+            for (const std::size_t i : up_to(n)) {
                 rest[i] = a_.z[i] - Z - u_[i];
-                for (std::size_t j = 0; j < n; ++j) {
+                for (const std::size_t j : up_to(n)) {
                     rest[i] -= compliance(i, j) * f_[j];
                     m[i * n + j] = (i == j ? 1 : 0) + compliance(i, j) * slope[j];
                 }
                 worst = std::max(worst, std::abs(rest[i]));
             }
             const std::vector<double> change = solved(m, rest);
-            for (std::size_t i = 0; i < n; ++i) u_[i] += change[i];
+            for (const std::size_t i : up_to(n)) u_[i] += change[i];
             if (worst < 1e-17) break;
         }
-        for (std::size_t i = 0; i < n; ++i) {
+        for (const std::size_t i : up_to(n)) {
             double slope;
             f_[i] = radius_[i] > 0 ? edge_.force(i, radius_[i], u_[i], slope) : 0.0;
         }
@@ -234,7 +239,7 @@ private:
     void relax() {
         for (int sweep = 0; sweep < 10000; ++sweep) {
             double moved = 0;
-            for (std::size_t i = 0; i < radius_.size(); ++i)
+            for (const auto i : indices(radius_))
                 moved = std::max(moved, move(i) / std::max(radius_[i], 1e-6));
             if (moved < 1e-11) return;
         }

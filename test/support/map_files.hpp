@@ -1,7 +1,7 @@
 // Files of instruments, written here: what the readers are tested with.
 #pragma once
 
-#include "base/std.hpp"
+#include "support/indices.hpp"
 
 namespace map_files {
 
@@ -117,8 +117,7 @@ inline std::string sdf_text(const Map& map, double scale, const std::vector<std:
          "\r\nZscale = " + number(scale) +
          "\r\nZresolution = -1\r\nCompression = 0\r\nDataType = " + std::to_string(type) +
          "\r\nCheckType = 0\r\n*\r\n";
-    for (std::size_t k = 0; k < values.size(); ++k)
-        f += values[k] + ((k + 1) % 7 == 0 ? "\r\n" : " ");
+    for (const auto k : indices(values)) f += values[k] + ((k + 1) % 7 == 0 ? "\r\n" : " ");
     return f + "\r\n*\r\nNothing = 1\r\n*\r\n";
 }
 

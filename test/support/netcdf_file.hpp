@@ -47,7 +47,7 @@ inline std::string write(const std::string& path, const Dimensions& dimensions,
                                  key == "_FillValue" ? v.type : NC_DOUBLE, n.size(), n.data()));
     }
     ok(nc_enddef(id));
-    for (std::size_t k = 0; k < variables.size(); ++k)
+    for (const auto k : indices(variables))
         if (!variables[k].values.empty())
             ok(nc_put_var_double(id, static_cast<int>(k), variables[k].values.data()));
     ok(nc_close(id));
@@ -56,7 +56,7 @@ inline std::string write(const std::string& path, const Dimensions& dimensions,
 
 inline std::vector<double> counted(std::size_t n, double first, double step) {
     std::vector<double> v;
-    for (std::size_t k = 0; k < n; ++k) v.push_back(first + static_cast<double>(k) * step);
+    for (const std::size_t k : up_to(n)) v.push_back(first + static_cast<double>(k) * step);
     return v;
 }
 

@@ -29,9 +29,9 @@ public:
         std::array<int, NC_MAX_VAR_DIMS> ids{};
         nc_inq_var(id_, var(name), nullptr, nullptr, &n, ids.data(), nullptr);
         std::vector<std::string> names;
-        for (int d = 0; d < n; ++d) {
+        for (const int d : up_to(n)) {
             char text[NC_MAX_NAME + 1] = "";
-            nc_inq_dimname(id_, ids[static_cast<std::size_t>(d)], text);
+            nc_inq_dimname(id_, ids[d], text);
             names.emplace_back(text);
         }
         return names;

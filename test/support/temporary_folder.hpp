@@ -1,7 +1,7 @@
 // A fresh folder, removed with everything in it.
 #pragma once
 
-#include "base/std.hpp"
+#include "support/indices.hpp"
 
 struct Folder {
     std::string name = (std::filesystem::temp_directory_path() / "rsc-test-XXXXXX").string();
@@ -16,9 +16,8 @@ struct Folder {
         return *this / name;
     }
     std::size_t files() const {
-        return static_cast<std::size_t>(
-            std::distance(std::filesystem::recursive_directory_iterator(path),
-                          std::filesystem::recursive_directory_iterator()));
+        return std::distance(std::filesystem::recursive_directory_iterator(path),
+                             std::filesystem::recursive_directory_iterator());
     }
 };
 

@@ -8,8 +8,6 @@ namespace test_asperities {
 
 using namespace rsc;
 
-constexpr double kPi = std::numbers::pi;
-
 HeightMap make_map(int nx, int ny, bool periodic, int stride) {
     HeightMap map;
     map.allocate(nx, ny, stride);
@@ -30,8 +28,8 @@ TEST(against_brute_force) {
             // summit. The right half has rounded ridges along the diagonals, whose grid maxima are
             // saddles.
             const double ridge[] = {0, -1, -8, -9, -8, -1};
-            for (int j = 0; j < ny; ++j)
-                for (int i = 0; i < nx; ++i) {
+            for (const int j : up_to(ny))
+                for (const int i : up_to(nx)) {
                     const double noise = static_cast<double>(random() % 40);
                     map.row(j)[i] = i < nx / 2 ? noise : 100 * ridge[(i - j + 6 * ny) % 6] + noise;
                 }
@@ -39,8 +37,8 @@ TEST(against_brute_force) {
             std::vector<std::array<int, 2>> summits;
             std::vector<double> k1, k2, kg;
             long saddles = 0;
-            for (int j = 0; j < ny; ++j)
-                for (int i = 0; i < nx; ++i) {
+            for (const int j : up_to(ny))
+                for (const int i : up_to(nx)) {
                     if (!periodic && (i == 0 || j == 0 || i == nx - 1 || j == ny - 1)) continue;
                     bool top = true;
                     for (int b = -1; b <= 1; ++b)
@@ -119,42 +117,6 @@ TEST(made_and_found_are_the_same) {
             CHECK(std::memcmp(&made_moments, &found_moments, sizeof made_moments) == 0);
         }
     }
-}
-
-// Curvatures of eight surfaces with 16 points in the shortest wavelength. Second differences are
-// low by at most (2 pi/16)^2/12 = 1.3 % (the shortest waves). Measured on these surfaces with 8,
-// 16, 32 points: <kappa_g> 1.3247, 1.3460, 1.3506, density 0.965, 0.990, 0.996 of the theory:
-// second order, 0.5 % and 0.8 % from the limit at 16. The statistical error is taken from the
-// scatter between the surfaces.
-TEST(against_theory) {
-    const Spectrum s{.L_lambda_l = 12, .L_lambda_s = 96};
-    const double bias = 0.015;
-    const int surfaces = 8;
-    const Moments expected = discrete_moments(s);
-    std::vector<double> g, a, density;
-    for (int k = 1; k <= surfaces; ++k) {
-        SummitCount count;
-        Moments m;
-        const Asperities found = make_asperities(s, 16 * 96, Normalise::ensemble, 1, k,
-                                                 Curvature::geometric, &count, &m);
-        g.push_back(count.mean_kappa_g / std::sqrt(m.m4));
-        a.push_back(count.mean_kappa_a / std::sqrt(m.m4));
-        density.push_back(static_cast<double>(found.size()) / expected.summit_density());
-    }
-    const auto compare = [&](const std::vector<double>& values, double truth) {
-        double sum = 0, square = 0;
-        for (const double v : values) {
-            sum += v;
-            square += v * v;
-        }
-        const double n = static_cast<double>(values.size()), mean = sum / n,
-                     error = std::sqrt((square / n - mean * mean) / (n - 1));
-        CHECK_CLOSE(mean, truth, 4 * error + bias * truth);
-        CHECK(error < 0.01 * truth);
-    };
-    compare(g, 1.356);
-    compare(a, 8 / (3 * std::sqrt(kPi)));
-    compare(density, 1);
 }
 
 }  // namespace test_asperities

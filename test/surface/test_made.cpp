@@ -26,8 +26,8 @@ HeightMap made(const Spectrum& s, int n, Moments* sampled = nullptr, int threads
 
 double difference(const HeightMap& a, const HeightMap& b, int step = 1, bool transposed = false) {
     double worst = 0;
-    for (int j = 0; j < a.ny; ++j)
-        for (int i = 0; i < a.nx; ++i)
+    for (const int j : up_to(a.ny))
+        for (const int i : up_to(a.nx))
             worst = check::worse(
                 worst, std::abs(a(i, j) - (transposed ? b(j, i) : b(step * i, step * j))));
     return worst;
@@ -60,10 +60,10 @@ TEST(summits) {
         CHECK(sampled.tensor.m20 >
               sampled.tensor.m02);  // the lay is nearer to y: slopes are steeper along x
         double worst = 0;
-        for (std::size_t i = 0; i < found.size(); ++i) {
+        for (const auto i : indices(found)) {
             // Those found between grid points are ordered by the points where the search began.
             std::size_t k = 0;
-            for (std::size_t j = 0; j < all.size(); ++j)
+            for (const auto j : indices(all))
                 if (std::hypot(all.x[j] - found.x[i], all.y[j] - found.y[i]) <
                     std::hypot(all.x[k] - found.x[i], all.y[k] - found.y[i]))
                     k = j;
@@ -71,9 +71,9 @@ TEST(summits) {
             worst = check::worse(worst,
                                  std::hypot(all.x[k] - found.x[i], all.y[k] - found.y[i]) / map.dx);
             worst = check::worse(worst, std::abs(all.kappa1[k] / found.kappa1[i] - 1));
-            worst = check::worse(
-                worst, std::abs(std::remainder(all.angle[k] - found.angle[i], std::numbers::pi)) *
-                           (all.kappa1[k] / all.kappa2[k] - 1));
+            worst =
+                check::worse(worst, std::abs(std::remainder(all.angle[k] - found.angle[i], pi)) *
+                                        (all.kappa1[k] / all.kappa2[k] - 1));
         }
         CHECK(worst < 1e-9);
     }
@@ -137,7 +137,7 @@ TEST(circle) {
             const Isotropy slopes = isotropy(map);
             const SelfAffineFit fit =
                 fit_self_affine(measure_spectrum(map, 1 / slopes.ratio, slopes.direction));
-            constexpr double tau = 2 * std::numbers::pi;
+            constexpr double tau = 2 * pi;
             // At aspect 10 the shortest waves have 2.5 points: differences see them flatter, and
             // the ratio of slopes is low.
             CHECK_CLOSE(fit.hurst.value, hurst, aspect > 3 ? 0.15 : 0.05);
@@ -188,10 +188,10 @@ TEST(distributions) {
 // Amplitude of a mode of a map by its definition.
 double amplitude(const HeightMap& map, int kx, int ky) {
     std::complex<double> sum = 0;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i)
-            sum += map(i, j) * std::polar(1.0, -2 * std::numbers::pi *
-                                                   (1.0 * kx * i / map.nx + 1.0 * ky * j / map.ny));
+    for (const int j : up_to(map.ny))
+        for (const int i : up_to(map.nx))
+            sum += map(i, j) *
+                   std::polar(1.0, -2 * pi * (1.0 * kx * i / map.nx + 1.0 * ky * j / map.ny));
     return std::abs(sum) / (map.nx * map.ny);
 }
 
@@ -229,9 +229,9 @@ TEST(tabulated) {
         constexpr std::size_t angles = 360;
         std::vector<double> rings, psd;
         for (double q = 1; q <= 100; q *= 1.01) {
-            rings.push_back(2 * std::numbers::pi * q);
-            for (std::size_t a = 0; a < angles; ++a) {
-                const double angle = std::numbers::pi * static_cast<double>(a) / angles;
+            rings.push_back(2 * pi * q);
+            for (const std::size_t a : up_to(angles)) {
+                const double angle = pi * static_cast<double>(a) / angles;
                 psd.push_back(relative_psd(s, q * std::cos(angle), q * std::sin(angle)));
             }
         }
@@ -240,8 +240,8 @@ TEST(tabulated) {
         table.shape = s.shape;
         const HeightMap stretched = made(s, 256), same = made(table, 256);
         double product = 0, squares = 0;
-        for (int j = 0; j < same.ny; ++j)
-            for (int i = 0; i < same.nx; ++i) {
+        for (const int j : up_to(same.ny))
+            for (const int i : up_to(same.nx)) {
                 product += stretched(i, j) * same(i, j);
                 squares += stretched(i, j) * stretched(i, j);
             }
@@ -253,7 +253,7 @@ TEST(tabulated) {
 TEST(height_quantiles) {
     const HeightQuantiles q = height_quantiles(
         height_map(64, 64, 1, 1, [](int i, int j) { return (37 * (i + 64 * j)) % 4096; }));
-    for (std::size_t k = 0; k < q.score.size(); ++k)
+    for (const auto k : indices(q.score))
         CHECK_CLOSE(q.height[k], 2048 * std::erf(q.score[k] / std::numbers::sqrt2), 1);
 }
 

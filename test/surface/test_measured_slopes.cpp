@@ -1,9 +1,7 @@
 // Slopes of the surfaces made from the spectrum of a measured map (its twins), and the warning of
 // its run that they are not the map's.
-#include "case/read_case.hpp"
-#include "check.hpp"
-#include "run/job.hpp"
-#include "run/run.hpp"
+#include "support/height_maps.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "surface/synthesis.hpp"
 
@@ -14,15 +12,9 @@ using namespace rsc;
 // The screen of a run on the heights of a map.
 template <class Heights>
 std::string screen(const Folder& folder, int n, const Heights& heights) {
-    std::ofstream file(folder / "map.txt");
-    file.precision(12);
-    for (int j = 0; j < n; ++j, file << "\n")
-        for (int i = 0; i < n; ++i) file << heights(i, j) << " ";
-    file.close();
-    Case settings = read_case_text("&surface L=1 source='heights' file='" + folder / "map.txt" +
-                                       "' / &indentation levels=2 /",
-                                   "case.nml")
-                        .settings;
+    const std::string map = folder.write("map.txt", rows_of_text(n, n, heights));
+    Case settings =
+        settings_of("&surface L=1 source='heights' file='" + map + "' / &indentation levels=2 /");
     settings.output.file = folder / "measured.nc";
     settings.run.threads = 1;
     std::ostringstream table;
@@ -47,17 +39,16 @@ TEST(measured_slopes) {
     const auto map_with = [&](double share, double everywhere) {
         HeightMap map = fine.copy();
         map.periodic = false;
-        for (int j = 0; j < n; ++j)
-            for (int i = 0; i < n; ++i)
+        for (const int j : up_to(n))
+            for (const int i : up_to(n))
                 map.row(j)[i] +=
-                    share * coarse(i, j) *
-                    (everywhere + std::abs(std::cos(std::numbers::pi * (i + 0.5) / n)));
+                    share * coarse(i, j) * (everywhere + std::abs(std::cos(pi * (i + 0.5) / n)));
         return map;
     };
     const auto like_twins = [&](const HeightMap& map) {
         const std::string shown = screen(folder, n, map);
         CHECK(shown.find("spectrum of the twins") != std::string::npos);
-        const Case settings = read_case_text(bytes(twins), twins).settings;
+        const Case settings = settings_of(bytes(twins));
         double slope = 0, height = 0;
         for (int k = 1; k <= 8; ++k) {
             const Moments made = grid_moments(make_surface(settings, k, 1).map);

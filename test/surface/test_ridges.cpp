@@ -1,17 +1,12 @@
 // The errors that elements tell on ridges, whose crests may lie between the points.
-#include "base/format.hpp"
-#include "case/registry.hpp"
-#include "check.hpp"
-#include "run/job.hpp"
-#include "run/prepare.hpp"
+#include "support/height_maps.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "trust/judge.hpp"
 
 namespace test_ridges {
 
 using namespace rsc;
-
-constexpr double pi = std::numbers::pi;
 
 // Along a lay, just after first touch: two surfaces
 // against the same on a grid four times as fine.
@@ -23,7 +18,7 @@ TEST(lay) {
     c.surface.sigma = 1e-3;
     c.solids.R[1] = 10;
     c.solver.model = ModelKind::elements;
-    for (int k = 0; k < 20; ++k) c.indentation.levels.push_back(2.9 - 0.1 * k);
+    for (const int k : up_to(20)) c.indentation.levels.push_back(2.9 - 0.1 * k);
     int levels = 0, force = 0, area = 0;
     for (const bool campaign : {false, true}) {
         c.surface.direction = campaign ? 90 : 0;
@@ -35,13 +30,8 @@ TEST(lay) {
                 return realize(prepare(c), 1, 1).levels;
             };
             const std::vector<Level> coarse = pressed(5), fine = pressed(20);
-            Case kept = c;  // with all heights, also those that elements do not read
-            kept.output.heights = true;
-            kept.elements.points_per_wave = 5;
-            const std::vector<Level> all = realize(prepare(kept), 1, 1).levels;
-            for (std::size_t k = 0; k < coarse.size(); ++k) {
+            for (const auto k : indices(coarse)) {
                 if (!(coarse[k].force > 0)) continue;
-                CHECK(all[k].force_error_expected == coarse[k].force_error_expected);
                 const double dN = std::abs(coarse[k].force - fine[k].force),
                              dA = std::abs(coarse[k].area - fine[k].area);
                 ++levels;
@@ -68,18 +58,12 @@ TEST(ridges) {
     for (const int points : {4, 6, 8, 12})
         for (const double beside : {0.0, 0.2, 0.5}) {
             const int n = points * waves;
-            Case c;
-            c.surface.source = Source::heights;
-            c.surface.file = folder / "ridges.txt";
+            Case c = case_of_map(folder.write("ridges.txt", rows_of_text(n, n, [&](int, int j) {
+                                                  return Delta *
+                                                         std::cos(2 * pi * (j - beside) / points);
+                                              })));
             c.surface.L = 1.0;
-            c.surface.detrend = Detrend::none;
-            std::ofstream file(c.surface.file);
-            for (int j = 0; j < n; ++j)
-                for (int i = 0; i < n; ++i)
-                    file << format("%.17g", Delta * std::cos(2 * pi * (j - beside) / points))
-                         << (i + 1 < n ? ' ' : '\n');
-            file.close();
-            c.solids.R[0] = c.solids.R[1] = HUGE_VAL;
+            c.solids.R[0] = c.solids.R[1] = kInfinity;
             c.indentation.boundary = Boundary::periodic;
             c.indentation.unit = LevelUnit::length;
             const double share[] = {1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.2};
@@ -87,7 +71,7 @@ TEST(ridges) {
                 c.indentation.levels.push_back(Delta * (1 - s + s * std::log(s)));
             const Job job = prepare(c);
             const std::vector<Level> found = realize(job, 1, 1).levels;
-            for (std::size_t k = 0; k < found.size(); ++k) {
+            for (const auto k : indices(found)) {
                 const Level& level = found[k];
                 const double N = share[k] * pi * job.indenter.E_star * Delta * waves,
                              A = 2 / pi * std::asin(std::sqrt(share[k]));

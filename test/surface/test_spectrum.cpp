@@ -6,13 +6,12 @@
 
 #include "base/vector_math.hpp"
 #include "check.hpp"
+#include "support/simpson.hpp"
 #include "surface/modes.hpp"
 
 namespace test_spectrum {
 
 using namespace rsc;
-
-constexpr double kPi = std::numbers::pi;
 
 Spectrum spectrum(double hurst, double l, double s, bool plateau) {
     return {.L = 1.7,
@@ -27,26 +26,17 @@ Spectrum spectrum(double hurst, double l, double s, bool plateau) {
 // kl and over the angle, with a
 // PSD written out here. Returns the three moments scaled to m0 = sigma^2.
 Moments by_quadrature(const Spectrum& s) {
-    const double kl = 2 * kPi * s.L_lambda_l / s.L, ks = 2 * kPi * s.L_lambda_s / s.L,
-                 k0 = 2 * kPi / s.L;
+    const double kl = 2 * pi * s.L_lambda_l / s.L, ks = 2 * pi * s.L_lambda_s / s.L,
+                 k0 = 2 * pi / s.L;
     const auto radial = [&](double p, double from, double to, double exponent) {
-        if (!(to > from)) return 0.0;
-        const int steps = 4000;
-        const double h = std::log(to / from) / steps;
-        double sum = 0;
-        for (int i = 0; i <= steps; ++i) {
-            const double K = from * std::exp(i * h);
-            sum += (i == 0 || i == steps ? 1
-                    : i % 2              ? 4
-                                         : 2) *
-                   std::pow(K, p + 2) * std::pow(K / kl, exponent);
-        }
-        return sum * h / 3;
+        return simpson(std::log(from), std::log(to), 4000, [&](double k) {
+            return std::exp((p + 2) * k) * std::pow(std::exp(k) / kl, exponent);
+        });
     };
     const auto angular = [](int p) {
         double sum = 0;
-        for (int i = 0; i < 64; ++i) sum += std::pow(std::cos(2 * kPi * i / 64), p);
-        return sum * 2 * kPi / 64;  // exact for trigonometric polynomials
+        for (const int i : up_to(64)) sum += std::pow(std::cos(2 * pi * i / 64), p);
+        return sum * 2 * pi / 64;  // exact for trigonometric polynomials
     };
     const auto moment = [&](int p) {
         return angular(p) *
@@ -71,7 +61,7 @@ TEST(closed_forms) {
     const Spectrum ring = spectrum(0.5, 100, 100.001, false);
     const Moments m = theoretical_moments(ring);
     CHECK_CLOSE(m.nayak(), 1.5, 1e-4);
-    CHECK_RELATIVE(m.rms_slope(), 2 * kPi * 100 / 1.7 * 0.03, 1e-4);
+    CHECK_RELATIVE(m.rms_slope(), 2 * pi * 100 / 1.7 * 0.03, 1e-4);
     CHECK_RELATIVE(m.mean_spacing() * m.mean_spacing() * m.summit_density(), 1.0, 1e-14);
 }
 
@@ -123,28 +113,21 @@ TEST(tables) {
     CHECK_RELATIVE((*table)(17 * (1 + 1e-13)), 0.05, 1e-12);
     const auto integral = [&](int power) {
         double sum = 0;
-        for (std::size_t i = 1; i < k.size(); ++i) {
-            const int steps = 2000;
-            const double h = (k[i] - k[i - 1]) / steps;
-            for (int j = 0; j <= steps && psd[i] * psd[i - 1] > 0; ++j) {
-                const double x = k[i - 1] + j * h, value = j == steps ? psd[i] : slow(x);
-                sum += (j == 0 || j == steps ? 1
-                        : j % 2              ? 4
-                                             : 2) *
-                       value * std::pow(x, power) * h / 3;
-            }
-        }
+        for (std::size_t i = 1; i < k.size(); ++i)  // psd[i] at k[i], from either side
+            sum += simpson(k[i - 1], k[i], 2000, [&](double x) {
+                const bool gap = psd[i] * psd[i - 1] == 0;
+                return gap ? 0 : (x < k[i] ? slow(x) : psd[i]) * std::pow(x, power);
+            });
         return sum;
     };
-    for (const auto& [p, circle] : {std::pair{0, 2 * kPi},
-                                    {2, kPi},
-                                    {4, 0.75 * kPi}})  // the integral of cos^p over the circle
+    for (const auto& [p, circle] :
+         {std::pair{0, 2 * pi}, {2, pi}, {4, 0.75 * pi}})  // the integral of cos^p over the circle
         CHECK_RELATIVE(table->integral(p, 0), circle * integral(p + 1), 1e-11);
-    CHECK_RELATIVE(table->sigma(), std::sqrt(2 * kPi * integral(1)), 1e-11);
+    CHECK_RELATIVE(table->sigma(), std::sqrt(2 * pi * integral(1)), 1e-11);
     const Spectrum s = tabulated_spectrum(table, 6, 0.07);
     CHECK(s.L == 6 && s.sigma == 0.07 && s.table == table);
-    CHECK_RELATIVE(s.L_lambda_l, 6 / kPi, 1e-14);
-    CHECK_RELATIVE(s.L_lambda_s, 51 / kPi, 1e-14);
+    CHECK_RELATIVE(s.L_lambda_l, 6 / pi, 1e-14);
+    CHECK_RELATIVE(s.L_lambda_s, 51 / pi, 1e-14);
     // m_p = T(p) times the integral of K^(p+1) Phi, T = 2 pi, pi, 3 pi/4, scaled to sigma.
     const Moments m = theoretical_moments(s);
     CHECK_RELATIVE(m.m0, 0.07 * 0.07, 1e-14);
@@ -155,7 +138,7 @@ TEST(tables) {
         double m0 = 0, m20 = 0, m40 = 0, m04 = 0, m22 = 0, m02 = 0;
         for (int ky = -20; ky <= 20; ++ky)
             for (int kx = -20; kx <= 20; ++kx) {
-                const double q2 = kx * kx + ky * ky, step = 2 * kPi / of.L, x = step * kx,
+                const double q2 = kx * kx + ky * ky, step = 2 * pi / of.L, x = step * kx,
                              y = step * ky;
                 const double power = q2 == 0    ? 0
                                      : of.table ? slow(step * std::sqrt(q2))
@@ -214,7 +197,7 @@ TEST(noise_is_philox) {
                4503599627370496.0;
     };
     const double radius = std::sqrt(-std::log(1 - uniform(w[0], w[1]))),
-                 phase = 2 * kPi * uniform(w[2], w[3]);
+                 phase = 2 * pi * uniform(w[2], w[3]);
     const std::complex<double> z = mode_noise(key, kx, ky);
     CHECK_CLOSE(z.real(), radius * std::cos(phase), 1e-14);  // rounding of the phase here
     CHECK_CLOSE(z.imag(), radius * std::sin(phase), 1e-14);
@@ -225,10 +208,9 @@ TEST(noise_is_philox) {
     std::vector<double> re(101), im(101);
     column_noise(key, kx, -50, 101, re.data(), im.data());
     bool same = true;
-    for (int i = 0; i < 101; ++i) {
+    for (const int i : up_to(101)) {
         const auto one = mode_noise(key, kx, i - 50);
-        same = same && one.real() == re[static_cast<std::size_t>(i)] &&
-               one.imag() == im[static_cast<std::size_t>(i)];
+        same = same && one.real() == re[i] && one.imag() == im[i];
     }
     CHECK(same);
 }

@@ -10,8 +10,6 @@ namespace test_summits {
 
 using namespace rsc;
 
-constexpr double kPi = std::numbers::pi;
-
 // A surface as a list of waves, z = sum of 2 Re[c exp(2 pi i (kx x + ky y)/L)], evaluated without
 // any grid.
 struct Waves {
@@ -26,7 +24,7 @@ struct Waves {
         const std::complex<double> i(0, 1);
         double sum = 0;
         for (const Wave& w : waves) {
-            const double kx = 2 * kPi / L * w.kx, ky = 2 * kPi / L * w.ky;
+            const double kx = 2 * pi / L * w.kx, ky = 2 * pi / L * w.ky;
             sum += 2 * (w.c * std::pow(i * kx, p) * std::pow(i * ky, q) *
                         std::exp(i * (kx * x + ky * y)))
                            .real();
@@ -40,7 +38,7 @@ struct Waves {
     // Moved by (x, y).
     Waves moved(double x, double y) const {
         Waves m = *this;
-        for (Wave& w : m.waves) w.c *= std::polar(1.0, -2 * kPi / L * (w.kx * x + w.ky * y));
+        for (Wave& w : m.waves) w.c *= std::polar(1.0, -2 * pi / L * (w.kx * x + w.ky * y));
         return m;
     }
     HeightMap map(int nx, int ny) const {
@@ -49,8 +47,8 @@ struct Waves {
         map.dx = L / nx;
         map.dy = L / ny;
         map.periodic = true;
-        for (int j = 0; j < ny; ++j)
-            for (int i = 0; i < nx; ++i) map.row(j)[i] = derivative(i * map.dx, j * map.dy, 0, 0);
+        for (const int j : up_to(ny))
+            for (const int i : up_to(nx)) map.row(j)[i] = derivative(i * map.dx, j * map.dy, 0, 0);
         return map;
     }
 };
@@ -88,7 +86,7 @@ double rms(const std::vector<double>& v) {
 std::array<double, 4> errors(const Asperities& a, const Waves& w) {
     std::array<double, 4> worst{};
     const double z_scale = rms(a.z), kappa = rms(a.kappa1), quartic = rms(a.biharmonic);
-    for (std::size_t i = 0; i < a.size(); ++i) {
+    for (const auto i : indices(a)) {
         const auto d = [&](int p, int q) { return w.derivative(a.x[i], a.y[i], p, q); };
         const double xx = d(2, 0), yy = d(0, 2), xy = d(1, 1);
         const double trace = xx + yy, root = std::hypot(xx - yy, 2 * xy);
@@ -123,7 +121,7 @@ TEST(against_the_fourier_sum) {
               1e-7);
         CHECK(e[3] < 2e-7);
         CHECK(a.size() == a.biharmonic.size() && static_cast<long>(a.size()) == count.summits);
-        for (std::size_t i = 0; i < a.size(); ++i) {
+        for (const auto i : indices(a)) {
             CHECK(a.x[i] >= 0 && a.x[i] < s.L && a.y[i] >= 0 && a.y[i] < s.L);
             CHECK_RELATIVE(a.radius[i], 1 / std::sqrt(a.kappa1[i] * a.kappa2[i]), 1e-12);
         }
@@ -132,8 +130,8 @@ TEST(against_the_fourier_sum) {
             CHECK(
                 // nothing is missed any more: 32 points in lambda_s tell all apart No summit twice.
                 a.size() == fine_summits);
-        for (std::size_t i = 0; i < a.size(); ++i)
-            for (std::size_t j = 0; j < i; ++j) {
+        for (const auto i : indices(a))
+            for (const std::size_t j : up_to(i)) {
                 const double x = std::remainder(a.x[i] - a.x[j], s.L),
                              y = std::remainder(a.y[i] - a.y[j], s.L);
                 CHECK(std::hypot(x, y) > 1e-3 * s.L / n);
@@ -146,7 +144,7 @@ TEST(against_the_fourier_sum) {
 TEST(closed_form) {
     Waves w;
     w.L = 3;
-    const double k = 2 * kPi / w.L * 4, x0 = 0.1234, y0 = 0.3217, A = 0.02, B = 0.05;
+    const double k = 2 * pi / w.L * 4, x0 = 0.1234, y0 = 0.3217, A = 0.02, B = 0.05;
     w.waves = {{4, 0, 0.5 * A * std::polar(1.0, -k * x0)},
                {0, 4, 0.5 * B * std::polar(1.0, -k * y0)}};
     for (const auto [nx, ny] : {std::array{16, 16}, {20, 32}, {50, 24}}) {
@@ -154,7 +152,7 @@ TEST(closed_form) {
         const Asperities a =
             find_asperities(w.map(nx, ny), Curvature::algebraic, &count, 1, Detail::subgrid, 4);
         CHECK(a.size() == 16 && count.saddles == 0 && count.repeated == 0);
-        for (std::size_t i = 0; i < a.size(); ++i) {
+        for (const auto i : indices(a)) {
             CHECK_CLOSE(std::remainder(a.x[i] - x0, w.L / 4), 0, 1e-9);
             CHECK_CLOSE(std::remainder(a.y[i] - y0, w.L / 4), 0, 1e-9);
             CHECK_RELATIVE(a.z[i], A + B, 1e-9);
@@ -185,8 +183,8 @@ TEST(polynomial) {
         map.x0 = 3;
         map.y0 = -1;
         const double x0 = 4.23, y0 = 0.87;
-        for (int j = 0; j < 21; ++j)
-            for (int i = 0; i < 25; ++i) {
+        for (const int j : up_to(21))
+            for (const int i : up_to(25)) {
                 const double x = 3 + 0.1 * i - x0, y = -1 + 0.2 * j - y0;
                 map.row(j)[i] = 1 - (round ? 1.5 * (x * x + y * y) : 2 * x * x + y * y + x * y) +
                                 0.3 * x * x * x - 0.5 * x * x * x * x - 0.25 * x * x * y * y -
@@ -221,11 +219,11 @@ TEST(once_each) {
                                    Detail::subgrid, 4);
         };
         const Asperities a = found(w);
-        for (std::size_t i = 0; i < a.size(); ++i)
+        for (const auto i : indices(a))
             for (const auto [dx, dy] : {std::array{0.02, 0.02}, {0.025, 0.0}, {0.0, 0.025}}) {
                 const Asperities b = found(w.moved(dx * s.L - a.x[i], dy * s.L - a.y[i]));
                 long here = 0;
-                for (std::size_t j = 0; j < b.size(); ++j)
+                for (const auto j : indices(b))
                     here += std::hypot(std::remainder(b.x[j] - dx * s.L, s.L),
                                        std::remainder(b.y[j] - dy * s.L, s.L)) < 1e-5 * s.L;
                 CHECK(here <= 1);
@@ -239,9 +237,9 @@ TEST(once_each) {
 TEST(all_summits) {
     {  // pits, saddles and points at the border of a body above are no summits
         Asperities none;
-        for (const SecondOrder& second : {SecondOrder{1, 1, 0}, {-1, 1, 0}, {-HUGE_VAL, -1, 0}})
+        for (const SecondOrder& second : {SecondOrder{1, 1, 0}, {-1, 1, 0}, {-kInfinity, -1, 0}})
             CHECK(!append_summit(0, 0, 0, second, Curvature::geometric, none));
-        CHECK(!append_summit(0, 0, HUGE_VAL, {-1, -1, 0}, Curvature::geometric, none) &&
+        CHECK(!append_summit(0, 0, kInfinity, {-1, -1, 0}, Curvature::geometric, none) &&
               none.size() == 0);
     }
 }

@@ -11,12 +11,10 @@ namespace test_surface {
 
 using namespace rsc;
 
-constexpr double kPi = std::numbers::pi;
-
 double rms(const HeightMap& map) {
     double sum = 0;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) sum += map(i, j) * map(i, j);
+    for (const int j : up_to(map.ny))
+        for (const int i : up_to(map.nx)) sum += map(i, j) * map(i, j);
     return std::sqrt(sum / (static_cast<double>(map.nx) * map.ny));
 }
 
@@ -37,11 +35,11 @@ std::vector<double> by_cosines(const Spectrum& s, int n, NoiseKey key) {
             expected += 2 * psd;
         }
     std::vector<double> z;
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) {
+    for (const int j : up_to(n))
+        for (const int i : up_to(n)) {
             double h = 0;
             for (const Mode& m : modes)
-                h += 2 * (m.c * std::polar(1.0, 2 * kPi * (m.kx * i + m.ky * j) / n)).real();
+                h += 2 * (m.c * std::polar(1.0, 2 * pi * (m.kx * i + m.ky * j) / n)).real();
             z.push_back(h * s.sigma / std::sqrt(expected));
         }
     return z;
@@ -61,10 +59,9 @@ TEST(against_cosines) {
             const HeightMap map = synthesize(s, n, Normalise::ensemble, 11, 5);
             const std::vector<double> z = by_cosines(s, n, {11, 5});
             double worst = 0;
-            for (int j = 0; j < n; ++j)
-                for (int i = 0; i < n; ++i)
-                    worst = check::worse(
-                        worst, std::abs(map(i, j) - z[static_cast<std::size_t>(j * n + i)]));
+            for (const int j : up_to(n))
+                for (const int i : up_to(n))
+                    worst = check::worse(worst, std::abs(map(i, j) - z[j * n + i]));
             CHECK_CLOSE(worst, 0.0,
                         1e-13 * 0.1 * 10);  // rounding of the slow sum over some 700 modes
             CHECK(map.periodic && map.nx == n && map.ny == n && map.x0 == 0 && map.y0 == 0);
@@ -80,9 +77,8 @@ TEST(against_cosines) {
     for (const auto& [s, n] : {std::pair{tabulated, 22}, {tabulated, 26}, {smallest, 2}}) {
         const HeightMap map = synthesize(s, n, Normalise::ensemble, 4, 2, nullptr, 3);
         const std::vector<double> z = by_cosines(s, n, {4, 2});
-        for (int j = 0; j < n; ++j)
-            for (int i = 0; i < n; ++i)
-                CHECK_CLOSE(map(i, j), z[static_cast<std::size_t>(j * n + i)], 1e-13);
+        for (const int j : up_to(n))
+            for (const int i : up_to(n)) CHECK_CLOSE(map(i, j), z[j * n + i], 1e-13);
     }
 }
 
@@ -93,8 +89,8 @@ TEST(normalisation) {
         const HeightMap map = synthesize(s, n, Normalise::sample, 9, 4, &sampled);
         CHECK_RELATIVE(rms(map), s.sigma, 1e-13);
         double mean = 0;
-        for (int j = 0; j < n; ++j)
-            for (int i = 0; i < n; ++i) mean += map(i, j);
+        for (const int j : up_to(n))
+            for (const int i : up_to(n)) mean += map(i, j);
         CHECK_CLOSE(mean / (n * n), 0.0, 1e-15);
     }
     CHECK_RELATIVE(sampled.m0, s.sigma * s.sigma, 1e-13);

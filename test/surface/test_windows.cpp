@@ -31,7 +31,7 @@ TEST(coverage) {
     // of 144 windows a share of 0.9 is found as less with a chance of 1 in 100
     constexpr double kLeast = 0.83;
     int all = 0, hurst = 0, kl = 0, ks = 0, plateaus = 0;
-    double bias = 0;
+    double bias = 0, psd = 0;
     for (const double h : {0.3, 0.8})
         for (const double low : {1.0, 4.0, 8.0})
             for (const double high : {16.0, 32.0})
@@ -43,10 +43,16 @@ TEST(coverage) {
                                      .L_lambda_s = high,
                                      .plateau = plateau,
                                      .sigma = 1e-3};
+                    // Phi of the ensemble at kl by its definition: the sum over modes is sigma^2.
+                    double sum = 0;
+                    for (int q = -static_cast<int>(high); q <= high; ++q)
+                        for (int r = -static_cast<int>(high); r <= high; ++r)
+                            sum += relative_psd(s, q, r);
+                    const double phi = s.sigma * s.sigma / (sum * std::pow(2 * pi, 2));
                     for (int k = 1; k <= kWindows; ++k) {
                         const SelfAffineFit fit =
                             fit_self_affine(measure_spectrum(window(s, k + 100 * all, k % 2 == 0)));
-                        const double step = 2 * std::numbers::pi, found = fit.kl.value / step;
+                        const double step = 2 * pi, found = fit.kl.value / step;
                         ++all;
                         hurst += std::abs(fit.hurst.value - h) <= fit.hurst.error;
                         bias += fit.hurst.value - h;
@@ -54,6 +60,12 @@ TEST(coverage) {
                                           : found >= low;
                         ks += std::abs(fit.ks.value / step - high) <= fit.ks.error / step;
                         plateaus += fit.kl_seen && fit.plateau_seen && fit.plateau != plateau;
+                        // Phi0 belongs to kl: in the middle of the band the two do not mix.
+                        const double middle = step * std::sqrt(low * high);
+                        psd +=
+                            std::log(fit.Phi0.value *
+                                     std::pow(middle / fit.kl.value, -2 * (1 + fit.hurst.value)) /
+                                     (phi * relative_psd(s, std::sqrt(low * high), 0)));
                         if (low == 8.0) CHECK(fit.kl_seen);
                         if (low == 1.0) CHECK(!fit.kl_seen || fit.kl.error > 0);
                     }
@@ -61,6 +73,7 @@ TEST(coverage) {
     CHECK(hurst >= kLeast * all && kl >= kLeast * all && ks >= kLeast * all);
     CHECK_CLOSE(bias / all, 0.0, 0.03);
     CHECK(plateaus == 0);
+    CHECK_CLOSE(psd / all, 0.0, 0.1);  // a window has few long waves
 }
 
 }  // namespace test_windows

@@ -1,23 +1,21 @@
 // What a level is worth: status, expected errors, grids of elements, borders, filled points.
 #include "case/registry.hpp"
-#include "check.hpp"
 #include "contact/make.hpp"
 #include "contact/spots.hpp"
 #include "elements/pixel_spots.hpp"
 #include "observe/map.hpp"
 #include "observe/record.hpp"
 #include "run/compare.hpp"
-#include "run/job.hpp"
 #include "run/prepare.hpp"
+#include "support/asperities.hpp"
 #include "support/height_maps.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "trust/judge.hpp"
 
 namespace test_trust {
 
 using namespace rsc;
-
-constexpr double pi = std::numbers::pi;
 constexpr double kRounding = 1e-12;
 
 bool has(const LevelValues& level, Cause cause) { return level.doubts & bit(cause); }
@@ -53,7 +51,7 @@ TEST(observed) {
 // What each spot has for itself adds up to the union; of two in one place one has all.
 TEST(own_areas) {
     std::vector<Spot> spots;
-    for (int k = 0; k < 40; ++k)
+    for (const int k : up_to(40))
         spots.push_back({std::fmod(0.37 * k, 1.0), std::fmod(0.71 * k, 1.0), 0.12 + 0.002 * k,
                          0.05 + 0.001 * k, 0.3 * k});
     std::vector<double> own;
@@ -103,12 +101,12 @@ TEST(mirrored) {
             const HeightMap map = height_map(n, n + 3, 1, 1, z),
                             other = height_map(n, n + 3, 1, 1,
                                                [&](int i, int j) { return z(n - 1 - i, j); });
-            Indenter flat{1e3, HUGE_VAL, 0, 0};
+            Indenter flat{1e3, kInfinity, 0, 0};
             if (flats) flat.period = {n * 1.0, n + 3.0};
             const HeightMap a = coarser_map(map, flat), b = coarser_map(other, flat);
             std::vector<double> left, right;
-            for (int j = 0; j < a.ny; ++j)
-                for (int i = 0; i < a.nx; ++i) {
+            for (const int j : up_to(a.ny))
+                for (const int i : up_to(a.nx)) {
                     left.push_back(a(i, j));
                     right.push_back(b(i, j));
                 }
@@ -136,23 +134,15 @@ TEST(filled) {
     CHECK(share_on_filled(level, {&map, 1}, ball, low) == 1);
     // The same points on body 2, whose middle is above the tip: a cap with a hole at its top.
     const Folder folder;
-    const auto write = [&](const std::string& name, auto&& height) {
-        std::ofstream file(folder / name);
-        for (int j = 0; j < 32; ++j)
-            for (int i = 0; i < 32; ++i)
-                file << height(std::hypot(i - 15.5, j - 15.5)) << (i < 31 ? ' ' : '\n');
-        return folder / name;
-    };
-    Case c;
-    c.surface.source = Source::heights;
-    c.surface.file = write("flat.txt", [](double) { return "0.0"; });
+    Case c =
+        case_of_map(folder.write("flat.txt", rows_of_text(32, 32, [](int, int) { return 0.0; })));
     c.surface.pixel = 1.0;
     c.surface.sigma = 1e-3;
     c.surface.missing = Missing::fill;
-    c.surface.detrend = Detrend::none;
-    c.indenter.file = write("cap.txt", [](double r) {
-        return r < 2 ? std::string("nan") : std::to_string(-0.5e-3 * r * r);
-    });
+    c.indenter.file = folder.write("cap.txt", rows_of_text(32, 32, [](int i, int j) {
+                                       const double r = std::hypot(i - 15.5, j - 15.5);
+                                       return r < 2 ? std::nan("") : -0.5e-3 * r * r;
+                                   }));
     set_key(c, "indenter%shape", "'map'");
     c.indentation.unit = LevelUnit::length;
     c.indentation.levels = {-0.01};
@@ -166,22 +156,15 @@ TEST(pixels_of_contacts) {
     const std::vector<Pixel> touching{{6, 0}, {1, 1}, {2, 1}, {3, 1}, {1, 2}, {2, 2},
                                       {3, 2}, {1, 3}, {2, 3}, {3, 3}, {5, 5}, {0, 7}};
     Level level;
-    add_pixels(level, flat_map(8, 8, 1, 1), {1.0, 2.0, 0, 0}, HUGE_VAL, touching,
+    add_pixels(level, flat_map(8, 8, 1, 1), {1.0, 2.0, 0, 0}, kInfinity, touching,
                std::vector<double>(touching.size(), 1.0));
     CHECK(level.contacts == 4 && level.pixels_per_contact == 9);
 }
 
 TEST(resolution) {
     const Folder folder;
-    const std::string path = folder / "flat.txt";
-    std::ofstream file(path);
-    for (int j = 0; j < 24; ++j)
-        for (int i = 0; i < 24; ++i)
-            file << ((i + j) % 2 ? "1e-9" : "-1e-9") << (i < 23 ? ' ' : '\n');
-    file.close();
-    Case c;
-    c.surface.source = Source::heights;
-    c.surface.file = path;
+    Case c = case_of_map(folder.write(
+        "flat.txt", rows_of_text(24, 24, [](int i, int j) { return (i + j) % 2 ? 1e-9 : -1e-9; })));
     c.surface.L = 24.0;
     c.indentation.unit = LevelUnit::length;
     c.indentation.levels = {-0.004, -0.03, -0.2};
@@ -200,37 +183,6 @@ TEST(resolution) {
     }
     CHECK(r.levels[0].status == LevelStatus::out_of_validity);
     CHECK(r.levels[2].force_error_expected < r.levels[0].force_error_expected);
-}
-
-// The errors expected of elements hold: three surfaces with 8 points in the shortest wave against
-// the same with 32, at levels away from the border. (Under a larger ball no level is.)
-TEST(finer) {
-    Case c;
-    c.surface.L_lambda_l = 4;
-    c.surface.L_lambda_s = 16;
-    c.surface.hurst = 1;
-    c.surface.sigma = 2.4e-3;
-    c.solids.R[1] = 31;
-    c.solver.model = ModelKind::elements;
-    c.indentation.levels = {2, 1.5, 1, 0.5, 0};
-    int levels = 0, force = 0, area = 0;
-    for (const int seed : {1, 2, 3}) {
-        c.run.seed = seed;
-        const auto pressed = [&](double points) {
-            c.elements.points_per_wave = points;
-            return realize(prepare(c), 1, 1).levels;
-        };
-        const std::vector<Level> coarse = pressed(8), fine = pressed(32);
-        for (std::size_t k = 0; k < coarse.size(); ++k) {
-            if (!(fine[k].force > 0) || coarse[k].edge_contacts > 0) continue;
-            ++levels;
-            const double dN = std::abs(coarse[k].force / fine[k].force - 1),
-                         dA = std::abs(coarse[k].area / fine[k].area - 1);
-            force += dN <= coarse[k].force_error_expected;
-            area += dA <= coarse[k].area_error_expected;
-        }
-    }
-    CHECK(levels >= 7 && 10 * force >= 9 * levels && 10 * area >= 9 * levels);
 }
 
 std::vector<Level> pressed(Case c, ModelKind model) {
@@ -274,7 +226,7 @@ TEST(doubts_combined_once) {
 
 // A contact of asperities that nothing but the model's own error is held against.
 struct Sound {
-    Asperities asperities;
+    Asperities asperities = curved(asperities_at({{0.5, 0.5, 0, 1}}), 1, 0, 100);
     SolverOptions options{.law = LawKind::fourth_order,
                           .surface = {.sigma = 1e-3,
                                       .mean_spacing = 0.1,
@@ -284,15 +236,6 @@ struct Sound {
                                       .extent = {0, 0, 1, 1}}};
     Indenter indenter{1e3, 10, 0.5, 0.5};
     double Z0 = -1e-4;
-    Sound() {
-        asperities.x = {0.5};
-        asperities.y = {0.5};
-        asperities.z = {0};
-        asperities.radius = {1};
-        asperities.kappa1 = asperities.kappa2 = {1};
-        asperities.angle = {0};
-        asperities.biharmonic = {100};
-    }
     Level judged() const {
         const auto contact = make_asperity_contact(asperities, indenter, options);
         Level level = contact->at_separation(Z0);
@@ -330,7 +273,7 @@ TEST(each_doubt) {
     }));
     CHECK(raises(outside_calibration, [](Sound& s) { s.options.interaction = Interaction::none; }));
     const auto flat = [](Sound& s) {
-        s.indenter.shape = Shape(HUGE_VAL);
+        s.indenter.shape = Shape(kInfinity);
         s.Z0 = -1e-5;
     };
     CHECK(!raises(outside_calibration, flat));
@@ -408,19 +351,13 @@ TEST(alike_in_every_order) {
     const Folder folder;
     for (const int n : {15, 33})
         for (const bool flats : {false, true}) {
-            Case m;
-            m.surface.source = Source::heights;
-            m.surface.file = folder / "map.txt";
+            Case m = case_of_map(folder.write("map.txt", rows_of_text(n, n, [n](int i, int j) {
+                                                  return 1e-3 * std::sin(2 * pi * i / n) *
+                                                         std::sin(2 * pi * j / n);
+                                              })));
             m.surface.L = 1.0;
-            m.surface.detrend = Detrend::none;
-            std::ofstream file(m.surface.file);
-            for (int j = 0; j < n; ++j)
-                for (int i = 0; i < n; ++i)
-                    file << 1e-3 * std::sin(2 * pi * i / n) * std::sin(2 * pi * j / n)
-                         << (i + 1 < n ? ' ' : '\n');
-            file.close();
             if (flats) m.indentation.boundary = Boundary::periodic;
-            m.solids.R[1] = flats ? HUGE_VAL : 3;
+            m.solids.R[1] = flats ? kInfinity : 3;
             m.indentation.unit = LevelUnit::length;
             m.indentation.levels = {flats ? 2e-4 : -2e-3};
             const Level level = pressed(m, ModelKind::elements).front();

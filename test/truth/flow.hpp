@@ -5,7 +5,7 @@
 
 #include <deque>
 
-#include "base/std.hpp"
+#include "support/indices.hpp"
 
 namespace truth {
 
@@ -15,7 +15,7 @@ struct Gap {
     std::vector<double> g;  // row by row, 0: closed
     double at(int i, int j) const {
         const int x = (i % nx + nx) % nx, y = (j % ny + ny) % ny;
-        return g[static_cast<std::size_t>(y * nx + x)];
+        return g[y * nx + x];
     }
 };
 
@@ -30,17 +30,16 @@ inline double conductance(double a, double b, double side, double distance) {
 inline std::vector<double> outflow(const Gap& m, const std::vector<double>& p, double gx,
                                    double gy) {
     std::vector<double> out(m.g.size(), 0.0);
-    for (int j = 0; j < m.ny; ++j)
-        for (int i = 0; i < m.nx; ++i) {
+    for (const int j : up_to(m.ny))
+        for (const int i : up_to(m.nx)) {
             const std::array<std::array<int, 2>, 4> steps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
             for (const auto& [a, b] : steps) {
                 const int x = (i + a + m.nx) % m.nx, y = (j + b + m.ny) % m.ny;
                 const double c = a != 0 ? conductance(m.at(i, j), m.at(x, y), m.dy, m.dx)
                                         : conductance(m.at(i, j), m.at(x, y), m.dx, m.dy);
-                const double drop = p[static_cast<std::size_t>(j * m.nx + i)] -
-                                    p[static_cast<std::size_t>(y * m.nx + x)] -
-                                    (gx * a * m.dx + gy * b * m.dy);
-                out[static_cast<std::size_t>(j * m.nx + i)] += c * drop;
+                const double drop =
+                    p[j * m.nx + i] - p[y * m.nx + x] - (gx * a * m.dx + gy * b * m.dy);
+                out[j * m.nx + i] += c * drop;
             }
         }
     return out;
@@ -51,28 +50,27 @@ inline std::vector<double> outflow(const Gap& m, const std::vector<double>& p, d
 inline std::vector<double> pressures(const Gap& m, double gx, double gy) {
     const std::size_t n = m.g.size();
     std::vector<double> p(n, 0.0), zero = outflow(m, p, gx, gy), r(n), z(n), d(n, 0.0), diagonal(n);
-    for (int j = 0; j < m.ny; ++j)
-        for (int i = 0; i < m.nx; ++i)
-            diagonal[static_cast<std::size_t>(j * m.nx + i)] =
-                conductance(m.at(i, j), m.at(i + 1, j), m.dy, m.dx) +
-                conductance(m.at(i, j), m.at(i - 1, j), m.dy, m.dx) +
-                conductance(m.at(i, j), m.at(i, j + 1), m.dx, m.dy) +
-                conductance(m.at(i, j), m.at(i, j - 1), m.dx, m.dy);
+    for (const int j : up_to(m.ny))
+        for (const int i : up_to(m.nx))
+            diagonal[j * m.nx + i] = conductance(m.at(i, j), m.at(i + 1, j), m.dy, m.dx) +
+                                     conductance(m.at(i, j), m.at(i - 1, j), m.dy, m.dx) +
+                                     conductance(m.at(i, j), m.at(i, j + 1), m.dx, m.dy) +
+                                     conductance(m.at(i, j), m.at(i, j - 1), m.dx, m.dy);
     double before = 0, first = 0;
-    for (std::size_t k = 0; k < n; ++k) r[k] = -zero[k];
-    for (int step = 0; step < 200 * (m.nx + m.ny); ++step) {
+    for (const std::size_t k : up_to(n)) r[k] = -zero[k];
+    for (const int step : up_to(200 * (m.nx + m.ny))) {
         double rz = 0;
-        for (std::size_t k = 0; k < n; ++k) {
+        for (const std::size_t k : up_to(n)) {
             z[k] = diagonal[k] > 0 ? r[k] / diagonal[k] : 0;
             rz += r[k] * z[k];
         }
         if (step == 0) first = rz;
         if (!(rz > 1e-28 * first)) break;
-        for (std::size_t k = 0; k < n; ++k) d[k] = z[k] + (step > 0 ? rz / before * d[k] : 0);
+        for (const std::size_t k : up_to(n)) d[k] = z[k] + (step > 0 ? rz / before * d[k] : 0);
         const std::vector<double> Ad = outflow(m, d, 0, 0);
         double dAd = 0;
-        for (std::size_t k = 0; k < n; ++k) dAd += d[k] * Ad[k];
-        for (std::size_t k = 0; k < n; ++k) {
+        for (const std::size_t k : up_to(n)) dAd += d[k] * Ad[k];
+        for (const std::size_t k : up_to(n)) {
             p[k] += rz / dAd * d[k];
             r[k] -= rz / dAd * Ad[k];
         }
@@ -88,11 +86,11 @@ inline std::array<double, 3> permeability(const Gap& m) {
     const double area = m.nx * m.dx * m.ny * m.dy;
     for (const bool along_x : {true, false}) {
         const std::vector<double> p = pressures(m, along_x ? 1 : 0, along_x ? 0 : 1);
-        for (int j = 0; j < m.ny; ++j)
-            for (int i = 0; i < m.nx; ++i) {
-                const double here = p[static_cast<std::size_t>(j * m.nx + i)];
-                const double right = p[static_cast<std::size_t>(j * m.nx + (i + 1) % m.nx)];
-                const double up = p[static_cast<std::size_t>((j + 1) % m.ny * m.nx + i)];
+        for (const int j : up_to(m.ny))
+            for (const int i : up_to(m.nx)) {
+                const double here = p[j * m.nx + i];
+                const double right = p[j * m.nx + (i + 1) % m.nx];
+                const double up = p[(j + 1) % m.ny * m.nx + i];
                 const double qx = conductance(m.at(i, j), m.at(i + 1, j), m.dy, m.dx) *
                                   (right - here + (along_x ? m.dx : 0)) * m.dx / area;
                 const double qy = conductance(m.at(i, j), m.at(i, j + 1), m.dx, m.dy) *
@@ -110,9 +108,8 @@ inline std::array<double, 3> permeability(const Gap& m) {
 inline std::array<bool, 2> percolates(const Gap& m) {
     std::array<bool, 2> winds{false, false};
     std::vector<char> done(m.g.size(), 0);
-    for (int start = 0; start < m.nx * m.ny; ++start) {
-        if (!(m.g[static_cast<std::size_t>(start)] > 0) || done[static_cast<std::size_t>(start)])
-            continue;
+    for (const int start : up_to(m.nx * m.ny)) {
+        if (!(m.g[start] > 0) || done[start]) continue;
         std::map<std::pair<int, int>, std::set<std::pair<int, int>>> seen;  // point: its periods
         std::deque<std::array<int, 2>> walk{{start % m.nx, start / m.nx}};
         while (!walk.empty()) {
@@ -123,7 +120,7 @@ inline std::array<bool, 2> percolates(const Gap& m) {
                 cell{x - period.first * m.nx, y - period.second * m.ny};
             auto& periods = seen[cell];
             if (periods.size() > 2 || !periods.insert(period).second) continue;
-            done[static_cast<std::size_t>(cell.second * m.nx + cell.first)] = 1;
+            done[cell.second * m.nx + cell.first] = 1;
             for (const auto& other : periods) {
                 winds[0] = winds[0] || other.first != period.first;
                 winds[1] = winds[1] || other.second != period.second;

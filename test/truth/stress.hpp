@@ -2,7 +2,7 @@
 // nothing of it is shared with src/physics/stress.
 #pragma once
 
-#include "base/std.hpp"
+#include "support/indices.hpp"
 
 namespace truth {
 
@@ -12,7 +12,7 @@ using Tensor = std::array<double, 6>;  // xx, yy, zz, xy, xz, yz
 // into the body (along 2), or along x (0) or y (1), at the origin; z > 0 is the depth.
 inline Tensor point_force(int along, double x, double y, double z, double nu) {
     const double R = std::sqrt(x * x + y * y + z * z), R2 = R * R, R3 = R2 * R, R5 = R3 * R2;
-    const double s = R + z, w = 1 - 2 * nu, pi2 = 2 * std::numbers::pi;
+    const double s = R + z, w = 1 - 2 * nu, pi2 = 2 * pi;
     if (along == 2) {
         const double bent = (2 * R + z) / (R3 * s * s), plain = z / R3 - 1 / (R * s);
         return {(-3 * x * x * z / R5 + w * (plain + x * x * bent)) / pi2,
@@ -41,13 +41,13 @@ inline Tensor point_force(int along, double x, double y, double z, double nu) {
 inline Tensor rectangle(double x, double y, double z, double a, double b, double nu,
                         std::array<double, 3> traction, int n) {
     Tensor sum{};
-    for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j)
-            for (int along = 0; along < 3; ++along) {
+    for (const int i : up_to(n))
+        for (const int j : up_to(n))
+            for (const int along : up_to(3)) {
                 const Tensor t = point_force(along, x + a - 2 * a * (i + 0.5) / n,
                                              y + b - 2 * b * (j + 0.5) / n, z, nu);
                 for (std::size_t c = 0; c < 6; ++c)
-                    sum[c] += traction[static_cast<std::size_t>(along)] * t[c] * 4 * a * b / n / n;
+                    sum[c] += traction[along] * t[c] * 4 * a * b / n / n;
             }
     return sum;
 }

@@ -8,7 +8,6 @@ namespace truth {
 // Deflection at the radius r under a unit pressure on a disc of radius a, E* = 1 (Johnson 1985,
 // equation 3.29).
 inline double under_disc(double r, double a) {
-    const double pi = std::numbers::pi;
     if (a == 0) return 0;
     if (r <= a) return 4 * a / pi * std::comp_ellint_2(r / a);
     const double k = a / r;
@@ -23,13 +22,13 @@ struct WornBall {
 // rings of equal width up to the radius `most`, and implicit steps that grow from the beginning on.
 inline WornBall worn_ball(double E_star, double R, double N, double k, double s, double most,
                           int rings, int steps) {
-    const auto n = static_cast<std::size_t>(rings);
-    const double width = most / rings, pi = std::numbers::pi;
+    const std::size_t n = rings;
+    const double width = most / rings;
     std::vector<double> r(n), area(n), K(n * n), worn(n, 0.0), p(n, 0.0);
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const std::size_t i : up_to(n)) {
         r[i] = (static_cast<double>(i) + 0.5) * width;
         area[i] = 2 * pi * r[i] * width;
-        for (std::size_t j = 0; j < n; ++j) {
+        for (const std::size_t j : up_to(n)) {
             const double inner = static_cast<double>(j) * width;
             K[i * n + j] = (under_disc(r[i], inner + width) - under_disc(r[i], inner)) / E_star;
         }
@@ -43,8 +42,8 @@ inline WornBall worn_ball(double E_star, double R, double N, double k, double s,
         for (bool settled = false; !settled;) {
             const std::size_t m = touching + 1;
             std::vector<double> A(m * m, 0.0), b(m, N);
-            for (std::size_t i = 0; i < touching; ++i) {
-                for (std::size_t j = 0; j < touching; ++j) A[i * m + j] = K[i * n + j];
+            for (const std::size_t i : up_to(touching)) {
+                for (const std::size_t j : up_to(touching)) A[i * m + j] = K[i * n + j];
                 A[i * m + i] += rate;
                 A[i * m + touching] = 1;
                 A[touching * m + i] = area[i];
@@ -55,15 +54,15 @@ inline WornBall worn_ball(double E_star, double R, double N, double k, double s,
             std::fill(p.begin(), p.end(), 0.0);
             std::copy(x.begin(), x.end() - 1, p.begin());
             double next = ball.separation - gap0(touching);
-            for (std::size_t j = 0; j < touching; ++j) next += K[touching * n + j] * p[j];
+            for (const std::size_t j : up_to(touching)) next += K[touching * n + j] * p[j];
             settled = p[touching - 1] >= 0 && next >= 0;
             if (!settled) touching += next < 0 ? 1 : -1;
         }
-        for (std::size_t i = 0; i < n; ++i) worn[i] += rate * p[i];
+        for (const std::size_t i : up_to(n)) worn[i] += rate * p[i];
     }
     ball.depth = worn[0];
     ball.largest_pressure = *std::max_element(p.begin(), p.end());
-    for (std::size_t i = 0; i < n; ++i) ball.volume += worn[i] * area[i];
+    for (const std::size_t i : up_to(n)) ball.volume += worn[i] * area[i];
     // its edge lies in the last ring
     ball.area = pi * std::pow(width * (static_cast<double>(touching) - 0.5), 2);
     return ball;

@@ -1,16 +1,11 @@
 // Asperities that stick (physics/adhesion/adhesive_contact.hpp), against closed forms, scalar
 // equations, and a slow minimiser of the energy.
 #include "base/error.hpp"
-#include "check.hpp"
-#include "contact/make.hpp"
 #include "support/adhesive_paths.hpp"
 
 namespace test_adhesion {
 
 using namespace rsc;
-using std::numbers::pi;
-
-constexpr double kE = 5.0, kFlat = std::numeric_limits<double>::infinity();
 
 // Johnson, Kendall and Roberts on a sphere, by the radius of the contact.
 struct Jkr {
@@ -49,8 +44,8 @@ SolverOptions sticky(double w, LawKind law = LawKind::hertz) {
 TEST(test_one) {
     for (double w : {1e-6, 0.01, 0.3}) {
         const Jkr jkr{0.7, w};
-        const Asperities a{{0.5}, {0.5}, {0.1}, {jkr.r}, {}, {}, {}, {}};
-        const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(w));
+        const Asperities a = asperities_at({{0.5, 0.5, 0.1, jkr.r}});
+        const auto contact = under_flat(a, sticky(w));
         const double unit = pi * w * jkr.r, length = -jkr.u(jkr.least());
         const auto check = [&](double u, bool attached, const char*) {
             const Level level = contact->at_separation(0.1 - u);
@@ -79,47 +74,6 @@ TEST(test_one) {
     }
 }
 
-// Symmetric groups: one equation g0 = u(a) + c f(a), c the sum of 1/(pi E* d) over the others.
-TEST(test_groups) {
-    for (int n : {2, 6}) {
-        for (double distance : {0.2, 0.6}) {
-            const Jkr jkr{0.5, 0.01};
-            std::vector<double> x, y;
-            const double circle = n == 2 ? 0.5 * distance : distance;
-            for (int k = 0; k < n; ++k) {
-                x.push_back(circle * std::cos(2 * pi * k / n));
-                y.push_back(circle * std::sin(2 * pi * k / n));
-            }
-            double c = 0;
-            for (int k = 1; k < n; ++k)
-                c += 1 / (pi * kE * std::hypot(x[std::size_t(k)] - x[0], y[std::size_t(k)] - y[0]));
-            const auto one = static_cast<std::size_t>(n);
-            const Asperities a{
-                x,  y, std::vector<double>(one, 0.0), std::vector<double>(one, jkr.r), {}, {},
-                {}, {}};
-            const auto contact = make_asperity_contact(a, {kE, kFlat, 0, 0}, sticky(jkr.w));
-            const auto g0 = [&](double radius) { return jkr.u(radius) + c * jkr.f(radius); };
-            // Where they let go together: the smallest g0.
-            double low = 0.3 * jkr.least(), high = 30 * jkr.least();
-            for (int k = 0; k < 300; ++k) {
-                const double p = low + (high - low) / 3, q = high - (high - low) / 3;
-                (g0(p) < g0(q) ? high : low) = g0(p) < g0(q) ? q : p;
-            }
-            const double last = 0.5 * (low + high), length = -g0(last);
-            for (double g : {0.1, 1.0, 5.0, 0.5, -0.1, -0.6, -0.9, -0.999, -1 + 1e-5}) {
-                const Level level = contact->at_separation(-g * length);
-                CHECK(level.contacts == n);
-                const double radius = root([&](double r) { return g0(r) - g * length; }, last);
-                CHECK_CLOSE(level.force, n * jkr.f(radius),
-                            1e-9 * std::max(std::abs(level.force), n * pi * jkr.w * jkr.r));
-            }
-            const Level away = contact->at_separation((1 + 1e-5) * length);
-            CHECK(away.contacts == 0);
-            CHECK(away.jumps == 1);
-        }
-    }
-}
-
 // Two that let go together while a third one far away, a little higher, is nearer to the state in
 // which it lets go alone: it stays until then.
 TEST(test_third_stays) {
@@ -132,9 +86,9 @@ TEST(test_third_stays) {
     for (double radius = jkr.least(); radius < 10 * jkr.least(); radius *= 1.0001)
         least = std::min(least, g0(radius));
     const double height = -least * (1 + later) + jkr.u(jkr.least());
-    const Asperities a{
-        {0, distance, far}, {0, 0, 0}, {0, 0, height}, {jkr.r, jkr.r, jkr.r}, {}, {}, {}, {}};
-    const auto contact = make_asperity_contact(a, {kE, kFlat, 0, 0}, sticky(jkr.w));
+    const Asperities a =
+        asperities_at({{0, 0, 0, jkr.r}, {distance, 0, 0, jkr.r}, {far, 0, height, jkr.r}});
+    const auto contact = under_flat(a, sticky(jkr.w));
     CHECK(contact->at_separation(-0.001).contacts == 3);
     CHECK(contact->at_separation(-least * (1 - 0.1 * later)).contacts == 3);
     const Level one = contact->at_separation(-least * (1 + 0.1 * later));
@@ -169,9 +123,8 @@ TEST(test_minimiser) {
         const RandomAsperities system =
             random_asperities(2 + static_cast<int>(seed % 7), seed, 0.2);
         PathMinimiser slow(system.asperities, kE, JkrEdge{system.asperities, system.w});
-        const auto contact =
-            make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
-        const double length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
+        const auto contact = under_flat(system.asperities, sticky(system.w));
+        const double length = reach(system.w);
         slow.Z = 0.02;
         for (int k = 0; k <= 60; ++k) {
             const double depth = 0.02 + length,
@@ -193,10 +146,10 @@ TEST(test_flats_apart) {
     const RandomAsperities system = random_asperities(8, 101, 0.14);
     const Kernel kernel(Interaction::point, Substrate(kE), {1, 1});
     PathMinimiser slow(system.asperities, kE, JkrEdge{system.asperities, system.w}, &kernel);
-    const auto contact =
-        make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5, {1, 1}}, sticky(system.w));
+    const auto contact = make_asperity_contact(system.asperities, {kE, kInfinity, 0.5, 0.5, {1, 1}},
+                                               sticky(system.w));
     slow.Z = 0.05;
-    const double length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
+    const double length = reach(system.w);
     for (const double Z : {-0.5 * length, 0.01 + length, 0.01 + 1.4 * length}) {
         slow.go_to(Z, 0.03 * length);
         const Level level = contact->at_separation(Z);
@@ -211,8 +164,7 @@ TEST(test_first_state) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
         RandomAsperities system = random_asperities(6, 200 + seed, 0.2);
         system.w = 1e-4;  // they attach one after the other
-        const double length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25),
-                     step = 0.03 * length;
+        const double length = reach(system.w), step = 0.03 * length;
         for (const double share : {1.5, 6.0}) {
             const double N = share * pi * system.w * 0.25;
             PathMinimiser slow(system.asperities, kE, JkrEdge{system.asperities, system.w});
@@ -224,8 +176,7 @@ TEST(test_first_state) {
                 slow.go_to(slow.Z - step, step);
                 now = slow.force();
             }
-            const auto contact =
-                make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
+            const auto contact = under_flat(system.asperities, sticky(system.w));
             const Level level = contact->at_force(N);
             CHECK(level.contacts == slow.attached());
             CHECK(level.separation >= slow.Z && level.separation < slow.Z + step);
@@ -240,7 +191,7 @@ TEST(test_moves) {
         const RandomAsperities system =
             random_asperities(2 + static_cast<int>(seed % 5), seed, 0.2);
         const Indenter tip{kE, 10.0, 0.5, 0.5};
-        const double length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
+        const double length = reach(system.w);
         Asperities under = system.asperities;
         set_clearances(under, system.asperities, tip, 0.5, 0.5);
         const double top = *std::max_element(under.z.begin(), under.z.end()), Z = top - 3 * length;
@@ -306,7 +257,7 @@ TEST(test_moves_cut) {
     Path::State other_bodies = second->state();
     other_bodies.history = {1.0, 2.0};
     CHECK_THROWS(second->restore(other_bodies), Error);
-    const Asperities two{{0.3, 0.7}, {0.5, 0.5}, {0.0, 0.001}, {0.5, 0.5}, {}, {}, {}, {}};
+    const Asperities two = asperities_at({{0.3, 0.5, 0, 0.5}, {0.7, 0.5, 0.001, 0.5}});
     SolverOptions alone = sticky(1e-3);
     alone.interaction = Interaction::none;
     const auto moved = make_asperity_contact(two, {kE, 10.0, 0.3, 0.5}, alone);
@@ -324,8 +275,8 @@ TEST(test_moves_cut) {
 // Past the smallest force of two that interact, found on the way between two of its steps, the
 // stiffness is that of the state at its end.
 TEST(test_stiffness_past_the_fold) {
-    const Asperities two{{0.25, 0.75}, {0.5, 0.5}, {0.0, 0.0}, {1.0, 1.0}, {}, {}, {}, {}};
-    const auto contact = make_asperity_contact(two, {kE, kFlat, 0.5, 0.5}, sticky(0.05 * kE / 1e3));
+    const Asperities two = asperities_at({{0.25, 0.5, 0, 1}, {0.75, 0.5, 0, 1}});
+    const auto contact = under_flat(two, sticky(0.05 * kE / 1e3));
     for (double Z = 1e-3; Z < 1e-2; Z += 3e-4) {
         contact->forget();
         (void)contact->at_separation(-0.002);
@@ -342,14 +293,14 @@ TEST(test_stiffness_past_the_fold) {
 // However the way down and up is cut, it ends in the same state, with the same loss; also on a
 // stiff coat, where what a force does to its own place shifts the detachment.
 TEST(test_cutting) {
-    Indenter coated{kE, kFlat, 0.5, 0.5};
+    Indenter coated{kE, kInfinity, 0.5, 0.5};
     constexpr double nu = 0.3, E = kE * (1 - nu * nu);
     coated.layers.count = 1;
     coated.layers.layer[0] = {0.02, E, nu};
     coated.layers.E = E / 3;
     coated.layers.nu = nu;
     for (const auto& [seed, indenter] :
-         {std::pair{21u, Indenter{kE, kFlat, 0.5, 0.5}}, {22u, coated}}) {
+         {std::pair{21u, Indenter{kE, kInfinity, 0.5, 0.5}}, {22u, coated}}) {
         const RandomAsperities system = random_asperities(12, seed, 0.2);
         double force = 0, lost = 0;
         for (int cuts : {1, 10, 100}) {
@@ -379,8 +330,7 @@ TEST(test_far_jumps) {
         const RandomAsperities system = random_asperities(60, seed, 0.06);
         std::vector<double> lost;
         for (int cuts : {1, 12}) {
-            const auto contact =
-                make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(3e-3));
+            const auto contact = under_flat(system.asperities, sticky(3e-3));
             for (int k = 1; k < cuts; ++k) (void)contact->at_separation(0.03 - 0.018 * k / cuts);
             lost.push_back(contact->at_separation(0.012).energy_lost);
         }
@@ -391,9 +341,7 @@ TEST(test_far_jumps) {
 // A contact that goes on from a memory gives the bits of one that was not interrupted.
 TEST(test_interrupted) {
     const RandomAsperities system = random_asperities(60, 51, 0.06);
-    const auto make = [&] {
-        return make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(3e-3));
-    };
+    const auto make = [&] { return under_flat(system.asperities, sticky(3e-3)); };
     const auto whole = make();
     for (int k = 0; k <= 24; ++k) {
         const auto other = make();
@@ -411,8 +359,7 @@ TEST(test_interrupted) {
 TEST(test_work) {
     for (unsigned seed : {31u, 32u}) {
         const RandomAsperities system = random_asperities(5, seed, 0.2);
-        const auto contact =
-            make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(system.w));
+        const auto contact = under_flat(system.asperities, sticky(system.w));
         check_work_of_cycle(*contact, 0.05, -0.01);
     }
 }
@@ -428,8 +375,7 @@ TEST(test_loss_under_load) {
             SolverOptions options = sticky(w);
             options.tolerance = tolerance;
             options.interaction = interaction;
-            const auto contact =
-                make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, options);
+            const auto contact = under_flat(system.asperities, options);
             for (double Z : {0.02, -0.03}) (void)contact->at_separation(Z);
             return contact->at_separation(0.03).energy_lost;
         };
@@ -451,8 +397,7 @@ TEST(test_lost) {
         const RandomAsperities system = random_asperities(8, 9, 0.03);
         SolverOptions options = sticky(system.w);
         options.physics.adhesion.range = range;
-        const auto contact =
-            make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, options);
+        const auto contact = under_flat(system.asperities, options);
         const Level lost = contact->at_separation(0);
         CHECK(!lost.converged && std::isnan(lost.force) && std::isnan(contact->energy()));
         const Level away = contact->at_separation(0.05);
@@ -460,29 +405,12 @@ TEST(test_lost) {
     }
 }
 
-// Two flats that repeat: one asperity a period feels its images, c f with c = 2.28472/(pi E* L)
-// from the mean plane up.
-TEST(test_periodic) {
-    const Jkr jkr{0.5, 0.01};
-    const Asperities a{{0.5}, {0.5}, {0.0}, {jkr.r}, {}, {}, {}, {}};
-    const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5, {1, 1}}, sticky(jkr.w));
-    const double c = -3.90026492 / (pi * kE);  // of what a force does to its own place
-    for (double g0 : {0.004, 0.01, 0.0, -0.004}) {
-        const Level level = contact->at_separation(-g0);
-        CHECK(level.contacts == 1);
-        const double radius =
-            root([&](double r) { return jkr.u(r) + c * jkr.f(r) - g0; }, 1.5 * jkr.least());
-        CHECK_CLOSE(level.force, jkr.f(radius), 1e-8 * std::max(std::abs(level.force), jkr.w));
-        CHECK_RELATIVE(level.pressure, level.force, 1e-12);
-    }
-}
-
 // Under a given force, in either direction; beyond the smallest one it holds there and says so, and
 // goes on from there.
 TEST(test_force) {
     const Jkr jkr{0.7, 0.01};
-    const Asperities a{{0.5}, {0.5}, {0.1}, {jkr.r}, {}, {}, {}, {}};
-    const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(jkr.w));
+    const Asperities a = asperities_at({{0.5, 0.5, 0.1, jkr.r}});
+    const auto contact = under_flat(a, sticky(jkr.w));
     const double unit = pi * jkr.w * jkr.r;
     for (double N : {2.0, 20.0, 0.0, -1.0, -1.499, 0.5}) {
         const Level level = contact->at_force(N * unit);
@@ -501,24 +429,14 @@ TEST(test_force) {
 
 // With w falling the elastic answer, of each law: N differs by 3 sqrt(2) (w/w_0)^(1/2) at most.
 TEST(test_elastic_limit) {
-    RandomAsperities system = random_asperities(12, 51, 0.2);
-    system.asperities.kappa1.clear();
-    system.asperities.kappa2.clear();
-    system.asperities.angle.clear();
-    system.asperities.biharmonic.clear();
-    for (double r : system.asperities.radius) {
-        system.asperities.kappa1.push_back(1.4 / r);
-        system.asperities.kappa2.push_back(1 / (1.4 * r));
-        system.asperities.angle.push_back(0.3);
-        system.asperities.biharmonic.push_back(40 / (r * r));
-    }
+    const Asperities asperities = curved(random_asperities(12, 51, 0.2).asperities, 1.4, 0.3, 400);
     for (LawKind law : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order}) {
         double before = 1;
         for (double w : {1e-6, 1e-8, 1e-10, 1e-12}) {
-            const Indenter tip{kE, kFlat, 0.5, 0.5};
+            const Indenter tip{kE, kInfinity, 0.5, 0.5};
             const Level e =
-                make_asperity_contact(system.asperities, tip, sticky(0, law))->at_separation(0.004);
-            const auto contact = make_asperity_contact(system.asperities, tip, sticky(w, law));
+                make_asperity_contact(asperities, tip, sticky(0, law))->at_separation(0.004);
+            const auto contact = make_asperity_contact(asperities, tip, sticky(w, law));
             const Level s = contact->at_separation(0.004);
             CHECK(s.contacts >= e.contacts);
             const double apart = std::abs(s.force / e.force - 1);
@@ -526,51 +444,6 @@ TEST(test_elastic_limit) {
             before = apart;
         }
         CHECK(before < 1e-4);
-    }
-}
-
-// Without interaction: caps of one radius with Gaussian heights, pulled off after all have
-// attached. The mean force of 100 surfaces is the integral over the heights of those that still
-// hold on (Fuller and Tabor, Proc. R. Soc. A 345, 1975), within its standard error.
-TEST(test_fuller_tabor) {
-    const Jkr jkr{0.5, 1e-3};
-    const double length = -jkr.u(jkr.least()), sigma = 1.5 * length;
-    SolverOptions options = sticky(jkr.w);
-    options.interaction = Interaction::none;
-    std::mt19937 generator(7);
-    std::normal_distribution<double> height(0, sigma);
-    const auto force = [&](double u) {
-        return u > -length ? jkr.f(root([&](double a) { return jkr.u(a) - u; }, jkr.least())) : 0.0;
-    };
-    for (double Z : {0.5 * sigma, 1.5 * sigma}) {
-        constexpr int surfaces = 100, caps = 25;
-        double sum = 0, squares = 0;
-        for (int k = 0; k < surfaces; ++k) {
-            std::vector<double> x(caps), y(caps, 0.0), z(caps);
-            double own = 0;
-            for (int i = 0; i < caps; ++i) {
-                x[std::size_t(i)] = i;
-                z[std::size_t(i)] = height(generator);
-                own += force(z[std::size_t(i)] - Z);
-            }
-            const Asperities a{x, y, z, std::vector<double>(caps, jkr.r), {}, {}, {}, {}};
-            const auto contact = make_asperity_contact(a, {kE, kFlat, 0, 0}, options);
-            (void)contact->at_separation(-8 * sigma);
-            const double N = contact->at_separation(Z).force;
-            CHECK_CLOSE(N, own, 1e-8 * caps * jkr.w);
-            sum += N / caps;
-            squares += N / caps * N / caps;
-        }
-        const double mean = sum / surfaces,
-                     error = std::sqrt((squares / surfaces - mean * mean) / surfaces);
-        double integral = 0;
-        const double first = Z - length, last = 8 * sigma, step = (last - first) / 4000;
-        for (int k = 0; k < 4000; ++k) {
-            const double h = first + (k + 0.5) * step;
-            integral += step * force(h - Z) * std::exp(-0.5 * h * h / (sigma * sigma)) /
-                        (sigma * std::sqrt(2 * pi));
-        }
-        CHECK_CLOSE(mean, integral, 3 * error);
     }
 }
 

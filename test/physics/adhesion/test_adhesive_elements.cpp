@@ -11,9 +11,6 @@
 namespace test_adhesive_elements {
 
 using namespace rsc;
-using std::numbers::pi;
-
-constexpr double kFlat = std::numeric_limits<double>::infinity();
 
 // On a sphere of radius 1, E* = 1.
 struct Sphere : Maugis {
@@ -76,7 +73,7 @@ double pull_off_error(double lambda, double resolution) {
     const HeightMap map = paraboloid(n * h, n);
     const SolverOptions options = attracting(truth.w, truth.range());
     const auto contact =
-        make_element_contact(map, {1.0, kFlat, 0.5 * (n - 1) * h, 0.5 * (n - 1) * h}, options);
+        make_element_contact(map, {1.0, kInfinity, 0.5 * (n - 1) * h, 0.5 * (n - 1) * h}, options);
     const double unit = pi * truth.w, reach = truth.range();
     Level level;
     for (double Z = 1.05 * reach; Z > 0; Z -= 0.25 * reach) level = contact->at_separation(Z);
@@ -143,7 +140,7 @@ TEST(test_wave_pull_off) {
         const HeightMap map = height_map(
             n, rows, h, h, [=](int i, int) { return height * std::cos(2 * pi * (i + 0.5) * h); });
         const auto contact =
-            make_element_contact(map, {1.0, kFlat, 0, 0, {1, rows * h}}, attracting(w, range));
+            make_element_contact(map, {1.0, kInfinity, 0, 0, {1, rows * h}}, attracting(w, range));
         Level level = contact->at_separation(0.09);
         for (double Z = 0.08; level.force != 0; Z += 5e-4) level = contact->at_separation(Z);
         const double error = level.least_force / (rows * h) / truth - 1;
@@ -156,13 +153,13 @@ TEST(test_wave_pull_off) {
 // What cannot be had.
 TEST(test_refused) {
     const HeightMap map = paraboloid(1, 16);
-    const Indenter tip{1.0, kFlat, 0.5, 0.5};
+    const Indenter tip{1.0, kInfinity, 0.5, 0.5};
     CHECK_THROWS((void)make_element_contact(map, tip, attracting(0.01, 0)), Error);  // JKR
     // Its traction acts across 0.4 of a pixel at edges, and across 0.6; heights, pressures and the
     // work of adhesion may be scaled by one number.
     for (const double scale : {1.0, 1.0 / 16}) {
         const auto range = [](double pixels) {
-            return std::sqrt(pixels / 16 * 0.01 / (0.25 * std::numbers::pi));
+            return std::sqrt(pixels / 16 * 0.01 / (0.25 * pi));
         };
         const double w = 0.01 * scale * scale;
         CHECK_THROWS((void)make_element_contact(map, tip, attracting(w, scale * range(0.4))),
@@ -179,7 +176,7 @@ TEST(test_refused) {
 // Under a force, and held where nothing carries it.
 TEST(test_force) {
     const HeightMap map = paraboloid(1.6, 24);
-    const Indenter tip{1.0, kFlat, 0.8 - 0.8 / 24, 0.8 - 0.8 / 24};
+    const Indenter tip{1.0, kInfinity, 0.8 - 0.8 / 24, 0.8 - 0.8 / 24};
     const auto one = make_element_contact(map, tip, attracting(0.02, 0.15)),
                other = make_element_contact(map, tip, attracting(0.02, 0.15));
     const Level carried = one->at_force(0.02);
@@ -229,7 +226,7 @@ TEST(test_cut_body) {
         keys.map = std::make_shared<HeightMap>(height_map(12, 12, 0.05, 0.05, [=](int i, int j) {
             return std::min({i, j, 11 - i, 11 - j}) > 2 ? 0.0 : -edge;
         }));
-        Indenter tip{100.0, kFlat, 0.6, 0.6};
+        Indenter tip{100.0, kInfinity, 0.6, 0.6};
         tip.shape = make_shape(shape_number("map"), keys);
         SolverOptions options = attracting(0.02, 0.15);
         options.surface.extent = {0, 0, 1.2, 1.2};

@@ -1,8 +1,6 @@
 // Deflections and fields of contacts with adhesion, and fields of elliptic spots
 // (contact/deflection.hpp, observe/fields.hpp).
-#include "check.hpp"
 #include "contact/deflection.hpp"
-#include "contact/make.hpp"
 #include "observe/fields.hpp"
 #include "support/adhesive_paths.hpp"
 #include "support/height_maps.hpp"
@@ -10,9 +8,6 @@
 namespace test_adhesive_fields {
 
 using namespace rsc;
-using std::numbers::pi;
-
-constexpr double kE = 5.0, kFlat = std::numeric_limits<double>::infinity();
 
 // Boussinesq's integral 1/(pi E*) int int p dl dphi over the chords of the disc of radius c through
 // a point at the distance d, by the midpoint rule; l = L sin(t) along a half chord L, which removes
@@ -22,12 +17,12 @@ double boussinesq(Pressure&& pressure, double c, double d) {
     constexpr int n = 1000;
     const double widest = d > c ? std::asin(c / d) : pi / 2;
     double sum = 0;
-    for (int j = 0; j < n; ++j) {
+    for (const int j : up_to(n)) {
         const double s = (2 * j + 1.0) / n - 1,
                      angle = widest * std::sin(pi / 2 * s);  // dense at the tangents
         const double h = d * std::sin(angle), half = std::sqrt(std::max(c * c - h * h, 0.0));
         double chord = 0;
-        for (int i = 0; i < n; ++i) {
+        for (const int i : up_to(n)) {
             const double t = pi / 2 * ((2 * i + 1.0) / n - 1), l = half * std::sin(t);
             chord += pressure(std::sqrt(h * h + l * l)) * half * std::cos(t) * pi / n;
         }
@@ -46,7 +41,7 @@ TEST(test_tension) {
         };
         double force = 0;
         constexpr int n = 200000;
-        for (int k = 0; k < n; ++k) {
+        for (const int k : up_to(n)) {
             const double t = pi / 2 * (k + 0.5) / n, r = c * std::sin(t);
             force += 2 * pi * r * pressure(r) * c * std::cos(t) * pi / 2 / n;
         }
@@ -63,14 +58,7 @@ TEST(test_tension) {
     }
 }
 
-Asperities one_asperity() {
-    Asperities a;
-    a.x = {0.5};
-    a.y = {0.5};
-    a.z = {0.1};
-    a.radius = {0.7};
-    return a;
-}
+const Asperities kOne = asperities_at({{0.5, 0.5, 0.1, 0.7}});
 
 // The deflected surface of one asperity touches the flat in the contact and is below it around.
 // With a range the gap at the edge of the ring is the range. The deflection times half of the
@@ -79,9 +67,7 @@ TEST(test_one) {
     constexpr double w = 0.01, r = 0.7;
     const auto kernel = make_kernel(Interaction::point, Substrate(kE), {});
     for (const double range : {0.0, 0.004, 0.02}) {
-        const Asperities asperities = one_asperity();
-        const auto contact =
-            make_asperity_contact(asperities, {kE, kFlat, 0.5, 0.5}, sticky(w, range));
+        const auto contact = under_flat(kOne, sticky(w, range));
         for (const double u : {-0.5 * range, 0.01, 0.03, 0.0, -0.003}) {
             const Level level = contact->at_separation(0.1 - u);
             if (level.tractions.x.empty()) continue;
@@ -108,7 +94,7 @@ TEST(test_one) {
                            1e-9);  // Griffith: K^2/(2 E*) = w
             double elastic = 0;
             constexpr int n = 2000;
-            for (int k = 0; k < n; ++k) {
+            for (const int k : up_to(n)) {
                 const double t = pi / 2 * (k + 0.5) / n;
                 const double p = 1.5 * pressed / (pi * a * a) * std::cos(t) +
                                  pulled / (2 * pi * a * a) / std::cos(t);
@@ -141,13 +127,13 @@ const FieldsAsked kAll = everything();
 // pressures add up to the force.
 TEST(test_oblong) {
     const HeightMap map = height_map(4, 3, 0.5, 2, [](int i, int j) { return 0.1 * i - 0.2 * j; });
-    const Indenter tip{kE, kFlat, 1.0, 2.0};
+    const Indenter tip{kE, kInfinity, 1.0, 2.0};
     Level open, pressed;
     open.separation = 5;
     pressed.add_contact(0, 0.8, 2.1, 1.5, 1.0, 0.1);
     const Fields f = fields_of(map, tip, Interaction::point,
                                {{0, &open, {{0.5}, {4.0}, {0.03}}}, {1, &pressed, {}}}, kAll);
-    for (int k = 0; k < 12; ++k)
+    for (const int k : up_to(12))
         CHECK_CLOSE(f.gap[k], 5 - map(k % 4, k / 4) + (k == 9 ? 0.03 : 0), 1e-14);
     CHECK_RELATIVE(std::accumulate(f.pressure.begin() + 12, f.pressure.end(), 0.0) * 0.5 * 2, 1.5,
                    1e-14);
@@ -156,17 +142,16 @@ TEST(test_oblong) {
 // Fields of one asperity: the pressures at the points are those of the closed form and add up to
 // the force, the points in contact to the area.
 TEST(test_asperity_fields) {
-    const Indenter tip{kE, kFlat, 0.5, 0.5};
+    const Indenter tip{kE, kInfinity, 0.5, 0.5};
     const auto kernel = make_kernel(Interaction::point, Substrate(kE), {});
     for (const double range : {0.0, 0.004}) {
-        const Asperities asperities = one_asperity();
         const Level level =
-            make_asperity_contact(asperities, tip, sticky(0.01, range))->at_separation(0.095);
+            make_asperity_contact(kOne, tip, sticky(0.01, range))->at_separation(0.095);
         const double a = level.tractions.a.at(0), c = level.tractions.c.at(0), step = c / 60;
         const HeightMap map = map_of(201, step, 0.7);
         const Fields f = fields_of(map, tip, Interaction::point, {{0, &level, {}}}, kAll);
         double force = 0, area = 0;
-        for (std::size_t k = 0; k < f.pressure.size(); ++k) {
+        for (const auto k : indices(f.pressure)) {
             const double d = std::hypot(f.x[k % f.x.size()] - 0.5, f.y[k / f.x.size()] - 0.5),
                          p = f.pressure[k];
             force += p * step * step;
@@ -198,7 +183,7 @@ TEST(test_element_fields) {
     constexpr double w = 0.02, range = 0.02, step = 0.008;
     const HeightMap map = map_of(48, step, 0.3);
     for (const bool periodic : {false, true}) {
-        Indenter tip{kE, kFlat, 0.5, 0.5};
+        Indenter tip{kE, kInfinity, 0.5, 0.5};
         if (periodic) tip.period = {map.Lx(), map.Ly()};
         SolverOptions options = sticky(w, range);
         options.tolerance = 1e-9;
@@ -211,7 +196,7 @@ TEST(test_element_fields) {
             asked.window = {0, 1, 0, 1};
             const Fields f = fields_of(map, tip, Interaction::point, {{0, &level, {}}}, asked);
             double force = 0, cohesive = 0;
-            for (std::size_t k = 0; k < f.pressure.size(); ++k) {
+            for (const auto k : indices(f.pressure)) {
                 const double p = f.pressure[k], g = f.gap[k], area = step * step;
                 force += p * area;
                 if (f.contact[k] == 0) cohesive -= p * range / w * area;
@@ -240,10 +225,10 @@ TEST(test_elliptic_spot) {
     level.add_contact(0, 0.5, 0.5, f, std::sqrt(a * b), 1e-3);
     level.spots = {{0.53, 0.46, a, b, angle}};
     const double step = 0.002;
-    const Fields fields = fields_of(map_of(501, step, 0.7), {kE, kFlat, 0.5, 0.5},
+    const Fields fields = fields_of(map_of(501, step, 0.7), {kE, kInfinity, 0.5, 0.5},
                                     Interaction::point, {{0, &level, {}}}, kAll);
     double force = 0, area = 0, x = 0, y = 0, along = 0, across = 0;
-    for (std::size_t k = 0; k < fields.pressure.size(); ++k) {
+    for (const auto k : indices(fields.pressure)) {
         const double dx = fields.x[k % fields.x.size()] - 0.53,
                      dy = fields.y[k / fields.x.size()] - 0.46,
                      p = fields.pressure[k] * step * step;

@@ -44,7 +44,7 @@ void test_conditions(bool flats, const LayeredBody& body, bool fine) {
     const auto contact = make_element_contact(map, tip, sticky(kWork, kRange));
     const Substrate substrate = substrate_of(tip);
     std::vector<double> kernel;
-    for (int i = 0; i < kSide * kSide; ++i)
+    for (const int i : up_to(kSide * kSide))
         kernel.push_back(substrate.under_pixel(i % kSide * kStep, i / kSide * kStep, kStep, kStep));
     const double s0 = kWork / kRange;
     Level before = contact->at_separation(separation(flats, 0));
@@ -57,25 +57,24 @@ void test_conditions(bool flats, const LayeredBody& body, bool fine) {
         if (flats) continue;
         std::vector<double> p(kSide * kSide, 0.0);
         std::vector<char> contacts(p.size(), 0);
-        for (std::size_t m = 0; m < level.pixels.index.size(); ++m) {
-            const auto i = static_cast<std::size_t>(level.pixels.index[m]);
+        for (const auto m : indices(level.pixels.index)) {
+            const auto i = level.pixels.index[m];
             p[i] = level.pixels.pressure[m];
             contacts[i] = 1;
             CHECK(p[i] >= -s0);
         }
-        for (std::size_t m = 0; m < level.pixels.cohesive.size(); ++m)
-            p[static_cast<std::size_t>(level.pixels.cohesive[m])] = level.pixels.attraction[m];
+        for (const auto m : indices(level.pixels.cohesive))
+            p[level.pixels.cohesive[m]] = level.pixels.attraction[m];
         for (int i = 0; i < kSide * kSide; i += 3) {
             double gap = level.separation - tip.clearance(i % kSide * kStep, i / kSide * kStep,
                                                           map(i % kSide, i / kSide));
-            for (int j = 0; j < kSide * kSide; ++j)
-                gap += p[static_cast<std::size_t>(j)] *
-                       kernel[static_cast<std::size_t>(std::abs(i / kSide - j / kSide) * kSide +
-                                                       std::abs(i % kSide - j % kSide))];
+            for (const int j : up_to(kSide * kSide))
+                gap += p[j] * kernel[std::abs(i / kSide - j / kSide) * kSide +
+                                     std::abs(i % kSide - j % kSide)];
             // The gap is linear between points: a part of s0 acts where a neighbour is within the
             // range, all of it where all are.
-            const double own = p[static_cast<std::size_t>(i)];
-            if (contacts[static_cast<std::size_t>(i)])
+            const double own = p[i];
+            if (contacts[i])
                 CHECK_CLOSE(gap, 0, 1e-5 * kRange);
             else
                 CHECK(gap > -1e-5 * kRange && own <= 0 && own >= -s0 * (1 + 1e-9));

@@ -77,7 +77,7 @@ TEST(test_cycle) {
 // A steep tip that moves away from the one asperity it holds lets go of it: nothing is left, and
 // the level is that of a new contact there.
 TEST(test_lets_go) {
-    const Asperities one{{0.5}, {0.5}, {0.0}, {0.05}, {20.0}, {20.0}, {0.0}, {0.0}};
+    const Asperities one = curved(asperities_at({{0.5, 0.5, 0, 0.05}}), 1);
     SolverOptions options{.law = LawKind::elliptic,
                           .physics = {.adhesion = {1e-3, 0}},
                           .surface = {.gentlest_slope = 0.1}};

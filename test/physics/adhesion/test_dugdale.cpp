@@ -1,16 +1,11 @@
 // Asperities that attract within a range (law/sticking.hpp): against Maugis's equations, and JKR as
 // its limit.
 #include "base/error.hpp"
-#include "check.hpp"
-#include "contact/make.hpp"
 #include "support/adhesive_paths.hpp"
 
 namespace test_dugdale {
 
 using namespace rsc;
-using std::numbers::pi;
-
-constexpr double kE = 5.0, kFlat = std::numeric_limits<double>::infinity();
 
 // The loop of one asperity: at the penetrations of Maugis's states it carries his force; the
 // energy's derivative is the force; it attaches at u = -z0; the work of a cycle is the energy lost.
@@ -18,9 +13,8 @@ TEST(test_one) {
     for (double lambda : {0.1, 1.0, 5.0}) {
         const Maugis truth{0.7, 0.01, lambda, kE};
         const double unit = pi * truth.w * truth.r, range = truth.range();
-        const Asperities a{{0.5}, {0.5}, {0.0}, {truth.r}, {}, {}, {}, {}};
-        const auto contact =
-            make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(truth.w, range));
+        const Asperities a = asperities_at({{0.5, 0.5, 0, truth.r}});
+        const auto contact = under_flat(a, sticky(truth.w, range));
         CHECK(contact->at_separation(range * (1 + 1e-7)).force == 0);
         CHECK(contact->at_separation(range * (1 - 1e-7)).force < 0);
         for (double m = 1 + 0.01 / lambda; m < 30; m *= 1.02) {
@@ -45,11 +39,11 @@ TEST(test_one) {
 // difference: it attached again at once, a thousand times.)
 TEST(test_narrow_loop) {
     const Maugis weak{0.7, 0.01, 0.04, kE};
-    const Asperities a{{0.5}, {0.5}, {0.0}, {weak.r}, {}, {}, {}, {}};
+    const Asperities a = asperities_at({{0.5, 0.5, 0, weak.r}});
     const double range = weak.range();
     std::vector<double> lost;
     for (const int levels : {1, 7, 200}) {
-        const auto contact = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, sticky(weak.w, range));
+        const auto contact = under_flat(a, sticky(weak.w, range));
         int jumps = 0;
         Level level;
         for (int k = -levels; k <= levels; ++k) {
@@ -66,26 +60,13 @@ TEST(test_narrow_loop) {
 // With a range that goes to 0 the answer is JKR's, for circular and elliptic contacts and many of
 // them.
 TEST(test_limit) {
-    std::mt19937 generator(3);
-    std::uniform_real_distribution<double> uniform(0, 1);
-    Asperities a;
-    for (int k = 0; k < 12; ++k) {
-        a.x.push_back(uniform(generator));
-        a.y.push_back(uniform(generator));
-        a.z.push_back(0.02 * uniform(generator));
-        const double r = 0.1 + 0.3 * uniform(generator);
-        a.radius.push_back(r);
-        a.kappa1.push_back(1.4 / r);
-        a.kappa2.push_back(1 / (1.4 * r));
-        a.angle.push_back(0.3);
-    }
+    const Asperities a = curved(random_asperities(12, 3, 0.1).asperities, 1.4, 0.3, 400);
     for (LawKind law : {LawKind::hertz, LawKind::elliptic}) {
         double before = 1;
         for (double range : {3e-4, 1e-4, 3e-5}) {
             SolverOptions with = sticky(1e-3, range), jkr = sticky(1e-3, 0);
             with.law = jkr.law = law;
-            const auto one = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, with),
-                       other = make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, jkr);
+            const auto one = under_flat(a, with), other = under_flat(a, jkr);
             (void)one->at_separation(-0.01);
             (void)other->at_separation(-0.01);
             const double there = other->at_separation(0.005).force,
@@ -97,8 +78,7 @@ TEST(test_limit) {
     }
     SolverOptions refused = sticky(1e-3, 1e-4);
     refused.law = LawKind::fourth_order;
-    a.biharmonic.assign(a.x.size(), 400.0);
-    CHECK_THROWS((void)make_asperity_contact(a, {kE, kFlat, 0.5, 0.5}, refused), Error);
+    CHECK_THROWS((void)under_flat(a, refused), Error);
 }
 
 }  // namespace test_dugdale

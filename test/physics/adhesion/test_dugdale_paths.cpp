@@ -1,15 +1,10 @@
 // Several asperities that attract within a range: the path against a slow minimiser of the energy,
 // and the work of cycles.
-#include "check.hpp"
-#include "contact/make.hpp"
 #include "support/adhesive_paths.hpp"
 
 namespace test_dugdale_paths {
 
 using namespace rsc;
-using std::numbers::pi;
-
-constexpr double kE = 5.0, kFlat = std::numeric_limits<double>::infinity();
 
 // A paraboloid with the traction s0 out to the radius c, by the transform chi(t) = u - t^2/r in the
 // contact, -(2 s0/E*) sqrt(c^2 - t^2) around it: f = 2 E* int_0^c chi dt, deflection at c = (2/pi)
@@ -63,11 +58,9 @@ TEST(test_minimiser) {
     } cases[] = {{1, 3, 0.2, 0.1}, {2, 4, 0.2, 1}, {7, 2, 0.2, 3}, {102, 6, 0.08, 0.3}};
     for (const auto& [seed, n, apart, lambda] : cases) {
         const RandomAsperities system = random_asperities(n, seed, apart);
-        const double range = range_of(system.w, lambda),
-                     length = 3 * std::cbrt(std::pow(pi * system.w / 8 / kE, 2) * 0.25);
+        const double range = range_of(system.w, lambda), length = reach(system.w);
         PathMinimiser slow(system.asperities, kE, DugdaleEdge{system.asperities, system.w, range});
-        const auto contact = make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5},
-                                                   sticky(system.w, range));
+        const auto contact = under_flat(system.asperities, sticky(system.w, range));
         const double top = 0.02 + range, bottom = 0;
         slow.Z = top;
         for (int k = 0; k <= 40; ++k) {
@@ -79,8 +72,7 @@ TEST(test_minimiser) {
             CHECK((level.cohesive_area > 0) == (slow.attached() > 0));
             double rings = 0;  // of radii a to c, which attract without touching
             const LevelTractions& t = level.tractions;
-            for (std::size_t i = 0; i < t.a.size(); ++i)
-                rings += pi * (t.c[i] * t.c[i] - t.a[i] * t.a[i]);
+            for (const auto i : indices(t.a)) rings += pi * (t.c[i] * t.c[i] - t.a[i] * t.a[i]);
             CHECK_CLOSE(level.cohesive_area, rings, 1e-12);
             CHECK_CLOSE(level.force, slow.force(),
                         1e-8 * std::max(std::abs(level.force), system.w));
@@ -92,8 +84,7 @@ TEST(test_work) {
     for (double lambda : {0.3, 2.0}) {
         const RandomAsperities system = random_asperities(5, 31, 0.2);
         const double range = range_of(system.w, lambda);
-        const auto contact = make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5},
-                                                   sticky(system.w, range));
+        const auto contact = under_flat(system.asperities, sticky(system.w, range));
         check_work_of_cycle(*contact, 0.05 + range, -0.005);
     }
 }
@@ -106,10 +97,9 @@ TEST(test_reversible) {
     constexpr std::size_t steps = 9;
     for (unsigned seed = 1; seed <= 8; ++seed) {
         const RandomAsperities system = random_asperities(12, seed, 0.1);
-        const auto contact =
-            make_asperity_contact(system.asperities, {kE, kFlat, 0.5, 0.5}, sticky(w, range));
+        const auto contact = under_flat(system.asperities, sticky(w, range));
         std::vector<double> down;
-        for (std::size_t k = 0; k < 2 * steps; ++k) {
+        for (const std::size_t k : up_to(2 * steps)) {
             const std::size_t place = std::min(k, 2 * steps - 1 - k);
             const Level level = contact->at_separation(0.075 - 0.01 * static_cast<double>(place));
             CHECK(level.converged);

@@ -1,13 +1,9 @@
 // Flow through the gap of two flats: closed forms, an independent solver, symmetries, percolation,
 // a level of a contact.
-#include "case/read_case.hpp"
-#include "check.hpp"
 #include "physics/flow/dissection.hpp"
 #include "physics/flow/flow.hpp"
-#include "run/job.hpp"
-#include "run/run.hpp"
 #include "support/library.hpp"
-#include "support/result_reader.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "truth/flow.hpp"
 
@@ -17,8 +13,8 @@ using namespace rsc;
 
 truth::Gap gap(int nx, int ny, double dx, double dy, const std::function<double(int, int)>& at) {
     truth::Gap m{nx, ny, dx, dy, {}};
-    for (int j = 0; j < ny; ++j)
-        for (int i = 0; i < nx; ++i) m.g.push_back(at(i, j));
+    for (const int j : up_to(ny))
+        for (const int i : up_to(nx)) m.g.push_back(at(i, j));
     return m;
 }
 
@@ -30,20 +26,19 @@ Permeability solved(const truth::Gap& m) { return permeability(view(m)); }
 std::vector<double> noise(int nx, int ny, int most, unsigned seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
-    std::vector<double> z(static_cast<std::size_t>(nx * ny), 0.0);
+    std::vector<double> z(nx * ny, 0.0);
     double power = 0;
     for (int a = -most; a <= most; ++a)
         for (int b = 0; b <= most; ++b) {
             if (a * a + b * b > most * most || (b == 0 && a <= 0)) continue;
             const double c = normal(random), s = normal(random);
             power += 1;
-            for (int j = 0; j < ny; ++j)
-                for (int i = 0; i < nx; ++i) {
+            for (const int j : up_to(ny))
+                for (const int i : up_to(nx)) {
                     const double phase =
-                        2 * std::numbers::pi *
+                        2 * pi *
                         (a * static_cast<double>(i) / nx + b * static_cast<double>(j) / ny);
-                    z[static_cast<std::size_t>(j * nx + i)] +=
-                        c * std::cos(phase) + s * std::sin(phase);
+                    z[j * nx + i] += c * std::cos(phase) + s * std::sin(phase);
                 }
         }
     for (double& h : z) h /= std::sqrt(power);
@@ -53,28 +48,14 @@ std::vector<double> noise(int nx, int ny, int most, unsigned seed) {
 // A rough gap that is closed on about a third of the cell.
 truth::Gap rough(int nx, int ny, double dx, double dy, unsigned seed) {
     const std::vector<double> z = noise(nx, ny, 5, seed);
-    return gap(nx, ny, dx, dy, [&](int i, int j) {
-        return std::max(0.0, z[static_cast<std::size_t>(j * nx + i)] + 0.45);
-    });
-}
-
-void same(const Permeability& a, const Permeability& b, double tolerance) {
-    const double scale = std::max(b.xx, b.yy);
-    CHECK_CLOSE(a.xx, b.xx, tolerance * scale);
-    CHECK_CLOSE(a.yy, b.yy, tolerance * scale);
-    CHECK_CLOSE(a.xy, b.xy, tolerance * scale);
-}
-
-TEST(a_parallel_gap) {
-    const truth::Gap m = gap(24, 15, 0.3, 0.7, [](int, int) { return 2.5; });
-    same(solved(m), {2.5 * 2.5 * 2.5 / 12, 2.5 * 2.5 * 2.5 / 12, 0}, 1e-13);
+    return gap(nx, ny, dx, dy, [&](int i, int j) { return std::max(0.0, z[j * nx + i] + 0.45); });
 }
 
 TEST(stripes_along_and_across_the_flow) {
     const auto width = [](int k) { return 1.3 + std::sin(0.7 * k) + 0.2 * (k % 3); };
     const int n = 17;
     double cube = 0, inverse = 0;
-    for (int k = 0; k < n; ++k) {
+    for (const int k : up_to(n)) {
         const double w = std::abs(width(k)) + 0.01;
         cube += w * w * w / n;
         inverse += 1 / (w * w * w) / n;
@@ -89,27 +70,6 @@ TEST(stripes_along_and_across_the_flow) {
     CHECK_CLOSE(x.xy, 0, 1e-14);
     CHECK_RELATIVE(y.yy, x.xx, 1e-12);
     CHECK_RELATIVE(y.xx, x.yy, 1e-12);
-}
-
-// Keller: where ln g is an isotropic Gaussian field, det K = exp(6 <ln g>)/144 (J. Math. Phys. 5,
-// 1964). Samples scatter about it.
-TEST(gaps_whose_logarithm_is_gaussian) {
-    const int n = 96, samples = 20;
-    double mean = 0, square = 0;
-    for (unsigned s = 0; s < samples; ++s) {
-        const std::vector<double> z = noise(n, n, 8, 100 + s);
-        const Permeability K = solved(gap(n, n, 1, 1, [&](int i, int j) {
-            return std::exp(0.4 * z[static_cast<std::size_t>(j * n + i)]);
-        }));
-        const double error = std::log(144 * (K.xx * K.yy - K.xy * K.xy));
-        mean += error / samples;
-        square += error * error / samples;
-    }
-    const double deviation = std::sqrt(square - mean * mean);
-    std::printf("Keller: ln(144 det K) = %.4f, deviation of one of 20 samples %.4f\n", mean,
-                deviation);
-    CHECK(deviation < 0.3);
-    CHECK(std::abs(mean) < 3 * deviation / std::sqrt(samples));
 }
 
 TEST(rough_gaps_by_conjugate_gradients) {
@@ -130,22 +90,6 @@ TEST(rough_gaps_by_conjugate_gradients) {
     CHECK(worst < 1e-8);
 }
 
-TEST(mirrored_transposed_moved_and_scaled_gaps) {
-    const int nx = 40, ny = 32;
-    const truth::Gap m = rough(nx, ny, 0.5, 0.6, 3);
-    const Permeability K = solved(m);
-    CHECK(K.xx > 0 && K.yy > 0 && std::abs(K.xy) > 1e-3 * K.xx);
-    same(solved(gap(nx, ny, 0.5, 0.6, [&](int i, int j) { return m.at(-i, j); })),
-         {K.xx, K.yy, -K.xy}, 1e-11);
-    same(solved(gap(ny, nx, 0.6, 0.5, [&](int i, int j) { return m.at(j, i); })),
-         {K.yy, K.xx, K.xy}, 1e-11);
-    same(solved(gap(nx, ny, 0.5, 0.6, [&](int i, int j) { return m.at(i + 13, j - 7); })), K,
-         1e-11);
-    same(solved(gap(nx, ny, 5, 6, [&](int i, int j) { return 1e-3 * m.at(i, j); })),
-         {1e-9 * K.xx, 1e-9 * K.yy, 1e-9 * K.xy}, 1e-11);
-    same(solved(gap(3 * nx, 2 * ny, 0.5, 0.6, [&](int i, int j) { return m.at(i, j); })), K, 1e-11);
-}
-
 TEST(channels_dead_ends_and_islands) {
     // A channel one pixel wide along x carries what its resistance lets through; a pocket beside
     // it, and an island, carry nothing.
@@ -158,7 +102,7 @@ TEST(channels_dead_ends_and_islands) {
         });
     };
     double inverse = 0;
-    for (int i = 0; i < 10; ++i) inverse += 0.1 * std::pow(1.0 + 0.1 * i, -3);
+    for (const int i : up_to(10)) inverse += 0.1 * std::pow(1.0 + 0.1 * i, -3);
     const Permeability K = solved(channel(true));
     CHECK_RELATIVE(K.xx, 1 / (12 * inverse) / 12, 1e-12);
     CHECK(K.yy == 0 && K.xy == 0);
@@ -166,7 +110,8 @@ TEST(channels_dead_ends_and_islands) {
     const Permeability both = solved(
         gap(8, 8, 1, 1, [](int i, int j) { return i == j || i == (j + 1) % 8 ? 1.0 : 0.0; }));
     CHECK(both.xx > 0);
-    same(both, {both.xx, both.xx, both.xx}, 1e-12);
+    CHECK_RELATIVE(both.yy, both.xx, 1e-12);
+    CHECK_RELATIVE(both.xy, both.xx, 1e-12);
     // Wide islands behind gaps so narrow that rounding hides them do not spoil the rest.
     const auto hidden = [](double neck) {
         return gap(12, 12, 1, 1, [neck](int i, int j) {
@@ -186,7 +131,7 @@ TEST(the_flux_at_each_point_adds_up) {
     const Permeability K = permeability(view(m), &flow);
     const double mean = std::accumulate(flow.begin(), flow.end(), 0.0) / (40 * 32);
     CHECK(mean > std::hypot(K.xx, K.xy));  // the mean of magnitudes
-    for (std::size_t k = 0; k < flow.size(); ++k) CHECK(m.g[k] > 0 || flow[k] == 0);
+    for (const auto k : indices(flow)) CHECK(m.g[k] > 0 || flow[k] == 0);
     permeability(view(gap(6, 9, 0.3, 0.7, [](int, int) { return 2.0; })), &flow);
     for (const double q : flow) CHECK_RELATIVE(q, 8.0 / 12, 1e-12);
 }
@@ -194,7 +139,7 @@ TEST(the_flux_at_each_point_adds_up) {
 TEST(percolation_by_walks) {
     std::mt19937 random(5);
     int along[2] = {0, 0};
-    for (int sample = 0; sample < 300; ++sample) {
+    for (const int sample : up_to(300)) {
         const int nx = 3 + sample % 11, ny = 2 + sample % 8;
         const truth::Gap m =
             gap(nx, ny, 1, 1, [&](int, int) { return random() % 1000 < 580 ? 1.0 : 0.0; });
@@ -214,7 +159,7 @@ TEST(percolation_by_walks) {
 TEST(every_point_is_eliminated_once) {
     std::mt19937 random(9);
     for (const auto& [nx, ny] : {std::pair{1, 1}, {1, 20}, {37, 2}, {60, 45}}) {
-        std::vector<std::uint8_t> used(static_cast<std::size_t>(nx * ny));
+        std::vector<std::uint8_t> used(nx * ny);
         for (auto& u : used) u = random() % 3 > 0;
         std::vector<std::uint32_t> order = dissection(nx, ny, used);
         std::sort(order.begin(), order.end());
@@ -234,10 +179,10 @@ constexpr const char* kFlats =
     "&output flow = .true. fields = 'gap', 'flow' field_levels = 0.01, 0.02 /\n";
 
 TEST(the_gap_of_a_level) {
-    const Job job = prepare(read_case_text(kFlats, "case").settings);
+    const Job job = prepare(settings_of(kFlats));
     const Realization r = realize(job, 1, 1);
     const int n = static_cast<int>(r.fields.x.size());
-    const std::size_t points = static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
+    const std::size_t points = n * n;
     for (std::size_t s = 0; s < 2; ++s) {
         const Level& level = r.levels[s];
         truth::Gap m{n, n, r.fields.x[1] - r.fields.x[0], r.fields.y[1] - r.fields.y[0], {}};
@@ -269,36 +214,29 @@ TEST(the_gap_of_a_level) {
 // of the first, and its sums over all.
 TEST(the_distribution_of_gaps) {
     const Folder folder;
-    const auto solved = [&](int realizations, const char* fields) {
-        const std::string path = folder / (std::to_string(realizations) + ".nc");
-        const Case settings =
-            read_case_text(std::string(kFlats).substr(0, std::string(kFlats).find("&output")) +
-                               "&run realizations = " + std::to_string(realizations) +
-                               " /\n&output " + fields +
-                               " pdf_levels = 1.0, pdf_bins = 25, file = '" + path + "' /\n",
-                           "case")
-                .settings;
-        CHECK(run_case(settings, {.command = "rsc", .inputs = {}, .report = {}}) == 0);
-        return path;
+    const auto solved = [&](const std::string& realizations, const char* fields) {
+        return run_to(folder / (realizations + ".nc"),
+                      std::string(kFlats).substr(0, std::string(kFlats).find("&output")) +
+                          "&run realizations = " + realizations + " /\n&output " + fields +
+                          " pdf_levels = 1.0, pdf_bins = 25 /\n");
     };
-    const Reader one(solved(1, "fields = 'gap' field_levels = 0.01, 0.02, 0.3"));
+    const Reader one = solved("1", "fields = 'gap' field_levels = 0.01, 0.02, 0.3");
     const auto gap = one.values("field_gap");
     const std::size_t points = gap.size() / 3;
     const auto step = static_cast<std::size_t>(one.values("pdf_step")[0]) - 1;
     const double width = 2 * one.values("gap_bin")[0];
     std::vector<double> counts(26, 0.0);
     for (std::size_t k = step * points; k < (step + 1) * points; ++k)
-        if (gap[k] > 0)
-            ++counts[std::min<std::size_t>(25, static_cast<std::size_t>(gap[k] / width))];
+        if (gap[k] > 0) ++counts[std::min(25, static_cast<int>(gap[k] / width))];
     const double open = std::accumulate(counts.begin(), counts.end(), 0.0);
     CHECK(one.numbers("gap_count", "overflow")[0] == counts.back());
     counts.pop_back();
     CHECK(one.values("gap_count") == counts);
-    for (std::size_t b = 0; b < counts.size(); ++b)
+    for (const auto b : indices(counts))
         CHECK_RELATIVE(one.values("gap_pdf")[b], counts[b] / (open * width), 1e-12);
     CHECK_RELATIVE(one.numbers("gap_pdf", "mean")[0], one.values("gap_mean_open")[step], 1e-12);
 
-    const Reader three(solved(3, ""));
+    const Reader three = solved("3", "");
     double all = 0, sum = 0;
     for (const double n : three.values("gap_count")) all += n;
     for (std::size_t k = 0; k < 3; ++k)

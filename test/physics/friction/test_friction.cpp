@@ -21,7 +21,7 @@ struct Spheres : LoadCurve {
     double first_touch() const override { return *std::min_element(touch.begin(), touch.end()); }
     Load load(double delta) override {
         Load sum;
-        for (std::size_t i = 0; i < R.size(); ++i) {
+        for (const auto i : indices(R)) {
             const double u = std::max(0.0, delta - touch[i]);
             sum.force += 4.0 / 3.0 * kE * std::sqrt(R[i]) * std::pow(u, 1.5);
             sum.energy += 8.0 / 15.0 * kE * std::sqrt(R[i]) * std::pow(u, 2.5);
@@ -30,7 +30,7 @@ struct Spheres : LoadCurve {
     }
     double stiffness(double delta) override {
         double sum = 0;
-        for (std::size_t i = 0; i < R.size(); ++i)
+        for (const auto i : indices(R))
             sum += 2 * kE * std::sqrt(R[i] * std::max(0.0, delta - touch[i]));
         return sum;
     }
@@ -51,13 +51,12 @@ Spheres several() { return {{-0.001, 0.0004, 0.002, 0.0021, 0.005}, {0.3, 1.0, 0
 TEST(ratio_of_stiffnesses) {
     const double E[2] = {70e3, 210e3}, nu[2] = {0.22, 0.3};
     double G_star = 0, E_star = 0;
-    for (int i = 0; i < 2; ++i) {
+    for (const int i : up_to(2)) {
         G_star += (2 - nu[i]) / (E[i] / (2 * (1 + nu[i])));
         E_star += (1 - nu[i] * nu[i]) / E[i];
     }
     CHECK_RELATIVE(tangential_ratio(E, nu), 4 * E_star / G_star, 1e-14);
-    const double like[2] = {70e3, 70e3}, same[2] = {0.22, 0.22},
-                 rigid[2] = {70e3, __builtin_huge_val()};
+    const double like[2] = {70e3, 70e3}, same[2] = {0.22, 0.22}, rigid[2] = {70e3, kInfinity};
     CHECK_RELATIVE(tangential_ratio(like, same), 2 * (1 - 0.22) / (2 - 0.22), 1e-14);
     CHECK_RELATIVE(tangential_ratio(rigid, same), 2 * (1 - 0.22) / (2 - 0.22), 1e-14);
 }
@@ -75,7 +74,7 @@ TEST(mindlin_first_loading) {
     FrictionHistory path(kFriction);
     path.go_to(curve, delta, {7, -3});  // only differences of xi count
     CHECK_RELATIVE(path.stiffness(curve).xx, 8 * G_star * a, 1e-13);
-    for (std::size_t k = 0; k < xi.size(); ++k) {
+    for (const auto k : indices(xi)) {
         const double left = std::max(0.0, 1 - xi[k] / xi_1);
         const double Q = kFriction.coefficient * N * (1 - std::pow(left, 1.5));
         CHECK_CLOSE(points[k].force, Q, 1e-13 * N);
@@ -143,7 +142,7 @@ struct Springs {
     double lost = 0;
     Springs(LoadCurve& curve, double low, double high, std::size_t n)
         : first(low), step((high - low) / static_cast<double>(n)) {
-        for (std::size_t k = 0; k < n; ++k) {
+        for (const std::size_t k : up_to(n)) {
             const double s = low + step * static_cast<double>(k);
             stiffness.push_back((curve.load(s + step).force - 2 * curve.load(s).force +
                                  curve.load(s - step).force) /
@@ -154,7 +153,7 @@ struct Springs {
     // A short piece of path: the radial return of plasticity.
     void go(const Friction& f, double from, double delta, Slide dxi) {
         const double c = f.coefficient / f.ratio;
-        for (std::size_t k = 0; k < u.size(); ++k) {
+        for (const auto k : indices(u)) {
             const double s = first + step * static_cast<double>(k);
             if (from <= s && delta <= s) break;
             // A spring that touches on the way, or lets go, follows its part of the slide only.
@@ -175,7 +174,7 @@ struct Springs {
     }
     Slide force(const Friction& f) const {
         Slide sum;
-        for (std::size_t k = 0; k < u.size(); ++k) {
+        for (const auto k : indices(u)) {
             sum.x += f.ratio * stiffness[k] * u[k].x;
             sum.y += f.ratio * stiffness[k] * u[k].y;
         }
@@ -218,7 +217,7 @@ TEST(random_histories) {
             const Step to = random_step(random, low, high, c, at);
             path.go_to(curve, to.delta, {to.xi, 0});
             constexpr int parts = 60;
-            for (int k = 0; k < parts; ++k) {
+            for (const int k : up_to(parts)) {
                 const double dd = (to.delta - at.delta) / parts;
                 springs.go(kFriction, at.delta + k * dd, at.delta + (k + 1) * dd,
                            {(to.xi - at.xi) / parts, 0});
@@ -259,7 +258,7 @@ TEST(two_directions) {
         turned.go_to(curve, delta, xi);
         springs.go(kFriction, low - 1, delta, {});
         double work = 0, curvature = 0, course = 6 * uniform(random);
-        for (int step = 0; step < 300; ++step) {
+        for (const int step : up_to(300)) {
             if (step % 60 == 0) curvature = turn * (uniform(random) - 0.5);
             course += curvature;
             const double next =

@@ -4,15 +4,15 @@
 #include "contact/answers.hpp"
 #include "physics/adhesion/adhesive_contact.hpp"
 #include "physics/friction/contact_curve.hpp"
+#include "support/asperities.hpp"
 #include "support/paths.hpp"
-#include "support/random_asperities.hpp"
 #include "truth/elimination.hpp"
 
 namespace test_friction_contact {
 
 using namespace rsc;
 
-constexpr double kE = 94.0e3, kFlat = __builtin_huge_val();
+constexpr double kE = 94.0e3;
 const Friction kFriction{0.4, 0.75};
 using Real = long double;
 
@@ -35,11 +35,11 @@ std::vector<Real> slip_problem(const Asperities& a, const Level& level, Real xi)
     const Real mu = kFriction.coefficient, m = kFriction.ratio, pi = std::numbers::pi_v<Real>;
     std::vector<Real> q(n, 0);
     for (int sweep = 0; sweep < 400; ++sweep) {
-        for (std::size_t i = 0; i < n; ++i) {
-            const auto at = static_cast<std::size_t>(level.asperity[i]);
+        for (const std::size_t i : up_to(n)) {
+            const auto at = level.asperity[i];
             Real moved = 0;
-            for (std::size_t j = 0; j < n; ++j) {
-                const auto to = static_cast<std::size_t>(level.asperity[j]);
+            for (const std::size_t j : up_to(n)) {
+                const auto to = level.asperity[j];
                 if (j != i)
                     moved += q[j] / (m * pi * kE *
                                      std::hypot(Real(a.x[at]) - a.x[to], Real(a.y[at]) - a.y[to]));
@@ -53,48 +53,42 @@ std::vector<Real> slip_problem(const Asperities& a, const Level& level, Real xi)
 }
 
 TEST(spots_against_slip_problem) {
-    Asperities two, five;
-    two.x = {0.4, 0.412};
-    two.y = {0.5, 0.5};
-    two.z = {0.01, 0.009};
-    two.radius = {3e-4, 5e-4};
-    five.x = {0.4, 0.413, 0.407, 0.39, 0.42};
-    five.y = {0.5, 0.5, 0.511, 0.508, 0.49};
-    five.z = {0.01, 0.009, 0.0095, 0.0082, 0.0101};
-    five.radius = {3e-4, 5e-4, 2e-4, 8e-4, 4e-4};
-    for (const Asperities& a : {two, five}) {
-        Slid slid(a, {kE, 2.5, 0.4, 0.5}, tight());
-        const double delta = 0.0;
-        const Level level = asperity_path(a, {kE, 2.5, 0.4, 0.5}, tight()).at_separation(-delta);
-        CHECK(level.asperity.size() == a.size());
-        const double full = full_slip(slid.curve, kFriction, delta);
-        for (double part : {0.05, 0.3, 0.6, 0.9, 0.99}) {
-            const auto q = slip_problem(a, level, part * full);
-            FrictionHistory path(kFriction);
-            path.go_to(slid.curve, delta, {});
-            path.go_to(slid.curve, delta, {0, part * full});
-            const auto spots = slip_of_spots(slid.curve, path);
-            Real Q = 0;
-            CHECK(spots.size() == q.size());
-            for (std::size_t i = 0; i < q.size(); ++i) {
-                Q += q[i];
-                CHECK_CLOSE(spots[i].force.y, static_cast<double>(q[i]),
-                            1e-8 * kFriction.coefficient * level.force);
-                CHECK(spots[i].force.x == 0 && spots[i].stick_radius < spots[i].radius);
-                CHECK(spots[i].asperity == level.asperity[i]);
-                CHECK_RELATIVE(spots[i].radius, level.a[i], 1e-10);
-                // c = a (1 - q/(mu f))^(1/3), Mindlin's stick radius of a spot of its own.
-                const double left =
-                    1 - static_cast<double>(q[i]) / (kFriction.coefficient * level.f[i]);
-                CHECK_CLOSE(spots[i].stick_radius, level.a[i] * std::cbrt(std::max(0.0, left)),
-                            1e-5 * level.a[i]);
-            }
-            CHECK_CLOSE(path.tangential_force().y, static_cast<double>(Q),
+    const Asperities a = asperities_at({{0.4, 0.5, 0.01, 3e-4},
+                                        {0.413, 0.5, 0.009, 5e-4},
+                                        {0.407, 0.511, 0.0095, 2e-4},
+                                        {0.39, 0.508, 0.0082, 8e-4},
+                                        {0.42, 0.49, 0.0101, 4e-4}});
+    Slid slid(a, {kE, 2.5, 0.4, 0.5}, tight());
+    const double delta = 0.0;
+    const Level level = asperity_path(a, {kE, 2.5, 0.4, 0.5}, tight()).at_separation(-delta);
+    CHECK(level.asperity.size() == a.size());
+    const double full = full_slip(slid.curve, kFriction, delta);
+    for (double part : {0.05, 0.3, 0.6, 0.9, 0.99}) {
+        const auto q = slip_problem(a, level, part * full);
+        FrictionHistory path(kFriction);
+        path.go_to(slid.curve, delta, {});
+        path.go_to(slid.curve, delta, {0, part * full});
+        const auto spots = slip_of_spots(slid.curve, path);
+        Real Q = 0;
+        CHECK(spots.size() == q.size());
+        for (const auto i : indices(q)) {
+            Q += q[i];
+            CHECK_CLOSE(spots[i].force.y, static_cast<double>(q[i]),
                         1e-8 * kFriction.coefficient * level.force);
-            const auto points = slide_to(slid.curve, kFriction, delta, {part * full});
-            CHECK_CLOSE(points[0].force, static_cast<double>(Q),
-                        1e-8 * kFriction.coefficient * level.force);
+            CHECK(spots[i].force.x == 0 && spots[i].stick_radius < spots[i].radius);
+            CHECK(spots[i].asperity == level.asperity[i]);
+            CHECK_RELATIVE(spots[i].radius, level.a[i], 1e-10);
+            // c = a (1 - q/(mu f))^(1/3), Mindlin's stick radius of a spot of its own.
+            const double left =
+                1 - static_cast<double>(q[i]) / (kFriction.coefficient * level.f[i]);
+            CHECK_CLOSE(spots[i].stick_radius, level.a[i] * std::cbrt(std::max(0.0, left)),
+                        1e-5 * level.a[i]);
         }
+        CHECK_CLOSE(path.tangential_force().y, static_cast<double>(Q),
+                    1e-8 * kFriction.coefficient * level.force);
+        const auto points = slide_to(slid.curve, kFriction, delta, {part * full});
+        CHECK_CLOSE(points[0].force, static_cast<double>(Q),
+                    1e-8 * kFriction.coefficient * level.force);
     }
 }
 
@@ -104,10 +98,9 @@ TEST(spots_against_slip_problem) {
 double conductance_of_spots(const Asperities& a, const Level& level) {
     const std::size_t n = level.asperity.size();
     std::vector<Real> A(n * n);
-    for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t j = 0; j < n; ++j) {
-            const auto p = static_cast<std::size_t>(level.asperity[i]),
-                       q = static_cast<std::size_t>(level.asperity[j]);
+    for (const std::size_t i : up_to(n))
+        for (const std::size_t j : up_to(n)) {
+            const auto p = level.asperity[i], q = level.asperity[j];
             const Real d = std::hypot(Real(a.x[p]) - a.x[q], Real(a.y[p]) - a.y[q]);
             A[i * n + j] =
                 i == j ? 1 / (4 * Real(level.a[i])) : 1 / (2 * std::numbers::pi_v<Real> * d);
@@ -118,12 +111,8 @@ double conductance_of_spots(const Asperities& a, const Level& level) {
 }
 
 TEST(conductance) {
-    Asperities lone;
-    lone.x = {0.5};
-    lone.y = {0.5};
-    lone.z = {0.01};
-    lone.radius = {3e-4};
-    Path holm = asperity_path(lone, {kE, kFlat, 0.5, 0.5}, tight());
+    const Asperities lone = asperities_at({{0.5, 0.5, 0.01, 3e-4}});
+    Path holm = asperity_path(lone, {kE, kInfinity, 0.5, 0.5}, tight());
     const Level spot = holm.at_separation(0.004);
     CHECK_RELATIVE(-2 * holm.stiffness() / kE, 4 * spot.a[0], 1e-12);
     const Asperities a = random_asperities(400, 0.02, 0.01, 5e-4, 0.3, 3);

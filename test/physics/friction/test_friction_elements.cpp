@@ -1,9 +1,6 @@
 // Friction by boundary elements: Cattaneo and Mindlin's sphere, a line, rough surfaces against
 // asperities, full slip, the loop.
-#include "case/read_case.hpp"
-#include "check.hpp"
-#include "run/run.hpp"
-#include "support/result_reader.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace test_friction_elements {
@@ -11,12 +8,6 @@ namespace test_friction_elements {
 using namespace rsc;
 
 using Values = std::vector<double>;
-
-void run(const std::string& text, const std::string& path) {
-    Case c = read_case_text(text, "case.nml").settings;
-    c.output.file = path;
-    CHECK(run_case(c, {.command = "rsc", .inputs = {}, .report = {}}) == 0);
-}
 
 Values row(const Values& all, std::size_t k, std::size_t n) {
     return {all.begin() + static_cast<std::ptrdiff_t>(k * n),
@@ -38,7 +29,7 @@ struct Slip {
         const auto pressure = file.values("field_pressure"),
                    traction = file.values("field_traction");
         double stuck = 0, touches = 0, sum = 0, pressed = 0;
-        for (std::size_t k = 0; k < pressure.size(); ++k) {
+        for (const auto k : indices(pressure)) {
             CHECK(traction[k] >= -1e-9 * mu * pressure[k] &&
                   traction[k] <= (1 + 1e-9) * mu * pressure[k]);
             touches += pressure[k] > 0;
@@ -53,14 +44,13 @@ struct Slip {
 
 TEST(smooth_sphere_of_cattaneo_and_mindlin) {
     const Folder folder;
-    const std::string path = folder / "sphere.nc";
-    run("&solids E = 200e3, 200e3  nu = 0.3, 0.3  R = Infinity, 10  friction = 0.3 /\n"
-        "&surface L = 0.3, L_lambda_l = 2, L_lambda_s = 16, sigma = 1e-9 /\n"
-        "&solver model = 'elements' /\n"
-        "&indentation control = 'force', levels = 5, 20 /\n"
-        "&output fields = 'pressure', 'traction' /\n",
-        path);
-    const Reader file(path);
+    const Reader file =
+        run_to(folder / "sphere.nc",
+               "&solids E = 200e3, 200e3  nu = 0.3, 0.3  R = Infinity, 10  friction = 0.3 /\n"
+               "&surface L = 0.3, L_lambda_l = 2, L_lambda_s = 16, sigma = 1e-9 /\n"
+               "&solver model = 'elements' /\n"
+               "&indentation control = 'force', levels = 5, 20 /\n"
+               "&output fields = 'pressure', 'traction' /\n");
     const double R = 10, mu = 0.3, nu = 0.3, G = 200e3 / 2.6, Gs = G / (2 * (2 - nu)),
                  E = 200e3 / 2 / (1 - nu * nu);
     const auto x = file.values("tangential_displacement"), Q = file.values("tangential_force"),
@@ -72,7 +62,7 @@ TEST(smooth_sphere_of_cattaneo_and_mindlin) {
         const auto slide = row(x, k, points), force = row(Q, k, points);
         // Some 20 and 35 pixels over a: elements are within 0.2 %.
         CHECK_RELATIVE(slide[first - 1], full, 2e-3);
-        for (std::size_t i = 0; i < first; ++i)
+        for (const std::size_t i : up_to(first))
             CHECK_CLOSE(force[i], mu * N * (1 - std::pow(std::max(0.0, 1 - slide[i] / full), 1.5)),
                         2e-3 * mu * N);
         CHECK_CLOSE(force[first - 1], mu * N, 1e-6 * mu * N);
@@ -90,14 +80,13 @@ TEST(smooth_sphere_of_cattaneo_and_mindlin) {
 TEST(line_of_cattaneo) {
     // Stick over |x| < c with Q = mu P (1 - c^2/b^2) (Johnson 1985, section 7.2).
     const Folder folder;
-    const std::string path = folder / "line.nc";
-    run("&solids E = 200e3, 200e3  nu = 0.3, 0.3  friction = 0.3 /\n"
-        "&indenter shape = 'paraboloid', radii = 10, Infinity /\n"
-        "&surface L = 0.2, L_lambda_l = 2, L_lambda_s = 16, sigma = 1e-9 /\n"
-        "&indentation boundary = 'periodic_y', control = 'force', levels = 4 /\n"
-        "&output fields = 'pressure', 'traction' /\n",
-        path);
-    const Slip slip(Reader(path), 0.3);
+    const Slip slip(run_to(folder / "line.nc",
+                           "&solids E = 200e3, 200e3  nu = 0.3, 0.3  friction = 0.3 /\n"
+                           "&indenter shape = 'paraboloid', radii = 10, Infinity /\n"
+                           "&surface L = 0.2, L_lambda_l = 2, L_lambda_s = 16, sigma = 1e-9 /\n"
+                           "&indentation boundary = 'periodic_y', control = 'force', levels = 4 /\n"
+                           "&output fields = 'pressure', 'traction' /\n"),
+                    0.3);
     const double c = slip.sticks;
     CHECK(c > 0.5 && c < 0.9);
     CHECK_CLOSE(slip.force, 1 - c * c, 0.03);  // one pixel of 22
@@ -117,14 +106,13 @@ TEST(rough_surfaces_slide_as_their_asperities_do) {
           "20 /\n"}) {
         std::array<Values, 2> x, Q, N, S, T, work;
         for (const std::size_t elements : {0, 1}) {
-            const std::string path = folder / "rough.nc";
-            run(bodies +
+            const Reader file = run_to(
+                folder / "rough.nc",
+                bodies +
                     "&surface n = 256, L = 1, L_lambda_l = 2, L_lambda_s = 16, sigma = 1e-3 /\n" +
                     (elements
                          ? "&solver model = 'elements' /\n"
-                         : "&solver model = 'asperities' / &asperities law = 'fourth_order' /\n"),
-                path);
-            const Reader file(path);
+                         : "&solver model = 'asperities' / &asperities law = 'fourth_order' /\n"));
             x[elements] = file.values("tangential_displacement");
             Q[elements] = file.values("tangential_force");
             N[elements] = file.values("force");
@@ -141,7 +129,7 @@ TEST(rough_surfaces_slide_as_their_asperities_do) {
             // At the origin the stiffness is that of stick.
             CHECK_RELATIVE(q[1] / a[1], T[1][k], 0.05);
             CHECK_RELATIVE(loop_area(a, q, first), work[1][k], 0.01);
-            for (std::size_t i = 0; i < first; ++i)
+            for (const std::size_t i : up_to(first))
                 CHECK_CLOSE(q[i] / (0.2 * N[1][k]), p[i] / (0.2 * N[0][k]), 0.03);
             CHECK_RELATIVE(a[first - 1], b[first - 1], 0.1);
         }
@@ -156,12 +144,13 @@ TEST(loads_between_levels_are_those_of_levels) {
         "&solids E = 80e3, 200e3  nu = 0.35, 0.3  R = Infinity, 20  friction = 0.2 /\n"
         "&surface L = 1, L_lambda_l = 2, L_lambda_s = 16, sigma = 1e-3 /\n"
         "&solver model = 'elements' /\n";
-    run(keys + "&indentation levels = 0.5 /\n", folder / "one.nc");
-    run(keys + "&indentation start = 4, stop = 0.5, steps = 40 /\n", folder / "many.nc");
-    const auto one = Reader(folder / "one.nc").values("tangential_force"),
-               all = Reader(folder / "many.nc").values("tangential_force");
+    const auto force = [&](const char* levels) {
+        return run_to(folder / "slid.nc", keys + "&indentation " + levels + " /\n")
+            .values("tangential_force");
+    };
+    const auto one = force("levels = 0.5"), all = force("start = 4, stop = 0.5, steps = 40");
     const auto many = row(all, 39, one.size());
-    for (std::size_t k = 0; k < one.size(); ++k) CHECK_CLOSE(one[k], many[k], 4e-3 * one[40]);
+    for (const auto k : indices(one)) CHECK_CLOSE(one[k], many[k], 4e-3 * one[40]);
 }
 
 }  // namespace test_friction_elements

@@ -2,16 +2,16 @@
 // they take, and against a slow solver of its own.
 #include "check.hpp"
 #include "physics/hardness/hardness.hpp"
+#include "support/asperities.hpp"
 #include "support/paths.hpp"
-#include "support/random_asperities.hpp"
+#include "support/simpson.hpp"
 #include "surface/detection.hpp"
 
 namespace test_hardness {
 
 using namespace rsc;
-using std::numbers::pi;
 
-constexpr double kE = 94.0e3, kFlat = std::numeric_limits<double>::infinity();
+constexpr double kE = 94.0e3;
 
 // A Hertz asperity that yields, written down once more, in long double.
 struct Yielding {
@@ -42,12 +42,11 @@ struct Yielding {
     }
 };
 
-Asperities one(double r) {
-    Asperities a;
-    a.x = a.y = {0.5};
-    a.z = {0.0};
-    a.radius = {r};
-    return a;
+constexpr double kRadius = 0.004;
+const Asperities kOne = asperities_at({{0.5, 0.5, 0, kRadius}});
+// A bent one, of the biharmonic `flattening` times 10^4 of its curvatures.
+Asperities bent(double flattening) {
+    return curved(kOne, 1.6, 0.3, 1e4 * flattening * (1.6 + 1 / 1.6) / kRadius);
 }
 
 SolverOptions options_with(double H0, double length = 0) {
@@ -58,14 +57,10 @@ SolverOptions options_with(double H0, double length = 0) {
 // derivative and the integral of the force. The flattest profile passes its highest mean pressure
 // (law.cpp) within the penetrations asked for, the others do not.
 TEST(test_laws) {
-    Asperities a = one(0.004);
-    a.kappa1 = {1.6 / 0.004};
-    a.kappa2 = {1 / (1.6 * 0.004)};
-    a.angle = {0.3};
     const int i = 0;
     for (const auto kind : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order})
         for (const double flattening : {8.0, -5.0, 0.01, 300.0}) {
-            a.biharmonic = {flattening * (a.kappa1[0] + a.kappa2[0]) * 1e4};
+            const Asperities a = bent(flattening);
             const auto elastic = make_law(kind, a, kE);
             const auto law = make_yielding(make_law(kind, a, kE), a, {4000, 0}, traits(kind).sinks);
             for (Law* l : {elastic.get(), law.get()}) l->prepare({&i, 1});
@@ -107,14 +102,11 @@ TEST(test_laws) {
 // fourth_order on a sphere: the summit pressed flat sinks in, a^2 = a_c^2 + 2 r [u - u_c - k (a -
 // a_c)], k = 4 H/(pi E*).
 TEST(test_sinking) {
-    const double r = 0.004, H = 3000;
-    Asperities a = one(r);
-    a.kappa1 = a.kappa2 = {1 / r};
-    a.angle = {0};
-    a.biharmonic = {0};
+    const double r = kRadius, H = 3000;
     SolverOptions options = options_with(H);
     options.law = LawKind::fourth_order;
-    Path contact = asperity_path(a, {kE, kFlat, 0.5, 0.5}, options);
+    const Asperities round = curved(kOne, 1);
+    Path contact = asperity_path(round, {kE, kInfinity, 0.5, 0.5}, options);
     const double uc = std::pow(3 * pi * H / (4 * kE), 2) * r, ac = std::sqrt(r * uc),
                  b = r * 4 * H / (pi * kE);
     for (const double times : {1.001, 1.5, 4.0, 30.0}) {
@@ -129,33 +121,20 @@ TEST(test_sinking) {
 // A cycle of one asperity, pressed to any depth: what the loop encloses is the work lost, and never
 // less than nothing.
 TEST(test_cycle) {
-    Asperities a = one(0.004);
-    a.kappa1 = {1.6 / 0.004};
-    a.kappa2 = {1 / (1.6 * 0.004)};
-    a.angle = {0.3};
     const int i = 0;
     for (const auto kind : {LawKind::hertz, LawKind::elliptic, LawKind::fourth_order})
         for (const double flattening : {30.0, -5.0}) {
-            a.biharmonic = {flattening * (a.kappa1[0] + a.kappa2[0]) * 1e4};
+            const Asperities a = bent(flattening);
             for (const double times : {1.0001, 1.1, 1.3, 1.5, 3.0, 20.0}) {
                 const auto law =
                     make_yielding(make_law(kind, a, kE), a, {16000, 0}, traits(kind).sinks);
                 law->prepare({&i, 1});
                 const double deepest = times * law->yield_penetration(0, 16000);
-                const auto work =
-                    [&] {  // int f du to `deepest`, Simpson over x with u = deepest (1 - x^2)
-                        const int steps = 4000;
-                        double sum = 0;
-                        for (int k = 0; k <= steps; ++k) {
-                            const double x = static_cast<double>(k) / steps,
-                                         weight = k == 0 || k == steps ? 1
-                                                  : k % 2 == 1         ? 4
-                                                                       : 2;
-                            sum += weight * law->force(0, deepest * (1 - x * x)) * 2 * x * deepest /
-                                   steps / 3;
-                        }
-                        return sum;
-                    };
+                const auto work = [&] {  // int f du to `deepest`, with u = deepest (1 - x^2)
+                    return simpson(0, 1, 4000, [&](double x) {
+                        return law->force(0, deepest * (1 - x * x)) * 2 * x * deepest;
+                    });
+                };
                 const double spent = work();
                 law->commit(1, &i, &deepest);
                 CHECK(law->work_lost() >= 0);
@@ -186,9 +165,9 @@ std::vector<long double> solve_slowly(const Asperities& a, const std::vector<Yie
     std::vector<long double> f(n, 0), u(n, 0);
     for (int sweep = 0; sweep < 3000; ++sweep) {
         long double moved = 0, largest = 0;
-        for (std::size_t i = 0; i < n; ++i) {
+        for (const std::size_t i : up_to(n)) {
             long double lowered = 0;
-            for (std::size_t j = 0; j < n; ++j)
+            for (const std::size_t j : up_to(n))
                 if (j != i)
                     lowered += f[j] / (std::numbers::pi_v<long double> * kE *
                                        std::hypot(static_cast<long double>(a.x[i]) - a.x[j],
@@ -209,7 +188,7 @@ TEST(test_independent) {
     std::uniform_real_distribution<double> uniform(0, 1);
     int compared = 0;
     double worst = 0;
-    for (int system = 0; system < 120; ++system) {
+    for (const int system : up_to(120)) {
         const int n = 2 + system % 7;
         const Asperities a = few(random, n);
         const double H0 = 200 * std::pow(100.0, uniform(random)),
@@ -221,7 +200,7 @@ TEST(test_independent) {
         options.surface.sigma = 0.01;
         options.method = method;
         if (method == Method::mesh) options.tolerance = 1e-11;
-        Path contact = asperity_path(a, {kE, kFlat, 0.5, 0.5}, options);
+        Path contact = asperity_path(a, {kE, kInfinity, 0.5, 0.5}, options);
         std::vector<Yielding> laws;
         for (double r : a.radius)
             laws.push_back({r, H0 * std::sqrt(1 + static_cast<long double>(length) / r)});
@@ -232,7 +211,7 @@ TEST(test_independent) {
             CHECK(level.converged);
             const auto u = solve_slowly(a, laws, Z0);
             long double N = 0, A = 0;
-            for (std::size_t i = 0; i < u.size(); ++i) {
+            for (const auto i : indices(u)) {
                 N += laws[i].at(u[i]).force;
                 A += laws[i].at(u[i]).area;
                 laws[i].deepest = std::max(laws[i].deepest, u[i]);
@@ -256,28 +235,20 @@ TEST(test_independent) {
 TEST(test_path) {
     std::mt19937 random(3);
     const Asperities a = few(random, 30);
-    const Indenter flat{kE, kFlat, 0.5, 0.5};
+    const Indenter flat{kE, kInfinity, 0.5, 0.5};
     const double top = 0.011, bottom = 0.002;
     Path contact = asperity_path(a, flat, options_with(2000));
-    // Composite Simpson over each half of the cycle; kinks where asperities touch and yield leave
+    // Simpson over each half of the cycle; kinks where asperities touch and yield leave
     // some 1e-4 of the work at this step.
-    const int steps = 800;
-    double work = 0, spent = 0;
     Level level;
-    for (int half = 0; half < 2; ++half) {
-        for (int k = 0; k <= steps; ++k) {
-            const double t = static_cast<double>(k) / steps,
-                         Z0 = half == 0 ? top + t * (bottom - top) : bottom + t * (top - bottom);
-            level = contact.at_separation(Z0);
-            const double weight = k == 0 || k == steps ? 1 : k % 2 == 1 ? 4 : 2;
-            work += (half == 0 ? 1 : -1) * weight * level.force * (top - bottom) / steps / 3;
-        }
-        if (half == 0) {
-            spent = work;
-            CHECK_RELATIVE(work, contact.energy() + level.plastic_work, 2e-4);
-            CHECK(contact.energy() < 0.9 * work);
-        }
-    }
+    const auto force = [&](double Z0) {
+        level = contact.at_separation(Z0);
+        return level.force;
+    };
+    const double spent = -simpson(top, bottom, 800, force);
+    CHECK_RELATIVE(spent, contact.energy() + level.plastic_work, 2e-4);
+    CHECK(contact.energy() < 0.9 * spent);
+    const double work = spent - simpson(bottom, top, 800, force);
     CHECK(level.plastic_work > 0.1 * spent && level.force == 0);
     CHECK_RELATIVE(work, level.plastic_work, 2e-3);
 
@@ -308,7 +279,7 @@ TEST(test_limits) {
     std::mt19937 random(5);
     const Asperities a = few(random, 40);
     const Indenter tip{kE, 3.0, 0.5, 0.5};
-    Path elastic = asperity_path(a, tip, options_with(kFlat)),
+    Path elastic = asperity_path(a, tip, options_with(kInfinity)),
          hard = asperity_path(a, tip, options_with(1e30)),
          soft = asperity_path(a, tip, options_with(1e-3));
     for (const double Z0 : {0.008, 0.004, 0.006, 0.0}) {

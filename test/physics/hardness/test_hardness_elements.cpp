@@ -4,16 +4,17 @@
 #include "base/error.hpp"
 #include "check.hpp"
 #include "interaction/pixel_kernels.hpp"
+#include "support/asperities.hpp"
 #include "support/height_maps.hpp"
 #include "support/paths.hpp"
+#include "support/simpson.hpp"
 #include "surface/synthesis.hpp"
 
 namespace test_hardness_elements {
 
 using namespace rsc;
-using std::numbers::pi;
 
-constexpr double kE = 94706.168, kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kE = 94706.168;
 constexpr double kSigma = 0.01;
 const Indenter kTip{kE, 2.5, 0.47, 0.52};
 
@@ -93,12 +94,7 @@ TEST(test_sphere) {
     const HeightMap map = flat_map(n, n, h, h);
     const auto contact = make_element_contact(
         map, {kE, R, (0.5 * n + 0.31) * h, (0.5 * n - 0.17) * h}, options(H, 1e-8));
-    Asperities one;
-    one.x = one.y = {0.5 * n * h};
-    one.z = {0.0};
-    one.radius = {R};
-    one.kappa1 = one.kappa2 = {1 / R};
-    one.angle = one.biharmonic = {0.0};
+    const Asperities one = curved(asperities_at({{0.5 * n * h, 0.5 * n * h, 0, R}}), 1);
     SolverOptions law = options(H);
     law.law = LawKind::fourth_order;
     Path asperity = asperity_path(one, {kE, kInfinity, 0.5 * n * h, 0.5 * n * h}, law);
@@ -120,44 +116,25 @@ TEST(test_work) {
     const double H = 6000, top = 2.2 * kSigma, bottom = 0.2 * kSigma;
     const auto contact = make_element_contact(map, kTip, options(H, 1e-9));
     CHECK(contact->at_separation(top).force == 0);
-    const int steps = 200;
-    double work = 0, spent = 0, lost = 0;
-    for (int half = 0; half < 2; ++half) {
-        for (int k = 0; k <= steps; ++k) {
-            const double t = static_cast<double>(k) / steps,
-                         Z0 = half == 0 ? top + t * (bottom - top) : bottom + t * (top - bottom);
-            const Level level = contact->at_separation(Z0);
-            const double weight = k == 0 || k == steps ? 1 : k % 2 == 1 ? 4 : 2;
-            work += (half == 0 ? 1 : -1) * weight * level.force * (top - bottom) / steps / 3;
-            CHECK(level.plastic_work >= lost - 1e-9 * lost);
-            lost = level.plastic_work;
-            if (half == 1 && k == 40) {
-                const double N = level.force, W = contact->energy(), S = contact->stiffness(),
-                             d = 1e-3 * kSigma;
-                const double N1 = contact->at_separation(Z0 + d).force, W1 = contact->energy();
-                const double N2 = contact->at_separation(Z0 + 2 * d).force;
-                CHECK_RELATIVE((W - W1) / d, 0.5 * (N + N1), 1e-4);
-                CHECK_RELATIVE((-1.5 * N + 2 * N1 - 0.5 * N2) / d, S,
-                               1e-3);  // one-sided, of second order
-            }
-        }
-        if (half == 0) {
-            spent = work;
-            // Simpson, with kinks where pixels touch and yield, and levels 1/200 of the way apart.
-            CHECK_RELATIVE(work, contact->energy() + lost, 2e-4);
-            CHECK(contact->energy() < 0.9 * work && contact->energy() > 0.1 * work);
-            // From the deepest point back: what yielded is elastic at once, and stiffer than while
-            // it yields.
-            const auto back = make_element_contact(map, kTip, options(H, 1e-9));
-            const double N = back->at_separation(bottom).force, S = back->stiffness(),
-                         d = 1e-4 * kSigma;
-            const double N1 = back->at_separation(bottom + d).force,
-                         N2 = back->at_separation(bottom + 2 * d).force;
-            CHECK_RELATIVE((-1.5 * N + 2 * N1 - 0.5 * N2) / d, S, 1e-3);
-        }
-    }
-    CHECK(work >= 0 && lost > 0.1 * spent);
-    CHECK_CLOSE(work, lost, 2e-4 * spent);
+    Level level;
+    const auto force = [&](double Z0) {
+        level = contact->at_separation(Z0);
+        return level.force;
+    };
+    // Simpson, with kinks where pixels touch and yield, and levels 1/200 of the way apart.
+    const double spent = -simpson(top, bottom, 200, force), lost = level.plastic_work;
+    CHECK_RELATIVE(spent, contact->energy() + lost, 2e-4);
+    CHECK(contact->energy() < 0.9 * spent && contact->energy() > 0.1 * spent);
+    // From the deepest point back: what yielded is elastic at once, and stiffer than while it
+    // yields. One-sided differences of second order.
+    const double S = contact->stiffness(), W = contact->energy(), N = level.force,
+                 d = 1e-4 * kSigma;
+    const double N1 = force(bottom + d), W1 = contact->energy(), N2 = force(bottom + 2 * d);
+    CHECK_RELATIVE((-1.5 * N + 2 * N1 - 0.5 * N2) / d, S, 1e-3);
+    CHECK_RELATIVE((W - W1) / d, 0.5 * (N + N1), 1e-4);
+    const double work = spent - simpson(bottom, top, 200, force);
+    CHECK(lost > 0.1 * spent);
+    CHECK_CLOSE(work, level.plastic_work, 2e-4 * spent);
     CHECK(contact->energy() == 0 && contact->stiffness() == 0);
 }
 

@@ -4,19 +4,17 @@
 #include "check.hpp"
 #include "contact/indentation.hpp"
 #include "physics/indenter/shapes.hpp"
+#include "support/asperities.hpp"
 #include "support/height_maps.hpp"
-#include "support/random_asperities.hpp"
 #include "surface/surface.hpp"
 
 namespace test_indenter {
 
 using namespace rsc;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // A second body of a few waves, n x n points on the unit square.
 std::shared_ptr<const HeightMap> waves(int n, bool periodic) {
-    const double k = 2 * std::numbers::pi / n;
+    const double k = 2 * pi / n;
     auto map = std::make_shared<HeightMap>(height_map(n, n, 1.0 / n, 1.0 / n, [k](int i, int j) {
         return 0.01 * (std::cos(3 * k * i + 1) * std::cos(2 * k * j) + std::sin(k * (i - 2 * j)));
     }));
@@ -83,7 +81,7 @@ void derivatives(const char* name) {
     CHECK(worst4 <= fourth * size4);
     double x[3] = {-0.1, 0.02, 0.3}, many[3];
     s->heights(3, x, 0.17, many);
-    for (int k = 0; k < 3; ++k) CHECK_CLOSE(many[k], s->height(x[k], 0.17), 1e-15);
+    for (const int k : up_to(3)) CHECK_CLOSE(many[k], s->height(x[k], 0.17), 1e-15);
 }
 
 // lowest() and most_fallen() bound what is sampled.

@@ -5,15 +5,15 @@
 #include "physics/friction/contact_curve.hpp"
 #include "physics/friction/friction.hpp"
 #include "physics/indenter/shapes.hpp"
+#include "support/asperities.hpp"
 #include "support/height_maps.hpp"
 #include "support/paths.hpp"
-#include "support/random_asperities.hpp"
 
 namespace test_shapes {
 
 using namespace rsc;
 
-constexpr double kE = 100, kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kE = 100;
 
 // The origin between points, or on one.
 HeightMap flat_map(int nx, int ny, double h) {
@@ -39,7 +39,7 @@ void closed_form(const char* name, const ShapeKeys& keys, double depth, double s
     const auto truth = s->smooth(kE);
     CHECK(truth.has_value());
     double errors[2];
-    for (int k = 0; k < 2; ++k) {
+    for (const int k : up_to(2)) {
         const int points = k == 0 ? n : 4 * n;
         const HeightMap map = flat_map(points, points, side / points);
         const auto contact = make_element_contact(map, {kE, s, 0, 0}, elements());
@@ -77,46 +77,6 @@ void lateral(const char* name, const ShapeKeys& keys, double depth, double step,
     CHECK(std::hypot(force.x - fx, force.y - fy) <= tolerance * size);
 }
 
-// Asperities under a shape: turned together about the tip they carry the same. A paraboloid of
-// equal radii R carries a little more than the sphere, whose face is higher by rho^4/(8 R^3), and
-// less than this sphere lowered by as much as that is at the farthest contact.
-void turned(const Asperities& asperities, const ShapeKeys& keys) {
-    SolverOptions precise{.tolerance = 1e-12};
-    const double depth = 0.002;
-    const auto force = [&](const Asperities& a, const char* name, const ShapeKeys& of, double Z0) {
-        return asperity_path(a, {kE, shape(name, of), 0, 0}, precise).at_separation(Z0).force;
-    };
-    for (const double angle : {0.3, 1.1, 2.0, -1.4}) {
-        Asperities there = asperities;
-        for (std::size_t i = 0; i < there.size(); ++i) {
-            there.x[i] = std::cos(angle) * asperities.x[i] - std::sin(angle) * asperities.y[i];
-            there.y[i] = std::sin(angle) * asperities.x[i] + std::cos(angle) * asperities.y[i];
-        }
-        for (const char* name : {"sphere", "paraboloid", "cone", "punch"}) {
-            ShapeKeys too = keys;
-            too.angle += angle;
-            CHECK_RELATIVE(force(there, name, too, depth), force(asperities, name, keys, depth),
-                           1e-9);
-        }
-        ShapeKeys other = keys;
-        other.angle += angle;
-        CHECK(std::abs(force(asperities, "paraboloid", other, depth) /
-                           force(asperities, "paraboloid", keys, depth) -
-                       1) > 1e-3);
-    }
-    const double highest = *std::max_element(asperities.z.begin(), asperities.z.end());
-    for (const double R : {1.0, 2.0, 4.0}) {
-        ShapeKeys round = keys;
-        round.R = round.radii[0] = round.radii[1] = R;
-        const double square = 2 * R * (highest - depth),
-                     higher = R - std::sqrt(R * R - square) - square / (2 * R);
-        const double N = force(asperities, "paraboloid", round, depth),
-                     sphere = force(asperities, "sphere", round, depth);
-        CHECK(N > sphere && N < force(asperities, "sphere", round, depth - higher));
-        CHECK(N < (1 + square / (R * R)) * sphere);
-    }
-}
-
 // Smooth bodies with friction: N grows as the approach to some power p, so Q = mu N [1 - (1 -
 // xi/xi_full)^p] (Cattaneo and Mindlin's for p = 3/2; a punch sticks all over until it slides).
 void friction(const char* name, const ShapeKeys& keys, double depth, double side) {
@@ -140,7 +100,7 @@ void friction(const char* name, const ShapeKeys& keys, double depth, double side
 // of mean planes.
 TEST(two_maps) {
     constexpr int n = 32;
-    const double q = 2 * std::numbers::pi / n;
+    const double q = 2 * pi / n;
     const auto one_of = [&](auto height) {
         HeightMap map = height_map(n, n, 1.0 / n, 1.0 / n, height);
         map.x0 = map.y0 = -0.5 * (n - 1) / n;
@@ -172,40 +132,19 @@ TEST(all_shapes) {
     keys.radius = 0.05;
     // Hertz's ellipse (Johnson 1985, section 4.2). Turned along the diagonal it is the same
     // contact.
-    for (const double ratio : {1.0, 3.0, 10.0}) {
+    for (const double ratio : {3.0, 10.0}) {
         keys.radii[0] = 1;
         keys.radii[1] = ratio;
         closed_form("paraboloid", keys, 1e-3, ratio > 3 ? 0.24 : 0.16, 24, 1e-3, 1.5e-2, 0.5);
     }
-    keys.angle = 0.25 * std::numbers::pi;
+    keys.angle = 0.25 * pi;
     keys.radii[1] = 3;
     closed_form("paraboloid", keys, 1e-3, 0.16, 24, 1e-3, 1.5e-2, 0.5);
-    closed_form("sphere", keys, 1e-3, 0.1, 24, 1e-3, 1.5e-2, 0.5);
     closed_form("cone", keys, 5e-3, 0.1, 24, 1e-3, 1.5e-2, 0.5);
     closed_form("punch", keys, 1e-3, 0.12, 24, 1e-2, 2e-2, 0.5);
 
     for (const char* name : {"paraboloid", "cone", "punch"})
         friction(name, keys, name[0] == 'c' ? 5e-3 : 1e-3, 0.14);
-
-    // A cylinder along y, ending at the border: away from the ends the peak pressure and the
-    // half-width b of line contact, p0 = E* b/(2 R).
-    keys.angle = 0;
-    keys.radii[0] = 1;
-    keys.radii[1] = kInfinity;
-    const int nx = 65, ny = 129;
-    const HeightMap strip = flat_map(nx, ny, 0.1 / 64);
-    const auto roller =
-        make_element_contact(strip, {kE, shape("paraboloid", keys), 0, 0}, elements());
-    const Level line = roller->at_separation(-2e-3);
-    double sum = 0, peak = 0;
-    for (std::size_t k = 0; k < line.pixels.index.size(); ++k)
-        if (line.pixels.index[k] / nx == ny / 2) {
-            sum += line.pixels.pressure[k] * strip.dx;
-            peak = std::max(peak, line.pixels.pressure[k]);
-        }
-    // N' = pi E* b^2/(4 R) and N' = pi p0 b/2.
-    const double b = 2 * sum / (std::numbers::pi * peak);
-    CHECK_RELATIVE(peak, kE * b / 2, 1e-2);
 
     // Lateral forces of every shape, on asperities and on the points of a surface.
     keys.rim_radius = 0.5;
@@ -213,18 +152,17 @@ TEST(all_shapes) {
     keys.radii[0] = 0.5;
     keys.radii[1] = 2;
     HeightMap rough = flat_map(48, 48, 1.0 / 48);
-    const double q = 2 * std::numbers::pi / 48;
+    const double q = 2 * pi / 48;
     keys.map =
         std::make_shared<HeightMap>(height_map(96, 96, 1.0 / 48, 1.0 / 48, [q](int i, int j) {
             return 4e-3 * std::sin(2 * q * i + 1) * std::cos(3 * q * j);
         }));
-    for (int j = 0; j < 48; ++j)
-        for (int i = 0; i < 48; ++i)
+    for (const int j : up_to(48))
+        for (const int i : up_to(48))
             rough.row(j)[i] = 3e-3 * std::cos(4 * q * i) * std::cos(3 * q * j + 0.3 * i * q);
     Asperities asperities = random_asperities(300, 0.005, 0.01, 1e-3, 0.02, 5);
     for (double& x : asperities.x) x -= 0.5;
     for (double& y : asperities.y) y -= 0.5;
-    turned(asperities, keys);
     for (const ShapeRow& row : kShapes) {
         SolverOptions precise{.tolerance = 1e-12};
         lateral(row.name, keys, -0.002, 1e-6, 1e-6, [&](const Indenter& tip) {

@@ -3,6 +3,8 @@
 // (1960) and of Ting (1966), by integrals worked out here.
 #include "check.hpp"
 #include "physics/relaxation/relaxing.hpp"
+#include "support/asperities.hpp"
+#include "support/simpson.hpp"
 
 namespace test_relaxation {
 
@@ -20,7 +22,7 @@ double talbot(const Relaxation& body, double t) {
     constexpr int terms = 28;
     const auto transform = [&](C s) {
         C e = 1;
-        for (std::size_t k = 0; k < body.share.size(); ++k)
+        for (const auto k : indices(body.share))
             e -= C(body.share[k]) / (C(1) + s * C(body.time[k]));
         return (C(body.soft) / e + C(1 - body.soft)) / s;
     };
@@ -38,7 +40,7 @@ TEST(test_creep) {
     const std::vector<double> shares{0.05, 0.2, 0.1, 0.3, 0.02, 0.08},
         times{1e-3, 0.02, 0.3, 0.31, 7, 2e3};
     Relaxation sixteen;
-    for (int k = 0; k < kMostRelaxations; ++k) {
+    for (const int k : up_to(kMostRelaxations)) {
         sixteen.share.push_back(0.06);
         sixteen.time.push_back(std::pow(3.0, k - 8));
     }
@@ -66,13 +68,11 @@ TEST(test_creep) {
 // --- one asperity
 
 struct One {
-    Asperities asperities;
+    Asperities asperities = asperities_at({{0, 0, 0, kRadius}});
     std::unique_ptr<RelaxingLaw> law;
     const Creep creep;
 
     explicit One(const Relaxation& body) : creep(body) {
-        asperities.x = asperities.y = asperities.z = {0.0};
-        asperities.radius = {kRadius};
         law = make_relaxing(make_law(LawKind::hertz, asperities, kE), 1, creep);
         constexpr int first = 0;
         law->prepare(std::span(&first, 1));
@@ -80,7 +80,7 @@ struct One {
     void step(double dt) { law->step(dt); }
     double force(double u) const { return law->modulus() * law->force(0, u); }
     // a^2/r, that is, the penetration at which the elastic contact is as large.
-    double size(double u) const { return law->area(0, u) / (std::numbers::pi * kRadius); }
+    double size(double u) const { return law->area(0, u) / (pi * kRadius); }
     double go(double u) {  // the force there, accepted
         const double f = force(u);
         constexpr int first = 0;
@@ -97,18 +97,11 @@ struct One {
 
 double elastic(double u) { return kFactor * std::sqrt(kRadius) * std::pow(u, 1.5); }
 
-double integral(double from, double to, const std::function<double(double)>& f) {
-    constexpr int n = 4000;
-    double sum = f(from) + f(to);
-    for (int k = 1; k < n; ++k) sum += (k % 2 ? 4 : 2) * f(from + (to - from) * k / n);
-    return sum * (to - from) / (3 * n);
-}
-
 // u = t up to the time 1, 2 - t from there: the force at t, and the time at which the contact was
 // last as large on its way up.
 std::pair<double, double> ting(const Creep& creep, double t) {
     const auto flow = [&](double from, double to) {
-        return integral(from, to, [&](double s) { return creep.modulus(t - s); });
+        return simpson(from, to, 4000, [&](double s) { return creep.modulus(t - s); });
     };
     double t1 = t;
     if (t > 1) {
@@ -120,8 +113,8 @@ std::pair<double, double> ting(const Creep& creep, double t) {
         if (t1 < 1e-9) return {0, 0};
     }
     // With s = x^2, (3/2) s^(1/2) ds = 3 x^2 dx.
-    return {elastic(1) * integral(0, std::sqrt(t1),
-                                  [&](double x) { return 3 * x * x * creep.modulus(t - x * x); }),
+    return {elastic(1) * simpson(0, std::sqrt(t1), 4000,
+                                 [&](double x) { return 3 * x * x * creep.modulus(t - x * x); }),
             t1};
 }
 

@@ -6,20 +6,20 @@
 #include "contact/deflection.hpp"
 #include "contact/make.hpp"
 #include "physics/relaxation/relaxation.hpp"
+#include "support/asperities.hpp"
 #include "support/height_maps.hpp"
-#include "support/random_asperities.hpp"
 
 namespace test_relaxing_contact {
 
 using namespace rsc;
 
-constexpr double kE = 10, kFlat = std::numeric_limits<double>::infinity();
+constexpr double kE = 10;
 const Relaxation kBody{{0.3, 0.4}, {0.9, 3}};  // levels closer than 0.9/16 are one step of time
 
 HeightMap waves() {
     constexpr int n = 24;
     return height_map(n, n, 1.0 / n, 1.0 / n, [](int i, int j) {
-        const double x = 2 * std::numbers::pi * i / n, y = 2 * std::numbers::pi * j / n;
+        const double x = 2 * pi * i / n, y = 2 * pi * j / n;
         return 0.01 * (std::cos(x) * std::cos(2 * y + 1) + 0.7 * std::cos(3 * x + 2 * y) +
                        0.4 * std::sin(5 * y - 2 * x));
     });
@@ -40,22 +40,15 @@ constexpr Kind kModels[] = {{"asperities", false, false},
 
 std::unique_ptr<Path> make(const Kind& model, const Relaxation& body) {
     static const HeightMap map = waves();
-    static const Asperities asperities = [] {
-        Asperities a;
-        a.x = {0.2, 0.35, 0.7, 0.8, 0.4, 0.6};
-        a.y = {0.3, 0.4, 0.2, 0.75, 0.8, 0.5};
-        a.z = {0.002, 0.0, -0.004, 0.006, 0.003, -0.01};
-        a.radius = {0.2, 0.1, 0.15, 0.1, 0.3, 0.25};
-        for (double r : a.radius) {
-            a.kappa1.push_back(1.3 / r);
-            a.kappa2.push_back(1 / (1.3 * r));
-        }
-        a.angle = {0, 1, 2, 0.5, 0.3, 0.1};
-        a.biharmonic = {20, 30, 10, 40, 5, 9};
-        return a;
-    }();
+    static const Asperities asperities = curved(asperities_at({{0.2, 0.3, 0.002, 0.2},
+                                                               {0.35, 0.4, 0, 0.1},
+                                                               {0.7, 0.2, -0.004, 0.15},
+                                                               {0.8, 0.75, 0.006, 0.1},
+                                                               {0.4, 0.8, 0.003, 0.3},
+                                                               {0.6, 0.5, -0.01, 0.25}}),
+                                                1.3, 0.5, 20);
     SolverOptions options{.law = model.law, .tolerance = 1e-11, .physics = {.relaxation = body}};
-    Indenter indenter{kE, model.periodic ? kFlat : 4.0, 0.5, 0.5,
+    Indenter indenter{kE, model.periodic ? kInfinity : 4.0, 0.5, 0.5,
                       model.periodic ? Period{1, 1} : Period{}};
     if (model.elements) return make_element_contact(map, indenter, options);
     return make_asperity_contact(asperities, indenter, options);
@@ -77,7 +70,7 @@ void test_growing(const Kind& model) {
             const Passage rest(creep, 2.0 / steps);
             const double left = 2 - t;
             double mean = creep.last();
-            for (std::size_t b = 0; b < creep.branches().size(); ++b)
+            for (const auto b : indices(creep.branches()))
                 mean += creep.branches()[b].share * rest.decays[b].change *
                         std::exp(-creep.branches()[b].rate * left);
             expected += mean * (e.force - last);
@@ -122,7 +115,7 @@ void test_limits(const Kind& model) {
     CHECK_RELATIVE(soft->energy() + relaxed.energy_lost, elastic->energy(),
                    1e-5);  // no work; a few pixels leave and enter the contact
     const auto pressed = make(model, kBody);
-    for (int k = 0; k < 7; ++k) {
+    for (const int k : up_to(7)) {
         pressed->set_time(1e4 * k);
         (void)pressed->at_force(0.3 * e.force);
     }
@@ -201,7 +194,7 @@ void test_far_apart(const Kind& model) {
     };
     for (const bool by_force : {false, true}) {
         const auto coarse = run(1, by_force), fine = run(20, by_force);
-        for (std::size_t k = 0; k < fine.size(); ++k) CHECK_RELATIVE(coarse[k], fine[k], bound);
+        for (const auto k : indices(fine)) CHECK_RELATIVE(coarse[k], fine[k], bound);
     }
 }
 

@@ -1,19 +1,14 @@
 // Stresses below the surface: sums of point forces, Hertz's sphere and line, sliding, equilibrium.
-#include "case/read_case.hpp"
-#include "check.hpp"
 #include "physics/stress/pixel_stress.hpp"
 #include "physics/stress/plane_stress.hpp"
 #include "physics/stress/spot_stress.hpp"
-#include "run/run.hpp"
-#include "support/result_reader.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "truth/stress.hpp"
 
 namespace test_stress {
 
 using namespace rsc;
-
-const double pi = std::numbers::pi;
 
 PointGrid square_grid(int n, double step) {
     PointGrid grid;
@@ -31,8 +26,8 @@ LevelPixels pressures(const PointGrid& grid, const std::function<double(double, 
     pixels.y0 = grid.y0;
     pixels.dx = grid.dx;
     pixels.dy = grid.dy;
-    for (int j = 0; j < grid.ny; ++j)
-        for (int i = 0; i < grid.nx; ++i)
+    for (const int j : up_to(grid.ny))
+        for (const int i : up_to(grid.nx))
             if (const double value = p(grid.x(i), grid.y(j)); value > 0) {
                 pixels.index.push_back(static_cast<int>(grid.index(i, j)));
                 pixels.pressure.push_back(value);
@@ -124,29 +119,6 @@ TEST(hertz_sphere_of_elements) {
     }
 }
 
-TEST(errors_of_elements_below_hertz_contacts_are_of_second_order) {
-    const double nu = 0.3, z = 0.48;
-    const double zz = -1 / (1 + z * z);
-    const double rr = -(1 + nu) * (1 - z * std::atan(1 / z)) + 0.5 / (1 + z * z);
-    std::vector<double> errors;
-    for (const int n : {21, 41, 81}) {  // pixels over the radius: 5, 10, 20
-        const PointGrid grid = square_grid(2 * n + 1, 4.0 / (n - 1));
-        // Pixel means of the pressure, by 20 x 20 points, so that the order is not that of N.
-        const LevelPixels pixels = pressures(grid, [&](double x, double y) {
-            double sum = 0;
-            for (int a = 0; a < 20; ++a)
-                for (int b = 0; b < 20; ++b) {
-                    const double u = x + grid.dx * ((a + 0.5) / 20 - 0.5);
-                    const double v = y + grid.dy * ((b + 0.5) / 20 - 0.5);
-                    sum += std::sqrt(std::max(0.0, 1 - u * u - v * v)) / 400;
-                }
-            return sum;
-        });
-        errors.push_back(std::abs(largest(grid, pixels, {nu, {}, {}}, z).mises.value - (rr - zz)));
-    }
-    CHECK(errors[0] / errors[1] > 3 && errors[1] / errors[2] > 3);
-}
-
 TEST(tension_at_the_rim_of_a_hertz_contact) {
     // (1 - 2 nu) p0/3 at the rim on the surface, and p0 [(1 - 2 nu)/3 + pi mu (4 + nu)/8] behind a
     // sliding sphere (Hamilton and Goodman 1966). The pixels of the rim blur it over their size.
@@ -188,8 +160,8 @@ TEST(hertz_line_between_flats) {
     const double mu = 0.4;
     StressPlane plane;
     stress_below(grid, line, {0.5, {mu, 0}, both(grid)}, 0, whole(grid), &plane);
-    for (int i = 0; i < grid.nx; ++i)
-        if (std::abs(grid.x(i)) < 0.8) CHECK(plane.shear[static_cast<std::size_t>(i)] > 0.97 * mu);
+    for (const int i : up_to(grid.nx))
+        if (std::abs(grid.x(i)) < 0.8) CHECK(plane.shear[i] > 0.97 * mu);
     CHECK_CLOSE(plane.shear[800], std::sqrt(mu * mu), 0.02);
 }
 
@@ -213,7 +185,7 @@ TEST(the_period_is_forgotten_as_it_grows) {
     }
     const auto apart = [](const StressPlane& a, const StressPlane& b) {
         double most = 0;
-        for (std::size_t k = 0; k < a.mises.size(); ++k)
+        for (const auto k : indices(a.mises))
             most = std::max({most, std::abs(a.mises[k] - b.mises[k]),
                              std::abs(a.shear[k] - b.shear[k]),
                              std::abs(a.tension[k] - b.tension[k])});
@@ -274,25 +246,11 @@ TEST(hertz_line_that_repeats_along_its_axis) {
         stress_below(strip, pressures(strip, spot), {nu, sliding, {}}, 0.4,
                      {0, (n - 1) / 2 * one.ny, one.nx, one.ny}, &plane);
         apart.push_back(0);
-        for (std::size_t k = 0; k < one.points(); ++k)
+        for (const std::size_t k : up_to(one.points()))
             apart.back() = std::max(apart.back(), std::abs(repeated.mises[k] - plane.mises[k]));
     }
     CHECK(apart[1] < 0.55 * apart[0] && apart[2] < 0.55 * apart[1] &&
           apart[2] < 2e-3);  // of p0 = 1
-}
-
-TEST(each_plane_carries_the_force) {
-    // zz integrated over a plane is -N at each depth: the closed form of a pixel summed over points
-    // closer than the depth is exact up to exp(-2 pi z/step), and (z/W)^3 is outside a square of
-    // half-width W.
-    const double step = 0.1, half = 40;
-    for (const double z : {0.2, 0.4}) {
-        double sum = 0;
-        for (double y = -half + 0.05; y < half; y += step)
-            for (double x = -half + 0.05; x < half; x += step)
-                sum += pixel_stress(x, y, z, 0.05, 0.05, 0.3, {}).zz;
-        CHECK_CLOSE(sum, -1, 4 * std::pow(z / half, 3) + std::exp(-2 * pi * z / step) + 1e-9);
-    }
 }
 
 TEST(spots_of_asperities) {
@@ -310,8 +268,8 @@ TEST(spots_of_asperities) {
          std::vector<std::array<double, 2>>{{0.5, 0.3}, {1.0, 0.2}, {2.0, 1.0}}) {
         truth::Tensor sum{};
         const int n = 400;
-        for (int i = 0; i < n; ++i)
-            for (int j = 0; j < n; ++j) {
+        for (const int i : up_to(n))
+            for (const int j : up_to(n)) {
                 const double u = 2 * (i + 0.5) / n - 1, v = 2 * (j + 0.5) / n - 1;
                 const double p = std::sqrt(std::max(0.0, 1 - u * u - v * v)) * 4 / n / n;
                 const truth::Tensor t = truth::point_force(2, r - u, -v, z, nu);
@@ -349,10 +307,7 @@ TEST(spots_of_asperities) {
 
 std::vector<double> values_of(const std::string& text, const std::string& path,
                               const std::vector<std::string>& names) {
-    Case c = read_case_text(text, "case.nml").settings;
-    c.output.file = path;
-    CHECK(run_case(c, {.command = "rsc", .inputs = {}, .report = {}}) == 0);
-    const Reader file(path);
+    const Reader file = run_to(path, text);
     std::vector<double> all;
     for (const std::string& name : names)
         for (const double value : file.values(name)) all.push_back(value);
@@ -361,17 +316,16 @@ std::vector<double> values_of(const std::string& text, const std::string& path,
 
 TEST(a_file_holds_the_stresses_of_its_pressures) {
     const Folder folder;
-    const std::string path = folder / "stress.nc";
-    const std::string text =
-        "&solids E = 200, 200  nu = 0.25, 0.3  R = Infinity, 50  friction = 0.2 /\n"
-        "&surface L = 1, L_lambda_l = 2, L_lambda_s = 8, sigma = 1e-3 /\n"
-        "&indentation control = 'force', levels = 0.02, 0.1 /\n"
-        "&solver model = 'elements' /\n"
-        "&output stress_depths = 0.02, 0.1, sliding_direction = 120,"
-        " fields = 'pressure', 'mises', 'shear', 'tension' /\n";
-    const auto pressure = values_of(text, path, {"field_pressure"});
-    const Reader file(path);
-    const auto x = file.values("field_x"), y = file.values("field_y");
+    const Reader file =
+        run_to(folder / "stress.nc",
+               "&solids E = 200, 200  nu = 0.25, 0.3  R = Infinity, 50  friction = 0.2 /\n"
+               "&surface L = 1, L_lambda_l = 2, L_lambda_s = 8, sigma = 1e-3 /\n"
+               "&indentation control = 'force', levels = 0.02, 0.1 /\n"
+               "&solver model = 'elements' /\n"
+               "&output stress_depths = 0.02, 0.1, sliding_direction = 120,"
+               " fields = 'pressure', 'mises', 'shear', 'tension' /\n");
+    const auto x = file.values("field_x"), y = file.values("field_y"),
+               pressure = file.values("field_pressure");
     const double half = 0.5 * (x[1] - x[0]), qx = 0.2 * std::cos(2 * pi / 3),
                  qy = 0.2 * std::sin(2 * pi / 3);
     const std::array<const char*, 3> names{"mises", "shear", "tension"};
@@ -385,7 +339,7 @@ TEST(a_file_holds_the_stresses_of_its_pressures) {
         for (std::size_t d = 0; d < 2; ++d) {
             const double z = d == 0 ? 0.02 : 0.1;
             truth::Tensor sum{};
-            for (std::size_t k = 0; k < points; ++k) {
+            for (const std::size_t k : up_to(points)) {
                 if (!(pressure[k] > 0)) continue;
                 const double dx = at_x[2 + d] - x[k % x.size()], dy = at_y[2 + d] - y[k / x.size()];
                 const int n = std::hypot(dx, dy) < 4 * half ? 40 : 8;
@@ -428,8 +382,8 @@ TEST(stresses_of_threads_and_campaigns_are_the_same_bits) {
         CHECK(both.size() == 2 * one.size());
         const std::size_t each = one.size() / names.size();
         bool same = true;
-        for (std::size_t v = 0; v < names.size(); ++v)
-            for (std::size_t k = 0; k < each; ++k)
+        for (const auto v : indices(names))
+            for (const std::size_t k : up_to(each))
                 same = same && both[2 * v * each + k] == one[v * each + k] &&
                        both[(2 * v + 1) * each + k] == second[v * each + k];
         CHECK(same);

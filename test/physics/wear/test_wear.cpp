@@ -1,21 +1,16 @@
 // Wear by sliding: a worn ball by rings, volumes, waves in full contact, steps, states, files.
 #include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "case/read_case.hpp"
-#include "check.hpp"
 #include "contact/make.hpp"
 #include "physics/indenter/shapes.hpp"
-#include "run/run.hpp"
 #include "support/height_maps.hpp"
-#include "support/result_reader.hpp"
+#include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "truth/wear.hpp"
 
 namespace test_wear {
 
 using namespace rsc;
-
-const double pi = std::numbers::pi;
 
 SolverOptions wearing(double k, double tolerance = 1e-7) {
     SolverOptions options;
@@ -196,10 +191,7 @@ TEST(files) {
             "&indentation boundary='periodic' control='pressure' unit='pressure' levels=3*100 ",
         made = " / &surface L=1 L_lambda_l=2 L_lambda_s=8 n=128 sigma=1e-3 /";
     const auto run = [&](const std::string& text, const std::string& name) {
-        Case c = read_case_text(common + text, "case").settings;
-        c.output.file = folder / name;
-        CHECK(run_case(c, {.command = "rsc", .inputs = {}, .report = {}}) == 0);
-        return Reader(c.output.file);
+        return run_to(folder / name, common + text);
     };
     const Reader whole = run("distances=0, 10, 20" + made +
                                  "&output heights=.true. fields='heights','gap','contact' "
@@ -210,7 +202,7 @@ TEST(files) {
     const std::size_t points = worn.size();
     CHECK(before.size() == 2 * points);
     double lost = 0, deepest = 0, mean = 0, square = 0;
-    for (std::size_t i = 0; i < points; ++i) {
+    for (const std::size_t i : up_to(points)) {
         CHECK(before[points + i] == worn[i]);
         lost += before[i] - worn[i];
         deepest = std::max(deepest, before[i] - worn[i]);
@@ -224,7 +216,7 @@ TEST(files) {
     // Where the bodies touch there is no gap, elsewhere there is one.
     const std::vector<double> gap = whole.values("field_gap"),
                               contact = whole.values("field_contact");
-    for (std::size_t i = 0; i < gap.size(); ++i) CHECK((gap[i] == 0) == (contact[i] == 1));
+    for (const auto i : indices(gap)) CHECK((gap[i] == 0) == (contact[i] == 1));
 
     const Reader first = run("distances=0, 5, 10" + made + "&output heights=.true. /", "first.nc");
     const Reader second =

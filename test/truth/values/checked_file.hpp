@@ -45,7 +45,7 @@ public:
     void finish() const {
         int variables = 0;
         nc_inq_nvars(file_.id(), &variables);
-        for (int v = 0; v < variables; ++v) stored(v);
+        for (const int v : up_to(variables)) stored(v);
     }
 
 private:
@@ -71,7 +71,7 @@ private:
                  double relative, double absolute) const {
         if (there.size() != expected.size())
             return failed(what, ("has " + std::to_string(there.size()) + " values").c_str());
-        for (std::size_t k = 0; k < there.size(); ++k) {
+        for (const auto k : indices(there)) {
             const double allowed = std::max(relative * std::abs(expected[k]), absolute);
             const bool equal = std::isnan(expected[k])
                                    ? std::isnan(there[k])

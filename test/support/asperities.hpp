@@ -1,7 +1,36 @@
-// Sets of asperities for tests: reproducible, with heights and radii of a rough surface or worse.
+// Sets of asperities for tests: given, or random and reproducible, with heights and radii of a rough
+// surface or worse.
 #pragma once
 
+#include <random>
+
 #include "surface/asperities.hpp"
+
+// Each by its x, y, z and radius.
+inline rsc::Asperities asperities_at(const std::vector<std::array<double, 4>>& list) {
+    rsc::Asperities a;
+    for (const auto& [x, y, z, radius] : list) {
+        a.x.push_back(x);
+        a.y.push_back(y);
+        a.z.push_back(z);
+        a.radius.push_back(radius);
+    }
+    return a;
+}
+
+// The same with the curvatures ratio/radius and 1/(ratio radius).
+inline rsc::Asperities curved(rsc::Asperities a, double ratio, double angle = 0,
+                              double biharmonic = 0) {
+    a.kappa1.clear();
+    a.kappa2.clear();
+    for (const double radius : a.radius) {
+        a.kappa1.push_back(ratio / radius);
+        a.kappa2.push_back(1 / (ratio * radius));
+    }
+    a.angle.assign(a.size(), angle);
+    a.biharmonic.assign(a.size(), biharmonic);
+    return a;
+}
 
 // n asperities on the unit square, at least `spacing` apart, Gaussian heights of rms sigma,
 // lognormal radii about `radius`.
