@@ -64,7 +64,7 @@ TEST(places) {
     Case c = synthetic();
     // A rectangle that does not begin at 0, in a domain of unlike sides.
     SurfaceDomain domain;
-    domain = {-2, 5, 4, 1};
+    static_cast<Domain&>(domain) = {-2, 5, 4, 1};
     for (const double R : {0.5, kInfinity})
         for (const bool guessed : {false, true}) {
             domain.guessed = guessed;
