@@ -49,18 +49,6 @@ TEST(contacts_in_files) {
     OK(rsc_contact_energy(again, &E));
     CHECK(Z0 == 0.0045 && same == N && E == W && N > 0);
     CHECK(go_on(contact) == go_on(again));
-    // Saved after the tip moved: the level is that of the old place.
-    OK(rsc_contact_move_tip(contact, 0.45, 0.52));
-    OK(rsc_contact_result(contact, &Z0, &N, nullptr, nullptr));
-    OK(rsc_contact_save(contact, file.c_str()));
-    OK(rsc_contact_restore(&again, asperities, file.c_str()));
-    OK(rsc_contact_result(again, nullptr, &same, nullptr, nullptr));
-    CHECK(same == N);
-    double here = 0, there = 0;
-    OK(rsc_contact_indent(contact, Z0, &here));
-    OK(rsc_contact_indent(again, Z0, &there));
-    CHECK(here == there && here != N);
-    CHECK(go_on(contact) == go_on(again));
     // Other asperities, and a file that does not exist.
     CHECK(rsc_contact_restore(&again, others, file.c_str()) == -2 && says("asperities") && !again);
     CHECK(rsc_contact_restore(&again, asperities, (folder / "nothing").c_str()) == -3 &&

@@ -1,5 +1,5 @@
-// Sets of asperities for tests: given, or random and reproducible, with heights and radii of a rough
-// surface or worse.
+// Sets of asperities for tests: given, or random and reproducible, with heights and radii of a
+// rough surface or worse.
 #pragma once
 
 #include <random>
