@@ -17,12 +17,11 @@ const Case& settings_of(const rsc_case* a_case) {
     return a_case ? a_case->settings : defaults;
 }
 
-int threads_of(const Case& settings) {
-    return static_cast<int>(most_threads(settings.run.threads));
-}
+int threads_of(const Case& settings) { return int(most_threads(settings.run.threads)); }
 
 }  // namespace rsc::api
 
+using namespace rsc;
 using namespace rsc::api;
 
 int32_t rsc_case_create(rsc_case** new_case) {
@@ -41,7 +40,7 @@ int32_t rsc_case_destroy(rsc_case** old_case) { return destroyed(old_case, "old_
 int32_t rsc_case_read(rsc_case* a_case, const char* text) {
     return on(a_case, "a_case", 2, [&] {
         require(text, 2, "text");
-        rsc::ReadCase read = rsc::read_case_text(text, "case");
+        ReadCase read = read_case_text(text, "case");
         if (read.study) refuse(2, "text", "must be one case: &study belongs to the program");
         a_case->settings = std::move(read.settings);
     });
@@ -51,9 +50,9 @@ int32_t rsc_case_read_file(rsc_case* a_case, const char* path) {
     return on(a_case, "a_case", 2, [&] {
         require(path, 2, "path");
         if (!*path) refuse(2, "path", "must not be empty");
-        rsc::Options options;
+        Options options;
         options.case_path = path;
-        rsc::ReadCase read = rsc::read_case(options);
+        ReadCase read = read_case(options);
         if (read.study)
             refuse(2, "path", "must be a file with one case: &study belongs to the program");
         a_case->settings = std::move(read.settings);
@@ -65,12 +64,12 @@ int32_t rsc_case_set(rsc_case* a_case, const char* name, const char* value) {
         require(name, 2, "name");
         require(value, 3, "value");
         try {
-            (void)rsc::get_key(a_case->settings, name);
-        } catch (const rsc::Error& error) {
-            if (error.kind() == rsc::Failure::bad_input) throw Refusal{2, error.what()};
+            (void)get_key(a_case->settings, name);
+        } catch (const Error& error) {
+            if (error.kind() == Failure::bad_input) throw Refusal{2, error.what()};
             throw;
         }
-        rsc::set_key(a_case->settings, name, value, true);
+        set_key(a_case->settings, name, value, true);
     });
 }
 
@@ -78,26 +77,25 @@ int32_t rsc_case_get(const rsc_case* a_case, const char* name, char* buffer, int
                      int64_t* length) {
     return on(a_case, "a_case", 2, [&] {
         require(name, 2, "name");
-        put_text(rsc::get_key(a_case->settings, name), buffer, size, length, 3);
+        put_text(get_key(a_case->settings, name), buffer, size, length, 3);
     });
 }
 
 int32_t rsc_case_text(const rsc_case* a_case, char* buffer, int64_t size, int64_t* length) {
-    return on(a_case, "a_case", 1, [&] {
-        put_text(rsc::effective_namelist(a_case->settings), buffer, size, length, 2);
-    });
+    return on(a_case, "a_case", 1,
+              [&] { put_text(effective_namelist(a_case->settings), buffer, size, length, 2); });
 }
 
 int32_t rsc_key_count(int64_t* count) {
-    return on(count, "count", 0, [&] { put(count, rsc::registry().size()); });
+    return on(count, "count", 0, [&] { put(count, registry().size()); });
 }
 
 int32_t rsc_key_name(int64_t key, char* buffer, int64_t size, int64_t* length) {
     return guarded(0, [&] {
-        const auto keys = rsc::registry();
+        const auto keys = registry();
         if (key < 0 || key >= static_cast<int64_t>(keys.size()))
             refuse(1, "key", "must be the number of a key");
-        put_text(rsc::full_name(keys[static_cast<std::size_t>(key)]), buffer, size, length, 2);
+        put_text(full_name(keys[at(key)]), buffer, size, length, 2);
     });
 }
 
@@ -106,13 +104,13 @@ namespace {
 int32_t run(const rsc_case* a_case, bool resume, rsc_watch watch, void* data,
             int64_t* failed_levels) {
     return on(a_case, "a_case", 1, [&] {
-        rsc::require_valid(a_case->settings);
-        rsc::RunOptions how;
+        require_valid(a_case->settings);
+        RunOptions how;
         how.command = resume ? "rsc_case_resume" : "rsc_case_run";
         how.resume = resume;
         if (watch)
             how.report = [=](double done, double total) { return watch(done, total, data) != 0; };
-        const long failed = rsc::run_case(a_case->settings, how);
+        const long failed = run_case(a_case->settings, how);
         put(failed_levels, failed);
         if (failed > 0)
             throw Outcome{

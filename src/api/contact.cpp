@@ -14,11 +14,11 @@ namespace {
 
 // The level statuses of rsc.h are those of contact/level.hpp.
 static_assert(kLevelStatusNames.size() == RSC_LEVEL_LAST_ + 1 &&
-              static_cast<int>(LevelStatus::converged) == RSC_LEVEL_CONVERGED &&
-              static_cast<int>(LevelStatus::out_of_validity) == RSC_LEVEL_OUT_OF_VALIDITY &&
-              static_cast<int>(LevelStatus::overlapping) == RSC_LEVEL_OVERLAPPING &&
-              static_cast<int>(LevelStatus::not_unique) == RSC_LEVEL_NOT_UNIQUE &&
-              static_cast<int>(LevelStatus::not_converged) == RSC_LEVEL_NOT_CONVERGED);
+              int(LevelStatus::converged) == RSC_LEVEL_CONVERGED &&
+              int(LevelStatus::out_of_validity) == RSC_LEVEL_OUT_OF_VALIDITY &&
+              int(LevelStatus::overlapping) == RSC_LEVEL_OVERLAPPING &&
+              int(LevelStatus::not_unique) == RSC_LEVEL_NOT_UNIQUE &&
+              int(LevelStatus::not_converged) == RSC_LEVEL_NOT_CONVERGED);
 
 void require_contact_keys(const Case& settings) {
     require_valid(settings, {"solver", "solids%resistivity", "solids%relaxation_share",
@@ -76,10 +76,10 @@ void put_finite(double* to, double value) {
 void tell_convergence(const rsc_contact& contact) {
     const Level& level = *contact.path.level();
     if (level.converged) return;
-    if (level.fallback == rsc::Fallback::held)
+    if (level.fallback == Fallback::held)
         throw Outcome{RSC_NOT_CONVERGED,
                       "no state has this force: the result is the level of smallest force"};
-    if (level.fallback == rsc::Fallback::jump)
+    if (level.fallback == Fallback::jump)
         throw Outcome{
             RSC_NOT_CONVERGED,
             "the force jumps over this one: the result is a state at one side of the jump"};
@@ -168,11 +168,11 @@ bool of_map(std::string_view name) {
 
 std::string known_values() {
     std::string names;
-    for (const Derived& d : kDerived) names += (names.empty() ? "" : ", ") + std::string(d.name);
+    for (const Derived& d : kDerived) enlist(names, ", ", d.name);
     for (const LevelQuantity& q : level_quantities()) {
-        const bool derived = std::any_of(std::begin(kDerived), std::end(kDerived),
-                                         [&](const Derived& d) { return d.name == q.name; });
-        if (!derived && !of_map(q.name)) names += std::string(", ") + q.name;
+        const bool derived =
+            std::ranges::any_of(kDerived, [&](const Derived& d) { return d.name == q.name; });
+        if (!derived && !of_map(q.name)) enlist(names, ", ", q.name);
     }
     return names;
 }
@@ -180,18 +180,19 @@ std::string known_values() {
 }  // namespace
 }  // namespace rsc::api
 
+using namespace rsc;
 using namespace rsc::api;
 
 int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperities, double E_star,
                            double R, double x0, double y0, const rsc_case* a_case) {
     return constructed(7, contact, "contact", [&] {
         require(asperities, 2, "asperities");
-        if (!rsc::usable_positive(E_star)) refuse(3, "E_star", rsc::kPositiveBounds);
-        if (!rsc::usable_positive(R) && !(R > 0 && std::isinf(R)))
+        if (!usable_positive(E_star)) refuse(3, "E_star", kPositiveBounds);
+        if (!usable_positive(R) && !(R > 0 && std::isinf(R)))
             refuse(4, "R", "must be from 1e-50 to 1e50, or Infinity");
         require_finite(x0, 5, "x0");
         require_finite(y0, 6, "y0");
-        const rsc::Case& settings = settings_of(a_case);
+        const Case& settings = settings_of(a_case);
         require_contact_keys(settings);
         if (!settings.solids.layer_thickness.empty())
             refuse(7, "a_case",
@@ -202,9 +203,9 @@ int32_t rsc_contact_create(rsc_contact** contact, const rsc_asperities* asperiti
                    "has a shape other than a sphere: use rsc_contact_create_from_case");
         const auto& on = asperities->model;
         require_model(*on, settings, 7);
-        const rsc::SurfaceDomain domain = domain_of(settings, *on);
-        const rsc::Indenter indenter{E_star, R, x0, y0, rsc::period_of(settings, domain)};
-        auto made = std::make_unique<rsc_contact>(on, std::make_shared<const rsc::Case>(settings),
+        const SurfaceDomain domain = domain_of(settings, *on);
+        const Indenter indenter{E_star, R, x0, y0, period_of(settings, domain)};
+        auto made = std::make_unique<rsc_contact>(on, std::make_shared<const Case>(settings),
                                                   surrounded(indenter, domain));
         made->given = {E_star, R};
         return made.release();
@@ -215,14 +216,14 @@ int32_t rsc_contact_create_from_case(rsc_contact** contact, const rsc_asperities
                                      const rsc_case* a_case) {
     return constructed(3, contact, "contact", [&] {
         require(asperities, 2, "asperities");
-        const rsc::Case& settings = settings_of(a_case);
+        const Case& settings = settings_of(a_case);
         require_contact_keys(settings);
-        rsc::require_valid(settings, {"solids", "indenter"});
+        require_valid(settings, {"solids", "indenter"});
         const auto& on = asperities->model;
         require_model(*on, settings, 3);
-        const rsc::SurfaceDomain domain = domain_of(settings, *on);
-        return new rsc_contact(on, std::make_shared<const rsc::Case>(settings),
-                               surrounded(rsc::indenter_of(settings, domain), domain));
+        const SurfaceDomain domain = domain_of(settings, *on);
+        return new rsc_contact(on, std::make_shared<const Case>(settings),
+                               surrounded(indenter_of(settings, domain), domain));
     });
 }
 
@@ -232,8 +233,8 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
     return on(contact, "contact", 2, [&] {
         require_finite(x0, 2, "x0");
         require_finite(y0, 3, "y0");
-        const rsc::Vec2 place = place_of(*contact, x0, y0);
-        const rsc::Indenter& now = contact->path.indenter();
+        const Vec2 place = place_of(*contact, x0, y0);
+        const Indenter& now = contact->path.indenter();
         if (place.x == now.x0 && place.y == now.y0) return;
         // Contacts with a memory follow the tip at once: what can be asked of the last level is
         // kept.
@@ -264,16 +265,14 @@ int32_t rsc_contact_indent(rsc_contact* contact, double separation, double* forc
         require_finite(separation, 2, "separation");
         // The present level is not computed again, unless the state may have changed on a way of
         // the tip there and back.
-        rsc::Path& path = contact->path;
-        const rsc::Indenter& tip = path.indenter();
-        const rsc::Vec2 place = path.place_of_level();
-        const bool same =
-            path.level() && path.level()->separation == separation && place.x == tip.x0 &&
-            place.y == tip.y0 && !path.pulls() &&
-            (path.clock() == rsc::PathClock::none || path.level()->time == path.time() ||
-             path.level()->distance == path.time());
-        if (!same)
-            reach(*contact, false, [&](rsc::Path& p) { return p.at_separation(separation); });
+        Path& path = contact->path;
+        const Indenter& tip = path.indenter();
+        const Vec2 place = path.place_of_level();
+        const bool same = path.level() && path.level()->separation == separation &&
+                          place.x == tip.x0 && place.y == tip.y0 && !path.pulls() &&
+                          (path.clock() == PathClock::none || path.level()->time == path.time() ||
+                           path.level()->distance == path.time());
+        if (!same) reach(*contact, false, [&](Path& p) { return p.at_separation(separation); });
         put(force, path.level()->force);
         tell_convergence(*contact);
     });
@@ -289,7 +288,7 @@ int32_t rsc_contact_set_time(rsc_contact* contact, double time) {
 int32_t rsc_contact_set_distance(rsc_contact* contact, double distance) {
     return on(contact, "contact", 2, [&] {
         require_finite(distance, 2, "distance");
-        if (contact->path.clock() == rsc::PathClock::distance) contact->path.set_time(distance);
+        if (contact->path.clock() == PathClock::distance) contact->path.set_time(distance);
     });
 }
 
@@ -302,7 +301,7 @@ int32_t rsc_contact_press(rsc_contact* contact, double force, double* separation
         if (!std::isfinite(touch))
             refuse(1, "contact", "has no asperity under its sphere, so its force is always 0");
         const bool by_force = force > 0 || pulls;
-        reach(*contact, by_force, [&](rsc::Path& path) {
+        reach(*contact, by_force, [&](Path& path) {
             return by_force ? path.at_force(force) : path.at_separation(touch);
         });
         put(separation, contact->path.level()->separation);
@@ -313,7 +312,7 @@ int32_t rsc_contact_press(rsc_contact* contact, double force, double* separation
 int32_t rsc_contact_result(const rsc_contact* contact, double* separation, double* force,
                            double* area, int64_t* contacts) {
     return guarded(0, [&] {
-        const rsc::Level& level = level_of(contact);
+        const Level& level = level_of(contact);
         put(separation, level.separation);
         put(force, level.force);
         put(area, level.area);
@@ -324,7 +323,7 @@ int32_t rsc_contact_result(const rsc_contact* contact, double* separation, doubl
 int32_t rsc_contact_level(const rsc_contact* contact, int32_t* level_status, int64_t* candidates,
                           int64_t* iterations, int64_t* overlapping_pairs, double* residual) {
     return guarded(0, [&] {
-        const rsc::Level& level = last_level_of(contact);
+        const Level& level = last_level_of(contact);
         put(level_status, level.status);
         put(candidates, level.candidates);
         put(iterations, level.iterations);
@@ -355,11 +354,11 @@ int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* for
                            int64_t* overlapping_pairs, int64_t* large_contacts, int64_t* beyond_law,
                            int64_t* edge_contacts) {
     return guarded(0, [&] {
-        const rsc::Level& level = level_of(contact);
+        const Level& level = level_of(contact);
         double dN_dZ0 = 0, W = 0;  // nothing is written until all values are known to be finite
         if (stiffness) put_finite(&dN_dZ0, stiffness_of(*contact));
         if (energy) put_finite(&W, level.energy);
-        const rsc::Vec2 lateral = lateral_x || lateral_y ? lateral_force_of(*contact) : rsc::Vec2{};
+        const Vec2 lateral = lateral_x || lateral_y ? lateral_force_of(*contact) : Vec2{};
         put(separation, level.separation);
         put(force, level.force);
         put(stiffness, dN_dZ0);
@@ -378,7 +377,7 @@ int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* for
 
 int32_t rsc_contact_value(rsc_contact* contact, const char* name, double* value) {
     return guarded(0, [&] {
-        const rsc::Level& level = last_level_of(contact);
+        const Level& level = last_level_of(contact);
         require(name, 2, "name");
         require(value, 3, "value");
         const std::string_view asked = name;
@@ -387,9 +386,8 @@ int32_t rsc_contact_value(rsc_contact* contact, const char* name, double* value)
                 if (asked != "separation") (void)level_of(contact);
                 return put_finite(value, quantity.of(*contact));
             }
-        const rsc::LevelQuantity* quantity = rsc::find_quantity(asked);
-        if (!quantity || of_map(asked))
-            refuse(2, "name", ("must be one of " + known_values()).c_str());
+        const LevelQuantity* quantity = find_quantity(asked);
+        if (!quantity || of_map(asked)) refuse(2, "name", "must be one of ", known_values());
         put_finite(value, quantity->of(level));
     });
 }
@@ -397,24 +395,21 @@ int32_t rsc_contact_value(rsc_contact* contact, const char* name, double* value)
 int32_t rsc_contact_spots(const rsc_contact* contact, int64_t n, int32_t* asperity, double* force,
                           double* radius, double* penetration) {
     return guarded(0, [&] {
-        const rsc::Level& level = level_of(contact);
+        const Level& level = level_of(contact);
         if (n < static_cast<int64_t>(level.asperity.size())) {
-            refuse(2, "n",
-                   ("must be at least the number of contacts, " +
-                    std::to_string(level.asperity.size()))
-                       .c_str());
+            refuse(2, "n", "must be at least the number of contacts, ", level.asperity.size());
         }
-        if (asperity) std::copy(level.asperity.begin(), level.asperity.end(), asperity);
-        if (force) std::copy(level.f.begin(), level.f.end(), force);
-        if (radius) std::copy(level.a.begin(), level.a.end(), radius);
-        if (penetration) std::copy(level.u.begin(), level.u.end(), penetration);
+        if (asperity) std::ranges::copy(level.asperity, asperity);
+        if (force) std::ranges::copy(level.f, force);
+        if (radius) std::ranges::copy(level.a, radius);
+        if (penetration) std::ranges::copy(level.u, penetration);
     });
 }
 
 int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* force,
                                  double* radius, double* penetration) {
     return guarded(0, [&] {
-        const rsc::Level& level = level_of(contact);
+        const Level& level = level_of(contact);
         if (contact->on->points)
             refuse(1, "contact", "has no asperities: it is solved by boundary elements");
         if (n != static_cast<int64_t>(contact->path.asperities()->size()))
@@ -423,7 +418,7 @@ int32_t rsc_contact_per_asperity(const rsc_contact* contact, int64_t n, double* 
         const auto spread = [&](double* output, const std::vector<double>& values) {
             if (!output) return;
             std::fill(output, output + n, 0.0);
-            for (std::size_t k = 0; k < values.size(); ++k) output[level.asperity[k]] = values[k];
+            for (const auto k : indices(values)) output[level.asperity[k]] = values[k];
         };
         spread(force, level.f);
         spread(radius, level.a);
@@ -436,13 +431,13 @@ int32_t rsc_contact_asperities(rsc_asperities** asperities, const rsc_contact* c
         require(contact, 2, "contact");
         const auto touched = contact->path.asperities();
         if (!touched) refuse(2, "contact", "has no asperities: it is solved by boundary elements");
-        rsc::SurfaceModel model;
+        SurfaceModel model;
         model.asperities = *touched;
         model.domain = contact->on->domain;
         model.statistics = contact->on->statistics;
         model.list = contact->on->list;
         auto made = std::make_unique<rsc_asperities>();
-        made->model = std::make_shared<const rsc::SurfaceModel>(std::move(model));
+        made->model = std::make_shared<const SurfaceModel>(std::move(model));
         return made.release();
     });
 }
@@ -450,20 +445,20 @@ int32_t rsc_contact_asperities(rsc_asperities** asperities, const rsc_contact* c
 int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const double* x,
                                const double* y, double* deflection) {
     return guarded(0, [&] {
-        const rsc::Level& last = level_of(contact);
+        const Level& last = level_of(contact);
         if (n < 0) refuse(2, "n", "must not be negative");
         if (n == 0) return;
         require_finite(x, n, 3, "x");
         require_finite(y, n, 4, "y");
         require(deflection, 5, "deflection");
-        const rsc::Indenter indenter = contact->indenter_at_level();
+        const Indenter indenter = contact->indenter_at_level();
         const auto kernel =
-            rsc::make_kernel(rsc::Interaction::point, rsc::substrate_of(indenter), indenter.period);
-        const std::optional<rsc::Level> lasting = contact->path.lasting_loads(last);
-        const rsc::Level& level = lasting ? *lasting : last;
+            make_kernel(Interaction::point, substrate_of(indenter), indenter.period);
+        const std::optional<Level> lasting = contact->path.lasting_loads(last);
+        const Level& level = lasting ? *lasting : last;
         for (int64_t i = 0; i < n; ++i) {
-            const rsc::Vec2 at = indenter.image(x[i], y[i]);
-            deflection[i] = rsc::deflection(level, *kernel, at.x, at.y);
+            const Vec2 place = indenter.image(x[i], y[i]);
+            deflection[i] = rsc::deflection(level, *kernel, place.x, place.y);
         }
     });
 }

@@ -3,6 +3,7 @@
 #include "api/guard.hpp"
 #include "api/handles.hpp"
 
+using namespace rsc;
 using namespace rsc::api;
 
 namespace rsc::api {
@@ -31,8 +32,7 @@ Vec2 place_of(const rsc_contact& contact, double x0, double y0) {
     if (indenter.period.along_x()) x0 = onto(x0, domain.x0, domain.Lx);
     if (indenter.period.along_y()) y0 = onto(y0, domain.y0, domain.Ly);
     if (const Rectangle& known = contact.options.surface.extent; known.known()) {
-        domain = {known.x0, known.y0, known.Lx, known.Ly};
-        domain.guessed = false;
+        domain = {{known.x0, known.y0, known.Lx, known.Ly}, {}};
     }
     require_tip_above(domain, indenter.shape, x0, y0);
     return {x0, y0};
@@ -56,14 +56,14 @@ Indenter surrounded(Indenter indenter, const SurfaceDomain& domain) {
 
 }  // namespace rsc::api
 
-rsc_contact::rsc_contact(std::shared_ptr<const rsc::SurfaceModel> on_,
-                         std::shared_ptr<const rsc::Case> keys_, const rsc::Indenter& indenter)
+rsc_contact::rsc_contact(std::shared_ptr<const SurfaceModel> on_, std::shared_ptr<const Case> keys_,
+                         const Indenter& indenter)
     : on(std::move(on_)),
       keys(std::move(keys_)),
-      options(rsc::solver_of(*keys, domain_of(*keys, *on))),
-      owned(rsc::make_contact(*on, indenter, options)),
+      options(solver_of(*keys, domain_of(*keys, *on))),
+      owned(make_contact(*on, indenter, options)),
       path(*owned),
-      judge(options, rsc::JudgedSurface{on->points.get()}),
+      judge(options, JudgedSurface{on->points.get()}),
       committed(path.state()) {}
 
 rsc_contact::rsc_contact(const rsc_contact& like)
@@ -71,8 +71,8 @@ rsc_contact::rsc_contact(const rsc_contact& like)
     given = like.given;
 }
 
-rsc::Indenter rsc_contact::indenter_at_level() const {
-    rsc::Indenter tip = path.indenter();
+Indenter rsc_contact::indenter_at_level() const {
+    Indenter tip = path.indenter();
     tip.x0 = path.place_of_level().x;
     tip.y0 = path.place_of_level().y;
     return tip;

@@ -48,7 +48,7 @@ void put_tip(rsc_friction& friction, const Vec2& tip) {
 double shared_force(const Level& first, const Level& second) {
     double shared = 0;
     std::size_t k = 0;
-    for (std::size_t j = 0; j < first.asperity.size(); ++j) {
+    for (const auto j : indices(first.asperity)) {
         while (k < second.asperity.size() && second.asperity[k] < first.asperity[j]) ++k;
         if (k < second.asperity.size() && second.asperity[k] == first.asperity[j])
             shared += std::min(first.f[j], second.f[k]);
@@ -71,6 +71,7 @@ void with_levels(rsc_friction& friction, Ask&& ask) {
 }  // namespace
 }  // namespace rsc::api
 
+using namespace rsc;
 using namespace rsc::api;
 
 int32_t rsc_tangential_ratio(const double* E, const double* nu, double* ratio) {
@@ -81,10 +82,10 @@ int32_t rsc_stiffness_ratio(const double* E, const double* nu, double* ratio) {
     return on(E, "E", 1, [&] {
         require(nu, 2, "nu");
         require(ratio, 3, "ratio");
-        for (int i = 0; i < 2; ++i)
+        for (const int i : indices(2))
             if (!(nu[i] >= -1 && nu[i] <= 0.5)) refuse(2, "nu", "must be between -1 and 0.5");
         const double moduli[2] = {E[0], E[1]}, ratios[2] = {nu[0], nu[1]};
-        put(ratio, rsc::tangential_ratio(moduli, ratios));
+        put(ratio, tangential_ratio(moduli, ratios));
     });
 }
 
@@ -93,9 +94,9 @@ int32_t rsc_friction_create(rsc_friction** friction, const rsc_contact* contact,
     return constructed(3, friction, "friction", [&] {
         require(contact, 2, "contact");
         require_elastic(*contact);
-        if (!(mu >= 0) || !rsc::usable(mu))
+        if (!(mu >= 0) || !usable(mu))
             refuse(3, "mu", "must be zero or positive, and at most 1e50");
-        if (!rsc::usable_positive(ratio)) refuse(4, "ratio", rsc::kPositiveBounds);
+        if (!usable_positive(ratio)) refuse(4, "ratio", kPositiveBounds);
         return new rsc_friction(*contact, {mu, ratio});
     });
 }
@@ -105,11 +106,11 @@ int32_t rsc_friction_create_from_case(rsc_friction** friction, const rsc_contact
     return constructed(3, friction, "friction", [&] {
         require(contact, 2, "contact");
         require_elastic(*contact);
-        const rsc::Case& settings = settings_of(a_case);
-        rsc::require_valid(settings, {"solids"});
-        return new rsc_friction(*contact,
-                                {settings.solids.friction,
-                                 rsc::tangential_ratio(settings.solids.E, settings.solids.nu)});
+        const Case& settings = settings_of(a_case);
+        require_valid(settings, {"solids"});
+        return new rsc_friction(
+            *contact,
+            {settings.solids.friction, tangential_ratio(settings.solids.E, settings.solids.nu)});
     });
 }
 
@@ -132,9 +133,9 @@ int32_t rsc_friction_update(rsc_friction* friction, double separation, double x,
         require_usable(x, 3, "x");
         require_usable(y, 4, "y");
         with_levels(*friction, [&] {
-            rsc::FrictionHistory& history = friction->history;
+            FrictionHistory& history = friction->history;
             history.go_to(friction->curve, -separation, {x, y});
-            const rsc::Slide Q = history.tangential_force();
+            const Slide Q = history.tangential_force();
             put(force, history.force());
             put(force_x, Q.x);
             put(force_y, Q.y);
@@ -147,16 +148,15 @@ int32_t rsc_friction_move_tip(rsc_friction* friction, double x0, double y0) {
     return on(friction, "friction", 2, [&] {
         require_finite(x0, 2, "x0");
         require_finite(y0, 3, "y0");
-        const rsc::Vec2 to = place_of(friction->outer, x0, y0);
-        const rsc::Indenter& indenter = friction->outer.path.indenter();
-        const rsc::Vec2 before{indenter.x0, indenter.y0};
+        const Vec2 to = place_of(friction->outer, x0, y0);
+        const Indenter& indenter = friction->outer.path.indenter();
+        const Vec2 before{indenter.x0, indenter.y0};
         if (before.x == to.x && before.y == to.y) return;
         with_levels(*friction, [&] {
-            rsc::FrictionHistory& history = friction->history;
+            FrictionHistory& history = friction->history;
             const double delta = history.approach();
             try {
-                const rsc::Level here =
-                    history.force() > 0 ? friction->curve.level(delta) : rsc::Level{};
+                const Level here = history.force() > 0 ? friction->curve.level(delta) : Level{};
                 put_tip(*friction, to);
                 if (history.state().begun)
                     history.move(
@@ -187,8 +187,8 @@ int32_t rsc_friction_state(const rsc_friction* friction, double* separation, dou
                            double* force, double* force_x, double* force_y, double* energy,
                            double* tangential_energy, double* lost, double* stick_separation) {
     return guarded(0, [&] {
-        const rsc::FrictionHistory& history = path_of(friction);
-        const rsc::Slide Q = history.tangential_force();
+        const FrictionHistory& history = path_of(friction);
+        const Slide Q = history.tangential_force();
         put(separation, -history.approach());
         put(x, history.slide().x);
         put(y, history.slide().y);
@@ -204,7 +204,7 @@ int32_t rsc_friction_state(const rsc_friction* friction, double* separation, dou
 
 int32_t rsc_friction_commit(rsc_friction* friction) {
     return on(friction, "friction", 0, [&] {
-        const rsc::Indenter& tip = friction->outer.path.indenter();
+        const Indenter& tip = friction->outer.path.indenter();
         friction->committed_tip = {tip.x0, tip.y0};
         friction->history.commit();
     });
@@ -220,15 +220,15 @@ int32_t rsc_friction_rollback(rsc_friction* friction) {
 int32_t rsc_friction_first_loading(rsc_friction* friction, int64_t n, const double* slide,
                                    double* force, double* stick_separation) {
     return guarded(3, [&] {
-        const rsc::FrictionHistory& history = contact_of(friction);
+        const FrictionHistory& history = contact_of(friction);
         if (n < 0) refuse(2, "n", "must not be negative");
         if (n == 0) return;
         require_finite(slide, n, 3, "slide");
         require(force, 4, "force");
         with_levels(*friction, [&] {
-            const auto points = rsc::slide_to(friction->curve, history.friction(),
-                                              history.approach(), {slide, slide + n});
-            for (std::size_t k = 0; k < points.size(); ++k) {
+            const auto points = slide_to(friction->curve, history.friction(), history.approach(),
+                                         {slide, slide + n});
+            for (const auto k : indices(points)) {
                 force[k] = points[k].force;
                 if (stick_separation) stick_separation[k] = -points[k].stick_approach;
             }
@@ -238,12 +238,12 @@ int32_t rsc_friction_first_loading(rsc_friction* friction, int64_t n, const doub
 
 int32_t rsc_friction_slide(rsc_friction* friction, double force, double* slide) {
     return guarded(2, [&] {
-        const rsc::FrictionHistory& history = contact_of(friction);
+        const FrictionHistory& history = contact_of(friction);
         require_finite(force, 2, "force");
         require(slide, 3, "slide");
         with_levels(*friction, [&] {
             put(slide,
-                rsc::slide_at_force(friction->curve, history.friction(), history.approach(), force)
+                slide_at_force(friction->curve, history.friction(), history.approach(), force)
                     .displacement);
         });
     });
@@ -251,8 +251,8 @@ int32_t rsc_friction_slide(rsc_friction* friction, double force, double* slide) 
 
 int32_t rsc_friction_full_slip(const rsc_friction* friction, double* slide, double* force) {
     return guarded(0, [&] {
-        const rsc::FrictionHistory& history = contact_of(friction);
-        put(slide, rsc::full_slip(friction->curve, history.friction(), history.approach()));
+        const FrictionHistory& history = contact_of(friction);
+        put(slide, full_slip(friction->curve, history.friction(), history.approach()));
         put(force, history.friction().coefficient * history.force());
     });
 }
@@ -260,15 +260,13 @@ int32_t rsc_friction_full_slip(const rsc_friction* friction, double* slide, doub
 int32_t rsc_friction_spots(rsc_friction* friction, int64_t n, int64_t* count, int32_t* asperity,
                            double* radius, double* stick_radius, double* force_x, double* force_y) {
     return guarded(0, [&] {
-        const rsc::FrictionHistory& history = path_of(friction);
+        const FrictionHistory& history = path_of(friction);
         with_levels(*friction, [&] {
-            const auto spots = rsc::slip_of_spots(friction->curve, history);
+            const auto spots = slip_of_spots(friction->curve, history);
             put(count, spots.size());
             if (n < static_cast<int64_t>(spots.size()))
-                refuse(2, "n",
-                       ("must be at least the number of spots, " + std::to_string(spots.size()))
-                           .c_str());
-            for (std::size_t k = 0; k < spots.size(); ++k) {
+                refuse(2, "n", "must be at least the number of spots, ", spots.size());
+            for (const auto k : indices(spots)) {
                 if (asperity) asperity[k] = spots[k].asperity;
                 if (radius) radius[k] = spots[k].radius;
                 if (stick_radius) stick_radius[k] = spots[k].stick_radius;

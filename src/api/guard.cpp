@@ -50,25 +50,15 @@ std::int32_t status_of(const Error& error, int input) noexcept {
     return RSC_INTERNAL;
 }
 
-void refuse(int argument, const char* name, const char* why) {
-    // By name, because other languages number arguments differently.
-    throw Refusal{argument, std::string("argument ") + name + " " + why};
-}
-
 void require_finite(const double* values, std::int64_t n, int argument, const char* name) {
     require(values, argument, name);
     for (std::int64_t k = 0; k < n; ++k) {
-        if (!usable(values[k]))
-            refuse(
-                argument, name,
-                (std::string(kNumberBounds) + ": entry " + std::to_string(k) + " is not").c_str());
+        if (!usable(values[k])) refuse(argument, name, kNumberBounds, ": entry ", k, " is not");
         // NetCDF's value for unwritten or masked data; in single precision it differs in the eighth
         // digit.
         constexpr double fill = 9.969209968386869e36;
         if (std::abs(values[k] / fill - 1) < 1e-6)
-            refuse(argument, name,
-                   ("holds the fill value of NetCDF: entry " + std::to_string(k) + " is missing")
-                       .c_str());
+            refuse(argument, name, "holds the fill value of NetCDF: entry ", k, " is missing");
     }
 }
 
@@ -77,7 +67,7 @@ void put_text(std::string_view text, char* buffer, std::int64_t size, std::int64
     if (size < 0) refuse(first + 1, "size", "must not be negative");
     if (!buffer && size > 0) refuse(first, "buffer", "must not be null unless size is 0");
     if (size > 0) {
-        const std::size_t n = std::min(text.size(), static_cast<std::size_t>(size - 1));
+        const std::size_t n = std::min(text.size(), at(size - 1));
         std::memcpy(buffer, text.data(), n);
         buffer[n] = '\0';
     }
@@ -86,6 +76,7 @@ void put_text(std::string_view text, char* buffer, std::int64_t size, std::int64
 
 }  // namespace rsc::api
 
+using namespace rsc;
 using namespace rsc::api;
 
 int32_t rsc_version(char* buffer, int64_t size, int64_t* length) {
@@ -94,14 +85,14 @@ int32_t rsc_version(char* buffer, int64_t size, int64_t* length) {
 
 int32_t rsc_lock(void) {
     return guarded(0, [] {
-        rsc::library_lock().lock();
-        rsc::suppress_hdf5_messages();
+        library_lock().lock();
+        suppress_hdf5_messages();
     });
 }
 
 int32_t rsc_unlock(void) {
     return guarded(0, [] {
-        if (!rsc::library_lock().unlock())
+        if (!library_lock().unlock())
             throw Outcome{RSC_NO_RESULT, "this thread does not hold the lock"};
     });
 }

@@ -63,7 +63,10 @@ std::int32_t guarded(int input, Body&& body) noexcept {
     }
 }
 
-[[noreturn]] void refuse(int argument, const char* name, const char* why);
+// The message has the name, because other languages number arguments differently.
+[[noreturn]] void refuse(int argument, const char* name, const auto&... why) {
+    throw Refusal{argument, joined("argument ", name, " ", why...)};
+}
 
 // For handles (api/handles.hpp) also checks their kind.
 template <class T>

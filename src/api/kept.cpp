@@ -23,7 +23,7 @@ constexpr double kFormat = 2;  // increased when earlier versions would misread 
 
 std::uint64_t mix(std::uint64_t hash, const void* data, std::size_t n) {  // FNV-1a
     const auto* bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t k = 0; k < n; ++k) hash = (hash ^ bytes[k]) * 0x100000001b3ull;
+    for (const auto k : indices(n)) hash = (hash ^ bytes[k]) * 0x100000001b3ull;
     return hash;
 }
 constexpr std::uint64_t kHash = 0xcbf29ce484222325ull;
@@ -39,10 +39,9 @@ double digest(const SurfaceModel& on) {
                    values.size() * sizeof(double));
     }
     if (on.points)
-        for (int j = 0; j < on.points->ny; ++j)
-            hash = mix(hash, on.points->row(j),
-                       static_cast<std::size_t>(on.points->nx) * sizeof(double));
-    return static_cast<double>(hash >> 11);  // exact as a double
+        for (const int j : indices(on.points->ny))
+            hash = mix(hash, on.points->row(j), at(on.points->nx) * sizeof(double));
+    return double(hash >> 11);  // exact as a double
 }
 
 struct Entries {
@@ -70,12 +69,12 @@ void write(const std::string& path, const char* what, Entries& entries) {
     entries.numbers["format"] = {kFormat};
     entries.texts["rsc"] = RSC_VERSION;
     ArchiveWriter writer;
-    writer(static_cast<std::uint64_t>(entries.texts.size()));
+    writer(std::uint64_t(entries.texts.size()));
     for (const auto& [name, text] : entries.texts) {
         writer(characters(name));
         writer(characters(text));
     }
-    writer(static_cast<std::uint64_t>(entries.numbers.size()));
+    writer(std::uint64_t(entries.numbers.size()));
     for (const auto& [name, numbers] : entries.numbers) {
         writer(characters(name));
         writer(numbers);
@@ -86,10 +85,10 @@ void write(const std::string& path, const char* what, Entries& entries) {
 
 Entries read(const std::string& path, const char* what) {
     const std::string head = kStart + what + "\n";
-    const auto refuse = [&](const std::string& why) { bad_input("'" + path + "' " + why); };
+    const auto refuse = [&](const auto&... why) { bad_input("'", path, "' ", why...); };
     if (access(path.c_str(), R_OK) != 0)  // not by opening it: a FIFO would wait for a writer
-        bad_input("cannot read '" + path + "'");
-    if (!begins_with(path, head)) refuse(std::string("is not ") + what + " saved by rsc");
+        bad_input("cannot read '", path, "'");
+    if (!begins_with(path, head)) refuse("is not ", what, " saved by rsc");
     std::ifstream in(path, std::ios::binary);
     const std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     std::uint64_t hash = 0;
@@ -112,7 +111,7 @@ Entries read(const std::string& path, const char* what) {
     }
     reader.end();
     if (entries.one("format") > kFormat)
-        refuse("was saved by rsc " + entries.texts["rsc"] +
+        refuse("was saved by rsc ", entries.texts["rsc"],
                ", which this version (" RSC_VERSION ") cannot read");
     return entries;
 }
@@ -181,6 +180,8 @@ void visit_arrays(Level& level, Visit&& visit) {
     visit("pixel_attraction", level.pixels.attraction);
 }
 
+constexpr const char* kComponents[] = {"", ".y", ".z"};  // of a quantity of a level
+
 void put_state(Entries& to, const std::string& prefix, const Path::State& state) {
     to.numbers[prefix + "tip"] = {state.x0, state.y0};
     to.numbers[prefix + "accepted"] = {state.time, state.separation, state.force};
@@ -188,11 +189,9 @@ void put_state(Entries& to, const std::string& prefix, const Path::State& state)
     if (!state.level) return;
     Level level = *state.level;
     to.numbers[prefix + "level"] = {level.separation, state.level_x0, state.level_y0};
-    for (const LevelQuantity& q : level_quantities()) {
-        to.numbers[prefix + "level." + q.name] = {q.of(level)};
-        if (q.y) to.numbers[prefix + "level." + q.name + ".y"] = {level.*q.y};
-        if (q.z) to.numbers[prefix + "level." + q.name + ".z"] = {level.*q.z};
-    }
+    for (const LevelQuantity& q : level_quantities())
+        for (const auto c : indices(q.components()))
+            to.numbers[prefix + "level." + q.name + kComponents[c]] = {q.of(level, c)};
     visit_arrays(level, [&](const char* name, const auto& values) {
         to.numbers[prefix + "level." + name] = {values.begin(), values.end()};
     });
@@ -234,20 +233,19 @@ Path::State get_state(const Entries& from, const std::string& prefix, const rsc_
     level.separation = known[0];
     state.level_x0 = known[1];
     state.level_y0 = known[2];
-    for (const LevelQuantity& q :
-         level_quantities()) {  // entries missing in files of earlier versions keep their defaults
-        const std::string name = prefix + "level." + q.name;
-        if (from.numbers.contains(name)) q.put(level, from.one(name));
-        if (q.y && from.numbers.contains(name + ".y")) level.*q.y = from.one(name + ".y");
-        if (q.z && from.numbers.contains(name + ".z")) level.*q.z = from.one(name + ".z");
-    }
+    // Entries missing in files of earlier versions keep their defaults.
+    for (const LevelQuantity& q : level_quantities())
+        for (const auto c : indices(q.components()))
+            if (const std::string name = prefix + "level." + q.name + kComponents[c];
+                from.numbers.contains(name))
+                q.put(level, from.one(name), c);
     visit_arrays(level, [&](const char* name, auto& values) {
         const auto found = from.numbers.find(prefix + "level." + name);
         if (found == from.numbers.end()) return;
         for (const double value : found->second)
             values.push_back(static_cast<std::decay_t<decltype(values[0])>>(value));
     });
-    level.pixels.columns = static_cast<int>(pixels[0]);
+    level.pixels.columns = int(pixels[0]);
     level.pixels.x0 = pixels[1];
     level.pixels.y0 = pixels[2];
     level.pixels.dx = pixels[3];
@@ -255,18 +253,17 @@ Path::State get_state(const Entries& from, const std::string& prefix, const rsc_
     if (pixels.size() == 6 && level.pixels.attraction.empty())  // version 0.3
         level.pixels.attraction.assign(level.pixels.cohesive.size(), pixels[5]);
     const auto& points = contact.on->points;
-    const int places =
-        points ? points->nx * points->ny : static_cast<int>(contact.path.asperities()->size());
+    const int places = points ? points->nx * points->ny : int(contact.path.asperities()->size());
     const auto outside = [&](int k) { return k < 0 || k >= places; };
     const std::size_t n = level.asperity.size();
     const LevelTractions& t = level.tractions;
     for (const auto* values : {&t.y, &t.a, &t.c, &t.pressed, &t.pulled})
         if (values->size() != t.x.size()) bad_input(kBroken);
-    if (std::any_of(level.pixels.cohesive.begin(), level.pixels.cohesive.end(), outside) ||
-        std::any_of(level.asperity.begin(), level.asperity.end(), outside) ||
-        std::any_of(level.pixels.index.begin(), level.pixels.index.end(), outside) ||
-        level.x.size() != n || level.y.size() != n || level.f.size() != n || level.a.size() != n ||
-        level.u.size() != n || level.pixels.attraction.size() != level.pixels.cohesive.size())
+    if (std::ranges::any_of(level.pixels.cohesive, outside) ||
+        std::ranges::any_of(level.asperity, outside) ||
+        std::ranges::any_of(level.pixels.index, outside) || level.x.size() != n ||
+        level.y.size() != n || level.f.size() != n || level.a.size() != n || level.u.size() != n ||
+        level.pixels.attraction.size() != level.pixels.cohesive.size())
         bad_input(kBroken);
     if (known.size() == 8) level.energy = known[3];  // version 0.3
     state.level = std::move(level);
@@ -278,8 +275,8 @@ void put_path(Entries& to, const std::string& prefix, const FrictionHistory::Sta
                           path.xi.y,          path.lost,  path.step_lost};
     Numbers& nodes = to.numbers[prefix + ".nodes"];
     for (const auto& node : path.nodes)
-        nodes.insert(nodes.end(),
-                     {node.approach, node.load, node.energy, node.deflection.x, node.deflection.y});
+        append(nodes,
+               {node.approach, node.load, node.energy, node.deflection.x, node.deflection.y});
 }
 
 FrictionHistory::State get_path(const Entries& from, const std::string& prefix) {
@@ -295,12 +292,13 @@ FrictionHistory::State get_path(const Entries& from, const std::string& prefix) 
 }  // namespace
 }  // namespace rsc::api
 
+using namespace rsc;
 using namespace rsc::api;
 
 int32_t rsc_contact_save(rsc_contact* contact, const char* path) {
     return on(contact, "contact", 2, [&] {
         require_path(path, 2);
-        const rsc::Path::State now = contact->path.state();
+        const Path::State now = contact->path.state();
         Entries entries;
         put_making(entries, *contact);
         put_state(entries, "", now);
@@ -349,11 +347,11 @@ int32_t rsc_friction_restore(rsc_friction** friction, const rsc_asperities* aspe
         require_path(path, 3);
         const Entries entries = read(path, kFriction);
         const Numbers& with = entries.of("friction");
-        if (with.size() != 2) rsc::bad_input(kBroken);
+        if (with.size() != 2) bad_input(kBroken);
         auto made = std::make_unique<rsc_friction>(*get_making(entries, *asperities),
-                                                   rsc::Friction{with[0], with[1]});
+                                                   Friction{with[0], with[1]});
         const Numbers& tip = entries.of("committed_tip");
-        if (tip.size() != 2) rsc::bad_input(kBroken);
+        if (tip.size() != 2) bad_input(kBroken);
         made->history.restore(get_path(entries, "path"), get_path(entries, "committed"));
         made->committed_tip = {tip[0], tip[1]};
         return made.release();

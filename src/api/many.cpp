@@ -24,20 +24,20 @@ std::int32_t for_all(std::int64_t n, rsc_contact** contacts, const double* given
             if (!different.insert(contacts[k]).second)
                 refuse(2, "contacts", "must be different handles");
         }
-        std::vector<std::int32_t> outcome(static_cast<std::size_t>(n), RSC_SUCCESS);
-        std::vector<std::string> reason(static_cast<std::size_t>(n));
-        parallel_for(static_cast<std::size_t>(n), 1, threads, [&](std::size_t k) {
-            outcome[k] = each(static_cast<std::int64_t>(k));
+        std::vector<std::int32_t> outcome(at(n), RSC_SUCCESS);
+        std::vector<std::string> reason(at(n));
+        parallel_for(at(n), 1, threads, [&](std::size_t k) {
+            outcome[k] = each(std::int64_t(k));
             if (outcome[k] == RSC_SUCCESS) return;
             char text[500] = "";
             rsc_message(text, sizeof text, nullptr);
             reason[k] = text;
         });
-        if (status) std::copy(outcome.begin(), outcome.end(), status);
-        const auto bad = std::find_if(outcome.begin(), outcome.end(),
-                                      [](std::int32_t s) { return s != RSC_SUCCESS; });
+        if (status) std::ranges::copy(outcome, status);
+        const auto bad =
+            std::ranges::find_if(outcome, [](std::int32_t s) { return s != RSC_SUCCESS; });
         if (bad == outcome.end()) return;
-        const auto k = static_cast<std::size_t>(bad - outcome.begin());
+        const auto k = at(bad - outcome.begin());
         first = failed(*bad < 0 ? -2 : *bad, "contact " + std::to_string(k) + ": " + reason[k]);
     });
     return whole != RSC_SUCCESS ? whole : first;
@@ -46,6 +46,7 @@ std::int32_t for_all(std::int64_t n, rsc_contact** contacts, const double* given
 }  // namespace
 }  // namespace rsc::api
 
+using namespace rsc;
 using namespace rsc::api;
 
 int32_t rsc_contacts_press(int64_t n, rsc_contact** contacts, const double* force,
@@ -85,9 +86,9 @@ int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0, c
         if (stiffness)
             if (const int32_t found = rsc_contact_stiffness(contact, &slope); found != RSC_SUCCESS)
                 return found;
-        const rsc::Level& level = *contact->path.level();
-        const rsc::Vec2 lateral = lateral_x || lateral_y ? lateral_force_of(*contact) : rsc::Vec2{};
-        const rsc::Vec2 moment = moment_x || moment_y ? moment_of(*contact) : rsc::Vec2{};
+        const Level& level = *contact->path.level();
+        const Vec2 lateral = lateral_x || lateral_y ? lateral_force_of(*contact) : Vec2{};
+        const Vec2 moment = moment_x || moment_y ? moment_of(*contact) : Vec2{};
         const auto to = [&](auto* output, auto of) {
             if (output) output[k] = static_cast<std::decay_t<decltype(*output)>>(of);
         };

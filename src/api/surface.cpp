@@ -11,17 +11,16 @@ namespace {
 
 // The choice of solver%model = 'auto' for synthetic surfaces depends on the levels. A caller asks
 // for these one by one, so that asperities remain what they are.
-rsc::Case with_model(rsc::Case settings) {
-    if (settings.solver.model == rsc::ModelKind::automatic &&
-        settings.surface.source != rsc::Source::heights)
-        settings.solver.model = rsc::ModelKind::asperities;
+Case with_model(Case settings) {
+    if (settings.solver.model == ModelKind::automatic && settings.surface.source != Source::heights)
+        settings.solver.model = ModelKind::asperities;
     return settings;
 }
 
 constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
 
 void copy_to(double* output, const std::vector<double>& values) {
-    if (output) std::copy(values.begin(), values.end(), output);
+    if (output) std::ranges::copy(values, output);
 }
 
 rsc_asperities* share(SurfaceModel&& model) {
@@ -31,25 +30,24 @@ rsc_asperities* share(SurfaceModel&& model) {
 }
 
 void require_positive(const std::vector<double>& values, int argument, const char* name) {
-    for (std::size_t k = 0; k < values.size(); ++k) {
+    for (const auto k : indices(values)) {
         if (!usable_positive(values[k]))
-            refuse(argument, name,
-                   (std::string(kPositiveBounds) + ": entry " + std::to_string(k) + " is not")
-                       .c_str());
+            refuse(argument, name, kPositiveBounds, ": entry ", k, " is not");
     }
 }
 
 }  // namespace
 }  // namespace rsc::api
 
+using namespace rsc;
 using namespace rsc::api;
 
 int32_t rsc_surface_synthesize(rsc_surface** surface, const rsc_case* a_case, int64_t realization) {
     return constructed(2, surface, "surface", [&] {
-        const rsc::Case& settings = settings_of(a_case);
-        rsc::require_valid(settings, {"surface", "run"});
+        const Case& settings = settings_of(a_case);
+        require_valid(settings, {"surface", "run"});
         auto made = std::make_unique<rsc_surface>();
-        made->surface = rsc::make_surface(settings, realization, threads_of(settings));
+        made->surface = make_surface(settings, realization, threads_of(settings));
         return made.release();
     });
 }
@@ -59,23 +57,23 @@ int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double d
     return constructed(0, surface, "surface", [&] {
         if (nx < 3 || nx > kMost) refuse(2, "nx", "must be from 3 to 2147483647");
         if (ny < 3 || ny > kMost) refuse(3, "ny", "must be from 3 to 2147483647");
-        if (!rsc::usable_positive(dx)) refuse(4, "dx", rsc::kPositiveBounds);
-        if (!rsc::usable_positive(dy)) refuse(5, "dy", rsc::kPositiveBounds);
+        if (!usable_positive(dx)) refuse(4, "dx", kPositiveBounds);
+        if (!usable_positive(dy)) refuse(5, "dy", kPositiveBounds);
         require_finite(x0, 6, "x0");
         require_finite(y0, 7, "y0");
         if (periodic != 0 && periodic != 1) refuse(8, "periodic", "must be 0 or 1");
         if (nx > std::numeric_limits<std::int64_t>::max() / 8 / ny) throw std::bad_alloc();
         require_finite(heights, nx * ny, 9, "heights");
         auto made = std::make_unique<rsc_surface>();
-        rsc::HeightMap& map = made->surface.map;
-        map.allocate(static_cast<int>(nx), static_cast<int>(ny), static_cast<std::ptrdiff_t>(nx));
+        HeightMap& map = made->surface.map;
+        map.allocate(int(nx), int(ny), std::ptrdiff_t(nx));
         map.dx = dx;
         map.dy = dy;
         map.x0 = x0;
         map.y0 = y0;
         map.periodic = periodic == 1;
         std::copy(heights, heights + nx * ny, map.row(0));
-        made->surface.sigma = rsc::detrend(map, rsc::Detrend::none).rms;
+        made->surface.sigma = detrend(map, Detrend::none).rms;
         return made.release();
     });
 }
@@ -83,7 +81,7 @@ int32_t rsc_surface_take(rsc_surface** surface, int64_t nx, int64_t ny, double d
 int32_t rsc_surface_copy(rsc_surface** surface, const rsc_surface* original) {
     return constructed(0, surface, "surface", [&] {
         require(original, 2, "original");
-        const rsc::Surface& from = original->surface;
+        const Surface& from = original->surface;
         return new rsc_surface{{},
                                {from.map.copy(), from.sigma, from.points_per_wave, from.theory,
                                 from.sampled, from.differences, from.name, from.measured}};
@@ -96,14 +94,13 @@ int32_t rsc_surface_detrend(rsc_surface* surface, const char* how, double* rms_l
     return on(surface, "surface", 0, [&] {
         require(how, 2, "how");
         const std::string_view word = how;
-        const auto form = std::find(rsc::kDetrendNames.begin(), rsc::kDetrendNames.end(), word) -
-                          rsc::kDetrendNames.begin();
-        if (form == std::ssize(rsc::kDetrendNames))
+        const auto form = std::ranges::find(kDetrendNames, word) - kDetrendNames.begin();
+        if (form == std::ssize(kDetrendNames))
             refuse(2, "how", "must be \"none\", \"mean\", \"plane\", \"quadratic\" or \"sphere\"");
         const double left = [&] {
             try {
-                return rsc::detrend(surface->surface.map, static_cast<rsc::Detrend>(form)).rms;
-            } catch (const rsc::Error& error) {
+                return detrend(surface->surface.map, static_cast<Detrend>(form)).rms;
+            } catch (const Error& error) {
                 refuse(2, "how", error.what());
             }
         }();
@@ -115,18 +112,18 @@ int32_t rsc_surface_detrend(rsc_surface* surface, const char* how, double* rms_l
 
 int32_t rsc_surface_filter(rsc_surface* surface, double cutoff) {
     return on(surface, "surface", 0, [&] {
-        if (!rsc::usable_positive(cutoff)) refuse(2, "cutoff", rsc::kPositiveBounds);
-        rsc::gaussian_filter(surface->surface.map, cutoff);
+        if (!usable_positive(cutoff)) refuse(2, "cutoff", kPositiveBounds);
+        gaussian_filter(surface->surface.map, cutoff);
         surface->surface.differences.reset();
         if (!surface->surface.theory)
-            surface->surface.sigma = rsc::roughness(surface->surface.map).height;
+            surface->surface.sigma = roughness(surface->surface.map).height;
     });
 }
 
 int32_t rsc_surface_grid(const rsc_surface* surface, int64_t* nx, int64_t* ny, double* dx,
                          double* dy, double* x0, double* y0, int32_t* periodic) {
     return on(surface, "surface", 0, [&] {
-        const rsc::HeightMap& map = surface->surface.map;
+        const HeightMap& map = surface->surface.map;
         put(nx, map.nx);
         put(ny, map.ny);
         put(dx, map.dx);
@@ -139,18 +136,17 @@ int32_t rsc_surface_grid(const rsc_surface* surface, int64_t* nx, int64_t* ny, d
 
 int32_t rsc_surface_heights(const rsc_surface* surface, int64_t n, double* heights) {
     return on(surface, "surface", 0, [&] {
-        const rsc::HeightMap& map = surface->surface.map;
+        const HeightMap& map = surface->surface.map;
         if (n != static_cast<int64_t>(map.nx) * map.ny) refuse(2, "n", "must be nx*ny");
         require(heights, 3, "heights");
-        for (int j = 0; j < map.ny; ++j)
-            std::copy(map.row(j), map.row(j) + map.nx,
-                      heights + static_cast<std::ptrdiff_t>(j) * map.nx);
+        for (const int j : indices(map.ny))
+            std::copy(map.row(j), map.row(j) + map.nx, heights + std::ptrdiff_t(j) * map.nx);
     });
 }
 
 int32_t rsc_surface_moments(const rsc_surface* surface, double* m0, double* m2, double* m4) {
     return on(surface, "surface", 0, [&] {
-        const rsc::Moments moments = rsc::grid_moments(surface->surface.map);
+        const Moments moments = grid_moments(surface->surface.map);
         put(m0, moments.m0);
         put(m2, moments.m2);
         put(m4, moments.m4);
@@ -161,19 +157,18 @@ int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surface* surf
                             const rsc_case* a_case) {
     return constructed(2, asperities, "asperities", [&] {
         require(surface, 2, "surface");
-        const rsc::Case& settings = settings_of(a_case);
+        const Case& settings = settings_of(a_case);
         return share(
-            rsc::make_surface_model(surface->surface, with_model(settings), threads_of(settings)));
+            make_surface_model(surface->surface, with_model(settings), threads_of(settings)));
     });
 }
 
 int32_t rsc_asperities_make(rsc_asperities** asperities, const rsc_case* a_case,
                             int64_t realization) {
     return constructed(2, asperities, "asperities", [&] {
-        const rsc::Case& settings = settings_of(a_case);
-        rsc::require_valid(settings, {"surface", "run", "asperities%curvature", "asperities%law"});
-        return share(
-            rsc::make_surface_model(with_model(settings), realization, threads_of(settings)));
+        const Case& settings = settings_of(a_case);
+        require_valid(settings, {"surface", "run", "asperities%curvature", "asperities%law"});
+        return share(make_surface_model(with_model(settings), realization, threads_of(settings)));
     });
 }
 
@@ -189,8 +184,8 @@ int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double
                              : 9,
                    "curvature", "is missing: kappa1, kappa2 and angle go together");
         }
-        rsc::SurfaceModel model;
-        rsc::Asperities& a = model.asperities;
+        SurfaceModel model;
+        Asperities& a = model.asperities;
         const auto take = [n](std::vector<double>& to, const double* from, int argument,
                               const char* name) {
             require_finite(from, n, argument, name);
@@ -206,20 +201,16 @@ int32_t rsc_asperities_take(rsc_asperities** asperities, int64_t n, const double
             take(a.kappa2, kappa2, 8, "kappa2");
             take(a.angle, angle, 9, "angle");
             require_positive(a.kappa2, 8, "kappa2");
-            for (std::size_t k = 0; k < a.size(); ++k) {
+            for (const auto k : indices(a)) {
                 if (!(a.kappa1[k] >= a.kappa2[k]))
-                    refuse(7, "kappa1",
-                           ("must be at least kappa2: entry " + std::to_string(k) + " is less")
-                               .c_str());
+                    refuse(7, "kappa1", "must be at least kappa2: entry ", k, " is less");
             }
         }
         if (biharmonic) take(a.biharmonic, biharmonic, 10, "biharmonic");
-        if (const auto same = rsc::coincident(a))
-            refuse(3, "x",
-                   ("and y: entries " + std::to_string(same->first) + " and " +
-                    std::to_string(same->second) + " are at the same position")
-                       .c_str());
-        model.domain = rsc::list_domain(a, {}, "the asperities");
+        if (const auto same = coincident(a))
+            refuse(3, "x", "and y: entries ", same->first, " and ", same->second,
+                   " are at the same position");
+        model.domain = list_domain(a, {}, "the asperities");
         model.list = true;
         return share(std::move(model));
     });
@@ -246,7 +237,7 @@ int32_t rsc_asperities_count(const rsc_asperities* asperities, int64_t* n) {
 int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, double* x, double* y,
                            double* z, double* radius) {
     return on(asperities, "asperities", 0, [&] {
-        const rsc::Asperities& a = asperities->model->asperities;
+        const Asperities& a = asperities->model->asperities;
         if (n != static_cast<int64_t>(a.size())) refuse(2, "n", "must be the number of asperities");
         copy_to(x, a.x);
         copy_to(y, a.y);
@@ -258,7 +249,7 @@ int32_t rsc_asperities_get(const rsc_asperities* asperities, int64_t n, double* 
 int32_t rsc_asperities_curvatures(const rsc_asperities* asperities, int64_t n, double* kappa1,
                                   double* kappa2, double* angle) {
     return on(asperities, "asperities", 0, [&] {
-        const rsc::Asperities& a = asperities->model->asperities;
+        const Asperities& a = asperities->model->asperities;
         if (a.kappa1.empty()) refuse(1, "asperities", "were given without curvatures");
         if (n != static_cast<int64_t>(a.size())) refuse(2, "n", "must be the number of asperities");
         copy_to(kappa1, a.kappa1);

@@ -24,17 +24,17 @@ T from_bytes(std::string_view bytes) {
 class ArchiveWriter {
 public:
     static constexpr bool writing = true;
+    void operator()(const auto&... values) { (put(values), ...); }
+    std::string bytes;
+
+private:
+    void put(const auto& value) { bytes += bytes_of(value); }
     template <class T>
-    void operator()(const T& value) {
-        bytes += bytes_of(value);
-    }
-    template <class T>
-    void operator()(const std::vector<T>& values) {
+    void put(const std::vector<T>& values) {
         static_assert(std::is_trivially_copyable_v<T>);
-        (*this)(static_cast<std::uint64_t>(values.size()));
+        put(std::uint64_t(values.size()));
         bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
     }
-    std::string bytes;
 };
 
 // Reads what a writer wrote, in the same order. `bytes` must outlive it. Throws Error(failure,
@@ -44,27 +44,28 @@ public:
     static constexpr bool writing = false;
     ArchiveReader(std::string_view bytes, Failure failure, const char* broken)
         : bytes_(bytes), failure_(failure), broken_(broken) {}
-    template <class T>
-    void operator()(T& value) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        std::memcpy(&value, take(sizeof value), sizeof value);
-    }
-    template <class T>
-    void operator()(std::vector<T>& values) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        std::uint64_t size = 0;
-        (*this)(size);
-        if (size > bytes_.size() / sizeof(T)) throw Error(failure_, broken_);
-        values.resize(static_cast<std::size_t>(size));
-        const std::size_t length = values.size() * sizeof(T);
-        const char* from = take(length);
-        if (length > 0) std::memcpy(values.data(), from, length);
-    }
+    void operator()(auto&... values) { (get(values), ...); }
     void end() const {
         if (!bytes_.empty()) throw Error(failure_, broken_);
     }
 
 private:
+    template <class T>
+    void get(T& value) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        std::memcpy(&value, take(sizeof value), sizeof value);
+    }
+    template <class T>
+    void get(std::vector<T>& values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        std::uint64_t size = 0;
+        get(size);
+        if (size > bytes_.size() / sizeof(T)) throw Error(failure_, broken_);
+        values.resize(at(size));
+        const std::size_t length = values.size() * sizeof(T);
+        const char* from = take(length);
+        if (length > 0) std::memcpy(values.data(), from, length);
+    }
     const char* take(std::size_t n) {
         if (n > bytes_.size()) throw Error(failure_, broken_);
         const char* p = bytes_.data();

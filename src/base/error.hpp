@@ -2,7 +2,7 @@
 // kind; the program turns the kind into an exit status and the library into a status code.
 #pragma once
 
-#include "base/std.hpp"
+#include "base/format.hpp"
 
 namespace rsc {
 
@@ -16,15 +16,16 @@ enum class Failure {
 
 class Error : public std::runtime_error {
 public:
-    Error(Failure kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
+    // The message is made of texts and numbers, as by joined().
+    template <class... Parts>
+    Error(Failure kind, const Parts&... message)
+        : std::runtime_error(joined(message...)), kind_(kind) {}
     Failure kind() const noexcept { return kind_; }
 
 private:
     Failure kind_;
 };
 
-[[noreturn]] inline void bad_input(const std::string& message) {
-    throw Error(Failure::bad_input, message);
-}
+[[noreturn]] void bad_input(const auto&... message) { throw Error(Failure::bad_input, message...); }
 
 }  // namespace rsc

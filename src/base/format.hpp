@@ -1,11 +1,11 @@
-// Text by the rules of printf.
+// Texts with numbers in them.
 #pragma once
 
 #include "base/std.hpp"
 
 namespace rsc {
 
-// At most 599 characters; longer texts are cut.
+// By the rules of printf. At most 599 characters; longer texts are cut.
 [[gnu::format(printf, 1, 2)]] inline std::string format(const char* text, ...) {
     char buffer[600];
     std::va_list values;
@@ -17,6 +17,29 @@ namespace rsc {
 
 // A number in a message.
 inline std::string text_of(double value) { return format("%.9g", value); }
+
+template <class Part>
+void append_part(std::string& text, const Part& part) {
+    if constexpr (std::is_floating_point_v<Part>)
+        text += text_of(part);
+    else if constexpr (std::is_integral_v<Part> && !std::is_same_v<Part, char>)
+        text += std::to_string(part);
+    else
+        text += part;
+}
+
+// Texts and numbers, one after another.
+std::string joined(const auto&... parts) {
+    std::string all;
+    (append_part(all, parts), ...);
+    return all;
+}
+
+// Appends an item, joined() from its parts, to a list with `between` between its items.
+void enlist(std::string& list, const char* between, const auto&... item) {
+    if (!list.empty()) list += between;
+    list += joined(item...);
+}
 
 // For messages: text of others, cut, with control characters replaced, those of terminals in UTF-8
 // included.

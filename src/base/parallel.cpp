@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 #include <sched.h>
+#include <unistd.h>
 
 extern "C" int omp_in_parallel() __attribute__((weak));  // defined if the program uses OpenMP
 
@@ -23,7 +24,7 @@ int processors() {
         cpu_set_t allowed;
         if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return CPU_COUNT(&allowed);
 #endif
-        return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+        return std::max(1, int(std::thread::hardware_concurrency()));
     }();
     return count;
 }
@@ -32,7 +33,7 @@ int default_threads() {
     static const int count = [] {
         const char* const text = std::getenv("OMP_NUM_THREADS");
         const long wanted = text ? std::strtol(text, nullptr, 10) : 0;  // the first of a list
-        return wanted > 0 ? static_cast<int>(std::min(wanted, 1000000L)) : processors();
+        return wanted > 0 ? int(std::min(wanted, 1000000L)) : processors();
     }();
     return count;
 }
@@ -96,7 +97,7 @@ struct Pool {
         std::unique_lock lock(mutex);
         for (;;) {
             // Outer loops come before those inside their pieces.
-            const auto found = std::find_if(jobs.begin(), jobs.end(), [](const Job* job) {
+            const auto found = std::ranges::find_if(jobs, [](const Job* job) {
                 return job->wanted > 0 && job->tree.helpers > 0 && job->next < job->count;
             });
             if (found == jobs.end()) {
@@ -141,11 +142,16 @@ struct Pool {
 
 }  // namespace
 
+double machine_memory() {
+    const double pages = double(sysconf(_SC_PHYS_PAGES)), page = double(sysconf(_SC_PAGESIZE));
+    return pages > 0 && page > 0 ? pages * page : kInfinity;
+}
+
 std::size_t most_threads(int wanted) {
     const int n = wanted > 0 ? wanted : loop_threads > 0 ? loop_threads : default_threads();
     // Far more threads than processors only wait for each other: with a thousand threads on two
     // processors, seconds of work take minutes.
-    return static_cast<std::size_t>(std::clamp(n, 1, 16 + 2 * processors()));
+    return at(std::clamp(n, 1, 16 + 2 * processors()));
 }
 
 LoopThreads::LoopThreads(int threads) : before_(std::exchange(loop_threads, threads)) {}
@@ -200,7 +206,7 @@ void LoopProfile::run(std::size_t count,
     const auto now = [] {
         timespec t{};
         clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-        return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+        return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
     };
     const Sums zero{0, std::vector<double>(cores_.size(), 0.0)};
     Sums outer = std::exchange(sums_, zero);
@@ -216,10 +222,10 @@ void LoopProfile::run(std::size_t count,
         sums_ = zero;
     }
     --depth_;
-    const double all = std::accumulate(pieces.begin(), pieces.end(), 0.0);
+    const double all = sum_of(pieces);
     outer.seconds += all;
     for (std::size_t c = 0; c < cores_.size(); ++c) {
-        std::vector<double> busy(static_cast<std::size_t>(cores_[c]), 0.0);
+        std::vector<double> busy(at(cores_[c]), 0.0);
         for (const double piece : pieces) *std::ranges::min_element(busy) += piece;
         // Cores without a piece share the loops inside those of others.
         outer.shared[c] += std::min(std::ranges::max(busy), std::max(all / cores_[c], longest[c]));

@@ -9,6 +9,9 @@
 
 namespace rsc {
 
+// Memory of the machine [bytes]; Infinity: not known.
+double machine_memory();
+
 // Number of threads for loops and campaigns: `wanted`, or if 0 that of LoopThreads, of
 // OMP_NUM_THREADS, or the number of processors. At most 16 + 2 times the number of processors.
 std::size_t most_threads(int wanted);
@@ -40,24 +43,22 @@ void parallel_pieces(std::size_t count, int threads,
 template <class Index, class Body>
 void parallel_for(Index n, int grain, int threads, Body&& body) {
     const auto each = static_cast<Index>(grain);
-    parallel_pieces(static_cast<std::size_t>((n + each - 1) / each), threads,
-                    [&](std::size_t piece, std::size_t worker) {
-                        for (Index k = static_cast<Index>(piece) * each,
-                                   end = std::min<Index>(n, k + each);
-                             k < end; ++k) {
-                            if constexpr (std::is_invocable_v<Body, Index, std::size_t>)
-                                body(k, worker);
-                            else
-                                body(k);
-                        }
-                    });
+    parallel_pieces(at((n + each - 1) / each), threads, [&](std::size_t piece, std::size_t worker) {
+        for (Index k = static_cast<Index>(piece) * each, end = std::min<Index>(n, k + each);
+             k < end; ++k) {
+            if constexpr (std::is_invocable_v<Body, Index, std::size_t>)
+                body(k, worker);
+            else
+                body(k);
+        }
+    });
 }
 
 // The sum of part(k) for k = 0 ... n - 1, added in their order whichever threads compute them.
 template <class Sum = double, class Index, class Part>
 Sum sum_in_order(Index n, int grain, int threads, Part&& part) {
-    std::vector<Sum> parts(static_cast<std::size_t>(n));
-    parallel_for(n, grain, threads, [&](Index k) { parts[static_cast<std::size_t>(k)] = part(k); });
+    std::vector<Sum> parts(at(n));
+    parallel_for(n, grain, threads, [&](Index k) { parts[at(k)] = part(k); });
     return std::accumulate(parts.begin(), parts.end(), Sum{});
 }
 
@@ -65,13 +66,13 @@ Sum sum_in_order(Index n, int grain, int threads, Part&& part) {
 // once for each.
 template <class Test>
 void find_all(std::size_t n, int grain, int threads, Test&& test, std::vector<int>& found) {
-    const auto each = static_cast<std::size_t>(grain);
+    const auto each = at(grain);
     found.resize(n);
     std::vector<std::size_t> ends((n + each - 1) / each);
     parallel_pieces(ends.size(), threads, [&](std::size_t piece, std::size_t) {
         std::size_t next = piece * each;
         for (std::size_t k = next, end = std::min(n, k + each); k < end; ++k) {
-            found[next] = static_cast<int>(k);
+            found[next] = int(k);
             next += test(k) ? 1 : 0;
         }
         ends[piece] = next;

@@ -29,21 +29,21 @@ std::vector<double> levels_of(const Case::Indentation& keys) {
 double softest_modulus(const Case::Solids& solids) {
     double E[2] = {solids.E[0], solids.E[1]}, nu[2] = {solids.nu[0], solids.nu[1]};
     double softest = equivalent_modulus(E, nu);
-    for (std::size_t k = 0; k < solids.layer_E.size(); ++k) {
+    for (const auto k : indices(solids.layer_E)) {
         E[0] = solids.layer_E[k];
         nu[0] = solids.layer_nu[k];
         softest = std::min(softest, equivalent_modulus(E, nu));
     }
     const auto& share = solids.relaxation_share;
-    return softest * (1 - std::accumulate(share.begin(), share.end(), 0.0));
+    return softest * (1 - sum_of(share));
 }
 
 // Radius of a round indenter, the smaller one of a paraboloid; nothing for other shapes.
 std::optional<double> radius_of(const Case& c) {
-    const std::string_view shape = kShapes[static_cast<std::size_t>(c.indenter.shape)].name;
+    const std::string_view shape = kShapes[at(c.indenter.shape)].name;
     if (shape == "sphere") return equivalent_radius(c.solids.R);
     if (shape != "paraboloid") return std::nullopt;
-    double smallest = Case::kInfinity;
+    double smallest = kInfinity;
     for (const auto& radius : c.indenter.radii)
         smallest =
             std::min(smallest, equivalent_radius({c.solids.R[0], radius.value_or(c.solids.R[1])}));
@@ -61,10 +61,10 @@ double slope_at_border(const Case& c, double R, double top) {
     if (c.indentation.control == Control::separation) {
         const double unit =
             c.indentation.unit == LevelUnit::sigma ? c.surface.sigma.value_or(0.01) : 1.0;
-        const double lowest = *std::min_element(levels.begin(), levels.end()) * unit;
+        const double lowest = std::ranges::min(levels) * unit;
         return std::sqrt(2 * std::max(top - lowest, 0.0) / R);
     }
-    const double N = *std::max_element(levels.begin(), levels.end());
+    const double N = std::ranges::max(levels);
     const double a = std::cbrt(0.75 * N * R / softest_modulus(c.solids));
     return std::sqrt(a * a + 2 * R * top) / R;
 }
@@ -74,10 +74,10 @@ double slope_at_border(const Case& c, double R, double top) {
 // (Persson): the pressure that would belong to this area.
 double pressure_ratio(const Case& c, const Spectrum& spectrum, double rms_slope) {
     const std::vector<double> levels = levels_of(c.indentation);
-    const double largest = *std::max_element(levels.begin(), levels.end());
+    const double largest = std::ranges::max(levels);
     if (c.indentation.control == Control::separation) {
         const double unit = c.indentation.unit == LevelUnit::sigma ? 1.0 : spectrum.sigma;
-        const double lowest = *std::min_element(levels.begin(), levels.end()) / unit;
+        const double lowest = std::ranges::min(levels) / unit;
         const double share = 0.5 * std::erfc(lowest / std::numbers::sqrt2);
         return share / (2 * std::sqrt(2 / std::numbers::pi));  // of small pressures
     }
@@ -120,10 +120,9 @@ const char* why_asperities(const Case& c) {
         {c.surface.source == Source::asperities, "only asperities are given"},
         {c.surface.source == Source::spectrum, "the surface is synthetic"},
         {c.compare.listed(), "compare%levels compares them with elements"},
-        {c.solids.adhesion > 0 && !(c.solids.adhesion_range > 0),
+        {attracts(c) && !(c.solids.adhesion_range > 0),
          "solids%adhesion without adhesion_range needs them"},
-        {c.solids.hardness < Case::kInfinity && c.solids.size_effect > 0,
-         "solids%size_effect needs them"},
+        {yields(c) && c.solids.size_effect > 0, "solids%size_effect needs them"},
         {c.asperities.law != LawKind::hertz || c.asperities.curvature != Curvature::geometric,
          "&asperities is set"},
         {c.solver.method != Method::automatic, "solver%method needs them"},

@@ -22,7 +22,7 @@ public:
     Parser(std::string_view text, const std::vector<std::string_view>& known)
         : text_(text), known_(known) {
         lines_.push_back(0);
-        for (std::size_t i = 0; i < text.size(); ++i)
+        for (const auto i : indices(text))
             if (text[i] == '\n') lines_.push_back(i + 1);
     }
 
@@ -43,7 +43,7 @@ public:
                 lost = false;
                 continue;
             }
-            if (!group_like || std::find(known_.begin(), known_.end(), name) == known_.end()) {
+            if (!group_like || !contains(known_, name)) {
                 // A dollar sign inside prose is a price.
                 if (!lost && (c == '&' || (!name.empty() && first_on_line(sign, resumed))))
                     wrong_group(sign, name);
@@ -67,7 +67,7 @@ public:
         alone_ = true;
         body(group);
         if (at_ < text_.size())
-            fault(at_, "nothing may follow the value, found '" + excerpt(at_) + "'");
+            fault(at_, "nothing may follow the value, found '", excerpt(at_), "'");
         document_.groups.push_back(std::move(group));
         return std::move(document_);
     }
@@ -101,18 +101,17 @@ private:
     }
 
     Position position(std::size_t offset) const {
-        const auto line = std::upper_bound(lines_.begin(), lines_.end(), offset) - lines_.begin();
-        return {static_cast<int>(line),
-                static_cast<int>(offset - lines_[static_cast<std::size_t>(line - 1)] + 1)};
+        const auto line = std::ranges::upper_bound(lines_, offset) - lines_.begin();
+        return {int(line), int(offset - lines_[std::size_t(line - 1)] + 1)};
     }
-    void fault(std::size_t offset, const std::string& text) {
-        report(document_.faults, position(offset), text);
+    void fault(std::size_t offset, const auto&... text) {
+        report(document_.faults, position(offset), text...);
     }
-    void warn(std::size_t offset, const std::string& text) {
-        report(document_.warnings, position(offset), text);
+    void warn(std::size_t offset, const auto&... text) {
+        report(document_.warnings, position(offset), text...);
     }
-    void report(std::vector<Fault>& faults, Position at, const std::string& text) {
-        if (faults.size() < kMostFaults) faults.push_back({at, context_ + text});
+    void report(std::vector<Fault>& faults, Position at, const auto&... text) {
+        if (faults.size() < kMostFaults) faults.emplace_back(at, context_, text...);
     }
 
     // The word at an offset, for a message.
@@ -131,12 +130,11 @@ private:
         const std::string word = excerpt(sign);
         outside_ = sign;
         if (is_separator(peek()) && !name.empty())
-            fault(sign,
-                  "unknown group '&" + name.substr(0, 63) + "'" + suggestion(name, known_, "&"));
+            fault(sign, "unknown group '&", name.substr(0, 63), "'", suggestion(name, known_, "&"));
         else
-            fault(sign, "'" + word + "' begins no group: expected '&' and straight after it the " +
-                            "name of a group, then a blank or a new line; comments begin with '!'" +
-                            suggestion(name, known_, "&"));
+            fault(sign, "'", word, "' begins no group: expected '&' and straight after it the ",
+                  "name of a group, then a blank or a new line; comments begin with '!'",
+                  suggestion(name, known_, "&"));
     }
 
     // Reports "n = 128" outside of groups; false if no name stands before the '='.
@@ -149,10 +147,9 @@ private:
             --start;
         if (start == end || is_digit(text_[start])) return false;
         outside_ = start;
-        fault(start, "'" +
-                         std::string(text_.substr(start, std::min(end - start, std::size_t{63}))) +
-                         " =' stands outside a group and would be ignored: keys stand between " +
-                         "&name and '/', comments after '!'");
+        fault(start, "'", text_.substr(start, std::min(end - start, std::size_t{63})),
+              " =' stands outside a group and would be ignored: keys stand between ",
+              "&name and '/', comments after '!'");
         return true;
     }
 
@@ -171,9 +168,9 @@ private:
             }
             if (text_[i] == '!' || text_[i] == '&' || text_[i] == '$')
                 return;  // a comment to the end, or a group already reported
-            fault(i, "'" + excerpt(i) +
-                         "' after the last group would be ignored: write keys between &name and "
-                         "'/', and comments after '!'");
+            fault(i, "'", excerpt(i),
+                  "' after the last group would be ignored: write keys between &name and "
+                  "'/', and comments after '!'");
             return;
         }
     }
@@ -257,7 +254,7 @@ private:
             if (c == '&' || c == '$') {
                 const bool end = !alone_ && lower_case(text_.substr(at_, 3)) == "end";
                 if (!end && !alone_)
-                    fault(start, "the group is not closed by '/' before '" + excerpt(start) + "'");
+                    fault(start, "the group is not closed by '/' before '", excerpt(start), "'");
                 at_ = end ? at_ + 3 : start;
                 break;
             }
@@ -372,10 +369,10 @@ private:
             }
             if (key_follows()) return;
             if (doubtful != std::string_view::npos) {
-                warn(doubtful, "the value of " + shown(a) +
-                                   " here is empty, as gfortran reads it: a comment straight after "
-                                   "'=' or ',', or a line that "
-                                   "begins with a comma, makes a null value");
+                warn(doubtful, "the value of ", shown(a),
+                     " here is empty, as gfortran reads it: a comment straight after "
+                     "'=' or ',', or a line that "
+                     "begins with a comma, makes a null value");
                 doubtful = std::string_view::npos;
             }
             if (!item(a, start)) return;
@@ -404,8 +401,7 @@ private:
 
     void add(Assignment& a, Item item) {
         if (a.items.size() == kMostItems)
-            report(document_.faults, item.at,
-                   "more than " + std::to_string(kMostItems) + " values for " + shown(a));
+            report(document_.faults, item.at, "more than ", kMostItems, " values for ", shown(a));
         if (a.items.size() <= kMostItems) a.items.push_back(std::move(item));
     }
 
@@ -423,8 +419,8 @@ private:
         }
         if (c == '"' || c == '\'') {
             if (!quoted(item)) {
-                fault(start, "the text that begins here is not closed by " +
-                                 std::string(1, static_cast<char>(c)));
+                fault(start, "the text that begins here is not closed by ",
+                      std::string(1, static_cast<char>(c)));
                 return false;
             }
             if (!is_separator(peek())) fault(at_, "a blank or comma must follow the closing quote");
@@ -451,7 +447,7 @@ private:
         if (i == at_ || at(i) != '*') return;
         const auto count = to_integer(text_.substr(at_, i - at_));  // empty if larger than 64 bits
         if (!count || *count > kLargestRepeat)
-            fault(at_, "the repeat count is larger than " + std::to_string(kLargestRepeat));
+            fault(at_, "the repeat count is larger than ", kLargestRepeat);
         else if (*count == 0)
             fault(at_, "the repeat count is zero");
         else
@@ -516,8 +512,7 @@ Document parse_assignments(std::string_view text) {
 
 std::string format(const std::string& name, const Fault& fault) {
     if (fault.at.line == 0) return name + ": " + fault.text;
-    return name + ":" + std::to_string(fault.at.line) + ":" + std::to_string(fault.at.column) +
-           ": " + fault.text;
+    return joined(name, ":", fault.at.line, ":", fault.at.column, ": ", fault.text);
 }
 
 }  // namespace rsc::namelist

@@ -6,7 +6,7 @@
 // at the first error without its position.
 #pragma once
 
-#include "base/std.hpp"
+#include "base/format.hpp"
 
 namespace rsc::namelist {
 
@@ -17,6 +17,7 @@ struct Position {
 
 // An error or a warning at a place of the text.
 struct Fault {
+    Fault(Position at_, const auto&... parts) : at(at_), text(joined(parts...)) {}
     Position at;
     std::string text;
 };

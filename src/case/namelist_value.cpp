@@ -11,7 +11,7 @@ char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + '
 double out_of_range(std::string_view plain) {
     long double wide = 0;
     if (std::from_chars(plain.data(), plain.data() + plain.size(), wide).ec == std::errc{})
-        return static_cast<double>(wide);
+        return double(wide);
     return plain.find("e-") == std::string_view::npos ? kInfinity : 0.0;
 }
 
@@ -52,7 +52,7 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
 std::string suggestion(std::string_view word, const std::vector<std::string_view>& candidates,
                        const char* mark) {
     const std::string_view near = nearest(word, candidates);
-    return near.empty() ? "" : std::string("; did you mean '") + mark + std::string(near) + "'?";
+    return near.empty() ? "" : joined("; did you mean '", mark, near, "'?");
 }
 
 std::string lower_case(std::string_view word) {

@@ -31,9 +31,7 @@ constexpr Flag kFlags[] = {
     {'\0', "version", &Options::version},
 };
 
-[[noreturn]] void refuse(const std::string& text) {
-    bad_input(text + " (--help lists the options)");
-}
+[[noreturn]] void refuse(const auto&... text) { bad_input(text..., " (--help lists the options)"); }
 
 const Flag& find_long(std::string_view name) {
     std::vector<std::string_view> names;
@@ -41,14 +39,13 @@ const Flag& find_long(std::string_view name) {
         if (flag.name == name) return flag;
         names.push_back(flag.name);
     }
-    refuse("unknown option '--" + std::string(name) + "'" +
-           namelist::suggestion(name, names, "--"));
+    refuse("unknown option '--", name, "'", namelist::suggestion(name, names, "--"));
 }
 
 const Flag& find_short(char letter) {
     for (const Flag& flag : kFlags)
         if (flag.letter == letter && letter != '\0') return flag;
-    refuse("unknown option '-" + std::string(1, letter) + "'");
+    refuse("unknown option '-", std::string(1, letter), "'");
 }
 
 void apply(Options& options, const Flag& flag, const std::string& value) {
@@ -58,20 +55,20 @@ void apply(Options& options, const Flag& flag, const std::string& value) {
         options.output = value;
     } else if (flag.name == "set") {
         if (value.find('=') == std::string::npos)
-            refuse("--set " + value + ": expected 'group%key=value'");
+            refuse("--set ", value, ": expected 'group%key=value'");
         options.set.push_back(value);
     } else if (flag.name == "member") {
         int member = 0;
         const auto [end, error] =
             std::from_chars(value.data(), value.data() + value.size(), member);
         if (error != std::errc{} || end != value.data() + value.size() || member < 1)
-            refuse("--member " + value + ": expected the number of a member, 1 or more");
+            refuse("--member ", value, ": expected the number of a member, 1 or more");
         options.member = member;
     } else if (flag.name == "progress") {
         constexpr std::string_view kWords[] = {"auto", "always", "never"};
-        const auto* const word = std::find(std::begin(kWords), std::end(kWords), value);
+        const auto* const word = std::ranges::find(kWords, value);
         if (word == std::end(kWords))
-            refuse("--progress " + value + ": expected auto, always or never");
+            refuse("--progress ", value, ": expected auto, always or never");
         options.progress = static_cast<Progress>(word - kWords);
     } else if (flag.name == "merge") {
         options.merge.emplace_back();
@@ -97,7 +94,7 @@ void take_paths(Options& options, const std::vector<std::string>& paths) {
         return;
     }
     if (paths.size() > 1)
-        refuse("one case at a time: both '" + paths[0] + "' and '" + paths[1] + "' are given");
+        refuse("one case at a time: both '", paths[0], "' and '", paths[1], "' are given");
     if (options.show_case && paths.empty()) refuse("--case needs the name of a result file");
     if (!paths.empty()) {
         if (paths.front().empty()) refuse("the name of the case is empty");
@@ -123,7 +120,7 @@ Options parse_options(int argc, const char* const* argv) {
             continue;
         }
         const auto value_after = [&](const Flag& flag) {
-            if (i + 1 == words.size()) refuse("--" + std::string(flag.name) + " needs a value");
+            if (i + 1 == words.size()) refuse("--", flag.name, " needs a value");
             return words[++i];
         };
         if (word[1] == '-') {
@@ -131,8 +128,7 @@ Options parse_options(int argc, const char* const* argv) {
             const bool attached = equals != std::string::npos;
             const Flag& flag = find_long(
                 std::string_view(word).substr(2, attached ? equals - 2 : std::string::npos));
-            if (attached && !flag.takes_value)
-                refuse("--" + std::string(flag.name) + " takes no value");
+            if (attached && !flag.takes_value) refuse("--", flag.name, " takes no value");
             apply(options, flag,
                   attached           ? word.substr(equals + 1)
                   : flag.takes_value ? value_after(flag)

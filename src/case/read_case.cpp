@@ -4,10 +4,10 @@
 #include "base/reason.hpp"
 
 namespace rsc {
-namespace {
 
-using namelist::Fault;
-using namelist::Position;
+using namespace namelist;
+
+namespace {
 
 // The position where a key, or an element of it, was given; line 0 if it was not.
 Position place(const Ledger& ledger, const Problem& problem) {
@@ -25,7 +25,7 @@ Position place(const Ledger& ledger, const Problem& problem) {
 // True if the value of a key of the problem could not be read. That key still has its default, so
 // that the problem is not reported.
 bool concerns_faulty(const Ledger& ledger, const Problem& problem) {
-    return std::any_of(problem.keys.begin(), problem.keys.end(), [&](const Key* key) {
+    return std::ranges::any_of(problem.keys, [&](const Key* key) {
         const Ledger::Entry* entry = ledger.find(*key);
         return entry && entry->faulty;
     });
@@ -34,17 +34,16 @@ bool concerns_faulty(const Ledger& ledger, const Problem& problem) {
 // True if the study varies a key of the problem. Each member is checked later, so the problem is
 // reported there; the case itself is not run.
 bool varied(const Study& study, const Problem& problem) {
-    return std::any_of(study.axes.begin(), study.axes.end(), [&](const Study::Axis& axis) {
+    return std::ranges::any_of(study.axes, [&](const Study::Axis& axis) {
         const std::string_view name = std::string_view(axis.key).substr(0, axis.key.find('('));
-        return std::any_of(problem.keys.begin(), problem.keys.end(),
-                           [&](const Key* key) { return name == full_name(*key); });
+        return std::ranges::any_of(problem.keys,
+                                   [&](const Key* key) { return name == full_name(*key); });
     });
 }
 
 std::string known_groups_text() {
     std::string text;
-    for (const std::string_view group : group_names())
-        text += (text.empty() ? "&" : ", &") + std::string(group);
+    for (const std::string_view group : group_names()) enlist(text, ", ", "&", group);
     return text;
 }
 
@@ -52,10 +51,10 @@ std::string limited_text(std::istream& in, const std::string& name) {
     std::string text;
     char buffer[65536];
     while (in.read(buffer, sizeof buffer) || in.gcount() > 0) {
-        text.append(buffer, static_cast<std::size_t>(in.gcount()));
-        if (text.size() > namelist::kLargestText) break;  // read_case_text refuses it
+        text.append(buffer, at(in.gcount()));
+        if (text.size() > kLargestText) break;  // read_case_text refuses it
     }
-    if (in.bad()) bad_input(name + ": cannot be read");
+    if (in.bad()) bad_input(name, ": cannot be read");
     return text;
 }
 
@@ -68,27 +67,26 @@ void keys_without_meaning(const Reading& reading, std::vector<Fault>& faults) {
         const Ledger::Entry* entry = reading.ledger.find(key_of(name));
         return entry && !entry->given.empty() && !entry->faulty ? entry : nullptr;
     };
-    const auto refuse = [&](const char* name, const std::string& why) {
+    const auto refuse = [&](const char* name, const auto&... why) {
         const Ledger::Entry* const entry = given(name);
         const std::string value = get_key(reading.settings, name);
         if (!entry || value == get_key(defaults, name)) return;
         const Key& key = *entry->key;
-        faults.push_back({entry->given.front().second, "&" + std::string(key.group) + ": " +
-                                                           key.name + " = " + value +
-                                                           ": has no effect " + why});
+        faults.emplace_back(entry->given.front().second, "&", key.group, ": ", key.name, " = ",
+                            value, ": has no effect ", why...);
     };
     // A namelist with all of these keys was printed by rsc.
     const std::array replaced = {"indentation%start", "indentation%stop", "indentation%steps",
                                  "indentation%spacing"};
-    if (given("indentation%levels") && !std::all_of(replaced.begin(), replaced.end(), given))
+    if (given("indentation%levels") && !std::ranges::all_of(replaced, given))
         for (const char* name : replaced) refuse(name, "beside levels");
     const Source source = reading.settings.surface.source;
     if (!given("surface%source") || (source != Source::heights && source != Source::asperities))
         return;
     for (const char* name : {"surface%n", "surface%hurst", "surface%L_lambda_l",
                              "surface%L_lambda_s", "surface%plateau", "surface%normalise"})
-        refuse(name, "with source = " + get_key(reading.settings, "surface%source") +
-                         ", whose surface is read from the file");
+        refuse(name, "with source = ", get_key(reading.settings, "surface%source"),
+               ", whose surface is read from the file");
 }
 
 // A value of a command line in namelist syntax: the shell removes the quotes of words, so that they
@@ -97,15 +95,15 @@ std::string quoted_words(const Key& key, const std::string& value) {
     const std::size_t first = value.find_first_not_of(' ');
     if (first == std::string::npos || value[first] == '\'' || value[first] == '"') return value;
     const std::string word = value.substr(first, value.find_last_not_of(' ') + 1 - first);
-    if (key.type == Type::string) return namelist::from_string(word);
-    if (key.choices.empty() || (key.type != Type::choice && namelist::to_real(word)) ||
+    if (key.type == Type::string) return from_string(word);
+    if (key.choices.empty() || (key.type != Type::choice && to_real(word)) ||
         (key.type != Type::choice && std::isalpha(static_cast<unsigned char>(word[0])) == 0))
         return value;
-    if (!key.list || key.type != Type::choice) return namelist::from_string(word);
+    if (!key.list || key.type != Type::choice) return from_string(word);
     std::string all;
     std::istringstream words(word);
     for (std::string one; std::getline(words, one, ',');)
-        all += (all.empty() ? "" : ",") + quoted_words(key_of("output%file"), one);
+        enlist(all, ",", quoted_words(key_of("output%file"), one));
     return all;
 }
 
@@ -121,7 +119,7 @@ void require_not_varied(const std::string& name, const std::optional<Study>& stu
         const bool other_element = !subscript.empty() && bracket != std::string::npos &&
                                    axis.key.substr(bracket) != subscript;
         if (!other_element)
-            bad_input("&study varies " + axis.key + ", so that the option has no effect");
+            bad_input("&study varies ", axis.key, ", so that the option has no effect");
     }
 }
 
@@ -145,37 +143,34 @@ std::string apply_set(Case& settings, const std::string& argument,
 
 Reading read_namelist(std::string_view text) {
     Reading reading;
-    namelist::Document document = namelist::parse(text, group_names());
+    Document document = parse(text, group_names());
     reading.faults = std::move(document.faults);
     reading.warnings = std::move(document.warnings);
-    std::vector<const namelist::Group*> seen;
-    for (const namelist::Group& group : document.groups) {
-        const auto same = std::find_if(seen.begin(), seen.end(), [&](const namelist::Group* g) {
-            return g->name == group.name;
-        });
+    std::vector<const Group*> seen;
+    for (const Group& group : document.groups) {
+        const auto same =
+            std::ranges::find_if(seen, [&](const Group* g) { return g->name == group.name; });
         if (same != seen.end()) {
-            if (reading.duplicates.size() < namelist::kMostFaults)
-                reading.duplicates.push_back({group.at, "&" + group.name +
-                                                            ": this group is already at line " +
-                                                            std::to_string((*same)->at.line)});
+            if (reading.duplicates.size() < kMostFaults)
+                reading.duplicates.emplace_back(group.at, "&", group.name,
+                                                ": this group is already at line ",
+                                                (*same)->at.line);
             continue;
         }
         seen.push_back(&group);
-        reading.groups.push_back(
-            *std::find(group_names().begin(), group_names().end(), group.name));
+        reading.groups.push_back(*std::ranges::find(group_names(), group.name));
         if (group.name == "study") {
             reading.study = read_study(group, reading.faults);
             continue;
         }
-        for (const namelist::Assignment& assignment : group.assignments) {
-            if (reading.faults.size() >= namelist::kMostFaults) break;
+        for (const Assignment& assignment : group.assignments) {
+            if (reading.faults.size() >= kMostFaults) break;
             if (const Key* key = find_key(group.name, assignment.key))
                 assign(reading.settings, *key, assignment, reading.ledger, reading.faults);
             else
-                reading.faults.push_back(
-                    {assignment.at, "&" + group.name + ": unknown key '" +
-                                        assignment.key.substr(0, 63) + "'" +
-                                        suggest_key(group.name, assignment.key)});
+                reading.faults.emplace_back(assignment.at, "&", group.name, ": unknown key '",
+                                            assignment.key.substr(0, 63), "'",
+                                            suggest_key(group.name, assignment.key));
         }
     }
     finish_lists(reading.settings, reading.ledger, reading.faults);
@@ -185,14 +180,13 @@ Reading read_namelist(std::string_view text) {
 namespace {
 
 void require_text(std::string_view text, const std::string& name) {
-    if (text.size() > namelist::kLargestText)
-        bad_input(name + ": larger than " + std::to_string(namelist::kLargestText) +
-                  " bytes, the limit for a case");
+    if (text.size() > kLargestText)
+        bad_input(name, ": larger than ", kLargestText, " bytes, the limit for a case");
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-        bad_input(name + ": is text in UTF-16; save it as UTF-8 or plain ASCII");
+        bad_input(name, ": is text in UTF-16; save it as UTF-8 or plain ASCII");
     if (text.starts_with("CDF") || text.starts_with("\x89HDF"))
         bad_input(
-            name +
+            name,
             ": is a NetCDF file; to run the case of a result again, give its name: rsc FILE.nc");
 }
 
@@ -207,35 +201,34 @@ void check_files(const Reading& reading, std::vector<Fault>& faults) {
             file.find_first_of("*?[") != std::string::npos)
             continue;
         if (const std::string why = why_not_opened(file); !why.empty())
-            faults.push_back({entry->given.front().second,
-                              "&" + std::string(group) + ": file = '" + file + "': " + why});
+            faults.emplace_back(entry->given.front().second, "&", group, ": file = '", file,
+                                "': ", why);
     }
 }
 
 // Throws one error with a line for each fault, by their places in the case.
 void refuse_faults(const std::string& name, std::vector<Fault>& faults,
                    const std::vector<std::string>& set_faults) {
-    std::stable_sort(faults.begin(), faults.end(), [](const Fault& a, const Fault& b) {
+    std::ranges::stable_sort(faults, [](const Fault& a, const Fault& b) {
         return a.at.line != b.at.line ? a.at.line < b.at.line : a.at.column < b.at.column;
     });
     std::string message;
     std::size_t count = 0;
     const auto line = [&](const std::string& text_line) {
-        if (++count <= namelist::kMostFaults) message += (message.empty() ? "" : "\n") + text_line;
+        if (++count <= kMostFaults) enlist(message, "\n", text_line);
     };
-    for (const Fault& fault : faults) line(namelist::format(name, fault));
+    for (const Fault& fault : faults) line(format(name, fault));
     for (const std::string& fault : set_faults) line(fault);
     if (count > 0) bad_input(message);
 }
 
 void warn(const std::string& name, const Reading& reading, ReadCase& read) {
-    for (const Fault& warning : reading.warnings)
-        read.warnings.push_back(namelist::format(name, warning));
+    for (const Fault& warning : reading.warnings) read.warnings.push_back(format(name, warning));
     for (const char* const key_name : {"E", "nu", "R"}) {
         const Ledger::Entry* entry = reading.ledger.find(*find_key("solids", key_name));
         if (!entry || entry->given.size() != 1) continue;
         const std::string other =
-            std::string("solids%") + key_name + (entry->given.front().first == 1 ? "(2)" : "(1)");
+            joined("solids%", key_name, entry->given.front().first == 1 ? "(2)" : "(1)");
         read.warnings.push_back(name + ": &solids: " + key_name + ": one value of two; " + other +
                                 " = " + get_key(read.settings, other) + " taken by default");
     }
@@ -254,11 +247,11 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
     require_text(text, name);
     Reading reading = read_namelist(text);
     std::vector<Fault> faults = std::move(reading.faults);
-    faults.insert(faults.end(), reading.duplicates.begin(), reading.duplicates.end());
+    append(faults, reading.duplicates);
     keys_without_meaning(reading, faults);
     if (reading.groups.empty() && faults.empty())
-        faults.push_back(
-            {{}, "no namelist group found; expected at least one of " + known_groups_text()});
+        faults.emplace_back(Position{}, "no namelist group found; expected at least one of ",
+                            known_groups_text());
 
     Case& settings = reading.settings;
     std::vector<std::string> set_faults;
@@ -270,9 +263,8 @@ ReadCase read_case_text(std::string_view text, const std::string& name, const Op
     for (const Problem& problem : check_case(settings))
         if (!concerns_faulty(reading.ledger, problem) &&
             !(reading.study && varied(*reading.study, problem)))
-            faults.push_back(
-                {place(reading.ledger, problem),
-                 "&" + std::string(problem.keys.front()->group) + ": " + problem.text});
+            faults.emplace_back(place(reading.ledger, problem), "&", problem.keys.front()->group,
+                                ": ", problem.text);
     if (reading.study && faults.empty() && set_faults.empty())
         faults = check_study(settings, *reading.study);
     if (!faults.empty() || !set_faults.empty()) check_files(reading, faults);
@@ -292,7 +284,7 @@ ReadCase read_case(const Options& options) {
     std::ifstream in(options.case_path, std::ios::binary);
     std::error_code ignored;  // a folder can be opened, but not read
     if (!in || std::filesystem::is_directory(options.case_path, ignored))
-        bad_input(options.case_path + ": " + why_not_opened(options.case_path));
+        bad_input(options.case_path, ": ", why_not_opened(options.case_path));
     return read_case(in, options.case_path, options);
 }
 

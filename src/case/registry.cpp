@@ -5,9 +5,12 @@
 #include "physics/indenter/shapes.hpp"
 
 namespace rsc {
+
+using namespace namelist;
+
 namespace {
 
-constexpr double kNoLimit = Case::kInfinity;
+constexpr double kNoLimit = kInfinity;
 constexpr Bounds kAny{};
 constexpr Bounds kPositive{0, kNoLimit, true, false};
 constexpr Bounds kNotNegative{0, kNoLimit, false, false};
@@ -17,8 +20,7 @@ constexpr Bounds above(double low, double high) { return {low, high, true, false
 
 template <class T>
 Slot choice_slot(T& member) {
-    return ChoiceSlot{&member,
-                      [](const void* p) { return static_cast<int>(*static_cast<const T*>(p)); },
+    return ChoiceSlot{&member, [](const void* p) { return int(*static_cast<const T*>(p)); },
                       [](void* p, int i) { *static_cast<T*>(p) = static_cast<T>(i); }};
 }
 
@@ -53,9 +55,8 @@ Key number(const Place& at, const char* unit, Bounds bounds, const char* meaning
     constexpr Type types[] = {Type::logical, Type::integer, Type::long_integer, Type::real,
                               Type::real,    Type::string,  Type::real,         Type::choice};
     const Type type = types[at.slot(any).index()];
-    return {at.group, at.name, type,    std::max(static_cast<int>(at.extent), 1),
-            false,    0,       unit,    bounds,
-            {},       unset,   meaning, at.slot};
+    return {at.group, at.name, type,   std::max(int(at.extent), 1), false, 0, unit, bounds, {},
+            unset,    meaning, at.slot};
 }
 Key list(const Place& at, int most, const char* unit, Bounds bounds, const char* unset,
          const char* meaning) {
@@ -80,7 +81,7 @@ Key choice(const Place& at, const Names& names, const char* meaning) {
 // A list of choices, in any order.
 Key words(Key key) {
     key.list = true;
-    key.size = static_cast<int>(key.choices.size());
+    key.size = int(key.choices.size());
     key.unset = "none";
     return key;
 }
@@ -211,6 +212,11 @@ std::vector<Key> keys_of_surface() {
                "the spectrum was measured on"),
         choice(RSC_KEY(surface, normalise), kNormaliseNames,
                "sample: each surface has exactly the rms height sigma; ensemble: on average"),
+    };
+}
+
+std::vector<Key> keys_of_height_maps() {
+    return {
         choice(RSC_KEY(surface, detrend), kDetrendNames,
                "form to subtract from a height map, fitted by least squares; separations are "
                "measured from z = 0 afterwards"),
@@ -423,9 +429,9 @@ std::vector<Key> keys_of_output() {
 
 std::vector<Key> make_registry() {
     std::vector<Key> all;
-    for (const auto keys :
-         {keys_of_run, keys_of_solids, keys_of_surface, keys_of_asperities, keys_of_indenter,
-          keys_of_indentation, keys_of_solver, keys_of_elements, keys_of_compare, keys_of_output})
+    for (const auto keys : {keys_of_run, keys_of_solids, keys_of_surface, keys_of_height_maps,
+                            keys_of_asperities, keys_of_indenter, keys_of_indentation,
+                            keys_of_solver, keys_of_elements, keys_of_compare, keys_of_output})
         for (Key& key : keys()) all.push_back(std::move(key));
     return all;
 }
@@ -471,20 +477,20 @@ const char* group_meaning(std::string_view group) {
 }
 
 const Key* find_key(std::string_view group, std::string_view name) {
-    const std::string g = namelist::lower_case(group), n = namelist::lower_case(name);
+    const std::string g = lower_case(group), n = lower_case(name);
     for (const Key& key : registry())
-        if (g == key.group && n == namelist::lower_case(key.name)) return &key;
+        if (g == key.group && n == lower_case(key.name)) return &key;
     return nullptr;
 }
 
 std::string suggest_key(std::string_view group, std::string_view name) {
     std::vector<std::string_view> here;
     for (const Key& key : registry())
-        if (namelist::lower_case(group) == key.group) here.push_back(key.name);
+        if (lower_case(group) == key.group) here.push_back(key.name);
     for (const Key& key : registry())
         if (find_key(key.group, name))
             return "; '" + std::string(name) + "' belongs to &" + find_key(key.group, name)->group;
-    return namelist::suggestion(name, here);
+    return suggestion(name, here);
 }
 
 const Key& key_of(std::string_view name) {
@@ -496,23 +502,22 @@ const Key& key_of(std::string_view name) {
     if (percent == std::string_view::npos) {
         std::string meant;
         for (const Key& key : registry())
-            if (namelist::lower_case(strip(name)) == namelist::lower_case(key.name))
-                meant += (meant.empty() ? "" : " or ") + full_name(key);
-        bad_input("expected group%key, found '" + std::string(name) + "'" +
-                  (meant.empty() ? namelist::suggestion(name, group_names())
-                                 : "; did you mean " + meant + "?"));
+            if (lower_case(strip(name)) == lower_case(key.name))
+                enlist(meant, " or ", full_name(key));
+        bad_input(
+            "expected group%key, found '", name, "'",
+            meant.empty() ? suggestion(name, group_names()) : "; did you mean " + meant + "?");
     }
     const std::string_view group = strip(name.substr(0, percent)),
                            bare = strip(name.substr(percent + 1));
-    if (!group_meaning(namelist::lower_case(group)))
-        bad_input("unknown group '" + std::string(group) + "'" +
-                  namelist::suggestion(group, group_names()));
+    if (!group_meaning(lower_case(group)))
+        bad_input("unknown group '", group, "'", suggestion(group, group_names()));
     const Key* const key = find_key(group, bare);
-    if (!key) bad_input("unknown key '" + std::string(bare) + "'" + suggest_key(group, bare));
+    if (!key) bad_input("unknown key '", bare, "'", suggest_key(group, bare));
     return *key;
 }
 
-std::string full_name(const Key& key) { return std::string(key.group) + "%" + key.name; }
+std::string full_name(const Key& key) { return joined(key.group, "%", key.name); }
 
 bool Bounds::hold(double value) const {
     if (std::isnan(value) || (std::isinf(value) && !infinity)) return false;
@@ -523,7 +528,7 @@ std::string Bounds::text() const {
     const auto number = [](double value) {
         if (value == std::floor(value) && std::abs(value) < 1e15)
             return std::to_string(static_cast<long long>(value));
-        return namelist::from_real(value);
+        return from_real(value);
     };
     std::string result;
     if (std::isfinite(low) && std::isfinite(high))

@@ -18,7 +18,7 @@ enum class Type { logical, integer, long_integer, real, string, choice };
 
 // Bounds of a real or integer. NaN is always refused, Infinity unless `infinity` is set.
 struct Bounds {
-    double low = -Case::kInfinity, high = Case::kInfinity;
+    double low = -kInfinity, high = kInfinity;
     bool open = false;      // low itself is excluded
     bool infinity = false;  // Infinity is allowed
     bool hold(double value) const;

@@ -10,6 +10,9 @@
 #include "surface/asperities.hpp"
 
 namespace rsc {
+
+using namespace namelist;
+
 namespace {
 
 constexpr double kMostMapValues = 1e9;  // of one map variable: 8 GB
@@ -27,7 +30,7 @@ public:
           by_(settings.indentation.levels.empty() ? "indentation%steps" : "indentation%levels"),
           levels_(settings.indentation.levels.empty()
                       ? settings.indentation.steps
-                      : static_cast<double>(settings.indentation.levels.size())) {}
+                      : double(settings.indentation.levels.size())) {}
 
     std::vector<Problem> check() {
         for (const Key& key : registry()) check_key(key);
@@ -50,18 +53,17 @@ public:
 private:
     // A problem of the first key, in which the others take part. Its text is preceded by the first
     // key's name, and its value if it is short.
-    void complain(std::initializer_list<std::string_view> names, const std::string& text) {
+    void complain(std::initializer_list<std::string_view> names, const auto&... text) {
         Problem problem{{}, 0, {}};
         for (const std::string_view name : names) problem.keys.push_back(&key_of(name));
         const Key& key = *problem.keys.front();
         const std::string value =
             key.list || key.type == Type::string ? "" : get_key(c_, *names.begin());
-        problem.text = key.name + (value.empty() ? "" : " = " + value) + ": " + text;
+        problem.text = joined(key.name, value.empty() ? "" : " = ", value, ": ", text...);
         problems_.push_back(std::move(problem));
     }
-    void require(bool right, std::initializer_list<std::string_view> names,
-                 const std::string& text) {
-        if (!right) complain(names, text);
+    void require(bool right, std::initializer_list<std::string_view> names, const auto&... text) {
+        if (!right) complain(names, text...);
     }
 
     void check_key(const Key& key) {
@@ -76,32 +78,29 @@ private:
                 overflows || vanishes ? "of a magnitude from 1e-50 to 1e50" : key.bounds.text();
             problems_.push_back(
                 {{&key},
-                 static_cast<long>(element),
-                 std::string(key.name) + (element > 0 ? "(" + std::to_string(element) + ")" : "") +
-                     " = " +
-                     (key.type == Type::integer ? count(value) : namelist::from_real(value)) +
-                     ": must be " + bounds +
-                     (bounds.empty()                                ? "finite"
-                      : std::isfinite(value) || key.bounds.infinity ? ""
-                                                                    : " and finite")});
+                 long(element),
+                 joined(key.name, element > 0 ? joined("(", element, ")") : "", " = ",
+                        key.type == Type::integer ? count(value) : from_real(value), ": must be ",
+                        bounds,
+                        bounds.empty()                                ? "finite"
+                        : std::isfinite(value) || key.bounds.infinity ? ""
+                                                                      : " and finite")});
         };
         const auto each = [&](const auto* values, std::size_t size) {
-            for (std::size_t i = 0; i < size; ++i)
-                number(static_cast<double>(values[i]), key.size > 1 ? i + 1 : 0);
+            for (const auto i : indices(size)) number(double(values[i]), key.size > 1 ? i + 1 : 0);
         };
-        const auto size = static_cast<std::size_t>(key.size);
+        const auto size = at(key.size);
         if (const auto* n = std::get_if<int*>(&slot)) each(*n, size);
         if (const auto* x = std::get_if<double*>(&slot)) each(*x, size);
         if (const auto* o = std::get_if<std::optional<double>*>(&slot))
-            for (std::size_t i = 0; i < size; ++i)
+            for (const auto i : indices(size))
                 if ((*o)[i]) number(*(*o)[i], size > 1 ? i + 1 : 0);
         if (const auto* v = std::get_if<std::vector<double>*>(&slot)) {
             const std::vector<double>& list = **v;
             if (list.size() > size)
-                problems_.push_back(
-                    {{&key}, 0, key.name + (": at most " + std::to_string(size)) + " values"});
+                problems_.push_back({{&key}, 0, joined(key.name, ": at most ", size, " values")});
             if (list.empty() && !*key.unset && !key.word)
-                problems_.push_back({{&key}, 0, std::string(key.name) + ": at least one value"});
+                problems_.push_back({{&key}, 0, joined(key.name, ": at least one value")});
             each(list.data(), std::min(list.size(), size));
         }
         if (const auto* s = std::get_if<std::string*>(&slot)) check_text(key, **s);
@@ -113,13 +112,13 @@ private:
             return (static_cast<unsigned char>(c) < 32 && c != '\t') || c == 127;
         };
         std::string wrong;
-        if (std::any_of(text.begin(), text.end(), control))
+        if (std::ranges::any_of(text, control))
             wrong = "control characters are not allowed";
-        else if (text.size() > static_cast<std::size_t>(key.length))
+        else if (text.size() > at(key.length))
             wrong = "at most " + std::to_string(key.length) + " characters";
         else if (!text.empty() && text.back() == ' ')
             wrong = "blanks at the end are not allowed";
-        if (!wrong.empty()) problems_.push_back({{&key}, 0, std::string(key.name) + ": " + wrong});
+        if (!wrong.empty()) problems_.push_back({{&key}, 0, joined(key.name, ": ", wrong)});
     }
 
     void check_units() {
@@ -136,15 +135,16 @@ private:
     // Pairs of keys that exclude each other.
     void check_exclusive() {
         const Case::Solids& s = c_.solids;
-        const bool adhesion = s.adhesion > 0, range = s.adhesion_range > 0;
-        const bool hard = std::isfinite(s.hardness), friction = s.friction > 0;
+        const bool adhesion = attracts(c_), range = s.adhesion_range > 0;
+        const bool hard = yields(c_), friction = s.friction > 0;
         const bool relaxes = rsc::relaxes(c_), wears = rsc::wears(c_);
         const bool layers = !s.layer_thickness.empty(), compare = c_.compare.listed();
         const bool dgesv = c_.solver.method == Method::dgesv,
                    paper = c_.indentation.selection == Selection::paper;
         const bool size_effect = hard && s.size_effect > 0,
                    resistivity = s.resistivity[0] > 0 || s.resistivity[1] > 0;
-        const bool fourth_order = c_.asperities.law == LawKind::fourth_order;
+        const bool fourth_order = c_.asperities.law == LawKind::fourth_order,
+                   line = c_.indentation.line();
         const struct {
             bool both;
             const char *key, *other, *why;
@@ -174,6 +174,9 @@ private:
             {resistivity && layers, "solids%resistivity", "solids%layer_thickness",
              "the resistance of coated bodies is not computed: where spots are smaller than the "
              "thickness of the coating, give its resistivity and no layer"},
+            {line && layers, "indentation%boundary", "solids%layer_thickness", ""},
+            {line && relaxes, "indentation%boundary", "solids%relaxation_share", ""},
+            {line && adhesion, "indentation%boundary", "solids%adhesion", ""},
             {wears && adhesion, "solids%wear_coefficient", "solids%adhesion", ""},
             {wears && relaxes, "solids%wear_coefficient", "solids%relaxation_share", ""},
             {wears && hard, "solids%wear_coefficient", "solids%hardness", ""},
@@ -190,33 +193,30 @@ private:
             {relaxes && dgesv, "solids%relaxation_share", "solver%method", ""},
         };
         for (const auto& [both, key, other, why] : pairs)
-            require(!both, {key, other},
-                    std::string("not available together with ") + other +
-                        (*why ? std::string("; ") + why : ""));
+            require(!both, {key, other}, "not available together with ", other,
+                    *why ? std::string("; ") + why : "");
     }
 
     void check_solids() {
         const Case::Solids& s = c_.solids;
         const std::size_t layers = s.layer_thickness.size(), shares = s.relaxation_share.size();
-        require(s.adhesion > 0 || !(s.adhesion_range > 0),
+        require(attracts(c_) || !(s.adhesion_range > 0),
                 {"solids%adhesion_range", "solids%adhesion"}, "needs solids%adhesion > 0");
         const auto as_many = [&](const std::vector<double>& values, std::size_t wanted,
                                  const char* key, const char* other) {
-            require(values.size() == wanted, {key, other},
-                    std::string("needs as many values as ") + other + " (" +
-                        std::to_string(wanted) + "), found " + std::to_string(values.size()));
+            require(values.size() == wanted, {key, other}, "needs as many values as ", other, " (",
+                    wanted, "), found ", values.size());
         };
         as_many(s.layer_E, layers, "solids%layer_E", "solids%layer_thickness");
         as_many(s.layer_nu, layers, "solids%layer_nu", "solids%layer_thickness");
         as_many(s.relaxation_time, shares, "solids%relaxation_time", "solids%relaxation_share");
-        const double sum =
-            std::accumulate(s.relaxation_share.begin(), s.relaxation_share.end(), 0.0);
-        require(!(sum > 1 + 1e-12), {"solids%relaxation_share"},
-                "the shares add up to " + namelist::from_real(sum) + ", more than 1");
+        const double sum = sum_of(s.relaxation_share);
+        require(!(sum > 1 + 1e-12), {"solids%relaxation_share"}, "the shares add up to ",
+                from_real(sum), ", more than 1");
         if (!std::isinf(s.E[0])) return;
         require(layers > 0 || !std::isinf(s.E[1]), {"solids%E"},
                 "two rigid bodies do not deform; at most one body may be rigid");
-        require(layers > 0 || !std::isfinite(s.hardness), {"solids%hardness", "solids%E"},
+        require(layers > 0 || !yields(c_), {"solids%hardness", "solids%E"},
                 "the asperities of body 1 yield, so body 1 must not be rigid (E(1) = Infinity)");
         require(!relaxes(c_), {"solids%relaxation_share", "solids%E"},
                 "E(1) = Infinity makes body 1 rigid");
@@ -237,9 +237,9 @@ private:
                      const std::optional<double>& whole) {
         if (list.empty()) return;
         const std::string name = std::string(key).substr(std::string_view(key).find('%') + 1);
-        require(!whole, {whole_key, key}, name + " are given as well; give only one of the two");
-        require(static_cast<double>(list.size()) == levels_, {key, by_},
-                std::to_string(list.size()) + " values for " + count(levels_) + " levels");
+        require(!whole, {whole_key, key}, name, " are given as well; give only one of the two");
+        require(double(list.size()) == levels_, {key, by_}, list.size(), " values for ",
+                count(levels_), " levels");
         require(std::ranges::adjacent_find(list, std::ranges::greater_equal()) == list.end(), {key},
                 "must increase from each level to the next");
     }
@@ -259,8 +259,8 @@ private:
             {"surface%missing_value", !s.missing_value.empty()}};
         for (const auto& [key, given] : of_maps)
             require(maps || !given, {key, "surface%source"},
-                    "is only for heights read from files, here source = " +
-                        get_key(c_, "surface%source"));
+                    "is only for heights read from files, here source = ",
+                    get_key(c_, "surface%source"));
         if (of_file) {
             const bool several =
                 s.source == Source::heights && s.file.find_first_of("*?[") != std::string::npos;
@@ -270,9 +270,8 @@ private:
             return;
         }
         require(s.kurtosis > s.skewness * s.skewness + 1, {"surface%kurtosis", "surface%skewness"},
-                "must be greater than skewness^2 + 1 = " +
-                    namelist::from_real(s.skewness * s.skewness + 1) +
-                    ", the lower bound for any distribution");
+                "must be greater than skewness^2 + 1 = ", from_real(s.skewness * s.skewness + 1),
+                ", the lower bound for any distribution");
         require(s.n % 2 == 0, {"surface%n"}, "must be even");
         const bool measured = s.twin_heights == TwinHeights::measured,
                    directional = s.twins == Twins::directional;
@@ -285,17 +284,15 @@ private:
         require(!directional, {"surface%twins", "surface%source"}, "needs source = 'spectrum'");
         require(!measured, {"surface%twin_heights", "surface%source"}, "needs source = 'spectrum'");
         require(s.L_lambda_s > s.L_lambda_l, {"surface%L_lambda_s", "surface%L_lambda_l"},
-                "must be larger than L_lambda_l = " + namelist::from_real(s.L_lambda_l));
+                "must be larger than L_lambda_l = ", from_real(s.L_lambda_l));
         require(s.n > 2 * shortest(), {"surface%n", "surface%L_lambda_s", "surface%aspect"},
-                std::string("must be larger than 2 L_lambda_s") +
-                    (s.aspect == 1 ? "" : " sqrt(aspect)") + " = " +
-                    namelist::from_real(2 * shortest()) +
-                    " so that the grid resolves the shortest wavelength");
+                "must be larger than 2 L_lambda_s", s.aspect == 1 ? "" : " sqrt(aspect)", " = ",
+                from_real(2 * shortest()), " so that the grid resolves the shortest wavelength");
         const double L = s.L.value_or(1.0);
         require(std::ranges::none_of(c_.indentation.centre,
                                      [&](const auto& x) { return x && (*x < 0 || *x > L); }),
                 {"indentation%centre", "surface%L"},
-                "must lie on the surface, 0 to L = " + namelist::from_real(L));
+                "must lie on the surface, 0 to L = ", from_real(L));
     }
 
     // L over the shortest wavelength of a synthetic surface, in the direction across its lay.
@@ -303,9 +300,7 @@ private:
         return c_.surface.L_lambda_s *
                std::sqrt(std::max(c_.surface.aspect, 1 / c_.surface.aspect));
     }
-    std::string_view shape() const {
-        return kShapes.at(static_cast<std::size_t>(c_.indenter.shape)).name;
-    }
+    std::string_view shape() const { return kShapes.at(at(c_.indenter.shape)).name; }
 
     void check_window(const char* key, const char* beside, const std::optional<double> (&w)[4]) {
         if (!w[0] && !w[1] && !w[2] && !w[3]) return;
@@ -329,13 +324,13 @@ private:
                 "interaction = 'none' is for asperities; elements always interact");
         const double points = std::ceil(c_.elements.points_per_wave * shortest());
         require(c_.surface.source != Source::synthetic || points <= 32768,
-                {"elements%points_per_wave", "surface%L_lambda_s"},
-                "gives a grid of " + count(points) + " points a side; the maximum is 32768");
+                {"elements%points_per_wave", "surface%L_lambda_s"}, "gives a grid of ",
+                count(points), " points a side; the maximum is 32768");
     }
 
     void check_indenter() {
         const Case::IndenterKeys& i = c_.indenter;
-        const ShapeRow& row = kShapes.at(static_cast<std::size_t>(i.shape));
+        const ShapeRow& row = kShapes.at(at(i.shape));
         const auto takes = [](const ShapeRow& shape, std::string_view key, bool needed) {
             return std::ranges::any_of(shape.keys, [&](std::string_view k) {
                 return k == std::string(key) + '!' || (!needed && k == key);
@@ -344,17 +339,16 @@ private:
         for (const Key& key : registry()) {
             if (key.group != std::string_view("indenter") || key.name == std::string_view("shape"))
                 continue;
-            const std::string name = std::string("indenter%") + key.name;
+            const std::string name = joined("indenter%", key.name);
             const bool given = get_key(c_, name) != get_key(Case{}, name);
             if (!given && takes(row, key.name, true))
-                complain({"indenter%shape", name}, std::string("needs ") + key.name);
+                complain({"indenter%shape", name}, "needs ", key.name);
             if (!given || takes(row, key.name, false)) continue;
             std::string shapes;
             for (const ShapeRow& other : kShapes)
-                if (takes(other, key.name, false))
-                    shapes += (shapes.empty() ? "'" : " or '") + std::string(other.name) + "'";
-            complain({name, "indenter%shape"}, "is only for shape = " + shapes + ", here shape = " +
-                                                   get_key(c_, "indenter%shape"));
+                if (takes(other, key.name, false)) enlist(shapes, " or ", "'", other.name, "'");
+            complain({name, "indenter%shape"}, "is only for shape = ", shapes,
+                     ", here shape = ", get_key(c_, "indenter%shape"));
         }
         require(i.radii[0].has_value() == i.radii[1].has_value(), {"indenter%radii"},
                 "two values are needed");
@@ -370,13 +364,13 @@ private:
         const Case::Indentation& i = c_.indentation;
         const bool separation = i.control == Control::separation,
                    with_log = i.spacing == Spacing::log && i.levels.empty();
-        if (separation ? !with_log : c_.solids.adhesion > 0 && !with_log) return;
-        const std::string of = separation || c_.solids.adhesion > 0 ? "spacing" : "control";
+        if (separation ? !with_log : attracts(c_) && !with_log) return;
+        const std::string of = separation || attracts(c_) ? "spacing" : "control";
         const std::string text =
             "must be positive with " + of + " = " + get_key(c_, "indentation%" + of);
         if (!i.levels.empty()) {
-            require(*std::ranges::min_element(i.levels) > 0,
-                    {"indentation%levels", "indentation%control"}, text);
+            require(std::ranges::min(i.levels) > 0, {"indentation%levels", "indentation%control"},
+                    text);
             return;
         }
         require(i.start > 0, {"indentation%start", "indentation%spacing"}, text);
@@ -386,35 +380,26 @@ private:
     void check_line() {
         const Case::Indentation& i = c_.indentation;
         const Case::IndenterKeys& body = c_.indenter;
-        const std::string boundary = get_key(c_, "indentation%boundary");
         const char axis = i.boundary == Boundary::periodic_x ? 'x' : 'y';
         require(elements_, {"indentation%boundary", "solver%model"},
                 "line contact is solved by model = 'elements'");
-        require(c_.solids.layer_thickness.empty(),
-                {"indentation%boundary", "solids%layer_thickness"},
-                boundary + " is not available for bodies with layers");
-        require(!relaxes(c_), {"indentation%boundary", "solids%relaxation_share"},
-                boundary + " is not available for relaxing bodies");
-        require(!(c_.solids.adhesion > 0), {"indentation%boundary", "solids%adhesion"},
-                boundary + " is not available with adhesion");
         const std::string repeats = std::string("body 2 must repeat along ") + axis;
         if (shape() == "sphere")
             require(std::isinf(c_.solids.R[0]) && std::isinf(c_.solids.R[1]),
-                    {"indentation%boundary", "solids%R"},
-                    repeats +
-                        ", and a ball does not; give a cylinder, &indenter shape = "
-                        "'paraboloid' with one of radii Infinity, or R = Infinity, Infinity");
+                    {"indentation%boundary", "solids%R"}, repeats,
+                    ", and a ball does not; give a cylinder, &indenter shape = "
+                    "'paraboloid' with one of radii Infinity, or R = Infinity, Infinity");
         require(shape() != "cone" && shape() != "punch", {"indentation%boundary", "indenter%shape"},
-                repeats + ", and shape = " + get_key(c_, "indenter%shape") + " does not");
+                repeats, ", and shape = ", get_key(c_, "indenter%shape"), " does not");
         if (shape() != "paraboloid") return;
         const double R = body.radii[0].value_or(0), other = body.radii[1].value_or(0);
         const double turned = std::remainder(body.angle - (axis == 'x' ? 90 : 0), 180.0);
         const bool first = std::isfinite(R) && std::isinf(other) && turned == 0;
         const bool second = std::isfinite(other) && std::isinf(R) && std::abs(turned) == 90;
         require(first || second || (std::isinf(R) && std::isinf(other)),
-                {"indenter%radii", "indentation%boundary"},
-                repeats + ": a cylinder with this axis has radii = R, Infinity and angle = " +
-                    (axis == 'x' ? "90" : "0"));
+                {"indenter%radii", "indentation%boundary"}, repeats,
+                ": a cylinder with this axis has radii = R, Infinity and angle = ",
+                axis == 'x' ? "90" : "0");
     }
 
     void check_boundary() {
@@ -424,13 +409,13 @@ private:
         if (periodic) {
             require(
                 shape() == "sphere" || shape() == "map", {"indentation%boundary", "indenter%shape"},
-                "is for two flats, smooth or rough, but shape = " + get_key(c_, "indenter%shape") +
-                    " is not flat");
+                "is for two flats, smooth or rough, but shape = ", get_key(c_, "indenter%shape"),
+                " is not flat");
             require(
                 shape() != "sphere" || (std::isinf(c_.solids.R[0]) && std::isinf(c_.solids.R[1])),
                 {"indentation%boundary", "solids%R"},
-                "is for two flats, but R = " + get_key(c_, "solids%R") +
-                    "; give R = Infinity, Infinity");
+                "is for two flats, but R = ", get_key(c_, "solids%R"),
+                "; give R = Infinity, Infinity");
             require(i.selection != Selection::paper,
                     {"indentation%selection", "indentation%boundary"},
                     "is defined for a sphere only, not for two flats");
@@ -444,22 +429,22 @@ private:
         require(!pressure || periodic, {"indentation%control", "indentation%boundary"},
                 "a nominal pressure needs a nominal area, that of boundary = 'periodic'");
         require(of_pressure == pressure, {"indentation%unit", "indentation%control"},
-                "with control = " + get_key(c_, "indentation%control") + " it is " +
-                    (of_pressure ? "'sigma' or 'length'" : "'relative' or 'pressure'"));
+                "with control = ", get_key(c_, "indentation%control"), " it is ",
+                of_pressure ? "'sigma' or 'length'" : "'relative' or 'pressure'");
         if (!pressure || !relative || elements_) return;
         const double most =
-            i.levels.empty() ? std::max(i.start, i.stop) : *std::ranges::max_element(i.levels);
+            i.levels.empty() ? std::max(i.start, i.stop) : std::ranges::max(i.levels);
         require(most < kClosingPressure,
                 {i.levels.empty() ? "indentation%start" : "indentation%levels", "indentation%unit"},
-                "a pressure of " + namelist::from_real(most) +
-                    " E* sqrt(2 m2): at 1 and above less than 5 % of the area is gap, too little "
-                    "for the asperity model; use solver%model = "
-                    "'elements', which is valid up to full contact");
+                "a pressure of ", from_real(most),
+                " E* sqrt(2 m2): at 1 and above less than 5 % of the area is gap, too little "
+                "for the asperity model; use solver%model = "
+                "'elements', which is valid up to full contact");
     }
 
     void check_flow() {
         const Case::Output& o = c_.output;
-        const bool field = std::ranges::count(o.fields, static_cast<double>(Field::flow)) > 0;
+        const bool field = std::ranges::count(o.fields, double(Field::flow)) > 0;
         require(!field || o.flow, {"output%fields", "output%flow"},
                 "'flow' needs output%flow = .true.");
         if (!o.flow) return;
@@ -489,7 +474,7 @@ private:
         require(c_.solids.layer_thickness.empty(),
                 {"output%stress_depths", "solids%layer_thickness"},
                 "stresses below the surface are not available in layers");
-        require(elements_ || !(c_.solids.adhesion > 0), {"output%stress_depths", "solids%adhesion"},
+        require(elements_ || !attracts(c_), {"output%stress_depths", "solids%adhesion"},
                 "with adhesion stresses are available for model = 'elements'");
         if (!o.sliding_direction) return;
         require(c_.solids.friction > 0, {"output%sliding_direction", "solids%friction"},
@@ -500,7 +485,7 @@ private:
 
     void check_tractions() {
         const Case::Output& o = c_.output;
-        if (std::ranges::count(o.fields, static_cast<double>(Field::traction)) == 0) return;
+        if (std::ranges::count(o.fields, double(Field::traction)) == 0) return;
         require(c_.solids.friction > 0, {"output%fields", "solids%friction"},
                 "'traction' needs solids%friction > 0");
         require(elements_ || !(c_.solids.friction > 0), {"output%fields", "solver%model"},
@@ -511,14 +496,14 @@ private:
         const Case::Output& o = c_.output;
         const double cells = o.map_cells;
         const auto at_most = [&](double values, double most, const char* key) {
-            require(values <= most, {key, by_},
-                    "with " + count(levels_) + " levels more than " + count(most) + " values");
+            require(values <= most, {key, by_}, "with ", count(levels_), " levels more than ",
+                    count(most), " values");
         };
         at_most(levels_ * cells * cells, kMostMapValues, "output%map_cells");
         at_most(levels_ * o.radial_bins, kMostMapValues, "output%radial_bins");
         at_most(levels_ * c_.run.realizations, kMostLevelValues, "run%realizations");
         require(cells * o.radial_bins <= kMostCircles, {"output%radial_bins", "output%map_cells"},
-                "times map_cells at most " + count(kMostCircles));
+                "times map_cells at most ", count(kMostCircles));
         require(!(c_.solids.friction > 0) || c_.run.realizations == 1, {"run%realizations"},
                 "only one with solids%friction > 0");
         require(double(c_.run.first_realization) + c_.run.realizations - 1 <= 2147483647.0,
@@ -554,7 +539,7 @@ void require_valid(const Case& settings, std::initializer_list<std::string_view>
             return name == key.group || name == full_name(key);
         };
         if (names.size() == 0 || std::ranges::any_of(names, is_key))
-            text += (text.empty() ? "&" : "\n&") + std::string(key.group) + ": " + problem.text;
+            enlist(text, "\n", "&", key.group, ": ", problem.text);
     }
     if (!text.empty()) bad_input(text);
 }

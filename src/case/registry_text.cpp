@@ -1,7 +1,6 @@
 // The registry as text: the effective namelist, --describe and the manual page.
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "base/version.h"
 #include "case/options.hpp"
 #include "case/registry.hpp"
@@ -22,12 +21,12 @@ void describe_key(std::ostream& out, const Key& key) {
         out << "(" << key.size << ")";
     const std::string value = get_key(defaults, full_name(key));
     out << " = " << (value.empty() ? "(unset: " + std::string(key.unset) + ")" : value)
-        << "\n      " << kTypeNames[static_cast<std::size_t>(key.type)];
+        << "\n      " << kTypeNames[at(key.type)];
     if (key.type == Type::string) out << " of at most " << key.length << " characters";
     if (*key.unit) out << ", unit " << key.unit;
     const std::string bounds = key.bounds.text();
     if (!bounds.empty()) out << ", " << bounds;
-    for (std::size_t i = 0; i < key.choices.size(); ++i) {
+    for (const auto i : indices(key.choices)) {
         out << (i == 0 ? ": " : ", ") << "'" << key.choices[i] << "'";
     }
     out << "\n      " << key.meaning << "\n";

@@ -4,11 +4,10 @@
 #include "case/registry.hpp"
 
 namespace rsc {
-namespace {
 
-using namelist::Assignment;
-using namelist::Fault;
-using namelist::Item;
+using namespace namelist;
+
+namespace {
 
 // Elements of an assignment, 1-based: first, first + step, ..., `count` in all.
 struct Walk {
@@ -17,14 +16,13 @@ struct Walk {
 
 std::string list_choices(const Key& key) {
     std::string text;
-    for (const char* choice : key.choices)
-        text += (text.empty() ? "'" : ", '") + std::string(choice) + "'";
+    for (const char* choice : key.choices) enlist(text, ", ", "'", choice, "'");
     return text;
 }
 
 std::string quote(const Item& item) {
     const std::string shown = item.text.size() > 60 ? item.text.substr(0, 60) + "..." : item.text;
-    return item.quoted ? namelist::from_string(shown) : "'" + shown + "'";
+    return item.quoted ? from_string(shown) : "'" + shown + "'";
 }
 
 // For a number that is wrong, or surplus: the most frequent causes.
@@ -43,7 +41,7 @@ std::string trimmed(std::string text) {
 // The elements of a subscript, or an error message. (i) alone extends to the end of the array, as
 // in gfortran.
 std::string resolve(const Assignment& a, long size, Walk& walk, const std::string& what) {
-    const namelist::Subscript& s = *a.subscript;
+    const Subscript& s = *a.subscript;
     const long first = s.first.value_or(1);
     const long last = s.section ? s.last.value_or(size) : size;
     const auto outside = [&](long i) { return i < 1 || i > size; };
@@ -63,7 +61,7 @@ void put(Slot& slot, long element, Number value) {
                           std::is_same_v<T, double*>)
                 place[element - 1] = static_cast<std::remove_pointer_t<T>>(value);
             else if constexpr (std::is_same_v<T, std::optional<double>*>)
-                place[element - 1] = static_cast<double>(value);
+                place[element - 1] = double(value);
         },
         slot);
 }
@@ -71,19 +69,19 @@ void put(Slot& slot, long element, Number value) {
 // Converts and stores one value; returns an error message.
 std::string store(Slot slot, const Key& key, long element, const Item& item, Ledger::Entry& entry) {
     const auto to_list = [&](double value) {
-        const auto i = static_cast<std::size_t>(element);
+        const auto i = at(element);
         if (entry.values.size() < i) entry.values.resize(i);
         entry.values[i - 1] = value;
     };
     const bool word = key.type == Type::choice || (key.word && item.quoted);
     if (key.type == Type::logical) {
-        const auto value = item.quoted ? std::nullopt : namelist::to_logical(item.text);
+        const auto value = item.quoted ? std::nullopt : to_logical(item.text);
         if (!value) return "expected .true. or .false., found " + quote(item);
         *std::get<bool*>(slot) = *value;
     } else if (key.type == Type::integer || key.type == Type::long_integer) {
-        const auto value = item.quoted ? std::nullopt : namelist::to_integer(item.text);
+        const auto value = item.quoted ? std::nullopt : to_integer(item.text);
         const bool small = key.type == Type::integer;
-        if (!value || (small && *value != static_cast<int>(*value))) {
+        if (!value || (small && *value != int(*value))) {
             const bool digits = !item.quoted &&
                                 item.text.find_first_not_of("+-0123456789") == std::string::npos &&
                                 item.text.size() > 5;
@@ -94,7 +92,7 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
         put(slot, element, *value);
     } else if (key.type == Type::real && !word) {
         if (entry.word) return "one word, or a list of numbers";
-        const auto value = item.quoted ? std::nullopt : namelist::to_real(item.text);
+        const auto value = item.quoted ? std::nullopt : to_real(item.text);
         if (!value) return "expected a real number, found " + quote(item) + hint(item);
         key.list ? to_list(*value) : put(slot, element, *value);
     } else {
@@ -103,18 +101,18 @@ std::string store(Slot slot, const Key& key, long element, const Item& item, Led
             (item.commented || !(item.counted || (item.text[0] >= '0' && item.text[0] <= '9'))))
             return "text must be in quotes, found " + quote(item);
         const std::string text = trimmed(item.text);
-        if (!word && static_cast<long>(text.size()) > key.length)
+        if (!word && long(text.size()) > key.length)
             return "a text of more than " + std::to_string(key.length) + " characters";
         if (!word) {
             *std::get<std::string*>(slot) = text;
             return {};
         }
-        const std::string lower = namelist::lower_case(text);
+        const std::string lower = lower_case(text);
         const auto found = std::ranges::find(key.choices, lower);
         if (found == key.choices.end())
             return quote(item) + " is none of " + list_choices(key) +
-                   namelist::suggestion(lower, {key.choices.begin(), key.choices.end()});
-        const auto number = static_cast<int>(found - key.choices.begin());
+                   suggestion(lower, {key.choices.begin(), key.choices.end()});
+        const auto number = int(found - key.choices.begin());
         if (key.word && (element != 1 || !entry.values.empty() || entry.word))
             return "one word, or a list of numbers";
         if (key.word)
@@ -133,8 +131,7 @@ std::string store_substring(Slot slot, const Key& key, const Walk& walk, Item it
                             Ledger::Entry& entry) {
     std::string* text = std::get_if<std::string*>(&slot) ? std::get<std::string*>(slot) : nullptr;
     if (!text) return "a choice has no substring";
-    const auto first = static_cast<std::size_t>(walk.first - 1),
-               count = static_cast<std::size_t>(walk.count);
+    const auto first = at(walk.first - 1), count = at(walk.count);
     std::string part;
     Key whole = key;
     whole.slot = nullptr;
@@ -148,7 +145,7 @@ std::string store_substring(Slot slot, const Key& key, const Walk& walk, Item it
     return {};
 }
 
-std::string at_line(const namelist::Position& at) {
+std::string at_line(const Position& at) {
     return at.line > 0 ? " at line " + std::to_string(at.line) : "";
 }
 
@@ -176,8 +173,7 @@ std::string too_many(const Item& item, long elements, bool is_text) {
 }  // namespace
 
 Ledger::Entry& Ledger::entry(const Key& key) {
-    if (const Entry* found = find(key))
-        return entries_[static_cast<std::size_t>(found - entries_.data())];
+    if (const Entry* found = find(key)) return entries_[at(found - entries_.data())];
     entries_.emplace_back().key = &key;
     return entries_.back();
 }
@@ -192,9 +188,9 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
             std::vector<Fault>& faults) {
     Ledger::Entry& entry = ledger.entry(key);
     if (entry.at.line == 0) entry.at = a.at;
-    const std::string context = "&" + std::string(key.group) + ": " + key.name + ": ";
-    const auto fault = [&](const namelist::Position& at, const std::string& text) {
-        faults.push_back({at, context + text});
+    const std::string context = joined("&", key.group, ": ", key.name, ": ");
+    const auto fault = [&](const Position& at, const auto&... text) {
+        faults.emplace_back(at, context, text...);
         entry.faulty = true;
     };
     const bool is_text = is_one_text(key);
@@ -209,19 +205,18 @@ void assign(Case& settings, const Key& key, const Assignment& a, Ledger& ledger,
     // Elements are marked as given if a value, not a null, is stored in them; the elements of a
     // text are its characters.
     const long elements = is_text ? 1 : walk.count;
-    const long before = static_cast<long>(entry.given.size());
-    const auto mark = [&](long first, long count, const namelist::Position& at) {
+    const long before = long(entry.given.size());
+    const auto mark = [&](long first, long count, const Position& place) {
         if (entry.faulty) return;  // one message for a key given several times is enough
-        for (const auto& [element, where] :
-             std::span(entry.given).first(static_cast<std::size_t>(before)))
+        for (const auto& [element, where] : std::span(entry.given).first(at(before)))
             if (element >= first && element < first + count) {
-                fault(at, "given twice, first" + at_line(where));
+                fault(place, "given twice, first", at_line(where));
                 break;
             }
         if (is_text) {
-            for (long i = 0; i < count; ++i) entry.given.push_back({first + i, at});
+            for (long i = 0; i < count; ++i) entry.given.push_back({first + i, place});
         } else {
-            entry.given.push_back({first, at});
+            entry.given.push_back({first, place});
         }
     };
     const Slot slot = key.slot(settings);
@@ -266,12 +261,11 @@ void finish_lists(Case& settings, Ledger& ledger, std::vector<Fault>& faults) {
         std::vector<double> next;
         const std::size_t size =
             entry.whole ? entry.values.size() : std::max(entry.values.size(), old.size());
-        for (std::size_t i = 0; i < size; ++i) {
+        for (const auto i : indices(size)) {
             const bool given = i < entry.values.size() && entry.values[i];
             if (!given && i >= old.size()) {
-                faults.push_back({entry.at, "&" + std::string(entry.key->group) + ": " +
-                                                entry.key->name + ": element " +
-                                                std::to_string(i + 1) + " has no value"});
+                faults.emplace_back(entry.at, "&", entry.key->group, ": ", entry.key->name,
+                                    ": element ", i + 1, " has no value");
                 entry.faulty = true;
                 break;
             }
@@ -292,8 +286,7 @@ struct Named {
 Named named(std::string_view name, std::string_view value) {
     const Key& key = key_of(name.substr(0, name.find('(')));
     const std::string_view rest = name.substr(name.find_first_not_of(' ', name.find('%') + 1));
-    const namelist::Document document =
-        namelist::parse_assignments(std::string(rest) + " = " + std::string(value));
+    const Document document = parse_assignments(joined(rest, " = ", value));
     if (!document.faults.empty()) bad_input(document.faults.front().text);
     const std::vector<Assignment>& assignments = document.groups.front().assignments;
     if (assignments.size() != 1) bad_input("expected one value for one key");
@@ -301,23 +294,21 @@ Named named(std::string_view name, std::string_view value) {
 }
 
 std::string element_text(const Key& key, const Slot& slot, long element) {
-    const auto i = static_cast<std::size_t>(element - 1);
-    if (auto* b = std::get_if<bool*>(&slot)) return namelist::from_logical(**b);
+    const auto i = at(element - 1);
+    if (auto* b = std::get_if<bool*>(&slot)) return from_logical(**b);
     if (auto* n = std::get_if<int*>(&slot)) return std::to_string((*n)[i]);
     if (auto* n = std::get_if<std::int64_t*>(&slot)) return std::to_string((*n)[i]);
-    if (auto* x = std::get_if<double*>(&slot)) return namelist::from_real((*x)[i]);
+    if (auto* x = std::get_if<double*>(&slot)) return from_real((*x)[i]);
     if (auto* o = std::get_if<std::optional<double>*>(&slot))
-        return (*o)[i] ? namelist::from_real(*(*o)[i]) : "";
-    if (auto* s = std::get_if<std::string*>(&slot)) return namelist::from_string(**s);
+        return (*o)[i] ? from_real(*(*o)[i]) : "";
+    if (auto* s = std::get_if<std::string*>(&slot)) return from_string(**s);
     if (auto* v = std::get_if<std::vector<double>*>(&slot)) {
         if (i >= (*v)->size()) return "";
-        return key.type == Type::choice
-                   ? namelist::from_string(key.choices.at(static_cast<std::size_t>((**v)[i])))
-                   : namelist::from_real((**v)[i]);
+        return key.type == Type::choice ? from_string(key.choices.at(at((**v)[i])))
+                                        : from_real((**v)[i]);
     }
     const ChoiceSlot& choice = std::get<ChoiceSlot>(slot);
-    return namelist::from_string(
-        key.choices.at(static_cast<std::size_t>(choice.get(choice.object))));
+    return from_string(key.choices.at(at(choice.get(choice.object))));
 }
 
 // The part of check_case for one key.
@@ -350,16 +341,16 @@ void set_key(Case& settings, std::string_view name, std::string_view value, bool
     const auto [key, assignment] = named(name, value);
     if (value.find_first_not_of(" \t\r\n") == std::string_view::npos) {
         if (assignment.subscript)
-            bad_input("an element has no default of its own: give it a value, or leave " +
-                      full_name(*key) + " as a whole without one");
+            bad_input("an element has no default of its own: give it a value, or leave ",
+                      full_name(*key), " as a whole without one");
         return set_default(settings, *key);
     }
     if (whole && key->size > 1 && !key->list && !assignment.subscript) {
         long given = 0;
         for (const auto& item : assignment.items) given += item.repeat;
         if (given > 0 && given < key->size)
-            bad_input(std::string(key->name) + " has " + std::to_string(key->size) +
-                      " values: give all of them, or one as " + full_name(*key) + "(1)");
+            bad_input(key->name, " has ", key->size, " values: give all of them, or one as ",
+                      full_name(*key), "(1)");
     }
     Case changed = settings;
     Ledger ledger;
@@ -368,7 +359,7 @@ void set_key(Case& settings, std::string_view name, std::string_view value, bool
     finish_lists(changed, ledger, faults);
     if (!faults.empty()) {
         // The name includes the group.
-        const std::string context = "&" + std::string(key->group) + ": ";
+        const std::string context = joined("&", key->group, ": ");
         const std::string& text = faults.front().text;
         bad_input(text.starts_with(context) ? text.substr(context.size()) : text);
     }
@@ -382,17 +373,14 @@ std::string get_key(const Case& settings, std::string_view name) {
     // Slots point to non-const values; here they are only read.
     const Slot slot = key->slot(const_cast<Case&>(settings));
     long size = key->size;
-    if (const auto* list = std::get_if<std::vector<double>*>(&slot))
-        size = static_cast<long>((*list)->size());
+    if (const auto* list = std::get_if<std::vector<double>*>(&slot)) size = long((*list)->size());
     if (key->word && size == 0) {
         const ChoiceSlot word = std::get<ChoiceSlot>(key->word(const_cast<Case&>(settings)));
-        return namelist::from_string(
-            key->choices.at(static_cast<std::size_t>(word.get(word.object))));
+        return from_string(key->choices.at(at(word.get(word.object))));
     }
     Walk walk{1, 1, size};
     if (assignment.subscript) {
-        if (key->size == 1)
-            bad_input(std::string(key->name) + " is no array: it takes no subscript");
+        if (key->size == 1) bad_input(key->name, " is no array: it takes no subscript");
         if (std::string problem = resolve(assignment, size, walk, key->name); !problem.empty())
             bad_input(problem);
         if (!assignment.subscript->section) walk.count = 1;

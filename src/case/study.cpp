@@ -4,18 +4,19 @@
 #include "case/registry.hpp"
 
 namespace rsc {
+
+using namespace namelist;
+
 namespace {
 
-using namelist::Fault;
-
 // "solids%r" with subscript (2) -> "solids%R(2)"; empty and a fault if there is no such key.
-std::string axis_key(const namelist::Assignment& a, std::vector<Fault>& faults) {
-    const auto fault = [&](const std::string& text) {
-        faults.push_back({a.at, "&study: " + text});
+std::string axis_key(const Assignment& a, std::vector<Fault>& faults) {
+    const auto fault = [&](const auto&... text) {
+        faults.emplace_back(a.at, "&study: ", text...);
         return std::string();
     };
     if (a.key.find('%') == std::string::npos)
-        return fault("unknown key '" + a.key + "'; expected group%key = values, or mode");
+        return fault("unknown key '", a.key, "'; expected group%key = values, or mode");
     const Key* key = nullptr;
     try {
         key = &key_of(a.key);
@@ -25,12 +26,12 @@ std::string axis_key(const namelist::Assignment& a, std::vector<Fault>& faults) 
     const std::string full = full_name(*key);
     const bool array = key->size > 1;
     if (!a.subscript)
-        return array ? fault(full + " is an array: vary one element of it, as in " + full +
-                             "(1) = ...")
-                     : full;
-    if (!array) return fault(full + " is no array: it takes no subscript");
+        return array
+                   ? fault(full, " is an array: vary one element of it, as in ", full, "(1) = ...")
+                   : full;
+    if (!array) return fault(full, " is no array: it takes no subscript");
     if (a.subscript->section || !a.subscript->first)
-        return fault(full + ": vary one element of it, as in " + full + "(1) = ...");
+        return fault(full, ": vary one element of it, as in ", full, "(1) = ...");
     return full + "(" + std::to_string(*a.subscript->first) + ")";
 }
 
@@ -46,25 +47,24 @@ std::size_t member_count(const Study& study) {
 
 std::string values_text(const Member& member) {
     std::string text;
-    for (const auto& [key, value] : member.values)
-        text += (text.empty() ? "" : " ") + key + "=" + value;
+    for (const auto& [key, value] : member.values) enlist(text, " ", key, "=", value);
     return text;
 }
 
-Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
+Study read_study(const Group& group, std::vector<Fault>& faults) {
     Study study;
     study.at = group.at;
     bool mode_given = false;
-    for (const namelist::Assignment& a : group.assignments) {
-        if (faults.size() >= namelist::kMostFaults) break;
-        const auto fault = [&](const namelist::Position& at, const std::string& text) {
-            faults.push_back({at, "&study: " + text});
+    for (const Assignment& a : group.assignments) {
+        if (faults.size() >= kMostFaults) break;
+        const auto fault = [&](const Position& at, const auto&... text) {
+            faults.emplace_back(at, "&study: ", text...);
         };
         if (a.key == "mode") {
             if (mode_given) fault(a.at, "mode: given twice");
             mode_given = true;
             const std::string word = !a.items.empty() && a.items[0].quoted && !a.subscript
-                                         ? namelist::lower_case(a.items[0].text)
+                                         ? lower_case(a.items[0].text)
                                          : "";
             study.mode = word == "zip" ? StudyMode::zip : StudyMode::product;
             const bool more = std::any_of(a.items.begin() + !a.items.empty(), a.items.end(),
@@ -78,35 +78,34 @@ Study read_study(const namelist::Group& group, std::vector<Fault>& faults) {
         axis.key = axis_key(a, faults);
         if (axis.key.empty()) continue;
         if (std::ranges::find(study.axes, axis.key, &Study::Axis::key) != study.axes.end()) {
-            fault(a.at, axis.key + ": given twice");
+            fault(a.at, axis.key, ": given twice");
             continue;
         }
         const std::size_t before = faults.size();
-        for (std::size_t i = 0; i < a.items.size(); ++i) {
-            const namelist::Item& item = a.items[i];
+        for (const auto i : indices(a.items)) {
+            const Item& item = a.items[i];
             if (item.null && !item.counted && i + 1 == a.items.size())
                 break;  // a comma after the last value
             if (item.null) {
-                fault(item.at, axis.key + ": a value is missing");
+                fault(item.at, axis.key, ": a value is missing");
                 break;
             }
-            if (axis.values.size() + static_cast<std::size_t>(item.repeat) > kMostMembers) {
-                fault(item.at,
-                      axis.key + ": more than " + std::to_string(kMostMembers) + " values");
+            if (axis.values.size() + at(item.repeat) > kMostMembers) {
+                fault(item.at, axis.key, ": more than ", kMostMembers, " values");
                 break;
             }
-            const std::string value = item.quoted ? namelist::from_string(item.text) : item.text;
-            axis.values.insert(axis.values.end(), static_cast<std::size_t>(item.repeat), value);
-            axis.places.insert(axis.places.end(), static_cast<std::size_t>(item.repeat), item.at);
+            const std::string value = item.quoted ? from_string(item.text) : item.text;
+            axis.values.insert(axis.values.end(), at(item.repeat), value);
+            axis.places.insert(axis.places.end(), at(item.repeat), item.at);
         }
         if (axis.values.empty()) {
-            if (faults.size() == before) fault(a.at, axis.key + ": no values");
+            if (faults.size() == before) fault(a.at, axis.key, ": no values");
         } else {
             study.axes.push_back(std::move(axis));
         }
     }
     if (study.axes.empty() && faults.empty())
-        faults.push_back({group.at, "&study: no lists of values"});
+        faults.emplace_back(group.at, "&study: no lists of values");
     return study;
 }
 
@@ -117,50 +116,44 @@ std::vector<Fault> check_study(const Case& base, const Study& study) {
     // all memory.
     const std::size_t held = member_count(study) * base.indentation.levels.size();
     if (held > kMostLevels)
-        return {{study.at, "&study: " + std::to_string(member_count(study)) + " members of " +
-                               std::to_string(base.indentation.levels.size()) +
-                               " explicit levels each: more than " + std::to_string(kMostLevels) +
-                               " levels in all; give indentation%start, stop and steps instead"}};
+        return {{study.at, "&study: ", member_count(study), " members of ",
+                 base.indentation.levels.size(), " explicit levels each: more than ", kMostLevels,
+                 " levels in all; give indentation%start, stop and steps instead"}};
     for (const Study::Axis& axis : study.axes)
-        for (std::size_t i = 0; i < axis.values.size() && faults.size() < namelist::kMostFaults;
-             ++i) {
+        for (std::size_t i = 0; i < axis.values.size() && faults.size() < kMostFaults; ++i) {
             if (i > 0 && axis.values[i] == axis.values[i - 1])
                 continue;  // a repeated value, 10000*0.1, is checked and reported once
             Case trial = base;
             try {
                 set_key(trial, axis.key, axis.values[i]);
             } catch (const Error& error) {
-                faults.push_back({i < axis.places.size() ? axis.places[i] : axis.at,
-                                  "&study: " + axis.key + ": " + error.what()});
+                faults.emplace_back(i < axis.places.size() ? axis.places[i] : axis.at,
+                                    "&study: ", axis.key, ": ", error.what());
             }
         }
     const std::size_t length = study.axes.front().values.size();
     if (study.mode == StudyMode::zip)
         for (const Study::Axis& axis : study.axes)
             if (axis.values.size() != length)
-                faults.push_back(
-                    {axis.at, "&study: " + axis.key + " has " + std::to_string(axis.values.size()) +
-                                  " values, " + study.axes.front().key + " has " +
-                                  std::to_string(length) +
-                                  ": mode = 'zip' needs the same number of values for every key"});
+                faults.emplace_back(axis.at, "&study: ", axis.key, " has ", axis.values.size(),
+                                    " values, ", study.axes.front().key, " has ", length,
+                                    ": mode = 'zip' needs the same number of values for every key");
     if (member_count(study) > kMostMembers)
-        faults.push_back(
-            {study.at, "&study: more than " + std::to_string(kMostMembers) + " members"});
+        faults.emplace_back(study.at, "&study: more than ", kMostMembers, " members");
     return faults;
 }
 
 std::vector<Member> expand_study(const Case& base, const Study& study) {
     std::string wrong;
-    for (const Fault& fault : check_study(base, study))
-        wrong += (wrong.empty() ? "" : "\n") + fault.text;
+    for (const Fault& fault : check_study(base, study)) enlist(wrong, "\n", fault.text);
     if (!wrong.empty()) bad_input(wrong);
 
     const std::size_t count = member_count(study);
     std::vector<Member> members(count);
     std::size_t wrong_members = 0;
-    for (std::size_t m = 0; m < count; ++m) {
+    for (const auto m : indices(count)) {
         Member& member = members[m];
-        member.index = static_cast<int>(m + 1);
+        member.index = int(m + 1);
         member.settings = base;
         std::size_t slower = count;
         for (const Study::Axis& axis : study.axes) {
@@ -173,10 +166,9 @@ std::vector<Member> expand_study(const Case& base, const Study& study) {
         for (const auto& [key, value] : member.values) set_key(member.settings, key, value);
         member.settings.output.file = member_file(member.settings.output.file, member.index, count);
         for (const Problem& problem : check_case(member.settings))
-            if (++wrong_members <= namelist::kMostFaults)
-                wrong += (wrong.empty() ? "" : "\n") + std::string("&study: member ") +
-                         std::to_string(member.index) + " (" + values_text(member) + "): &" +
-                         problem.keys.front()->group + ": " + problem.text;
+            if (++wrong_members <= kMostFaults)
+                enlist(wrong, "\n", "&study: member ", member.index, " (", values_text(member),
+                       "): &", problem.keys.front()->group, ": ", problem.text);
     }
     if (!wrong.empty()) bad_input(wrong);
     return members;
@@ -197,8 +189,7 @@ std::string effective_namelist(const Study& study) {
     std::string text = "&study\n";
     for (const Study::Axis& axis : study.axes) {
         text += "  " + axis.key + " = ";
-        for (std::size_t i = 0; i < axis.values.size(); ++i)
-            text += (i > 0 ? ", " : "") + axis.values[i];
+        for (const auto i : indices(axis.values)) text += (i > 0 ? ", " : "") + axis.values[i];
         text += "\n";
     }
     return text + "  mode = " + (study.mode == StudyMode::product ? "'product'" : "'zip'") +

@@ -4,7 +4,6 @@
 #include <udunits2.h>
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 
 namespace rsc {
 namespace {
@@ -84,7 +83,7 @@ const Known& known(Quantity quantity) {
     static constexpr Known all[] = {{"length", "mm", "m", "'mm', 'um' or 'm'"},
                                     {"force", "N", "N", "'N', 'mN' or 'uN'"},
                                     {"time", "s", "s", "'s', 'ms' or 'hour'"}};
-    return all[static_cast<std::size_t>(quantity)];
+    return all[at(quantity)];
 }
 
 std::string problem_of(Session& session, const std::string& text, const Unit& unit,
@@ -122,9 +121,7 @@ double length_factor(const std::string& from, const std::string& to, int power) 
     if (power == 1) require(a, unit);
     const Unit raised(ut_raise(wanted.get(), power), ut_free);
     const double factor = unit && raised ? factor_between(unit, raised) : 0;
-    if (factor == 0)
-        bad_input("'" + a + "' where a unit like (" + b + ")" + std::to_string(power) +
-                  " is expected");
+    if (factor == 0) bad_input("'", a, "' where a unit like (", b, ")", power, " is expected");
     return factor;
 }
 

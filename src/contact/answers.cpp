@@ -13,13 +13,13 @@ void for_each_force(const Indenter& indenter, const Level& level, Add add) {
     for (std::size_t k = 0; k < pixels.index.size() && !by_contacts; ++k)
         add(pixels.x(k) - indenter.x0, pixels.y(k) - indenter.y0,
             pixels.pressure[k] * pixels.dx * pixels.dy);
-    for (std::size_t k = 0; k < pixels.cohesive.size(); ++k)
+    for (const auto k : indices(pixels.cohesive))
         add(pixels.x_of(pixels.cohesive[k]) - indenter.x0,
             pixels.y_of(pixels.cohesive[k]) - indenter.y0,
             pixels.attraction[k] * pixels.dx * pixels.dy);
     if (!by_contacts && !(pixels.index.empty() && pixels.cohesive.empty())) return;
     const LevelTractions& t = level.tractions;  // also of asperities that attract before contact
-    for (std::size_t k = 0; k < t.x.size(); ++k)
+    for (const auto k : indices(t.x))
         add(t.x[k] - indenter.x0, t.y[k] - indenter.y0, t.pressed[k] + t.pulled[k]);
     for (std::size_t k = 0; k < level.f.size() && t.x.empty(); ++k)
         add(level.x[k] - indenter.x0, level.y[k] - indenter.y0, level.f[k]);

@@ -63,9 +63,8 @@ double deflection(const Level& level, const Kernel& kernel, double x, double y) 
         sum += pressure * (body.under_pixel(dx, dy, pixels.dx, pixels.dy) +
                            pixels.dx * pixels.dy * images(dx, dy));
     };
-    for (std::size_t k = 0; k < pixels.index.size(); ++k)
-        add_pixel(pixels.index[k], pixels.pressure[k]);
-    for (std::size_t k = 0; k < pixels.cohesive.size(); ++k)
+    for (const auto k : indices(pixels.index)) add_pixel(pixels.index[k], pixels.pressure[k]);
+    for (const auto k : indices(pixels.cohesive))
         add_pixel(pixels.cohesive[k], pixels.attraction[k]);
     if (!pixels.index.empty()) return sum;
     const auto add_spot = [&](double at_x, double at_y, double force, auto&& own) {
@@ -74,13 +73,13 @@ double deflection(const Level& level, const Kernel& kernel, double x, double y) 
         sum += own(d) + force * (body.smooth_at(d) + images(dx, dy));
     };
     const LevelTractions& t = level.tractions;
-    for (std::size_t k = 0; k < t.x.size(); ++k)
+    for (const auto k : indices(t.x))
         add_spot(t.x[k], t.y[k], t.pressed[k] + t.pulled[k], [&](double d) {
             return (t.a[k] > 0 ? spot_deflection(t.pressed[k], t.a[k], d, body.modulus()) : 0.0) +
                    tension_deflection(t.pulled[k], t.a[k], t.c[k], d, body.modulus());
         });
     if (!t.x.empty()) return sum;
-    for (std::size_t k = 0; k < level.f.size(); ++k)
+    for (const auto k : indices(level.f))
         add_spot(level.x[k], level.y[k], level.f[k], [&](double d) {
             return spot_deflection(level.f[k], level.a[k], d, body.modulus());
         });

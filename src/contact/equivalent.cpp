@@ -6,28 +6,26 @@ namespace rsc {
 namespace {
 
 [[noreturn]] void refuse(const std::string& what, int body, const std::string& expected) {
-    throw Error(Failure::bad_input,
-                what + " of body " + std::to_string(body + 1) + " must be " + expected);
+    bad_input(what, " of body ", body + 1, " must be ", expected);
 }
 
 }  // namespace
 
 double equivalent_modulus(const double (&E)[2], const double (&nu)[2]) {
     double compliance = 0;
-    for (int i = 0; i < 2; ++i) {
+    for (const int i : indices(2)) {
         if (!(E[i] > 0)) refuse("Young's modulus", i, "positive (Infinity for a rigid body)");
         if (!(nu[i] >= -1 && nu[i] <= 0.5)) refuse("Poisson's ratio", i, "between -1 and 0.5");
         compliance += (1 - nu[i] * nu[i]) / E[i];  // 0 for E = Infinity
     }
     if (!(compliance > 0))
-        throw Error(Failure::bad_input,
-                    "both bodies are rigid: at least one modulus E must be finite");
+        bad_input("both bodies are rigid: at least one modulus E must be finite");
     return 1 / compliance;
 }
 
 double equivalent_radius(const double (&R)[2]) {
     double curvature = 0;
-    for (int i = 0; i < 2; ++i) {
+    for (const int i : indices(2)) {
         if (!(R[i] > 0)) refuse("radius", i, "positive (Infinity for a flat body)");
         curvature += 1 / R[i];
     }
@@ -37,7 +35,7 @@ double equivalent_radius(const double (&R)[2]) {
 double tangential_ratio(const double (&E)[2], const double (&nu)[2]) {
     const double E_star = equivalent_modulus(E, nu);
     double compliance = 0;  // 1/(2 G*)
-    for (int i = 0; i < 2; ++i) compliance += (2 - nu[i]) * (1 + nu[i]) / E[i];
+    for (const int i : indices(2)) compliance += (2 - nu[i]) * (1 + nu[i]) / E[i];
     return 2 / (E_star * compliance);
 }
 

@@ -91,7 +91,7 @@ struct Relaxation {
     // The shortest relaxation time with a share; Infinity: there is none.
     double shortest() const {
         double least = kInfinity;
-        for (std::size_t k = 0; k < share.size(); ++k)
+        for (const auto k : indices(share))
             if (share[k] > 0) least = std::min(least, time[k]);
         return least;
     }

@@ -1,7 +1,6 @@
 #include "contact/path.hpp"
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 
 namespace rsc {
 namespace {
@@ -20,6 +19,17 @@ constexpr int kTrials = 2;      // number of failures after which no trials are 
 struct Verdict {
     bool found, above;
     double next;
+};
+
+// Of all solutions on the way to a level.
+struct Effort {
+    std::int32_t iterations = 0;
+    std::int64_t products = 0;
+    // Adds that of a solution, which then has the sum.
+    void add(Level& level) {
+        level.iterations = iterations += level.iterations;
+        level.products = products += level.products;
+    }
 };
 
 // Near N = 0 the force of bodies that attract is the difference of pressure and attraction, and no
@@ -82,9 +92,9 @@ private:
     void interpolate() {
         if (last.size() < 2) return;
         guess = 0;
-        for (std::size_t i = 0; i < last.size(); ++i) {
+        for (const auto i : indices(last)) {
             double share = 1;
-            for (std::size_t j = 0; j < last.size(); ++j)
+            for (const auto j : indices(last))
                 if (j != i) share *= (N - last[j][1]) / (last[i][1] - last[j][1]);
             guess += share * last[i][0];
         }
@@ -100,14 +110,12 @@ template <class Judge, class Reach>
 Level search(Model& model, double begin, double below, double above, int most, Judge&& judge,
              Reach&& reach, bool& stuck) {
     Level level;
-    std::int32_t iterations = 0;
-    std::int64_t products = 0;
+    Effort effort;
     double z = begin, low = below, high = above;
     int trials = kTrials, i = 0;
     const auto solve = [&](bool trial) {
         level = model.solve(z, trial);
-        iterations += level.iterations;
-        products += level.products;
+        effort.add(level);
         return judge(level, z);
     };
     const auto begin_without_trials = [&] {
@@ -147,29 +155,26 @@ Level search(Model& model, double begin, double below, double above, int most, J
         }
         z = next;
     }
-    level.iterations = iterations;
-    level.products = products;
     return level;
 }
 
 }  // namespace
 
 Level Path::at_separation(double Z0) {
-    if (!std::isfinite(Z0)) throw Error(Failure::bad_input, "the separation must be finite");
+    if (!std::isfinite(Z0)) bad_input("the separation must be finite");
     return in_steps(separation_, Z0, &Path::to_separation);
 }
 
 Level Path::at_force(double N) {
     if (!(N > 0 || pulls()) || !std::isfinite(N))
-        throw Error(Failure::bad_input,
-                    pulls() ? "the force must be finite" : "the force must be positive and finite");
+        bad_input(pulls() ? "the force must be finite" : "the force must be positive and finite");
     return in_steps(force_, N, &Path::to_force);
 }
 
 Level Path::in_steps(double from, double to, Reach reach) {
     const double end = time_, length = end - accepted_.value_or(end);
     const bool first = !std::isfinite(from), slides = clock() == PathClock::distance;
-    const int steps = first ? 1 : static_cast<int>(steps_of_time(length, shortest_time()));
+    const int steps = first ? 1 : int(steps_of_time(length, shortest_time()));
     const bool halved = slides && !first && length > 0;
     std::optional<State> before;
     if (steps > 1 || halved) before = state();
@@ -199,19 +204,15 @@ Level Path::in_steps(double from, double to, Reach reach) {
 
 Level Path::in_equal_steps(int steps, double from, double to, Reach reach) {
     const double end = time_, start = accepted_.value_or(end);
-    std::int32_t iterations = 0;
-    std::int64_t products = 0;
+    Effort effort;
     Level level;
     for (int k = 1; k <= steps; ++k) {
-        const double part = static_cast<double>(k) / steps;
+        const double part = double(k) / steps;
         time_ = k < steps ? start + part * (end - start) : end;
         level = (this->*reach)(k < steps ? from + part * (to - from) : to);
-        iterations += level.iterations;
-        products += level.products;
+        effort.add(level);
         if (!level.converged) break;
     }
-    level.iterations = iterations;
-    level.products = products;
     return level;
 }
 
@@ -223,8 +224,7 @@ Level Path::in_equal_steps(int steps, double from, double to, Reach reach) {
 Level Path::in_halved_steps(double from, double to, Reach reach, const State& before) {
     const bool by_force = reach == &Path::to_force;
     const double start = *accepted_, end = time_;
-    std::int32_t iterations = 0;
-    std::int64_t products = 0;
+    Effort effort;
     double last = kNotComputed, last_area = kNotComputed;
     for (int n = 0;; n = std::max(2 * n, 1)) {
         if (!std::isnan(last)) restore_history(before);
@@ -236,8 +236,7 @@ Level Path::in_halved_steps(double from, double to, Reach reach, const State& be
             time_ = part < 1 ? start + part * (end - start) : end;
             level =
                 in_equal_steps(steps, from + begin * (to - from), from + part * (to - from), reach);
-            level.iterations = iterations += level.iterations;
-            level.products = products += level.products;
+            effort.add(level);
         };
         if (n > 0) {
             const double part = 1 - 0.125 / n;
@@ -311,11 +310,10 @@ void Path::finish(Level& level) {
 }
 
 void Path::set_time(double time) {
-    if (!std::isfinite(time)) throw Error(Failure::bad_input, "the time must be finite");
+    if (!std::isfinite(time)) bad_input("the time must be finite");
     if (clock() != PathClock::none && accepted_ && time < *accepted_)
-        throw Error(Failure::bad_input,
-                    format("a %s of %.9g is before that of the last level, %.9g",
-                           relaxes() ? "time" : "sliding distance", time, *accepted_));
+        bad_input(format("a %s of %.9g is before that of the last level, %.9g",
+                         relaxes() ? "time" : "sliding distance", time, *accepted_));
     time_ = time;
 }
 
@@ -339,8 +337,7 @@ double Path::energy() {
 }
 
 void Path::move_tip(double x0, double y0) {
-    if (!std::isfinite(x0) || !std::isfinite(y0))
-        throw Error(Failure::bad_input, "the tip's position must be finite");
+    if (!std::isfinite(x0) || !std::isfinite(y0)) bad_input("the tip's position must be finite");
     model_->move_tip(x0, y0);
     levels_since_move_ = 0;
 }
@@ -448,10 +445,10 @@ Level Path::solve_between_planes(double Z0) {
 
 void Path::refuse_closing(double N, const Level& closing) const {
     const double area = indenter().period.area();
-    throw Error(Failure::bad_input,
-                format("a nominal pressure of %.9g is above that of full contact "
-                       "on this surface, %.4g",
-                       N / area, closing.force / area));
+    bad_input(
+        format("a nominal pressure of %.9g is above that of full contact "
+               "on this surface, %.4g",
+               N / area, closing.force / area));
 }
 
 // The separation at which the search for the force N begins: that of the last level unless it
@@ -485,18 +482,17 @@ void Path::require_resolved(Level& level, double N) {
         level.converged = false;
         level.fallback = Fallback::jump;
     } else if (std::abs(level.force / N - 1) > kUnresolved) {  // N is proportional to depth^(3/2)
-        throw Error(Failure::bad_input,
-                    format("a force of %.9g is too small for the resolution of the separation: "
-                           "near %.9g the smallest possible force is %.9g",
-                           N, z, model_->force_at_most(1.5 * ulp / kUnresolved)));
+        bad_input(
+            format("a force of %.9g is too small for the resolution of the separation: "
+                   "near %.9g the smallest possible force is %.9g",
+                   N, z, model_->force_at_most(1.5 * ulp / kUnresolved)));
     }
 }
 
 Level Path::to_force(double N) {
     begin_step();
     if (!std::isfinite(first_touch()))
-        throw Error(Failure::bad_input,
-                    "no asperity lies under the indenter, so that it cannot carry a force");
+        bad_input("no asperity lies under the indenter, so that it cannot carry a force");
     std::optional<Level> level = model_->solve_under(N);
     if (level)
         level->separation += model_->shift() * level->force;
@@ -571,13 +567,12 @@ Level Path::follow_to_force(double N) {
 // Accepts the levels on the way but the last one, if the model has followed its path to them.
 Level Path::approach_force(double N) {
     const double range = history()->attraction();
-    std::int32_t iterations = 0, jumps = 0;
-    std::int64_t products = 0;
+    Effort effort;
+    std::int32_t jumps = 0;
     double least_on_path = 0;
     const auto solve = [&](double z, bool trial) {
         Level there = model_->solve(z, trial);
-        there.iterations = iterations += there.iterations;
-        there.products = products += there.products;
+        effort.add(there);
         there.jumps += jumps;
         return there;
     };

@@ -68,7 +68,7 @@ public:
     virtual double height(double x, double y) const = 0;
     // s at the offsets (x[k], y), k = 0 ... n-1.
     virtual void heights(int n, const double* x, double y, double* s) const {
-        for (int k = 0; k < n; ++k) s[k] = height(x[k], y);
+        for (const int k : indices(n)) s[k] = height(x[k], y);
     }
     // Gradient and second derivatives of s where s is finite, and nabla^4 s [1/length^3] for laws
     // that need it.

@@ -40,8 +40,8 @@ struct Samples {
     std::array<double, count> t;
     std::array<double, count> c, s;  // cos t, sin t
     Samples() {
-        for (std::size_t k = 0; k < count; ++k) {
-            t[k] = kStart + 2 * pi * static_cast<double>(k) / (count - 1);
+        for (const auto k : indices(count)) {
+            t[k] = kStart + 2 * pi * double(k) / (count - 1);
             c[k] = std::cos(t[k]);
             s[k] = std::sin(t[k]);
         }
@@ -165,7 +165,7 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
     const std::size_t n = spots.size();
     std::vector<double> x(n), y(n), reach(n);
     double area = 0;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (const auto i : indices(n)) {
         x[i] = spots[i].x;
         y[i] = spots[i].y;
         reach[i] = spots[i].minor > 0 ? spots[i].major : 0;
@@ -181,8 +181,8 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
     });
     const auto radius = [&](std::size_t i) { return std::sqrt(spots[i].major * spots[i].minor); };
     if (close)
-        *close = std::count_if(pairs.begin(), pairs.end(),
-                               [&](const Near& p) { return p.d < radius(p.i) + radius(p.j); });
+        *close = std::ranges::count_if(
+            pairs, [&](const Near& p) { return p.d < radius(p.i) + radius(p.j); });
 
     // Computes for each spot the area not covered by earlier ones, in its own frame, so that
     // periodic images need no special treatment.
@@ -198,7 +198,7 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
         std::vector<Cover> covered;  // covered parts of the border
         std::vector<Before> before;
     };
-    constexpr std::size_t none = static_cast<std::size_t>(-1);
+    constexpr std::size_t none = at(-1);
     std::vector<std::size_t> place_of(
         n, none);  // index in `places` of a spot that has close neighbours
     std::vector<Place> places;
@@ -233,7 +233,7 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
         places[later].before.push_back({first, centre});
     }
     for (Place& p : places)
-        std::sort(p.covered.begin(), p.covered.end(), [](const Cover& a, const Cover& b) {
+        std::ranges::sort(p.covered, [](const Cover& a, const Cover& b) {
             return a.from != b.from ? a.from < b.from : a.by < b.by;
         });
     // Area swept by a part of the border of p about the origin, where it is not covered by spots
@@ -252,7 +252,7 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
         return part.from < part.to ? sum + swept(e, {0, 0}, part.from, part.to) : sum;
     };
     std::vector<double> covered(places.size(), 0.0);  // area of a spot covered by earlier ones
-    for (std::size_t k = 0; k < places.size(); ++k) {
+    for (const auto k : indices(places)) {
         const Place& p = places[k];
         if (p.before.empty()) continue;
         covered[k] =
@@ -267,7 +267,7 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
     if (own) {
         // Places are numbered in the order in which they occur in pairs, not as the spots.
         own->clear();
-        for (std::size_t i = 0; i < n; ++i)
+        for (const auto i : indices(n))
             own->push_back(pi * spots[i].major * spots[i].minor -
                            (place_of[i] == none ? 0.0 : covered[place_of[i]]));
     }

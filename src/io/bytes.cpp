@@ -1,6 +1,6 @@
 #include "io/formats.hpp"
 
-#include <unistd.h>
+#include "base/parallel.hpp"
 
 namespace rsc {
 
@@ -9,27 +9,23 @@ std::string shown(std::string_view word) {
 }
 
 void check_memory(const std::string& path, const std::string& what, double count) {
-    const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
-    const double machine =
-        pages > 0 && page > 0 ? static_cast<double>(pages) * static_cast<double>(page) : 1e15;
-    const double bytes = count * sizeof(double);
+    const double bytes = count * sizeof(double), machine = machine_memory();
     if (bytes > machine)
-        bad_input(path + ": " + what + " needs " + text_of(bytes / 1e9) + " GB; this machine has " +
-                  text_of(machine / 1e9) + " GB");
+        bad_input(path, ": ", what, " needs ", bytes / 1e9, " GB; this machine has ", machine / 1e9,
+                  " GB");
 }
 
 void check_grid(const std::string& path, std::size_t nx, std::size_t ny) {
-    const std::string what =
-        "a height map of " + std::to_string(nx) + " x " + std::to_string(ny) + " points";
-    if (nx < 3 || ny < 3) bad_input(path + ": " + what + "; at least 3 x 3 are needed");
-    if (std::max(nx, ny) > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        bad_input(path + ": " + what + "; at most 2147483647 points a side are possible");
-    check_memory(path, what, static_cast<double>(nx) * static_cast<double>(ny));
+    const std::string what = joined("a height map of ", nx, " x ", ny, " points");
+    if (nx < 3 || ny < 3) bad_input(path, ": ", what, "; at least 3 x 3 are needed");
+    if (std::max(nx, ny) > at(std::numeric_limits<int>::max()))
+        bad_input(path, ": ", what, "; at most 2147483647 points a side are possible");
+    check_memory(path, what, double(nx) * double(ny));
 }
 
 HeightMap allocate_map(std::size_t nx, std::size_t ny) {
     HeightMap map;
-    map.allocate(static_cast<int>(nx), static_cast<int>(ny), static_cast<std::ptrdiff_t>(nx));
+    map.allocate(int(nx), int(ny), std::ptrdiff_t(nx));
     return map;
 }
 
@@ -38,7 +34,7 @@ void scale_heights(HeightMap& map, double factor) {
 }
 
 void reverse_columns(HeightMap& map) {
-    for (int j = 0; j < map.ny; ++j) std::reverse(map.row(j), map.row(j) + map.nx);
+    for (const int j : indices(map.ny)) std::reverse(map.row(j), map.row(j) + map.nx);
 }
 
 void reverse_rows(HeightMap& map) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "surface/surface.hpp"
 
 namespace rsc {
@@ -23,9 +22,10 @@ HeightMap read_gwy(const std::string& path, const std::string& channel,
 // is true for their first bytes: aISO-1.0, bISO-1.0, aBCR-1.0, ... The heights are converted from
 // metres to length_unit; missing points (BAD in a text, the least value of a signed type, the
 // largest of an unsigned one, in BCR the largest of any, NaN) are NaN. Rows and origin as in
-// read_gwy().
+// read_gwy(); there are no channels and no title.
 bool is_sdf(const std::string& start);
-HeightMap read_sdf(const std::string& path, const std::string& length_unit);
+HeightMap read_sdf(const std::string& path, const std::string& channel,
+                   const std::string& length_unit, std::string* title);
 
 // A rectangular table: value (row, column) = values[row*columns + column]; line[row] is the row's
 // line in the file, from 1.
@@ -89,13 +89,13 @@ void reverse_rows(HeightMap& map);
 // Reads all bytes of a file. Throws Error(bad_input) if they cannot be read.
 inline std::string read_bytes(const std::string& path) {
     std::ifstream file(path, std::ios::binary | std::ios::ate);
-    const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : -1;
-    if (size < 0) bad_input(path + ": cannot be read");
-    check_memory(path, "the file", static_cast<double>(size) / sizeof(double));
-    std::string bytes(static_cast<std::size_t>(size), '\0');
+    const std::streamoff size = file ? std::streamoff(file.tellg()) : -1;
+    if (size < 0) bad_input(path, ": cannot be read");
+    check_memory(path, "the file", double(size) / sizeof(double));
+    std::string bytes(std::size_t(size), '\0');
     file.seekg(0);
     file.read(bytes.data(), size);
-    if (file.gcount() != size) bad_input(path + ": reading failed");
+    if (file.gcount() != size) bad_input(path, ": reading failed");
     return bytes;
 }
 
@@ -108,15 +108,15 @@ public:
     std::size_t at() const { return at_; }
     std::size_t left() const { return end_ - at_; }
     const std::string& path() const { return path_; }
-    [[noreturn]] void refuse(const std::string& what) const {
-        bad_input(path_ + ": at byte " + std::to_string(at_) + ": " + what);
+    [[noreturn]] void refuse(const auto&... what) const {
+        bad_input(path_, ": at byte ", at_, ": ", what...);
     }
 
     // The next `count` items of `size` bytes each; `what` names them in messages.
     std::string_view take(std::size_t count, std::size_t size, const std::string& what) {
         if (count > left() / size)
-            refuse(what + " of " + std::to_string(count) + " x " + std::to_string(size) +
-                   " bytes, but " + std::to_string(left()) + " are left; is the file complete?");
+            refuse(what, " of ", count, " x ", size, " bytes, but ", left(),
+                   " are left; is the file complete?");
         const std::string_view taken = bytes_.substr(at_, count * size);
         at_ += count * size;
         return taken;
@@ -128,7 +128,7 @@ public:
     // Up to a zero byte.
     std::string_view text(const std::string& what) {
         const std::size_t zero = bytes_.substr(at_, left()).find('\0');
-        if (zero == std::string_view::npos) refuse(what + " has no end; is the file complete?");
+        if (zero == std::string_view::npos) refuse(what, " has no end; is the file complete?");
         const std::string_view taken = bytes_.substr(at_, zero);
         at_ += zero + 1;
         return taken;

@@ -1,7 +1,6 @@
 #include "io/formats.hpp"
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "case/units.hpp"
 
 namespace rsc {
@@ -33,7 +32,7 @@ void skip(ByteReader& in, char type, const std::string& name) {
     } else if (type == 'o' || type == 'O') {
         for (std::uint32_t n = type == 'O' ? length() : 1; n > 0; --n) skip_object(in);
     } else {
-        in.refuse(name + " has an unknown type, '" + printable(std::string_view(&type, 1)) + "'");
+        in.refuse(name, " has an unknown type, '", printable(std::string_view(&type, 1)), "'");
     }
 }
 
@@ -41,11 +40,11 @@ void skip(ByteReader& in, char type, const std::string& name) {
 std::vector<Component> components(ByteReader& in, const std::string& wanted) {
     const std::string_view name = in.text("the name of an object");
     if (name != wanted)
-        in.refuse("an object " + wanted + " was expected, not '" + printable(name) + "'");
+        in.refuse("an object ", wanted, " was expected, not '", printable(name), "'");
     const std::size_t size = in.number<std::uint32_t>("the size of " + wanted);
     if (size > in.left())
-        in.refuse(wanted + " of " + std::to_string(size) + " bytes, but " +
-                  std::to_string(in.left()) + " are left; is the file complete?");
+        in.refuse(wanted, " of ", size, " bytes, but ", in.left(),
+                  " are left; is the file complete?");
     const std::size_t end = in.at() + size;
     std::vector<Component> all;
     while (in.at() < end) {
@@ -72,8 +71,8 @@ class GwyFile {
 public:
     GwyFile(const std::string& path) : path_(path), bytes_(read_bytes(path)) {
         if (!bytes_.starts_with("GWYP"))
-            bad_input(path + ": a file of another version of Gwyddion (it begins with '" +
-                      printable(bytes_.substr(0, 4)) +
+            bad_input(path, ": a file of another version of Gwyddion (it begins with '",
+                      printable(bytes_.substr(0, 4)),
                       "', not 'GWYP'): open it in Gwyddion 2 and save it again");
         ByteReader in(path_, bytes_, 4, bytes_.size());
         for (const Component& c : components(in, "GwyContainer")) top_[c.name] = c;
@@ -88,12 +87,11 @@ public:
                 continue;
             const std::string_view digits = name.substr(1, name.size() - 6);
             if (digits.size() > 9 ||
-                !std::all_of(digits.begin(), digits.end(),
-                             [](unsigned char d) { return std::isdigit(d) != 0; }))
+                !std::ranges::all_of(digits, [](unsigned char d) { return std::isdigit(d) != 0; }))
                 continue;
             numbers.push_back(std::stol(std::string(digits)));
         }
-        std::sort(numbers.begin(), numbers.end());
+        std::ranges::sort(numbers);
         return numbers;
     }
 
@@ -137,8 +135,8 @@ private:
     ByteReader reader(const Component& c) const { return {path_, bytes_, c.at, c.end}; }
     static std::size_t size(ByteReader& in, const std::string& what) {
         const auto n = in.number<std::int32_t>(what);
-        if (n < 1) in.refuse(what + " = " + std::to_string(n) + ": must be positive");
-        return static_cast<std::size_t>(n);
+        if (n < 1) in.refuse(what, " = ", n, ": must be positive");
+        return at(n);
     }
     std::string unit(ByteReader& in) const {
         for (const Component& part : components(in, "GwySIUnit"))
@@ -173,20 +171,20 @@ HeightMap read_gwy(const std::string& path, const std::string& channel,
     for (const long n : file.channels()) {
         const std::string title = file.title(n);
         const auto field = file.field(format("/%ld/data", n));
-        names += (names.empty() ? "'" : ", '") + printable(title) + "' (" + std::to_string(n) +
-                 ") in '" + printable(field->unit_z) + "'";
+        enlist(names, ", ", "'", printable(title), "' (", n, ") in '", printable(field->unit_z),
+               "'");
         if (channel == std::to_string(n)) numbered = n;
         if (!chosen && (channel.empty() ? factor_of(field->unit_z, length_unit).has_value()
                                         : title == channel))
             chosen = n;
     }
     if (!chosen) chosen = numbered;
-    if (names.empty()) bad_input(path + ": contains no channel (image)");
+    if (names.empty()) bad_input(path, ": contains no channel (image)");
     if (!chosen)
-        bad_input(path + ": " +
-                  (channel.empty() ? "no channel contains heights"
-                                   : "there is no channel '" + channel + "'") +
-                  "; there are " + names);
+        bad_input(path, ": ",
+                  channel.empty() ? "no channel contains heights"
+                                  : "there is no channel '" + channel + "'",
+                  "; there are ", names);
     const std::string base = format("/%ld", *chosen);
     const Field field = *file.field(base + "/data");
     const std::string name = path + ": channel '" + printable(file.title(*chosen)) + "'";
@@ -194,29 +192,25 @@ HeightMap read_gwy(const std::string& path, const std::string& channel,
     const auto factor_z = factor_of(field.unit_z, length_unit),
                factor_xy = factor_of(field.unit_xy, length_unit);
     if (!factor_z)
-        bad_input(name + ": its values are in '" + printable(field.unit_z) +
-                  "', which is no length");
+        bad_input(name, ": its values are in '", printable(field.unit_z), "', which is no length");
     if (!factor_xy)
-        bad_input(name + ": its sides are in '" + printable(field.unit_xy) +
-                  "', which is no length");
+        bad_input(name, ": its sides are in '", printable(field.unit_xy), "', which is no length");
     check_grid(path, field.nx, field.ny);
     const std::size_t points = field.nx * field.ny;
     if (field.data.size() != points * sizeof(double))
-        bad_input(name + ": " + std::to_string(field.data.size() / sizeof(double)) +
-                  " values for " + std::to_string(field.nx) + " x " + std::to_string(field.ny) +
-                  " points");
+        bad_input(name, ": ", field.data.size() / sizeof(double), " values for ", field.nx, " x ",
+                  field.ny, " points");
     if (!(field.Lx > 0 && field.Ly > 0 && std::isfinite(field.Lx) && std::isfinite(field.Ly)))
-        bad_input(name + ": sides of " + text_of(field.Lx) + " and " + text_of(field.Ly) +
-                  " must be positive");
+        bad_input(name, ": sides of ", field.Lx, " and ", field.Ly, " must be positive");
     HeightMap map = allocate_map(field.nx, field.ny);
-    map.dx = field.Lx * *factor_xy / static_cast<double>(field.nx);
-    map.dy = field.Ly * *factor_xy / static_cast<double>(field.ny);
-    for (std::size_t k = 0; k < points; ++k)
+    map.dx = field.Lx * *factor_xy / double(field.nx);
+    map.dy = field.Ly * *factor_xy / double(field.ny);
+    for (const auto k : indices(points))
         map.data[k] = *factor_z * ByteReader::value<double>(field.data.data() + k * sizeof(double));
     if (const auto mask = file.field(base + "/mask")) {
         if (mask->nx != field.nx || mask->ny != field.ny || mask->data.size() != field.data.size())
-            bad_input(name + ": its mask and the channel differ in size");
-        for (std::size_t k = 0; k < points; ++k)
+            bad_input(name, ": its mask and the channel differ in size");
+        for (const auto k : indices(points))
             if (ByteReader::value<double>(mask->data.data() + k * sizeof(double)) > 0)
                 map.data[k] = std::nan("");
     }

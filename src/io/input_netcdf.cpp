@@ -4,7 +4,6 @@
 #include <zlib.h>
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "base/reason.hpp"
 #include "case/units.hpp"
 #include "io/formats.hpp"
@@ -28,28 +27,27 @@ std::string checksum_line(const char* bytes, std::size_t size) {
 bool require_sound(const std::string& path) {
     std::ifstream in(path, std::ios::binary | std::ios::ate);
     std::string line = line_of(0);
-    const std::streamoff length = static_cast<std::streamoff>(line.size()), digits = 9,
-                         size = in ? static_cast<std::streamoff>(in.tellg()) : 0;
+    const std::streamoff length = std::streamoff(line.size()), digits = 9,
+                         size = in ? std::streamoff(in.tellg()) : 0;
     if (size < length) return false;
     const std::string start = line.substr(0, line.size() - digits);
     in.seekg(size - length);
     if (!in.read(line.data(), length)) return false;
     if (!line.starts_with(start)) {
         if (line.find(start) != std::string::npos)
-            bad_input(path + ": is truncated: its last line, the checksum, is incomplete");
+            bad_input(path, ": is truncated: its last line, the checksum, is incomplete");
         return false;
     }
     std::vector<char> buffer(1 << 20);
     uLong crc = 0;
     in.seekg(0);
     for (std::streamoff left = size - length; left > 0 && in;) {
-        in.read(buffer.data(), std::min(left, static_cast<std::streamoff>(buffer.size())));
-        crc = crc32_z(crc, reinterpret_cast<const Bytef*>(buffer.data()),
-                      static_cast<std::size_t>(in.gcount()));
+        in.read(buffer.data(), std::min(left, std::streamoff(buffer.size())));
+        crc = crc32_z(crc, reinterpret_cast<const Bytef*>(buffer.data()), at(in.gcount()));
         left -= in.gcount();
     }
     if (line_of(crc) != line)
-        bad_input(path +
+        bad_input(path,
                   ": is damaged, or was changed since rsc wrote it: its checksum is wrong (nccopy "
                   "makes a copy "
                   "without one)");
@@ -103,8 +101,8 @@ public:
             variables.push_back(v);
         });
         std::uint64_t end = position_, record_bytes = 0;
-        const auto recorded = std::count_if(variables.begin(), variables.end(),
-                                            [](const Variable& v) { return v.record; });
+        const auto recorded =
+            std::ranges::count_if(variables, [](const Variable& v) { return v.record; });
         for (const Variable& v : variables)
             if (v.record) record_bytes += recorded == 1 ? v.bytes : (v.bytes + 3) / 4 * 4;
         for (const Variable& v : variables) {
@@ -120,16 +118,16 @@ public:
 
 private:
     [[noreturn]] void damaged() const {
-        bad_input(path_ + ": looks like NetCDF, but its header is truncated or damaged at byte " +
-                  std::to_string(position_));
+        bad_input(path_, ": looks like NetCDF, but its header is truncated or damaged at byte ",
+                  position_);
     }
 
     std::uint64_t number(int bytes) {
         unsigned char b[8] = {};
         if (!file_.read(reinterpret_cast<char*>(b), bytes)) damaged();
-        position_ += static_cast<std::uint64_t>(bytes);
+        position_ += std::uint64_t(bytes);
         std::uint64_t value = 0;
-        for (int i = 0; i < bytes; ++i) value = value << 8 | b[i];
+        for (const int i : indices(bytes)) value = value << 8 | b[i];
         return value;
     }
     std::uint64_t count() { return number(version_ == 5 ? 8 : 4); }
@@ -146,7 +144,7 @@ private:
     void skip(std::uint64_t bytes) {
         bytes = (bytes + 3) / 4 * 4;
         if (bytes > length_ - std::min(position_, length_)) damaged();
-        file_.seekg(static_cast<std::streamoff>(bytes), std::ios::cur);
+        file_.seekg(std::streamoff(bytes), std::ios::cur);
         position_ += bytes;
     }
     void name() { skip(bounded(count())); }
@@ -193,8 +191,8 @@ void check_classic_length(const std::string& path) {
     ClassicHeader header(path);
     const std::uint64_t wanted = header.wanted_length();
     if (header.length() < wanted)
-        bad_input(path + ": ends at byte " + std::to_string(header.length()) + " of the " +
-                  std::to_string(wanted) + " in its header; the file is truncated");
+        bad_input(path, ": ends at byte ", header.length(), " of the ", wanted,
+                  " in its header; the file is truncated");
 }
 
 namespace {
@@ -207,12 +205,12 @@ std::optional<double> default_fill(nc_type type) {
         case NC_DOUBLE: return NC_FILL_DOUBLE;
         case NC_INT: return NC_FILL_INT;
         case NC_SHORT: return NC_FILL_SHORT;
-        case NC_INT64: return static_cast<double>(NC_FILL_INT64);
+        case NC_INT64: return double(NC_FILL_INT64);
         default: return {};
     }
 }
 
-std::string indices(const NetcdfInput::Variable& v, std::size_t flat) {
+std::string value_name(const NetcdfInput::Variable& v, std::size_t flat) {
     std::string text;
     for (std::size_t d = v.lengths.size(); d-- > 0;) {
         text = v.axes[d] + " = " + std::to_string(flat % v.lengths[d]) +
@@ -225,10 +223,10 @@ std::string indices(const NetcdfInput::Variable& v, std::size_t flat) {
 }  // namespace
 
 void require_memory(double bytes, const std::string& purpose, const char* remedy) {
-    void* const probe = bytes < 9e18 ? std::malloc(static_cast<std::size_t>(bytes)) : nullptr;
+    void* const probe = bytes < 9e18 ? std::malloc(at(bytes)) : nullptr;
     if (!probe)
-        throw Error(Failure::no_memory, "not enough memory " + purpose +
-                                            format(" (some %.0f MB)", bytes / 1e6) + remedy);
+        throw Error(Failure::no_memory, "not enough memory ", purpose,
+                    format(" (some %.0f MB)", bytes / 1e6), remedy);
     std::free(probe);
 }
 
@@ -237,8 +235,8 @@ bool is_netcdf(const std::string& path) {
     if (std::filesystem::exists(path, ignored) &&
         !std::filesystem::is_regular_file(path, ignored) &&
         !std::filesystem::is_directory(path, ignored))
-        bad_input(path + ": is a device or a FIFO; a plain file was expected");
-    if (const std::string why = why_not_opened(path); !why.empty()) bad_input(path + ": " + why);
+        bad_input(path, ": is a device or a FIFO; a plain file was expected");
+    if (const std::string why = why_not_opened(path); !why.empty()) bad_input(path, ": ", why);
     std::ifstream file(path, std::ios::binary);
     constexpr std::array<char, 8> kHdf5 = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
     for (const long offset :
@@ -247,7 +245,7 @@ bool is_netcdf(const std::string& path) {
         file.seekg(offset);
         file.read(start.data(), start.size());
         const auto count = file.gcount();
-        if (offset == 0 && count == 0) bad_input(path + ": is empty");
+        if (offset == 0 && count == 0) bad_input(path, ": is empty");
         if (offset == 0 && count >= 4 && std::memcmp(start.data(), "CDF", 3) == 0 &&
             (start[3] == 1 || start[3] == 2 || start[3] == 5))
             return true;
@@ -267,23 +265,22 @@ NetcdfInput::NetcdfInput(const std::string& path) : alone_(library_lock()), path
     check_classic_length(path);  // the library reads zeros beyond the end of a classic file
     const int status = nc_open(path.c_str(), NC_NOWRITE, &id_);
     if (status != NC_NOERR)
-        bad_input(path + ": looks like NetCDF but cannot be opened; is it complete? (" +
-                  nc_strerror(status) + ")");
+        bad_input(path, ": looks like NetCDF but cannot be opened; is it complete? (",
+                  nc_strerror(status), ")");
 }
 
 NetcdfInput::~NetcdfInput() { nc_close(id_); }
 
 void NetcdfInput::must(int status, const std::string& what) const {
     if (status != NC_NOERR)
-        bad_input(path_ + ": " + what + " cannot be read; is the file complete? (" +
-                  nc_strerror(status) + ")");
+        bad_input(path_, ": ", what, " cannot be read; is the file complete? (",
+                  nc_strerror(status), ")");
 }
 
 std::string NetcdfInput::Variable::shape() const {
-    std::string text = name + "(";
-    for (std::size_t d = 0; d < axes.size(); ++d)
-        text += (d > 0 ? ", " : "") + axes[d] + " = " + std::to_string(lengths[d]);
-    return text + ")";
+    std::string text;
+    for (const auto d : indices(axes)) enlist(text, ", ", axes[d], " = ", lengths[d]);
+    return name + "(" + text + ")";
 }
 
 std::size_t NetcdfInput::Variable::count() const {
@@ -298,7 +295,7 @@ NetcdfInput::Variable NetcdfInput::variable(int id) const {
     must(nc_inq_var(id_, id, name, &v.type, &rank, nullptr, nullptr),
          "variable " + std::to_string(id));
     v.name = printable(name, NC_MAX_NAME);
-    v.dimensions.resize(static_cast<std::size_t>(rank));
+    v.dimensions.resize(at(rank));
     must(nc_inq_vardimid(id_, id, v.dimensions.data()), "the dimensions of " + v.name);
     for (const int d : v.dimensions) {
         std::size_t length = 0;
@@ -313,7 +310,7 @@ std::vector<NetcdfInput::Variable> NetcdfInput::variables() const {
     int count = 0;
     must(nc_inq_nvars(id_, &count), "the list of variables");
     std::vector<Variable> all;
-    for (int id = 0; id < count; ++id) all.push_back(variable(id));
+    for (const int id : indices(count)) all.push_back(variable(id));
     return all;
 }
 
@@ -331,7 +328,7 @@ std::optional<std::vector<double>> NetcdfInput::numbers_attribute(const Variable
     if (status == NC_ENOTATT) return std::nullopt;
     must(status, v.name + ":" + name);
     if (type == NC_CHAR || type == NC_STRING)
-        bad_input(path_ + ": attribute " + v.name + ":" + name + " is text; a number was expected");
+        bad_input(path_, ": attribute ", v.name, ":", name, " is text; a number was expected");
     std::vector<double> values(length);
     if (length > 0) must(nc_get_att_double(id_, v.id, name, values.data()), v.name + ":" + name);
     return values;
@@ -351,7 +348,7 @@ std::optional<std::string> NetcdfInput::text_attribute(const Variable& v, const 
         if (value) text = value;
         nc_free_string(1, &value);
     } else {
-        bad_input(path_ + ": attribute " + v.name + ":" + name + " is no text");
+        bad_input(path_, ": attribute ", v.name, ":", name, " is no text");
     }
     return printable(text.substr(0, text.find('\0')), text.size());
 }
@@ -360,7 +357,7 @@ double NetcdfInput::number_attribute(const Variable& v, const char* name, double
     const auto values = numbers_attribute(v, name);
     if (!values) return otherwise;
     if (values->size() != 1 || !std::isfinite(values->front()))
-        bad_input(path_ + ": attribute " + v.name + ":" + name + " must be one finite number");
+        bad_input(path_, ": attribute ", v.name, ":", name, " must be one finite number");
     return values->front();
 }
 
@@ -378,13 +375,12 @@ struct NetcdfInput::Packing {
     double typed(double value) const {
         const double wrap = type == NC_BYTE ? 0x1p8 : type == NC_SHORT ? 0x1p16 : 0x1p32;
         return is_unsigned && value < 0 ? value + wrap
-               : type == NC_FLOAT       ? static_cast<double>(static_cast<float>(value))
+               : type == NC_FLOAT       ? double(float(value))
                                         : value;
     }
     bool is_missing(double stored) const {
         const double judged = unpacked ? stored * scale + offset : stored;
-        return std::find(missing.begin(), missing.end(), stored) != missing.end() ||
-               judged < least || judged > most;
+        return contains(missing, stored) || judged < least || judged > most;
     }
 };
 
@@ -397,7 +393,7 @@ NetcdfInput::Packing NetcdfInput::packing(const Variable& v) const {
                     number_attribute(v, "valid_min", -kInfinity),
                     number_attribute(v, "valid_max", kInfinity)};
     if (const auto fill = numbers_attribute(v, "_FillValue"))
-        packing.missing.insert(packing.missing.end(), fill->begin(), fill->end());
+        append(packing.missing, *fill);
     else if (const auto standard = default_fill(v.type))
         packing.missing.push_back(*standard);
     for (double& value : packing.missing) value = packing.typed(value);
@@ -413,7 +409,7 @@ NetcdfInput::Packing NetcdfInput::packing(const Variable& v) const {
                        (real("valid_range") || real("valid_min") || real("valid_max"));
     if (const auto range = numbers_attribute(v, "valid_range")) {
         if (range->size() != 2)
-            bad_input(path_ + ": attribute " + v.name + ":valid_range must be two numbers");
+            bad_input(path_, ": attribute ", v.name, ":valid_range must be two numbers");
         packing.least = (*range)[0];
         packing.most = (*range)[1];
     }
@@ -429,7 +425,7 @@ NetcdfInput::Packing NetcdfInput::packing(const Variable& v) const {
 }
 
 void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) const {
-    if (!v.numeric()) bad_input(path_ + ": variable " + v.name + " is not numeric");
+    if (!v.numeric()) bad_input(path_, ": variable ", v.name, " is not numeric");
     must(nc_get_var_double(id_, v.id, out), "variable " + v.name);
     const Packing packing = this->packing(v);
     for (std::size_t i = 0; i < v.count(); ++i) {
@@ -440,11 +436,11 @@ void NetcdfInput::read(const Variable& v, double* out, bool missing_allowed) con
             continue;
         }
         if (filled)
-            bad_input(path_ + ": " + indices(v, i) + " is missing (" + text_of(stored) +
+            bad_input(path_, ": ", value_name(v, i), " is missing (", stored,
                       " is a fill value or not valid); every value must be known");
         out[i] = stored * packing.scale + packing.offset;
         if (!std::isfinite(out[i]))
-            bad_input(path_ + ": " + indices(v, i) + " is not finite; every value must be known");
+            bad_input(path_, ": ", value_name(v, i), " is not finite; every value must be known");
     }
 }
 
@@ -460,7 +456,7 @@ std::optional<double> NetcdfInput::unit_factor(const Variable& v, const std::str
     try {
         return length_factor(*units, length_unit, power);
     } catch (const Error& error) {
-        bad_input(path_ + ": the units of " + v.name + ": " + error.what());
+        bad_input(path_, ": the units of ", v.name, ": ", error.what());
     }
 }
 
@@ -468,12 +464,12 @@ std::vector<double> NetcdfInput::values(const std::string& name, std::size_t ran
                                         const std::string& length_unit, int power,
                                         const char* expected) const {
     const auto v = find(name);
-    if (!v) bad_input(path_ + ": there is no variable " + name + "; " + expected);
+    if (!v) bad_input(path_, ": there is no variable ", name, "; ", expected);
     if (v->lengths.size() != rank || !v->numeric())
-        bad_input(path_ + ": " + name + ", numeric over " +
-                  (rank == 1 ? "one dimension" : "two dimensions") + ", was expected, not " +
+        bad_input(path_, ": ", name, ", numeric over ",
+                  rank == 1 ? "one dimension" : "two dimensions", ", was expected, not ",
                   v->shape());
-    check_memory(path_, v->shape(), 8.0 * static_cast<double>(v->count()));
+    check_memory(path_, v->shape(), 8.0 * double(v->count()));
     std::vector<double> all(v->count());
     read(*v, all.data());
     const double factor = unit_factor(*v, length_unit, power).value_or(1.0);

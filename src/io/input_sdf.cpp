@@ -1,7 +1,6 @@
 #include "io/formats.hpp"
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "case/namelist.hpp"
 #include "case/units.hpp"
 
@@ -23,16 +22,14 @@ HeightMap prepare(const std::string& path, const Header& h, const std::string& l
     check_grid(path, h.nx, h.ny);
     const auto positive = [&](const char* name, double value) {
         if (!(value > 0 && std::isfinite(value)))
-            bad_input(path + ": " + name + " = " + text_of(value) + ": must be positive");
+            bad_input(path, ": ", name, " = ", value, ": must be positive");
     };
     positive("Xscale", h.dx);
     positive("Yscale", h.dy);
     positive("Zscale", h.scale);
     if (h.compression != 0)
-        bad_input(path + ": Compression = " + std::to_string(h.compression) +
-                  ": only 0 (none) is known");
-    if (h.check != 0)
-        bad_input(path + ": CheckType = " + std::to_string(h.check) + ": only 0 (none) is known");
+        bad_input(path, ": Compression = ", h.compression, ": only 0 (none) is known");
+    if (h.check != 0) bad_input(path, ": CheckType = ", h.check, ": only 0 (none) is known");
     const double metre = length_factor("m", length_unit);
     HeightMap map = allocate_map(h.nx, h.ny);
     map.dx = h.dx * metre;
@@ -46,17 +43,17 @@ HeightMap prepare(const std::string& path, const Header& h, const std::string& l
 template <class T>
 bool is_missing(double value, bool bcr) {
     using Limits = std::numeric_limits<T>;
-    const bool least = std::is_signed_v<T> && value == static_cast<double>(Limits::lowest());
+    const bool least = std::is_signed_v<T> && value == double(Limits::lowest());
     const bool largest_counts = bcr || std::is_unsigned_v<T>;
-    return least || (largest_counts && value == static_cast<double>(Limits::max()));
+    return least || (largest_counts && value == double(Limits::max()));
 }
 
 template <class T>
 void take_values(ByteReader& in, HeightMap& map, double factor, bool bcr) {
     const std::size_t points = map.points();
     const char* const bytes = in.take(points, sizeof(T), "heights").data();
-    for (std::size_t k = 0; k < points; ++k) {
-        const auto value = static_cast<double>(ByteReader::value<T>(bytes + k * sizeof(T)));
+    for (const auto k : indices(points)) {
+        const auto value = double(ByteReader::value<T>(bytes + k * sizeof(T)));
         map.data[k] = is_missing<T>(value, bcr) ? std::nan("") : factor * value;
     }
 }
@@ -78,12 +75,10 @@ HeightMap read_binary(const std::string& path, const std::string& bytes,
     h.type = in.number<std::uint8_t>("DataType");
     h.check = in.number<std::uint8_t>("CheckType");
     constexpr std::size_t kSizes[] = {1, 2, 4, 4, 1, 2, 4, 8};
-    if (h.type > 7)
-        bad_input(path + ": DataType = " + std::to_string(h.type) + ": 0 to 7 was expected");
+    if (h.type > 7) bad_input(path, ": DataType = ", h.type, ": 0 to 7 was expected");
     // Before memory is allocated.
     if (h.nx > 0 && h.ny > 0 && in.left() / kSizes[h.type] / h.nx < h.ny)
-        in.refuse(std::to_string(h.nx) + " x " + std::to_string(h.ny) + " heights of " +
-                  std::to_string(kSizes[h.type]) + " bytes each, but " + std::to_string(in.left()) +
+        in.refuse(h.nx, " x ", h.ny, " heights of ", kSizes[h.type], " bytes each, but ", in.left(),
                   " bytes are left; is the file complete?");
     double factor = 0;
     HeightMap map = prepare(path, h, length_unit, factor);
@@ -106,8 +101,8 @@ HeightMap read_binary(const std::string& path, const std::string& bytes,
     // A text trailer may follow; more bytes are heights that are not in the header.
     constexpr std::size_t longest = std::size_t{1} << 16;
     if (in.left() > longest)
-        in.refuse(std::to_string(in.left()) + " bytes follow the last of " + std::to_string(h.nx) +
-                  " x " + std::to_string(h.ny) + " heights; are NumPoints and NumProfiles right?");
+        in.refuse(in.left(), " bytes follow the last of ", h.nx, " x ", h.ny,
+                  " heights; are NumPoints and NumProfiles right?");
     return map;
 }
 
@@ -121,7 +116,7 @@ public:
         std::getline(in, line);  // the version
         do {
             if (!std::getline(in, line))
-                bad_input(path +
+                bad_input(path,
                           ": the line '*' that ends the header is missing; is the file complete?");
             ++lines;
             std::replace(line.begin(), line.end(), '=', ' ');
@@ -140,7 +135,7 @@ public:
     template <class Value>
     void number(const char* name, Value& value) const {
         const auto found = values_.find(namelist::lower_case(name));
-        if (found == values_.end()) bad_input(path_ + ": the header has no " + std::string(name));
+        if (found == values_.end()) bad_input(path_, ": the header has no ", name);
         const std::string& text = found->second.first;
         const long at = found->second.second;
         const auto read = [&] {
@@ -149,11 +144,9 @@ public:
             else
                 return namelist::to_integer(text);
         }();
-        if (!read ||
-            (std::is_integral_v<Value> &&
-             (*read < 0 || !std::in_range<std::uint32_t>(static_cast<std::int64_t>(*read)))))
-            bad_input(path_ + ":" + std::to_string(at) + ": " + name +
-                      ": a number was expected, not " + shown(text));
+        if (!read || (std::is_integral_v<Value> &&
+                      (*read < 0 || !std::in_range<std::uint32_t>(std::int64_t(*read)))))
+            bad_input(path_, ":", at, ": ", name, ": a number was expected, not ", shown(text));
         value = static_cast<Value>(*read);
     }
 
@@ -178,8 +171,7 @@ HeightMap read_text(const std::string& path, std::string bytes, const std::strin
     // A height has at least two characters, so excessive sizes are refused before memory is
     // allocated.
     if (h.nx > 0 && h.ny > bytes.size() / h.nx)
-        bad_input(path + ": " + std::to_string(h.nx) + " x " + std::to_string(h.ny) +
-                  " heights in a file of " + std::to_string(bytes.size()) +
+        bad_input(path, ": ", h.nx, " x ", h.ny, " heights in a file of ", bytes.size(),
                   " bytes; is the file complete?");
     double factor = 0;
     HeightMap map = prepare(path, h, length_unit, factor);
@@ -191,23 +183,21 @@ HeightMap read_text(const std::string& path, std::string bytes, const std::strin
     };
     const std::size_t points = h.nx * h.ny;
     const std::string size = std::to_string(h.nx) + " x " + std::to_string(h.ny);
-    const auto refuse = [&](const std::string& what) {
+    const auto refuse = [&](const auto&... what) {
         in.clear();
         const auto lines_before = std::count(bytes.begin(), bytes.begin() + in.tellg(), '\n');
-        bad_input(path + ":" + std::to_string(lines_before + 1) + ": " + what);
+        bad_input(path, ":", lines_before + 1, ": ", what...);
     };
     std::string word;
-    for (std::size_t k = 0; k < points; ++k) {
+    for (const auto k : indices(points)) {
         if (!(in >> word) || word[0] == '*')
-            refuse(std::to_string(k) + " heights where " + size +
-                   " were expected; is the file complete?");
+            refuse(k, " heights where ", size, " were expected; is the file complete?");
         const auto value =
             namelist::lower_case(word) == "bad" ? std::nan("") : number_in_file(word);
-        if (!value) refuse(shown(word) + " is not a number");
+        if (!value) refuse(shown(word), " is not a number");
         map.data[k] = missing(*value) ? std::nan("") : factor * *value;
     }
-    if (in >> word && word[0] != '*')
-        refuse(shown(word) + " after the last of " + size + " heights");
+    if (in >> word && word[0] != '*') refuse(shown(word), " after the last of ", size, " heights");
     return map;
 }
 
@@ -221,9 +211,10 @@ bool is_sdf(const std::string& start) {
            std::isdigit(static_cast<unsigned char>(start[7]));
 }
 
-HeightMap read_sdf(const std::string& path, const std::string& length_unit) {
+HeightMap read_sdf(const std::string& path, const std::string&, const std::string& length_unit,
+                   std::string*) {
     const std::string bytes = read_bytes(path);
-    if (!is_sdf(bytes)) bad_input(path + ": is no surface data file (ISO 25178-71)");
+    if (!is_sdf(bytes)) bad_input(path, ": is no surface data file (ISO 25178-71)");
     HeightMap map = bytes[0] == 'b' ? read_binary(path, bytes, length_unit)
                                     : read_text(path, bytes, length_unit);
     reverse_rows(map);

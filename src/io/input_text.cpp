@@ -7,6 +7,8 @@
 namespace rsc {
 namespace {
 
+using Mention = TextTable::UnitMention;
+
 bool blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
 
 // The separator of the numbers of a file, and its decimal mark; each is unknown (0) until first
@@ -22,8 +24,8 @@ const char* name_of(char separator) {
     return separator == ' ' ? "blanks" : separator == ',' ? "commas" : "semicolons";
 }
 
-[[noreturn]] void refuse(const std::string& path, long line, const std::string& what) {
-    bad_input(path + ":" + std::to_string(line) + ": " + what);
+[[noreturn]] void refuse(const std::string& path, long line, const auto&... what) {
+    bad_input(path, ":", line, ": ", what...);
 }
 
 double number(std::string_view word, const std::string& path, long line, std::size_t column,
@@ -38,27 +40,24 @@ double number(std::string_view word, const std::string& path, long line, std::si
                 style.decimal_line = line;
             }
             if (style.decimal != text[mark])
-                refuse(path, line,
-                       place + ": a decimal " + (text[mark] == ',' ? "comma" : "point") +
-                           ", where line " + std::to_string(style.decimal_line) + " has decimal " +
-                           (style.decimal == ',' ? "commas" : "points"));
+                refuse(path, line, place, ": a decimal ", text[mark] == ',' ? "comma" : "point",
+                       ", where line ", style.decimal_line, " has decimal ",
+                       style.decimal == ',' ? "commas" : "points");
             if (text[mark] == ',') {
                 if (text.find('.') != std::string::npos)
-                    refuse(path, line, place + " is not a number");
+                    refuse(path, line, place, " is not a number");
                 text[mark] = '.';
             }
         }
     }
     const auto value = number_in_file(text);
     if (!value)
-        refuse(
-            path, line,
-            place + " is not a number; comments begin with '#', a missing point of a map is nan");
+        refuse(path, line, place,
+               " is not a number; comments begin with '#', a missing point of a map is nan");
     if (!std::isfinite(*value))
-        refuse(path, line,
-               place +
-                   " is not finite: every value must be known (missing points of a map: "
-                   "surface%missing)");
+        refuse(path, line, place,
+               " is not finite: every value must be known (missing points of a map: "
+               "surface%missing)");
     return *value;
 }
 
@@ -86,12 +85,9 @@ Row parse(std::string_view text, const std::string& path, long line, Style& styl
             style.separator != ';' && found != ';'
                 ? "; decimal commas are accepted only with semicolons as separators"
                 : "";
-        refuse(path, line,
-               std::string(name_of(found)) + " before " + before + " where " +
-                   (here ? std::string("the rest of the line")
-                         : "line " + std::to_string(style.line)) +
-                   " has " + name_of(style.separator) + ": one separator is expected throughout" +
-                   hint);
+        refuse(path, line, name_of(found), " before ", before, " where ",
+               here ? std::string("the rest of the line") : "line " + std::to_string(style.line),
+               " has ", name_of(style.separator), ": one separator is expected throughout", hint);
     };
     std::size_t count = 0, i = 0;
     char gap = 0;  // separator since the last number
@@ -105,9 +101,8 @@ Row parse(std::string_view text, const std::string& path, long line, Style& styl
         if (separates(text[i])) {
             if (gap == text[i] || count == 0) {  // an empty cell
                 if (!missing)
-                    refuse(path, line,
-                           "nothing between the separators at column " + std::to_string(count + 1) +
-                               ": empty cells of a map are missing points (surface%missing)");
+                    refuse(path, line, "nothing between the separators at column ", count + 1,
+                           ": empty cells of a map are missing points (surface%missing)");
                 require(text[i], "an empty cell");
                 values.push_back(std::nan(""));
                 ++count;
@@ -220,20 +215,17 @@ std::optional<LabelAndValue> label_and_value(std::string_view comment) {
 // Gwyddion writes its header in the language of its user, but always the width, the height and the
 // unit of the values in three lines. True if the lines before `line` are the first two, in words
 // other than English.
-bool after_sides(const std::vector<TextTable::UnitMention>& found, long line) {
-    using Mention = TextTable::UnitMention;
+bool after_sides(const std::vector<Mention>& found, long line) {
     const std::size_t n = found.size();
     if (n < 2 || (found[n - 2].kind == Mention::width && found[n - 1].kind == Mention::height))
         return false;
     for (const std::size_t k : {n - 2, n - 1})
-        if (!(found[k].size > 0) || found[k].line != line - static_cast<long>(n - k)) return false;
+        if (!(found[k].size > 0) || found[k].line != line - long(n - k)) return false;
     return true;
 }
 
 // The unit of `# Value units: m`.
-void find_stated_unit(const LabelAndValue& stated, long line,
-                      std::vector<TextTable::UnitMention>& found) {
-    using Mention = TextTable::UnitMention;
+void find_stated_unit(const LabelAndValue& stated, long line, std::vector<Mention>& found) {
     const std::string label = namelist::lower_case(stated.label);
     const std::vector<CommentWord> value = words_of(stated.value);
     if (value.size() <= 1 && after_sides(found, line)) {
@@ -253,8 +245,7 @@ void find_stated_unit(const LabelAndValue& stated, long line,
 
 // Units of length named in a comment: `# Value units: m`, `# Width: 10 um` as Gwyddion writes them,
 // `# Exported image units: nm`, `# z [nm]`, `# Einheit: m`, ...
-void find_units(std::string_view comment, long line, std::vector<TextTable::UnitMention>& found) {
-    using Mention = TextTable::UnitMention;
+void find_units(std::string_view comment, long line, std::vector<Mention>& found) {
     const auto stated = label_and_value(comment);
     const std::size_t before = found.size();
     if (stated) find_stated_unit(*stated, line, found);
@@ -265,7 +256,7 @@ void find_units(std::string_view comment, long line, std::vector<TextTable::Unit
         for (const CommentWord& word : words_of(stated->value)) words.push_back(word);
     const bool alone = stated && words.size() == of_label + 1;
     const bool side = stated && words.size() == of_label + 2 && words[of_label].number;
-    for (std::size_t k = 0; k < words.size(); ++k) {
+    for (const auto k : indices(words)) {
         const bool after_number = k > 0 && words[k - 1].number && words[k].text != "in";
         const std::string unit = as_unit(words[k].text);
         if (words[k].number || !(always_a_length(words[k].text) || after_number ||
@@ -285,7 +276,7 @@ void find_units(std::string_view comment, long line, std::vector<TextTable::Unit
 
 }  // namespace
 
-const TextTable::UnitMention* TextTable::mention(UnitMention::Kind kind) const {
+const Mention* TextTable::mention(UnitMention::Kind kind) const {
     const auto found = std::ranges::find(units, kind, &UnitMention::kind);
     return found == units.end() ? nullptr : &*found;
 }
@@ -300,15 +291,14 @@ std::optional<double> number_in_file(std::string_view word) {
 static void add_empty_column(TextTable& table) {
     std::vector<double> wider;
     wider.reserve(table.values.size() + table.line.size());
-    for (std::size_t row = 0; row < table.line.size(); ++row) {
-        const auto start = table.values.begin() + static_cast<std::ptrdiff_t>(row * table.columns);
-        wider.insert(wider.end(), start, start + static_cast<std::ptrdiff_t>(table.columns));
+    for (const auto row : indices(table.line)) {
+        const auto start = table.values.begin() + std::ptrdiff_t(row * table.columns);
+        wider.insert(wider.end(), start, start + std::ptrdiff_t(table.columns));
         wider.push_back(std::nan(""));
     }
-    wider.insert(
-        wider.end(),
-        table.values.begin() + static_cast<std::ptrdiff_t>(table.line.size() * table.columns),
-        table.values.end());
+    wider.insert(wider.end(),
+                 table.values.begin() + std::ptrdiff_t(table.line.size() * table.columns),
+                 table.values.end());
     table.values = std::move(wider);
     ++table.columns;
 }
@@ -337,17 +327,15 @@ static void refuse_heading(const std::string& path, std::istream& file, std::str
         if (heading) ++last;
     }
     if (first.substr(0, 2) == "\\*" || binary)
-        refuse(path, line, "the head of an instrument's file. " + gwyddion_advice(path));
+        refuse(path, line, "the head of an instrument's file. ", gwyddion_advice(path));
     std::string lower(first.substr(0, 5));
     std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
-    const std::string lines =
-        last > line ? "lines " + std::to_string(line) + " to " + std::to_string(last) + " begin"
-                    : "line " + std::to_string(line) + " begins";
-    refuse(path, line,
-           lines + " with a word, not a number: put '#' before each line of text" +
-               (lower == "ncols" ? ", and give an ESRI grid's cellsize as surface%pixel and its "
-                                   "NODATA_value as surface%missing_value"
-                                 : "; a unit there is read"));
+    const std::string lines = last > line ? joined("lines ", line, " to ", last, " begin")
+                                          : joined("line ", line, " begins");
+    refuse(path, line, lines, " with a word, not a number: put '#' before each line of text",
+           lower == "ncols" ? ", and give an ESRI grid's cellsize as surface%pixel and its "
+                              "NODATA_value as surface%missing_value"
+                            : "; a unit there is read");
 }
 
 std::string gwyddion_advice(const std::string& path) {
@@ -357,7 +345,7 @@ std::string gwyddion_advice(const std::string& path) {
 
 TextTable read_table(const std::string& path, std::size_t columns, bool missing) {
     std::ifstream file(path, std::ios::binary);
-    if (!file) bad_input(path + ": cannot be read");
+    if (!file) bad_input(path, ": cannot be read");
     TextTable table;
     Style style;
     table.columns = columns;
@@ -370,7 +358,7 @@ TextTable read_table(const std::string& path, std::size_t columns, bool missing)
         if (line == 1 && view.substr(0, 3) == "\xef\xbb\xbf")
             view.remove_prefix(3);  // UTF-8 byte order mark
         if (line == 1 && (view.substr(0, 2) == "\xff\xfe" || view.substr(0, 2) == "\xfe\xff"))
-            bad_input(path + ": is text in UTF-16: iconv -f UTF-16 -t UTF-8 '" + path +
+            bad_input(path, ": is text in UTF-16: iconv -f UTF-16 -t UTF-8 '", path,
                       "' > map.txt makes one that rsc reads");
         if (view.find('\0') != std::string_view::npos)
             refuse(path, line, "neither text nor a NetCDF file (there is a zero byte)");
@@ -390,17 +378,15 @@ TextTable read_table(const std::string& path, std::size_t columns, bool missing)
         open_ends = open_ends && row.open_end;
         if (row.count != table.columns) {
             const std::string wanted = columns > 0
-                                           ? std::to_string(columns)
-                                           : std::to_string(table.columns) + " as in line " +
-                                                 std::to_string(table.line[0]);
-            refuse(path, line,
-                   std::to_string(row.count) + " values where " + wanted + " were expected");
+                                           ? joined(columns)
+                                           : joined(table.columns, " as in line ", table.line[0]);
+            refuse(path, line, row.count, " values where ", wanted, " were expected");
         }
         table.line.push_back(line);
     }
-    if (file.bad()) bad_input(path + ": reading failed after line " + std::to_string(line));
+    if (file.bad()) bad_input(path, ": reading failed after line ", line);
     table.rows = table.line.size();
-    if (table.rows == 0) bad_input(path + ": contains no numbers");
+    if (table.rows == 0) bad_input(path, ": contains no numbers");
     return table;
 }
 

@@ -25,21 +25,22 @@ std::vector<std::string> matching_files(const std::string& name) {
     }
     globfree(&found);
     if (status == GLOB_NOSPACE)
-        throw Error(Failure::no_memory, "not enough memory for the files of " + name);
-    if (files.empty()) bad_input(name + ": no file matches this pattern");
-    std::sort(files.begin(), files.end());  // independent of the locale
+        throw Error(Failure::no_memory, "not enough memory for the files of ", name);
+    if (files.empty()) bad_input(name, ": no file matches this pattern");
+    std::ranges::sort(files);  // independent of the locale
     return files;
 }
 
 namespace {
+
+using Mention = TextTable::UnitMention;
 
 constexpr double kUniform = 1e-6;      // tolerance of coordinates on a uniform grid, in steps
 constexpr double kUniformText = 0.01;  // the same for coordinates in text files, which are rounded
 constexpr double kSameL = 1e-6;        // relative tolerance of nx dx = L
 
 void check_L(const std::string& path, double L) {
-    if (!(L > 0 && std::isfinite(L)))
-        bad_input(path + ": L must be positive and finite, not " + text_of(L));
+    if (!(L > 0 && std::isfinite(L))) bad_input(path, ": L must be positive and finite, not ", L);
 }
 
 // nx dx must equal the given L, if any.
@@ -49,18 +50,15 @@ void check_given_L(const std::string& path, const std::string& coordinate, int n
     check_L(path, *L);
     const double extent = nx * dx;
     if (!(std::abs(extent - *L) <= kSameL * *L))
-        bad_input(path + ": its coordinate " + coordinate + " spans " + std::to_string(nx) +
-                  " steps of " + text_of(dx) + " = " + text_of(extent) +
-                  ", but L = " + text_of(*L) + " was given");
+        bad_input(path, ": its coordinate ", coordinate, " spans ", nx, " steps of ", dx, " = ",
+                  extent, ", but L = ", *L, " was given");
 }
 
 // The uniform grid of one coordinate of x y z triples.
 struct TextAxis {
     double first = 0, step = 0;
     std::size_t count = 0;
-    std::size_t index(double c) const {
-        return static_cast<std::size_t>(std::lround((c - first) / step));
-    }
+    std::size_t index(double c) const { return at(std::lround((c - first) / step)); }
 };
 
 // The unit of the last decimal digit that values have in common.
@@ -80,15 +78,15 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
     for (std::size_t i = 0; i < table.rows; ++i) {
         c[i] = table.values[3 * i + column];
         if (std::isnan(c[i]))
-            bad_input(path + ":" + std::to_string(table.line[i]) +
-                      ": three columns are read as x y z of a map; " + name + " is missing");
+            bad_input(path, ":", table.line[i], ": three columns are read as x y z of a map; ",
+                      name, " is missing");
     }
-    std::sort(c.begin(), c.end());
+    std::ranges::sort(c);
     TextAxis axis;
     axis.first = c.front();
     const double range = c.back() - c.front();
     // Less than any uniform step.
-    const double same = 1e-3 * range / static_cast<double>(table.rows);
+    const double same = 1e-3 * range / double(table.rows);
     // The smallest gap between values is nearly the step; a wider one is several steps, where all
     // points of a column are missing.
     double least = range;
@@ -96,31 +94,26 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
         if (c[i] - c[i - 1] > same) least = std::min(least, c[i] - c[i - 1]);
     axis.count = 1;
     for (std::size_t i = 1; i < c.size(); ++i)
-        if (c[i] - c[i - 1] > same)
-            axis.count += static_cast<std::size_t>(std::lround((c[i] - c[i - 1]) / least));
+        if (c[i] - c[i - 1] > same) axis.count += at(std::lround((c[i] - c[i - 1]) / least));
     if (axis.count < 2)
-        bad_input(path + ": three columns are read as x y z of a map; column " + name + " is " +
-                  text_of(axis.first) + " throughout");
-    axis.step = range / static_cast<double>(axis.count - 1);
-    const auto uniform = [&](double v) {
-        return axis.first + static_cast<double>(axis.index(v)) * axis.step;
-    };
+        bad_input(path, ": three columns are read as x y z of a map; column ", name, " is ",
+                  axis.first, " throughout");
+    axis.step = range / double(axis.count - 1);
+    const auto uniform = [&](double v) { return axis.first + double(axis.index(v)) * axis.step; };
     double off = 0;
     for (const double v : c) off = std::max(off, std::abs(v - uniform(v)));
     if (off <= kUniformText * axis.step) return axis;
     // Rounding moves a coordinate by half a unit of its last digit, and the ends as much.
     if (const double digit = last_digit(c); off <= 1.01 * digit)
-        bad_input(path + ": three columns are read as x y z of a map; " + name +
-                  " has too few digits: it is rounded to " + text_of(digit) +
-                  ", and its step is about " + text_of(axis.step) +
-                  "; a hundredth of the step is expected");
+        bad_input(path, ": three columns are read as x y z of a map; ", name,
+                  " has too few digits: it is rounded to ", digit, ", and its step is about ",
+                  axis.step, "; a hundredth of the step is expected");
     for (std::size_t i = 0; i < table.rows; ++i) {
         const double v = table.values[3 * i + column];
         if (!(std::abs(v - uniform(v)) <= kUniformText * axis.step))
-            bad_input(path + ":" + std::to_string(table.line[i]) +
-                      ": three columns are read as x y z of a map; " + name + " = " + text_of(v) +
-                      " is not on a uniform grid of " + std::to_string(axis.count) +
-                      " values from " + text_of(c.front()) + " to " + text_of(c.back()));
+            bad_input(path, ":", table.line[i], ": three columns are read as x y z of a map; ",
+                      name, " = ", v, " is not on a uniform grid of ", axis.count, " values from ",
+                      c.front(), " to ", c.back());
     }
     return axis;
 }
@@ -128,7 +121,7 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
 HeightMap read_text_triples(const std::string& path, const TextTable& table,
                             std::optional<double> L, bool missing, const TextMap& text) {
     if (text.pixel)
-        bad_input(path +
+        bad_input(path,
                   ": three columns are read as x y z of a map, which define the step; "
                   "surface%pixel is for a matrix");
     const TextAxis x = text_axis(path, table, 0, "x"), y = text_axis(path, table, 1, "y");
@@ -139,9 +132,9 @@ HeightMap read_text_triples(const std::string& path, const TextTable& table,
         const double* const row = table.values.data() + 3 * i;
         const std::size_t point = y.index(row[1]) * x.count + x.index(row[0]);
         if (line[point] > 0)
-            bad_input(path + ":" + std::to_string(table.line[i]) + ": x = " + text_of(row[0]) +
-                      ", y = " + text_of(row[1]) + " is already in line " +
-                      std::to_string(line[point]) + "; have the coordinates too few digits?");
+            bad_input(path, ":", table.line[i], ": x = ", row[0], ", y = ", row[1],
+                      " is already in line ", line[point],
+                      "; have the coordinates too few digits?");
         line[point] = table.line[i];
         map.data[point] = row[2];
     }
@@ -151,13 +144,11 @@ HeightMap read_text_triples(const std::string& path, const TextTable& table,
             map.data[k] = std::nan("");
             line[k] = -1;
         }
-    if (const auto empty = std::find(line.begin(), line.end(), 0L); empty != line.end()) {
-        const auto point = static_cast<std::size_t>(empty - line.begin());
-        bad_input(path + ": three columns are read as x y z of a map of " +
-                  std::to_string(x.count) + " x " + std::to_string(y.count) +
-                  " points, but there is none at x = " +
-                  text_of(x.first + static_cast<double>(point % x.count) * x.step) +
-                  ", y = " + text_of(y.first + static_cast<double>(point / x.count) * y.step) +
+    if (const auto empty = std::ranges::find(line, 0L); empty != line.end()) {
+        const auto point = at(empty - line.begin());
+        bad_input(path, ": three columns are read as x y z of a map of ", x.count, " x ", y.count,
+                  " points, but there is none at x = ", x.first + double(point % x.count) * x.step,
+                  ", y = ", y.first + double(point / x.count) * y.step,
                   "; surface%missing = 'fill' fills such points");
     }
     map.x0 = x.first;
@@ -173,37 +164,36 @@ HeightMap read_text_points(const std::string& path, const TextTable& table, std:
     const bool matrix = table.matrix();
     if (table.columns == 3 && !matrix) return read_text_triples(path, table, L, missing, text);
     if (table.columns == 4 && !matrix)
-        bad_input(path +
+        bad_input(path,
                   ": four columns are a list of asperities x y z r (surface%source='asperities'), "
                   "not a map");
-    const auto side = [&](TextTable::UnitMention::Kind kind) -> std::optional<double> {
-        const TextTable::UnitMention* const stated = table.mention(kind);
+    const auto side = [&](Mention::Kind kind) -> std::optional<double> {
+        const Mention* const stated = table.mention(kind);
         if (!stated || !(stated->size > 0)) return {};
         return stated->size * length_factor(stated->unit, length_unit, 1);
     };
-    const auto width = side(TextTable::UnitMention::width),
-               height = side(TextTable::UnitMention::height);
+    const auto width = side(Mention::width), height = side(Mention::height);
     if (!L && !text.pixel && !width)
-        bad_input(path +
+        bad_input(path,
                   ": a text matrix has no spacing; surface%pixel must be given, or of body 1 "
                   "surface%L, its extent in x");
     if (L) check_L(path, *L);
     check_grid(path, table.columns, table.rows);
     HeightMap map = allocate_map(table.columns, table.rows);
-    std::copy(table.values.begin(), table.values.end(), map.data.get());
+    std::ranges::copy(table.values, map.data.get());
     map.dx = text.pixel ? *text.pixel : L ? *L / map.nx : *width / map.nx;
     map.dy = text.pixel || !height ? map.dx : *height / map.ny;
     if (text.pixel) check_given_L(path, "x", map.nx, map.dx, L);
     constexpr double kSameSide = 0.01;  // relative; a header is rounded
-    const auto check_side = [&](TextTable::UnitMention::Kind kind, std::optional<double> stated,
-                                double side, const char* extent) {
+    const auto check_side = [&](Mention::Kind kind, std::optional<double> stated, double side,
+                                const char* extent) {
         if (!stated || std::abs(side - *stated) <= kSameSide * *stated) return;
-        bad_input(path + ":" + std::to_string(table.mention(kind)->line) +
-                  ": a comment says that the map is " + text_of(*stated) + " " + length_unit +
-                  extent + ", but surface%pixel or surface%L makes it " + text_of(side));
+        bad_input(path, ":", table.mention(kind)->line, ": a comment says that the map is ",
+                  *stated, " ", length_unit, extent, ", but surface%pixel or surface%L makes it ",
+                  side);
     };
-    check_side(TextTable::UnitMention::width, width, map.Lx(), " wide");
-    check_side(TextTable::UnitMention::height, height, map.Ly(), " high");
+    check_side(Mention::width, width, map.Lx(), " wide");
+    check_side(Mention::height, height, map.Ly(), " high");
     return map;
 }
 
@@ -221,17 +211,17 @@ void mark_missing(HeightMap& map, const std::vector<double>& codes, MapOrigin* o
 // another than the unit that applies, is refused.
 double text_height_factor(const std::string& path, const TextTable& table, const TextMap& text,
                           const std::string& length_unit) {
-    const TextTable::UnitMention* const stated = table.mention(TextTable::UnitMention::values);
+    const Mention* const stated = table.mention(Mention::values);
     const std::string unit = !text.height_unit.empty() ? text.height_unit
                              : stated                  ? stated->unit
                                                        : length_unit;
     const bool three = table.columns == 3 && !table.matrix();
-    const auto in_length_unit = [&](const TextTable::UnitMention& mention) {
+    const auto in_length_unit = [&](const Mention& mention) {
         return mention.unit == length_unit || unit_factor(mention.unit, length_unit) == 1;
     };
     // One of the units in the comments is that of the coordinates.
     const bool coordinates = std::ranges::any_of(table.units, in_length_unit);
-    for (const TextTable::UnitMention& other : table.units) {
+    for (const Mention& other : table.units) {
         const auto same = [&](const std::string& known) {
             return other.unit == known || unit_factor(other.unit, known) == 1;
         };
@@ -239,32 +229,30 @@ double text_height_factor(const std::string& path, const TextTable& table, const
         if (&other == stated || in_length_unit(other) ||
             (understood && (!three || (coordinates && same(unit)))))
             continue;
-        bad_input(path + ":" + std::to_string(other.line) + ": a comment names the unit '" +
-                  other.unit + "'; " +
-                  (understood && three
-                       ? "x and y are taken in run%length_unit = '" + length_unit +
-                             "', which must be that of the file"
-                       : "surface%height_unit, the unit of the heights, must be given"));
+        bad_input(path, ":", other.line, ": a comment names the unit '", other.unit, "'; ",
+                  understood && three
+                      ? "x and y are taken in run%length_unit = '" + length_unit +
+                            "', which must be that of the file"
+                      : "surface%height_unit, the unit of the heights, must be given");
     }
     try {
         return length_factor(unit, length_unit, 1);
     } catch (const Error& error) {
-        bad_input(path +
-                  (stated && text.height_unit.empty()
-                       ? ":" + std::to_string(stated->line) + ": a comment: "
-                       : ": ") +
-                  error.what() + "; surface%height_unit replaces it");
+        bad_input(path,
+                  stated && text.height_unit.empty()
+                      ? ":" + std::to_string(stated->line) + ": a comment: "
+                      : ": ",
+                  error.what(), "; surface%height_unit replaces it");
     }
 }
 
 // True if the values are uniform to the rounding of their digits.
 bool is_uniform(const std::vector<double>& c) {
-    const double step = (c.back() - c.front()) / static_cast<double>(c.size() - 1);
+    const double step = (c.back() - c.front()) / double(c.size() - 1);
     if (!(std::abs(step) > 0)) return false;  // also where one is missing
     const double rounding = 1.01 * last_digit(c);
-    for (std::size_t i = 0; i < c.size(); ++i)
-        if (!(std::abs(c[i] - (c.front() + static_cast<double>(i) * step)) <= rounding))
-            return false;
+    for (const auto i : indices(c))
+        if (!(std::abs(c[i] - (c.front() + double(i) * step)) <= rounding)) return false;
     return true;
 }
 
@@ -272,11 +260,11 @@ bool is_uniform(const std::vector<double>& c) {
 void refuse_coordinates(const std::string& path, const TextTable& table) {
     if (!std::isnan(table.values[0]) || table.rows < 4 || table.columns < 4) return;
     const std::vector<double> x(table.values.begin() + 1,
-                                table.values.begin() + static_cast<std::ptrdiff_t>(table.columns));
+                                table.values.begin() + std::ptrdiff_t(table.columns));
     std::vector<double> y;
     for (std::size_t j = 1; j < table.rows; ++j) y.push_back(table.values[j * table.columns]);
     if (!is_uniform(x) || !is_uniform(y)) return;
-    bad_input(path + ":" + std::to_string(table.line[0]) +
+    bad_input(path, ":", table.line[0],
               ": the corner is empty, the first line and the first column are uniform as "
               "coordinates are: a matrix contains heights alone; remove them, and give the step as "
               "surface%pixel");
@@ -313,23 +301,21 @@ std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variab
     file.read(*variable, c.data());
     Axis axis;
     axis.reversed = c.back() < c.front();
-    if (axis.reversed) std::reverse(c.begin(), c.end());
+    if (axis.reversed) std::ranges::reverse(c);
     axis.first = c.front();
-    axis.step = (c.back() - c.front()) / static_cast<double>(n - 1);
+    axis.step = (c.back() - c.front()) / double(n - 1);
     if (!(axis.step > 0))
-        bad_input(file.path() + ": coordinate " + name + " does not vary: it begins and ends at " +
-                  text_of(c.front()));
+        bad_input(file.path(), ": coordinate ", name, " does not vary: it begins and ends at ",
+                  c.front());
     // Tolerance for the rounding of coordinates stored in single precision.
     const double largest = std::max(std::abs(c.front()), std::abs(c.back()));
     const double rounding = variable->type == NC_FLOAT ? 1.2e-7 * largest : 4.5e-16 * largest;
-    for (std::size_t i = 0; i < n; ++i) {
-        const double uniform = axis.first + static_cast<double>(i) * axis.step;
+    for (const auto i : indices(n)) {
+        const double uniform = axis.first + double(i) * axis.step;
         if (std::abs(c[i] - uniform) > kUniform * axis.step + rounding)
-            bad_input(file.path() + ": coordinate " + name +
-                      " is not uniform to 1e-6 of its step " + text_of(axis.step) + ": " + name +
-                      "(" + std::to_string(axis.reversed ? n - 1 - i : i) +
-                      "), counted from 0, is " + text_of(c[i]) + " where " + text_of(uniform) +
-                      " was expected");
+            bad_input(file.path(), ": coordinate ", name, " is not uniform to 1e-6 of its step ",
+                      axis.step, ": ", name, "(", axis.reversed ? n - 1 - i : i,
+                      "), counted from 0, is ", c[i], " where ", uniform, " was expected");
     }
     return axis;
 }
@@ -340,27 +326,27 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& c
     };
     if (const auto named = file.find(channel.empty() ? "height" : channel)) {
         if (is_map(*named)) return *named;
-        bad_input(file.path() + ": " +
-                  (channel.empty()
-                       ? "height(y, x), numeric,"
-                       : "channel '" + channel + "': a numeric variable of two dimensions") +
-                  " was expected, not " + named->shape());
+        bad_input(file.path(), ": ",
+                  channel.empty()
+                      ? "height(y, x), numeric,"
+                      : "channel '" + channel + "': a numeric variable of two dimensions",
+                  " was expected, not ", named->shape());
     }
-    if (!channel.empty()) bad_input(file.path() + ": there is no variable '" + channel + "'");
+    if (!channel.empty()) bad_input(file.path(), ": there is no variable '", channel, "'");
     std::vector<NetcdfInput::Variable> maps;
     std::string names;
     for (const auto& v : file.variables())
         if (is_map(v) && v.name != "mask") {
-            names += (maps.empty() ? "" : ", ") + v.shape();
+            enlist(names, ", ", v.shape());
             maps.push_back(v);
         }
     if (maps.empty())
-        bad_input(file.path() +
+        bad_input(file.path(),
                   ": there is no variable height(y, x) and no other of two dimensions");
     if (maps.size() > 1)
-        bad_input(file.path() +
-                  ": there is no variable height(y, x), and several others have two dimensions: " +
-                  names);
+        bad_input(
+            file.path(),
+            ": there is no variable height(y, x), and several others have two dimensions: ", names);
     return maps[0];
 }
 
@@ -376,7 +362,7 @@ std::array<double, 3> unit_factors(const NetcdfInput& file, const NetcdfInput::V
             all.push_back(*file.find(heights.axes[dimension]));
     std::array<double, 3> factor{1, 1, 1};
     const NetcdfInput::Variable *with = nullptr, *without = nullptr;
-    for (std::size_t k = 0; k < all.size(); ++k) {
+    for (const auto k : indices(all)) {
         const auto known = file.unit_factor(all[k], length_unit);
         if (!known)
             without = &all[k];
@@ -384,8 +370,8 @@ std::array<double, 3> unit_factors(const NetcdfInput& file, const NetcdfInput::V
             with = &all[k];
     }
     if (with && without)
-        bad_input(file.path() + ": " + with->name + " is in '" + file.unit(*with).value_or("") +
-                  "', but " + without->name +
+        bad_input(file.path(), ": ", with->name, " is in '", file.unit(*with).value_or(""),
+                  "', but ", without->name,
                   " has no attribute units or unit, so its unit is unknown");
     return factor;
 }
@@ -396,16 +382,15 @@ void apply_mask(const NetcdfInput& file, const NetcdfInput::Variable& heights, H
     if (!mask || !mask->numeric() || mask->dimensions != heights.dimensions) return;
     std::vector<double> masked(mask->count());
     file.read(*mask, masked.data(), true);
-    for (std::size_t k = 0; k < masked.size(); ++k)
+    for (const auto k : indices(masked))
         if (masked[k] != 0) map.data[k] = std::nan("");
 }
 
 // Exchanges the axes of a map without padding.
 HeightMap transposed(const HeightMap& map) {
-    HeightMap turned =
-        allocate_map(static_cast<std::size_t>(map.ny), static_cast<std::size_t>(map.nx));
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) turned.row(i)[j] = map(i, j);
+    HeightMap turned = allocate_map(at(map.ny), at(map.nx));
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) turned.row(i)[j] = map(i, j);
     return turned;
 }
 
@@ -421,10 +406,10 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L,
     check_grid(path, variable.lengths[of_x], variable.lengths[of_y]);
     const auto x = read_axis(file, variable, of_x), y = read_axis(file, variable, of_y);
     if (x.has_value() != y.has_value())
-        bad_input(path + ": " + variable.shape() +
+        bad_input(path, ": ", variable.shape(),
                   " has a coordinate variable for only one dimension; both or none were expected");
     if (!x && !L)
-        bad_input(path + ": " + variable.shape() +
+        bad_input(path, ": ", variable.shape(),
                   " has no coordinate variables; they must be given, or of body 1 surface%L, its "
                   "extent in x");
     HeightMap map = allocate_map(variable.lengths[1], variable.lengths[0]);
@@ -454,8 +439,8 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L,
 std::string first_bytes(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::string start(4096, '\0');
-    file.read(start.data(), static_cast<std::streamsize>(start.size()));
-    start.resize(static_cast<std::size_t>(file.gcount()));
+    file.read(start.data(), std::streamsize(start.size()));
+    start.resize(at(file.gcount()));
     return start;
 }
 
@@ -464,22 +449,18 @@ struct InstrumentFormat {
     const char* name;
     bool (*is)(const std::string& first_bytes);
     HeightMap (*read)(const std::string& path, const std::string& channel,
-                      const std::string& length_unit, MapOrigin* origin);
+                      const std::string& length_unit, std::string* title);
     bool channels;  // a file has several maps, possibly with masks
 };
-constexpr InstrumentFormat kInstrumentFormats[] = {
-    {".gwy", is_gwy,
-     [](const std::string& path, const std::string& channel, const std::string& unit,
-        MapOrigin* origin) {
-         return read_gwy(path, channel, unit, origin ? &origin->channel : nullptr);
-     },
-     true},
-    {".sdf", is_sdf,
-     [](const std::string& path, const std::string&, const std::string& unit, MapOrigin*) {
-         return read_sdf(path, unit);
-     },
-     false},
-};
+constexpr InstrumentFormat kInstrumentFormats[] = {{".gwy", is_gwy, read_gwy, true},
+                                                   {".sdf", is_sdf, read_sdf, false}};
+
+// Null: the file has none of these formats.
+const InstrumentFormat* instrument_format(const std::string& first_bytes) {
+    for (const InstrumentFormat& format : kInstrumentFormats)
+        if (format.is(first_bytes)) return &format;
+    return nullptr;
+}
 
 // A binary file of no known format is refused; the message says how to convert it.
 void refuse_unknown(const std::string& path, const std::string& start) {
@@ -490,7 +471,7 @@ void refuse_unknown(const std::string& path, const std::string& start) {
     for (const InstrumentFormat& format : kInstrumentFormats)
         names +=
             std::string(format.name) + (&format == std::end(kInstrumentFormats) - 1 ? " " : ", ");
-    bad_input(path + names + "nor text. " + gwyddion_advice(path));
+    bad_input(path, names, "nor text. ", gwyddion_advice(path));
 }
 
 Asperities read_netcdf_asperities(const std::string& path, const std::string& length_unit) {
@@ -511,12 +492,12 @@ Asperities read_netcdf_asperities(const std::string& path, const std::string& le
             file.values(name, 1, length_unit, column.length_power,
                         "asperity_x, asperity_y, asperity_z and asperity_radius were expected");
         if (values.size() != a.x.size())
-            bad_input(path + ": " + variable->shape() + ": " + std::to_string(a.x.size()) +
+            bad_input(path, ": ", variable->shape(), ": ", a.x.size(),
                       " values as of asperity_x were expected");
-        if (values.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-            bad_input(path + ": " + variable->shape() + ": more than 2147483647 asperities");
+        if (values.size() > at(std::numeric_limits<int>::max()))
+            bad_input(path, ": ", variable->shape(), ": more than 2147483647 asperities");
     }
-    if (a.size() == 0) bad_input(path + ": there is no asperity in it");
+    if (a.size() == 0) bad_input(path, ": there is no asperity in it");
     validate(a, [&](std::size_t i) {
         return path + ": asperity " + std::to_string(i) + ", counted from 0";
     });
@@ -540,10 +521,7 @@ Asperities read_text_asperities(const std::string& path) {
 }  // namespace
 
 bool is_instrument_map(const std::string& path) {
-    if (is_netcdf(path)) return false;
-    const std::string start = first_bytes(path);
-    return std::any_of(std::begin(kInstrumentFormats), std::end(kInstrumentFormats),
-                       [&](const auto& format) { return format.is(start); });
+    return !is_netcdf(path) && instrument_format(first_bytes(path));
 }
 
 bool is_text_map(const std::string& path) { return !is_netcdf(path) && !is_instrument_map(path); }
@@ -551,56 +529,47 @@ bool is_text_map(const std::string& path) { return !is_netcdf(path) && !is_instr
 // True if `code`, the lowest or highest height, is farther from the others than these are from each
 // other, or is met more often than the height next to it, by five standard deviations of counts:
 // towards its end a distribution of heights only becomes thinner.
-static bool ends_in_code(const HeightMap& map, double code, bool lowest, double many,
+static bool ends_in_code(std::span<const double> heights, double code, bool lowest, double many,
                          long& points) {
-    double least = kInfinity;
-    double most = -kInfinity;
-    points = 0;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
-            if (map(i, j) == code) {
-                ++points;
-                continue;
-            }
-            least = std::fmin(least, map(i, j));
-            most = std::fmax(most, map(i, j));
+    double least = kInfinity, most = -kInfinity;  // of the others
+    for (const double z : heights)
+        if (z != code) {
+            least = std::fmin(least, z);
+            most = std::fmax(most, z);
         }
+    points = std::ranges::count(heights, code);
     if (points < 2 || !(least < most)) return false;  // one is an outlier
     const double next = lowest ? least : most;
-    if (static_cast<double>(points) > many && std::abs(next - code) > most - least) return true;
-    long at_next = 0;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) at_next += map(i, j) == next;
+    if (double(points) > many && std::abs(next - code) > most - least) return true;
+    const long at_next = std::ranges::count(heights, next);
     constexpr double kDeviations = 5;
-    const auto more = static_cast<double>(points - at_next);
-    return 2 * points < static_cast<long>(map.points()) &&
-           more > kDeviations * std::sqrt(static_cast<double>(points + at_next));
+    const auto more = double(points - at_next);
+    return 2 * points < std::ssize(heights) &&
+           more > kDeviations * std::sqrt(double(points + at_next));
 }
 
 std::optional<double> likely_code(const HeightMap& map, long& points) {
     constexpr double kShare = 1e-3;
+    const std::span<const double> heights(map.data.get(), map.points());
     double low = kInfinity, high = -kInfinity;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
-            low = std::fmin(low, map(i, j));
-            high = std::fmax(high, map(i, j));
-        }
-    const double many = kShare * static_cast<double>(map.points());
+    for (const double z : heights) {
+        low = std::fmin(low, z);
+        high = std::fmax(high, z);
+    }
+    const double many = kShare * double(map.points());
     for (const double code : {low, high})
-        if (ends_in_code(map, code, code == low, many, points)) return code;
+        if (ends_in_code(heights, code, code == low, many, points)) return code;
     long zero_blocks = 0, other_blocks = 0;
-    points = 0;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
-            points += map(i, j) == 0;
-            if (i < 1 || j < 1 || i + 1 == map.nx || j + 1 == map.ny) continue;
+    points = std::ranges::count(heights, 0.0);
+    for (int j = 1; j + 1 < map.ny; ++j)
+        for (int i = 1; i + 1 < map.nx; ++i) {
             bool block = true;
             for (int b = -1; b <= 1; ++b)
                 for (int a = -1; a <= 1; ++a) block = block && map(i + a, j + b) == map(i, j);
             if (block) ++(map(i, j) == 0 ? zero_blocks : other_blocks);
         }
-    const bool blocks = static_cast<double>(zero_blocks) > many && zero_blocks > 100 * other_blocks;
-    if (blocks && 2 * points < static_cast<long>(map.points())) return 0.0;
+    const bool blocks = double(zero_blocks) > many && zero_blocks > 100 * other_blocks;
+    if (blocks && 2 * points < long(map.points())) return 0.0;
     return {};
 }
 
@@ -610,22 +579,19 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
     const bool fill = missing == Missing::fill;
     const bool netcdf = is_netcdf(path);
     const std::string start = first_bytes(path);
-    const auto* const found =
-        std::find_if(std::begin(kInstrumentFormats), std::end(kInstrumentFormats),
-                     [&](const InstrumentFormat& format) { return !netcdf && format.is(start); });
-    const InstrumentFormat* const instrument =
-        found == std::end(kInstrumentFormats) ? nullptr : found;
+    const InstrumentFormat* const instrument = netcdf ? nullptr : instrument_format(start);
     const bool channels = instrument && instrument->channels;
     if (!channel.empty() && !netcdf && !channels)
-        bad_input(path + ": has no channel '" + channel +
+        bad_input(path, ": has no channel '", channel,
                   "'; only .gwy and NetCDF files have channels");
     if (!netcdf && !instrument) refuse_unknown(path, start);
     if ((netcdf || instrument) && text.any())
         bad_input(
-            path +
+            path,
             ": is not a text file; surface%height_unit and surface%pixel are only for text files");
     HeightMap map = netcdf ? read_netcdf_heights(path, L, length_unit, channel, fill, text, origin)
-                    : instrument ? instrument->read(path, channel, length_unit, origin)
+                    : instrument ? instrument->read(path, channel, length_unit,
+                                                    origin ? &origin->channel : nullptr)
                                  : read_text_heights(path, L, fill, text, length_unit, origin);
     if (instrument) {
         mark_missing(map, text.missing_value, origin);
@@ -633,24 +599,21 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
     }
     for (const double step : {map.dx, map.dy})
         if (!usable_positive(step))
-            bad_input(path + ": the spacing " + kPositiveBounds + ", not " + text_of(step));
+            bad_input(path, ": the spacing ", kPositiveBounds, ", not ", step);
     for (const double origin : {map.x0, map.y0})
         if (!usable(origin))
-            bad_input(path + ": the first coordinate " + kNumberBounds + ", not " +
-                      text_of(origin));
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
+            bad_input(path, ": the first coordinate ", kNumberBounds, ", not ", origin);
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) {
             const double z = map(i, j);
             if (usable(z) || (fill && std::isnan(z))) continue;
-            const std::string place = " in column " + std::to_string(i) + " of row " +
-                                      std::to_string(j) + ", counted from 0" +
-                                      (instrument ? " with y upwards" : "");
+            const std::string place = joined(" in column ", i, " of row ", j, ", counted from 0",
+                                             instrument ? " with y upwards" : "");
             if (std::isnan(z))
-                bad_input(path + ": " + std::to_string(count_missing(map)) + " of " +
-                          std::to_string(static_cast<long>(map.nx) * map.ny) +
-                          " points are missing" + (channels ? " or masked" : "") + ", the first" +
-                          place + "; surface%missing = 'fill' fills them");
-            bad_input(path + ": a height " + kNumberBounds + ", not " + text_of(z) + " as" + place);
+                bad_input(path, ": ", count_missing(map), " of ", long(map.nx) * map.ny,
+                          " points are missing", channels ? " or masked" : "", ", the first", place,
+                          "; surface%missing = 'fill' fills them");
+            bad_input(path, ": a height ", kNumberBounds, ", not ", z, " as", place);
         }
     return map;
 }

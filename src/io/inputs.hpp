@@ -40,7 +40,7 @@ struct MapOrigin {
 // A height that probably means "no data": the lowest or highest one if it fills more than a
 // thousandth of the points and is farther from the others than these are from each other, or if it
 // is met much more often than the height next to it; or 0 in blocks of 3 x 3 points and more where
-// no other height fills such blocks. `points` receives their number.
+// no other height fills such blocks. `points` receives their number. Rows without padding.
 std::optional<double> likely_code(const HeightMap& map, long& points);
 
 // True if the readable file `path` is one of an instrument, .gwy or .sdf.

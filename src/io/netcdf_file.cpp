@@ -16,18 +16,18 @@ namespace {
 void check(int status, const std::string& path) {
     if (status == NC_NOERR) return;
     if (status == NC_EVARSIZE || status == NC_EDIMSIZE)
-        throw Error(Failure::file_system, "cannot write '" + path +
-                                              "': a variable is too large for &output "
-                                              "format='classic'; use format='netcdf4' or 'cdf5'");
+        throw Error(Failure::file_system, "cannot write '", path,
+                    "': a variable is too large for &output "
+                    "format='classic'; use format='netcdf4' or 'cdf5'");
     if (status == NC_ENOMEM || status == ENOMEM)
-        throw Error(Failure::no_memory,
-                    "not enough memory for '" + path + "'; write less (&output contacts, heights)");
+        throw Error(Failure::no_memory, "not enough memory for '", path,
+                    "'; write less (&output contacts, heights)");
     // The file is written in memory: if NetCDF or HDF5 fail there, lack of memory is the likely
     // reason, whatever error they report.
-    throw Error(status == NC_EHDFERR ? Failure::no_memory : Failure::internal,
-                "'" + path + "' cannot be written (" + nc_strerror(status) +
-                    "), most likely for lack of memory; write less (&output contacts, heights) or "
-                    "use format='classic'");
+    throw Error(status == NC_EHDFERR ? Failure::no_memory : Failure::internal, "'", path,
+                "' cannot be written (", nc_strerror(status),
+                "), most likely for lack of memory; write less (&output contacts, heights) or "
+                "use format='classic'");
 }
 
 // The bytes of an empty netCDF-4 file. A file created in memory loses the order of its variables;
@@ -50,14 +50,13 @@ std::vector<char> make_empty(const std::string& path, int mode) {
         // A short write sets no errno; the next one does.
         const bool whole =
             written == size ||
-            (written >= 0 &&
-             ::write(fd, bytes.data(), static_cast<std::size_t>(size - written)) == size - written);
+            (written >= 0 && ::write(fd, bytes.data(), at(size - written)) == size - written);
         const bool room = whole && ::ftruncate(fd, 0) == 0 && ::lseek(fd, 0, SEEK_SET) == 0;
         error = room ? 0 : errno;
         if (room) {
             status = nc_create(name.c_str(), mode, &ncid);
             if (status == NC_NOERR) status = nc_close(ncid);
-            bytes.resize(static_cast<std::size_t>(std::max<off_t>(::lseek(fd, 0, SEEK_END), 0)));
+            bytes.resize(at(std::max<off_t>(::lseek(fd, 0, SEEK_END), 0)));
             if (::pread(fd, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
                 error = errno != 0 ? errno : EIO;
         }
@@ -82,8 +81,8 @@ public:
         image_.size = empty.size();
         image_.memory = std::malloc(empty.size());  // NetCDF reallocates it as the file grows
         if (image_.memory == nullptr)
-            throw Error(Failure::no_memory, "no memory to put '" + path + "' together");
-        std::copy(empty.begin(), empty.end(), static_cast<char*>(image_.memory));
+            throw Error(Failure::no_memory, "no memory to put '", path, "' together");
+        std::ranges::copy(empty, static_cast<char*>(image_.memory));
         const int status = nc_open_memio(path.c_str(), NC_WRITE, &image_, &ncid_);
         if (status == NC_NOERR) image_ = {};  // owned by NetCDF until nc_close_memio
         check(status, path);
@@ -114,7 +113,7 @@ private:
             return image_.size;
         std::uint64_t end = 0;
         for (int i = 7; i >= 0; --i) end = end << 8 | bytes[28 + i];
-        return end >= 48 && end <= image_.size ? static_cast<std::size_t>(end) : image_.size;
+        return end >= 48 && end <= image_.size ? at(end) : image_.size;
     }
 
     std::string path_;
@@ -122,17 +121,26 @@ private:
     NC_memio image_{};
 };
 
+// One function for each kind of values.
+template <class... Functions>
+struct Overloaded : Functions... {
+    using Functions::operator()...;
+};
+
 void put_attribute(int ncid, int varid, const std::string& name, const NetcdfAttribute& value,
                    const std::string& path) {
-    if (const auto* text = std::get_if<std::string>(&value))
-        check(nc_put_att_text(ncid, varid, name.c_str(), text->size(), text->c_str()), path);
-    else if (const auto* numbers = std::get_if<std::vector<double>>(&value))
-        check(nc_put_att_double(ncid, varid, name.c_str(), NC_DOUBLE, numbers->size(),
-                                numbers->data()),
-              path);
-    else if (const auto* integers = std::get_if<std::vector<std::int32_t>>(&value))
-        check(nc_put_att_int(ncid, varid, name.c_str(), NC_INT, integers->size(), integers->data()),
-              path);
+    const auto put = [&](auto function, nc_type type, auto values) {
+        check(function(ncid, varid, name.c_str(), type, values.size(), values.data()), path);
+    };
+    const Overloaded put_value = {
+        [&](const std::string& text) {
+            check(nc_put_att_text(ncid, varid, name.c_str(), text.size(), text.c_str()), path);
+        },
+        [&](const double& x) { put(nc_put_att_double, NC_DOUBLE, std::span(&x, 1)); },
+        [&](const std::int32_t& n) { put(nc_put_att_int, NC_INT, std::span(&n, 1)); },
+        [&](const std::vector<double>& x) { put(nc_put_att_double, NC_DOUBLE, std::span(x)); },
+        [&](const std::vector<std::int32_t>& n) { put(nc_put_att_int, NC_INT, std::span(n)); }};
+    std::visit(put_value, value);
 }
 
 // Smaller variables are not chunked: managing a chunk takes HDF5 longer than writing them, and
@@ -174,7 +182,7 @@ bool mostly_zero(const NetcdfVariable& v, const std::vector<std::size_t>& shape)
     std::size_t zeros = 0;
     if (v.bytes) return true;
     const auto count = [&](std::span<const double> values) {
-        zeros += static_cast<std::size_t>(std::ranges::count(values, 0.0));
+        zeros += at(std::ranges::count(values, 0.0));
     };
     if (const auto* values = std::get_if<std::vector<double>>(&v.values)) count(*values);
     if (const auto* rows = std::get_if<RowFiller>(&v.values))
@@ -188,8 +196,8 @@ void put_values(int ncid, int varid, const NetcdfVariable& v, const std::vector<
         check(nc_put_var_int(ncid, varid, integers->data()), path);
     } else if (const auto* doubles = std::get_if<std::vector<double>>(&v.values)) {
         std::vector<double> filled;
-        const bool absent = v.may_be_absent && std::any_of(doubles->begin(), doubles->end(),
-                                                           [](double x) { return std::isnan(x); });
+        const bool absent = v.may_be_absent &&
+                            std::ranges::any_of(*doubles, [](double x) { return std::isnan(x); });
         if (absent) {
             filled = *doubles;
             for (double& x : filled)
@@ -224,10 +232,10 @@ void NetcdfFile::attribute(const std::string& name, NetcdfAttribute value) {
 std::vector<std::size_t> NetcdfFile::shape(const NetcdfVariable& v) const {
     std::vector<std::size_t> lengths;
     for (const std::string& wanted : v.dimensions) {
-        const auto found = std::find_if(dimensions_.begin(), dimensions_.end(),
-                                        [&](const auto& d) { return d.first == wanted; });
+        const auto found =
+            std::ranges::find_if(dimensions_, [&](const auto& d) { return d.first == wanted; });
         if (found == dimensions_.end())
-            throw Error(Failure::internal, "result file: no dimension '" + wanted + "'");
+            throw Error(Failure::internal, "result file: no dimension '", wanted, "'");
         lengths.push_back(found->second);
     }
     return lengths;
@@ -247,7 +255,7 @@ void NetcdfFile::check_values(const NetcdfVariable& v) const {
     bool finite = true, fits = true;
     if (const auto* doubles = std::get_if<std::vector<double>>(&v.values)) {
         fits = doubles->size() == size;
-        finite = std::none_of(doubles->begin(), doubles->end(), bad);
+        finite = std::ranges::none_of(*doubles, bad);
     } else if (const auto* integers = std::get_if<std::vector<std::int32_t>>(&v.values)) {
         fits = integers->size() == size;
     } else if (const auto* rows = std::get_if<RowFiller>(&v.values); rows && !v.bytes) {
@@ -256,15 +264,14 @@ void NetcdfFile::check_values(const NetcdfVariable& v) const {
         });
     } else if (const auto* texts = std::get_if<std::vector<std::string>>(&v.values)) {
         fits = lengths.size() == 2 && texts->size() == lengths[0] &&
-               std::none_of(texts->begin(), texts->end(),
-                            [&](const auto& t) { return t.size() > lengths[1]; });
+               std::ranges::none_of(*texts, [&](const auto& t) { return t.size() > lengths[1]; });
     }
     if (!fits)
-        throw Error(Failure::internal,
-                    "result file: the values of '" + v.name + "' do not fill its dimensions");
+        throw Error(Failure::internal, "result file: the values of '", v.name,
+                    "' do not fill its dimensions");
     if (!finite)
-        throw Error(Failure::internal,
-                    "result file: '" + v.name + "' holds a value that is not a finite number");
+        throw Error(Failure::internal, "result file: '", v.name,
+                    "' holds a value that is not a finite number");
 }
 
 void NetcdfFile::define_and_put(int ncid, Format format, int compression,
@@ -278,7 +285,7 @@ void NetcdfFile::define_and_put(int ncid, Format format, int compression,
     std::vector<int> varids;
     for (const NetcdfVariable& v : variables_) {
         std::vector<int> ids(v.dimensions.size());
-        for (std::size_t d = 0; d < ids.size(); ++d)
+        for (const auto d : indices(ids))
             check(nc_inq_dimid(ncid, v.dimensions[d].c_str(), &ids[d]), path);
         const nc_type type = v.bytes                                                       ? NC_BYTE
                              : std::holds_alternative<std::vector<std::int32_t>>(v.values) ? NC_INT
@@ -286,9 +293,7 @@ void NetcdfFile::define_and_put(int ncid, Format format, int compression,
                                  ? NC_CHAR
                                  : NC_DOUBLE;
         int varid = -1;
-        check(nc_def_var(ncid, v.name.c_str(), type, static_cast<int>(ids.size()), ids.data(),
-                         &varid),
-              path);
+        check(nc_def_var(ncid, v.name.c_str(), type, int(ids.size()), ids.data(), &varid), path);
         if (v.may_be_absent)
             put_attribute(ncid, varid, "_FillValue", std::vector<double>{NC_FILL_DOUBLE}, path);
         if (format == Format::netcdf4 && !ids.empty() && values_of(shape(v)) >= kChunked) {
@@ -306,7 +311,7 @@ void NetcdfFile::define_and_put(int ncid, Format format, int compression,
         varids.push_back(varid);
     }
     check(nc_enddef(ncid), path);
-    for (std::size_t k = 0; k < variables_.size(); ++k)
+    for (const auto k : indices(variables_))
         put_values(ncid, varids[k], variables_[k], shape(variables_[k]), path);
 }
 
@@ -316,14 +321,13 @@ void NetcdfFile::write(const std::string& path, Format format, int compression) 
     const fs::path folder = folder_of(path);
     fs::create_directories(folder, error);
     if (error)
-        throw Error(Failure::file_system, "cannot write '" + path + "': folder '" +
-                                              folder.string() +
-                                              "' cannot be made: " + error.message());
+        throw Error(Failure::file_system, "cannot write '", path, "': folder '", folder.string(),
+                    "' cannot be made: ", error.message());
     WholeFile file(path, kResultFile);
 
     double bytes = 0;
     for (const NetcdfVariable& v : variables_)
-        bytes += (v.bytes ? 1 : 8) * static_cast<double>(values_of(shape(v)));
+        bytes += (v.bytes ? 1 : 8) * double(values_of(shape(v)));
     // The image of the file is copied when it grows, and once more for reading.
     require_memory(3 * bytes + (32 << 20), "for '" + path + "'",
                    "; write less (&output contacts, heights, map_cells)");

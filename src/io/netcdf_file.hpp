@@ -6,7 +6,8 @@
 
 namespace rsc {
 
-using NetcdfAttribute = std::variant<std::string, std::vector<double>, std::vector<std::int32_t>>;
+using NetcdfAttribute =
+    std::variant<std::string, double, std::int32_t, std::vector<double>, std::vector<std::int32_t>>;
 using NetcdfAttributes = std::vector<std::pair<std::string, NetcdfAttribute>>;
 
 // Fills in the values at one index of the first dimension; they need not be in memory all at once.

@@ -27,7 +27,7 @@ void ResultTable::global_attributes(const std::string& history) {
                  ? std::string(", boundary elements of rough bodies in contact")
                  : std::string(", deterministic multi-asperity model of rough bodies in contact, "
                                "law ") +
-                       kLawNames[static_cast<std::size_t>(r_.settings.asperities.law)]));
+                       kLawNames[at(r_.settings.asperities.law)]));
     file_.attribute("history", history);
     file_.attribute("references", kPaper);
     file_.attribute("indenter", r_.indenter.shape->text(r_.settings.run.length_unit));
@@ -36,7 +36,7 @@ void ResultTable::global_attributes(const std::string& history) {
                     "in the attribute `case` "
                     "reproduces this file, "
                     "except for the attribute `history`.");
-    if (r_.path_dependent())
+    if (path_dependent(r_.settings))
         file_.attribute(
             "path",
             wears(r_.settings)     ? "each level depends on the previous ones: the surface remains "
@@ -49,8 +49,7 @@ void ResultTable::global_attributes(const std::string& history) {
     file_.attribute("case", r_.case_text);
     if (r_.settings.run.seed >= std::numeric_limits<std::int32_t>::min() &&
         r_.settings.run.seed <= std::numeric_limits<std::int32_t>::max())
-        file_.attribute("seed",
-                        std::vector<std::int32_t>{static_cast<std::int32_t>(r_.settings.run.seed)});
+        file_.attribute("seed", std::int32_t(r_.settings.run.seed));
     else  // the classic data model has no integers longer than 32 bits
         file_.attribute("seed", std::to_string(r_.settings.run.seed));
 }
@@ -58,15 +57,13 @@ void ResultTable::global_attributes(const std::string& history) {
 void ResultTable::axes() {
     file_.dimension("realization", o_.realizations);
     file_.dimension("step", o_.steps);
-    std::vector<std::int32_t> realization;
-    for (std::int64_t k : o_.realization) realization.push_back(clamped(k));
-    add("realization", {"realization"}, "1", "number of the realization", realization,
+    add("realization", {"realization"}, "1", "number of the realization",
+        values_of<std::int32_t>(o_.realization, [](std::int64_t k) { return clamped(k); }),
         comment("realization k of a seed is the same surface in every case"));
     add("step", {"step"}, "1", "number of the level", one_to(o_.steps));
 
     const Names dims = r_.force_control() ? Names{"realization", "step"} : Names{"step"};
-    std::vector<double> separation =
-        of_rows<double>([](const LevelValues& row) { return row.separation; });
+    std::vector<double> separation = of_rows(&LevelValues::separation);
     if (!r_.force_control()) separation.resize(o_.steps);  // the same in every realization
     std::vector<double> scaled = separation;
     for (double& z : scaled) z /= r_.sigma;
@@ -93,36 +90,31 @@ void ResultTable::levels() {
         const auto absent = [&](const LevelValues& l) {
             return std::isnan(q.beside ? l.*q.beside : q.of(l));
         };
-        if (!q.always && std::all_of(o_.rows.begin(), o_.rows.end(), absent)) continue;
+        if (!q.always && std::ranges::all_of(o_.rows, absent)) continue;
         if (q.integer()) {
             add(q.name, dims, "1", q.meaning,
                 of_rows<std::int32_t>([&](const LevelValues& l) { return clamped(q.of(l)); }),
                 attributes);
             continue;
         }
-        const std::vector<double> values =
-            of_rows<double>([&](const LevelValues& l) { return q.of(l); });
-        if (q.always && std::none_of(o_.rows.begin(), o_.rows.end(),
-                                     absent))  // levels that did not converge may have no force
-            add(q.name, dims, units(q), q.meaning, values, attributes);
-        else if (q.of_step)
-            add(q.name, {"step"}, units(q), q.meaning,
-                std::vector<double>(values.begin(),
-                                    values.begin() + static_cast<std::ptrdiff_t>(o_.steps)),
-                attributes);
-        else if (q.z)
-            add_absent(q.name, {"realization", "step", "tensor_component"}, units(q), q.meaning,
-                       tensors(q), q.comment);
-        else if (q.y)
-            add_absent(q.name, {"realization", "step", "component"}, units(q), q.meaning,
-                       pairs(values, of_rows<double>([&](const LevelValues& l) { return l.*q.y; })),
-                       q.comment);
+        std::vector<double> values;
+        for (const LevelValues& level : o_.rows)
+            for (const auto c : indices(q.components())) values.push_back(q.of(level, c));
+        Names shape = dims;
+        if (q.of_step) {
+            shape = {"step"};
+            values.resize(o_.steps);
+        }
+        if (q.components() > 1) shape.push_back(components(q.components()));
+        // Levels that did not converge may have no force.
+        if (q.of_step || (q.always && std::ranges::none_of(o_.rows, absent)))
+            add(q.name, shape, units(q), q.meaning, values, attributes);
         else
-            add_absent(q.name, dims, units(q), q.meaning, values, q.comment);
+            add_absent(q.name, shape, units(q), q.meaning, values, q.comment);
     }
     std::vector<double> pull_off(o_.realizations, std::numeric_limits<double>::quiet_NaN());
     bool adhesive = false;
-    for (std::size_t k = 0; k < pull_off.size(); ++k) {
+    for (const auto k : indices(pull_off)) {
         bool without_state = false;  // the smallest force may have been that of such a level
         for (std::size_t s = 0; s < o_.steps; ++s) {
             const double least = o_.row(k, s).least_force;
@@ -140,30 +132,20 @@ void ResultTable::levels() {
 }
 
 bool ResultTable::computed(const std::vector<double>& values) {
-    return !std::all_of(values.begin(), values.end(), [](double v) { return std::isnan(v); });
+    return !std::ranges::all_of(values, [](double v) { return std::isnan(v); });
 }
 
-// The components of a vector as the last dimension, which is declared on the first call.
-void ResultTable::component() {
-    if (components_) return;
-    components_ = true;
-    file_.dimension("component", 2);
-    add("component", {"component"}, "1", "component of a vector", one_to(2),
-        {{"flag_values", one_to(2)}, {"flag_meanings", "x y"}});
-}
-
-// The components xx, yy, xy of a symmetric tensor as the last dimension.
-std::vector<double> ResultTable::tensors(const LevelQuantity& q) {
-    file_.dimension("tensor_component", 3);
-    add("tensor_component", {"tensor_component"}, "1", "component of a symmetric tensor", one_to(3),
-        {{"flag_values", one_to(3)}, {"flag_meanings", "xx yy xy"}});
-    std::vector<double> all;
-    for (const LevelValues& l : o_.rows) {
-        all.push_back(q.of(l));
-        all.push_back(l.*q.y);
-        all.push_back(l.*q.z);
-    }
-    return all;
+// The dimension of the components of a vector, or of a symmetric tensor, which is declared on the
+// first call.
+std::string ResultTable::components(std::size_t number) {
+    const bool vector = number == 2;
+    const std::string name = vector ? "component" : "tensor_component";
+    if (!components_.insert(number).second) return name;
+    file_.dimension(name, number);
+    add(name, {name}, "1", vector ? "component of a vector" : "component of a symmetric tensor",
+        one_to(number),
+        {{"flag_values", one_to(number)}, {"flag_meanings", vector ? "x y" : "xx yy xy"}});
+    return name;
 }
 
 void ResultTable::means() {
@@ -187,7 +169,7 @@ void ResultTable::means() {
             return value > 0 ? std::log(value) : kNotComputed;
         };
         LevelStatistics s = o_.statistics([&](const LevelValues& l) { return seen(q.of(l)); });
-        if (!q.always && !computed(of_rows<double>([&](const LevelValues& l) { return q.of(l); })))
+        if (!q.always && !computed(of_rows([&](const LevelValues& l) { return q.of(l); })))
             continue;
         const std::string name = q.name + std::string(q.logarithm ? "_log" : ""),
                           of = (q.logarithm ? "natural logarithm of the " : std::string()) +
@@ -197,15 +179,15 @@ void ResultTable::means() {
         bool fewer = s.count != o_.force.count;
         if (q.y) {
             const LevelStatistics y =
-                o_.statistics([&](const LevelValues& l) { return seen(l.*q.y); });
+                o_.statistics([&](const LevelValues& l) { return seen(q.of(l, 1)); });
             fewer = fewer || y.count != o_.force.count;
             s = {pairs(s.mean, y.mean), pairs(s.deviation, y.deviation), pairs(s.error, y.error),
                  pairs(s.count, y.count)};
-            dims.push_back("component");
+            dims.push_back(components(2));
         }
         // A prescribed force scatters as little as the solver leaves of it.
         if (r_.force_control() && name == "force")
-            for (std::size_t step = 0; step < s.mean.size(); ++step)
+            for (const auto step : indices(s.mean))
                 if (s.count[step] > 1) s.deviation[step] = s.error[step] = 0;
         add_absent(name + "_mean", dims, unit_of_mean, "mean " + of, s.mean,
                    fewer ? "over `" + name + "_count` realizations, those that have it" : "");
@@ -228,11 +210,11 @@ void ResultTable::surfaces() {
                   : "finite differences on the grid of heights, without those across its border, "
                     "which is none of the surface even where the heights repeat";
     add_absent("sigma", dims, unit(1), "rms height of the surface",
-               of_surfaces([](const auto& s) { return s.sigma; }));
+               of_surfaces(&SurfaceStatistics::sigma));
     add_absent("m2", dims, "1", "second profile moment: half the mean square gradient",
-               of_surfaces([](const auto& s) { return s.m2; }), origin);
+               of_surfaces(&SurfaceStatistics::m2), origin);
     add_absent("m4", dims, unit(-2), "fourth profile moment: mean square profile curvature",
-               of_surfaces([](const auto& s) { return s.m4; }),
+               of_surfaces(&SurfaceStatistics::m4),
                origin + (directional ? ", 3/8 (m40 + m04 + 2 m22)" : ", (m40 + m04 + 3 m22)/3"));
     for (const auto& [name, of] : kMomentComponents)
         add_absent(
@@ -240,39 +222,38 @@ void ResultTable::surfaces() {
             std::string("integral of kx^") + name[1] + " ky^" + name[2] + " over the spectrum",
             of_surfaces([of = of](const auto& s) { return s.tensor.*of; }), origin);
     add_absent("m2_grid", dims, "1", "second profile moment from finite differences",
-               of_surfaces([](const auto& s) { return s.m2_grid; }),
+               of_surfaces(&SurfaceStatistics::m2_grid),
                "differs from m2 if the grid does not resolve the shortest waves");
     add_absent("m4_grid", dims, unit(-2), "fourth profile moment from finite differences",
-               of_surfaces([](const auto& s) { return s.m4_grid; }),
+               of_surfaces(&SurfaceStatistics::m4_grid),
                "differs from m4 if the grid does not resolve the shortest waves");
-    if (computed(of_surfaces([](const auto& s) { return s.skewness; }))) {
+    if (computed(of_surfaces(&SurfaceStatistics::skewness))) {
         add("skewness", dims, "1", "skewness of the heights",
-            of_surfaces([](const auto& s) { return s.skewness; }));
+            of_surfaces(&SurfaceStatistics::skewness));
         add("kurtosis", dims, "1", "kurtosis of the heights",
-            of_surfaces([](const auto& s) { return s.kurtosis; }));
+            of_surfaces(&SurfaceStatistics::kurtosis));
     }
     add_absent("rms_slope", dims, "1", "rms gradient of the surface",
                of_surfaces([](const auto& s) { return std::sqrt(2 * s.m2); }),
                "sqrt(2 m2); the theory assumes small slopes");
-    std::vector<std::int32_t> summits, saddles;
-    for (const SurfaceStatistics& s : o_.surface) {
-        summits.push_back(clamped(s.summits));
-        saddles.push_back(clamped(s.saddles));
-    }
-    if (std::any_of(summits.begin(), summits.end(),
-                    [](auto n) { return n > 0; })) {  // elements do not search for summits
+    const auto counts = [&](std::int64_t SurfaceStatistics::*member) {
+        return values_of<std::int32_t>(o_.surface,
+                                       [&](const auto& s) { return clamped(s.*member); });
+    };
+    const std::vector<std::int32_t> summits = counts(&SurfaceStatistics::summits);
+    if (std::ranges::any_of(summits,
+                            [](auto n) { return n > 0; })) {  // elements do not search for summits
         add("summits", dims, "1", "number of asperities", summits);
-        add("saddles", dims, "1", "grid maxima that are not asperities", saddles,
+        add("saddles", dims, "1", "grid maxima that are not asperities",
+            counts(&SurfaceStatistics::saddles),
             comment("saddles by their curvatures; with law = 'elliptic' or 'fourth_order' maxima "
                     "without a summit between the grid "
                     "points, or with one already found"));
     }
     add_absent("mean_kappa_g", dims, unit(-1), "mean geometric curvature of the summits",
-               of_surfaces([](const auto& s) { return s.mean_kappa_g; }),
-               "1.356 sqrt(m4) in theory");
+               of_surfaces(&SurfaceStatistics::mean_kappa_g), "1.356 sqrt(m4) in theory");
     add_absent("mean_kappa_a", dims, unit(-1), "mean algebraic curvature of the summits",
-               of_surfaces([](const auto& s) { return s.mean_kappa_a; }),
-               "1.5045 sqrt(m4) in theory");
+               of_surfaces(&SurfaceStatistics::mean_kappa_a), "1.5045 sqrt(m4) in theory");
 }
 
 void ResultTable::theory() {
@@ -291,12 +272,12 @@ void ResultTable::theory() {
            known ? m.summit_density() : kAbsent,
            "sqrt(3) m4/(18 pi m2), with a lay of the isotropic surface before it is stretched");
     const double R = r_.indenter.shape->hertz_radius();
-    add("e_star", {}, unit(-2, 1), "equivalent modulus E*", std::vector<double>{r_.indenter.E_star},
+    add("e_star", unit(-2, 1), "equivalent modulus E*", r_.indenter.E_star,
         comment("1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2; on a body with layers that of the top layer"));
     add_absent("r_star", {}, unit(1), "equivalent radius R*", {std::isfinite(R) ? R : kAbsent},
                "1/R* = 1/R1 + 1/R2; missing for two flats and for shapes other than spheres");
-    add("tip_x", {}, unit(1), "x of the indenter's tip", std::vector<double>{r_.indenter.x0});
-    add("tip_y", {}, unit(1), "y of the indenter's tip", std::vector<double>{r_.indenter.y0});
+    add("tip_x", unit(1), "x of the indenter's tip", r_.indenter.x0);
+    add("tip_y", unit(1), "y of the indenter's tip", r_.indenter.y0);
     outline();
     add_absent("sigma_reference", {}, unit(1), "rms height used as the unit of separations",
                {r_.sigma});
@@ -357,9 +338,8 @@ void ResultTable::friction() {
     if (f.points == 0) return;
     file_.dimension("point", f.points);
     add("point", {"point"}, "1", "point of a slide at constant separation", one_to(f.points),
-        {{"first_loading", std::vector<std::int32_t>{1, static_cast<std::int32_t>(f.first)}},
-         {"cycle", std::vector<std::int32_t>{static_cast<std::int32_t>(f.first) + 1,
-                                             static_cast<std::int32_t>(f.points)}},
+        {{"first_loading", std::vector<std::int32_t>{1, std::int32_t(f.first)}},
+         {"cycle", std::vector<std::int32_t>{std::int32_t(f.first) + 1, std::int32_t(f.points)}},
          {"comment",
           "first and last point of the first loading, from 0 to full slip, and of the cycle at 90 "
           "% of it, closed"}});
@@ -381,11 +361,11 @@ void ResultTable::two_flats(const Moments& m) {
     const double E = r_.indenter.E_star, A0 = r_.indenter.period.area();
     double summits = 0, kappa = 0, m2 = 0;
     for (const SurfaceStatistics& s : o_.surface) {
-        summits += static_cast<double>(s.summits);
+        summits += double(s.summits);
         kappa += s.mean_kappa_g;
         m2 += s.m2;
     }
-    const auto n = static_cast<double>(o_.surface.size());
+    const auto n = double(o_.surface.size());
     // of the generated surfaces: for a band that begins at L their slope differs from that of
     // m2_theory
     m2 /= n;

@@ -31,15 +31,14 @@ NetcdfAttributes moments_of(const std::vector<Shown>& distributions,
 
 void ResultTable::maps() {
     const MapGrid& g = o_.options.map;
-    file_.dimension("y", static_cast<std::size_t>(g.ny));
-    file_.dimension("x", static_cast<std::size_t>(g.nx));
+    file_.dimension("y", at(g.ny));
+    file_.dimension("x", at(g.nx));
     add("y", {"y"}, unit(1), "y of the cell centres; the last row may extend beyond the surface",
         each_of(g.ny, [&](int j) { return g.y(j); }),
-        {{"axis", "Y"}, {"share_of_last_row", std::vector<double>{g.last_row}}});
+        {{"axis", "Y"}, {"share_of_last_row", g.last_row}});
     add("x", {"x"}, unit(1), "x of the cell centres", each_of(g.nx, [&](int i) { return g.x(i); }),
         {{"axis", "X"}});
-    add("map_cell_side", {}, unit(1), "side of the square cells of the map, w",
-        std::vector<double>{g.side});
+    add("map_cell_side", unit(1), "side of the square cells of the map, w", g.side);
     const Names dims{"step", "y", "x"};
     const auto add_map = [&](const char* name, const std::string& units, const char* meaning,
                              const SparseMaps& map, const char* note) {
@@ -89,18 +88,18 @@ void ResultTable::bin_axis(const std::string& name, const std::string& units,
                            const std::string& long_name, double width) {
     add(name, {"bin"}, units, long_name,
         each_of(o_.options.pdf.bins, [&](int b) { return (b + 0.5) * width; }),
-        {{"bin_width", std::vector<double>{width}}});
+        {{"bin_width", width}});
 }
 
 void ResultTable::distributions() {
     if (o_.distributions.empty()) return;
     file_.dimension("pdf_level", o_.distributions.size());
-    file_.dimension("bin", static_cast<std::size_t>(o_.options.pdf.bins));
+    file_.dimension("bin", at(o_.options.pdf.bins));
     std::vector<double> wanted, used;
     std::vector<std::int32_t> step;
     for (double level : o_.options.pdf_levels) wanted.push_back(level / r_.sigma);
     for (const ShownDistributions& f : o_.distributions) {
-        used.push_back(f.sum.separation / static_cast<double>(f.sum.levels) / r_.sigma);
+        used.push_back(f.sum.separation / double(f.sum.levels) / r_.sigma);
         step.push_back(f.sum.step);
     }
     add("pdf_level", {"pdf_level"}, "1", "requested Z0/sigma", wanted);
@@ -109,8 +108,7 @@ void ResultTable::distributions() {
         comment("mean over realizations under force control"));
     add("pdf_step", {"pdf_level"}, "1", "number of that level", from_one(step),
         {kFromOne, {"comment", "0: it differs between realizations (force control)"}});
-    add("bin", {"bin"}, "1", "number of the bin",
-        one_to(static_cast<std::size_t>(o_.options.pdf.bins)));
+    add("bin", {"bin"}, "1", "number of the bin", one_to(at(o_.options.pdf.bins)));
     const PdfBins& bins = o_.options.pdf;
     bin_axis("pressure_mean_bin", unit(-2, 1), "middle of the bins of pressure_mean_pdf",
              bins.mean_pressure_width());
@@ -156,7 +154,7 @@ void ResultTable::histogram(const std::string& name, const std::string& axis,
     std::vector<double> values, overflow;
     for (const ShownDistributions& f : o_.distributions) {
         const Histogram& h = f.sum.*which;
-        values.insert(values.end(), h.weight.begin(), h.weight.end());
+        append(values, h.weight);
         overflow.push_back(h.overflow);
     }
     add(name, {"pdf_level", "bin"}, units, long_name, values,
@@ -170,8 +168,7 @@ void ResultTable::density(const std::string& name, const std::string& axis,
                           std::vector<double> Shown::*which, DistributionMoments Shown::*moments,
                           NetcdfAttributes more, const std::string& note) {
     std::vector<double> values;
-    for (const Shown& f : o_.distributions)
-        values.insert(values.end(), (f.*which).begin(), (f.*which).end());
+    for (const Shown& f : o_.distributions) append(values, f.*which);
     NetcdfAttributes all{{"coordinates", axis}};
     append(all, std::move(more));
     append(all, moments_of(o_.distributions, moments));
@@ -226,29 +223,12 @@ void ResultTable::contacts() {
     if (!c.asperity.empty())
         add("contact_asperity", {"contact"}, "1", "asperity of the contact", from_one(c.asperity),
             {kFromOne});
-    if (!c.x.empty()) {
-        const std::string what = " of the centroid of the contact's pressure";
-        add_disorder("contact_x", {"contact"}, unit(1), "x" + what, c.x);
-        add_disorder("contact_y", {"contact"}, unit(1), "y" + what, c.y,
-                     comment("a contact is a set of pixels connected by their sides"));
-    }
-    add_disorder("contact_force", {"contact"}, unit(0, 1), "force of the contact, f", c.force);
-    add_disorder(
-        "contact_radius", {"contact"}, unit(1), "radius of the contact, a", c.radius,
-        comment("its area is pi a^2: of an ellipse, the root of the product of its semi-axes"));
-    if (!c.major.empty()) {
-        add_disorder("contact_spot_x", {"contact"}, unit(1),
-                     "x of the middle of the contact's elliptic spot", c.spot_x,
-                     comment("a contact within the spot of another has that spot; the contact area "
-                             "is the area of the union of all spots"));
-        add_disorder("contact_spot_y", {"contact"}, unit(1),
-                     "y of the middle of the contact's elliptic spot", c.spot_y);
-        add_disorder("contact_major", {"contact"}, unit(1),
-                     "major semi-axis of the contact's elliptic spot", c.major);
-        add_disorder("contact_minor", {"contact"}, unit(1),
-                     "minor semi-axis of the contact's elliptic spot", c.minor);
-        add_disorder("contact_angle", {"contact"}, "radian",
-                     "direction of the major semi-axis, from x", c.angle);
+    for (const ContactColumn& column : kContactColumns) {
+        const bool angle = column.length_power == 0 && column.force_power == 0;
+        if (!(c.*column.of).empty())
+            add_disorder(std::string("contact_") + column.name, {"contact"},
+                         angle ? "radian" : unit(column.length_power, column.force_power),
+                         column.meaning, c.*column.of, comment(column.comment));
     }
     if (!c.yields.empty())
         add("contact_yields", {"contact"}, "1",
@@ -259,10 +239,10 @@ void ResultTable::contacts() {
 void ResultTable::contact_mask() {
     std::vector<std::int32_t> steps;
     std::int32_t left = INT32_MAX, right = -1, bottom = INT32_MAX, top = -1;
-    for (std::size_t s = 0; s < r_.pixels.size(); ++s) {
+    for (const auto s : indices(r_.pixels)) {
         const LevelPixels& p = r_.pixels[s];
         if (p.index.empty() && p.cohesive.empty()) continue;
-        steps.push_back(static_cast<std::int32_t>(s));
+        steps.push_back(std::int32_t(s));
         for (const auto* pixels : {&p.index, &p.cohesive})
             for (const std::int32_t k : *pixels) {
                 left = std::min(left, k % p.columns);
@@ -272,11 +252,11 @@ void ResultTable::contact_mask() {
             }
     }
     if (steps.empty()) return;
-    const LevelPixels& grid = r_.pixels[static_cast<std::size_t>(steps[0])];
+    const LevelPixels& grid = r_.pixels[at(steps[0])];
     const int columns = right - left + 1, rows = top - bottom + 1;
     file_.dimension("mask_step", steps.size());
-    file_.dimension("mask_y", static_cast<std::size_t>(rows));
-    file_.dimension("mask_x", static_cast<std::size_t>(columns));
+    file_.dimension("mask_y", at(rows));
+    file_.dimension("mask_x", at(columns));
     add("mask_step", {"mask_step"}, "1", "number of the level of contact_mask", from_one(steps),
         {kFromOne});
     add("mask_y", {"mask_y"}, unit(1), "y of the pixels of contact_mask",
@@ -285,15 +265,14 @@ void ResultTable::contact_mask() {
         each_of(columns, [&](int i) { return grid.x_of(left + i); }));
     const auto fill = [=, this](std::size_t k, std::span<double> row) {
         std::ranges::fill(row, 0);
-        const LevelPixels& p = r_.pixels[static_cast<std::size_t>(steps[k])];
-        const auto at = [&](std::int32_t pixel) -> double& {
+        const LevelPixels& p = r_.pixels[at(steps[k])];
+        const auto kind_of = [&](std::int32_t pixel) -> double& {
             const int i = pixel % p.columns - left, j = pixel / p.columns - bottom;
-            return row[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
-                       static_cast<std::size_t>(i)];
+            return row[at(j) * at(columns) + at(i)];
         };
-        for (std::size_t n = 0; n < p.index.size(); ++n)
-            at(p.index[n]) = p.pressure[n] >= r_.settings.solids.hardness ? 2 : 1;
-        for (const std::int32_t pixel : p.cohesive) at(pixel) = 3;
+        for (const auto n : indices(p.index))
+            kind_of(p.index[n]) = p.pressure[n] >= r_.settings.solids.hardness ? 2 : 1;
+        for (const std::int32_t pixel : p.cohesive) kind_of(pixel) = 3;
     };
     constexpr std::array<const char*, 4> kinds = {"apart", "contact", "yielding", "attracted"};
     file_.variable({"contact_mask",
@@ -313,10 +292,8 @@ void ResultTable::residual_profile() {
     file_.dimension("residual_pixel", p.depth.size());
     const Names dims{"residual_pixel"};
     const std::string points = " of the points of the surface with residual depth";
-    add("residual_pixel_x", dims, unit(1), "x" + points, p.x,
-        {{"pixel_size", std::vector<double>{p.dx}}});
-    add("residual_pixel_y", dims, unit(1), "y" + points, p.y,
-        {{"pixel_size", std::vector<double>{p.dy}}});
+    add("residual_pixel_x", dims, unit(1), "x" + points, p.x, {{"pixel_size", p.dx}});
+    add("residual_pixel_y", dims, unit(1), "y" + points, p.y, {{"pixel_size", p.dy}});
     add("residual_pixel_depth", dims, unit(1), "residual depth without force, after the last level",
         p.depth);
 }
@@ -366,15 +343,15 @@ void ResultTable::compared() {
     if (p.index.empty()) return;
     file_.dimension("compare_pixel", p.index.size());
     std::vector<double> x, y;
-    for (std::size_t k = 0; k < p.index.size(); ++k) {
+    for (const auto k : indices(p.index)) {
         x.push_back(p.x(k));
         y.push_back(p.y(k));
     }
     const std::string last = " of the last level compared";
     add("compare_pixel_x", {"compare_pixel"}, unit(1), "x of the pixels under pressure" + last, x,
-        {{"pixel_size", std::vector<double>{p.dx}}});
+        {{"pixel_size", p.dx}});
     add("compare_pixel_y", {"compare_pixel"}, unit(1), "y of the pixels under pressure" + last, y,
-        {{"pixel_size", std::vector<double>{p.dy}}});
+        {{"pixel_size", p.dy}});
     add("compare_pixel_pressure", {"compare_pixel"}, unit(-2, 1), "pressure on those pixels",
         p.pressure);
 }
@@ -383,8 +360,8 @@ void ResultTable::heights() {
     if (!r_.heights) return;
     const HeightMap& h = *r_.heights;
     // The dimensions x and y are those of the maps; the heights are on a finer grid.
-    file_.dimension("height_y", static_cast<std::size_t>(h.ny));
-    file_.dimension("height_x", static_cast<std::size_t>(h.nx));
+    file_.dimension("height_y", at(h.ny));
+    file_.dimension("height_x", at(h.nx));
     add("height_y", {"height_y"}, unit(1), "y of the points of height",
         each_of(h.ny, [&](int j) { return h.y(j); }));
     add("height_x", {"height_x"}, unit(1), "x of the points of height",
@@ -395,8 +372,8 @@ void ResultTable::heights() {
                     wears(r_.settings) ? "height of the worn surface after the last level"
                                        : "height of the surface",
                     RowFiller([&h](std::size_t j, std::span<double> row) {
-                        std::copy_n(h.data.get() + static_cast<std::ptrdiff_t>(j) * h.stride,
-                                    row.size(), row.begin());
+                        std::copy_n(h.data.get() + std::ptrdiff_t(j) * h.stride, row.size(),
+                                    row.begin());
                     }),
                     comment(h.periodic ? "periodic in x and y" : ""),
                     false});

@@ -2,6 +2,7 @@
 // the writer.
 #pragma once
 
+#include "base/format.hpp"
 #include "case/units.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/result.hpp"
@@ -15,10 +16,9 @@ inline constexpr const char* kAbsentMeans = "_FillValue: missing";
 // The classic data model has no integers longer than 32 bits; larger counts are written as the
 // largest one.
 inline std::int32_t clamped(std::int64_t n) {
-    return static_cast<std::int32_t>(
-        std::min<std::int64_t>(n, std::numeric_limits<std::int32_t>::max()));
+    return std::int32_t(std::min<std::int64_t>(n, std::numeric_limits<std::int32_t>::max()));
 }
-inline std::int32_t clamped(double n) { return clamped(static_cast<std::int64_t>(n)); }
+inline std::int32_t clamped(double n) { return clamped(std::int64_t(n)); }
 
 // Numbers of levels, asperities, ... counted from 1, as in the file, and the attribute that tells
 // it.
@@ -26,14 +26,13 @@ inline std::vector<std::int32_t> from_one(std::vector<std::int32_t> numbers) {
     for (std::int32_t& k : numbers) ++k;
     return numbers;
 }
-inline const std::pair<std::string, NetcdfAttribute> kFromOne{"start_index",
-                                                              std::vector<std::int32_t>{1}};
+inline const std::pair<std::string, NetcdfAttribute> kFromOne{"start_index", std::int32_t{1}};
 
 // value(0), value(1), ..., value(n - 1)
 template <class Value>
 std::vector<double> each_of(int n, Value value) {
     std::vector<double> all;
-    for (int k = 0; k < n; ++k) all.push_back(value(k));
+    for (const int k : indices(n)) all.push_back(value(k));
     return all;
 }
 // 1, 2, ..., n
@@ -49,9 +48,8 @@ NetcdfAttributes flags(const std::array<const char*, n>& names, std::size_t firs
     std::vector<std::int32_t> values;
     std::string meanings;
     for (std::size_t k = first; k < n; ++k) {
-        values.push_back(static_cast<std::int32_t>(k));
-        if (k > first) meanings += ' ';
-        meanings += names[k];
+        values.push_back(std::int32_t(k));
+        enlist(meanings, " ", names[k]);
     }
     return {{"flag_values", values}, {"flag_meanings", meanings}};
 }
@@ -61,7 +59,7 @@ template <std::size_t n>
 NetcdfAttributes masks(const std::array<const char*, n>& names) {
     NetcdfAttributes attributes = flags(names);
     std::vector<std::int32_t> bits;
-    for (std::size_t k = 0; k < n; ++k) bits.push_back(std::int32_t{1} << k);
+    for (const auto k : indices(n)) bits.push_back(std::int32_t{1} << k);
     attributes[0] = {"flag_masks", bits};
     return attributes;
 }
@@ -107,19 +105,14 @@ private:
     void axes();
     void levels();
     static bool computed(const std::vector<double>& values);
-    void component();  // the dimension of vectors, once
+    std::string components(std::size_t number);
+    std::set<std::size_t> components_;  // whose dimensions are declared
     template <class T>
-    std::vector<T> pairs(const std::vector<T>& x, const std::vector<T>& y) {
-        component();
+    static std::vector<T> pairs(const std::vector<T>& x, const std::vector<T>& y) {
         std::vector<T> both;
-        for (std::size_t k = 0; k < x.size(); ++k) {
-            both.push_back(x[k]);
-            both.push_back(y[k]);
-        }
+        for (const auto k : indices(x)) append(both, {x[k], y[k]});
         return both;
     }
-    std::vector<double> tensors(const LevelQuantity& q);
-    bool components_ = false;  // the dimension of vectors is declared
     std::string units(const LevelQuantity& q) const {
         if (!q.unit) return unit(q.length_power, q.force_power);
         return std::string(q.unit) == "time" ? r_.settings.run.time_unit : q.unit;
@@ -174,6 +167,13 @@ private:
         file_.variable({name, std::move(dimensions), units, long_name, std::move(values),
                         std::move(attributes), false});
     }
+    // A single number.
+    template <class Number>
+    requires std::is_arithmetic_v<Number>
+    void add(const std::string& name, const std::string& units, const std::string& long_name,
+             Number value, NetcdfAttributes attributes = {}) {
+        add(name, Names{}, units, long_name, std::vector{value}, std::move(attributes));
+    }
     // Incompressible data: unordered positions, heights, forces.
     void add_disorder(const std::string& name, Names dimensions, const std::string& units,
                       const std::string& long_name, std::vector<double> values,
@@ -190,21 +190,17 @@ private:
                         comment(note), true});
     }
 
-    template <typename T, typename Get>
-    std::vector<T> of_rows(Get get) const {
+    // Of all levels, or surfaces: what `get`, a function or a member, gives.
+    template <class T = double>
+    std::vector<T> of_rows(auto get) const {
+        return values_of<T>(o_.rows, get);
+    }
+    std::vector<double> of_surfaces(auto get) const { return values_of<double>(o_.surface, get); }
+    template <class T>
+    static std::vector<T> values_of(const auto& all, auto get) {
         std::vector<T> values;
-        values.reserve(o_.rows.size());
-        for (const LevelValues& row : o_.rows) values.push_back(get(row));
+        for (const auto& one : all) values.push_back(std::invoke(get, one));
         return values;
-    }
-    template <typename Get>
-    std::vector<double> of_surfaces(Get get) const {
-        std::vector<double> values;
-        for (const SurfaceStatistics& s : o_.surface) values.push_back(get(s));
-        return values;
-    }
-    static void append(NetcdfAttributes& to, NetcdfAttributes more) {
-        for (auto& a : more) to.push_back(std::move(a));
     }
 
     const Result& r_;

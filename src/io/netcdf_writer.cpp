@@ -27,13 +27,13 @@ std::string history_text(const std::string& command) {
     return date() + " " + (command.empty() ? "rsc " RSC_VERSION : command);
 }
 
-void write_result(const Result& result, const std::string& path, const WriteOptions& options) {
+void write_result(const Result& result, const std::string& path, const std::string& command) {
     const Observations& o = result.observations;
     if (o.realizations == 0 || o.steps == 0)
         throw Error(Failure::internal, "result file: there is nothing to write, no level was run");
     ResultTable(result)
-        .make(history_text(options.command))
-        .write(path, options.format, options.compression);
+        .make(history_text(command))
+        .write(path, result.settings.output.format, result.settings.output.compression);
 }
 
 void ResultTable::measured() {
@@ -47,41 +47,34 @@ void ResultTable::measured() {
 }
 
 void ResultTable::measured_form(const Measured& m) {
-    add("filled_points", {}, "1", "missing points of the map that were filled",
-        std::vector<std::int32_t>{clamped(m.missing)},
-        {{"share", std::vector<double>{m.missing_share}},
+    add("filled_points", "1", "missing points of the map that were filled", clamped(m.missing),
+        {{"share", m.missing_share},
          {"comment", "with the harmonic function of the heights around them"}});
     if (m.outlier_times > 0)
-        add("outlier_points", {}, "1", "number of filled_points that were outliers",
-            std::vector<std::int32_t>{clamped(m.outliers.count)},
-            {{"threshold", std::vector<double>{m.outliers.threshold}},
-             {"standard_deviations", std::vector<double>{m.outlier_times}},
+        add("outlier_points", "1", "number of filled_points that were outliers",
+            clamped(m.outliers.count),
+            {{"threshold", m.outliers.threshold},
+             {"standard_deviations", m.outlier_times},
              {"comment",
               "differing from the median of the 5 x 5 points around them by more than the "
               "threshold"}});
     NetcdfAttributes form = flags(kDetrendNames);
-    append(form, {{"level", std::vector<double>{m.form.level}},
+    append(form, {{"level", m.form.level},
                   {"slope", std::vector<double>{m.form.slope_x, m.form.slope_y}},
                   {"second_derivatives", std::vector<double>{m.form.zxx, m.form.zxy, m.form.zyy}}});
     if (m.form.how == Detrend::sphere && std::isfinite(m.form.radius))
-        form.push_back({"radius", std::vector<double>{m.form.radius}});
+        form.push_back({"radius", m.form.radius});
     form.push_back({"comment",
                     "least-squares fit to the valid points, subtracted; slopes and second "
                     "derivatives in the middle of the map: x, y, xx, xy "
                     "and yy; the radius of a sphere is positive for a dome"});
-    add("form_removed", {}, "1", "form subtracted from the heights",
-        std::vector<std::int32_t>{static_cast<std::int32_t>(m.form.how)}, form);
-    add("filter_cutoff", {}, unit(1), "cutoff of the Gaussian filter of the heights; 0: none",
-        std::vector<double>{m.filter_cutoff},
+    add("form_removed", "1", "form subtracted from the heights", std::int32_t(m.form.how), form);
+    add("filter_cutoff", unit(1), "cutoff of the Gaussian filter of the heights; 0: none",
+        m.filter_cutoff,
         comment("ISO 16610-61: exp(-pi (alpha cutoff/lambda)^2), alpha = sqrt(ln 2/pi)"));
 }
 
 void ResultTable::measured_heights(const Measured& m) {
-    const auto scalar = [&](const std::string& name, const std::string& units,
-                            const std::string& long_name, double value,
-                            const std::string& note = "") {
-        add(name, {}, units, long_name, std::vector<double>{value}, comment(note));
-    };
     file_.dimension("map_stage", 3);
     add("map_stage", {"map_stage"}, "1", "stage of the map", one_to(3),
         {{"flag_values", one_to(3)}, {"flag_meanings", "as_read without_form filtered"}});
@@ -99,20 +92,20 @@ void ResultTable::measured_heights(const Measured& m) {
         "rms second derivative of a profile, sqrt(m4), by second differences",
         of_stages(&Roughness::curvature));
 
-    scalar("sq", unit(1), "rms height Sq (ISO 25178-2)", m.parameters.sq);
+    add("sq", unit(1), "rms height Sq (ISO 25178-2)", m.parameters.sq);
     add_absent("ssk", {}, "1", "skewness of the heights Ssk (ISO 25178-2)", {m.parameters.ssk},
                "0 for Gaussian heights");
     add_absent("sku", {}, "1", "kurtosis of the heights Sku (ISO 25178-2)", {m.parameters.sku},
                "3 for Gaussian heights");
-    scalar("sdq", "1", "rms gradient Sdq (ISO 25178-2)", m.parameters.sdq);
-    scalar("isotropy_ratio", "1", "ratio of smallest to largest rms slope over all directions",
-           m.isotropy, "1 for an isotropic surface, 0 for grooves");
-    scalar("points_per_wave", "1", "grid steps in the shortest wavelength, 2 pi/ks",
-           m.points_per_wave(),
-           "below 4 slopes, curvatures and summits are determined by the grid or by noise");
+    add("sdq", "1", "rms gradient Sdq (ISO 25178-2)", m.parameters.sdq);
+    add("isotropy_ratio", "1", "ratio of smallest to largest rms slope over all directions",
+        m.isotropy, comment("1 for an isotropic surface, 0 for grooves"));
+    add("points_per_wave", "1", "grid steps in the shortest wavelength, 2 pi/ks",
+        m.points_per_wave(),
+        comment("below 4 slopes, curvatures and summits are determined by the grid or by noise"));
 
     file_.dimension("height_bin", m.height_pdf.size());
-    const int bins = static_cast<int>(m.height_pdf.size());
+    const int bins = int(m.height_pdf.size());
     add("height_bin", {"height_bin"}, unit(1), "middle of the bin of heights about their mean",
         each_of(bins, [&](int i) { return (i + 0.5 - 0.5 * bins) * m.height_bin; }));
     add("height_pdf", {"height_bin"}, unit(-1), "probability density of the heights", m.height_pdf);
@@ -123,7 +116,7 @@ void ResultTable::measured_spectrum(const Measured& m) {
         NetcdfAttributes attributes = comment(
             what +
             "; synthetic surfaces have it times k^twin_exponent, for the rms slope of the map");
-        attributes.push_back({"twin_exponent", std::vector<double>{exponent}});
+        attributes.push_back({"twin_exponent", exponent});
         return attributes;
     };
     file_.dimension("wavenumber", m.spectrum.wavenumber.size());
@@ -159,22 +152,21 @@ void ResultTable::measured_spectrum(const Measured& m) {
 void ResultTable::measured_fit(const MeasuredSpectrum& spectrum, const SelfAffineFit& found) {
     std::vector<double> fit;
     for (const double k : spectrum.wavenumber) fit.push_back(found.around(k));
-    const auto one = [](double v) { return std::vector<double>{v}; };
     add("psd_fit", {"wavenumber"}, unit(4), "self-affine spectrum fitted to psd", fit,
-        {{"aspect", one(found.aspect)},
-         {"direction", one(found.direction * 180 / std::numbers::pi)},
-         {"Phi0", one(found.Phi0.value)},
-         {"Phi0_error", one(found.Phi0.error)},
-         {"kl", one(found.kl.value)},
-         {"kl_error", one(found.kl.error)},
-         {"ks", one(found.ks.value)},
-         {"ks_error", one(found.ks.error)},
-         {"hurst", one(found.hurst.value)},
-         {"hurst_error", one(found.hurst.error)},
-         {"plateau", std::vector<std::int32_t>{found.plateau ? 1 : 0}},
-         {"plateau_seen", std::vector<std::int32_t>{found.plateau_seen ? 1 : 0}},
-         {"kl_seen", std::vector<std::int32_t>{found.kl_seen ? 1 : 0}},
-         {"ks_seen", std::vector<std::int32_t>{found.ks_seen ? 1 : 0}},
+        {{"aspect", found.aspect},
+         {"direction", found.direction * 180 / std::numbers::pi},
+         {"Phi0", found.Phi0.value},
+         {"Phi0_error", found.Phi0.error},
+         {"kl", found.kl.value},
+         {"kl_error", found.kl.error},
+         {"ks", found.ks.value},
+         {"ks_error", found.ks.error},
+         {"hurst", found.hurst.value},
+         {"hurst_error", found.hurst.error},
+         {"plateau", std::int32_t{found.plateau ? 1 : 0}},
+         {"plateau_seen", std::int32_t{found.plateau_seen ? 1 : 0}},
+         {"kl_seen", std::int32_t{found.kl_seen ? 1 : 0}},
+         {"ks_seen", std::int32_t{found.ks_seen ? 1 : 0}},
          {"comment",
           "Phi0 (k/kl)^(-2(1+hurst)) from kl to ks, Phi0 below kl with the plateau, 0 elsewhere, "
           "k = hypot(sqrt(aspect) k along, k across/sqrt(aspect)) the direction [degree] of the "

@@ -10,16 +10,15 @@ Contacts contacts_kept(const Case& c) {
     const bool one = c.run.realizations == 1;
     if (!one && (c.output.contacts == Contacts::last || c.output.contacts == Contacts::all))
         bad_input(
-            "&output contacts: contacts are stored for one realization only, and this case has " +
-            std::to_string(c.run.realizations) +
-            "; use contacts='none' or 'auto', or realizations=1");
+            "&output contacts: contacts are stored for one realization only, and this case has ",
+            c.run.realizations, "; use contacts='none' or 'auto', or realizations=1");
     if (!one && c.output.heights)
         bad_input(
-            "&output heights: heights are stored for one realization only, and this case has " +
-            std::to_string(c.run.realizations) + "; use heights=.false. or realizations=1");
+            "&output heights: heights are stored for one realization only, and this case has ",
+            c.run.realizations, "; use heights=.false. or realizations=1");
     if (!one && !c.output.fields.empty())
-        bad_input("&output fields: fields are stored for one realization only, and this case has " +
-                  std::to_string(c.run.realizations));
+        bad_input("&output fields: fields are stored for one realization only, and this case has ",
+                  c.run.realizations);
     if (c.output.contacts != Contacts::automatic) return c.output.contacts;
     return one ? Contacts::all : Contacts::none;
 }
@@ -48,7 +47,7 @@ ObserveOptions observe_options(const Case& c, const Domain& domain, const Indent
 double typical_sqrt_m4(const Asperities& asperities) {
     double sum = 0;
     for (double r : asperities.radius) sum += r;
-    return sum > 0 ? 0.9 * static_cast<double>(asperities.size()) / sum : 0;
+    return sum > 0 ? 0.9 * double(asperities.size()) / sum : 0;
 }
 
 Result make_result(const Case& c, std::string case_text, const Indenter& indenter, double sigma,
@@ -66,27 +65,25 @@ Result make_result(const Case& c, std::string case_text, const Indenter& indente
 void keep_contacts(Result& result, std::vector<Level>& levels, Contacts keep) {
     PackedContacts packed;
     if (keep == Contacts::none || keep == Contacts::automatic) return;
-    for (std::size_t s = 0; s < levels.size(); ++s) {
+    for (const auto s : indices(levels)) {
         Level& level = levels[s];
         const bool kept = keep == Contacts::all || s + 1 == levels.size();
         const std::size_t count = kept ? level.asperity.size() : 0;
-        if (packed.force.size() + count >
-            static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+        if (packed.force.size() + count > at(std::numeric_limits<std::int32_t>::max()))
             bad_input(
                 "&output contacts: too many contacts for the indices of the result file; use "
                 "contacts='last' or 'none'");
-        packed.start.push_back(static_cast<std::int32_t>(packed.force.size()));
-        packed.count.push_back(static_cast<std::int32_t>(count));
+        packed.start.push_back(std::int32_t(packed.force.size()));
+        packed.count.push_back(std::int32_t(count));
         if (!kept) continue;
         if (level.pixels.index.empty()) {
-            packed.asperity.insert(packed.asperity.end(), level.asperity.begin(),
-                                   level.asperity.end());
+            append(packed.asperity, level.asperity);
         } else {
-            packed.x.insert(packed.x.end(), level.x.begin(), level.x.end());
-            packed.y.insert(packed.y.end(), level.y.begin(), level.y.end());
+            append(packed.x, level.x);
+            append(packed.y, level.y);
         }
-        packed.force.insert(packed.force.end(), level.f.begin(), level.f.end());
-        packed.radius.insert(packed.radius.end(), level.a.begin(), level.a.end());
+        append(packed.force, level.f);
+        append(packed.radius, level.a);
         for (const Spot& spot : level.spots) {
             packed.spot_x.push_back(spot.x);
             packed.spot_y.push_back(spot.y);
@@ -94,8 +91,7 @@ void keep_contacts(Result& result, std::vector<Level>& levels, Contacts keep) {
             packed.minor.push_back(spot.minor);
             packed.angle.push_back(spot.angle);
         }
-        if (std::isfinite(result.settings.solids.hardness))
-            packed.yields.insert(packed.yields.end(), level.yields.begin(), level.yields.end());
+        if (yields(result.settings)) append(packed.yields, level.yields);
         result.pixels.resize(levels.size());
         result.pixels[s] = std::move(level.pixels);
     }
@@ -111,7 +107,7 @@ Moments regime_moments(const Result& result) {
         mean.m2 += s.m2;
         mean.m4 += s.m4;
     }
-    const auto n = static_cast<double>(surfaces.size());
+    const auto n = double(surfaces.size());
     return {mean.m0 / n,
             mean.m2 / n,
             mean.m4 / n,
@@ -130,22 +126,19 @@ public:
     std::vector<double> values(const std::string& name,
                                const std::vector<std::size_t>& lengths) const {
         const std::optional<Variable> variable = find(name);
-        if (!variable)
-            refuse("it has no variable " + name + ", which is needed to merge campaigns");
+        if (!variable) refuse("it has no variable ", name, ", which is needed to merge campaigns");
         if (variable->lengths != lengths)
-            refuse("variable " + variable->shape() + " does not have the shape given by its case");
+            refuse("variable ", variable->shape(), " does not have the shape given by its case");
         std::vector<double> values(variable->count());
         read(*variable, values.data(), true);
         return values;
     }
     std::size_t length(const std::string& name) const {
         const std::optional<Variable> variable = find(name);
-        if (!variable || variable->lengths.size() != 1) refuse("it has no list " + name);
+        if (!variable || variable->lengths.size() != 1) refuse("it has no list ", name);
         return variable->lengths.front();
     }
-    [[noreturn]] void refuse(const std::string& why) const {
-        bad_input("'" + path() + "': " + why);
-    }
+    [[noreturn]] void refuse(const auto&... why) const { bad_input("'", path(), "': ", why...); }
 };
 
 // Both axes depend on the surface, which may differ if it was read from a file.
@@ -153,16 +146,14 @@ void require_same_axes(const Columns& file, const ObserveOptions& options) {
     const auto require = [&](const std::string& name, std::size_t count, double first) {
         if (file.values(name, {count}).front() != first)
             file.refuse(
-                name +
+                name,
                 " begins at another value than the case gives: the surfaces were not the same");
     };
-    require("x", static_cast<std::size_t>(options.map.nx), options.map.x(0));
-    require("y", static_cast<std::size_t>(options.map.ny), options.map.y(0));
+    require("x", at(options.map.nx), options.map.x(0));
+    require("y", at(options.map.ny), options.map.y(0));
     if (options.pdf_levels.empty()) return;
-    require("pressure_mean_bin", static_cast<std::size_t>(options.pdf.bins),
-            0.5 * options.pdf.mean_pressure_width());
-    require("spot_area_bin", static_cast<std::size_t>(options.pdf.bins),
-            0.5 * options.pdf.area_width());
+    require("pressure_mean_bin", at(options.pdf.bins), 0.5 * options.pdf.mean_pressure_width());
+    require("spot_area_bin", at(options.pdf.bins), 0.5 * options.pdf.area_width());
 }
 
 void read_levels(const Columns& file, Accumulators& sums) {
@@ -173,31 +164,29 @@ void read_levels(const Columns& file, Accumulators& sums) {
     const std::vector<double> separation =
         file.values("separation", of_each ? std::vector<std::size_t>{count, steps}
                                           : std::vector<std::size_t>{steps});
-    for (std::size_t k = 0; k < sums.rows.size(); ++k)
+    for (const auto k : indices(sums.rows))
         sums.rows[k].separation = separation[of_each ? k : k % steps];
     for (const LevelQuantity& q : level_quantities()) {
         if (!file.find(q.name) && !q.always) continue;  // no level has it
-        const std::size_t parts = q.z ? 3 : q.y ? 2 : 1;
+        const std::size_t parts = q.components();
         std::vector<std::size_t> lengths{count, steps};
         if (q.of_step) lengths = {steps};
-        if (q.y) lengths.push_back(parts);
+        if (parts > 1) lengths.push_back(parts);
         const std::vector<double> values = file.values(q.name, lengths);
-        for (std::size_t k = 0; k < sums.rows.size(); ++k) {
-            q.put(sums.rows[k], values[q.of_step ? k % steps : k * parts]);
-            if (q.y) sums.rows[k].*q.y = values[k * parts + 1];
-            if (q.z) sums.rows[k].*q.z = values[k * parts + 2];
-        }
+        for (const auto k : indices(sums.rows))
+            for (const auto c : indices(parts))
+                q.put(sums.rows[k], values[(q.of_step ? k % steps : k) * parts + c], c);
     }
 }
 
 void read_surfaces(const Columns& file, Accumulators& sums) {
     sums.surface.resize(sums.realization.size());
     using S = SurfaceStatistics;
-    const auto read = [&](const char* name, auto member_of) {
+    const auto read = [&](const char* name, auto member) {
         const std::vector<double> values = file.values(name, {sums.surface.size()});
-        for (std::size_t k = 0; k < values.size(); ++k) {
-            auto& member = member_of(sums.surface[k]);
-            member = static_cast<std::decay_t<decltype(member)>>(values[k]);
+        for (const auto k : indices(values)) {
+            auto& to = std::invoke(member, sums.surface[k]);
+            to = static_cast<std::decay_t<decltype(to)>>(values[k]);
         }
     };
     for (const auto& [name, member] : {std::pair{"sigma", &S::sigma},
@@ -207,18 +196,16 @@ void read_surfaces(const Columns& file, Accumulators& sums) {
                                        {"m4_grid", &S::m4_grid},
                                        {"mean_kappa_g", &S::mean_kappa_g},
                                        {"mean_kappa_a", &S::mean_kappa_a}})
-        read(name, [m = member](S& s) -> double& { return s.*m; });
+        read(name, member);
     for (const auto& [name, of] : kMomentComponents)
         read(name, [m = of](S& s) -> double& { return s.tensor.*m; });
     if (file.find("skewness")) {
-        read("skewness", [](S& s) -> double& { return s.skewness; });
-        read("kurtosis", [](S& s) -> double& { return s.kurtosis; });
+        read("skewness", &S::skewness);
+        read("kurtosis", &S::kurtosis);
     }
     if (!file.find("summits")) return;  // elements do not search for summits
-    read(
-        "summits", [](S & s) -> auto& { return s.summits; });
-    read(
-        "saddles", [](S & s) -> auto& { return s.saddles; });
+    read("summits", &S::summits);
+    read("saddles", &S::saddles);
 }
 
 void read_stresses(const Columns& file, Accumulators& sums) {
@@ -231,8 +218,7 @@ void read_stresses(const Columns& file, Accumulators& sums) {
         for (const auto& [suffix, part] :
              {std::pair{"_max", &Value::value}, {"_max_x", &Value::x}, {"_max_y", &Value::y}}) {
             const std::vector<double> values = file.values(std::string(q.name) + suffix, lengths);
-            for (std::size_t k = 0; k < values.size(); ++k)
-                (sums.stresses[k].*q.of).*part = values[k];
+            for (const auto k : indices(values)) (sums.stresses[k].*q.of).*part = values[k];
         }
 }
 
@@ -244,8 +230,8 @@ void read_distributions(const Columns& file, Accumulators& sums) {
     std::size_t count = 0;
     for_each_number(one, sums.options.pdf, [&count](auto&, double) { ++count; });
     const std::vector<double> numbers = file.values("pdf_sums", {levels, count});
-    for (std::size_t d = 0; d < levels; ++d) {
-        sums.distributions[d].step = static_cast<std::int32_t>(step[d]) - 1;
+    for (const auto d : indices(levels)) {
+        sums.distributions[d].step = std::int32_t(step[d]) - 1;
         for (std::size_t k = d * count; k < (d + 1) * count; ++k)
             sums.distributions[d].numbers.push_back({numbers[k], 0});
     }
@@ -257,17 +243,16 @@ Accumulators read_sums(const std::string& path, const ObserveOptions& options, s
     const Columns file(path);
     Accumulators sums(options, steps);
     for (const double number : file.values("realization", {file.length("realization")}))
-        sums.realization.push_back(static_cast<std::int64_t>(number));
+        sums.realization.push_back(std::int64_t(number));
     require_same_axes(file, options);
     read_levels(file, sums);
     read_surfaces(file, sums);
     read_stresses(file, sums);
-    const std::vector<std::size_t> lengths{steps, static_cast<std::size_t>(options.map.ny),
-                                           static_cast<std::size_t>(options.map.nx)};
+    const std::vector<std::size_t> lengths{steps, at(options.map.ny), at(options.map.nx)};
     const std::vector<double> area = file.values("map_area_fraction", lengths);
     const std::vector<double> pressure = file.values("map_pressure", lengths);
-    const auto cells = static_cast<std::size_t>(options.map.cells());
-    for (std::size_t s = 0; s < steps; ++s)
+    const auto cells = at(options.map.cells());
+    for (const auto s : indices(steps))
         sums.restore_map(s, std::span(area).subspan(s * cells, cells),
                          std::span(pressure).subspan(s * cells, cells));
     read_distributions(file, sums);
@@ -279,9 +264,8 @@ std::optional<LevelCount> count_levels(const std::string& path) {
     const auto status = file.find("status");
     if (!status) return {};
     const std::vector<double> values = file.values("status", status->lengths);
-    const auto failed =
-        std::count(values.begin(), values.end(), static_cast<double>(LevelStatus::not_converged));
-    return LevelCount{static_cast<long>(values.size()), static_cast<long>(failed)};
+    const auto failed = std::ranges::count(values, double(LevelStatus::not_converged));
+    return LevelCount{long(values.size()), long(failed)};
 }
 
 }  // namespace rsc

@@ -26,6 +26,28 @@ struct PackedContacts {
     std::vector<std::int32_t> yields;  // 1 if the contact yields; empty if none ever does
 };
 
+// The numbers of each contact, in the order of the file.
+struct ContactColumn {
+    const char* name;
+    std::vector<double> PackedContacts::*of;
+    int length_power, force_power;  // both 0: an angle
+    const char *meaning, *comment = "";
+};
+inline constexpr ContactColumn kContactColumns[] = {
+    {"x", &PackedContacts::x, 1, 0, "x of the centroid of the contact's pressure"},
+    {"y", &PackedContacts::y, 1, 0, "y of the centroid of the contact's pressure",
+     "a contact is a set of pixels connected by their sides"},
+    {"force", &PackedContacts::force, 0, 1, "force of the contact, f"},
+    {"radius", &PackedContacts::radius, 1, 0, "radius of the contact, a",
+     "its area is pi a^2: of an ellipse, the root of the product of its semi-axes"},
+    {"spot_x", &PackedContacts::spot_x, 1, 0, "x of the middle of the contact's elliptic spot",
+     "a contact within the spot of another has that spot; the contact area is the area of the "
+     "union of all spots"},
+    {"spot_y", &PackedContacts::spot_y, 1, 0, "y of the middle of the contact's elliptic spot"},
+    {"major", &PackedContacts::major, 1, 0, "major semi-axis of the contact's elliptic spot"},
+    {"minor", &PackedContacts::minor, 1, 0, "minor semi-axis of the contact's elliptic spot"},
+    {"angle", &PackedContacts::angle, 0, 0, "direction of the major semi-axis, from x"}};
+
 // First loading and the cycle at constant separation, one row for each level
 // (physics/friction/friction.hpp). NaN for levels without contact.
 struct FrictionLoops {
@@ -73,11 +95,6 @@ struct Result {
     std::shared_ptr<const Measured> measured;  // of a measured map; null: not written
     ComparedLevels compared;                   // empty: not written
 
-    // Levels depend on the levels before.
-    bool path_dependent() const {
-        return relaxes(settings) || wears(settings) || std::isfinite(settings.solids.hardness) ||
-               settings.solids.adhesion > 0;
-    }
     // The separation of a level differs between realizations.
     bool force_control() const { return settings.indentation.control != Control::separation; }
 };

@@ -58,7 +58,7 @@ void fail_to_write(const std::string& path, int error) {
         why =
             "the file grows beyond the limit of file sizes (see ulimit -f); raise the limit, or "
             "write less";
-    throw Error(Failure::file_system, "cannot write '" + path + "': " + why);
+    throw Error(Failure::file_system, "cannot write '", path, "': ", why);
 }
 
 bool begins_with(const std::string& path, const std::string& start) {
@@ -66,7 +66,7 @@ bool begins_with(const std::string& path, const std::string& start) {
     if (!fs::is_regular_file(path, ignored)) return false;
     std::string there(start.size(), '\0');
     std::ifstream in(path, std::ios::binary);
-    return in.read(there.data(), static_cast<std::streamsize>(there.size())) && there == start;
+    return in.read(there.data(), std::streamsize(there.size())) && there == start;
 }
 
 int lock_file(int fd) {
@@ -85,7 +85,7 @@ int write_all(int fd, std::span<const char> bytes) {
         const ssize_t n = ::write(fd, bytes.data(), std::min(bytes.size(), most));
         if (n < 0 && errno == EINTR) continue;
         if (n < 0) return errno;
-        bytes = bytes.subspan(static_cast<std::size_t>(n));
+        bytes = bytes.subspan(at(n));
     }
     return 0;
 }
@@ -93,7 +93,7 @@ int write_all(int fd, std::span<const char> bytes) {
 // A temporary file that no process has locked was left by an interrupted writer. Without working
 // locks it is kept.
 void remove_parts_left(const std::string& path) {
-    for (int k = 0; k < kPartsLookedAt; ++k) {
+    for (const int k : indices(kPartsLookedAt)) {
         const std::string name = part_name(path, k);
         const int fd = ::open(name.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
         if (fd < 0) continue;
@@ -106,7 +106,7 @@ void remove_parts_left(const std::string& path) {
 
 WholeFile::WholeFile(const std::string& path, const FileKind& kind) : path_(path) {
     if (const std::string why = reason_to_leave(path, kind); !why.empty())
-        throw Error(Failure::file_system, "cannot write '" + path + "': " + why);
+        throw Error(Failure::file_system, "cannot write '", path, "': ", why);
     remove_parts_left(path);
     for (int k = 0; !open_part(part_name(path, k));) ++k;
     struct stat before {};
@@ -212,8 +212,8 @@ const FileKind kResultFile{"result", [](const std::string& path) {
                            }};
 
 bool check_output(const std::string& path, const std::vector<std::string>& inputs) {
-    const auto refuse = [&path](const std::string& why) {
-        bad_input("&output file='" + path + "': " + why);
+    const auto refuse = [&path](const auto&... why) {
+        bad_input("&output file='", path, "': ", why...);
     };
     if (path.empty()) refuse("a file name is expected");
     if (path.back() == '/') refuse("a file name is expected after the last '/'");
@@ -223,17 +223,17 @@ bool check_output(const std::string& path, const std::vector<std::string>& input
         refuse("this is a URL; rsc writes to plain files only");
     std::error_code error;
     const fs::path folder = folder_of(path), ancestor = existing_ancestor(folder);
-    if (!fs::is_directory(ancestor, error)) refuse("'" + ancestor.string() + "' is not a folder");
+    if (!fs::is_directory(ancestor, error)) refuse("'", ancestor.string(), "' is not a folder");
     if (fs::path(path).is_absolute() && ancestor != folder && !fs::exists(folder, error))
-        refuse("folder '" + folder.string() + "' does not exist; create it first");
+        refuse("folder '", folder.string(), "' does not exist; create it first");
     if (::access(ancestor.c_str(), W_OK | X_OK) != 0)
-        refuse("folder '" + ancestor.string() + "' cannot be written to: " +
+        refuse("folder '", ancestor.string(), "' cannot be written to: ",
                std::error_code(errno, std::generic_category()).message());
     const bool there = fs::exists(path, error);
     for (std::size_t k = 0; there && k < inputs.size(); ++k)
         if (const std::string& input = inputs[k];
             fs::is_regular_file(input, error) && fs::equivalent(input, path, error))
-            refuse("this is an input of the run ('" + input +
+            refuse("this is an input of the run ('", input,
                    "'), which the result would overwrite; name another file");
     if (const std::string why = reason_to_leave(path, kResultFile); !why.empty()) refuse(why);
     return there;

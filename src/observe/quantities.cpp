@@ -438,11 +438,16 @@ constexpr LevelQuantity kQuantities[] = {
 
 }  // namespace
 
-double LevelQuantity::of(const LevelValues& level) const {
+double LevelQuantity::of(const LevelValues& level, std::size_t component) const {
+    if (component > 0) return level.*(component == 1 ? y : z);
     return std::visit([&](auto m) { return static_cast<double>(level.*m); }, member);
 }
 
-void LevelQuantity::put(LevelValues& level, double value) const {
+void LevelQuantity::put(LevelValues& level, double value, std::size_t component) const {
+    if (component > 0) {
+        level.*(component == 1 ? y : z) = value;
+        return;
+    }
     std::visit(
         [&](auto m) { level.*m = static_cast<std::remove_reference_t<decltype(level.*m)>>(value); },
         member);

@@ -33,10 +33,11 @@ struct LevelQuantity {
     const char* heading = nullptr;  // of its column on the screen; null: not shown
     int width = 0, digits = 0;      // of the column; significant digits of a double, 0: "%.1e"
 
-    // Its value as a double; NaN if it was not computed.
-    double of(const LevelValues& level) const;
+    std::size_t components() const { return z ? 3 : y ? 2 : 1; }
+    // The value of a component as a double; NaN if it was not computed.
+    double of(const LevelValues& level, std::size_t component = 0) const;
     // Stores a value returned by of().
-    void put(LevelValues& level, double value) const;
+    void put(LevelValues& level, double value, std::size_t component = 0) const;
     bool integer() const { return !std::holds_alternative<double LevelValues::*>(member); }
 };
 

@@ -19,8 +19,6 @@ namespace {
 
 const char* const kGoesOn = "to continue, run the same command with --resume";
 
-using Clock = std::chrono::steady_clock;
-
 // The finished realizations of a campaign: those in the sums, and those that wait for an earlier
 // one.
 class Progressing {
@@ -31,7 +29,7 @@ public:
                 const std::function<std::optional<Accumulators>()>& earlier)
         : first_(job.settings.run.first_realization),
           count_(job.settings.run.realizations),
-          window_(static_cast<std::int64_t>(4 * workers + 32)),
+          window_(std::int64_t(4 * workers + 32)),
           sums_(job.observe, job.levels.size()),
           checkpoint_(checkpoint) {
         Checkpoint::Contents contents = checkpoint.take_contents();
@@ -71,7 +69,7 @@ public:
     std::size_t finished() const { return added() + waiting_.size(); }
 
 private:
-    std::int64_t next_to_add() const { return first_ + static_cast<std::int64_t>(added()); }
+    std::int64_t next_to_add() const { return first_ + std::int64_t(added()); }
     void take(std::string record) {
         const std::int64_t number = realization_of(record);
         if (number >= next_to_add() && number < first_ + count_)
@@ -116,7 +114,7 @@ std::optional<Accumulators> earlier_sums(const Job& job, std::ostream* messages)
         if (input_is_newer(job.settings)) bad_input("an input has changed since");
         for (const std::string& line :
              Checkpoint::differences(there.settings, without_idle_keys(job.settings)))
-            why += (why.empty() ? "" : "; ") + line;
+            enlist(why, "; ", line);
         if (why.empty()) return read_sums(file, job.observe, job.levels.size());
     } catch (const Error& error) {
         why = error.what();
@@ -133,8 +131,7 @@ Result campaign_result(const Job& job, const Accumulators& sums, std::ostream* t
     const Case& settings = job.settings;
     Observations observations = sums.finish();
     const std::vector<LevelValues> first(
-        observations.rows.begin(),
-        observations.rows.begin() + static_cast<std::ptrdiff_t>(observations.steps));
+        observations.rows.begin(), observations.rows.begin() + std::ptrdiff_t(observations.steps));
     ComparedLevels compared;
     if (compares(job, false))
         compared = compare_levels(job, settings.run.first_realization, 1, first, table,
@@ -146,9 +143,9 @@ Result campaign_result(const Job& job, const Accumulators& sums, std::ostream* t
 }
 
 std::string how_far(const Progressing& state, const Case& settings) {
-    return std::to_string(state.finished()) + " of " + std::to_string(settings.run.realizations) +
-           " realizations are finished and saved in '" + checkpoint_name(settings.output.file) +
-           "'";
+    return joined(state.finished(), " of ", settings.run.realizations,
+                  " realizations are finished and saved in '",
+                  checkpoint_name(settings.output.file), "'");
 }
 
 // Runs the realizations that are not finished, and calls tell_batch() after each twentieth of all.
@@ -164,7 +161,7 @@ void run_remaining(Team& team, std::int32_t member, Progressing& state, std::siz
             const std::size_t before = state.added();
             state.collect(std::move(record));
             if (state.added() / batch > before / batch) tell_batch();
-            line.show(static_cast<double>(state.finished()), static_cast<double>(total));
+            line.show(double(state.finished()), double(total));
         },
         1);
 }
@@ -173,10 +170,7 @@ void run_remaining(Team& team, std::int32_t member, Progressing& state, std::siz
 
 RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& team,
                         std::int32_t member, std::shared_ptr<const Job> job) {
-    const auto start = Clock::now();
-    const auto seconds = [start] {
-        return std::chrono::duration<double>(Clock::now() - start).count();
-    };
+    const auto start = std::chrono::steady_clock::now();
     const std::string& file = settings.output.file;
     const bool replaces = check_result_path(settings, options);
     contacts_kept(settings);
@@ -189,45 +183,47 @@ RunSummary run_campaign(const Case& settings, const RunOptions& options, Team& t
         return options.resume && replaces ? earlier_sums(*job, options.messages) : std::nullopt;
     });
     const std::size_t already = state.finished();
-    const auto total = static_cast<std::size_t>(settings.run.realizations);
+    const auto total = at(settings.run.realizations);
 
     std::ostream* const table = options.table;
     if (table) print_campaign_heading(*table, *job, team.workers(), already);
     if (options.report)
         team.meanwhile = [&] {
-            if (options.report(static_cast<double>(state.finished()), static_cast<double>(total)))
+            if (options.report(double(state.finished()), double(total)))
                 throw Interrupted(0, "stopped");
         };
     try {
-        ProgressLine line(options, "realizations", static_cast<double>(already));
+        ProgressLine line(options, "realizations", double(already));
         run_remaining(team, member, state, total, line, [&] {
             if (!table) return;
             line.wipe();
-            print_batch(*table, *job, state.sums(), seconds(), state.finished() - already);
+            print_batch(*table, *job, state.sums(), seconds_since(start),
+                        state.finished() - already);
         });
     } catch (const Interrupted& stop) {
-        throw Interrupted(stop.signal(), std::string(stop.what()) + "; " +
-                                             how_far(state, settings) + ": " + kGoesOn);
+        throw Interrupted(stop.signal(), stop.what(), "; ", how_far(state, settings), ": ",
+                          kGoesOn);
     } catch (const Error& error) {
         throw Error(error.kind() == Failure::bad_input ? Failure::internal : error.kind(),
-                    std::string(error.what()) + "\n" + how_far(state, settings) + ": " + kGoesOn);
+                    error.what(), "\n", how_far(state, settings), ": ", kGoesOn);
     }
 
     if (state.added() != total)
-        throw Error(Failure::internal, "a campaign ended with " + how_far(state, settings));
+        throw Error(Failure::internal, "a campaign ended with ", how_far(state, settings));
     const Result result = campaign_result(*job, state.sums(), table);
     leave_if_interrupted("; " + how_far(state, settings) + ": " + kGoesOn);
     try {
-        write_result(result, file,
-                     {settings.output.format, settings.output.compression, options.command});
+        write_result(result, file, options.command);
     } catch (const Error& error) {
-        throw Error(error.kind(), std::string(error.what()) + "\n" + how_far(state, settings) +
-                                      ": run the same command with --resume to write the file "
-                                      "without computing them again");
+        throw Error(error.kind(), error.what(), "\n", how_far(state, settings),
+                    ": run the same command with --resume to write the file "
+                    "without computing them again");
     }
     checkpoint.remove();
-    const RunSummary summary = campaign_summary(result);
-    if (table) print_campaign_summary(*table, *job, result.observations, seconds(), file, replaces);
+    const RunSummary summary = summary_of(result);
+    if (table)
+        print_campaign_summary(*table, *job, result.observations, seconds_since(start), file,
+                               replaces);
     tell_failed(options, summary);
     return summary;
 }
@@ -247,7 +243,7 @@ std::optional<RunSummary> finished_result(const Case& settings) {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& text) { bad_input("--merge: " + text); }
+[[noreturn]] void refuse(const auto&... text) { bad_input("--merge: ", text...); }
 
 struct Part {
     std::string file;
@@ -257,22 +253,20 @@ struct Part {
 };
 
 std::string numbers(std::int64_t from, std::int64_t to) {
-    return (from == to ? "realization " : "realizations ") + std::to_string(from) +
-           (from == to ? "" : " to " + std::to_string(to));
+    return from == to ? joined("realization ", from) : joined("realizations ", from, " to ", to);
 }
 
 Part open_part(const std::string& file) {
     const std::optional<ResultHead> head = head_of_result(file);
     const std::string why = head ? "" : why_not_opened(file);
-    if (!head) refuse("'" + file + (why.empty() ? "' is no result of rsc" : "': " + why));
+    if (!head) refuse("'", file, why.empty() ? "' is no result of rsc" : "': " + why);
     const ReadCase read = read_case_text(head->case_text, file);
-    if (read.study)
-        refuse("'" + file + "' is the manifest of a study, not the result of a campaign");
+    if (read.study) refuse("'", file, "' is the manifest of a study, not the result of a campaign");
     if (!head->this_version())
-        refuse("'" + file + "' is of another version (" +
-               head->source.substr(0, head->source.find(',')) + ")");
+        refuse("'", file, "' is of another version (",
+               head->source.substr(0, head->source.find(',')), ")");
     if (read.settings.run.realizations == 1)
-        refuse("'" + file + "' holds a single realization, not a campaign");
+        refuse("'", file, "' holds a single realization, not a campaign");
     return {file, read.settings};
 }
 
@@ -284,15 +278,15 @@ void require_same_case(const Part& first, Part other) {
              first.settings, other.settings, "in '" + first.file + "'", "in '" + other.file + "'"))
         changed += "\n  " + line;
     if (!changed.empty())
-        refuse("'" + other.file + "' is of another case than '" + first.file + "':" + changed);
+        refuse("'", other.file, "' is of another case than '", first.file, "':", changed);
 }
 
 void require_adjacent(const Part& before, const Part& after) {
     if (after.first() <= before.last())
-        refuse(numbers(after.first(), std::min(before.last(), after.last())) + " are in '" +
-               before.file + "' and in '" + after.file + "'");
+        refuse(numbers(after.first(), std::min(before.last(), after.last())), " are in '",
+               before.file, "' and in '", after.file, "'");
     if (after.first() > before.last() + 1)
-        refuse(numbers(before.last() + 1, after.first() - 1) +
+        refuse(numbers(before.last() + 1, after.first() - 1),
                " of the campaign are missing from the files");
 }
 
@@ -304,32 +298,32 @@ RunSummary merge_campaigns(const std::vector<std::string>& files, const std::str
     std::vector<Part> parts;
     for (const std::string& file : files) parts.push_back(open_part(file));
     for (const Part& part : parts) require_same_case(parts.front(), part);
-    std::stable_sort(parts.begin(), parts.end(),
-                     [](const Part& a, const Part& b) { return a.first() < b.first(); });
+    std::ranges::stable_sort(parts,
+                             [](const Part& a, const Part& b) { return a.first() < b.first(); });
     for (std::size_t k = 1; k < parts.size(); ++k) require_adjacent(parts[k - 1], parts[k]);
     const bool replaces = check_output(output, files);
 
     Case whole = parts.front().settings;
     whole.output.file = output;
-    whole.run.realizations = static_cast<int>(parts.back().last() - parts.front().first() + 1);
+    whole.run.realizations = int(parts.back().last() - parts.front().first() + 1);
     const Job job = prepare(whole);
     Accumulators sums = read_sums(parts.front().file, job.observe, job.levels.size());
     for (std::size_t k = 1; k < parts.size(); ++k) {
         const Accumulators more = read_sums(parts[k].file, job.observe, job.levels.size());
         if (whole.indentation.control == Control::separation &&
             more.rows.front().separation != sums.rows.front().separation)
-            refuse("the levels of '" + parts[k].file + "' differ from those of '" +
-                   parts.front().file + "'");
+            refuse("the levels of '", parts[k].file, "' differ from those of '", parts.front().file,
+                   "'");
         sums.append(more);
     }
     std::ostream* const table = options.table;
     const Result result = campaign_result(job, sums, table);
     leave_if_interrupted("; nothing is written");
-    write_result(result, output, {whole.output.format, whole.output.compression, options.command});
-    const RunSummary summary = campaign_summary(result);
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (table) print_campaign_summary(*table, job, result.observations, seconds, output, replaces);
+    write_result(result, output, options.command);
+    const RunSummary summary = summary_of(result);
+    if (table)
+        print_campaign_summary(*table, job, result.observations, seconds_since(start), output,
+                               replaces);
     tell_failed(options, summary);
     return summary;
 }

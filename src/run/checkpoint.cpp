@@ -42,7 +42,7 @@ uLong add(uLong crc, const void* data, std::size_t n) {
 // CRC-32 of kind, length and bytes.
 std::uint32_t checksum_of(const FrameHead& head, std::string_view bytes) {
     const uLong crc = add(add(0, &head.kind, sizeof head.kind), &head.length, sizeof head.length);
-    return static_cast<std::uint32_t>(add(crc, bytes.data(), bytes.size()));
+    return std::uint32_t(add(crc, bytes.data(), bytes.size()));
 }
 
 std::string frame(std::uint32_t kind, const std::string& bytes) {
@@ -62,7 +62,7 @@ std::optional<Frame> take_frame(std::string_view& file) {
     if (file.size() < sizeof head) return {};
     std::memcpy(&head, file.data(), sizeof head);
     if (head.length > file.size() - sizeof head) return {};
-    const std::string_view bytes = file.substr(sizeof head, static_cast<std::size_t>(head.length));
+    const std::string_view bytes = file.substr(sizeof head, at(head.length));
     if (checksum_of(head, bytes) != head.checksum) return {};
     file.remove_prefix(sizeof head + bytes.size());
     return Frame{head.kind, bytes};
@@ -82,9 +82,7 @@ bool still_named(int fd, const std::string& name) {
            open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
-std::string header_start() {
-    return std::string("rsc ") + RSC_VERSION + "\n" + archive_layout() + "\n";
-}
+std::string header_start() { return joined("rsc " RSC_VERSION "\n", archive_layout(), "\n"); }
 
 // A comment of the namelist with the CRC-32 of the input files: realizations of changed inputs are
 // not those of one campaign.
@@ -93,8 +91,8 @@ std::string inputs_line(const Case& settings) {
     for (const std::string& name : input_files(settings)) {
         std::ifstream in(name, std::ios::binary);
         std::vector<char> part(std::size_t{1} << 20);
-        while (in.read(part.data(), static_cast<std::streamsize>(part.size())), in.gcount() > 0)
-            crc = add(crc, part.data(), static_cast<std::size_t>(in.gcount()));
+        while (in.read(part.data(), std::streamsize(part.size())), in.gcount() > 0)
+            crc = add(crc, part.data(), at(in.gcount()));
     }
     return "! inputs " + std::to_string(crc) + "\n";
 }
@@ -109,7 +107,7 @@ Checkpoint::Checkpoint(const std::string& result_file, const Case& settings, boo
       last_sync_(std::chrono::steady_clock::now()) {
     for (int attempt = 0; fd_ < 0; ++attempt) {
         if (const std::string why = reason_to_leave(name_, kCheckpoint); !why.empty())
-            bad_input("'" + name_ + "': " + why);
+            bad_input("'", name_, "': ", why);
         fd_ = ::open(name_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (fd_ < 0) fail_to_write(name_, errno);
         // File systems without locks (ENOLCK, ENOTSUP) are used without one.
@@ -118,12 +116,12 @@ Checkpoint::Checkpoint(const std::string& result_file, const Case& settings, boo
             break;  // otherwise the file was replaced or removed meanwhile
         ::close(std::exchange(fd_, -1));
         if (busy || attempt == 100)
-            bad_input("'" + name_ + "': another process is running this campaign");
+            bad_input("'", name_, "': another process is running this campaign");
     }
     try {
         load(settings);
         if (base_size_ > 0 && !resume)
-            bad_input("'" + name_ +
+            bad_input("'", name_,
                       "' is the checkpoint of an interrupted campaign: continue with --resume, or "
                       "remove that file to "
                       "start from the beginning");
@@ -164,9 +162,9 @@ void Checkpoint::load(const Case& settings) {
     std::ifstream in(name_, std::ios::binary);
     const std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     if (!in.is_open() || in.bad())
-        throw Error(Failure::file_system, "cannot read '" + name_ + "': " + std::strerror(errno));
+        throw Error(Failure::file_system, "cannot read '", name_, "': ", std::strerror(errno));
     std::string_view left = all;
-    const auto refuse = [this](const std::string& text) { bad_input("'" + name_ + "' " + text); };
+    const auto refuse = [this](const auto&... text) { bad_input("'", name_, "' ", text...); };
     const std::optional<Frame> header = take_frame(left);
     if (!header) {
         // The incomplete first frame of a killed process is accepted; anything else is no
@@ -177,8 +175,8 @@ void Checkpoint::load(const Case& settings) {
     }
     if (header->kind != kHeader) refuse("is not a checkpoint of rsc");
     if (!header->bytes.starts_with(header_start()))
-        refuse("was written by another version of rsc (" +
-               std::string(header->bytes.substr(0, header->bytes.find('\n'))) +
+        refuse("was written by another version of rsc (",
+               header->bytes.substr(0, header->bytes.find('\n')),
                "), whose numbers may differ in the last bits: finish it with that version, or "
                "remove the file to start from the "
                "beginning");
@@ -187,7 +185,7 @@ void Checkpoint::load(const Case& settings) {
     std::string changed;
     for (const std::string& line : differences(there.settings, settings)) changed += "\n  " + line;
     if (!changed.empty())
-        refuse("belongs to another case: it cannot be resumed with" + changed +
+        refuse("belongs to another case: it cannot be resumed with", changed,
                "\nRestore the old values of these keys, or remove the file to start from the "
                "beginning.");
     if (!header->bytes.substr(header_start().size()).starts_with(inputs_line(settings)))
@@ -246,11 +244,11 @@ void Checkpoint::rewrite(const std::string& sums, const std::vector<const std::s
 void Checkpoint::sync_now_and_then() {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
-    const double since = std::chrono::duration<double>(start - last_sync_).count();
+    const double since = seconds_since(last_sync_);
     if (since < kSyncSeconds || since * kSyncShare < sync_seconds_) return;
     const int error = ::fdatasync(fd_) != 0 ? errno : 0;
     last_sync_ = Clock::now();
-    sync_seconds_ = std::chrono::duration<double>(last_sync_ - start).count();
+    sync_seconds_ = seconds_since(start);
     if (error == ENOSPC || error == EDQUOT || error == EIO) fail_to_write(name_, error);
 }
 
@@ -267,8 +265,7 @@ std::vector<std::string> Checkpoint::differences(const Case& there, const Case& 
         return value.empty() ? std::string("unset") : value;
     };
     for (const Key& key : registry()) {
-        const std::string name = std::string(key.group) + "%" + key.name, a = get_key(there, name),
-                          b = get_key(now, name);
+        const std::string name = full_name(key), a = get_key(there, name), b = get_key(now, name);
         // A campaign may grow: realizations of the smaller one are part of the larger one.
         if (name == "run%realizations" && there.run.realizations < now.run.realizations) continue;
         if (a != b && key.changes == Changes::numbers)
@@ -305,42 +302,22 @@ template <class Archive, class T>
 void transfer(Archive& a, T& x) {
     using Type = std::remove_const_t<T>;
     if constexpr (std::is_same_v<Type, Histogram>) {
-        a(x.weight);
-        a(x.overflow);
-        a(x.total);
-        a(x.squares);
-        a(x.power);
+        a(x.weight, x.overflow, x.total, x.squares, x.power);
     } else if constexpr (std::is_same_v<Type, Distributions>) {
-        a(x.separation);
-        a(x.levels);
-        a(x.step);
-        transfer(a, x.mean_pressure);
-        transfer(a, x.pressure);
-        transfer(a, x.spot_area);
-        transfer(a, x.gap);
+        a(x.separation, x.levels, x.step);
+        for (auto* histogram : {&x.mean_pressure, &x.pressure, &x.spot_area, &x.gap})
+            transfer(a, *histogram);
     } else if constexpr (std::is_same_v<Type, MapLevel>) {
-        a(x.cell);
-        a(x.area);
-        a(x.force);
-        a(x.outside);
+        a(x.cell, x.area, x.force, x.outside);
     } else if constexpr (std::is_same_v<Type, DistributionSums>) {
-        a(x.step);
-        a(x.numbers);
-    } else if constexpr (std::is_same_v<Type, RealizationRecord>) {
-        a(x.realization);
-        a(x.surface);
-        a(x.levels);
-        a(x.stresses);
-        transfer_each(a, x.maps);
-        transfer_each(a, x.distributions);
+        a(x.step, x.numbers);
     } else if constexpr (std::is_same_v<Type, std::vector<CellSums>>) {
         a(x);
     } else {
-        static_assert(std::is_same_v<Type, Accumulators>);
-        a(x.realization);
-        a(x.surface);
-        a(x.rows);
-        a(x.stresses);
+        if constexpr (std::is_same_v<Type, RealizationRecord>)
+            a(x.realization, x.surface, x.levels, x.stresses);
+        else
+            a(x.realization, x.surface, x.rows, x.stresses);
         transfer_each(a, x.maps);
         transfer_each(a, x.distributions);
     }
@@ -394,8 +371,7 @@ std::string archive_layout() {
     const std::uint32_t order = 0x01020304;
     char first = 0;
     std::memcpy(&first, &order, 1);
-    return "5," + std::to_string(first) + "," + std::to_string(sizeof(SurfaceStatistics)) + "," +
-           std::to_string(sizeof(LevelValues));
+    return joined("5,", int(first), ",", sizeof(SurfaceStatistics), ",", sizeof(LevelValues));
 }
 
 }  // namespace rsc

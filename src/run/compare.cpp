@@ -1,7 +1,6 @@
 #include "run/compare.hpp"
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "contact/make.hpp"
 #include "run/memory.hpp"
 #include "run/screen.hpp"
@@ -26,7 +25,7 @@ std::string itself(double error) {
 
 void print(std::ostream& out, const Job& job, const ComparedLevel& c, const LevelValues& asperities,
            bool by_force) {
-    const char *l = job.settings.run.length_unit.c_str(), *f = job.settings.run.force_unit.c_str();
+    const auto [l, f, time] = units_of(job);
     if (std::isnan(c.force)) {
         out << format("level %d: ELEMENTS DID NOT CONVERGE, raise solver%%max_iterations\n",
                       c.step + 1);
@@ -74,9 +73,7 @@ std::vector<std::size_t> steps_to_compare(const Job& job, const std::vector<Leve
             return std::abs((by_force ? levels[k].force : levels[k].separation) -
                             wanted * job.level_unit);
         };
-        const auto taken = [&](std::size_t k) {
-            return std::find(steps.begin(), steps.end(), k) != steps.end();
-        };
+        const auto taken = [&](std::size_t k) { return contains(steps, k); };
         for (std::size_t k = 1; k < levels.size(); ++k) {
             if (miss(k) < miss(step) ||
                 (path_dependent && miss(k) == miss(step) && taken(step) && !taken(k)))
@@ -84,7 +81,7 @@ std::vector<std::size_t> steps_to_compare(const Job& job, const std::vector<Leve
         }
         steps.push_back(step);
     }
-    if (path_dependent) std::sort(steps.begin(), steps.end());
+    if (path_dependent) std::ranges::sort(steps);
     return steps;
 }
 
@@ -180,8 +177,7 @@ bool compares(const Job& job, bool automatically) {
         return false;
     const bool possible = c.surface.source != Source::asperities &&
                           c.solver.interaction == Interaction::point &&
-                          !(std::isfinite(c.solids.hardness) && c.solids.size_effect > 0) &&
-                          !relaxes(c) && !(c.solids.adhesion > 0);
+                          !(yields(c) && c.solids.size_effect > 0) && !relaxes(c) && !attracts(c);
     if (!possible || (job.spectrum && !too_large_for_elements(c, *job.spectrum).empty()))
         return false;
     if (job.levels.empty()) return false;
@@ -227,12 +223,8 @@ ComparedLevels compare_levels(const Job& job, std::int64_t number, int threads,
         const auto error = [&](double model, double elements) {
             return found && elements != 0 ? model / elements - 1 : kNotComputed;
         };
-        ComparedLevel row{static_cast<std::int32_t>(step),
-                          truth.separation,
-                          truth.force,
-                          truth.area,
-                          truth.area_pixels,
-                          truth.residual};
+        ComparedLevel row{std::int32_t(step), truth.separation,  truth.force,
+                          truth.area,         truth.area_pixels, truth.residual};
         row.force_error_expected = truth.force_error_expected;
         row.area_error_expected = truth.area_error_expected;
         row.contacts = truth.contacts;

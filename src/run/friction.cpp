@@ -35,9 +35,8 @@ bool FrictionLevels::add(const Level& level, FrictionLoops& loops) {
         cycle.displacement = cycle.force = std::vector<double>(loops.points, kNotComputed);
     loops.stiffness.push_back(touches ? -friction_.ratio * level.stiffness : kNotComputed);
     loops.cycle_work.push_back(touches ? cycle.work : kNotComputed);
-    loops.displacement.insert(loops.displacement.end(), cycle.displacement.begin(),
-                              cycle.displacement.end());
-    loops.force.insert(loops.force.end(), cycle.force.begin(), cycle.force.end());
+    append(loops.displacement, cycle.displacement);
+    append(loops.force, cycle.force);
     return failed() == before;
 }
 

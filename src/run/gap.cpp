@@ -1,9 +1,7 @@
 #include "run/gap.hpp"
 
-#include <unistd.h>
-
 #include "base/error.hpp"
-#include "base/format.hpp"
+#include "base/parallel.hpp"
 #include "case/units.hpp"
 #include "physics/flow/flow.hpp"
 
@@ -15,10 +13,8 @@ bool has_gap(const Case& settings) {
 
 void require_flow_memory(const Case& settings, double points) {
     if (!settings.output.flow) return;
-    const double needed = permeability_bytes(points),
-                 memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
-                          static_cast<double>(sysconf(_SC_PAGESIZE));
-    if (!(memory > 0) || needed <= memory) return;
+    const double needed = permeability_bytes(points), memory = machine_memory();
+    if (needed <= memory) return;
     const double side = std::floor(std::sqrt(permeability_points(memory)));
     bad_input(
         format("output%%flow: the flow through a gap of %.0f points needs up to %.3g GB, and the "
@@ -44,14 +40,14 @@ void measure_gap(const HeightMap& map, const Path& contact, Level& level, const 
 void print_gap(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
     if (!job.settings.output.flow) return;
     const auto open = [](const LevelValues& l) { return l.percolates_x > 0; };
-    const auto count = std::count_if(levels.begin(), levels.end(), open);
+    const auto count = std::ranges::count_if(levels, open);
     double most = 0, least = kInfinity;
     for (const LevelValues& l : levels) {
         if (open(l)) most = std::max(most, l.area_fraction);
         if (l.percolates_x == 0) least = std::min(least, l.area_fraction);
     }
-    out << format("gap: open across the cell along x at %zu of %zu levels",
-                  static_cast<std::size_t>(count), levels.size());
+    out << format("gap: open across the cell along x at %zu of %zu levels", at(count),
+                  levels.size());
     if (count > 0) out << format(", up to A/A0 = %.3g", most);
     if (least < kInfinity) out << format("; closed at A/A0 = %.3g and above", least);
     const std::string l = job.settings.run.length_unit, f = job.settings.run.force_unit;

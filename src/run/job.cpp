@@ -2,7 +2,6 @@
 
 #include "asperities/ranking.hpp"
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "base/parallel.hpp"
 #include "case/registry.hpp"
 #include "contact/answers.hpp"
@@ -23,8 +22,7 @@ std::vector<double> times_of(const Case::Indentation& keys, std::size_t levels) 
     const std::optional<double>& whole = keys.slides() ? keys.sliding : keys.duration;
     if (!whole) return keys.slides() ? keys.distances : keys.times;
     std::vector<double> times(levels, 0.0);
-    for (std::size_t k = 1; k < levels; ++k)
-        times[k] = *whole * static_cast<double>(k) / static_cast<double>(levels - 1);
+    for (std::size_t k = 1; k < levels; ++k) times[k] = *whole * double(k) / double(levels - 1);
     return times;
 }
 
@@ -34,21 +32,20 @@ void move_to(const Domain& place, HeightMap& map, std::int64_t number) {
     constexpr double kSame = 1e-6;
     if (!(std::abs(map.Lx() - place.Lx) <= kSame * place.Lx &&
           std::abs(map.Ly() - place.Ly) <= kSame * place.Ly))
-        bad_input("the map of realization " + std::to_string(number) + " is " + text_of(map.Lx()) +
-                  " x " + text_of(map.Ly()) + ", the first is " + text_of(place.Lx) + " x " +
-                  text_of(place.Ly) + "; maps of one size are expected");
+        bad_input("the map of realization ", number, " is ", map.Lx(), " x ", map.Ly(),
+                  ", the first is ", place.Lx, " x ", place.Ly, "; maps of one size are expected");
     map.x0 = place.x0;
     map.y0 = place.y0;
 }
 
 // As many files as realizations, and all of the size of the first. Only the sizes are read here.
 void require_maps(const Case& settings, const Domain& first) {
-    const auto files = static_cast<std::int64_t>(matching_files(settings.surface.file).size());
+    const auto files = std::int64_t(matching_files(settings.surface.file).size());
     const std::int64_t last =
         std::int64_t{settings.run.first_realization} + settings.run.realizations - 1;
     if (last > files)
-        bad_input(settings.surface.file + ": realizations up to " + std::to_string(last) +
-                  " are requested, but " + std::to_string(files) + " files match");
+        bad_input(settings.surface.file, ": realizations up to ", last, " are requested, but ",
+                  files, " files match");
     for (std::int64_t k = settings.run.first_realization + 1; k <= last; ++k) {
         HeightMap map = read_points(settings, k);
         move_to(first, map, k);
@@ -63,7 +60,7 @@ double m2_of_pressures(const Job& job) {
     if (!job.spectrum) return job.given ? job.given->statistics.m2 + other : kAbsent;
     const Case& c = job.settings;
     if (c.run.realizations > 1) return discrete_moments(*job.spectrum).m2 + other;
-    const int n = 2 * static_cast<int>(std::ceil(shortest_wave(*job.spectrum))) +
+    const int n = 2 * int(std::ceil(shortest_wave(*job.spectrum))) +
                   2;  // the modes are the same on every grid
     return RowSource(*job.spectrum, n, c.surface.normalise, c.run.seed, c.run.first_realization, 1)
                .sampled()
@@ -76,8 +73,8 @@ double m2_of_pressures(const Job& job) {
 double seam(const HeightMap& map) {
     double across = 0, within = 0;
     long n_across = 0, n_within = 0;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i) {
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) {
             const double right = map((i + 1) % map.nx, j) - map(i, j),
                          up = map(i, (j + 1) % map.ny) - map(i, j);
             const bool at_end = i + 1 == map.nx, at_top = j + 1 == map.ny;
@@ -86,8 +83,7 @@ double seam(const HeightMap& map) {
             ++(at_end ? n_across : n_within);
             ++(at_top ? n_across : n_within);
         }
-    return std::sqrt(across / static_cast<double>(n_across) /
-                     (within / static_cast<double>(n_within)));
+    return std::sqrt(across / double(n_across) / (within / double(n_within)));
 }
 
 // The key that asks for the largest pressure, as messages begin.
@@ -102,19 +98,19 @@ std::string key_of_largest(const Case::Indentation& keys) {
 // Two elastic flats by elements have no level at the separation of their mean planes, where they
 // are in full contact, nor below it.
 void require_open(const Job& job) {
-    if (!job.indenter.period.finite() || std::isfinite(job.settings.solids.hardness) ||
-        wears(job.settings) || job.levels.empty())
+    if (!job.indenter.period.finite() || yields(job.settings) || wears(job.settings) ||
+        job.levels.empty())
         return;
     double mean = 0;  // that of a synthetic surface
     for (int j = 0; job.given && job.given_heights && j < job.given_heights->ny; ++j) {
         const HeightMap& map = *job.given_heights;
         double row = 0;
-        for (int i = 0; i < map.nx; ++i)
+        for (const int i : indices(map.nx))
             row += job.indenter.clearance(map.x(i), map.y(j), map(i, j)) / map.nx;
         mean += row / map.ny;
     }
     constexpr double kRounding = 1e-12;
-    const double least = *std::min_element(job.levels.begin(), job.levels.end());
+    const double least = std::ranges::min(job.levels);
     if (!(least > mean + kRounding * job.sigma))
         bad_input(
             format("indentation: a separation of %.9g %s is not above that of full contact, %.9g "
@@ -134,7 +130,7 @@ std::vector<std::int32_t> steps_of_fields(const Job& job) {
     for (const double wanted : keys.field_levels)
         steps.push_back(slides ? nearest_level(job.times, wanted)
                                : nearest_level(job.levels, wanted * job.level_unit));
-    if (steps.empty()) steps.push_back(static_cast<std::int32_t>(job.levels.size()) - 1);
+    if (steps.empty()) steps.push_back(std::int32_t(job.levels.size()) - 1);
     return steps;
 }
 
@@ -143,7 +139,7 @@ FieldsAsked fields_asked(const Job& job) {
     const auto& w = settings.output.field_window;
     const auto has = [&](Field f) {
         const auto& all = settings.output.fields;
-        return std::find(all.begin(), all.end(), static_cast<double>(f)) != all.end();
+        return contains(all, double(f));
     };
     FieldsAsked asked;
     asked.pressure = has(Field::pressure);
@@ -204,14 +200,14 @@ public:
 
     void press_all(int threads) {
         std::int32_t points = 0;
-        for (std::size_t g = 0; g < groups_; ++g) {
+        for (const auto g : indices(groups_)) {
             Level& level = levels_[g * kGroup].emplace(press(job_, g * kGroup, first_, none));
             points = std::max(points, level.candidates);
             begin_[g] = {first_.contact->state(), first_.judge.state()};
             if (g == 0) take_(taken_++, std::move(level));
         }
         if (points > kFewPoints) {
-            for (std::size_t g = 0; g < groups_; ++g) {
+            for (const auto g : indices(groups_)) {
                 press_group(g, first_);
                 take_solved();
             }
@@ -310,8 +306,8 @@ double highest_touch(const Job& job) {
     double highest = job.points_touch;
     if (!job.given || !job.given_heights) return highest;
     const HeightMap& map = *job.given_heights;
-    for (int j = 0; j < map.ny; ++j)
-        for (int i = 0; i < map.nx; ++i)
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx))
             highest = std::max(highest, job.indenter.clearance(map.x(i), map.y(j), map(i, j)));
     return highest;
 }
@@ -331,13 +327,13 @@ double unit_of_pressures(const Job& job) {
     const double unit = relative ? full : 1.0;
     for (double level : job.levels) {
         if (!elements && level * unit >= kClosingPressure * full)
-            bad_input(key_of_largest(settings.indentation) +
+            bad_input(key_of_largest(settings.indentation),
                       format("a pressure of %g: at E* sqrt(2 m2) = %g and above less than 5 %% of "
                              "the area is gap, too little for the asperity model; use "
                              "solver%%model = 'elements', which is valid up to full contact",
                              level * unit, full));
         if (!(level * unit < settings.solids.hardness))
-            bad_input(key_of_largest(settings.indentation) +
+            bad_input(key_of_largest(settings.indentation),
                       format("a nominal pressure of %.9g exceeds the hardness, %.9g", level * unit,
                              settings.solids.hardness));
     }
@@ -349,10 +345,9 @@ double unit_of_pressures(const Job& job) {
 // for each area with wavenumbers q (Persson and Tosatti, 2001), which is at most E* sigma h'/4,
 // since <q>^2 <= <q^2>.
 void require_separate_contacts(const Job& job) {
-    const double w = job.settings.solids.adhesion;
-    if (!(w > 0) || !job.theory) return;
+    if (!attracts(job.settings) || !job.theory) return;
     const double flat = 0.25 * job.indenter.E_star * job.sigma * job.theory->rms_slope();
-    if (w >= flat)
+    if (const double w = job.settings.solids.adhesion; w >= flat)
         bad_input(
             format("solids%%adhesion = %g: more than the elastic energy that flattens the "
                    "roughness, at most E* sigma h'/4 = %.3g for each unit of area; the contacts of "
@@ -370,7 +365,7 @@ void require_feasible(const Job& job) {
     if (elements && indentation.control == Control::separation &&
         (job.given_heights || (job.spectrum && job.indenter.shape->flat())))
         require_open(job);
-    if (elements && settings.solids.adhesion > 0) {
+    if (elements && attracts(settings)) {
         const double side =
             job.given_heights ? std::max(job.given_heights->dx, job.given_heights->dy)
             : job.spectrum    ? job.spectrum->L / element_points(settings, *job.spectrum)
@@ -378,10 +373,9 @@ void require_feasible(const Job& job) {
         require_resolved(job.indenter.E_star, job.solver.physics.adhesion, side);
     }
     if (settings.output.flow)
-        require_flow_memory(settings,
-                            job.given_heights
-                                ? static_cast<double>(job.given_heights->nx) * job.given_heights->ny
-                                : std::pow(element_points(settings, *job.spectrum), 2.0));
+        require_flow_memory(settings, job.given_heights
+                                          ? double(job.given_heights->nx) * job.given_heights->ny
+                                          : std::pow(element_points(settings, *job.spectrum), 2.0));
 }
 
 }  // namespace
@@ -480,9 +474,8 @@ Prepared prepared_surface(const Job& job, std::int64_t number, int threads, Real
     const Measured* const measured = s.measured.get();
     s.judged.filled = filled_points(measured, job.domain.x0, job.domain.y0, job.indenter);
     if (measured)
-        s.judged.scattered =
-            static_cast<double>(measured->missing - std::ranges::count(measured->filled, 1)) /
-            static_cast<double>(measured->points());
+        s.judged.scattered = double(measured->missing - std::ranges::count(measured->filled, 1)) /
+                             double(measured->points());
     return s;
 }
 
@@ -498,7 +491,7 @@ void require_reachable(const Job& job, Path& contact) {
         contact.require_gap(wears(settings) ? job.levels.front() : std::ranges::max(job.levels));
     } catch (const Error& error) {
         if (error.kind() != Failure::bad_input) throw;
-        bad_input(key_of_largest(settings.indentation) + error.what() + "; give smaller ones");
+        bad_input(key_of_largest(settings.indentation), error.what(), "; give smaller ones");
     }
 }
 
@@ -506,7 +499,7 @@ void require_reachable(const Job& job, Path& contact) {
 FieldLevel field_level(const Job& job, const Realization& r, Path& contact, std::size_t k,
                        const Level& level, std::vector<double> flow) {
     const auto yielding = contact.asperities();
-    return {static_cast<std::int32_t>(k), &level,
+    return {std::int32_t(k), &level,
             yielding ? lowered_summits(heights_of(job, r), job.indenter.period.finite(), *yielding,
                                        contact.residual_depths())
                      : contact.residual_profile(),
@@ -537,8 +530,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     require_reachable(job, *contact);
     const auto take = [&](std::size_t k, Level solved) {
         Level& level = r.levels.emplace_back(std::move(solved));
-        const bool field = std::find(field_steps.begin(), field_steps.end(),
-                                     static_cast<std::int32_t>(k)) != field_steps.end();
+        const bool field = contains(field_steps, std::int32_t(k));
         std::vector<double> flow;
         if (has_gap(settings))
             measure_gap(heights_of(job, r), *contact, level, job.observe.pdf, settings.output.flow,
@@ -554,7 +546,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     if (independent_levels(job, *contact))
         LevelGroups(job, pressed, make, take).press_all(threads);
     else
-        for (std::size_t k = 0; k < job.levels.size(); ++k)
+        for (const auto k : indices(job.levels))
             take(k, press(job, k, pressed, [&](Level& level) {
                      if (friction && !friction->add(level, r.friction)) level.converged = false;
                  }));

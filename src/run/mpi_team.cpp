@@ -27,8 +27,7 @@ std::optional<Message> receive() {
     if (!there) return {};
     int length = 0;
     MPI_Get_count(&status, MPI_BYTE, &length);
-    Message message{status.MPI_SOURCE, status.MPI_TAG,
-                    std::string(static_cast<std::size_t>(length), '\0')};
+    Message message{status.MPI_SOURCE, status.MPI_TAG, std::string(at(length), '\0')};
     MPI_Recv(message.bytes.data(), length, MPI_BYTE, message.rank, message.tag, MPI_COMM_WORLD,
              MPI_STATUS_IGNORE);
     return message;
@@ -38,12 +37,12 @@ std::optional<Message> receive() {
 class Outbox {
 public:
     void send(int rank, Tag tag, std::string bytes) {
-        if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        if (bytes.size() > at(std::numeric_limits<int>::max()))
             throw Error(
                 Failure::internal,
                 "a result of more than 2 GiB cannot be sent by MPI; use fewer map_cells or levels");
         Letter& letter = letters_.emplace_back(Letter{std::move(bytes), MPI_REQUEST_NULL});
-        MPI_Isend(letter.bytes.data(), static_cast<int>(letter.bytes.size()), MPI_BYTE, rank, tag,
+        MPI_Isend(letter.bytes.data(), int(letter.bytes.size()), MPI_BYTE, rank, tag,
                   MPI_COMM_WORLD, &letter.request);
     }
     void tidy() {
@@ -72,29 +71,37 @@ T first_of(std::string_view bytes) {
     return from_bytes<T>(bytes.substr(0, sizeof(T)));
 }
 
+// Results that are no longer needed must still be received until all ranks have left, because their
+// senders wait for it.
+void leave_together() {
+    MPI_Request left = MPI_REQUEST_NULL;
+    MPI_Ibarrier(MPI_COMM_WORLD, &left);
+    for (int all = 0; !all; MPI_Test(&left, &all, MPI_STATUS_IGNORE))
+        if (!receive()) std::this_thread::sleep_for(1ms);
+}
+
 // An exception as kind and text, and back.
 std::string packed(const std::exception_ptr& error) {
     try {
         std::rethrow_exception(error);
     } catch (const Error& e) {
-        return bytes_of(static_cast<std::int32_t>(e.kind())) + e.what();
+        return bytes_of(std::int32_t(e.kind())) + e.what();
     } catch (const std::bad_alloc&) {
-        return bytes_of(static_cast<std::int32_t>(Failure::no_memory)) + "out of memory";
+        return bytes_of(std::int32_t(Failure::no_memory)) + "out of memory";
     } catch (const std::exception& e) {
-        return bytes_of(static_cast<std::int32_t>(Failure::internal)) + e.what();
+        return bytes_of(std::int32_t(Failure::internal)) + e.what();
     }
 }
 
 [[noreturn]] void rethrow(const Message& message) {
-    throw Error(static_cast<Failure>(first_of<std::int32_t>(message.bytes)),
-                "rank " + std::to_string(message.rank) + ": " +
-                    message.bytes.substr(std::min(message.bytes.size(), sizeof(std::int32_t))));
+    throw Error(static_cast<Failure>(first_of<std::int32_t>(message.bytes)), "rank ", message.rank,
+                ": ", message.bytes.substr(std::min(message.bytes.size(), sizeof(std::int32_t))));
 }
 
 class MpiTeam : public Team {
 public:
     MpiTeam(Work work, std::size_t threads, int ranks)
-        : work_(std::move(work)), threads_(threads), ranks_(static_cast<std::size_t>(ranks)) {}
+        : work_(std::move(work)), threads_(threads), ranks_(at(ranks)) {}
 
     std::size_t workers() const override { return threads_ * ranks_; }
 
@@ -121,7 +128,7 @@ public:
                 if (message->tag == kSignal) note_signal(first_of<std::int32_t>(message->bytes));
                 leave_if_interrupted();
                 if (message->tag != kAnswer) continue;
-                --at_work[static_cast<std::size_t>(message->rank)];
+                --at_work[at(message->rank)];
                 collect(first_of<Task>(message->bytes), message->bytes.substr(sizeof(Task)));
             }
             outbox_.tidy();
@@ -134,7 +141,7 @@ private:
     std::size_t hand_out(const Next& next, WorkerThreads& local, std::vector<std::size_t>& at_work,
                          int ahead) {
         bool more = true;
-        for (std::size_t deep = 1; more && deep <= static_cast<std::size_t>(1 + ahead); ++deep)
+        for (std::size_t deep = 1; more && deep <= at(1 + ahead); ++deep)
             for (std::size_t rank = 0; more && rank < ranks_; ++rank)
                 while (more && at_work[rank] < deep * threads_) {
                     const std::optional<Task> task = next();
@@ -144,7 +151,7 @@ private:
                     if (rank == 0)
                         local.push(*task);
                     else
-                        outbox_.send(static_cast<int>(rank), kTask, bytes_of(*task));
+                        outbox_.send(int(rank), kTask, bytes_of(*task));
                 }
         std::size_t sum = 0;
         for (std::size_t n : at_work) sum += n;
@@ -158,9 +165,7 @@ private:
 
 }  // namespace
 
-std::size_t threads_of_rank(int threads) {
-    return threads > 0 ? static_cast<std::size_t>(threads) : 1;
-}
+std::size_t threads_of_rank(int threads) { return threads > 0 ? at(threads) : 1; }
 
 MpiJob::MpiJob(int& argc, char**& argv) {
     int provided = 0;
@@ -175,22 +180,17 @@ MpiJob::MpiJob(int& argc, char**& argv) {
 MpiJob::~MpiJob() { MPI_Finalize(); }
 
 std::unique_ptr<Team> MpiJob::team(Work work, std::size_t threads, const std::string& case_text) {
-    const std::string text = bytes_of(static_cast<std::uint64_t>(threads)) + case_text;
+    const std::string text = bytes_of(std::uint64_t(threads)) + case_text;
     for (int rank = 1; rank < size_; ++rank)
-        MPI_Send(text.data(), static_cast<int>(text.size()), MPI_BYTE, rank, kCase, MPI_COMM_WORLD);
+        MPI_Send(text.data(), int(text.size()), MPI_BYTE, rank, kCase, MPI_COMM_WORLD);
     return std::make_unique<MpiTeam>(std::move(work), threads, size_);
 }
 
 void MpiJob::dismiss(int status) {
-    const auto value = static_cast<std::int32_t>(status);
+    const auto value = std::int32_t(status);
     for (int rank = 1; rank < size_; ++rank)
         MPI_Send(&value, sizeof value, MPI_BYTE, rank, kStop, MPI_COMM_WORLD);
-    // Results that are no longer needed must still be received until all ranks have left, because
-    // their senders wait for it.
-    MPI_Request left = MPI_REQUEST_NULL;
-    MPI_Ibarrier(MPI_COMM_WORLD, &left);
-    for (int all = 0; !all; MPI_Test(&left, &all, MPI_STATUS_IGNORE))
-        if (!receive()) std::this_thread::sleep_for(1ms);
+    leave_together();
 }
 
 int MpiJob::serve(const std::function<Work(const std::string&, std::size_t)>& make) {
@@ -209,8 +209,7 @@ int MpiJob::serve(const std::function<Work(const std::string&, std::size_t)>& ma
                 }
                 try {
                     if (message->tag == kCase) {
-                        const auto count =
-                            static_cast<std::size_t>(first_of<std::uint64_t>(message->bytes));
+                        const auto count = at(first_of<std::uint64_t>(message->bytes));
                         work = make(message->bytes.substr(sizeof(std::uint64_t)), count);
                         threads.emplace(work, count);
                     }
@@ -223,7 +222,7 @@ int MpiJob::serve(const std::function<Work(const std::string&, std::size_t)>& ma
             if (stop) break;
             if (caught_signal() != 0 && !told) {
                 told = true;
-                outbox.send(0, kSignal, bytes_of(static_cast<std::int32_t>(caught_signal())));
+                outbox.send(0, kSignal, bytes_of(std::int32_t(caught_signal())));
             }
             std::optional<WorkerThreads::Done> done;
             if (threads)
@@ -236,10 +235,7 @@ int MpiJob::serve(const std::function<Work(const std::string&, std::size_t)>& ma
             outbox.tidy();
         }
     }
-    MPI_Request left = MPI_REQUEST_NULL;
-    MPI_Ibarrier(MPI_COMM_WORLD, &left);
-    for (int all = 0; !all; MPI_Test(&left, &all, MPI_STATUS_IGNORE))
-        std::this_thread::sleep_for(1ms);
+    leave_together();
     return status;
 }
 

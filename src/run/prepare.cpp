@@ -1,10 +1,7 @@
 #include "run/prepare.hpp"
 
-#include <unistd.h>
-
 #include "asperities/law.hpp"
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "base/library_lock.hpp"
 #include "base/parallel.hpp"
 #include "contact/equivalent.hpp"
@@ -25,9 +22,9 @@ Detail detail_of(const Case& settings) {
 double rms(const std::vector<double>& values) {
     double mean = 0, square = 0;
     for (double v : values) mean += v;
-    mean /= static_cast<double>(values.size());
+    mean /= double(values.size());
     for (double v : values) square += (v - mean) * (v - mean);
-    return std::sqrt(square / static_cast<double>(values.size()));
+    return std::sqrt(square / double(values.size()));
 }
 
 void count_summits(const SummitCount& count, SurfaceStatistics& s) {
@@ -51,37 +48,31 @@ void set_sampled(const Moments& sampled, SurfaceStatistics& s) {
 
 void require_summits(const SurfaceModel& model, const std::string& name, const std::string& where) {
     if (model.asperities.size() > 0) return;
-    bad_input(name + ": no summit" + where + ": no point lies strictly above its 8 neighbours");
+    bad_input(name, ": no summit", where, ": no point lies strictly above its 8 neighbours");
 }
 
 // The file of realization `number`.
 std::string map_file(const std::string& name, std::int64_t number) {
     if (!is_pattern(name)) return name;
     const std::vector<std::string> files = matching_files(name);
-    if (number < 1 || number > static_cast<std::int64_t>(files.size()))
-        bad_input(name + ": realization " + std::to_string(number) + " is requested, but only " +
-                  std::to_string(files.size()) + " files match");
-    return files[static_cast<std::size_t>(number - 1)];
+    if (number < 1 || number > std::int64_t(files.size()))
+        bad_input(name, ": realization ", number, " is requested, but only ", files.size(),
+                  " files match");
+    return files[at(number - 1)];
 }
 
 // The points of a map within x0, x1, y0, y1.
 HeightMap part_of(const HeightMap& map, const std::optional<double> (&window)[4],
                   const std::string& path) {
-    const auto number = [](double x, double origin, double step, int n) {
-        return std::clamp((x - origin) / step, -1.0, n + 0.0);
-    };
     // points on the border of the window belong to it, however they are rounded
     constexpr double slack = 1e-6;
-    const int i0 = std::max(0, static_cast<int>(
-                                   std::ceil(number(*window[0], map.x0, map.dx, map.nx) - slack))),
-              i1 = std::min(
-                  map.nx - 1,
-                  static_cast<int>(std::floor(number(*window[1], map.x0, map.dx, map.nx) + slack))),
-              j0 = std::max(0, static_cast<int>(
-                                   std::ceil(number(*window[2], map.y0, map.dy, map.ny) - slack))),
-              j1 = std::min(
-                  map.ny - 1,
-                  static_cast<int>(std::floor(number(*window[3], map.y0, map.dy, map.ny) + slack)));
+    const auto range = [](double from, double to, double origin, double step, int n) {
+        const auto place = [&](double x) { return std::clamp((x - origin) / step, -1.0, n + 0.0); };
+        return std::pair(std::max(0, int(std::ceil(place(from) - slack))),
+                         std::min(n - 1, int(std::floor(place(to) + slack))));
+    };
+    const auto [i0, i1] = range(*window[0], *window[1], map.x0, map.dx, map.nx);
+    const auto [j0, j1] = range(*window[2], *window[3], map.y0, map.dy, map.ny);
     if (i1 - i0 < 2 || j1 - j0 < 2)
         bad_input(
             format("%s: fewer than 3 x 3 of its points lie in surface%%window; they go from %.6g "
@@ -130,7 +121,7 @@ Surface read_map(const Case& settings, const std::string& path, std::optional<do
         measured->coded = origin.coded;
         surface.measured = std::move(measured);
     } catch (const Error& error) {
-        throw Error(error.kind(), path + ": " + error.what());
+        throw Error(error.kind(), path, ": ", error.what());
     }
     surface.sigma = surface.measured->parameters.sq;
     return surface;
@@ -143,7 +134,7 @@ SurfaceModel read_list(const Case& settings) {
     make_law(settings.asperities.law, model.asperities,
              1);  // refuses asperities without the properties that the law needs
     model.domain = list_domain(model.asperities, keys.L, "the asperities in " + keys.file);
-    model.statistics.summits = static_cast<std::int64_t>(model.asperities.size());
+    model.statistics.summits = std::int64_t(model.asperities.size());
     model.statistics.sigma = model.domain.sigma;
     model.list = true;
     return model;
@@ -211,9 +202,8 @@ Surface make_surface(const Case& settings, std::int64_t number, int threads) {
 }
 
 int element_points(const Case& settings, const Spectrum& spectrum) {
-    return fast_size(
-        static_cast<int>(std::ceil(settings.elements.points_per_wave * shortest_wave(spectrum))),
-        2);
+    return fast_size(int(std::ceil(settings.elements.points_per_wave * shortest_wave(spectrum))),
+                     2);
 }
 
 std::string too_large_for_elements(const Case& settings, const Spectrum& spectrum) {
@@ -230,11 +220,9 @@ std::string too_large_for_elements(const Case& settings, const Spectrum& spectru
     // precision.
     const bool periodic = settings.indentation.boundary == Boundary::periodic;
     const double elastic = reads_high_points(settings) ? 3.0 : 8.0,
-                 bytes = (periodic ? 28.0 : elastic) * n * n,
-                 memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
-                          static_cast<double>(sysconf(_SC_PAGESIZE));
+                 bytes = (periodic ? 28.0 : elastic) * n * n, memory = machine_memory();
     constexpr double beside = 1.5;  // first the modes during synthesis, later the pixels in contact
-    if (!(memory > 0) || beside * bytes <= memory) return {};
+    if (beside * bytes <= memory) return {};
     return format(
         "&elements points_per_wave = %g: %s, %d x %d points, need %.3g GB, but the machine has "
         "%.3g GB of memory; use fewer points per wave "
@@ -246,9 +234,9 @@ std::string too_large_for_elements(const Case& settings, const Spectrum& spectru
 // Values between start and stop, both included.
 std::vector<double> spaced(const Case::Indentation& keys) {
     if (!keys.levels.empty()) return keys.levels;
-    std::vector<double> values(static_cast<std::size_t>(keys.steps));
-    for (std::size_t k = 0; k < values.size(); ++k) {
-        const double t = keys.steps > 1 ? static_cast<double>(k) / (keys.steps - 1) : 0.0;
+    std::vector<double> values(at(keys.steps));
+    for (const auto k : indices(values)) {
+        const double t = keys.steps > 1 ? double(k) / (keys.steps - 1) : 0.0;
         values[k] = keys.spacing == Spacing::log ? keys.start * std::pow(keys.stop / keys.start, t)
                                                  : keys.start + t * (keys.stop - keys.start);
     }
@@ -260,10 +248,9 @@ bool reads_high_points(const Case& c) {
     const std::vector<double> levels = spaced(c.indentation);
     return has_spectrum(c) && !levels.empty() && c.indentation.boundary == Boundary::free &&
            c.indentation.control == Control::separation &&
-           std::all_of(levels.begin(), levels.end(), [](double level) { return level > 0; }) &&
-           c.indenter.file.empty() && !std::isfinite(c.solids.hardness) &&
-           !(c.solids.adhesion > 0) && !relaxes(c) && !wears(c) && !c.output.heights &&
-           c.output.fields.empty();
+           std::ranges::all_of(levels, [](double level) { return level > 0; }) &&
+           c.indenter.file.empty() && !yields(c) && !attracts(c) && !relaxes(c) && !wears(c) &&
+           !c.output.heights && c.output.fields.empty();
 }
 
 Surface make_element_surface(const Case& settings, std::int64_t number, int threads,
@@ -278,14 +265,13 @@ Surface make_element_surface(const Case& settings, std::int64_t number, int thre
         return make_surface(finer, spectrum, number, threads);
     // Faces are nowhere below 0, so that a height of 0 lies below the indenter at every separation
     // above 0. The highest point is kept.
-    const double step = spectrum.L / finer.surface.n,
-                 least = *std::min_element(levels.begin(), levels.end()) * (1 - 1e-9);
+    const double step = spectrum.L / finer.surface.n, least = std::ranges::min(levels) * (1 - 1e-9);
     std::atomic<double> top = -kInfinity;
     Surface surface = make_surface(
         finer, spectrum, number, threads, [&](int row, int first, int count, const double* z) {
             double before = top, highest = -kInfinity;
             const double from = std::min(least, before);
-            for (int k = 0; k < count; ++k)
+            for (const int k : indices(count))
                 if (z[k] > from)
                     highest = std::max(highest,
                                        indenter->clearance((first + k) * step, row * step, z[k]));
@@ -300,10 +286,11 @@ Surface make_element_surface(const Case& settings, std::int64_t number, int thre
 
 SurfaceDomain synthetic_domain(const Spectrum& spectrum, int n) {
     const Moments theory = theoretical_moments(spectrum);
-    SurfaceDomain domain{
-        {0, 0, spectrum.L, spectrum.L}, spectrum.sigma, false, theory.mean_spacing()};
+    SurfaceDomain domain{{0, 0, spectrum.L, spectrum.L}, {}};
+    domain.sigma = spectrum.sigma;
+    domain.mean_spacing = theory.mean_spacing();
     domain.points_per_wave = n / spectrum.L_lambda_s;
-    domain.step = spectrum.L / n;
+    domain.grid_step = spectrum.L / n;
     domain.gentlest_slope = theory.tensor.gentlest_slope();
     domain.repeats = true;
     domain.measured = spectrum.directional() || !spectrum.gaussian();
@@ -316,21 +303,20 @@ SurfaceDomain list_domain(const Asperities& asperities, std::optional<double> L,
     const auto [below, above] = std::ranges::minmax(asperities.y);
     const double extent = std::max(right - left, above - below);
     if (L && extent > *L)
-        bad_input("surface%L = " + text_of(*L) + " is less than the extent of " + whose + ", " +
-                  text_of(extent));
+        bad_input("surface%L = ", *L, " is less than the extent of ", whose, ", ", extent);
     SurfaceDomain domain;
     if (L && std::min(left, below) >= 0 && std::max(right, above) <= *L) {
-        domain = {0, 0, *L, *L};
+        domain = {{0, 0, *L, *L}, {}};
     } else {
         const double side = L.value_or(extent > 0 ? extent : 1.0);
-        domain = {0.5 * (left + right) - 0.5 * side, 0.5 * (below + above) - 0.5 * side, side,
-                  side};
+        domain = {
+            {0.5 * (left + right) - 0.5 * side, 0.5 * (below + above) - 0.5 * side, side, side},
+            {}};
     }
     domain.sigma = rms(asperities.z);
     domain.guessed = !L;
     if (L || extent > 0)
-        domain.mean_spacing =
-            std::sqrt(domain.Lx * domain.Ly / static_cast<double>(asperities.size()));
+        domain.mean_spacing = std::sqrt(domain.Lx * domain.Ly / double(asperities.size()));
     return domain;
 }
 
@@ -339,7 +325,7 @@ std::shared_ptr<const MapMarks> marks_of(const HeightMap& map, const Breaks& bre
     const auto border = [&](int i, int j) {
         marks->border.push_back({map.x(i), map.y(j), map(i, j)});
     };
-    for (int i = 0; i < map.nx; ++i) {
+    for (const int i : indices(map.nx)) {
         border(i, 0);
         border(i, map.ny - 1);
     }
@@ -374,7 +360,7 @@ SurfaceModel make_surface_model(const Surface& surface, const Case& settings, in
     require_summits(model, surface.name, map.periodic ? "" : " inside the map");
     if (!surface.theory)
         model.domain.mean_spacing =
-            std::sqrt(map.Lx() * map.Ly() / static_cast<double>(model.asperities.size()));
+            std::sqrt(map.Lx() * map.Ly() / double(model.asperities.size()));
     if (!map.periodic) model.domain.marks = marks_of(map, *breaks);
     count_summits(count, model.statistics);
     return model;
@@ -384,7 +370,7 @@ SurfaceModel make_bare_model(const Surface& surface) {
     const HeightMap& map = surface.map;
     SurfaceModel model;
     model.measured = surface.measured;
-    model.domain = {map.x0, map.y0, map.Lx(), map.Ly()};
+    model.domain = {{map.x0, map.y0, map.Lx(), map.Ly()}, {}};
     model.domain.measured = !surface.theory;
     if (!surface.theory) {
         model.domain.half_step_x = 0.5 * map.dx;
@@ -394,7 +380,7 @@ SurfaceModel make_bare_model(const Surface& surface) {
     model.domain.sigma = surface.sigma;
     model.domain.points_per_wave =
         model.measured ? model.measured->points_per_wave() : surface.points_per_wave;
-    model.domain.step = std::max(map.dx, map.dy);
+    model.domain.grid_step = std::max(map.dx, map.dy);
     if (surface.theory) model.domain.mean_spacing = surface.theory->mean_spacing();
     auto& s = model.statistics;
     const Moments grid = surface.differences ? *surface.differences
@@ -446,7 +432,7 @@ Shape shape_of(const Case& settings) {
     const Case::IndenterKeys& keys = settings.indenter;
     ShapeKeys made;
     made.R = equivalent_radius(settings.solids.R);
-    for (int k = 0; k < 2; ++k)
+    for (const int k : indices(2))
         made.radii[k] =
             equivalent_radius({settings.solids.R[0], keys.radii[k].value_or(settings.solids.R[1])});
     made.angle = keys.angle * std::numbers::pi / 180;
@@ -462,8 +448,7 @@ Shape shape_of(const Case& settings) {
         if (!by_elements(settings))
             (void)find_asperities(second.map, settings.asperities.curvature, &count, 1);
         if (count.summits > 0)
-            made.spacing =
-                std::sqrt(second.map.Lx() * second.map.Ly() / static_cast<double>(count.summits));
+            made.spacing = std::sqrt(second.map.Lx() * second.map.Ly() / double(count.summits));
         made.shortest_wave =
             second.measured->points_per_wave() * std::max(second.map.dx, second.map.dy);
         auto map = std::make_shared<HeightMap>(std::move(second.map));

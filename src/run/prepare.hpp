@@ -66,25 +66,16 @@ Surface make_element_surface(const Case& settings, std::int64_t number, int thre
                              const Indenter* indenter = nullptr,
                              std::span<const double> levels = {});
 
-// The rectangle of a surface, with the properties of the surface that a contact needs.
-struct SurfaceDomain : Domain {
-    double sigma = 0;  // rms height of the surface, or of the asperities of a list [length]
+// The rectangle of a surface, with what a contact has to know of the surface. Its sigma is that of
+// the surface, or of the asperities of a list; its extent is set by solver_of().
+struct SurfaceDomain : Domain, SurfaceFacts {
     // rectangle derived from the asperities of a list, because surface%L is not set
     bool guessed = false;
-    double mean_spacing = 0;  // <d> of the asperities [length]; 0: not known (a single one)
-    // Of the grid of the summits, in the shortest wavelength; 0: not known.
-    double points_per_wave = 0;
-    double step = 0;  // of that grid [length]; 0: not known
     // Half a grid step of a map: its points are cells that begin at 0, so the middle of the points
     // is half a step below that of the cells.
     double half_step_x = 0, half_step_y = 0;
-    double gentlest_slope = 0;  // MomentTensor::gentlest_slope(); 0: not known (a list)
     // periodic beyond its rectangle: synthetic surfaces, and heights declared periodic
     bool repeats = false;
-    // Of a measured map that is free at its border.
-    std::shared_ptr<const MapMarks> marks = nullptr;
-    // Heights from a file or from the caller of the library, or not isotropic and Gaussian
-    bool measured = false;
 };
 
 // The surface for contacts: asperities, or with solver%model = 'elements' the points of the

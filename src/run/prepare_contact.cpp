@@ -1,7 +1,6 @@
 // The contact of a case: indenter, tip and solver of &indenter, &solids, &indentation and &solver.
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "contact/equivalent.hpp"
 #include "contact/make.hpp"
 #include "run/prepare.hpp"
@@ -42,10 +41,10 @@ void require_tip_above(const SurfaceDomain& domain, const Shape& shape, double x
     };
     if (within(x, d.x0, d.Lx) && within(y, d.y0, d.Ly)) return;
     bad_input(
-        "the tip at x = " + text_of(x) + ", y = " + text_of(y) +
-        " is not above the surface, which reaches from x = " + text_of(d.x0) + " to " +
-        text_of(d.x0 + d.Lx) + " and from y = " + text_of(d.y0) + " to " + text_of(d.y0 + d.Ly) +
-        (domain.guessed ? " (the extent of the asperities; set surface%L for a larger one)" : ""));
+        "the tip at x = ", x, ", y = ", y,
+        " is not above the surface, which reaches from x = ", d.x0, " to ", d.x0 + d.Lx,
+        " and from y = ", d.y0, " to ", d.y0 + d.Ly,
+        domain.guessed ? " (the extent of the asperities; set surface%L for a larger one)" : "");
 }
 
 Indenter indenter_of(const Case& settings, const SurfaceDomain& domain) {
@@ -59,7 +58,7 @@ Indenter indenter_of(const Case& settings, const SurfaceDomain& domain) {
     try {
         require_tip_above(domain, indenter.shape, indenter.x0, indenter.y0);
     } catch (const Error& error) {
-        throw Error(error.kind(), std::string("indentation%centre: ") + error.what());
+        throw Error(error.kind(), "indentation%centre: ", error.what());
     }
     return indenter;
 }
@@ -100,17 +99,14 @@ SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     options.interaction = settings.solver.interaction;
     options.selection = settings.indentation.selection;
     options.selection_factor = settings.indentation.selection_factor;
+    options.surface = domain;
     options.surface.sigma = sigma_of(settings, domain);
     options.tolerance = settings.solver.tolerance;
     options.max_iterations = settings.solver.max_iterations;
     options.delta0 = settings.solver.delta0;
-    options.surface.mean_spacing = domain.mean_spacing;
-    options.surface.points_per_wave = domain.points_per_wave;
-    options.surface.grid_step = domain.step;
-    options.surface.gentlest_slope = domain.gentlest_slope;
     const bool free = settings.indentation.boundary != Boundary::periodic;
     options.surface.measured = domain.measured || !settings.indenter.file.empty();
-    if (free) options.surface.marks = domain.marks;
+    if (!free) options.surface.marks = nullptr;
     if (!domain.guessed && free)
         options.surface.extent = {domain.x0, domain.y0, domain.Lx, domain.Ly};
     if (!(options.surface.sigma > 0) &&

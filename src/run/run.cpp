@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "base/parallel.hpp"
 #include "case/registry.hpp"
 #include "io/inputs.hpp"
@@ -29,12 +28,24 @@ std::vector<std::string> input_files(const Case& settings) {
 
 bool check_result_path(const Case& settings, const RunOptions& options) {
     std::vector<std::string> inputs = input_files(settings);
-    inputs.insert(inputs.end(), options.inputs.begin(), options.inputs.end());
+    append(inputs, options.inputs);
     return check_output(settings.output.file, inputs);
 }
 
 std::string case_text(const Case& settings) {
     return effective_namelist(without_idle_keys(settings));
+}
+
+RunSummary summary_of(const Result& result) {
+    const Observations& o = result.observations;
+    const auto failed =
+        std::ranges::count(o.rows, LevelStatus::not_converged, &LevelValues::status);
+    // The means of a single level that did not converge are missing, but it has values.
+    const bool one = o.realizations == 1;
+    const LevelValues& last = o.rows.back();
+    return {long(o.rows.size() + result.compared.levels.size()),
+            long(failed) + result.compared.failed, one ? last.separation : o.separation.mean.back(),
+            one ? last.force : o.force.mean.back(), one ? last.area : o.area.mean.back()};
 }
 
 void tell_failed(const RunOptions& options, const RunSummary& summary) {
@@ -113,8 +124,8 @@ std::string twins_text(const Job& job, const std::string& result) {
     twins.surface.source = Source::spectrum;
     twins.surface.file = result;
     twins.surface.L = L;
-    twins.surface.n = 2 * static_cast<int>(std::ceil(m.spectrum.wavenumber.back() * L /
-                                                     (2 * std::numbers::pi) * (1 - 1e-12))) +
+    twins.surface.n = 2 * int(std::ceil(m.spectrum.wavenumber.back() * L / (2 * std::numbers::pi) *
+                                        (1 - 1e-12))) +
                       2;  // one more point for heights of any distribution
     twins.surface.twins = m.isotropy < kIsotropic ? Twins::directional : Twins::radial;
     twins.surface.twin_heights = m.gaussian() ? TwinHeights::gaussian : TwinHeights::measured;
@@ -233,17 +244,6 @@ void take_realization(Result& result, Job& job, Realization& r) {
         result.heights = std::move(r.heights ? r.heights : job.given_heights);
 }
 
-RunSummary summary_of(const std::vector<LevelValues>& levels, const ComparedLevels& compared) {
-    const auto failed = [](const LevelValues& level) {
-        return level.status == LevelStatus::not_converged;
-    };
-    const LevelValues& last = levels.back();
-    return {
-        static_cast<long>(levels.size() + compared.levels.size()),
-        static_cast<long>(std::count_if(levels.begin(), levels.end(), failed)) + compared.failed,
-        last.separation, last.force, last.area};
-}
-
 }  // namespace
 
 RunSummary run_realization(const Case& settings, const RunOptions& options) {
@@ -251,10 +251,10 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     const bool replaces = check_result_path(settings, options);
     const Contacts keep = contacts_kept(settings);
     Job job = prepare(settings);
-    const int threads = static_cast<int>(most_threads(settings.run.threads));
+    const int threads = int(most_threads(settings.run.threads));
     const LoopThreads loops(threads);
     std::ostream* const table = options.table;
-    const double total = static_cast<double>(job.levels.size());
+    const double total = double(job.levels.size());
     double done = 0;
     const auto go_on = [&] {
         leave_if_interrupted("; nothing is written");
@@ -271,7 +271,7 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
         r = realize(job, settings.run.first_realization, threads,
                     [&](std::size_t k, const Level& level) {
                         if (table) print_level(*table, job, k, level);
-                        done = static_cast<double>(k + 1);
+                        done = double(k + 1);
                         progress.show(done, total);
                         go_on();
                     });
@@ -290,17 +290,14 @@ RunSummary run_realization(const Case& settings, const RunOptions& options) {
     keep_contacts(result, r.levels, keep);
     result.compared = std::move(compared);
     take_realization(result, job, r);
-    write_result(result, settings.output.file,
-                 {settings.output.format, settings.output.compression, options.command});
+    write_result(result, settings.output.file, options.command);
 
     const std::string twins = write_twins(job, settings.output.file);
 
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (table)
-        summarise(*table, job, r.statistics, record.levels, record.stresses, seconds,
+        summarise(*table, job, r.statistics, record.levels, record.stresses, seconds_since(start),
                   settings.output.file, replaces, twins);
-    const RunSummary summary = summary_of(record.levels, result.compared);
+    const RunSummary summary = summary_of(result);
     tell_failed(options, summary);
     return summary;
 }

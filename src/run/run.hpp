@@ -42,6 +42,9 @@ bool check_result_path(const Case& settings, const RunOptions& options);
 // effect on results.
 std::string case_text(const Case& settings);
 
+// The outcome of a run with this result.
+RunSummary summary_of(const Result& result);
+
 // Reports levels that did not converge on `messages`.
 void tell_failed(const RunOptions& options, const RunSummary& summary);
 

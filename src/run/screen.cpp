@@ -22,10 +22,10 @@ const char* fallback_text(Fallback fallback) {
                                      "dgesv's solution is not proved unique",
                                      "no state has this force; level of the smallest force",
                                      "the force jumps over this one"};
-    return texts[static_cast<std::size_t>(fallback)];
+    return texts[at(fallback)];
 }
 
-std::string name_of(Method method) { return kMethodNames[static_cast<std::size_t>(method)]; }
+std::string name_of(Method method) { return kMethodNames[at(method)]; }
 
 namespace {
 
@@ -70,15 +70,14 @@ double smooth_radius(const Job& job) {
     if (job.indenter.period.finite() || !std::isfinite(R) || job.levels.empty())
         return kNotComputed;
     if (job.settings.indentation.control == Control::separation)
-        return std::sqrt(R * std::max(0.0, -*std::ranges::min_element(job.levels)));
-    return std::cbrt(0.75 * R * std::max(0.0, *std::ranges::max_element(job.levels)) / E);
+        return std::sqrt(R * std::max(0.0, -std::ranges::min(job.levels)));
+    return std::cbrt(0.75 * R * std::max(0.0, std::ranges::max(job.levels)) / E);
 }
 
 // Lengths and moduli in another unit than that of the case are a common mistake. No solid is
 // stiffer than diamond, 1.2e12 Pa, and gels softer than 1 kPa flow.
 void print_unlikely_units(std::ostream& out, const Job& job) {
-    const auto& run = job.settings.run;
-    const char *l = run.length_unit.c_str(), *f = run.force_unit.c_str();
+    const auto [l, f, time] = units_of(job);
     constexpr double stiffest = 2e12, softest = 1e3, steepest = 3, flattest = 1e-6, highest = 0.1;
     const double in_pascals = pascals(job.settings);
     const auto modulus = [&](const char* key, double E) {
@@ -118,8 +117,7 @@ void print_unlikely_units(std::ostream& out, const Job& job) {
 // The title, the bodies, and the theoretical properties of the surface.
 void print_case(std::ostream& out, const Job& job) {
     const auto& run = job.settings.run;
-    const char* l = run.length_unit.c_str();
-    const char* f = run.force_unit.c_str();
+    const auto [l, f, time] = units_of(job);
     if (!run.title.empty()) out << run.title << '\n';
     if (const Period& period = job.indenter.period; period.finite())
         out << format(
@@ -148,8 +146,8 @@ void print_case(std::ostream& out, const Job& job) {
                              f, l));
     if (job.settings.solver.model == ModelKind::automatic) {
         const ModelChoice choice = model_of(job.settings);
-        out << format("by %s: %s (solver%%model = 'auto')\n",
-                      kModelNames[static_cast<std::size_t>(choice.model)], choice.why);
+        out << format("by %s: %s (solver%%model = 'auto')\n", kModelNames[at(choice.model)],
+                      choice.why);
     }
     if (job.spectrum && by_elements(job.settings) && job.settings.surface.n != defaults.surface.n) {
         const int n = element_points(job.settings, *job.spectrum);
@@ -211,7 +209,7 @@ void print_second(std::ostream& out, const Job& job) {
     if (!between(dx, map.dx, map.nx, job.indenter.x0, d.x0) &&
         !between(dy, map.dy, map.ny, job.indenter.y0, d.y0))
         return;
-    const char* l = job.settings.run.length_unit.c_str();
+    const char* const l = units_of(job).length;
     out << format("body 2 is interpolated between its points, at a spacing of %g x %g %s", map.dx,
                   map.dy, l);
     if (dx > 0) out << format("; the spacing of body 1 is %g x %g %s", dx, dy, l);
@@ -246,7 +244,7 @@ static std::string outcome_of(const LevelValues& level) {
     if (level.status == LevelStatus::not_converged) return "NOT CONVERGED";
     if (level.status == LevelStatus::out_of_validity) return words_of_doubts(level.doubts);
     if (level.status == LevelStatus::not_unique) return "not unique";
-    return kLevelStatusNames[static_cast<std::size_t>(level.status)];
+    return kLevelStatusNames[at(level.status)];
 }
 
 void print_level(std::ostream& out, const Job& job, std::size_t number, const Level& level) {
@@ -309,11 +307,8 @@ void print_result(std::ostream& out, const std::string& file, bool replaces) {
 std::string duration(double seconds) {
     if (seconds < 1) return format("%.0f ms", 1000 * seconds);
     if (seconds < 100) return format("%.1f s", seconds);
-    if (seconds < 5400)
-        return format("%d min %02d s", static_cast<int>(seconds) / 60,
-                      static_cast<int>(seconds) % 60);
-    return format("%d h %02d min", static_cast<int>(seconds / 3600),
-                  static_cast<int>(seconds / 60) % 60);
+    if (seconds < 5400) return format("%d min %02d s", int(seconds) / 60, int(seconds) % 60);
+    return format("%d h %02d min", int(seconds / 3600), int(seconds / 60) % 60);
 }
 
 // Seconds from which the time of the rest is said, and before which the preparation of the surface
@@ -341,9 +336,7 @@ void ProgressLine::wipe() {
 }
 
 void ProgressLine::show(double done, double total) {
-    const auto now = Clock::now();
-    const double since = std::chrono::duration<double>(now - last_).count(),
-                 spent = std::chrono::duration<double>(now - start_).count();
+    const double since = seconds_since(last_), spent = seconds_since(start_);
     if (messages_ && done > already_ && spent > kSteady) {
         const double rest = spent * (total - done) / (done - already_);
         if (rest > kWorthSaying && !(out_ && terminal_))
@@ -354,16 +347,15 @@ void ProgressLine::show(double done, double total) {
     }
     if (!out_) return;
     if (since < (terminal_ ? 0.1 : 30.0)) return;
-    last_ = now;
+    last_ = Clock::now();
     drawn_ = true;
     const double rate = (done - already_) / spent;
     const std::string left =
         rate > 0 ? format("%.3g a second, ", rate) + duration((total - done) / rate) + " left" : "";
     if (terminal_) {
         constexpr int width = 30;
-        const int filled = static_cast<int>(width * done / total);
-        *out_ << "\r[" << std::string(static_cast<std::size_t>(filled), '#')
-              << std::string(static_cast<std::size_t>(width - filled), '.')
+        const int filled = int(width * done / total);
+        *out_ << "\r[" << std::string(at(filled), '#') << std::string(at(width - filled), '.')
               << format("] %.0f/%.0f %s, %s\033[K", done, total, unit_, left.c_str()) << std::flush;
     } else {
         *out_ << format("rsc: %.0f of %.0f %s, %s\n", done, total, unit_, left.c_str())
@@ -378,8 +370,7 @@ std::vector<std::size_t> shown_steps(std::size_t steps) {
     constexpr std::size_t most = 11;
     std::vector<std::size_t> shown;
     const std::size_t rows = std::min(steps, most);
-    for (std::size_t r = 0; r < rows; ++r)
-        shown.push_back(rows > 1 ? r * (steps - 1) / (rows - 1) : 0);
+    for (const auto r : indices(rows)) shown.push_back(rows > 1 ? r * (steps - 1) / (rows - 1) : 0);
     return shown;
 }
 
@@ -393,12 +384,12 @@ void print_campaign_heading(std::ostream& out, const Job& job, std::size_t worke
     out << format("%d realizations of %zu levels, %zu in parallel", run.realizations,
                   job.levels.size(), workers);
     if (done > 0) out << format("; %zu of them are finished", done);
+    const auto [l, f, time] = units_of(job);
     out << "\n\nMeans over the realizations so far at the last level; scatter is the standard "
            "deviation of one realization.\n"
         << format("%12s %14s %10s %14s %10s %12s %10s\n", "realizations",
-                  format("N [%s]", run.force_unit.c_str()).c_str(), "scatter",
-                  format("A [%s2]", run.length_unit.c_str()).c_str(), "scatter", "elapsed",
-                  "a second")
+                  joined("N [", f, "]").c_str(), "scatter", joined("A [", l, "2]").c_str(),
+                  "scatter", "elapsed", "a second")
         << std::flush;
 }
 
@@ -417,18 +408,17 @@ void print_batch(std::ostream& out, const Job& job, const Accumulators& sums, do
     const bool prescribed = job.settings.indentation.control != Control::separation;
     out << format("%12zu %14.8g %10.3g %14.8g %10.3g %12s %10.3g\n", count, force.mean[0],
                   prescribed ? 0.0 : scatter(force), area.mean[0], scatter(area),
-                  duration(seconds).c_str(),
-                  static_cast<double>(done_in_this_run) / std::max(seconds, 1e-3))
+                  duration(seconds).c_str(), double(done_in_this_run) / std::max(seconds, 1e-3))
         << std::flush;
 }
 
 void print_campaign_summary(std::ostream& out, const Job& job, const Observations& o,
                             double seconds, const std::string& file, bool replaces) {
-    const auto& run = job.settings.run;
+    const auto [l, f, time] = units_of(job);
     out << format("\nmean curve of %zu realizations\n%5s %12s %9s %14s %10s %14s %10s\n",
-                  o.realizations, "level", format("Z0 [%s]", run.length_unit.c_str()).c_str(),
-                  "Z0/sigma", format("N [%s]", run.force_unit.c_str()).c_str(), "scatter",
-                  format("A [%s2]", run.length_unit.c_str()).c_str(), "scatter");
+                  o.realizations, "level", joined("Z0 [", l, "]").c_str(), "Z0/sigma",
+                  joined("N [", f, "]").c_str(), "scatter", joined("A [", l, "2]").c_str(),
+                  "scatter");
     for (const std::size_t s : shown_steps(o.steps))
         out << format(
             "%5zu %12.6g %9.5f %14.8g %10.3g %14.8g %10.3g\n", s + 1, o.separation.mean[s],
@@ -442,7 +432,7 @@ void print_campaign_summary(std::ostream& out, const Job& job, const Observation
     if (!o.surface.empty() && o.surface.front().m2 > 0) {
         double m2 = 0;
         for (const SurfaceStatistics& surface : o.surface)
-            m2 += surface.m2 / static_cast<double>(o.surface.size());
+            m2 += surface.m2 / double(o.surface.size());
         out << format("surfaces: rms slope %.4g", std::sqrt(2 * m2))
             << slope_remark(std::sqrt(2 * m2)) << '\n';
     }
@@ -450,19 +440,6 @@ void print_campaign_summary(std::ostream& out, const Job& job, const Observation
     print_remarks(out, o.rows, job);
     print_gap(out, o.rows, job);
     print_result(out, file, replaces);
-}
-
-RunSummary campaign_summary(const Result& result) {
-    const Observations& o = result.observations;
-    RunSummary summary;
-    summary.levels = static_cast<long>(o.rows.size() + result.compared.levels.size());
-    summary.failed = result.compared.failed;
-    for (const LevelValues& row : o.rows)
-        if (row.status == LevelStatus::not_converged) ++summary.failed;
-    summary.separation = o.separation.mean.back();
-    summary.force = o.force.mean.back();
-    summary.area = o.area.mean.back();
-    return summary;
 }
 
 }  // namespace rsc

@@ -8,6 +8,15 @@
 
 namespace rsc {
 
+// Of a case.
+struct UnitNames {
+    const char *length, *force, *time;
+};
+inline UnitNames units_of(const Job& job) {
+    const Case::Run& run = job.settings.run;
+    return {run.length_unit.c_str(), run.force_unit.c_str(), run.time_unit.c_str()};
+}
+
 std::string name_of(Method method);
 const char* fallback_text(
     Fallback fallback);  // why another method solved the level than the one asked for; empty: none
@@ -84,7 +93,5 @@ void print_batch(std::ostream& out, const Job& job, const Accumulators& sums, do
 // Prints the mean curve, statuses, warnings and the name of the file.
 void print_campaign_summary(std::ostream& out, const Job& job, const Observations& observations,
                             double seconds, const std::string& file, bool replaces);
-
-RunSummary campaign_summary(const Result& result);
 
 }  // namespace rsc

@@ -11,7 +11,7 @@ std::atomic<long> caught_at{0};  // seconds
 long seconds_now() {
     timespec now{};
     clock_gettime(CLOCK_MONOTONIC, &now);  // async-signal-safe
-    return static_cast<long>(now.tv_sec);
+    return long(now.tv_sec);
 }
 
 // One request to stop often arrives twice, for the process and for its group (timeout, mpirun,

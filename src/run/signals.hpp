@@ -1,7 +1,7 @@
 // SIGINT, SIGTERM and SIGHUP are recorded, so that a run can stop in an orderly state.
 #pragma once
 
-#include "base/std.hpp"
+#include "base/format.hpp"
 
 namespace rsc {
 
@@ -21,8 +21,8 @@ void note_signal(int signal) noexcept;
 // 128 + signal.
 class Interrupted : public std::runtime_error {
 public:
-    Interrupted(int signal, const std::string& message)
-        : std::runtime_error(message), signal_(signal) {}
+    Interrupted(int signal, const auto&... message)
+        : std::runtime_error(joined(message...)), signal_(signal) {}
     int signal() const noexcept { return signal_; }
 
 private:

@@ -1,7 +1,6 @@
 #include "run/stress.hpp"
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "case/units.hpp"
 #include "physics/stress/spot_stress.hpp"
 
@@ -10,7 +9,7 @@ namespace rsc {
 std::vector<double> stress_depths(const Job& job) {
     const Case::Output& keys = job.settings.output;
     if (!keys.stresses() || !keys.stress_depths.empty()) return keys.stress_depths;
-    double step = job.domain.step;
+    double step = job.domain.grid_step;
     if (job.given_heights) step = std::max(job.given_heights->dx, job.given_heights->dy);
     if (job.spectrum && by_elements(job.settings))
         step = job.spectrum->L / element_points(job.settings, *job.spectrum);
@@ -21,7 +20,7 @@ std::vector<double> stress_depths(const Job& job) {
     constexpr int count = 15;
     const double deepest = 0.25 * std::min(job.domain.Lx, job.domain.Ly);
     std::vector<double> depths{0};
-    for (int k = 0; k < count; ++k)
+    for (const int k : indices(count))
         depths.push_back(step * std::pow(deepest / step, k / (count - 1.0)));
     return depths;
 }
@@ -61,7 +60,7 @@ void print_stresses(std::ostream& out, std::span<const LargestStress> stresses, 
                       unit = unit_of(length, -2, job.settings.run.force_unit, 1);
     const auto print = [&](const char* what, LargestStress::Value LargestStress::*which) {
         std::size_t most = depths.size();
-        for (std::size_t k = 0; k < depths.size(); ++k)
+        for (const auto k : indices(depths))
             if (const double v = (last[k].*which).value;
                 v > 0 && (most == depths.size() || v > (last[most].*which).value))
                 most = k;

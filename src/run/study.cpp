@@ -2,7 +2,6 @@
 
 #include "base/archive.hpp"
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "base/version.h"
 #include "case/registry.hpp"
 #include "case/units.hpp"
@@ -127,23 +126,22 @@ void write_manifest(const ReadCase& read, const std::vector<Member>& members,
     file.variable({"member", {"member"}, "1", "number of the member", numbers, {}, false});
     file.variable(
         {"file", {"member", "file_length"}, "", "result file of the member", names, {}, false});
-    for (std::size_t k = 0; k < members.front().values.size(); ++k)
+    for (const auto k : indices(members.front().values))
         add_axis(file, members.front().values[k].first, members, k);
     file.write(path, read.settings.output.format, read.settings.output.compression);
 }
 
 // "member 3 (surface%sigma=0.001)"; empty for a case that is no member of a study.
 static std::string member_name(const Member& member) {
-    return member.values.empty()
-               ? ""
-               : "member " + std::to_string(member.index) + " (" + values_text(member) + ")";
+    return member.values.empty() ? ""
+                                 : joined("member ", member.index, " (", values_text(member), ")");
 }
 
 std::string list_members(const std::vector<Member>& members) {
     std::string text;
     for (const Member& member : members)
-        text += std::to_string(member.index) + "  " + member.settings.output.file + "  " +
-                values_text(member) + "\n";
+        text += joined(member.index, "  ", member.settings.output.file, "  ", values_text(member),
+                       "\n");
     return text;
 }
 
@@ -193,7 +191,7 @@ void check_manifest(const std::string& output_file, const std::vector<std::strin
     for (const std::string& input : inputs)
         if (fs::equivalent(input, path, error)) why = "this is an input of the run";
     if (!why.empty())
-        bad_input("the manifest of the study, '" + path + "': " + why +
+        bad_input("the manifest of the study, '", path, "': ", why,
                   " (give &output file another name)");
 }
 
@@ -203,9 +201,9 @@ std::vector<const Member*> wanted_of(const ReadCase& read, const std::vector<Mem
     for (const Member& member : all)
         if (!only || member.index == *only) wanted.push_back(&member);
     if (only && (!read.study || wanted.empty()))
-        bad_input(read.study ? "--member " + std::to_string(*only) + ": the study has " +
-                                   std::to_string(all.size()) + " members (--list names them)"
-                             : "--member: the case has no &study");
+        bad_input("--member", read.study ? joined(" ", *only, ": the study has ", all.size(),
+                                                  " members (--list names them)")
+                                         : ": the case has no &study");
     return wanted;
 }
 
@@ -252,9 +250,9 @@ public:
                 const RunSummary summary = from_bytes<RunSummary>(answer);
                 const auto at = [&](const Member* m) { return m->index - 1 == task.member; };
                 line.wipe();
-                tell(**std::find_if(members.begin(), members.end(), at), summary);
+                tell(**std::ranges::find_if(members, at), summary);
                 add(summary);
-                line.show(static_cast<double>(++done), static_cast<double>(members.size()));
+                line.show(double(++done), double(members.size()));
             },
             0);
     }
@@ -327,7 +325,7 @@ CampaignWork make_work(const std::vector<Member>& members, const RunOptions& opt
     for (const Member& member : members) {
         cases.push_back(member.settings);
         cases.back().run.threads =
-            static_cast<int>(std::max<std::size_t>(1, threads / std::min(threads, members.size())));
+            int(std::max<std::size_t>(1, threads / std::min(threads, members.size())));
     }
     return {std::move(cases), options};
 }
@@ -346,10 +344,9 @@ double check_members(const ReadCase& read, std::optional<int> only, const RunOpt
         if (estimated == samples) return prepare_once(member.settings, files_read);
         ++estimated;
         // Members of one realization run in parallel.
-        const double side_by_side = campaign || wanted.size() == 1
-                                        ? 1.0
-                                        : static_cast<double>(std::min(threads, wanted.size()));
-        const double workers = static_cast<double>(threads);
+        const double side_by_side =
+            campaign || wanted.size() == 1 ? 1.0 : double(std::min(threads, wanted.size()));
+        const double workers = double(threads);
         megabytes = std::max(megabytes,
                              expected_megabytes(prepare(member.settings), workers) * side_by_side);
     });
@@ -380,8 +377,8 @@ RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunO
             else
                 left.push_back(member);
         }
-        const auto replaced = std::count_if(left.begin(), left.end(),
-                                            [&](const Member* m) { return there.contains(m); });
+        const auto replaced =
+            std::ranges::count_if(left, [&](const Member* m) { return there.contains(m); });
         if (read.study && replaced > 0 && options.messages)
             *options.messages << "rsc: the results of " << replaced
                               << " of the members exist already and will be replaced\n";
@@ -397,10 +394,8 @@ RunSummary run_members(const ReadCase& read, std::optional<int> only, const RunO
         }
     } catch (const Interrupted& stop) {
         if (wanted.size() == 1) throw;
-        throw Interrupted(stop.signal(),
-                          std::string(stop.what()) + "; " + std::to_string(run.finished()) +
-                              " of " + std::to_string(wanted.size()) +
-                              " members are finished; the same command with --resume keeps them");
+        throw Interrupted(stop.signal(), stop.what(), "; ", run.finished(), " of ", wanted.size(),
+                          " members are finished; the same command with --resume keeps them");
     }
     if (read.study && options.table)
         *options.table << wanted.size() << " of " << all.size()

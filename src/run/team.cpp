@@ -9,7 +9,7 @@ namespace rsc {
 
 void leave_if_interrupted(const std::string& state) {
     if (const int signal = caught_signal())
-        throw Interrupted(signal, std::string("stopped by ") + signal_name(signal) + state);
+        throw Interrupted(signal, "stopped by ", signal_name(signal), state);
 }
 
 WorkerThreads::WorkerThreads(const Work& work, std::size_t threads) : work_(work) {
@@ -75,7 +75,7 @@ ThreadTeam::ThreadTeam(Work work, int threads)
 void ThreadTeam::run(const Next& next, const Collect& collect, int ahead) {
     leave_if_interrupted();
     WorkerThreads workers(work_, threads_);
-    const std::size_t most = workers.size() * static_cast<std::size_t>(1 + ahead);
+    const std::size_t most = workers.size() * at(1 + ahead);
     for (;;) {
         while (workers.unfinished() < most) {
             const std::optional<Task> task = next();
@@ -102,7 +102,7 @@ CampaignWork::CampaignWork(std::vector<Case> members, RunOptions whole)
 std::shared_ptr<const Job> CampaignWork::job(std::int32_t member) {
     const std::lock_guard lock(mutex_);
     if (prepared_ != member) {
-        job_ = std::make_shared<const Job>(prepare(members_.at(static_cast<std::size_t>(member))));
+        job_ = std::make_shared<const Job>(prepare(members_.at(at(member))));
         prepared_ = member;
     }
     return job_;
@@ -112,8 +112,7 @@ std::string CampaignWork::operator()(const Task& task, const std::atomic<bool>& 
     if (task.realization == 0) {
         RunOptions options = whole_;
         options.abandoned = &abandoned;
-        return bytes_of(
-            run_realization(members_.at(static_cast<std::size_t>(task.member)), options));
+        return bytes_of(run_realization(members_.at(at(task.member)), options));
     }
     const std::shared_ptr<const Job> ready = job(task.member);
     const std::string which = "realization " + std::to_string(task.realization) + ": ";
@@ -129,7 +128,7 @@ std::string CampaignWork::operator()(const Task& task, const std::atomic<bool>& 
     } catch (const Error& error) {
         throw Error(error.kind(), which + error.what());
     } catch (const std::bad_alloc&) {
-        throw Error(Failure::no_memory, which + "out of memory; reduce run%threads or surface%n");
+        throw Error(Failure::no_memory, which, "out of memory; reduce run%threads or surface%n");
     }
 }
 

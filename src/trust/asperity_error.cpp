@@ -8,16 +8,15 @@ namespace {
 // Mean contact radius, weighted by the forces.
 double mean_radius(const Level& level) {
     return std::inner_product(level.f.begin(), level.f.end(), level.a.begin(), 0.0) /
-           std::accumulate(level.f.begin(), level.f.end(), 0.0);
+           sum_of(level.f);
 }
 
 }  // namespace
 
 AsperityError asperity_error(const Level& level, const SolverOptions& options) {
     const double radius = mean_radius(level) / options.surface.mean_spacing;
-    const auto law = static_cast<std::size_t>(options.law);
-    const auto bin = static_cast<std::size_t>(
-        std::upper_bound(std::begin(kRadii), std::end(kRadii), radius) - std::begin(kRadii));
+    const auto law = at(options.law);
+    const auto bin = at(std::ranges::upper_bound(kRadii, radius) - std::begin(kRadii));
     if (bin >= std::size(kRadii)) return {};
     const auto error = [&](std::size_t what) {
         return kErrors[law][what][bin] * (options.surface.measured ? kOfFiles[law][what] : 1.0) *
@@ -34,10 +33,10 @@ double share_on_spikes(const Level& level, const SolverOptions& options) {
     if (!options.surface.marks || options.surface.marks->spikes.empty()) return 0;
     const MapMarks& marks = *options.surface.marks;
     double force = 0;
-    for (std::size_t k = 0; k < level.x.size(); ++k) {
+    for (const auto k : indices(level.x)) {
         const double near = std::max(1.5 * marks.reach, level.a[k]);
-        const bool on_spike = std::any_of(
-            marks.spikes.begin(), marks.spikes.end(), [&](const std::array<double, 2>& spike) {
+        const bool on_spike =
+            std::ranges::any_of(marks.spikes, [&](const std::array<double, 2>& spike) {
                 return std::hypot(spike[0] - level.x[k], spike[1] - level.y[k]) < near;
             });
         if (on_spike) force += level.f[k];
@@ -51,7 +50,7 @@ bool may_touch_beside(const Asperities& asperities, const Indenter& indenter,
     if (!(w > 0)) return false;
     // Grid points lie below the tops between them, which are within half a step in both directions.
     const double below = 0.125 * options.surface.grid_step * options.surface.grid_step;
-    for (std::size_t i = 0; i < asperities.size(); ++i) {
+    for (const auto i : indices(asperities)) {
         const double bend = asperities.kappa1.empty() ? 2 / asperities.radius[i]
                                                       : asperities.kappa1[i] + asperities.kappa2[i];
         const double top = asperities.z[i] + below * bend;

@@ -20,7 +20,7 @@ double nominal_area(const Level& level, const Indenter& indenter, const Rectangl
         radius = std::max(radius, std::sqrt(x * x + y * y) + level.a[k]);
     }
     const LevelPixels& pixels = level.pixels;
-    for (std::size_t k = 0; k < pixels.index.size(); ++k) {
+    for (const auto k : indices(pixels.index)) {
         // Of line contact half the width of a strip.
         const double x = period.along_x() ? 0
                                           : std::abs(pixels.x(k) - indenter.x0) + 0.5 * pixels.dx,
@@ -47,7 +47,7 @@ std::int32_t border_contacts(const Level& level, const Indenter& indenter, const
             gap -= level.f[k] / (std::numbers::pi * indenter.E_star * distance);
         }
         if (!(gap > 0)) continue;
-        const bool counted = std::any_of(touching.begin(), touching.end(), [&](const Vec2& t) {
+        const bool counted = std::ranges::any_of(touching, [&](const Vec2& t) {
             return std::hypot(t.x - x, t.y - y) < 1.5 * marks.reach;
         });
         count += !counted;
@@ -62,7 +62,7 @@ void mark_border_pixels(const Level& level, const Indenter& indenter, double Ly,
                         const std::function<void(std::int32_t)>& mark) {
     const LevelPixels& p = level.pixels;
     const bool ends = indenter.shape->keys().map != nullptr;
-    const auto rows = static_cast<std::int32_t>(std::lround(Ly / p.dy));
+    const auto rows = std::int32_t(std::lround(Ly / p.dy));
     const auto at_border = [&](std::int32_t pixel) {
         const std::int32_t column = pixel % p.columns, row = pixel / p.columns;
         const Period& period = indenter.period;
@@ -74,9 +74,9 @@ void mark_border_pixels(const Level& level, const Indenter& indenter, double Ly,
         };
         return ends && (beyond(-p.dx, 0) || beyond(p.dx, 0) || beyond(0, -p.dy) || beyond(0, p.dy));
     };
-    for (std::size_t k = 0; k < p.index.size(); ++k)
+    for (const auto k : indices(p.index))
         if (at_border(p.index[k])) mark(p.contact[k]);
-    if (std::any_of(p.cohesive.begin(), p.cohesive.end(), at_border)) mark(-1);
+    if (std::ranges::any_of(p.cohesive, at_border)) mark(-1);
 }
 
 // Counts contacts whose distance from the border is less than <d> or their radius, and those with a
@@ -102,7 +102,7 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
         within.Ly = 2 * everywhere;
     }
     std::vector<bool> cut(level.x.size(), false);
-    for (std::size_t k = 0; k < cut.size(); ++k)
+    for (const auto k : indices(cut))
         cut[k] = inside(within, level.x[k], level.y[k]) <
                  std::max(options.surface.mean_spacing, level.a[k]);
     bool attracts = false;
@@ -111,9 +111,9 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
             if (contact < 0)
                 attracts = true;
             else
-                cut[static_cast<std::size_t>(contact)] = true;
+                cut[at(contact)] = true;
         });
-    const auto count = static_cast<std::int32_t>(std::count(cut.begin(), cut.end(), true));
+    const auto count = std::int32_t(std::ranges::count(cut, true));
     level.edge_contacts = attracts ? std::max(count, 1) : count;
     if (options.surface.marks && !(pixels.dx > 0))
         level.edge_contacts += border_contacts(level, indenter, *options.surface.marks);
@@ -123,14 +123,13 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
 
 void count_contacts(Level& level, const Indenter& indenter, const SolverOptions& options) {
     const auto larger_than = [&](double most) {
-        return static_cast<std::int32_t>(
-            std::count_if(level.a.begin(), level.a.end(), [&](double a) { return a > most; }));
+        return std::int32_t(std::ranges::count_if(level.a, [&](double a) { return a > most; }));
     };
     if (options.surface.mean_spacing > 0)
         level.large_contacts = larger_than(options.surface.mean_spacing / 4);
     if (indenter.layers.count > 0 && level.pixels.dx == 0)
         level.wide_contacts = larger_than(indenter.layers.layer[0].thickness / 5) /
-                              std::max(static_cast<double>(level.a.size()), 1.0);
+                              std::max(double(level.a.size()), 1.0);
     count_edges(level, indenter, options);
     level.nominal_area = nominal_area(level, indenter, options.surface.extent);
 }

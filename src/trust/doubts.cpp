@@ -3,51 +3,35 @@
 namespace rsc {
 
 std::string sentence(Cause cause, bool elements) {
-    switch (cause) {
-        case Cause::border:
-            return "contacts closer to the border of the surface than the mean spacing of its "
-                   "summits: the surface ends there";
-        case Cause::filled_points:
-            return "the contact may lie on missing points of the map, which are filled smoothly "
-                   "(filled_share): N is too small";
-        case Cause::grid:
-            return "a finer grid may change N at this separation by more than 1 % (with adhesion "
-                   "10 %)";
-        case Cause::slope_ratio:
-            return "the indenter is steep compared with the surface (slope_ratio above 0.2), so "
-                   "that it touches flanks, not summits";
-        case Cause::beyond_law:
-            return "spots are larger than those for which the contact law and its expected error "
-                   "hold";
-        case Cause::few_points:
-            return "the summits have too few points, or are spikes one point wide";
-        case Cause::layer:
-            return "spots with a radius above a fifth of the thickness of the top layer";
-        case Cause::adhesion_range:
-            return "the attraction at edges of contact acts across less than four pixels "
-                   "(cohesive_resolution): the error of N may be large; use more points or a "
-                   "larger adhesion_range";
-        case Cause::outside_calibration:
-            return "such surfaces or bodies were not compared with elements, so that no error is "
-                   "stated";
-        case Cause::missed_contact:
-            return elements ? "N = 0 is uncertain: the bodies may touch between the points of the "
-                              "grid"
-                            : "N = 0 is uncertain: the bodies may touch between the modelled "
-                              "summits";
-        case Cause::model_error:
-            return "N may differ from that of elements at this separation by more than 10 %";
-        case Cause::sliding_steps:
-            return "the steps of sliding may change N by more than 1 %: give closer distances";
-    }
-    return "";
+    if (cause == Cause::missed_contact && !elements)
+        return "N = 0 is uncertain: the bodies may touch between the modelled summits";
+    // In the order of Cause.
+    constexpr std::array sentences = {
+        "contacts closer to the border of the surface than the mean spacing of its summits: the "
+        "surface ends there",
+        "the contact may lie on missing points of the map, which are filled smoothly "
+        "(filled_share): N is too small",
+        "a finer grid may change N at this separation by more than 1 % (with adhesion 10 %)",
+        "the indenter is steep compared with the surface (slope_ratio above 0.2), so that it "
+        "touches flanks, not summits",
+        "spots are larger than those for which the contact law and its expected error hold",
+        "the summits have too few points, or are spikes one point wide",
+        "spots with a radius above a fifth of the thickness of the top layer",
+        "the attraction at edges of contact acts across less than four pixels "
+        "(cohesive_resolution): the error of N may be large; use more points or a larger "
+        "adhesion_range",
+        "such surfaces or bodies were not compared with elements, so that no error is stated",
+        "N = 0 is uncertain: the bodies may touch between the points of the grid",
+        "N may differ from that of elements at this separation by more than 10 %",
+        "the steps of sliding may change N by more than 1 %: give closer distances"};
+    static_assert(sentences.size() == kCauseNames.size());
+    return sentences[at(cause)];
 }
 
 std::string words_of_doubts(std::int32_t doubts) {
     std::string words;
-    for (std::size_t k = 0; k < kCauseNames.size(); ++k)
-        if (doubts & (std::int32_t{1} << k))
-            words += (words.empty() ? "" : ", ") + std::string(kCauseNames[k]);
+    for (const auto k : indices(kCauseNames))
+        if (doubts & (std::int32_t{1} << k)) enlist(words, ", ", kCauseNames[k]);
     std::replace(words.begin(), words.end(), '_', ' ');
     return words;
 }

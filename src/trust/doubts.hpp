@@ -24,7 +24,7 @@ inline constexpr std::array kCauseNames = {
     "border",      "filled_points", "grid",           "slope_ratio",         "beyond_law",
     "few_points",  "layer",         "adhesion_range", "outside_calibration", "missed_contact",
     "model_error", "sliding_steps"};
-constexpr std::int32_t bit(Cause cause) { return std::int32_t{1} << static_cast<int>(cause); }
+constexpr std::int32_t bit(Cause cause) { return std::int32_t{1} << int(cause); }
 
 // Explanation for the screen, without the remedy. `elements`: the level was solved by elements.
 std::string sentence(Cause cause, bool elements);

@@ -4,7 +4,7 @@ namespace rsc {
 
 bool FilledPoints::at(double x, double y) const {
     const auto nearest = [&](double from, double step, int n) {
-        const int k = static_cast<int>(std::lround(from / step));
+        const int k = int(std::lround(from / step));
         return periodic ? wrapped(k, n) : k;
     };
     const int i = nearest(x - x0, dx, nx), j = nearest(y - y0, dy, ny);
@@ -43,20 +43,18 @@ double expected_share(double Z0, std::span<const FilledPoints> maps, const Inden
     };
     const FilledPoints& grid = maps.front();
     const int side = indenter.period.finite() ? 1 : 8;  // cells along a side; two flats: one
-    std::vector<Cell> cells(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+    std::vector<Cell> cells(std::size_t(side) * std::size_t(side));
     constexpr int most = 128;  // points along a side, enough for a share
     const int step_x = (grid.nx + most - 1) / most, step_y = (grid.ny + most - 1) / most;
     for (int j = 0; j < grid.ny; j += step_y)
         for (int i = 0; i < grid.nx; i += step_x) {
-            Cell& cell =
-                cells[static_cast<std::size_t>(j * side / grid.ny * side + i * side / grid.nx)];
+            Cell& cell = cells[std::size_t(j * side / grid.ny * side + i * side / grid.nx)];
             const double x = grid.x(i), y = grid.y(j);
             const double reached =
                 std::erfc((Z0 - indenter.clearance(x, y, 0)) / (std::numbers::sqrt2 * sigma));
             const auto in = [&](bool second) {
-                return std::any_of(maps.begin(), maps.end(), [&](const auto& map) {
-                    return map.second == second && map.at(x, y);
-                });
+                return std::ranges::any_of(
+                    maps, [&](const auto& map) { return map.second == second && map.at(x, y); });
             };
             if (in(true)) {
                 cell.missing += 1;
@@ -84,11 +82,10 @@ double share_on_filled(const Level& level, std::span<const FilledPoints> maps,
     double filled = 0, all = 0;
     const auto count = [&](double x, double y) {
         all += 1;
-        filled += std::any_of(maps.begin(), maps.end(),
-                              [&](const FilledPoints& map) { return map.at(x, y); });
+        filled += std::ranges::any_of(maps, [&](const FilledPoints& map) { return map.at(x, y); });
     };
     const LevelPixels& pixels = level.pixels;
-    for (std::size_t k = 0; k < pixels.index.size(); ++k) count(pixels.x(k), pixels.y(k));
+    for (const auto k : indices(pixels.index)) count(pixels.x(k), pixels.y(k));
     const FilledPoints& grid = maps.front();
     for (std::size_t c = 0; c < level.a.size() && pixels.index.empty(); ++c) {
         const double x = level.x[c] - grid.x0, y = level.y[c] - grid.y0, a = level.a[c];

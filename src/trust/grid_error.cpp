@@ -44,9 +44,9 @@ double edge_share(const Indenter& indenter, double side) {
 // The clearance of the points of a row, z - s.
 void clearances(const HeightMap& map, const Indenter& indenter, int row,
                 std::vector<double>& line) {
-    line.resize(static_cast<std::size_t>(map.nx));
-    for (int i = 0; i < map.nx; ++i)
-        line[static_cast<std::size_t>(i)] = indenter.clearance(map.x(i), map.y(row), map(i, row));
+    line.resize(std::size_t(map.nx));
+    for (const int i : indices(map.nx))
+        line[std::size_t(i)] = indenter.clearance(map.x(i), map.y(row), map(i, row));
 }
 
 // Column and row of the highest point under the indenter.
@@ -55,16 +55,15 @@ std::array<int, 2> highest_point(const HeightMap& map, const Indenter& indenter)
         double z;
         int column;
     };
-    std::vector<Top> tops(static_cast<std::size_t>(map.ny));
+    std::vector<Top> tops(std::size_t(map.ny));
     parallel_for(map.ny, kRows, 0, [&](int j) {
         std::vector<double> line;
         clearances(map, indenter, j, line);
         const auto top = std::ranges::max_element(line);
-        tops[static_cast<std::size_t>(j)] = {std::isnan(*top) ? -kInfinity : *top,
-                                             static_cast<int>(top - line.begin())};
+        tops[std::size_t(j)] = {std::isnan(*top) ? -kInfinity : *top, int(top - line.begin())};
     });
     const auto highest = std::ranges::max_element(tops, {}, &Top::z);
-    return {highest->column, static_cast<int>(highest - tops.begin())};
+    return {highest->column, int(highest - tops.begin())};
 }
 
 // Along an axis that repeats the points of the coarse map are evenly spaced over the period,
@@ -84,8 +83,7 @@ HeightMap coarser_period(const HeightMap& map, const Period& period, std::array<
             step = 2 * step_;
         }
         int at(int k) const {
-            return repeats ? wrapped(first + static_cast<int>(std::int64_t{k} * n / points), n)
-                           : first + 2 * k;
+            return repeats ? wrapped(first + int(std::int64_t{k} * n / points), n) : first + 2 * k;
         }
     };
     const Axis x(map.nx, first[0], map.dx, std::isfinite(period.x)),
@@ -98,7 +96,7 @@ HeightMap coarser_period(const HeightMap& map, const Period& period, std::array<
     coarse.y0 = map.y(y.first);
     coarse.periodic = map.periodic;
     parallel_for(y.points, kRows, 0, [&](int j) {
-        for (int i = 0; i < x.points; ++i) coarse.row(j)[i] = map(x.at(i), y.at(j));
+        for (const int i : indices(x.points)) coarse.row(j)[i] = map(x.at(i), y.at(j));
     });
     return coarse;
 }
@@ -110,16 +108,16 @@ double crest_height(const HeightMap& map, const Indenter& indenter,
     const bool repeats_x = std::isfinite(indenter.period.x),
                repeats_y = std::isfinite(indenter.period.y);
     double z[3][3];
-    for (int b = 0; b < 3; ++b)
-        for (int a = 0; a < 3; ++a) {
+    for (const int b : indices(3))
+        for (const int a : indices(3)) {
             const int i = continued(column + a - 1, map.nx, repeats_x),
                       j = continued(row + b - 1, map.ny, repeats_y);
             z[b][a] = indenter.clearance(map.x(i), map.y(j), curvature ? 0.0 : map(i, j));
         }
     // Beyond the edge of the indenter, which lies somewhere between two points, the face is as
     // steep as if it rose to half-way between.
-    for (int b = 0; b < 3; ++b)
-        for (int a = 0; a < 3; ++a)
+    for (const int b : indices(3))
+        for (const int a : indices(3))
             if (const double opposite = z[2 - b][2 - a]; !std::isfinite(z[b][a]))
                 z[b][a] = std::isfinite(opposite) ? 3 * opposite - 2 * z[1][1] : z[1][1];
     PointDifferences d = differences(z[0], z[1], z[2], 0, 1, 2);
@@ -193,7 +191,7 @@ GridError error_of_pixels(const LevelValues& level, const Indenter& indenter, do
 GridError error_of_crests(const Level& level, double stiffness, const HeightMap& map,
                           const Indenter& indenter, const std::optional<Tensor>& curvature) {
     double mean = 0;
-    for (std::size_t c = 0; c < level.f.size(); ++c)
+    for (const auto c : indices(level.f))
         mean += level.f[c] / level.force *
                 crest_height(map, indenter, curvature, level.asperity[c] % map.nx,
                              level.asperity[c] / map.nx);
@@ -210,17 +208,17 @@ double touch_between_points(const HeightMap& map, const Indenter& indenter) {
     clearances(map, indenter, continued(-1, map.ny, repeats_y), below);
     clearances(map, indenter, 0, here);
     double highest = -kInfinity;
-    for (int j = 0; j < map.ny; ++j) {
+    for (const int j : indices(map.ny)) {
         clearances(map, indenter, continued(j + 1, map.ny, repeats_y), above);
-        for (int i = 0; i < map.nx; ++i) {
-            const auto k = static_cast<std::size_t>(i);
+        for (const int i : indices(map.nx)) {
+            const auto k = std::size_t(i);
             const double top = here[k];
             const auto rise = [&](double one, double other) {
                 const double lower = std::min(one, other);
                 return std::isfinite(lower) ? 0.5 * (top - lower) : 0.0;
             };
             const auto beside = [&](int way) {
-                return here[static_cast<std::size_t>(continued(i + way, map.nx, repeats_x))];
+                return here[std::size_t(continued(i + way, map.nx, repeats_x))];
             };
             const double left = beside(-1), right = beside(1);
             if (std::isfinite(top) && top >= left && top >= right && top >= below[k] &&

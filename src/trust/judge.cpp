@@ -38,8 +38,7 @@ bool known_shape(const Indenter& indenter) {
 bool calibrated(const Level& level, const Path& contact, const SolverOptions& options) {
     const bool yields = std::isfinite(options.physics.hardness.H0);
     const std::vector<double> depths = contact.residual_depths();
-    const auto yielded =
-        std::count_if(depths.begin(), depths.end(), [](double depth) { return depth > 0; });
+    const auto yielded = std::ranges::count_if(depths, [](double depth) { return depth > 0; });
     return options.interaction == Interaction::point && options.selection == Selection::overlap &&
            options.physics.adhesion.work == 0 && options.physics.relaxation.none() &&
            known_shape(contact.indenter()) && options.surface.mean_spacing > 0 &&
@@ -57,7 +56,7 @@ std::vector<Doubt> of_list(const Level& level, const Path& contact) {
     const Indenter& indenter = contact.indenter();
     const auto asperities = contact.asperities();
     double all = 0, more = 0;
-    for (std::size_t k = 0; k < level.asperity.size(); ++k) {
+    for (const auto k : indices(level.asperity)) {
         const double r = asperities->radius[at(level.asperity[k])];
         const Vec2 d = indenter.from_tip(level.x[k], level.y[k]);
         const Tensor c = indenter.shape->curvature(d.x, d.y);

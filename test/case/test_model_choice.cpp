@@ -29,7 +29,7 @@ Case ball(double sigma, double force) {
 
 Case flats(double pressure) {
     Case c;
-    c.solids.R[1] = Case::kInfinity;
+    c.solids.R[1] = kInfinity;
     c.indentation.boundary = Boundary::periodic;
     c.indentation.control = Control::pressure;
     c.indentation.unit = LevelUnit::relative;

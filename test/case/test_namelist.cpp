@@ -22,13 +22,9 @@ void expect_text(const std::string& got, const std::string& expected, int line) 
 }
 #define CHECK_TEXT(got, expected) expect_text((got), (expected), __LINE__)
 TEST(test_values) {
-    const std::pair<const char*, double> reals[] = {{"1.5+3", 1500},
-                                                    {"1.5-3", 1.5e-3},
-                                                    {"1Q0", 1.0},
-                                                    {"-Infinity", -Case::kInfinity},
-                                                    {"1e999", Case::kInfinity},
-                                                    {"1d-999", 0.0},
-                                                    {"0.1", 0.1}};
+    const std::pair<const char*, double> reals[] = {
+        {"1.5+3", 1500},      {"1.5-3", 1.5e-3}, {"1Q0", 1.0}, {"-Infinity", -kInfinity},
+        {"1e999", kInfinity}, {"1d-999", 0.0},   {"0.1", 0.1}};
     for (const auto& [word, wanted] : reals) {
         const auto value = namelist::to_real(word);
         CHECK(value &&
@@ -143,8 +139,7 @@ TEST(test_study) {
     CHECK(members[5].settings.surface.sigma == 0.001 && members[6].settings.surface.sigma == 0.01);
     CHECK(members[0].settings.solver.method == Method::direct &&
           members[1].settings.solver.method == Method::mesh);
-    CHECK(members[4].settings.solids.R[1] == 5.0 &&
-          members[4].settings.solids.R[0] == Case::kInfinity);
+    CHECK(members[4].settings.solids.R[1] == 5.0 && members[4].settings.solids.R[0] == kInfinity);
     CHECK_TEXT(members[6].settings.output.file, "output/rsc_007.nc");
     CHECK_TEXT(effective_namelist(*read_namelist(effective_namelist(study)).study),
                effective_namelist(study));

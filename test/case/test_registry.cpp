@@ -50,7 +50,7 @@ void expect(const std::string& name, const std::string& value, const std::string
 }
 
 void bounds_of(const Key& key, const std::string& name) {
-    constexpr double infinity = Case::kInfinity;
+    constexpr double infinity = kInfinity;
     const bool whole = key.type == Type::integer;
     const Bounds& b = key.bounds;
     const auto text = [&](double v) {

@@ -124,8 +124,9 @@ void results(const Folder& folder) {
     const std::string path = folder / "result.nc";
     for (const Format format : {Format::netcdf4, Format::classic}) {
         calls.clear();
-        write_result(sample::result(1), path,
-                     {format, 4, ""});  // the second time over a file of that name
+        Result r = sample::result(1);
+        r.settings.output.format = format;
+        write_result(r, path, "");  // the second time over a file of that name
         named_after_the_disk_has_it(path, true);
     }
 }

@@ -34,7 +34,10 @@ std::vector<double> asperities_in(const std::string& path) {
 // One damaged byte, at 150 places of the file: the file is refused every time.
 void test_damage(const Folder& folder, Format format) {
     const std::string path = folder / "result.nc", spoilt = folder / "spoilt.nc";
-    write_result(sample::result(1), path, {format, 0, "made"});
+    Result r = sample::result(1);
+    r.settings.output.format = format;
+    r.settings.output.compression = 0;
+    write_result(r, path, "made");
     const std::string whole = bytes(path);
     const auto heights = heights_in(path), asperities = asperities_in(path);
     const std::string text = head_of_result(path)->case_text;

@@ -271,7 +271,7 @@ TEST(sdf) {
     packed = binary;
     packed[80] = 2;
     REFUSED(of_sdf(packed), "t.sdf: CheckType = 2: only 0 (none) is known");
-    REFUSED(read_sdf(write("t.sdf", "cISO-1.0"), "mm"),
+    REFUSED(read_sdf(write("t.sdf", "cISO-1.0"), "", "mm", nullptr),
             "t.sdf: is no surface data file (ISO 25178-71)");
     REFUSED(in_micrometres(write("t.sdf", binary), "Height"), "has no channel 'Height'; only");
     // A file of an unknown format.

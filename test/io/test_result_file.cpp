@@ -55,9 +55,11 @@ void test_conventions(const Reader& file) {
 }
 
 void test_one_realization(const Folder& folder, Format format, int compression) {
-    const Result r = sample::result(1);
+    Result r = sample::result(1);
+    r.settings.output.format = format;
+    r.settings.output.compression = compression;
     const std::string path = folder / "one.nc";
-    write_result(r, path, {format, compression, ""});
+    write_result(r, path, "");
     CHECK(folder.files() == 1);  // nothing but the file
     const Reader file(path);
     test_conventions(file);
@@ -131,7 +133,7 @@ TEST(test_edges) {
     c.run.seed = 1234567890123;
     Indenter flat;
     flat.E_star = 1;
-    flat.shape = Case::kInfinity;
+    flat.shape = kInfinity;
     flat.x0 = 3;
     const ObserveOptions options = observe_options(c, {0, 0, 1, 0.5}, flat, 0, 0);
     Accumulators sums(options, 2);

@@ -95,7 +95,7 @@ Level AdhesiveAsperities::report() {
     l.products = my.direct->count() + (my.mesh ? my.mesh->count() : 0) - my.products_before;
     l.method = my.products == my.mesh.get() && my.mesh ? Method::mesh : Method::direct;
     double cohesive = 0;
-    for (std::size_t k = 0; k < my.now.asperity.size(); ++k) {
+    for (const auto k : indices(my.now.asperity)) {
         const int i = my.now.asperity[k];
         const Sticking::State state = my.sticking.at(i, my.now.s[k]);
         const Vec2 place = my.indenter.image(my.asperities.x[at(i)], my.asperities.y[at(i)]);
@@ -183,10 +183,10 @@ std::vector<double> AdhesiveAsperities::write() const {
     if (past.separation == kInfinity) return {};
     const Indenter& tip = path_->indenter;
     std::vector<double> numbers = {tip.x0,      tip.y0,           past.separation,
-                                   past.lost,   past.least_force, static_cast<double>(past.jumps),
+                                   past.lost,   past.least_force, double(past.jumps),
                                    past.margin, past.most_energy};
-    for (std::size_t k = 0; k < past.asperity.size(); ++k)
-        numbers.insert(numbers.end(), {static_cast<double>(past.asperity[k]), past.s[k]});
+    for (const auto k : indices(past.asperity))
+        append(numbers, {double(past.asperity[k]), past.s[k]});
     return numbers;
 }
 
@@ -205,19 +205,18 @@ void AdhesiveAsperities::read(const std::vector<double>& numbers) {
             past.separation = numbers[2];
             past.lost = numbers[3];
             past.least_force = numbers[4];
-            past.jumps = static_cast<int>(numbers[5]);
+            past.jumps = int(numbers[5]);
             past.margin = numbers[6];
             past.most_energy = numbers[7];
         }
         for (std::size_t k = kBefore; sound && k + 1 < numbers.size(); k += 2) {
-            sound = numbers[k] >= 0 && numbers[k] < static_cast<double>(my.asperities.size()) &&
-                    numbers[k + 1] > 0;
+            sound =
+                numbers[k] >= 0 && numbers[k] < double(my.asperities.size()) && numbers[k + 1] > 0;
             if (!sound) break;
-            past.asperity.push_back(static_cast<int>(numbers[k]));
+            past.asperity.push_back(int(numbers[k]));
             past.s.push_back(numbers[k + 1]);
         }
-        if (!sound)
-            throw Error(Failure::bad_input, "the state does not belong to these asperities");
+        if (!sound) bad_input("the state does not belong to these asperities");
         my.sticking.prepare(past.asperity);
     }
 }

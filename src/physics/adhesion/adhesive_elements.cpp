@@ -15,8 +15,7 @@ public:
         : state_(heights, indenter, options) {}
 
     double stiffness(double) override {
-        if (std::none_of(state_.q.begin(), state_.q.end(), [](double q) { return q > 0; }))
-            return 0;
+        if (std::ranges::none_of(state_.q, [](double q) { return q > 0; })) return 0;
         return state_.flats
                    ? -state_.heights.Lx() * state_.heights.Ly() * state_.flats->stiffness(false)
                    : -state_.pixel * state_.spots->stiffness(1e-9, false);
@@ -46,13 +45,13 @@ private:
         std::vector<double> numbers = {past.separation, past.force,         past.least_force,
                                        past.lost,       double(past.jumps), tip.x0,
                                        tip.y0};
-        for (std::size_t k = 0; k < past.attracting.size(); ++k)
-            numbers.insert(numbers.end(), {double(past.attracting[k]), past.share[k]});
+        for (const auto k : indices(past.attracting))
+            append(numbers, {double(past.attracting[k]), past.share[k]});
         return numbers;
     }
 
     void read(const std::vector<double>& numbers) override {
-        const auto points = static_cast<double>(state_.clearance.size());
+        const auto points = double(state_.clearance.size());
         const bool any = !numbers.empty();
         bool sound =
             !any || (numbers.size() >= kKept && (numbers.size() - kKept) % 2 == 0 &&
@@ -61,26 +60,24 @@ private:
         AdhesivePixels::Past past;
         for (std::size_t k = kKept; k < numbers.size() && sound; k += 2) {
             sound = numbers[k] >= 0 && numbers[k] < points;
-            past.attracting.push_back(static_cast<std::int32_t>(numbers[k]));
+            past.attracting.push_back(std::int32_t(numbers[k]));
             past.share.push_back(numbers[k + 1]);
         }
-        if (!sound)
-            throw Error(Failure::bad_input, "this is not the state of a contact of this surface");
+        if (!sound) bad_input("this is not the state of a contact of this surface");
         forget();
         if (!any) return;
         past.separation = numbers[0];
         past.force = numbers[1];
         past.least_force = numbers[2];
         past.lost = numbers[3];
-        past.jumps = static_cast<std::int32_t>(numbers[4]);
+        past.jumps = std::int32_t(numbers[4]);
         if (numbers[5] != state_.indenter.x0 || numbers[6] != state_.indenter.y0) {
             state_.indenter.move(numbers[5], numbers[6]);
             state_.set_clearances();
         }
         state_.accepted = std::move(past);
         if (!state_.step(state_.accepted.separation).converged)
-            throw Error(
-                Failure::bad_input,
+            bad_input(
                 "the state of the contact cannot be reached again: the solver does not converge");
         state_.accepted.energy = state_.now.energy;
         state_.keep();

@@ -12,7 +12,7 @@ double AdhesivePath::clearance_at(int i, double share) {
 // Sets g0, and its rates if the tip moves.
 void AdhesivePath::set_gaps(double Z) {
     constexpr double apart = 1e-4;  // share of the way for differences
-    for (std::size_t k = 0; k < clearance.size(); ++k) {
+    for (const auto k : indices(clearance)) {
         set.g0[k] = clearance[k] - Z;
         if (motion) {
             const int i = set.asperity[k];
@@ -28,7 +28,7 @@ void AdhesivePath::set_gaps(double Z) {
 // The members of the set on the way of the tip, by a bound of their clearances: that of a parabola
 // through the ends and the middle.
 void AdhesivePath::find_members_of_motion(std::vector<int>& fresh) {
-    for (int i = 0; i < static_cast<int>(asperities.size()); ++i) {
+    for (int i = 0; i < int(asperities.size()); ++i) {
         const double first = clearance_at(i, 0), middle = clearance_at(i, 0.5),
                      last = clearance_at(i, 1), bend = 2 * std::abs(middle - 0.5 * (first + last));
         if (std::max({first, middle, last}) + (std::isfinite(bend) ? bend : 0.0) <=
@@ -57,9 +57,9 @@ bool AdhesivePath::move(double x0, double y0) {
     if (const Period& period = old.repeats; period.finite()) {
         constexpr double pieces_of_period = 8;
         way = {period.nearest_x(way.x), period.nearest_y(way.y)};
-        pieces = std::max(1, static_cast<int>(std::ceil(pieces_of_period *
-                                                        std::max(std::abs(way.x) / period.x,
-                                                                 std::abs(way.y) / period.y))));
+        pieces =
+            std::max(1, int(std::ceil(pieces_of_period * std::max(std::abs(way.x) / period.x,
+                                                                  std::abs(way.y) / period.y))));
     }
     const auto position = [&](int k) {
         return Vec2{old.x0 + way.x * k / pieces, old.y0 + way.y * k / pieces};
@@ -115,9 +115,9 @@ bool AdhesivePath::move_piece(Vec2 from, Vec2 to) {
     here.Z = 0;
     if (!cover(0)) return false;
     if (motion->edge)
-        throw Error(Failure::bad_input,
-                    "a body with an edge cannot be moved while asperities are attached near its "
-                    "edge: pull it off first");
+        bad_input(
+            "a body with an edge cannot be moved while asperities are attached near its "
+            "edge: pull it off first");
     double length = 0;
     for (int i : set.asperity) {
         const double middle = clearance_at(i, 0.5);

@@ -31,9 +31,7 @@ AdhesivePath::AdhesivePath(const Asperities& asperities_, const Indenter& indent
       sticking(*law, options_.physics.adhesion.work, options_.physics.adhesion.range),
       direct(make_direct_products(kernel)),
       solver(sticking) {
-    const auto refuse = [](const char* what) {
-        throw Error(Failure::bad_input, std::string("solids%adhesion is ") + what);
-    };
+    const auto refuse = [](const char* what) { bad_input("solids%adhesion is ", what); };
     if (std::isfinite(options.physics.hardness.H0))
         refuse("not available yet with solids%hardness");
     if (!options.physics.relaxation.none())
@@ -72,7 +70,7 @@ void AdhesivePath::find_members(double lowest, const std::vector<int>& attached)
         find_members_of_motion(fresh);
     } else {
         const std::size_t last = ranking.above(covered, fresh);
-        for (std::size_t r = 0; r < last; ++r) add_member(ranking[r].asperity, ranking[r].height);
+        for (const auto r : indices(last)) add_member(ranking[r].asperity, ranking[r].height);
     }
     std::vector<char> member(asperities.size(), 0);
     for (const int i : set.asperity) member[at(i)] = 1;
@@ -94,11 +92,11 @@ bool AdhesivePath::cover(double lowest, const std::vector<int>& attached, const 
     for (int k = 0; k < 3; ++k) {
         find_members(lowest, attached);
         std::vector<std::pair<int, double>> order;
-        for (std::size_t j = 0; j < attached.size(); ++j) {
-            const auto found = std::find(set.asperity.begin(), set.asperity.end(), attached[j]);
-            order.emplace_back(static_cast<int>(found - set.asperity.begin()), s[j]);
+        for (const auto j : indices(attached)) {
+            const auto found = std::ranges::find(set.asperity, attached[j]);
+            order.emplace_back(int(found - set.asperity.begin()), s[j]);
         }
-        std::sort(order.begin(), order.end());
+        std::ranges::sort(order);
         here.active.clear();
         here.s.clear();
         for (const auto& [position, state] : order) {
@@ -153,9 +151,9 @@ void AdhesivePath::read_solution(Point& point) {
     point.energy = solver.energy();
     point.residual = solver.residual();
     point.u.resize(at(set.size()));
-    for (std::size_t k = 0; k < point.u.size(); ++k) point.u[k] = set.g0[k] - solver.phi()[k];
+    for (const auto k : indices(point.u)) point.u[k] = set.g0[k] - solver.phi()[k];
     point.power = 0;
-    for (std::size_t k = 0; k < point.active.size(); ++k) {
+    for (const auto k : indices(point.active)) {
         point.u[at(point.active[k])] = point.states[k].u;
         point.power += point.states[k].f * rate[at(point.active[k])];
     }
@@ -166,7 +164,7 @@ void AdhesivePath::read_solution(Point& point) {
 double AdhesivePath::raised() const {
     double most = 0;
     for (const double phi : solver.phi()) most = std::max(most, -phi);
-    for (std::size_t k = 0; k < solver.states().size(); ++k) {  // near contacts under tension
+    for (const auto k : indices(solver.states())) {  // near contacts under tension
         const Sticking::State& state = solver.states()[k];
         most = std::max(most,
                         -solver.phi()[at(products->active()[k])] -
@@ -183,10 +181,9 @@ void AdhesivePath::complete(Point& point, double accuracy) {
     point.dpower = -change.power;
     point.ds = change.s;
     point.du.resize(point.u.size());
-    for (std::size_t k = 0; k < point.active.size(); ++k)
+    for (const auto k : indices(point.active))
         point.du[at(point.active[k])] = point.states[k].du * change.s[k];
-    for (std::size_t p = 0; p < change.u.size(); ++p)
-        point.du[at(products->passive()[p])] = change.u[p];
+    for (const auto p : indices(change.u)) point.du[at(products->passive()[p])] = change.u[p];
 }
 
 // Restores the accepted state. Returns false if nothing is attached and nothing touches before the
@@ -275,7 +272,7 @@ AdhesivePath::Point AdhesivePath::predicted(double Z, bool jump) const {
     Point there;
     there.Z = Z;
     const double length = Z - here.Z;
-    for (std::size_t k = 0; k < here.active.size(); ++k) {
+    for (const auto k : indices(here.active)) {
         const int position = here.active[k], i = at_place(position);
         const double bend = trend.bend.empty() ? 0.0 : trend.bend[at(position)],
                      change = length * (here.du[at(position)] + 0.5 * length * bend),
@@ -299,7 +296,7 @@ void AdhesivePath::note_bend(const Point& there) {
     if (std::abs(length) < shorter * trend.length) return;
     trend.length = std::abs(length);
     trend.bend.resize(here.u.size());
-    for (std::size_t k = 0; k < trend.bend.size(); ++k)
+    for (const auto k : indices(trend.bend))
         trend.bend[k] = 2 * (there.u[k] - here.u[k] - length * here.du[k]) / (length * length);
 }
 
@@ -320,8 +317,7 @@ bool AdhesivePath::attach_touching(Point& there, bool jump, bool& refused) {
     const double least = jump ? deepest : 0.1 * deepest;
     for (const auto& [position, depth] : touching) {
         if (depth / scale(position) < least) continue;
-        const auto k = std::lower_bound(there.active.begin(), there.active.end(), position) -
-                       there.active.begin();
+        const auto k = std::ranges::lower_bound(there.active, position) - there.active.begin();
         there.active.insert(there.active.begin() + k, position);
         there.s.insert(there.s.begin() + k,
                        sticking.state_at(at_place(position), there.u[at(position)]));
@@ -335,7 +331,7 @@ bool AdhesivePath::attach_touching(Point& there, bool jump, bool& refused) {
 std::size_t AdhesivePath::fastest(double direction) const {
     std::size_t found = 0;
     double most = -kInfinity;
-    for (std::size_t k = 0; k < here.s.size(); ++k) {
+    for (const auto k : indices(here.s)) {
         const double rate = -direction * here.ds[k] / here.s[k];
         if (here.states[k].df >= 0 || !(rate > most)) continue;
         most = rate;
@@ -373,8 +369,8 @@ AdhesivePath::Found AdhesivePath::descend(Point& there, bool jump, double accura
                 if (relaxed && !relaxed->gone) continue;
                 if (relaxed) weakest = *relaxed->gone;
             }
-            there.active.erase(there.active.begin() + static_cast<std::ptrdiff_t>(weakest));
-            there.s.erase(there.s.begin() + static_cast<std::ptrdiff_t>(weakest));
+            there.active.erase(there.active.begin() + std::ptrdiff_t(weakest));
+            there.s.erase(there.s.begin() + std::ptrdiff_t(weakest));
             continue;
         }
         if (const double more = raised(); more > margin) {
@@ -423,8 +419,7 @@ void AdhesivePath::hold() {
     solver.rest_on(set, kNoiseBeforeJump, here.s);
     read_solution(here);
     held.assign(here.u.size(), 0.0);
-    for (std::size_t k = 0; k < here.active.size(); ++k)
-        held[at(here.active[k])] = here.residuals[k];
+    for (const auto k : indices(here.active)) held[at(here.active[k])] = here.residuals[k];
 }
 
 // The length of the next step under force control: about that to the wanted force, as far as it can
@@ -514,10 +509,10 @@ void AdhesivePath::accept(Point there, const Step& step) {
         last = {here.Z, here.ds};
     } else if (step.jump) {
         ++jumps;
-        const bool detaches = std::none_of(changed.begin(), changed.end(), attaches);
+        const bool detaches = std::ranges::none_of(changed, attaches);
         now.lost += dissipated(there, step.ahead, detaches);
     } else {
-        jumps += static_cast<int>(changed.size());
+        jumps += int(changed.size());
         for (const int position : changed)
             now.lost += sticking.loss(at_place(position), attaches(position));
     }
@@ -538,12 +533,10 @@ void AdhesivePath::accept(Point there, const Step& step) {
 double AdhesivePath::dissipated(const Point& there, double ahead, bool detaches) const {
     constexpr double small_change = 1e-3, far_from_detachment = 0.1;
     std::vector<Sticking::State> before(here.u.size()), after(here.u.size());
-    for (std::size_t k = 0; k < here.active.size(); ++k)
-        before[at(here.active[k])] = here.states[k];
-    for (std::size_t k = 0; k < there.active.size(); ++k)
-        after[at(there.active[k])] = there.states[k];
+    for (const auto k : indices(here.active)) before[at(here.active[k])] = here.states[k];
+    for (const auto k : indices(there.active)) after[at(there.active[k])] = there.states[k];
     double sum = 0;
-    for (std::size_t k = 0; k < before.size(); ++k) {
+    for (const auto k : indices(before)) {
         const Sticking::State &old = before[k], &now_ = after[k];
         const double change = there.u[k] - here.u[k];
         if (old.area + old.outer > 0 && now_.area + now_.outer > 0 &&
@@ -553,7 +546,7 @@ double AdhesivePath::dissipated(const Point& there, double ahead, bool detaches)
         else
             sum -= now_.energy - old.energy - 0.5 * (now_.f + old.f) * change;
     }
-    for (std::size_t k = 0; k < there.active.size(); ++k)
+    for (const auto k : indices(there.active))
         sum -= 0.5 * (there.states[k].f - before[at(there.active[k])].f) * there.residuals[k];
     // The work, less that of forces which change linearly.
     const double way = there.Z - here.Z, first = std::copysign(ahead, way), last = way - first,
@@ -570,8 +563,7 @@ bool AdhesivePath::find_between(const Point& a, const Point& b, double share, Po
     middle.Z = a.Z + share * (b.Z - a.Z);
     middle.active = a.active;
     middle.s.clear();
-    for (std::size_t k = 0; k < a.s.size(); ++k)
-        middle.s.push_back(a.s[k] + share * (b.s[k] - a.s[k]));
+    for (const auto k : indices(a.s)) middle.s.push_back(a.s[k] + share * (b.s[k] - a.s[k]));
     if (middle.Z == a.Z || middle.Z == b.Z || !find(middle, 0)) return false;
     complete(middle, accurate);
     return true;
@@ -636,9 +628,9 @@ AdhesivePath::Past AdhesivePath::past() const {
     p.separation = here.Z;
     p.margin = margin;
     std::vector<std::pair<int, double>> order;
-    for (std::size_t k = 0; k < here.active.size(); ++k)
+    for (const auto k : indices(here.active))
         order.emplace_back(at_place(here.active[k]), here.s[k]);
-    std::sort(order.begin(), order.end());
+    std::ranges::sort(order);
     p.asperity.clear();
     p.s.clear();
     for (const auto& [asperity, s] : order) {

@@ -148,7 +148,7 @@ private:
     double dissipated(const Point& there, double ahead, bool detaches) const;
 
     bool small(int position) const;
-    int at_place(int position) const { return set.asperity[static_cast<std::size_t>(position)]; }
+    int at_place(int position) const { return set.asperity[at(position)]; }
     double scale(int position) const { return -sticking.lets_go(at_place(position)); }
     double near(int position) const;
 };

@@ -1,7 +1,6 @@
 #include "physics/adhesion/adhesive_pixels.hpp"
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "base/parallel.hpp"
 #include "elements/connected_pixels.hpp"
 #include "elements/pixel_spots.hpp"
@@ -35,7 +34,7 @@ struct Linear {
     std::array<double, 3> share{};
 };
 Linear positive_part(const std::array<double, 3>& d) {
-    const auto positive = std::count_if(d.begin(), d.end(), [](double value) { return value > 0; });
+    const auto positive = std::ranges::count_if(d, [](double value) { return value > 0; });
     Linear whole{(d[0] + d[1] + d[2]) / 3, {1.0 / 3, 1.0 / 3, 1.0 / 3}};
     if (positive == 0) return {};
     if (positive == 3) return whole;
@@ -49,7 +48,7 @@ Linear positive_part(const std::array<double, 3>& d) {
     part.share[next] = a * b * a / 3;
     part.share[last] = a * b * b / 3;
     if (positive == 1) return part;
-    for (std::size_t k = 0; k < 3; ++k) whole.share[k] -= part.share[k];
+    for (const auto k : indices(3)) whole.share[k] -= part.share[k];
     whole.integral -= part.integral;
     return whole;
 }
@@ -67,7 +66,7 @@ public:
         constexpr double growth = 1.5, fresh = 1e-8, calmer = 0.1;
         std::vector<double> r(x.size());
         double size = 0;
-        for (std::size_t i = 0; i < x.size(); ++i) {
+        for (const auto i : indices(x)) {
             r[i] = fx[i] - x[i];
             size += r[i] * r[i];
         }
@@ -81,7 +80,7 @@ public:
             dr_.clear();
             dfx_.clear();
         } else if (!r_.empty()) {
-            for (std::size_t i = 0; i < x.size(); ++i) {
+            for (const auto i : indices(x)) {
                 r_[i] = r[i] - r_[i];
                 fx_[i] = fx[i] - fx_[i];
             }
@@ -99,7 +98,7 @@ public:
         for (std::size_t j = dr_.size(); j-- > 0;) {
             std::vector<double> v = dr_[j], w = dfx_[j];
             const double whole = product(v, v);
-            for (std::size_t k = 0; k < q.size(); ++k) {
+            for (const auto k : indices(q)) {
                 const double along = product(v, q[k]);
                 add(v, -along, q[k]);
                 add(w, -along, p[k]);
@@ -126,7 +125,7 @@ private:
         return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
     }
     static void add(std::vector<double>& to, double factor, const std::vector<double>& of) {
-        for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * of[i];
+        for (const auto i : indices(to)) to[i] += factor * of[i];
     }
     double size_ = kInfinity, best_ = kInfinity;
     int since_best_ = 0;
@@ -141,8 +140,7 @@ void require_resolved(double E_star, const Adhesion& adhesion, double step) {
     const double resolution = cohesive_length(E_star, adhesion) / step;
     if (!(resolution < kCoarsest)) return;
     const double wanted = std::sqrt(kFine / resolution);
-    throw Error(
-        Failure::bad_input,
+    bad_input(
         format("solids%%adhesion_range = %.6g: the attraction at the edge of a contact acts "
                "across %.2g of a pixel's side, (pi/4) E* adhesion_range^2/adhesion; "
                "elements need 0.5 at least, and 4 for accurate forces: %.2g times as many "
@@ -159,9 +157,7 @@ AdhesivePixels::AdhesivePixels(const HeightMap& heights_, const Indenter& indent
       s0(options.physics.adhesion.work / options.physics.adhesion.range),
       z0(options.physics.adhesion.range),
       pixel(heights.dx * heights.dy) {
-    const auto refuse = [](const std::string& what) {
-        throw Error(Failure::bad_input, "solids%adhesion: " + what);
-    };
+    const auto refuse = [](const std::string& what) { bad_input("solids%adhesion: ", what); };
     if (!(z0 > 0))
         refuse("boundary elements require solids%adhesion_range > 0 (JKR is the limit of 0)");
     if (std::isfinite(options.physics.hardness.H0))
@@ -192,14 +188,14 @@ AdhesivePixels::AdhesivePixels(const HeightMap& heights_, const Indenter& indent
 void AdhesivePixels::set_clearances() {
     cut_open(indenter, 1);
     clearance.resize(at(heights.nx) * at(heights.ny));
-    for (int j = 0; j < heights.ny; ++j)
-        for (int i = 0; i < heights.nx; ++i) {
+    for (const int j : indices(heights.ny))
+        for (const int i : indices(heights.nx)) {
             const double z = indenter.clearance(heights.x0 + i * heights.dx,
                                                 heights.y0 + j * heights.dy, heights(i, j));
             clearance[at(j) * at(heights.nx) + at(i)] = z;
             if (raised.data) raised.row(j)[i] = z;
         }
-    top = *std::max_element(clearance.begin(), clearance.end());
+    top = std::ranges::max(clearance);
 }
 
 // No level, and no point attracts.
@@ -223,13 +219,13 @@ void AdhesivePixels::gather(double Z) {
                 wanted[at(place({x, y}))] = 1;
     };
     for (int j = 0; j < heights.ny && !flats; ++j)
-        for (int i = 0; i < heights.nx; ++i) {
+        for (const int i : indices(heights.nx)) {
             const std::size_t k = at(place({i, j}));
             if (share[k] > 0 || clearance[k] > Z - z0 - margin - bulged) include(i, j);
         }
     std::vector<Pixel> pixels;
-    for (int j = 0; j < heights.ny; ++j)
-        for (int i = 0; i < heights.nx; ++i) {
+    for (const int j : indices(heights.ny))
+        for (const int i : indices(heights.nx)) {
             const std::int32_t k = place({i, j});
             q[at(k)] = wanted[at(k)] ? q[at(k)] : 0.0;
             if (!wanted[at(k)]) continue;
@@ -254,7 +250,7 @@ std::vector<double> AdhesivePixels::deflections(const std::vector<double>& p, do
     }
     std::vector<Pixel> where;
     std::vector<double> some;
-    for (std::size_t k = 0; k < p.size(); ++k)
+    for (const auto k : indices(p))
         if (p[k] != 0) {
             where.push_back(pixel_at(reach[k]));
             some.push_back(p[k]);
@@ -284,15 +280,15 @@ double AdhesivePixels::attraction(std::vector<double>& shares) const {
             const std::array corner = {index(i, j), index(i + 1, j), index(i, j + 1),
                                        index(i + 1, j + 1)};
             std::array<double, 4> d;
-            for (std::size_t c = 0; c < 4; ++c)
+            for (const auto c : indices(4))
                 d[c] = std::max(z0 - gap[corner[c]], -kFar * z0);  // beyond the edge of a body
-            const auto [least, most] = std::minmax_element(d.begin(), d.end());
+            const auto [least, most] = std::ranges::minmax_element(d);
             if (!(*most > 0)) continue;
             // Half of a pixel at the border lies beyond the last points.
             const double part_of_cell =
                 0.25 * (beyond(i, heights.nx) ? 0.5 : 1.0) * (beyond(j, heights.ny) ? 0.5 : 1.0);
             if (*least >= 0) {
-                for (std::size_t c = 0; c < 4; ++c) {
+                for (const auto c : indices(4)) {
                     shares[corner[c]] += part_of_cell;
                     sum += part_of_cell * d[c];
                 }
@@ -302,8 +298,7 @@ double AdhesivePixels::attraction(std::vector<double>& shares) const {
                 const std::array where = {corner[at(a)], corner[at(b)], corner[at(c)]};
                 const Linear part = positive_part({d[at(a)], d[at(b)], d[at(c)]});
                 sum += part_of_cell * part.integral;
-                for (std::size_t k = 0; k < 3; ++k)
-                    shares[where[k]] += part_of_cell * part.share[k];
+                for (const auto k : indices(3)) shares[where[k]] += part_of_cell * part.share[k];
             }
         }
     return sum;
@@ -313,18 +308,18 @@ double AdhesivePixels::attraction(std::vector<double>& shares) const {
 bool AdhesivePixels::press(double Z, double tolerance, Level& level) {
     ElementsOutcome outcome;
     if (flats) {
-        for (std::size_t k = 0; k < reach.size(); ++k)
+        for (const auto k : indices(reach))
             raised.row(reach[k] / heights.nx)[reach[k] % heights.nx] = clearance[k] + lift[k];
         flats->heights_changed();
         outcome = flats->approach(Z, tolerance, options.max_iterations);
-        std::fill(q.begin(), q.end(), 0.0);
-        for (std::size_t k = 0; k < flats->pixels().size(); ++k)
+        std::ranges::fill(q, 0.0);
+        for (const auto k : indices(flats->pixels()))
             q[at(flats->pixels()[k].y) * at(heights.nx) + at(flats->pixels()[k].x)] =
                 flats->pressures()[k];
     } else {
         std::vector<Pixel> pixels;
         std::vector<double> g0, p;
-        for (std::size_t k = 0; k < reach.size(); ++k) {
+        for (const auto k : indices(reach)) {
             double& here = q[at(reach[k])];
             const double g = clearance[at(reach[k])] - Z + lift[k];
             if (g > -bulged) {
@@ -335,7 +330,7 @@ bool AdhesivePixels::press(double Z, double tolerance, Level& level) {
             here = 0;
         }
         outcome = spots->solve(pixels, g0, tolerance, options.max_iterations, p);
-        for (std::size_t k = 0; k < p.size(); ++k) q[at(place(pixels[k]))] = p[k];
+        for (const auto k : indices(p)) q[at(place(pixels[k]))] = p[k];
     }
     level.iterations += outcome.iterations;
     level.products += outcome.products + 2;
@@ -356,24 +351,23 @@ bool AdhesivePixels::renew(double Z, Level& level) {
     for (int round = 0; round < kMost; ++round) {
         stopping_point();
         std::vector<double> p(reach.size());
-        for (std::size_t k = 0; k < reach.size(); ++k) p[k] = s0 * share[at(reach[k])];
+        for (const auto k : indices(reach)) p[k] = s0 * share[at(reach[k])];
         lift = deflections(p, tolerance);
-        const double most = lift.empty() ? 0.0 : *std::max_element(lift.begin(), lift.end());
+        const double most = lift.empty() ? 0.0 : std::ranges::max(lift);
         if (!flats && most > margin) {
             margin = 1.5 * most;
             gather(Z);
             continue;
         }
         if (!press(Z, tolerance, level)) return false;
-        if (const double most_bulged = bulge * pixel * std::accumulate(q.begin(), q.end(), 0.0);
-            most_bulged > bulged) {
+        if (const double most_bulged = bulge * pixel * sum_of(q); most_bulged > bulged) {
             bulged = 1.5 * most_bulged;
             gather(Z);
             continue;
         }
-        for (std::size_t k = 0; k < reach.size(); ++k) p[k] = q[at(reach[k])];
+        for (const auto k : indices(reach)) p[k] = q[at(reach[k])];
         p = deflections(p, tolerance);
-        for (std::size_t k = 0; k < reach.size(); ++k)
+        for (const auto k : indices(reach))
             gap[at(reach[k])] = p[k] - (lift[k] + clearance[at(reach[k])] - Z);
         attracted = attraction(next);
         double change = 0, sum = 0;
@@ -396,9 +390,9 @@ Level AdhesivePixels::step(double Z, const Past* start) {
     level.separation = Z;
     level.method = Method::automatic;
     gap.resize(clearance.size());
-    for (std::size_t i = 0; i < gap.size(); ++i) gap[i] = Z - clearance[i];
+    for (const auto i : indices(gap)) gap[i] = Z - clearance[i];
     const bool converged = renew(Z, level);
-    level.candidates = static_cast<std::int32_t>(reach.size());
+    level.candidates = std::int32_t(reach.size());
     now.separation = Z;
     now.attracting.clear();
     now.share.clear();
@@ -406,7 +400,7 @@ Level AdhesivePixels::step(double Z, const Past* start) {
     std::vector<double> pressures;
     double twice = 0, cohesive = 0;
     std::vector<std::int32_t> sorted = reach;
-    std::sort(sorted.begin(), sorted.end());
+    std::ranges::sort(sorted);
     for (std::size_t k = 0; k < sorted.size() && converged; ++k)
         if (const std::size_t i = at(sorted[k]); share[i] > 0) {
             now.attracting.push_back(sorted[k]);
@@ -444,8 +438,7 @@ Level AdhesivePixels::step(double Z, const Past* start) {
 // Energy that a step may seem to lose without a jump, or that the place of a jump in it may change.
 double AdhesivePixels::negligible() const {
     return kLossShare * options.physics.adhesion.work * pixel *
-           std::max(std::accumulate(now.share.begin(), now.share.end(), 0.0),
-                    std::accumulate(accepted.share.begin(), accepted.share.end(), 0.0));
+           std::max(sum_of(now.share), sum_of(accepted.share));
 }
 
 // The work of the step from the accepted state, by the trapezoidal rule, minus the change of the
@@ -531,15 +524,13 @@ std::int32_t AdhesivePixels::count_jumps() const {
     const int sets = connected_sets(where, set, flats ? heights.nx : 0, flats ? heights.ny : 0);
     std::vector<std::size_t> points(at(sets));
     for (const int of : set) ++points[at(of)];
-    const auto large =
-        std::count_if(points.begin(), points.end(), [](std::size_t n) { return n >= kFewest; });
-    return std::max(1, static_cast<std::int32_t>(large));
+    const auto large = std::ranges::count_if(points, [](std::size_t n) { return n >= kFewest; });
+    return std::max(1, std::int32_t(large));
 }
 
 void AdhesivePixels::restore(const Past& past) {
-    std::fill(share.begin(), share.end(), 0.0);
-    for (std::size_t k = 0; k < past.attracting.size(); ++k)
-        share[at(past.attracting[k])] = past.share[k];
+    std::ranges::fill(share, 0.0);
+    for (const auto k : indices(past.attracting)) share[at(past.attracting[k])] = past.share[k];
 }
 
 // Stores gaps and pressures of the last level, the accepted one.
@@ -547,7 +538,7 @@ void AdhesivePixels::keep() {
     tried.reset();
     gap_before = gap;
     p_before.resize(gap.size());
-    for (std::size_t i = 0; i < gap.size(); ++i) p_before[i] = pressure(i);
+    for (const auto i : indices(gap)) p_before[i] = pressure(i);
 }
 
 // Moves the tip on a straight line (the shortest one on a surface that repeats) at the accepted
@@ -564,7 +555,7 @@ void AdhesivePixels::move(double x0, double y0) {
     const double nearest = accepted.separation - z0 - margin - bulged;
     const auto highest = [&] {
         double z = -kInfinity;
-        for (int j = 0; j < heights.ny; ++j)
+        for (const int j : indices(heights.ny))
             z = std::max(z, *std::max_element(heights.row(j), heights.row(j) + heights.nx));
         return z;
     };
@@ -612,23 +603,22 @@ void AdhesivePixels::follow() {
     const std::vector<double> before = clearance;
     set_clearances();
     if (accepted.attracting.empty() && !(top > accepted.separation - z0 - margin - bulged)) {
-        for (std::size_t i = 0; i < gap_before.size(); ++i)
-            gap_before[i] = accepted.separation - clearance[i];
+        for (const auto i : indices(gap_before)) gap_before[i] = accepted.separation - clearance[i];
         return;
     }
-    for (std::size_t i = 0; i < before.size(); ++i)
+    for (const auto i : indices(before))
         if (std::isfinite(before[i]) != std::isfinite(clearance[i]) &&
             std::max(before[i], clearance[i]) > accepted.separation - z0 - margin - bulged)
-            throw Error(Failure::bad_input,
-                        "a body with an edge cannot be moved while points attract near its edge: "
-                        "pull it off first");
+            bad_input(
+                "a body with an edge cannot be moved while points attract near its edge: "
+                "pull it off first");
     Level level = step(accepted.separation);
     if (!level.converged)
         throw Error(Failure::not_converged,
                     "the path of the attracting points to the new position of the tip is lost; the "
                     "tip stays where it was");
     double twice = 0;
-    for (std::size_t i = 0; i < before.size(); ++i)
+    for (const auto i : indices(before))
         if (const double p = p_before[i] + pressure(i); p != 0)
             twice += p * (clearance[i] - before[i]);
     if (const double lost = 0.5 * pixel * twice - (now.energy - accepted.energy);

@@ -56,7 +56,7 @@ void minres(Multiply&& multiply, Vector v, double goal, Vector& x, Vector& lifte
         for (double& value : v) value /= beta;
         multiply(v, next, lift);
         const double alpha = dot4(v, next);
-        for (std::size_t i = 0; i < n; ++i) next[i] -= alpha * v[i] + beta * before[i];
+        for (const auto i : indices(n)) next[i] -= alpha * v[i] + beta * before[i];
         const double beta_next = std::sqrt(dot4(next, next));
         const double d = c * alpha - c_before * s * beta, r1 = std::hypot(d, beta_next),
                      r2 = s * alpha + c_before * c * beta, r3 = s_before * beta;
@@ -67,8 +67,8 @@ void minres(Multiply&& multiply, Vector v, double goal, Vector& x, Vector& lifte
         s = beta_next / r1;
         const auto add = [&](const Vector& from, const Vector& last, Vector& to, Vector& sum) {
             const double per = 1 / r1, share = c * left;
-            for (std::size_t i = 0; i < n; ++i) to[i] = per * (from[i] - r3 * to[i] - r2 * last[i]);
-            for (std::size_t i = 0; i < n; ++i) sum[i] += share * to[i];
+            for (const auto i : indices(n)) to[i] = per * (from[i] - r3 * to[i] - r2 * last[i]);
+            for (const auto i : indices(n)) sum[i] += share * to[i];
         };
         add(v, w, w_before, x);
         add(lift, w_lift, w_lift_before, lifted);
@@ -85,7 +85,7 @@ void minres(Multiply&& multiply, Vector v, double goal, Vector& x, Vector& lifte
 
 void AttachedSolver::judge(const WorkingSet& set) {
     double error2 = 0, doubt2 = 0, size2 = 0, own = 0, own_doubt = 0;
-    for (std::size_t k = 0; k < res_.size(); ++k) {
+    for (const auto k : indices(res_)) {
         const auto i = at(products_->active()[k]);
         const Sticking::State& now = state_[k];
         const double error = now.stiffness * std::abs(res_[k]), doubt = now.stiffness * out_[k],
@@ -122,7 +122,7 @@ void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s, bool full,
     derivative_.clear();
     force_ = 0;
     double bent2 = 0, f2 = 0;
-    for (std::size_t k = 0; k < n; ++k) {
+    for (const auto k : indices(n)) {
         state_[k] = law_.at(set.asperity[at(active[k])], s[k]);
         if (stepped) {
             bent2 += std::pow(state_[k].f - f_[k] - pulled_[k], 2);
@@ -148,13 +148,13 @@ void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s, bool full,
         noise_reference_ = noise_bent_ = 0;
     } else {
         bool changed = false;
-        for (std::size_t k = 0; k < n; ++k) {
+        for (const auto k : indices(n)) {
             df_[k] = f_[k] - f_reference_[k];
             changed = changed || df_[k] != 0;
         }
         if (changed && bent <= negligible) {
             noise_bent_ += bent;
-            for (std::size_t k = 0; k < n; ++k) out_[k] = elevated_[k] + lifted_[k];
+            for (const auto k : indices(n)) out_[k] = elevated_[k] + lifted_[k];
         } else {
             noise_bent_ = 0;
             if (changed) products_->inner(df_.data(), out_.data());
@@ -162,7 +162,7 @@ void AttachedSolver::evaluate(const WorkingSet& set, const Vector& s, bool full,
     }
     elevated_ = out_;
     phi_ = phi_reference_;
-    for (std::size_t k = 0; k < n; ++k) phi_[at(active[k])] += out_[k];
+    for (const auto k : indices(n)) phi_[at(active[k])] += out_[k];
     balance(set);
 }
 
@@ -175,7 +175,7 @@ void AttachedSolver::balance(const WorkingSet& set) {
     for (double& phi : phi_) phi -= shift;
     const double f2 = dot4(f_, f_), share = f2 > 0 ? std::sqrt(dot4(df_, df_) / f2) : 0.0;
     energy_ = 0;
-    for (std::size_t k = 0; k < n; ++k) {
+    for (const auto k : indices(n)) {
         const auto i = at(active[k]);
         const Sticking::State& now = state_[k];
         res_[k] = set.g0[i] - phi_[i] - now.u;
@@ -199,7 +199,7 @@ void AttachedSolver::weigh(double mu) {
     to_s_.resize(n);
     in_.resize(n);
     out_.resize(n);
-    for (std::size_t k = 0; k < n; ++k) {
+    for (const auto k : indices(n)) {
         const Sticking::State& now = state_[k];
         const double df = now.df + mu * now.stiffness, q = now.stiffness * now.du - now.df,
                      sign = df < 0 ? -1.0 : 1.0;
@@ -211,7 +211,7 @@ void AttachedSolver::weigh(double mu) {
 }
 
 void AttachedSolver::multiply(const Vector& y, Vector& image, Vector& lift) {
-    for (std::size_t k = 0; k < y.size(); ++k) in_[k] = p_[k] * y[k];
+    for (const auto k : indices(y)) in_[k] = p_[k] * y[k];
     products_->inner(in_.data(), lift.data());
     complete(y, image, lift);
 }
@@ -219,22 +219,21 @@ void AttachedSolver::multiply(const Vector& y, Vector& image, Vector& lift) {
 // image = M y, where lift = B p y without shift().
 void AttachedSolver::complete(const Vector& y, Vector& image, const Vector& lift) const {
     const double shift = products_->kernel().shift() * dot4(p_, y);
-    for (std::size_t k = 0; k < y.size(); ++k)
-        image[k] = diagonal_[k] * y[k] + p_[k] * (lift[k] - shift);
+    for (const auto k : indices(y)) image[k] = diagonal_[k] * y[k] + p_[k] * (lift[k] - shift);
 }
 
 void AttachedSolver::solve_linear(const Vector& right, double accuracy, Vector& ds) {
     if (!weighed_) weigh(0);
     const std::size_t n = right.size();
     Vector v(n);
-    for (std::size_t k = 0; k < n; ++k) v[k] = p_[k] * right[k];
+    for (const auto k : indices(n)) v[k] = p_[k] * right[k];
     const double goal = accuracy * std::sqrt(dot4(v, v));
     ds.assign(n, 0.0);
     lifted_.assign(n, 0.0);
     minres([this](const Vector& y, Vector& image, Vector& lift) { multiply(y, image, lift); },
            std::move(v), goal, ds, lifted_);
     pulled_.resize(n);
-    for (std::size_t k = 0; k < n; ++k) {
+    for (const auto k : indices(n)) {
         pulled_[k] = p_[k] * ds[k];
         ds[k] *= to_s_[k];
     }
@@ -251,24 +250,24 @@ bool AttachedSolver::apart(const WorkingSet& set) {
     for (std::size_t k = 0; k < n && covered; ++k)
         covered = state_[k].stiffness <= stiffest_[at(active[k])];
     if (covered) return true;
-    std::fill(stiffest_.begin(), stiffest_.end(), 0.0);
+    std::ranges::fill(stiffest_, 0.0);
     // First with room for growth, and with those that may attach.
     std::vector<double> a(stiffest_.size());
     for (const double wider : {room_, 1.0}) {
         if (wider < 1.001 && wider > 1) continue;
-        std::fill(a.begin(), a.end(), 0.0);
+        std::ranges::fill(a, 0.0);
         if (wider > 1)
             for (const int k : products_->passive()) {
                 const int i = set.asperity[at(k)];
                 a[at(k)] = law_.at(i, kAttached * law_.least(i)).stiffness / (2 * kernel.modulus());
             }
-        for (std::size_t k = 0; k < n; ++k)
+        for (const auto k : indices(n))
             a[at(active[k])] = wider * state_[k].stiffness / (2 * kernel.modulus());
         if (!kernel.none() && !positive_definite_by_shells(set.x, set.y, a)) {
             room_ = 1 + 0.5 * (room_ - 1);
             continue;
         }
-        for (std::size_t k = 0; k < a.size(); ++k) stiffest_[k] = 2 * kernel.modulus() * a[k];
+        for (const auto k : indices(a)) stiffest_[k] = 2 * kernel.modulus() * a[k];
         return true;
     }
     return false;
@@ -285,7 +284,7 @@ bool AttachedSolver::proved(const WorkingSet& set) {
     proof_.resize(phi_.size(), 0.0);
     for (int round = 0; round < most; ++round) {
         bool any = false, holds = true;
-        for (std::size_t k = 0; k < state_.size(); ++k) {
+        for (const auto k : indices(state_)) {
             const double du = state_[k].du + mu_, df = state_[k].df + mu_ * state_[k].stiffness;
             in_[k] = 0;
             if (df >= 0) continue;
@@ -295,7 +294,7 @@ bool AttachedSolver::proved(const WorkingSet& set) {
         }
         if (!any) return true;
         products_->inner(in_.data(), out_.data());
-        for (std::size_t k = 0; k < state_.size(); ++k) {
+        for (const auto k : indices(state_)) {
             if (in_[k] == 0) continue;
             const double du = state_[k].du + mu_, df = state_[k].df + mu_ * state_[k].stiffness;
             if (!(std::abs(df * out_[k]) +
@@ -311,7 +310,7 @@ bool AttachedSolver::proved(const WorkingSet& set) {
 
 bool AttachedSolver::stable(const WorkingSet& set) {
     const std::size_t n = state_.size();
-    for (std::size_t k = 0; k < n; ++k)
+    for (const auto k : indices(n))
         if (1 + state_[k].stiffness * products_->kernel().self() <=
             0) {  // sinks in by itself on a soft layer: no minimum of the energy
             weakest_ = k;
@@ -322,7 +321,7 @@ bool AttachedSolver::stable(const WorkingSet& set) {
     solve_linear(right, kRate, derivative_);
     const double shift = products_->kernel().shift();
     double sum = 0;
-    for (std::size_t k = 0; k < n; ++k) sum += in_[k] = state_[k].stiffness;
+    for (const auto k : indices(n)) sum += in_[k] = state_[k].stiffness;
     products_->inner(in_.data(), right.data());
     double crowded = 0;  // largest row sum of B D: (I + B D)^-1 1 is positive if it is below 1
     for (double& value : right) {
@@ -333,7 +332,7 @@ bool AttachedSolver::stable(const WorkingSet& set) {
     const auto positive = [&](const Vector& ds, double sign) {
         weakest_ = 0;
         double lowest = 1;
-        for (std::size_t k = 0; k < n; ++k) {
+        for (const auto k : indices(n)) {
             if (std::isnan(ds[k])) return false;
             if (state_[k].df < 0 && sign * ds[k] < lowest) {
                 lowest = sign * ds[k];
@@ -351,7 +350,7 @@ void AttachedSolver::step(const WorkingSet& set, double accuracy, Vector& s) {
     stepped_ = true;
     Vector ds;
     solve_linear(res_, accuracy, ds);
-    for (std::size_t k = 0; k < s.size(); ++k) {
+    for (const auto k : indices(s)) {
         const double least = law_.least(set.asperity[at(products_->active()[k])]);
         const double next =
             std::clamp(s[k] + ds[k], (1 - kFarthest) * s[k], (1 + kFarthest) * s[k]);
@@ -377,7 +376,7 @@ void AttachedSolver::add_passive() {
     if (df_.empty()) return;
     Vector more(passive.size());
     products_->inner_passive(df_.data(), more.data());
-    for (std::size_t k = 0; k < more.size(); ++k) phi_[at(passive[k])] += more[k];
+    for (const auto k : indices(more)) phi_[at(passive[k])] += more[k];
 }
 
 bool AttachedSolver::solve(const WorkingSet& set, double tolerance, bool exact, Vector& s,
@@ -412,7 +411,7 @@ bool AttachedSolver::solve(const WorkingSet& set, double tolerance, bool exact, 
     }
     weakest_ = 0;
     double nearest = 1e300;
-    for (std::size_t k = 0; k < s.size(); ++k) {
+    for (const auto k : indices(s)) {
         const double margin = s[k] / law_.least(set.asperity[at(products_->active()[k])]);
         if (margin < nearest) {
             nearest = margin;
@@ -440,12 +439,11 @@ std::optional<AttachedSolver::Relaxed> AttachedSolver::relax(const WorkingSet& s
             }
             solve_linear(res_, 1e-3, ds);
             change = 0;
-            for (std::size_t i = 0; i < s.size(); ++i)
-                change = std::max(change, std::abs(ds[i]) / s[i]);
+            for (const auto i : indices(s)) change = std::max(change, std::abs(ds[i]) / s[i]);
             if (change > longest) mu *= 2;
         }
         if (!(change <= longest) || change < stalled) break;
-        for (std::size_t i = 0; i < s.size(); ++i) {
+        for (const auto i : indices(s)) {
             s[i] += ds[i];
             if (s[i] < shrunk * law_.least(set.asperity[at(products_->active()[i])]))
                 return Relaxed{i};
@@ -480,14 +478,13 @@ double AttachedSolver::clamped_stiffness(const std::vector<Sticking::State>& sta
     lifted_.resize(root.size());
     const auto multiply_clamped = [&](const Vector& v, Vector& image, Vector& lift) {
         double sum = 0;
-        for (std::size_t k = 0; k < v.size(); ++k) sum += in_[k] = root[k] * v[k];
+        for (const auto k : indices(v)) sum += in_[k] = root[k] * v[k];
         products_->inner(in_.data(), lift.data());
-        for (std::size_t k = 0; k < v.size(); ++k)
-            image[k] = v[k] + root[k] * (lift[k] - shift * sum);
+        for (const auto k : indices(v)) image[k] = v[k] + root[k] * (lift[k] - shift * sum);
     };
     minres(multiply_clamped, root, accuracy * std::sqrt(dot4(root, root)), y, lifted_);
-    for (std::size_t k = 0; k < y.size(); ++k) f.push_back(root[k] * y[k]);
-    const double sum = std::accumulate(f.begin(), f.end(), 0.0);
+    for (const auto k : indices(y)) f.push_back(root[k] * y[k]);
+    const double sum = sum_of(f);
     return 2 * sum - dot4(y, y) - dot4(f, elevations(f)) + shift * sum * sum;
 }
 
@@ -499,7 +496,7 @@ double AttachedSolver::slope(const std::vector<Sticking::State>& states) {
     Vector y, image(states.size());
     weigh(0);
     solve_linear(Vector(states.size(), -1.0), accuracy, y);
-    for (std::size_t k = 0; k < y.size(); ++k) {
+    for (const auto k : indices(y)) {
         y[k] /= to_s_[k];
         in_[k] = p_[k] * y[k];
     }
@@ -516,19 +513,18 @@ AttachedSolver::Change AttachedSolver::change(const Vector& rate, double accurac
     Vector right, df(state_.size());
     for (int k : active) right.push_back(rate[at(k)]);
     const bool known = accuracy >= kRate && derivative_.size() == right.size() &&
-                       std::all_of(right.begin(), right.end(), [](double r) { return r == -1; });
+                       std::ranges::all_of(right, [](double r) { return r == -1; });
     if (known)
         c.s = derivative_;
     else if (!right.empty())
         solve_linear(right, accuracy, c.s);
-    for (std::size_t k = 0; k < df.size(); ++k) {
+    for (const auto k : indices(df)) {
         c.force += df[k] = state_[k].df * c.s[k];
         c.power -= df[k] * right[k];
     }
     c.u.assign(passive.size(), 0.0);
     if (!df.empty()) products_->inner_passive(df.data(), c.u.data());
-    for (std::size_t k = 0; k < passive.size(); ++k)
-        c.u[k] = rate[at(passive[k])] - c.u[k] + shift * c.force;
+    for (const auto k : indices(passive)) c.u[k] = rate[at(passive[k])] - c.u[k] + shift * c.force;
     return c;
 }
 

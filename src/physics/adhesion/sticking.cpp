@@ -79,11 +79,10 @@ Sticking::Limits Sticking::limits_of_jkr(int i) const {
 void Sticking::prepare(std::span<const int> asperities) {
     law_.prepare(asperities);
     for (int i : asperities) {
-        if (place_.size() <= static_cast<std::size_t>(i))
-            place_.resize(static_cast<std::size_t>(i) + 1, -1);
-        int& place = place_[static_cast<std::size_t>(i)];
+        if (place_.size() <= std::size_t(i)) place_.resize(std::size_t(i) + 1, -1);
+        int& place = place_[std::size_t(i)];
         if (place >= 0) continue;
-        place = static_cast<int>(limits_.size());
+        place = int(limits_.size());
         limits_.push_back(z0_ > 0 ? limits_of_range(i) : limits_of_jkr(i));
         Limits& limits = limits_.back();
         const State last = at(i, limits.least);

@@ -84,9 +84,7 @@ private:
     Limits limits_of_range(int asperity) const;
     Limits limits_of_jkr(int asperity) const;
     State attracting(const Limits& of, double s) const;
-    std::size_t place(int asperity) const {
-        return static_cast<std::size_t>(place_[static_cast<std::size_t>(asperity)]);
-    }
+    std::size_t place(int asperity) const { return std::size_t(place_[std::size_t(asperity)]); }
     State bare(int asperity, double s) const;        // without the limit `last`
     double spreading(int asperity, double s) const;  // l h
 

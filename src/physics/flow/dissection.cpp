@@ -33,19 +33,18 @@ struct Band {
 class Seam {
 public:
     Seam(std::span<const Place> part, const Band& band)
-        : band_(band), width_(static_cast<std::size_t>(band.high - band.low + 1)) {
+        : band_(band), width_(at(band.high - band.low + 1)) {
         const auto [first, last] =
             std::ranges::minmax(part, {}, [&](const Place& p) { return band.along(p); });
         first_ = band.along(first);
-        length_ = static_cast<std::size_t>(band.along(last) - first_ + 1);
+        length_ = at(band.along(last) - first_ + 1);
         points_.assign(length_ * width_, 0);
         for (const Place& p : part) {
             const std::int32_t c = band.across(p);
-            if (c >= band.low && c <= band.high)
-                ++points_[index(step_of(p), static_cast<std::size_t>(c - band.low))];
+            if (c >= band.low && c <= band.high) ++points_[index(step_of(p), at(c - band.low))];
         }
         for (std::size_t a = 1; a < length_; ++a)
-            for (std::size_t c = 0; c < width_; ++c) points_[index(a, c)] += before(a, c).points;
+            for (const auto c : indices(width_)) points_[index(a, c)] += before(a, c).points;
         trace();
     }
 
@@ -61,9 +60,7 @@ private:
         std::int32_t points;
     };
 
-    std::size_t step_of(const Place& p) const {
-        return static_cast<std::size_t>(band_.along(p) - first_);
-    }
+    std::size_t step_of(const Place& p) const { return at(band_.along(p) - first_); }
     std::size_t index(std::size_t a, std::size_t c) const { return a * width_ + c; }
     bool oblique() const { return band_.direction > 1; }
 
@@ -86,12 +83,11 @@ private:
     void trace() {
         line_.assign(length_, 0);
         Reached at = end();
-        for (std::size_t a = at.a; a < length_; ++a) line_[a] = static_cast<std::int32_t>(at.c);
+        for (std::size_t a = at.a; a < length_; ++a) line_[a] = std::int32_t(at.c);
         while (at.a > 0) {
             const Reached next = before(at.a, at.c);
             if (next.a == at.a) break;
-            for (std::size_t a = next.a; a < at.a; ++a)
-                line_[a] = static_cast<std::int32_t>(next.c);
+            for (std::size_t a = next.a; a < at.a; ++a) line_[a] = std::int32_t(next.c);
             at = next;
         }
     }
@@ -102,8 +98,8 @@ private:
             return c > width_ / 2 ? c - width_ / 2 : width_ / 2 - c;
         };
         for (std::size_t a = length_ - (oblique() && length_ > 1 ? 2 : 1); a < length_; ++a)
-            for (std::size_t c = 0; c < width_; ++c) {
-                const auto parity = static_cast<std::int32_t>(a + c) + first_ + band_.low;
+            for (const auto c : indices(width_)) {
+                const auto parity = std::int32_t(a + c) + first_ + band_.low;
                 if (oblique() && parity % 2 != 0) continue;
                 const std::int32_t points = points_[index(a, c)];
                 if (points < best.points ||
@@ -124,7 +120,7 @@ class Dissection {
 public:
     Dissection(int nx, int ny, const std::vector<std::uint8_t>& used) {
         std::uint32_t k = 0;
-        for (int y = 0; y < ny; ++y)
+        for (const int y : indices(ny))
             for (int x = 0; x < nx; ++x, ++k)
                 if (used[k]) places_.push_back({k, x, y});
         other_.resize(places_.size());
@@ -156,9 +152,9 @@ private:
         cut(rest.first(end));
     }
     std::int32_t fewest(std::int32_t Place::*across, int n) const {
-        std::vector<std::uint32_t> count(static_cast<std::size_t>(n), 0);
-        for (const Place& p : places_) ++count[static_cast<std::size_t>(p.*across % n)];
-        return static_cast<std::int32_t>(std::ranges::min_element(count) - count.begin());
+        std::vector<std::uint32_t> count(at(n), 0);
+        for (const Place& p : places_) ++count[at(p.*across % n)];
+        return std::int32_t(std::ranges::min_element(count) - count.begin());
     }
 
     // Cuts the part into halves, these again, and puts the points of each line behind its halves.
@@ -184,8 +180,7 @@ private:
             else
                 last_[third++] = p;
         }
-        const auto rest =
-            std::copy_n(other_.begin(), second, part.begin() + static_cast<std::ptrdiff_t>(first));
+        const auto rest = std::copy_n(other_.begin(), second, part.begin() + std::ptrdiff_t(first));
         std::copy_n(last_.begin(), third, rest);
         return {first, first + second};
     }
@@ -196,21 +191,19 @@ private:
         std::array<std::int32_t, kDirections> low = coordinates(part[0]), high = low;
         for (const Place& p : part) {
             const auto c = coordinates(p);
-            for (std::size_t d = 0; d < kDirections; ++d) {
+            for (const auto d : indices(kDirections)) {
                 low[d] = std::min(low[d], c[d]);
                 high[d] = std::max(high[d], c[d]);
             }
         }
-        for (std::size_t d = 0; d < kDirections; ++d)
-            count_[d].assign(static_cast<std::size_t>(high[d] - low[d] + 1), 0);
+        for (const auto d : indices(kDirections)) count_[d].assign(at(high[d] - low[d] + 1), 0);
         for (const Place& p : part) {
             const auto c = coordinates(p);
-            for (std::size_t d = 0; d < kDirections; ++d)
-                ++count_[d][static_cast<std::size_t>(c[d] - low[d])];
+            for (const auto d : indices(kDirections)) ++count_[d][at(c[d] - low[d])];
         }
         Band best;
-        for (std::size_t d = 0; d < kDirections; ++d) {
-            const Band band = middle(d, low[d], static_cast<double>(part.size()));
+        for (const auto d : indices(kDirections)) {
+            const Band band = middle(d, low[d], double(part.size()));
             if (band.score < best.score) best = band;
         }
         return best;

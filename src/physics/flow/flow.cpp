@@ -16,17 +16,17 @@ struct OpenGap {
 }  // namespace
 
 void add_gap(LevelValues& level, const GapMap& map) {
-    const auto nx = static_cast<std::size_t>(map.nx);
+    const auto nx = at(map.nx);
     const auto [sum, open] = sum_in_order<OpenGap>(map.ny, kRows, 0, [&](int j) {
         OpenGap row;
-        for (const double g : map.gap.subspan(static_cast<std::size_t>(j) * nx, nx)) {
+        for (const double g : map.gap.subspan(at(j) * nx, nx)) {
             row.sum += g;
             row.open += g > 0 ? 1 : 0;
         }
         return row;
     });
-    level.gap_mean = sum / static_cast<double>(map.points());
-    level.gap_mean_open = open > 0 ? sum / static_cast<double>(open) : 0;
+    level.gap_mean = sum / double(map.points());
+    level.gap_mean_open = open > 0 ? sum / double(open) : 0;
     const Openings openings(
         map, [&](std::size_t k, std::size_t l) { return map.gap[k] > 0 && map.gap[l] > 0; });
     level.percolates_x = openings.any_winds_x() ? 1 : 0;
@@ -35,11 +35,11 @@ void add_gap(LevelValues& level, const GapMap& map) {
 
 GapCounts count_gaps(const GapMap& map, int bins, double width) {
     GapCounts counts;
-    counts.of_bin.assign(static_cast<std::size_t>(bins), 0);
+    counts.of_bin.assign(at(bins), 0);
     for (const double g : map.gap) {
         if (!(g > 0)) continue;
         const double position = g / width;
-        ++(position < bins ? counts.of_bin[static_cast<std::size_t>(position)] : counts.beyond);
+        ++(position < bins ? counts.of_bin[at(position)] : counts.beyond);
         double power = 1;
         for (double& sum : counts.power) sum += power *= g;
     }

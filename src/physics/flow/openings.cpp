@@ -9,18 +9,18 @@ namespace rsc {
 Openings::Openings(const GapMap& map, const Linked& open)
     : node_(map.points()), winds_(map.points(), 0) {
     constexpr int kBand = 64;
-    const auto nx = static_cast<std::size_t>(map.nx);
+    const auto nx = at(map.nx);
     const int bands = (map.ny + kBand - 1) / kBand;
-    std::vector<std::uint8_t> winding(static_cast<std::size_t>(bands), 0);
+    std::vector<std::uint8_t> winding(at(bands), 0);
     const auto link_above = [&](std::size_t k) -> std::uint8_t {
         const std::size_t above = map.above(k);
         return open(k, above) ? link(k, above, 0, above <= k ? 1 : 0) : 0;
     };
     parallel_for(bands, 1, 0, [&](int band) {
-        const std::size_t first = static_cast<std::size_t>(band) * kBand * nx,
+        const std::size_t first = at(band) * kBand * nx,
                           end = std::min(first + kBand * nx, node_.size());
-        std::uint8_t& all = winding[static_cast<std::size_t>(band)];
-        for (std::size_t k = first; k < end; ++k) node_[k].parent = static_cast<std::uint32_t>(k);
+        std::uint8_t& all = winding[at(band)];
+        for (std::size_t k = first; k < end; ++k) node_[k].parent = std::uint32_t(k);
         for (std::size_t k = first; k < end; ++k) {
             const std::size_t right = map.right_of(k);
             if (open(k, right)) all |= link(k, right, right <= k ? 1 : 0, 0);
@@ -28,9 +28,8 @@ Openings::Openings(const GapMap& map, const Linked& open)
         }
     });
     for (const std::uint8_t ways : winding) all_ |= ways;
-    for (int band = 0; band < bands; ++band) {
-        const std::size_t end =
-            std::min(static_cast<std::size_t>(band + 1) * kBand * nx, node_.size());
+    for (const int band : indices(bands)) {
+        const std::size_t end = std::min(at(band + 1) * kBand * nx, node_.size());
         for (std::size_t k = end - nx; k < end; ++k) all_ |= link_above(k);
     }
 }
@@ -49,7 +48,7 @@ std::size_t Openings::root(std::size_t k) {
         Node& node = node_[k];
         const std::size_t next = node.parent;
         const std::int32_t step_x = node.x, step_y = node.y;
-        node = {static_cast<std::uint32_t>(top), x, y};
+        node = {std::uint32_t(top), x, y};
         x -= step_x;
         y -= step_y;
         k = next;
@@ -65,11 +64,11 @@ std::uint8_t Openings::link(std::size_t k, std::size_t l, int period_x, int peri
     const std::int32_t y = (a == k ? 0 : node_[k].y) + period_y - (b == l ? 0 : node_[l].y);
     const std::size_t into = std::min(a, b);
     if (a == b) {
-        winds_[a] |= static_cast<std::uint8_t>((x != 0 ? 1 : 0) | (y != 0 ? 2 : 0));
+        winds_[a] |= std::uint8_t((x != 0 ? 1 : 0) | (y != 0 ? 2 : 0));
     } else {
         const std::size_t from = std::max(a, b);
         const std::int32_t sign = from == b ? 1 : -1;
-        node_[from] = {static_cast<std::uint32_t>(into), sign * x, sign * y};
+        node_[from] = {std::uint32_t(into), sign * x, sign * y};
         winds_[into] |= winds_[from];
     }
     return winds_[into];

@@ -12,15 +12,13 @@ struct GapMap {
     double dx = 0, dy = 0;  // sides of a pixel [length]
     std::span<const double> gap;
 
-    std::size_t points() const {
-        return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
-    }
+    std::size_t points() const { return at(nx) * at(ny); }
     std::size_t right_of(std::size_t k) const {
-        const auto n = static_cast<std::size_t>(nx);
+        const auto n = at(nx);
         return k % n + 1 == n ? k + 1 - n : k + 1;
     }
     std::size_t above(std::size_t k) const {
-        const auto n = static_cast<std::size_t>(nx);
+        const auto n = at(nx);
         return k + n < points() ? k + n : k + n - points();
     }
 };

@@ -1,7 +1,6 @@
 #include "physics/flow/permeability.hpp"
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "physics/flow/dissection.hpp"
 
 #ifdef RSC_CHOLMOD
@@ -59,7 +58,7 @@ public:
     explicit Conductances(const GapMap& map) : map_(map), cube_(map.points()) {
         double widest = 0;
         for (const double g : map.gap) widest = std::max(widest, g);
-        for (std::size_t k = 0; k < cube_.size(); ++k) {
+        for (const auto k : indices(cube_)) {
             const double g = widest > 0 ? map.gap[k] / widest : 0;
             cube_[k] = g * g * g;
         }
@@ -87,7 +86,7 @@ private:
 
 // The neighbours of a point: right, above, left, below.
 std::array<std::size_t, 4> around(const GapMap& map, std::size_t k) {
-    const auto nx = static_cast<std::size_t>(map.nx);
+    const auto nx = at(map.nx);
     const std::size_t left = k % nx == 0 ? k + nx - 1 : k - 1;
     const std::size_t below = k >= nx ? k - nx : k + map.points() - nx;
     return {map.right_of(k), map.above(k), left, below};
@@ -98,11 +97,11 @@ std::array<std::size_t, 4> around(const GapMap& map, std::size_t k) {
 std::vector<std::uint8_t> carrying(const GapMap& map, const Conductances& conductance,
                                    Openings& openings) {
     std::vector<std::uint8_t> used(map.points(), 0);
-    for (std::size_t k = 0; k < used.size(); ++k) used[k] = openings.winds(k);
+    for (const auto k : indices(used)) used[k] = openings.winds(k);
     const auto linked = [&](std::size_t k, std::size_t l) {
         return used[l] && conductance.mean(k, l) > 0;
     };
-    for (std::size_t begin = 0; begin < used.size(); ++begin) {
+    for (const auto begin : indices(used)) {
         std::size_t k = begin;
         while (used[k]) {
             std::size_t links = 0, next = k;
@@ -188,11 +187,9 @@ public:
           order_(dissection(map.nx, map.ny, used_)),
           place_(map.points(), kNone),
           winds_(map.points(), 0) {
-        for (std::size_t p = 0; p < order_.size(); ++p)
-            place_[order_[p]] = static_cast<std::uint32_t>(p);
+        for (const auto p : indices(order_)) place_[order_[p]] = std::uint32_t(p);
         for (const std::uint32_t k : order_)
-            winds_[k] = static_cast<std::uint8_t>((openings.winds_x(k) ? 1 : 0) |
-                                                  (openings.winds_y(k) ? 2 : 0));
+            winds_[k] = std::uint8_t((openings.winds_x(k) ? 1 : 0) | (openings.winds_y(k) ? 2 : 0));
         assemble(openings);
     }
 
@@ -261,14 +258,14 @@ private:
         cholmod_dense* right = cholmod_l_zeros(n, 2, CHOLMOD_REAL, &common);
         cholmod_.require_memory();
         auto* r = static_cast<double*>(right->x);
-        for (std::size_t place = 0; place < n; ++place) {
+        for (const auto place : indices(n)) {
             const std::size_t k = order_[place];
             for (const bool along_x : {true, false}) {
                 const std::size_t l = along_x ? map_.right_of(k) : map_.above(k);
                 const double c = link(k, l, along_x);
                 if (!(c > 0)) continue;
-                for (std::size_t d = 0; d < 2; ++d) {
-                    const double flux = c * drop(p[d], static_cast<int>(d), k, l, along_x);
+                for (const auto d : indices(2)) {
+                    const double flux = c * drop(p[d], int(d), k, l, along_x);
                     r[place + d * n] += flux;
                     r[place_[l] + d * n] -= flux;
                 }
@@ -277,7 +274,7 @@ private:
         cholmod_dense* solution = cholmod_l_solve(CHOLMOD_A, cholmod_.factor, right, &common);
         std::array<double, 2> error{};
         for (std::size_t d = 0; d < 2 && solution; ++d)
-            for (std::size_t place = 0; place < n; ++place) {
+            for (const auto place : indices(n)) {
                 const double e = static_cast<const double*>(solution->x)[place + d * n];
                 p[d][order_[place]] += e;
                 error[d] += e * r[place + d * n];
@@ -305,7 +302,7 @@ private:
         auto* value = static_cast<double*>(cholmod_.matrix->x);
         std::map<std::size_t, Tie> ties;  // of each set
         SuiteSparse_long at = 0;
-        for (std::size_t p = 0; p < n; ++p) {
+        for (const auto p : indices(n)) {
             start[p] = at;
             const std::size_t k = order_[p];
             const auto near = around(map_, k);
@@ -317,8 +314,7 @@ private:
             value[own] = diagonal;
             Tie& tie = ties[openings.root(k)];
             if (diagonal > tie.diagonal) tie = {own, diagonal};
-            for (std::size_t side = 0; side < 4; ++side)
-                add_link(p, place_[near[side]], c[side], own, at);
+            for (const auto side : indices(4)) add_link(p, place_[near[side]], c[side], own, at);
         }
         start[n] = at;
         for (const auto& [root, tie] : ties) value[tie.entry] += tie.diagonal;
@@ -369,7 +365,7 @@ std::vector<double> flux_of(const GapMap& map, const FlowEquations& equations,
         y[k] += up;
         y[above] += up;
     }
-    for (std::size_t k = 0; k < x.size(); ++k)  // the pressure is in units of dx times the gradient
+    for (const auto k : indices(x))  // the pressure is in units of dx times the gradient
         x[k] = unit * std::hypot(x[k] * map.dx / map.dy, y[k]);
     return x;
 }
@@ -391,7 +387,7 @@ Permeability permeability(const GapMap& map, std::vector<double>* flow) {
         const std::optional<Pressures> pressures = equations.solve();
         if (!pressures) continue;
         if (flow) *flow = flux_of(map, equations, (*pressures)[0], conductance.unit());
-        const double unit = conductance.unit() / static_cast<double>(map.points());
+        const double unit = conductance.unit() / double(map.points());
         const double stretch = map.dx / map.dy;
         const Permeability k = equations.dissipation(*pressures);
         return {unit * stretch * k.xx, unit * k.yy / stretch, unit * k.xy};

@@ -49,13 +49,12 @@ std::vector<SpotSlip> slip_of_spots(ContactCurve& curve, const FrictionHistory& 
     const auto& nodes = history.state().nodes;
     if (nodes.size() < 2) return spots;
     const Level top = curve.level(history.approach());
-    for (std::size_t k = 0; k < top.asperity.size(); ++k)
-        spots.push_back({top.asperity[k], top.a[k], 0, {}});
+    for (const auto k : indices(top.asperity)) spots.push_back({top.asperity[k], top.a[k], 0, {}});
     // Calls visit(spot, force, radius) for the contacts of a level that also exist at the top
     // level.
     const auto match = [&](const Level& level, auto&& visit) {
         std::size_t k = 0;
-        for (std::size_t j = 0; j < level.asperity.size(); ++j) {
+        for (const auto j : indices(level.asperity)) {
             while (k < spots.size() && spots[k].asperity < level.asperity[j]) ++k;
             if (k < spots.size() && spots[k].asperity == level.asperity[j])
                 visit(spots[k], level.f[j], level.a[j]);

@@ -1,7 +1,6 @@
 #include "physics/friction/friction.hpp"
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 
 namespace rsc {
 namespace {
@@ -61,12 +60,11 @@ constexpr double kSameSlope = 1e-10;
 
 void require_friction(const Friction& friction) {
     if (!(friction.coefficient >= 0) || std::isinf(friction.coefficient))
-        throw Error(Failure::bad_input,
-                    "the coefficient of friction must be finite and not negative");
+        bad_input("the coefficient of friction must be finite and not negative");
     if (!(friction.ratio > 0) || std::isinf(friction.ratio))
-        throw Error(Failure::bad_input,
-                    "the ratio m = 4 G*/E* of the tangential to the normal stiffness must be "
-                    "positive and finite");
+        bad_input(
+            "the ratio m = 4 G*/E* of the tangential to the normal stiffness must be "
+            "positive and finite");
 }
 
 FrictionHistory::FrictionHistory(const Friction& friction) : friction_(friction) {
@@ -79,7 +77,7 @@ void FrictionHistory::restore(const State& now, const State& committed) {
         bool sound = std::isfinite(state->delta) && std::isfinite(norm(state->xi)) &&
                      std::isfinite(state->lost + state->step_lost);
         const auto& nodes = state->nodes;
-        for (std::size_t k = 0; k < nodes.size(); ++k) {
+        for (const auto k : indices(nodes)) {
             const Node& node = nodes[k];
             sound = sound && std::isfinite(node.approach + node.load + node.energy) &&
                     (k == 0 || node.approach >= nodes[k - 1].approach) &&
@@ -88,9 +86,7 @@ void FrictionHistory::restore(const State& now, const State& committed) {
         }
         sound =
             sound && nodes.size() != 1 && (nodes.empty() || nodes.back().approach == state->delta);
-        if (!sound)
-            throw Error(Failure::bad_input,
-                        "the state does not belong to a contact with this friction");
+        if (!sound) bad_input("the state does not belong to a contact with this friction");
     }
     now_ = now;
     committed_ = committed;
@@ -98,7 +94,7 @@ void FrictionHistory::restore(const State& now, const State& committed) {
 
 void FrictionHistory::go_to(LoadCurve& curve, double delta, Slide xi) {
     if (!std::isfinite(delta) || !std::isfinite(xi.x) || !std::isfinite(xi.y))
-        throw Error(Failure::bad_input, "approach and slide must be finite");
+        bad_input("approach and slide must be finite");
     State next = now_;
     next.step_lost = 0;
     const double touch = curve.first_touch();
@@ -151,7 +147,7 @@ void FrictionHistory::move(LoadCurve& curve, double share) {
         next.nodes = {{touch, 0, 0, {}}, node_at(curve, delta, {})};
     if (delta > touch && !now_.nodes.empty()) {
         const double stretch = (delta - touch) / (delta - now_.nodes.front().approach);
-        for (std::size_t k = 0; k < now_.nodes.size(); ++k) {
+        for (const auto k : indices(now_.nodes)) {
             const Node& node = now_.nodes[k];
             const Slide u = (share * stretch) * node.deflection;
             if (k == 0)
@@ -291,7 +287,7 @@ void FrictionHistory::slip(LoadCurve& curve, State& state, double dd, Slide dxi,
         return;
     }
     const std::vector<Node> before = std::move(state.nodes);
-    std::vector<Node> after(free.begin(), free.begin() + static_cast<std::ptrdiff_t>(inside));
+    std::vector<Node> after(free.begin(), free.begin() + std::ptrdiff_t(inside));
     Slide direction;
     double edge = touch;
     if (inside == 0) {  // full slip
@@ -392,8 +388,8 @@ FrictionHistory::Tangent FrictionHistory::stiffness(LoadCurve& curve) const {
 namespace {
 
 void require_contact(const LoadCurve& curve, double delta) {
-    if (!std::isfinite(delta)) throw Error(Failure::bad_input, "the approach must be finite");
-    if (!(delta > curve.first_touch())) throw Error(Failure::bad_input, "there is no contact yet");
+    if (!std::isfinite(delta)) bad_input("the approach must be finite");
+    if (!(delta > curve.first_touch())) bad_input("there is no contact yet");
 }
 
 }  // namespace
@@ -408,8 +404,7 @@ std::vector<SlidePoint> slide_to(LoadCurve& curve, const Friction& friction, dou
     require_contact(curve, delta);
     for (double x : xi)
         if (!(x >= 0) || std::isinf(x))
-            throw Error(Failure::bad_input,
-                        "slides of first loading must be finite and not negative");
+            bad_input("slides of first loading must be finite and not negative");
     const double N = curve.load(delta).force, touch = curve.first_touch(),
                  c = friction.slide_per_approach();
     std::vector<SlidePoint> points;
@@ -427,8 +422,7 @@ SlidePoint slide_at_force(LoadCurve& curve, const Friction& friction, double del
     require_contact(curve, delta);
     const double N = curve.load(delta).force;
     if (!(Q >= 0) || Q > friction.coefficient * N)
-        throw Error(Failure::bad_input, "the tangential force must be from 0 to mu N = " +
-                                            text_of(friction.coefficient * N));
+        bad_input("the tangential force must be from 0 to mu N = ", friction.coefficient * N);
     const double inner = Q > 0 ? N - Q / friction.coefficient : N;
     const double stick = Q == 0      ? delta
                          : inner > 0 ? std::min(delta, curve.approach(inner))
@@ -437,7 +431,7 @@ SlidePoint slide_at_force(LoadCurve& curve, const Friction& friction, double del
 }
 
 std::size_t slide_cycle_points(int steps) {
-    const auto n = static_cast<std::size_t>(steps);
+    const auto n = at(steps);
     return n + 1 + 2 * (n * 9 / 10) + 1;
 }
 
@@ -448,32 +442,30 @@ SlideCycle slide_cycle(LoadCurve& curve, const Friction& friction, double delta,
         throw Error(Failure::internal, "the number of steps of a cycle must be a multiple of 10");
     const double mu = friction.coefficient, c = friction.slide_per_approach(),
                  touch = curve.first_touch();
-    const auto n = static_cast<std::size_t>(steps), top = n * 9 / 10;
+    const auto n = at(steps), top = n * 9 / 10;
     std::vector<double> drop(n +
                              1);  // N(delta) - N(delta*) at delta* = delta - k/n (delta - touch)
     const auto whole = curve.load(delta);
     LoadCurve::Load at_top;
     for (std::size_t k = 1; k < n; ++k) {
-        const auto inner =
-            curve.load(delta - (delta - touch) * static_cast<double>(k) / static_cast<double>(n));
+        const auto inner = curve.load(delta - (delta - touch) * double(k) / double(n));
         drop[k] = whole.force - inner.force;
         if (k == top) at_top = inner;
     }
     drop[n] = whole.force;
     SlideCycle cycle;
     cycle.first = n + 1;
-    const double step = c * (delta - touch) / static_cast<double>(n);
+    const double step = c * (delta - touch) / double(n);
     const auto put = [&](double xi, double Q) {
         cycle.displacement.push_back(xi);
         cycle.force.push_back(Q);
     };
-    for (std::size_t k = 0; k <= n; ++k) put(step * static_cast<double>(k), mu * drop[k]);
-    const double xi_A = step * static_cast<double>(top), Q_A = mu * drop[top];
-    for (std::size_t k = 0; k <= top; ++k)
-        put(xi_A - 2 * step * static_cast<double>(k), Q_A - 2 * mu * drop[k]);
+    for (std::size_t k = 0; k <= n; ++k) put(step * double(k), mu * drop[k]);
+    const double xi_A = step * double(top), Q_A = mu * drop[top];
+    for (std::size_t k = 0; k <= top; ++k) put(xi_A - 2 * step * double(k), Q_A - 2 * mu * drop[k]);
     for (std::size_t k = 1; k <= top; ++k)
-        put(-xi_A + 2 * step * static_cast<double>(k), -Q_A + 2 * mu * drop[k]);
-    const double depth = (delta - touch) * static_cast<double>(top) / static_cast<double>(n);
+        put(-xi_A + 2 * step * double(k), -Q_A + 2 * mu * drop[k]);
+    const double depth = (delta - touch) * double(top) / double(n);
     cycle.work =
         4 * mu * c * ((whole.force + at_top.force) * depth - 2 * (whole.energy - at_top.energy));
     return cycle;

@@ -27,7 +27,7 @@ public:
         elastic_->prepare(asperities);
         for (int i : asperities) {
             if (place_[at(i)] >= 0) continue;
-            place_[at(i)] = static_cast<int>(summits_.size());
+            place_[at(i)] = int(summits_.size());
             Summit s;
             s.H = hardness_.H0 * std::sqrt(1 + hardness_.length / radius_[at(i)]);
             s.yield = elastic_->yield_penetration(i, s.H);
@@ -43,7 +43,7 @@ public:
 
     void respond(int n, const int* asperity, const double* u, double* force, double* slope,
                  double* work) const override {
-        for (int k = 0; k < n; ++k) {
+        for (const int k : indices(n)) {
             const Summit& s = summit(asperity[k]);
             if (!(u[k] > s.rest)) {  // rest is 0 if it has never yielded
                 force[k] = slope[k] = work[k] = 0;
@@ -123,15 +123,14 @@ public:
     }
 
     void commit(int n, const int* asperity, const double* u) override {
-        for (int k = 0; k < n; ++k) {
+        for (const int k : indices(n)) {
             Summit& s = summits_[at(place_[at(asperity[k])])];
             if (!(u[k] > s.yield && u[k] > s.deepest)) continue;
             const Flat now = flat(asperity[k], u[k]);
             const double f = s.H * now.area, spent = s.work + flow(s, s.start, now);
             const double x = 0.75 * f / (s.modulus * now.radius);  // a^2/r'
             if (s.deepest == 0)
-                yielded_.insert(std::lower_bound(yielded_.begin(), yielded_.end(), asperity[k]),
-                                asperity[k]);
+                yielded_.insert(std::ranges::lower_bound(yielded_, asperity[k]), asperity[k]);
             s.deepest = u[k];
             s.end = now;
             s.power = std::max(1.5, f * x / spent - 1);
@@ -226,28 +225,25 @@ public:
     }
     // Pairs of the index of a yielded asperity and its largest penetration.
     void write(std::vector<double>& numbers) const override {
-        for (const int i : law_.yielded())
-            numbers.insert(numbers.end(), {static_cast<double>(i), law_.deepest(i)});
+        for (const int i : law_.yielded()) append(numbers, {double(i), law_.deepest(i)});
     }
     void read(std::span<const double> numbers) override {
         std::vector<int> yielded;
         std::vector<double> deepest;
         for (std::size_t k = 0; k + 1 < numbers.size(); k += 2) {
-            if (!(numbers[k] >= 0 && numbers[k] < static_cast<double>(asperities_) &&
+            if (!(numbers[k] >= 0 && numbers[k] < double(asperities_) &&
                   std::isfinite(numbers[k + 1])))
-                throw Error(Failure::bad_input,
-                            "the state does not belong to a contact of these asperities");
-            yielded.push_back(static_cast<int>(numbers[k]));
+                bad_input("the state does not belong to a contact of these asperities");
+            yielded.push_back(int(numbers[k]));
             deepest.push_back(numbers[k + 1]);
         }
         law_.forget();
         law_.prepare(yielded);
-        law_.commit(static_cast<int>(yielded.size()), yielded.data(), deepest.data());
+        law_.commit(int(yielded.size()), yielded.data(), deepest.data());
     }
     std::vector<double> residual_depths() const override {
         std::vector<double> depths;
-        for (std::size_t i = 0; i < asperities_; ++i)
-            depths.push_back(law_.residual_depth(static_cast<int>(i)));
+        for (const auto i : indices(asperities_)) depths.push_back(law_.residual_depth(int(i)));
         return depths;
     }
 
@@ -260,10 +256,9 @@ private:
 
 std::unique_ptr<Law> make_yielding(std::unique_ptr<Law> elastic, const Asperities& asperities,
                                    const Hardness& hardness, bool sinks) {
-    if (!(hardness.H0 > 0))
-        throw Error(Failure::bad_input, "solids%hardness must be positive (Infinity: elastic)");
+    if (!(hardness.H0 > 0)) bad_input("solids%hardness must be positive (Infinity: elastic)");
     if (!(hardness.length >= 0) || std::isinf(hardness.length))
-        throw Error(Failure::bad_input, "solids%size_effect must not be negative");
+        bad_input("solids%size_effect must not be negative");
     if (std::isinf(hardness.H0)) return elastic;
     return std::make_unique<Yielding>(std::move(elastic), asperities, hardness, sinks);
 }

@@ -1,7 +1,6 @@
 // The cone: s = slope rho.
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "physics/indenter/shapes.hpp"
 
 namespace rsc {
@@ -51,7 +50,7 @@ private:
 
 std::shared_ptr<const IndenterShape> make_cone(const char* name, const ShapeKeys& keys) {
     if (!(keys.slope > 0) || std::isinf(keys.slope))
-        throw Error(Failure::bad_input, "the slope of the cone must be positive and finite");
+        bad_input("the slope of the cone must be positive and finite");
     return std::make_shared<Cone>(name, keys);
 }
 

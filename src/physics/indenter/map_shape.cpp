@@ -3,7 +3,6 @@
 // points it is interpolated by polynomials, like measured maps in surface/detection.hpp.
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "physics/indenter/shapes.hpp"
 #include "surface/stencil.hpp"
 #include "surface/surface.hpp"
@@ -40,7 +39,7 @@ public:
     void heights(int n, const double* x, double y, double* s) const override {
         Along u, v;
         const bool inside = place(y, map_.dy, map_.ny, 1, v);
-        for (int k = 0; k < n; ++k)
+        for (const int k : indices(n))
             s[k] = inside && place(x[k], map_.dx, map_.nx, 1, u) ? -sum(u, 0, v, 0) : kInfinity;
     }
     Vec2 gradient(double x, double y) const override {
@@ -69,8 +68,8 @@ public:
             const double from = low / step + 0.5 * (n - 1) - 1,
                          to = high / step + 0.5 * (n - 1) + 1;
             if (to < 0 || from > n - 1) return false;
-            first = std::clamp(static_cast<int>(from), 0, n - 1) / kBlock;
-            last = std::clamp(static_cast<int>(to), 0, n - 1) / kBlock;
+            first = std::clamp(int(from), 0, n - 1) / kBlock;
+            last = std::clamp(int(to), 0, n - 1) / kBlock;
             return true;
         };
         int i0, i1, j0, j1;
@@ -80,7 +79,7 @@ public:
         double top = -kInfinity;
         for (int j = j0; j <= j1; ++j)
             for (int i = i0; i <= i1; ++i)
-                top = std::max(top, tops_[static_cast<std::size_t>(j * blocks_x_ + i)]);
+                top = std::max(top, tops_[std::size_t(j * blocks_x_ + i)]);
         return -top;
     }
     double reach() const override { return 0.5 * std::hypot(map_.Lx(), map_.Ly()); }
@@ -107,7 +106,7 @@ private:
     bool place(double offset, double step, int n, int orders, Along& along) const {
         const double at = offset / step + 0.5 * (n - 1);
         if (!map_.periodic && !(at >= -0.5 - kOnPoint && at <= n - 0.5 + kOnPoint)) return false;
-        int middle = static_cast<int>(std::floor(at + 0.5));
+        int middle = int(std::floor(at + 0.5));
         int reach = kReach;
         if (!map_.periodic) {
             reach = std::clamp(std::min(middle, n - 1 - middle), 1, kReach);
@@ -120,7 +119,7 @@ private:
             along.reach = reach;
             along.t = t;
             along.orders = orders;
-            stencils_[static_cast<std::size_t>(reach - 1)].weights(t, orders, along.weight);
+            stencils_[std::size_t(reach - 1)].weights(t, orders, along.weight);
         }
         along.first = middle - reach;
         return true;
@@ -147,8 +146,8 @@ private:
     // Upper bounds of the heights of blocks: the highest point in and around a block plus a quarter
     // of the range, for values between points.
     void find_tops() {
-        for (int bj = 0; bj < blocks_y_; ++bj)
-            for (int bi = 0; bi < blocks_x_; ++bi) {
+        for (const int bj : indices(blocks_y_))
+            for (const int bi : indices(blocks_x_)) {
                 double low = kInfinity, high = -kInfinity;
                 for (int j = std::max(bj * kBlock - 1, 0);
                      j <= std::min((bj + 1) * kBlock, map_.ny - 1); ++j)
@@ -171,7 +170,7 @@ private:
 
 std::shared_ptr<const IndenterShape> make_map_shape(const char* name, const ShapeKeys& keys) {
     if (!keys.map || keys.map->nx < 3 || keys.map->ny < 3)
-        throw Error(Failure::bad_input, "body 2 needs a map of at least 3 x 3 points");
+        bad_input("body 2 needs a map of at least 3 x 3 points");
     return std::make_shared<MapShape>(name, keys);
 }
 

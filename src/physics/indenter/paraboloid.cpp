@@ -3,7 +3,6 @@
 
 #include "asperities/ellipse.hpp"
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "physics/indenter/shapes.hpp"
 
 namespace rsc {
@@ -99,12 +98,11 @@ private:
 std::shared_ptr<const IndenterShape> make_paraboloid(const char* name, const ShapeKeys& keys) {
     for (const double R : keys.radii)
         if (!(R > 0))
-            throw Error(Failure::bad_input,
-                        "the radii of the paraboloid must be positive (Infinity: straight)");
+            bad_input("the radii of the paraboloid must be positive (Infinity: straight)");
     if (std::isinf(keys.radii[0]) && std::isinf(keys.radii[1]))
-        throw Error(Failure::bad_input,
-                    "indenter%radii = Infinity, Infinity is a flat: use shape = 'sphere' and "
-                    "solids%R = Infinity, Infinity");
+        bad_input(
+            "indenter%radii = Infinity, Infinity is a flat: use shape = 'sphere' and "
+            "solids%R = Infinity, Infinity");
     return std::make_shared<Paraboloid>(name, keys);
 }
 

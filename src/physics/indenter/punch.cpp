@@ -2,7 +2,6 @@
 // (rho - a)^2) up to a + r.
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "physics/indenter/shapes.hpp"
 
 namespace rsc {
@@ -65,10 +64,9 @@ private:
 
 std::shared_ptr<const IndenterShape> make_punch(const char* name, const ShapeKeys& keys) {
     if (!(keys.radius > 0) || std::isinf(keys.radius))
-        throw Error(Failure::bad_input, "the radius of the punch must be positive and finite");
+        bad_input("the radius of the punch must be positive and finite");
     if (!(keys.rim_radius >= 0) || std::isinf(keys.rim_radius))
-        throw Error(Failure::bad_input,
-                    "the rim_radius of the punch must be finite and not negative (0: sharp)");
+        bad_input("the rim_radius of the punch must be finite and not negative (0: sharp)");
     return std::make_shared<Punch>(name, keys);
 }
 

@@ -20,21 +20,20 @@ Shape::Shape(double R) {
 }
 
 Shape make_shape(int shape, const ShapeKeys& keys) {
-    const ShapeRow& row = kShapes.at(static_cast<std::size_t>(shape));
+    const ShapeRow& row = kShapes.at(at(shape));
     return row.make(row.name, keys);
 }
 
 int shape_number(const char* name) {
-    const auto row = std::find_if(kShapes.begin(), kShapes.end(), [name](const ShapeRow& r) {
-        return std::strcmp(r.name, name) == 0;
-    });
-    return static_cast<int>(row - kShapes.begin());
+    const auto row = std::ranges::find_if(
+        kShapes, [name](const ShapeRow& r) { return std::strcmp(r.name, name) == 0; });
+    return int(row - kShapes.begin());
 }
 
 std::vector<Vec2> circle(double radius) {
     constexpr int points = 180;
     std::vector<Vec2> curve;
-    for (int k = 0; k < points; ++k) {
+    for (const int k : indices(points)) {
         const double t = 2 * std::numbers::pi * k / points;
         curve.push_back({radius * std::cos(t), radius * std::sin(t)});
     }

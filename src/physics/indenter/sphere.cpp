@@ -1,7 +1,6 @@
 // Sphere without approximation, s = R - sqrt(R^2 - rho^2), and the flat as its limit.
 
 #include "base/error.hpp"
-#include "base/format.hpp"
 #include "physics/indenter/shapes.hpp"
 
 namespace rsc {
@@ -17,7 +16,7 @@ public:
 
     double height(double x, double y) const override { return of_square(x * x + y * y); }
     void heights(int n, const double* x, double y, double* s) const override {
-        for (int k = 0; k < n; ++k) s[k] = of_square(x[k] * x[k] + y * y);
+        for (const int k : indices(n)) s[k] = of_square(x[k] * x[k] + y * y);
     }
     Vec2 gradient(double x, double y) const override {
         const double up = std::sqrt(R_ * R_ - (x * x + y * y));
@@ -73,9 +72,7 @@ public:
 }  // namespace
 
 std::shared_ptr<const IndenterShape> make_sphere(const char* name, const ShapeKeys& keys) {
-    if (!(keys.R > 0))
-        throw Error(Failure::bad_input,
-                    "the radius of the sphere must be positive (Infinity: flat)");
+    if (!(keys.R > 0)) bad_input("the radius of the sphere must be positive (Infinity: flat)");
     if (std::isinf(keys.R)) return std::make_shared<Flat>(name, keys);
     return std::make_shared<Sphere>(name, keys);
 }

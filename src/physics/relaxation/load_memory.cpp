@@ -12,7 +12,7 @@ LoadMemory::LoadMemory(const Creep& creep)
 
 std::vector<double> LoadMemory::rest() const {
     std::vector<double> r(places_.size(), 0.0);
-    for (std::size_t k = 0; k < y_.size(); ++k)
+    for (const auto k : indices(y_))
         for (std::size_t i = 0; i < r.size(); ++i)
             r[i] += passage_.lags[k].stay * y_[k][i] + passage_.lags[k].before * f_[i];
     return r;
@@ -44,15 +44,14 @@ void LoadMemory::accept(std::span<const std::int32_t> where, std::span<const dou
     // Twice the work (f_0 + f_1)'K (l_1 - l_0)/2 of the step, l = f + sum y_k, by the trapezoidal
     // rule: none at a constant separation.
     double twice = f11 - f00;
-    for (std::size_t k = 0; k < y_.size(); ++k) {
+    for (const auto k : indices(y_)) {
         const auto [stay, a, b] = passage_.lags[k];
         const double y0d = dot(y_[k], d), yf = yf_[k], yy = yy_[k];
         twice += (stay - 1) * (yf + y0d) + a * (f00 + f01) + b * (f01 + f11);
         yy_[k] = stay * stay * yy + a * a * f00 + b * b * f11 +
                  2 * (stay * a * yf + stay * b * y0d + a * b * f01);
         yf_[k] = stay * y0d + a * f01 + b * f11;
-        for (std::size_t i = 0; i < now.size(); ++i)
-            y_[k][i] = stay * y_[k][i] + a * before[i] + b * now[i];
+        for (const auto i : indices(now)) y_[k][i] = stay * y_[k][i] + a * before[i] + b * now[i];
     }
     f_ = now;
     ff_ = f11;
@@ -61,7 +60,7 @@ void LoadMemory::accept(std::span<const std::int32_t> where, std::span<const dou
 
 double LoadMemory::stored() const {
     double sum = ff_;
-    for (std::size_t k = 0; k < y_.size(); ++k)
+    for (const auto k : indices(y_))
         sum += creep_.retardations()[k].rate / creep_.retardations()[k].flow * yy_[k];
     return 0.5 * sum;
 }
@@ -69,23 +68,22 @@ double LoadMemory::stored() const {
 void LoadMemory::forget() { *this = LoadMemory(Creep(creep_)); }
 
 void LoadMemory::write(std::vector<double>& numbers) const {
-    numbers.insert(numbers.end(), {static_cast<double>(places_.size()), ff_, lost_});
-    numbers.insert(numbers.end(), yf_.begin(), yf_.end());
-    numbers.insert(numbers.end(), yy_.begin(), yy_.end());
-    numbers.insert(numbers.end(), places_.begin(), places_.end());
-    numbers.insert(numbers.end(), f_.begin(), f_.end());
-    for (const auto& y : y_) numbers.insert(numbers.end(), y.begin(), y.end());
+    append(numbers, {double(places_.size()), ff_, lost_});
+    append(numbers, yf_);
+    append(numbers, yy_);
+    append(numbers, places_);
+    append(numbers, f_);
+    for (const auto& y : y_) append(numbers, y);
 }
 
 std::size_t LoadMemory::read(std::span<const double> numbers) {
     forget();
     const std::size_t terms = y_.size(), head = 3 + 2 * terms;
     const double count = numbers.size() >= head ? numbers[0] : -1;
-    if (!(count >= 0 && count <= 2147483647.0) ||
-        numbers.size() < head + static_cast<std::size_t>(count) * (2 + terms) ||
-        std::any_of(numbers.begin(), numbers.end(), [](double v) { return !std::isfinite(v); }))
-        throw Error(Failure::bad_input, "the state of the loads is invalid");
-    const auto n = static_cast<std::size_t>(count);
+    if (!(count >= 0 && count <= 2147483647.0) || numbers.size() < head + at(count) * (2 + terms) ||
+        std::ranges::any_of(numbers, [](double v) { return !std::isfinite(v); }))
+        bad_input("the state of the loads is invalid");
+    const auto n = at(count);
     const double* next = numbers.data() + 1;
     const auto take = [&](std::vector<double>& to, std::size_t size) {
         to.assign(next, next + size);
@@ -95,12 +93,12 @@ std::size_t LoadMemory::read(std::span<const double> numbers) {
     lost_ = *next++;
     take(yf_, terms);
     take(yy_, terms);
-    for (std::size_t i = 0; i < n; ++i) places_.push_back(static_cast<std::int32_t>(*next++));
+    for (std::size_t i = 0; i < n; ++i) places_.push_back(std::int32_t(*next++));
     take(f_, n);
     for (auto& y : y_) take(y, n);
-    if (!std::is_sorted(places_.begin(), places_.end()) || (n > 0 && places_[0] < 0))
-        throw Error(Failure::bad_input, "the state of the loads is invalid");
-    return static_cast<std::size_t>(next - numbers.data());
+    if (!std::ranges::is_sorted(places_) || (n > 0 && places_[0] < 0))
+        bad_input("the state of the loads is invalid");
+    return at(next - numbers.data());
 }
 
 }  // namespace rsc

@@ -31,32 +31,29 @@ constexpr double kRounding = 1e-12;  // of the sum of the shares
 // The branches of the body itself, slowest first; equal times are merged. Sets the sum of their
 // shares.
 std::vector<Branch> branches_of(const Relaxation& body, double& total) {
-    if (body.share.size() != body.time.size() ||
-        body.share.size() > static_cast<std::size_t>(kMostRelaxations))
-        throw Error(Failure::bad_input,
-                    "solids%relaxation_share and relaxation_time must have the same number of "
-                    "values, at most 16");
+    if (body.share.size() != body.time.size() || body.share.size() > at(kMostRelaxations))
+        bad_input(
+            "solids%relaxation_share and relaxation_time must have the same number of "
+            "values, at most 16");
     total = 0;
     std::vector<Branch> own;
-    for (std::size_t k = 0; k < body.share.size(); ++k) {
+    for (const auto k : indices(body.share)) {
         if (!(body.share[k] >= 0) || !(body.time[k] > 0) || std::isinf(body.time[k]))
-            throw Error(Failure::bad_input,
-                        "solids%relaxation_share must not be negative, and relaxation_time must be "
-                        "positive and finite");
+            bad_input(
+                "solids%relaxation_share must not be negative, and relaxation_time must be "
+                "positive and finite");
         total += body.share[k];
         if (body.share[k] > 0) own.push_back({body.share[k], 1 / body.time[k]});
     }
     if (total > 1 + kRounding)
-        throw Error(Failure::bad_input, "solids%relaxation_share: the sum of the shares exceeds 1");
+        bad_input("solids%relaxation_share: the sum of the shares exceeds 1");
     if (!(body.soft > 0 && body.soft <= 1))
-        throw Error(Failure::bad_input,
-                    "solids%relaxation_share: body 1 is rigid and cannot relax");
-    std::sort(own.begin(), own.end(),
-              [](const Branch& a, const Branch& b) { return a.rate < b.rate; });
+        bad_input("solids%relaxation_share: body 1 is rigid and cannot relax");
+    std::ranges::sort(own, [](const Branch& a, const Branch& b) { return a.rate < b.rate; });
     for (std::size_t k = own.size(); k-- > 1;) {
         if (own[k].rate > own[k - 1].rate) continue;
         own[k - 1].share += own[k].share;
-        own.erase(own.begin() + static_cast<std::ptrdiff_t>(k));
+        own.erase(own.begin() + std::ptrdiff_t(k));
     }
     return own;
 }
@@ -70,7 +67,7 @@ Creep::Creep(const Relaxation& body) {
 
     // The transform at -lambda, g - sum g_k lambda/(1/tau_k - lambda), decreases between its poles
     // 1/tau_k.
-    for (std::size_t k = 0; k < own.size(); ++k) {
+    for (const auto k : indices(own)) {
         double lambda = 0;
         if (k > 0 || g > 0)
             lambda = zero_between(k > 0 ? own[k - 1].rate : 0.0, own[k].rate, [&](double at) {
@@ -93,7 +90,7 @@ Creep::Creep(const Relaxation& body) {
     last_ = retardations_.empty() || retardations_.front().rate > 0 ? 1 / compliance(HUGE_VAL) : 0;
     double flow = 0;
     for (const Retardation& r : retardations_) flow += r.flow;
-    for (std::size_t k = 0; k < retardations_.size(); ++k) {
+    for (const auto k : indices(retardations_)) {
         const double high = k + 1 < retardations_.size() ? retardations_[k + 1].rate
                                                          : 2 * (retardations_[k].rate + flow);
         const double rate = zero_between(retardations_[k].rate, high, [&](double at) {

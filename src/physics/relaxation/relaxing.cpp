@@ -45,7 +45,7 @@ public:
             all.push_back(of_summits([&, lambda = lambda, flow = flow](const Summit& s) {
                 const auto y = [&](std::size_t j) {
                     double sum = 0;
-                    for (std::size_t l = 0; l < creep_.branches().size(); ++l)
+                    for (const auto l : indices(creep_.branches()))
                         sum += creep_.branches()[l].share * (s.nodes[j].w - s.nodes[j].d[l]) /
                                (creep_.branches()[l].rate - lambda);
                     return flow * sum;
@@ -63,9 +63,9 @@ public:
     void respond(int n, const int* asperity, const double* u, double* force, double* slope,
                  double* work) const override {
         std::vector<double> edge(at(n));
-        for (int k = 0; k < n; ++k) edge[at(k)] = edge_of(asperity[k], u[k]);
+        for (const int k : indices(n)) edge[at(k)] = edge_of(asperity[k], u[k]);
         elastic_->respond(n, asperity, edge.data(), force, slope, work);
-        for (int k = 0; k < n; ++k) {
+        for (const int k : indices(n)) {
             if (const Summit* s = summit(asperity[k])) {
                 const Node& a = s->nodes[node_below(*s, u[k])];
                 if (!(u[k] > s->nodes[0].release)) {
@@ -93,11 +93,11 @@ public:
 
     void commit(int n, const int* asperity, const double* u) override {
         std::vector<double> reached(summits_.size(), -kInfinity);
-        for (int k = 0; k < n; ++k) {
+        for (const int k : indices(n)) {
             int& place = place_[at(asperity[k])];
             if (place < 0 && !(u[k] > 0)) continue;
             if (place < 0) {
-                place = static_cast<int>(summits_.size());
+                place = int(summits_.size());
                 Summit s;
                 s.asperity = asperity[k];
                 s.nodes.push_back(
@@ -109,7 +109,7 @@ public:
             }
             reached[at(place)] = u[k];
         }
-        for (std::size_t i = 0; i < summits_.size(); ++i) advance(summits_[i], reached[i]);
+        for (const auto i : indices(summits_)) advance(summits_[i], reached[i]);
         step(0);
     }
 
@@ -118,38 +118,35 @@ public:
     void forget() override {
         summits_.clear();
         touched_.clear();
-        std::fill(place_.begin(), place_.end(), -1);
+        std::ranges::fill(place_, -1);
     }
 
     // For each summit: asperity, number of nodes, dissipated work, and for each node s, w and d.
     void write(std::vector<double>& numbers) const override {
         for (const Summit& s : summits_) {
-            numbers.insert(numbers.end(), {static_cast<double>(s.asperity),
-                                           static_cast<double>(s.nodes.size()), s.lost});
+            append(numbers, {double(s.asperity), double(s.nodes.size()), s.lost});
             for (const Node& node : s.nodes) {
-                numbers.insert(numbers.end(), {node.s, node.w});
-                numbers.insert(numbers.end(), node.d.begin(), node.d.end());
+                append(numbers, {node.s, node.w});
+                append(numbers, node.d);
             }
         }
     }
     void read(std::span<const double> numbers) override {
         forget();
         const std::size_t terms = creep_.branches().size();
-        const auto wrong = [] {
-            throw Error(Failure::bad_input, "the state does not belong to these asperities");
-        };
+        const auto wrong = [] { bad_input("the state does not belong to these asperities"); };
         for (std::size_t next = 0; next < numbers.size();) {
             if (numbers.size() - next < 3) wrong();
             const double index = numbers[next], count = numbers[next + 1];
-            if (!(index >= 0 && index < static_cast<double>(place_.size()) && count >= 1) ||
-                !(count <= static_cast<double>((numbers.size() - next - 3) / (2 + terms))))
+            if (!(index >= 0 && index < double(place_.size()) && count >= 1) ||
+                !(count <= double((numbers.size() - next - 3) / (2 + terms))))
                 wrong();
             Summit s;
-            s.asperity = static_cast<int>(index);
+            s.asperity = int(index);
             s.lost = numbers[next + 2];
             next += 3;
             elastic_->prepare(std::span<const int>(&s.asperity, 1));
-            for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k, next += 2 + terms) {
+            for (std::size_t k = 0; k < at(count); ++k, next += 2 + terms) {
                 const double* from = numbers.data() + next;
                 if (!std::all_of(from, from + 2 + terms,
                                  [](double v) { return std::isfinite(v); }) ||
@@ -158,7 +155,7 @@ public:
                 s.nodes.push_back(node(s.asperity, from[0], from[1], {from + 2, from + 2 + terms}));
             }
             if (place_[at(s.asperity)] >= 0) wrong();
-            place_[at(s.asperity)] = static_cast<int>(summits_.size());
+            place_[at(s.asperity)] = int(summits_.size());
             s.stored = stored_in(s);
             touched_.push_back(s.asperity);
             summits_.push_back(std::move(s));
@@ -194,10 +191,8 @@ private:
         return {s, w, std::move(d), elastic.force, elastic.work};
     }
     static std::size_t node_below(const Summit& s, double u) {
-        const auto above =
-            std::upper_bound(s.nodes.begin(), s.nodes.end(), u,
-                             [](double x, const Node& node) { return x < node.release; });
-        return above == s.nodes.begin() ? 0 : static_cast<std::size_t>(above - s.nodes.begin()) - 1;
+        const auto above = std::ranges::upper_bound(s.nodes, u, {}, &Node::release);
+        return above == s.nodes.begin() ? 0 : at(above - s.nodes.begin()) - 1;
     }
     double edge_of(int asperity, double u) const {
         const Summit* s = summit(asperity);
@@ -212,7 +207,7 @@ private:
     // Force of a spring divided by its stiffness.
     double held_by(const Node& node) const {
         double q = creep_.last() * node.w;
-        for (std::size_t k = 0; k < node.d.size(); ++k) q += creep_.branches()[k].share * node.d[k];
+        for (const auto k : indices(node.d)) q += creep_.branches()[k].share * node.d[k];
         return q;
     }
 
@@ -223,7 +218,7 @@ private:
         double highest = 0;
         for (Node& node : s.nodes) {
             double left = creep_.last() * node.w;
-            for (std::size_t k = 0; k < node.d.size(); ++k)
+            for (const auto k : indices(node.d))
                 left += creep_.branches()[k].share * passage_.decays[k].stay * node.d[k];
             highest = node.release = std::max(node.s + node.w - left / passage_.modulus, highest);
         }
@@ -242,7 +237,7 @@ private:
         if (u > s.nodes[0].release) add_edge(s, u);
         const std::size_t n = s.nodes.size(), terms = creep_.branches().size();
         std::vector<double> change(n), mean(n, 0.0);  // change of w; mean force over the step
-        for (std::size_t j = 0; j < n; ++j) {
+        for (const auto j : indices(n)) {
             Node& node = s.nodes[j];
             const double w = j + 1 < n ? std::max(u, node.release) - node.s : 0.0;
             change[j] = w - node.w;
@@ -251,7 +246,7 @@ private:
             const bool free =
                 !(u > node.release) &&
                 held_by(node) <= rounding * std::abs(node.w);  // it creeps back freely without work
-            for (std::size_t k = 0; k < terms; ++k) {
+            for (const auto k : indices(terms)) {
                 const Passage::Decay& decay = passage_.decays[k];
                 mean[j] += creep_.branches()[k].share *
                            (decay.change * node.d[k] + decay.mean * change[j]);
@@ -286,10 +281,10 @@ private:
         if (!(share > same && share < 1 - same)) return;
         const Node &a = s.nodes[j], &b = s.nodes[j + 1];
         std::vector<double> d(a.d.size());
-        for (std::size_t k = 0; k < d.size(); ++k) d[k] = a.d[k] + share * (b.d[k] - a.d[k]);
+        for (const auto k : indices(d)) d[k] = a.d[k] + share * (b.d[k] - a.d[k]);
         Node added = node(s.asperity, place, a.w + share * (b.w - a.w), std::move(d));
         added.release = u;
-        s.nodes.insert(s.nodes.begin() + static_cast<std::ptrdiff_t>(j) + 1, std::move(added));
+        s.nodes.insert(s.nodes.begin() + std::ptrdiff_t(j) + 1, std::move(added));
     }
 
     // Integral of S'(s) a b ds for two functions given at the nodes, by parts, since S(0) = 0 and a
@@ -309,7 +304,7 @@ private:
     double stored_in(const Summit& s) const {
         const auto w = [&](std::size_t j) { return s.nodes[j].w; };
         double sum = creep_.last() * over_springs(s, w, w);
-        for (std::size_t k = 0; k < creep_.branches().size(); ++k) {
+        for (const auto k : indices(creep_.branches())) {
             const auto d = [&](std::size_t j) { return s.nodes[j].d[k]; };
             sum += creep_.branches()[k].share * over_springs(s, d, d);
         }

@@ -15,7 +15,7 @@ std::vector<double> deflections(Products& products, const std::vector<double>& x
     if (f.empty()) return phi;
     std::vector<int> first(f.size());
     std::iota(first.begin(), first.end(), 0);
-    products.set_points(static_cast<int>(x.size()), x.data(), y.data());
+    products.set_points(int(x.size()), x.data(), y.data());
     products.set_active(first);
     if (products.inner_error() <= tolerance)
         products.inner_everywhere(f.data(), phi.data());
@@ -38,7 +38,7 @@ RelaxingAsperities::RelaxingAsperities(const Asperities& asperities, const Inden
 void RelaxingAsperities::step(double dt) {
     law_.step(dt);
     rests_ = law_.rests();
-    rest_ = std::accumulate(rests_.begin(), rests_.end(), 0.0);
+    rest_ = sum_of(rests_);
     for (int i : known_) lowered_[at(i)] = kUnknown;
     known_.clear();
 }
@@ -65,7 +65,7 @@ void RelaxingAsperities::lower(Candidates& candidates, Products& products) {
         std::vector<double> x, y;
         add_places(x, y, places);
         std::vector<int> sorted = places, elsewhere;
-        std::sort(sorted.begin(), sorted.end());
+        std::ranges::sort(sorted);
         for (int i : missing)
             if (!std::binary_search(sorted.begin(), sorted.end(), i)) elsewhere.push_back(i);
         add_places(x, y, elsewhere);
@@ -74,12 +74,11 @@ void RelaxingAsperities::lower(Candidates& candidates, Products& products) {
             if (std::isnan(lowered_[at(i)])) known_.push_back(i);
             lowered_[at(i)] = value;
         };
-        for (std::size_t k = 0; k < places.size(); ++k) keep(places[k], phi[k]);
-        for (std::size_t k = 0; k < elsewhere.size(); ++k)
-            keep(elsewhere[k], phi[places.size() + k]);
+        for (const auto k : indices(places)) keep(places[k], phi[k]);
+        for (const auto k : indices(elsewhere)) keep(elsewhere[k], phi[places.size() + k]);
     }
     std::size_t kept = 0;
-    for (std::size_t k = 0; k < set.g0.size(); ++k) {
+    for (const auto k : indices(set.g0)) {
         const double g0 = set.g0[k] - lowered_[at(set.asperity[k])];
         if (!(g0 > 0)) continue;
         set.asperity[kept] = set.asperity[k];
@@ -97,13 +96,13 @@ void RelaxingAsperities::lower(Candidates& candidates, Products& products) {
 
 void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& solution,
                                 Products& products, Level& level) {
-    law_.commit(static_cast<int>(solution.v.size()), candidates.asperity.data(), solution.v.data());
+    law_.commit(int(solution.v.size()), candidates.asperity.data(), solution.v.data());
     std::vector<double> x, y;
     add_places(x, y, law_.touched());
     const auto deflected_by = [&](const std::vector<double>& f) {
         std::vector<double> phi = deflections(products, x, y, f, tolerance_);
         // The constant Kernel::shift() is not a deflection of the body.
-        const double shift = products.kernel().shift() * std::accumulate(f.begin(), f.end(), 0.0);
+        const double shift = products.kernel().shift() * sum_of(f);
         for (double& d : phi) d -= shift;
         return phi;
     };
@@ -111,11 +110,11 @@ void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& so
     std::vector<double> load = f, d = df;
     double stored = 0.5 * dot(f, df);
     const std::vector<std::vector<double>> retarded = law_.retarded();
-    for (std::size_t k = 0; k < retarded.size(); ++k) {
+    for (const auto k : indices(retarded)) {
         const std::vector<double> dy = deflected_by(retarded[k]);
         stored += 0.5 * creep_.retardations()[k].rate / creep_.retardations()[k].flow *
                   dot(retarded[k], dy);
-        for (std::size_t i = 0; i < load.size(); ++i) {
+        for (const auto i : indices(load)) {
             load[i] += retarded[k][i];
             d[i] += dy[i];
         }
@@ -137,11 +136,11 @@ void RelaxingAsperities::accept(const WorkingSet& candidates, const Solution& so
 std::optional<Level> RelaxingAsperities::lasting(const Level& level) const {
     Level all = level;
     const std::vector<double> widest = law_.widest();
-    for (std::size_t i = 0; i < load_.size(); ++i) {
+    for (const auto i : indices(load_)) {
         const int asperity = law_.touched()[i];
-        const auto now = std::lower_bound(level.asperity.begin(), level.asperity.end(), asperity);
+        const auto now = std::ranges::lower_bound(level.asperity, asperity);
         if (now != level.asperity.end() && *now == asperity) {
-            all.f[static_cast<std::size_t>(now - level.asperity.begin())] = load_[i];
+            all.f[at(now - level.asperity.begin())] = load_[i];
             continue;
         }
         const Vec2 image =
@@ -154,20 +153,19 @@ std::optional<Level> RelaxingAsperities::lasting(const Level& level) const {
 }
 
 void RelaxingAsperities::write(std::vector<double>& numbers) const {
-    numbers.insert(numbers.end(), {stored_, lost_, held_});
+    append(numbers, {stored_, lost_, held_});
     law_.write(numbers);
 }
 
 void RelaxingAsperities::read(std::span<const double> numbers) {
-    if (numbers.size() < 3)
-        throw Error(Failure::bad_input, "the state does not belong to these asperities");
+    if (numbers.size() < 3) bad_input("the state does not belong to these asperities");
     law_.read(numbers.subspan(3));
     stored_ = numbers[0];
     lost_ = numbers[1];
     held_ = numbers[2];
     load_ = force_ = law_.forces();
     for (const std::vector<double>& y : law_.retarded())
-        for (std::size_t i = 0; i < y.size(); ++i) load_[i] += y[i];
+        for (const auto i : indices(y)) load_[i] += y[i];
     step(0);
 }
 

@@ -38,8 +38,7 @@ public:
         backward_.reset(fftw_plan_dft_c2r_2d(ny, nx, pressure.fftw(), pressure.values(),
                                              FFTW_ESTIMATE | FFTW_UNALIGNED));
         if (!forward_ || !backward_)
-            throw Error(Failure::internal, "FFTW made no plan for " + std::to_string(nx) + " x " +
-                                               std::to_string(ny) + " points");
+            throw Error(Failure::internal, "FFTW made no plan for ", nx, " x ", ny, " points");
     }
     void to_modes(Plane& plane) {
         fftw_execute_dft_r2c(forward_.get(), plane.values(), plane.fftw());
@@ -49,7 +48,7 @@ public:
     }
     void set(int i, int j, const StressTensor& s) {
         const std::array<double, 6> values{s.xx, s.yy, s.zz, s.xy, s.xz, s.yz};
-        for (std::size_t c = 0; c < 6; ++c) components[c].row(j)[i] = values[c];
+        for (const auto c : indices(6)) components[c].row(j)[i] = values[c];
     }
     StressTensor stress(int i, int j) {
         const auto value = [&](std::size_t c) { return components[c].row(j)[i]; };
@@ -84,9 +83,8 @@ void load(Planes& planes, const LevelPixels& pixels, const GridWindow& where, do
         const int j = pixel / pixels.columns - where.first_row;
         planes.pressure.row(j)[i] = factor * pressure;
     };
-    for (std::size_t k = 0; k < pixels.index.size(); ++k) put(pixels.index[k], pixels.pressure[k]);
-    for (std::size_t k = 0; k < pixels.cohesive.size(); ++k)
-        put(pixels.cohesive[k], pixels.attraction[k]);
+    for (const auto k : indices(pixels.index)) put(pixels.index[k], pixels.pressure[k]);
+    for (const auto k : indices(pixels.cohesive)) put(pixels.cohesive[k], pixels.attraction[k]);
     planes.to_modes(planes.pressure);
 }
 
@@ -129,9 +127,9 @@ void solve_periodic(Planes& planes, const PointGrid& grid, const StressedBody& b
                 const std::array<Complex, 6> mirrored =
                     mode_stress(x_alone ? -unit_x * i : unit_x * i,
                                 y_alone ? -unit_y * row : unit_y * row, depth, body);
-                for (std::size_t c = 0; c < 6; ++c) stress[c] = 0.5 * (stress[c] + mirrored[c]);
+                for (const auto c : indices(6)) stress[c] = 0.5 * (stress[c] + mirrored[c]);
             }
-            for (std::size_t c = 0; c < 6; ++c)
+            for (const auto c : indices(6))
                 planes.components[c].modes(j)[i] = stress[c] * planes.pressure.modes(j)[i];
         }
     });
@@ -231,7 +229,7 @@ void fill_kernel(Planes& planes, const Axis& columns, const Axis& rows, const Po
         std::vector<StressTensor> above = corners(block * kRows), below;
         for (int j = block * kRows; j < std::min(rows.kernel, (block + 1) * kRows); ++j) {
             below = corners(j + 1);
-            for (int i = 0; i < columns.kernel; ++i) {
+            for (const int i : indices(columns.kernel)) {
                 StressTensor s = below[at(i) + 1];
                 s += below[at(i)] * -1;
                 s += above[at(i) + 1] * -1;
@@ -248,7 +246,7 @@ void convolve(Planes& planes) {
     parallel_pieces(6, 0, [&](std::size_t c, std::size_t) {
         Plane& plane = planes.components[c];
         planes.to_modes(plane);
-        for (int j = 0; j < planes.ny; ++j)
+        for (const int j : indices(planes.ny))
             for (int i = 0; i <= planes.nx / 2; ++i)
                 plane.modes(j)[i] *= planes.pressure.modes(j)[i];
         planes.to_values(plane);
@@ -264,7 +262,7 @@ LargestStress measure(Planes& planes, Column&& column, Row&& row, const PointGri
             values->assign(window.points(), 0.0);
     std::vector<LargestStress> rows(at(window.rows));
     parallel_for(window.rows, kRows, 0, [&](int j) {
-        for (int i = 0; i < window.columns; ++i) {
+        for (const int i : indices(window.columns)) {
             const StressMeasures m = measures_of(planes.stress(column(i), row(j)));
             rows[at(j)].take(m, grid.x(window.first_column + i), grid.y(window.first_row + j));
             if (!plane) continue;
@@ -286,7 +284,7 @@ LargestStress stress_below(const PointGrid& grid, const LevelPixels& pixels,
                            StressPlane* plane) {
     if (body.period.finite()) {
         Planes planes(grid.nx, grid.ny);
-        load(planes, pixels, {}, 1 / static_cast<double>(grid.points()));
+        load(planes, pixels, {}, 1 / double(grid.points()));
         solve_periodic(planes, grid, body, depth);
         return measure(
             planes, [&](int i) { return window.first_column + i; },
@@ -303,8 +301,7 @@ LargestStress stress_below(const PointGrid& grid, const LevelPixels& pixels,
     const Axis rows(from.first_row, from.rows, window.first_row, window.rows,
                     body.period.along_y() ? grid.ny : 0);
     Planes planes(columns.size, rows.size);
-    load(planes, pixels, {columns.from, rows.from, 0, 0},
-         1 / (static_cast<double>(planes.nx) * planes.ny));
+    load(planes, pixels, {columns.from, rows.from, 0, 0}, 1 / (double(planes.nx) * planes.ny));
     fill_kernel(planes, columns, rows, grid, body, depth);
     convolve(planes);
     return measure(
@@ -318,8 +315,7 @@ GridWindow stressed_window(const PointGrid& grid, const LevelPixels& pixels, con
     if (contact.columns == 0) return {};
     const auto widened = [&](int first, int count, double step, int n, double repeats, int& begin,
                              int& size) {
-        const int margin =
-            std::max(4, static_cast<int>(std::ceil(std::min(2 * depth / step, 1.0 * n))));
+        const int margin = std::max(4, int(std::ceil(std::min(2 * depth / step, 1.0 * n))));
         begin = std::isfinite(repeats) ? 0 : std::max(0, first - margin);
         size = (std::isfinite(repeats) ? n : std::min(n, first + count + margin)) - begin;
     };

@@ -10,9 +10,7 @@ namespace rsc {
 // Columns and rows first ... first + count - 1 of a grid.
 struct GridWindow {
     int first_column = 0, first_row = 0, columns = 0, rows = 0;
-    std::size_t points() const {
-        return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-    }
+    std::size_t points() const { return at(columns) * at(rows); }
 };
 
 // The half-space that is loaded, and how.

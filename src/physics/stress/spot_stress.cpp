@@ -47,7 +47,7 @@ LargestStress stress_below(const Level& level, double nu, double depth) {
     const std::size_t n = level.f.size();
     const auto stress = [&](double x, double y) {
         StressTensor sum;
-        for (std::size_t k = 0; k < n; ++k) {
+        for (const auto k : indices(n)) {
             if (!(level.a[k] > 0)) continue;
             const double dx = x - level.x[k], dy = y - level.y[k], r = std::hypot(dx, dy);
             sum += turned(hertz_stress(r, depth, level.f[k], level.a[k], nu), r > 0 ? dx / r : 1.0,
@@ -60,7 +60,7 @@ LargestStress stress_below(const Level& level, double nu, double depth) {
         const double x = level.x[k], y = level.y[k];
         each[k].take(stress(x, y), x, y);
         for (const double radius : {0.5 * level.a[k], level.a[k]})
-            for (int p = 0; p < around; ++p) {
+            for (const int p : indices(around)) {
                 const double angle = 2 * std::numbers::pi * p / around;
                 const double px = x + radius * std::cos(angle), py = y + radius * std::sin(angle);
                 each[k].take(stress(px, py), px, py);

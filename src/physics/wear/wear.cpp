@@ -21,8 +21,8 @@ public:
                  const std::vector<double>& depths) const override {
         double volume = 0, deepest = 0, sum = 0, squares = 0;
         const auto each = [&](auto&& visit) {
-            for (int j = 0; j < map.ny; ++j)
-                for (int i = 0; i < map.nx; ++i)
+            for (const int j : indices(map.ny))
+                for (const int i : indices(map.nx))
                     visit(map(i, j), depths.empty() ? 0.0 : depths[at(j) * at(map.nx) + at(i)]);
         };
         each([&](double height, double depth) {
@@ -30,7 +30,7 @@ public:
             deepest = std::max(deepest, depth);
             sum += height - depth;
         });
-        const double points = static_cast<double>(map.nx) * map.ny, mean = sum / points;
+        const double points = double(map.nx) * map.ny, mean = sum / points;
         each([&](double height, double depth) {
             squares += (height - depth - mean) * (height - depth - mean);
         });
@@ -43,9 +43,7 @@ private:
     double coefficient_, rate_ = 0;
 };
 
-void refuse(const char* why) {
-    throw Error(Failure::bad_input, std::string("wear is not available ") + why);
-}
+void refuse(const char* why) { bad_input("wear is not available ", why); }
 
 }  // namespace
 
@@ -53,7 +51,7 @@ std::unique_ptr<Lowering> make_wear(const SolverOptions& options) {
     const double k = options.physics.wear.coefficient;
     if (k == 0) return nullptr;
     if (!(k > 0 && std::isfinite(k)))
-        throw Error(Failure::bad_input, "the coefficient of wear must be positive and finite");
+        bad_input("the coefficient of wear must be positive and finite");
     if (std::isfinite(options.physics.hardness.H0)) refuse("with a hardness");
     if (options.physics.adhesion.work > 0) refuse("with adhesion");
     if (!options.physics.relaxation.none()) refuse("for bodies that relax");
