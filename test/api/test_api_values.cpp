@@ -34,8 +34,8 @@ struct Map {
 
 double rms(const Values& z) {
     double mean = 0, square = 0;
-    for (const double v : z) mean += v / static_cast<double>(z.size());
-    for (const double v : z) square += (v - mean) * (v - mean) / static_cast<double>(z.size());
+    for (const double v : z) mean += v / double(z.size());
+    for (const double v : z) square += (v - mean) * (v - mean) / double(z.size());
     return std::sqrt(square);
 }
 

@@ -19,7 +19,7 @@ WorkingSet candidates(const Asperities& a, const Indenter& indenter, double Z0) 
     for (const auto i : indices(a)) {
         const double g0 = indenter.clearance(a.x[i], a.y[i], a.z[i]) - Z0;
         if (!(g0 > 0)) continue;
-        set.asperity.push_back(static_cast<int>(i));
+        set.asperity.push_back(int(i));
         set.x.push_back(a.x[i]);
         set.y.push_back(a.y[i]);
         set.g0.push_back(g0);
@@ -40,8 +40,7 @@ TEST(matrix) {
     CHECK(n > 20);
     const double delta = 0.005;
     std::vector<double> force(n), K(n * n), unused(n * n), above, below, R;
-    for (const std::size_t i : up_to(n))
-        force[i] = 2e-5 * (1 + std::sin(3.0 * static_cast<double>(i)));
+    for (const std::size_t i : up_to(n)) force[i] = 2e-5 * (1 + std::sin(3.0 * double(i)));
     const auto penetrations = [&](const std::vector<double>& F) {
         std::vector<double> v = set.g0;
         for (const std::size_t i : up_to(n))

@@ -65,8 +65,7 @@ double residual(const Asperities& a, const Indenter& indenter, double Z0, const 
         error2 += (f - F[i]) * (f - F[i]);
         force2 += F[i] * F[i];
     }
-    return force2 > 0 ? static_cast<double>(std::sqrt(error2 / force2))
-                      : static_cast<double>(std::sqrt(error2));
+    return force2 > 0 ? double(std::sqrt(error2 / force2)) : double(std::sqrt(error2));
 }
 
 void check_answer(const Asperities& a, const Indenter& indenter, double Z0, Method method,
@@ -77,7 +76,7 @@ void check_answer(const Asperities& a, const Indenter& indenter, double Z0, Meth
     const bool told = !level.converged, right = left <= 2 * tolerance;
     if (told || !right)
         std::printf("%s, method %d: status %d, residual %.1e, true residual %.1e\n", what,
-                    static_cast<int>(method), static_cast<int>(level.status), level.residual, left);
+                    int(method), int(level.status), level.residual, left);
     CHECK(!told);
     CHECK(right);
     CHECK_CLOSE(

@@ -207,8 +207,8 @@ TEST(summits_of_maps) {
             find_asperities(map, Curvature::geometric, nullptr, 1, Detail::subgrid);
         double above = 0;
         for (const auto k : indices(found)) {
-            const int i = static_cast<int>(std::lround(found.x[k] / map.dx)),
-                      j = static_cast<int>(std::lround(found.y[k] / map.dy));
+            const int i = int(std::lround(found.x[k] / map.dx)),
+                      j = int(std::lround(found.y[k] / map.dy));
             double highest = -1;
             for (int dj = -1; dj <= 1; ++dj)
                 for (int di = -1; di <= 1; ++di) highest = std::max(highest, map(i + di, j + dj));

@@ -50,7 +50,7 @@ TEST(proofs_are_true) {
         const Points p =
             random_points(5 + seed % 60, 0.002 * (1 + seed % 40), 0.5 * (seed % 4), seed);
         Vector M = dense(p.x, p.y, p.a);
-        const bool definite = lapack::is_positive_definite(static_cast<int>(p.a.size()), M.data());
+        const bool definite = lapack::is_positive_definite(int(p.a.size()), M.data());
         const bool proof = positive_definite_by_shells(p.x, p.y, p.a);
         CHECK(!proof || definite);
         proved += proof;
@@ -69,8 +69,7 @@ std::vector<Vector> all_minima(const Law& law, double E_star, const Asperities& 
     std::vector<Vector> minima;
     for (unsigned subset = 0; subset < 1u << n; ++subset) {
         Vector F(n), v(n);
-        for (const std::size_t i : up_to(n))
-            F[i] = subset >> i & 1 ? law.force(static_cast<int>(i), g0[i]) : 0;
+        for (const std::size_t i : up_to(n)) F[i] = subset >> i & 1 ? law.force(int(i), g0[i]) : 0;
         double change = 1;
         for (int sweep = 0; sweep < 100000 && change > 1e-12; ++sweep) {
             change = 0;
@@ -80,7 +79,7 @@ std::vector<Vector> all_minima(const Law& law, double E_star, const Asperities& 
                     if (j != i)
                         v[i] -= F[j] / (pi * E_star * std::hypot(p.x[i] - p.x[j], p.y[i] - p.y[j]));
                 }
-                const double f = law.force(static_cast<int>(i), v[i]);
+                const double f = law.force(int(i), v[i]);
                 change = std::max(change, std::abs(f - F[i]));
                 F[i] = f;
             }
@@ -108,7 +107,7 @@ TEST(told_only_where_it_is_so) {
             // radii over decades: a flat asperity far outside the spot of a sharp one may be its
             // rival
             set >= 4000;
-        const double side = std::sqrt(static_cast<double>(n)) * (0.3 + 1.2 * uniform(random)) *
+        const double side = std::sqrt(double(n)) * (0.3 + 1.2 * uniform(random)) *
                             (wide ? 3 : 1);  // contact radii are up to 1
         Asperities p;
         Vector g0;
@@ -120,7 +119,7 @@ TEST(told_only_where_it_is_so) {
             p.radius.push_back(wide ? std::pow(10.0, -1 + 8 * uniform(random))
                                     : 0.3 + uniform(random));
             g0.push_back(wide ? std::pow(10.0, -2 * uniform(random)) : uniform(random));
-            all.push_back(static_cast<int>(i));
+            all.push_back(int(i));
         }
         const auto law = make_law(LawKind::hertz, p, E_star);
         law->prepare(all);
@@ -131,8 +130,7 @@ TEST(told_only_where_it_is_so) {
             (minima.size() == 1 ? unique : several) += 1;
         for (const Vector& v : minima) {
             Vector force(n), slope(n), work(n);
-            law->respond(static_cast<int>(n), all.data(), v.data(), force.data(), slope.data(),
-                         work.data());
+            law->respond(int(n), all.data(), v.data(), force.data(), slope.data(), work.data());
             const bool one = has_one_solution(*law, *make_kernel(Interaction::point, E_star), all,
                                               p.x, p.y, v, force, slope);
             CHECK(!one || minima.size() == 1);
@@ -154,8 +152,7 @@ TEST(lanczos_finds_the_lowest) {
             const double shift = 0.5 * (low + high);
             Vector shifted = M;
             for (const std::size_t k : up_to(n)) shifted[k * n + k] -= shift;
-            (lapack::is_positive_definite(static_cast<int>(n), shifted.data()) ? low : high) =
-                shift;
+            (lapack::is_positive_definite(int(n), shifted.data()) ? low : high) = shift;
         }
         Vector vector;
         const double found = lapack::lanczos_lowest(

@@ -69,7 +69,7 @@ std::string another_value(const Key& key, int salt) {
         case Type::integer:
         case Type::long_integer:
             return std::to_string(key.bounds.high < 1e9 && key.bounds.high > 0
-                                      ? static_cast<int>(key.bounds.high) - salt % 2
+                                      ? int(key.bounds.high) - salt % 2
                                       : 12345 + salt);
         case Type::string: return "'it''s a \"text\", number " + std::to_string(salt) + "!'";
         case Type::choice: return std::string("'") + key.choices[salt % key.choices.size()] + "'";
@@ -155,7 +155,7 @@ TEST(test_study) {
 TEST(test_options) {
     const auto parse = [](std::vector<const char*> words) {
         words.insert(words.begin(), "rsc");
-        return parse_options(static_cast<int>(words.size()), words.data());
+        return parse_options(int(words.size()), words.data());
     };
     const Options o = parse({"-q", "--set", "surface%n=64", "-srun%seed=2", "--output=x.nc",
                              "case.nml", "--progress", "never", "--member", "3"});

@@ -16,7 +16,7 @@ std::string unescaped(const std::string& text) {
         if (text[i] != '\\') {
             result += text[i];
         } else if (text[++i] == 'x') {
-            result += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
+            result += char(std::stoi(text.substr(i + 1, 2), nullptr, 16));
             i += 2;
         } else {
             result += text[i] == 'n' ? '\n' : '\t';
@@ -44,7 +44,7 @@ std::string of_words(const std::string& line) {
             words.back() += c;
     std::vector<const char*> pointers;
     for (const std::string& word : words) pointers.push_back(word.c_str());
-    return refusal([&] { parse_options(static_cast<int>(pointers.size()), pointers.data()); });
+    return refusal([&] { parse_options(int(pointers.size()), pointers.data()); });
 }
 
 // One message for each place, in order; each begins with the place and contains the word.

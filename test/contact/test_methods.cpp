@@ -86,7 +86,7 @@ TEST(of_two_the_first_met_carries) {
 TEST(auto_chooses) {
     const auto method_of = [](int n, Method method, Interaction interaction, Period period) {
         std::vector<std::array<double, 4>> a;
-        const int side = static_cast<int>(std::sqrt(n));
+        const int side = int(std::sqrt(n));
         for (const int i : up_to(side * side))
             a.push_back(
                 {(i % side + 0.5) / side, (i / side + 0.5) / side, i == 0 ? 1e-2 : 1e-9, 1e-3});

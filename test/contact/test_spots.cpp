@@ -75,8 +75,7 @@ TEST(against_counting) {
                 break;
             }
         }
-    CHECK_CLOSE(union_area(spots), 16.0 * static_cast<double>(inside) / (double(n) * n) + pi * 0.25,
-                kCounting);
+    CHECK_CLOSE(union_area(spots), 16.0 * double(inside) / (double(n) * n) + pi * 0.25, kCounting);
 }
 
 TEST(all_spots) {

@@ -28,7 +28,7 @@ TEST(hertz) {
     double error_before = 0;
     for (const double cells : {10.0, 20.0, 40.0}) {  // pixels a contact radius
         const double R = 2.5, a = 2.5e-3, delta = a * a / R, h = a / cells;
-        const int n = static_cast<int>(2.6 * cells);
+        const int n = int(2.6 * cells);
         const HeightMap map = flat_map(n, n, h, h);
         // Off the symmetry of the pixels, so that no luck helps.
         const auto contact = make_element_contact(

@@ -35,8 +35,8 @@ struct Truth {
     int nx() const { return map.nx; }
     int ny() const { return map.ny; }
     std::size_t n() const { return z.size(); }
-    double x(std::size_t k) const { return map.x0 + map.dx * (static_cast<int>(k) % nx()); }
-    double y(std::size_t k) const { return map.y0 + map.dy * (static_cast<int>(k) / nx()); }
+    double x(std::size_t k) const { return map.x0 + map.dx * (int(k) % nx()); }
+    double y(std::size_t k) const { return map.y0 + map.dy * (int(k) / nx()); }
     double pixel() const { return map.dx * map.dy; }
     bool repeats() const { return tip.period.finite(); }
 
@@ -52,12 +52,11 @@ struct Truth {
                 K[k][l] = !repeats()
                               ? love(x(k) - x(l), y(k) - y(l), map.dx / 2, map.dy / 2) / (pi * kE)
                           : k > 0 ? K[0][shifted(l, k)]
-                                  : answer(static_cast<int>(l) % nx(), static_cast<int>(l) / nx());
+                                  : answer(int(l) % nx(), int(l) / nx());
     }
     // Where pixel l lies seen from k.
     std::size_t shifted(std::size_t l, std::size_t k) const {
-        const int i = static_cast<int>(l) % nx() - static_cast<int>(k) % nx(),
-                  j = static_cast<int>(l) / nx() - static_cast<int>(k) / nx();
+        const int i = int(l) % nx() - int(k) % nx(), j = int(l) / nx() - int(k) / nx();
         return (j + ny()) % ny() * nx() + (i + nx()) % nx();
     }
     // The modes that the pixels carry, each with 2/(E* |k|).
@@ -71,7 +70,7 @@ struct Truth {
                 sum += 2 / (kE * std::hypot(kx, ky)) *
                        std::cos(2 * pi * (double(a * i) / nx() + double(b * j) / ny()));
             }
-        return sum / static_cast<double>(n());
+        return sum / double(n());
     }
 
     double height(std::size_t k) const {
@@ -215,7 +214,7 @@ void whole_level(const Level& level, const Truth& t, double Z0) {
             }
             alone += t.p[touching[k]] * love(dx, dy, t.map.dx / 2, t.map.dy / 2) / (pi * kE);
         }
-        CHECK(level.asperity[c] == static_cast<int>(peak[c]));
+        CHECK(level.asperity[c] == int(peak[c]));
         SAME(u[c], alone, sigma);
     }
     SAME(separation, Z0, sigma);

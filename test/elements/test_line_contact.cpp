@@ -60,7 +60,7 @@ TEST(images_along_a_line) {
                        1 / std::hypot((long double)across, along - k * (long double)L) -
                        2 / (k * (long double)L);
             sum += (2 * along * along - across * across) / (2.0L * n * n * L * L * L);
-            CHECK_CLOSE(kernel.images(across, along), static_cast<double>(sum), 2e-12);
+            CHECK_CLOSE(kernel.images(across, along), double(sum), 2e-12);
         }
 }
 

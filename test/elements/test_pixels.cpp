@@ -71,8 +71,7 @@ std::vector<Pixel> clusters(int spots, int radius, int extent, unsigned seed) {
     std::vector<Pixel> pixels;
     std::vector<char> taken(extent * extent, 0);
     for (int k = 0; k < spots; ++k) {
-        const int cx = static_cast<int>(random() % static_cast<unsigned>(extent)),
-                  cy = static_cast<int>(random() % static_cast<unsigned>(extent));
+        const int cx = int(random() % unsigned(extent)), cy = int(random() % unsigned(extent));
         for (int y = std::max(0, cy - radius); y < std::min(extent, cy + radius); ++y)
             for (int x = std::max(0, cx - radius); x < std::min(extent, cx + radius); ++x) {
                 auto& t = taken[y * extent + x];
@@ -106,7 +105,7 @@ TEST(products) {
             std::mt19937 random(3);
             std::vector<double> positive(n), mixed(n), w(n);
             for (const std::size_t k : up_to(n)) {
-                positive[k] = static_cast<double>(random() % 1000) / 1000;
+                positive[k] = double(random() % 1000) / 1000;
                 mixed[k] = positive[k] - 0.5;
                 if (k % 5 == 3) positive[k] = 0;
             }
@@ -116,8 +115,7 @@ TEST(products) {
             for (const std::size_t y : up_to(size))
                 for (const std::size_t x : up_to(size))
                     table[y * size + x] =
-                        scale * love(static_cast<double>(x) * dx, static_cast<double>(y) * dy,
-                                     0.5 * dx, 0.5 * dy);
+                        scale * love(double(x) * dx, double(y) * dy, 0.5 * dx, 0.5 * dy);
             const auto exact = [&](const std::vector<double>& p) {
                 std::vector<double> sums(n, 0.0);
                 for (const std::size_t k : up_to(n))

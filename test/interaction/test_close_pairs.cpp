@@ -44,7 +44,7 @@ void the_same(const Vector& x, const Vector& y, const Vector& reach, const Perio
         same = i == p && j == q && std::abs(d - distance) <= (period.finite() ? 1e-14 : 0);
     }
     CHECK(same);
-    CHECK(count_overlapping(x, y, reach, period) == static_cast<long>(pairs.size()));
+    CHECK(count_overlapping(x, y, reach, period) == long(pairs.size()));
 }
 
 // Sizes from equal to spread over ten decades, squares and thin strips of points; some points have

@@ -34,14 +34,13 @@ TEST(closed_forms) {
 // Another parameter shares the sum out otherwise between images and modes.
 double ewald(double x, double y, double Lx, double Ly, double b) {
     double sum = -2 * std::sqrt(pi) / (b * Lx * Ly);
-    const int mx = static_cast<int>(7 / (b * Lx)) + 2, my = static_cast<int>(7 / (b * Ly)) + 2;
+    const int mx = int(7 / (b * Lx)) + 2, my = int(7 / (b * Ly)) + 2;
     for (int m = -mx; m <= mx; ++m)
         for (int n = -my; n <= my; ++n) {
             const double d = std::hypot(x - m * Lx, y - n * Ly);
             sum += d > 0 ? std::erfc(b * d) / d : -2 * b / std::sqrt(pi);
         }
-    const int kx = static_cast<int>(14 * b * Lx / (2 * pi)) + 1,
-              ky = static_cast<int>(14 * b * Ly / (2 * pi)) + 1;
+    const int kx = int(14 * b * Lx / (2 * pi)) + 1, ky = int(14 * b * Ly / (2 * pi)) + 1;
     for (int m = -kx; m <= kx; ++m)
         for (int n = -ky; n <= ky; ++n) {
             if (m == 0 && n == 0) continue;

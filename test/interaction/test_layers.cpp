@@ -80,7 +80,7 @@ double by_boundary_conditions(const LayeredBody& body, double wavenumber) {
     Real down = 0;
     for (const int c : up_to(4)) down += x[c] * state(body.layer[0], c, 0).down;
     const Real nu = body.layer[0].nu;  // a half-space: 2 (1 - nu^2)/(E k)
-    return static_cast<double>(down * k / (2 * (1 - nu * nu)));
+    return double(down * k / (2 * (1 - nu * nu)));
 }
 
 TEST(answers) {

@@ -32,7 +32,7 @@ Points clustered_points(std::size_t n, unsigned seed) {
     std::normal_distribution<double> normal;
     Points p = uniform_points(n, seed);
     for (const std::size_t i : up_to(n - n / 10)) {
-        const double cluster = static_cast<double>(i % 9);
+        const double cluster = double(i % 9);
         p.x[i] = std::cos(cluster) + 0.01 * normal(engine);
         p.y[i] = std::sin(2 * cluster) + 0.01 * normal(engine);
     }
@@ -70,8 +70,7 @@ double error_of(const Points& p, const Vector& f, const Vector& phi) {
         difference += (phi[i] - sum) * (phi[i] - sum);
         norm += sum * sum;
     }
-    return norm > 0 ? static_cast<double>(std::sqrt(difference / norm))
-                    : static_cast<double>(std::sqrt(difference));
+    return norm > 0 ? double(std::sqrt(difference / norm)) : double(std::sqrt(difference));
 }
 
 void check_errors(const Points& p, const char* name, bool on_mesh = true) {

@@ -41,8 +41,8 @@ void truth(const Points& targets, const Points& sources, std::vector<double>& ph
             sum += sources.f[j] / d;
             magnitude += std::abs(sources.f[j]) / d;
         }
-        phi[i] = static_cast<double>(sum);
-        size[i] = static_cast<double>(magnitude);
+        phi[i] = double(sum);
+        size[i] = double(magnitude);
     }
 }
 
@@ -52,7 +52,7 @@ double distance(const std::vector<T>& a, const std::vector<double>& b,
                 const std::vector<double>& size) {
     double largest = 0;
     for (const auto i : indices(b)) {
-        const double error = std::abs(static_cast<double>(a[i]) - b[i]);
+        const double error = std::abs(double(a[i]) - b[i]);
         const double relative = size[i] > 0 ? error / size[i] : error;
         if (!(relative <= largest)) largest = std::isnan(relative) ? kInfinity : relative;
     }
@@ -173,7 +173,7 @@ TEST(instruction_sets) {
         CHECK_CLOSE(distance(phi, exact, size), 0, kDouble);
 
         const auto scaled = [&](std::vector<float> v) {
-            for (float& a : v) a *= static_cast<float>(unit / kSingleWeight);
+            for (float& a : v) a *= float(unit / kSingleWeight);
             return v;
         };
         std::vector<float> single(n, 0.0f);

@@ -93,7 +93,7 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
                 CHECK(error_of(part, among) <= loose * kind.inner && p.count() == count + 2);
                 p.inner_everywhere(f.data(), all.data());
                 CHECK(error_of(all, truth) <= loose * kind.inner);
-                p.elsewhere(f.data(), static_cast<int>(others), xo.data(), yo.data(), there.data());
+                p.elsewhere(f.data(), int(others), xo.data(), yo.data(), there.data());
                 CHECK(error_of(there, elsewhere) <= kind.elsewhere);
                 p.inner_passive(f.data(), rest.data());
                 CHECK(error_of(rest, beside) <= loose * kind.inner);

@@ -31,8 +31,7 @@ struct Artificial {
 
 // Over |x' - x| < a, |y' - y| < b, cut into parts not wider than half the depth.
 double over(const Artificial& s, double x, double y, double a, double b) {
-    const int nx = 1 + static_cast<int>(4 * a / s.depth),
-              ny = 1 + static_cast<int>(4 * b / s.depth);
+    const int nx = 1 + int(4 * a / s.depth), ny = 1 + int(4 * b / s.depth);
     const auto integral = [](double from, double to, auto f) {
         return boost::math::quadrature::gauss<double, 7>::integrate(f, from, to);
     };
@@ -90,7 +89,7 @@ void wave(int nx, int ny, int m, int n) {
             },
             [&](int j, const Real* row) {
                 for (const int i : up_to(nx))
-                    CHECK_CLOSE(static_cast<double>(row[i]), factor * value(i, j),
+                    CHECK_CLOSE(double(row[i]), factor * value(i, j),
                                 (sizeof(Real) == 4 ? 1e-5 : 1e-12) * factor);
             },
             back ? PeriodicPixels<Real>::Answer::pressure

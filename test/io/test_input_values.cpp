@@ -77,10 +77,10 @@ HeightMap filled(const std::vector<Variable>& variables) {
 TEST(types) {
     const std::vector<std::tuple<nc_type, double, bool>> all = {
         {NC_DOUBLE, NC_FILL_DOUBLE, true},
-        {NC_FLOAT, static_cast<double>(NC_FILL_FLOAT), true},
-        {NC_INT, static_cast<double>(NC_FILL_INT), true},
-        {NC_SHORT, static_cast<double>(NC_FILL_SHORT), true},
-        {NC_INT64, static_cast<double>(NC_FILL_INT64), true},
+        {NC_FLOAT, double(NC_FILL_FLOAT), true},
+        {NC_INT, double(NC_FILL_INT), true},
+        {NC_SHORT, double(NC_FILL_SHORT), true},
+        {NC_INT64, double(NC_FILL_INT64), true},
         {NC_BYTE, -127, false},
         {NC_UBYTE, 255, false},
         {NC_USHORT, 65535, false}};

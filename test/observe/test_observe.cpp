@@ -107,7 +107,7 @@ TEST(test_exact_sums) {
         }
         const Wide high = static_cast<Wide>(whole.high / quantum);
         CHECK(high + static_cast<Wide>(whole.low / quantum) == truth);
-        CHECK(whole.high == static_cast<double>(truth) * quantum);  // the nearest double
+        CHECK(whole.high == double(truth) * quantum);  // the nearest double
         std::shuffle(values.begin(), values.end(), random);
     }
     // Where the quantum would leave the range of doubles, and of nothing.

@@ -85,8 +85,7 @@ TEST(test_archive) {
 
 std::vector<std::string> some_records() {
     std::vector<std::string> records;
-    for (const int k : up_to(4))
-        records.push_back(std::string(40 + 13 * k, static_cast<char>('a' + k)));
+    for (const int k : up_to(4)) records.push_back(std::string(40 + 13 * k, char('a' + k)));
     return records;
 }
 
@@ -143,7 +142,7 @@ TEST(test_torn) {
     // A spoilt byte: the records before it are there, and nothing wrong is.
     for (std::size_t at = 0; at < whole.size(); at += 5) {
         std::string spoilt = whole;
-        spoilt[at] = static_cast<char>(spoilt[at] ^ 0x20);
+        spoilt[at] = char(spoilt[at] ^ 0x20);
         write_bytes(state, spoilt);
         if (at < ends[0]) {
             CHECK(!refusal(file, c, true).empty());

@@ -150,8 +150,7 @@ TEST(maps) {
     }
     CHECK_RELATIVE(two.statistics.sigma, 1.5 * one.statistics.sigma, 1e-9);
     CHECK_RELATIVE(one.statistics.m2, one.statistics.m2_grid, 0);
-    CHECK_RELATIVE(job.domain.mean_spacing,
-                   std::sqrt(75 / static_cast<double>(one.asperities.size())), 1e-9);
+    CHECK_RELATIVE(job.domain.mean_spacing, std::sqrt(75 / double(one.asperities.size())), 1e-9);
     // As many files as realizations are asked for.
     c.run.first_realization = 2;
     CHECK(!accepted([&] { prepare(c); }));

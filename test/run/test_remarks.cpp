@@ -36,7 +36,7 @@ TEST(thresholds) {
                remarks(change).find(word) != std::string::npos;
     };
     for (const auto k : indices(kCauseNames)) {
-        const Cause cause{static_cast<int>(k)};
+        const Cause cause{int(k)};
         CHECK(said(words_of_doubts(bit(cause)).c_str(), [&](V& v) { v.doubts = bit(cause); }));
     }
     CHECK(!said("E*/10", [](V& v) { v.extreme_area_fraction = 0.01; }) &&

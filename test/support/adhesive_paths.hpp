@@ -20,7 +20,7 @@ inline RandomAsperities random_asperities(int n, unsigned seed, double apart) {
     std::mt19937 generator(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
     rsc::Asperities a;
-    while (static_cast<int>(a.x.size()) < n) {
+    while (int(a.x.size()) < n) {
         const double px = uniform(generator), py = uniform(generator);
         bool close = false;
         for (const auto k : indices(a.x))
@@ -138,7 +138,7 @@ public:
     double Z = 1;  // the present separation
 
     void go_to(double end, double step) {
-        const int steps = static_cast<int>(std::ceil(std::abs(end - Z) / step));
+        const int steps = int(std::ceil(std::abs(end - Z) / step));
         const double from = Z;
         for (int k = 1; k <= steps; ++k) {
             Z = from + (end - from) * k / steps;
@@ -152,8 +152,7 @@ public:
         return sum;
     }
     int attached() const {
-        return static_cast<int>(
-            std::count_if(radius_.begin(), radius_.end(), [](double c) { return c > 0; }));
+        return int(std::count_if(radius_.begin(), radius_.end(), [](double c) { return c > 0; }));
     }
 
 private:

@@ -231,7 +231,7 @@ TEST(tabulated) {
         for (double q = 1; q <= 100; q *= 1.01) {
             rings.push_back(2 * pi * q);
             for (const std::size_t a : up_to(angles)) {
-                const double angle = pi * static_cast<double>(a) / angles;
+                const double angle = pi * double(a) / angles;
                 psd.push_back(relative_psd(s, q * std::cos(angle), q * std::sin(angle)));
             }
         }

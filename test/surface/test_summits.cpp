@@ -58,7 +58,7 @@ Waves waves_of(const Spectrum& s, std::int64_t seed, std::int64_t realization) {
     Waves w;
     w.L = s.L;
     double square = 0;
-    const int most = static_cast<int>(s.L_lambda_s);
+    const int most = int(s.L_lambda_s);
     for (int kx = 0; kx <= most; ++kx)
         for (int ky = kx > 0 ? -most : 1; ky <= most; ++ky) {
             const double phi = relative_psd(s, kx, ky);
@@ -78,7 +78,7 @@ Spectrum small_spectrum(double L_lambda_l, double L_lambda_s) {
 double rms(const std::vector<double>& v) {
     double sum = 0;
     for (double x : v) sum += x * x;
-    return std::sqrt(sum / static_cast<double>(v.size()));
+    return std::sqrt(sum / double(v.size()));
 }
 
 // Largest distances of each summit from the truth: the gradient there as a way to the top, height,
@@ -120,7 +120,7 @@ TEST(against_the_fourier_sum) {
               // the last step is not applied to the derivatives: kNear^2 and the stencil's 1e-9
               1e-7);
         CHECK(e[3] < 2e-7);
-        CHECK(a.size() == a.biharmonic.size() && static_cast<long>(a.size()) == count.summits);
+        CHECK(a.size() == a.biharmonic.size() && long(a.size()) == count.summits);
         for (const auto i : indices(a)) {
             CHECK(a.x[i] >= 0 && a.x[i] < s.L && a.y[i] >= 0 && a.y[i] < s.L);
             CHECK_RELATIVE(a.radius[i], 1 / std::sqrt(a.kappa1[i] * a.kappa2[i]), 1e-12);

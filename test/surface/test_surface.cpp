@@ -15,7 +15,7 @@ double rms(const HeightMap& map) {
     double sum = 0;
     for (const int j : up_to(map.ny))
         for (const int i : up_to(map.nx)) sum += map(i, j) * map(i, j);
-    return std::sqrt(sum / (static_cast<double>(map.nx) * map.ny));
+    return std::sqrt(sum / (double(map.nx) * map.ny));
 }
 
 // z = sum over the half plane of 2 Re[c exp(i K.x)], mode by mode and point by point.
@@ -26,7 +26,7 @@ std::vector<double> by_cosines(const Spectrum& s, int n, NoiseKey key) {
     };
     std::vector<Mode> modes;
     double expected = 0;
-    const int top = static_cast<int>(s.L_lambda_s);
+    const int top = int(s.L_lambda_s);
     for (int kx = 0; kx <= top; ++kx)
         for (int ky = kx > 0 ? -top : 1; ky <= top; ++ky) {
             const double psd = relative_psd(s, kx, ky);

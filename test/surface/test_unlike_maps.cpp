@@ -14,7 +14,7 @@ HeightMap rough(int nx, int ny, double dx, double dy) {
     HeightMap map = height_map(nx, ny, dx, dy, [&](int i, int j) {
         return 3 + 0.05 * i - 0.03 * j + std::sin(0.9 * i + 0.4 * j) +
                0.6 * std::cos(0.7 * i - 1.1 * j + 0.3) + 0.3 * std::sin(0.2 * i * 1.7 + 1.6 * j) +
-               0.2 * (static_cast<double>(random()) / 4294967296.0 - 0.5);
+               0.2 * (double(random()) / 4294967296.0 - 0.5);
     });
     map.x0 = -1.3;
     map.y0 = 2.1;
@@ -49,9 +49,8 @@ TEST(spectra) {
                     for (const int j : up_to(ny))
                         for (const int i : up_to(nx))
                             sum += w(i, j) * (map(i, j) - mean) *
-                                   std::polar(1.0, -2 * pi *
-                                                       (static_cast<double>(p * i) / nx +
-                                                        static_cast<double>(q * j) / ny));
+                                   std::polar(1.0,
+                                              -2 * pi * (double(p * i) / nx + double(q * j) / ny));
                     const std::size_t r = std::lround(std::hypot(sx * p, sy * q) / ring);
                     if (r < power.size()) {
                         power[r] += std::norm(sum) / (nx * ny * squares * sx * sy);
@@ -65,7 +64,7 @@ TEST(spectra) {
                 if (modes[r] == 0) continue;
                 CHECK(k < s.psd.size());
                 if (k >= s.psd.size()) return;
-                CHECK_RELATIVE(s.wavenumber[k], static_cast<double>(r) * ring, 1e-14);
+                CHECK_RELATIVE(s.wavenumber[k], double(r) * ring, 1e-14);
                 CHECK(s.modes[k] == modes[r]);
                 CHECK_RELATIVE(s.psd[k], power[r] / modes[r], 1e-9);
                 ++k;

@@ -26,17 +26,17 @@ inline WornBall worn_ball(double E_star, double R, double N, double k, double s,
     const double width = most / rings;
     std::vector<double> r(n), area(n), K(n * n), worn(n, 0.0), p(n, 0.0);
     for (const std::size_t i : up_to(n)) {
-        r[i] = (static_cast<double>(i) + 0.5) * width;
+        r[i] = (double(i) + 0.5) * width;
         area[i] = 2 * pi * r[i] * width;
         for (const std::size_t j : up_to(n)) {
-            const double inner = static_cast<double>(j) * width;
+            const double inner = double(j) * width;
             K[i * n + j] = (under_disc(r[i], inner + width) - under_disc(r[i], inner)) / E_star;
         }
     }
     WornBall ball;
     std::size_t touching = n / 4;  // the contact is a disc
     for (int step = 0; step <= steps; ++step) {
-        const double part = static_cast<double>(step) / steps, before = part - 1.0 / steps;
+        const double part = double(step) / steps, before = part - 1.0 / steps;
         const double rate = step > 0 ? k * s * (part * part - before * before) : 0;
         const auto gap0 = [&](std::size_t i) { return -r[i] * r[i] / (2 * R) - worn[i]; };
         for (bool settled = false; !settled;) {
@@ -64,7 +64,7 @@ inline WornBall worn_ball(double E_star, double R, double N, double k, double s,
     ball.largest_pressure = *std::max_element(p.begin(), p.end());
     for (const std::size_t i : up_to(n)) ball.volume += worn[i] * area[i];
     // its edge lies in the last ring
-    ball.area = pi * std::pow(width * (static_cast<double>(touching) - 0.5), 2);
+    ball.area = pi * std::pow(width * (double(touching) - 0.5), 2);
     return ball;
 }
 

@@ -35,9 +35,7 @@ std::vector<double> noise(int nx, int ny, int most, unsigned seed) {
             power += 1;
             for (const int j : up_to(ny))
                 for (const int i : up_to(nx)) {
-                    const double phase =
-                        2 * pi *
-                        (a * static_cast<double>(i) / nx + b * static_cast<double>(j) / ny);
+                    const double phase = 2 * pi * (a * double(i) / nx + b * double(j) / ny);
                     z[j * nx + i] += c * std::cos(phase) + s * std::sin(phase);
                 }
         }
@@ -181,7 +179,7 @@ constexpr const char* kFlats =
 TEST(the_gap_of_a_level) {
     const Job job = prepare(settings_of(kFlats));
     const Realization r = realize(job, 1, 1);
-    const int n = static_cast<int>(r.fields.x.size());
+    const int n = int(r.fields.x.size());
     const std::size_t points = n * n;
     for (std::size_t s = 0; s < 2; ++s) {
         const Level& level = r.levels[s];
@@ -227,7 +225,7 @@ TEST(the_distribution_of_gaps) {
     const double width = 2 * one.values("gap_bin")[0];
     std::vector<double> counts(26, 0.0);
     for (std::size_t k = step * points; k < (step + 1) * points; ++k)
-        if (gap[k] > 0) ++counts[std::min(25, static_cast<int>(gap[k] / width))];
+        if (gap[k] > 0) ++counts[std::min(25, int(gap[k] / width))];
     const double open = std::accumulate(counts.begin(), counts.end(), 0.0);
     CHECK(one.numbers("gap_count", "overflow")[0] == counts.back());
     counts.pop_back();
@@ -240,7 +238,7 @@ TEST(the_distribution_of_gaps) {
     double all = 0, sum = 0;
     for (const double n : three.values("gap_count")) all += n;
     for (std::size_t k = 0; k < 3; ++k)
-        sum += three.values("gap_mean")[k * 3 + step] * static_cast<double>(points);
+        sum += three.values("gap_mean")[k * 3 + step] * double(points);
     all += three.numbers("gap_count", "overflow")[0];
     CHECK_RELATIVE(three.numbers("gap_pdf", "mean")[0] * all, sum, 1e-12);
 }

@@ -141,9 +141,9 @@ struct Springs {
     std::vector<Slide> u;
     double lost = 0;
     Springs(LoadCurve& curve, double low, double high, std::size_t n)
-        : first(low), step((high - low) / static_cast<double>(n)) {
+        : first(low), step((high - low) / double(n)) {
         for (const std::size_t k : up_to(n)) {
-            const double s = low + step * static_cast<double>(k);
+            const double s = low + step * double(k);
             stiffness.push_back((curve.load(s + step).force - 2 * curve.load(s).force +
                                  curve.load(s - step).force) /
                                 step);
@@ -154,7 +154,7 @@ struct Springs {
     void go(const Friction& f, double from, double delta, Slide dxi) {
         const double c = f.coefficient / f.ratio;
         for (const auto k : indices(u)) {
-            const double s = first + step * static_cast<double>(k);
+            const double s = first + step * double(k);
             if (from <= s && delta <= s) break;
             // A spring that touches on the way, or lets go, follows its part of the slide only.
             double part = 1;

@@ -219,10 +219,9 @@ TEST(test_independent) {
             if (!(N > 0)) continue;
             // Errors count against the largest so far: close to where an unloaded summit lets go
             // they are those of its depth.
-            most = {std::max(most.first, static_cast<double>(N)),
-                    std::max(most.second, static_cast<double>(A))};
-            worst = std::max({worst, std::abs(level.force - static_cast<double>(N)) / most.first,
-                              std::abs(level.area - static_cast<double>(A)) / most.second});
+            most = {std::max(most.first, double(N)), std::max(most.second, double(A))};
+            worst = std::max({worst, std::abs(level.force - double(N)) / most.first,
+                              std::abs(level.area - double(A)) / most.second});
             ++compared;
         }
     }

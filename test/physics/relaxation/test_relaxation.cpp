@@ -33,7 +33,7 @@ double talbot(const Relaxation& body, double t) {
         const C s = r * a * C(cot, 1);
         sum += (std::exp(s * C(t)) * transform(s) * C(1, a + (a * cot - 1) * cot)).real();
     }
-    return static_cast<double>(sum * r / terms);
+    return double(sum * r / terms);
 }
 
 TEST(test_creep) {
@@ -122,7 +122,7 @@ double ramp_error(const Relaxation& body, int steps) {
     One one(body);
     double worst = 0;
     for (int k = 0; k <= 2 * steps; ++k) {
-        const double t = static_cast<double>(k) / steps, u = t <= 1 ? t : 2 - t;
+        const double t = double(k) / steps, u = t <= 1 ? t : 2 - t;
         one.step(k > 0 ? 1.0 / steps : 0.0);
         const double size = one.size(u), f = one.go(u);
         if (k % (steps / 8) != 0) continue;

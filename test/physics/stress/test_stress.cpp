@@ -29,7 +29,7 @@ LevelPixels pressures(const PointGrid& grid, const std::function<double(double, 
     for (const int j : up_to(grid.ny))
         for (const int i : up_to(grid.nx))
             if (const double value = p(grid.x(i), grid.y(j)); value > 0) {
-                pixels.index.push_back(static_cast<int>(grid.index(i, j)));
+                pixels.index.push_back(int(grid.index(i, j)));
                 pixels.pressure.push_back(value);
             }
     return pixels;

@@ -44,10 +44,8 @@ inline Moments1 moments_of(const std::vector<Part>& parts) {
     }
     for (long double& v : m) v /= all;
     const long double a = m[1], v = m[2] - a * a, d = std::sqrt(v);
-    return {static_cast<double>(a), static_cast<double>(d),
-            static_cast<double>((m[3] - 3 * a * m[2] + 2 * a * a * a) / (v * d)),
-            static_cast<double>((m[4] - 4 * a * m[3] + 6 * a * a * m[2] - 3 * a * a * a * a) /
-                                (v * v))};
+    return {double(a), double(d), double((m[3] - 3 * a * m[2] + 2 * a * a * a) / (v * d)),
+            double((m[4] - 4 * a * m[3] + 6 * a * a * m[2] - 3 * a * a * a * a) / (v * v))};
 }
 
 inline void distributions(CheckedFile& f, const Truth& t) {

@@ -16,7 +16,7 @@ inline void header(CheckedFile& f, const Truth& t) {
     const std::string text = f.reader().text("", "case");
     CHECK(case_text(read_case_text(text, "case").settings) == text);
     if (t.c.run.seed <= 2147483647)
-        f.attribute("", "seed", {static_cast<double>(t.c.run.seed)});
+        f.attribute("", "seed", {double(t.c.run.seed)});
     else
         CHECK(f.reader().text("", "seed") == std::to_string(t.c.run.seed));
     if ((f.reader().text("", "path") != "") != std::isfinite(t.c.solids.hardness))
@@ -97,13 +97,12 @@ struct Cells {
           ny(0),
           x0(t.x0),
           y0(t.y0),
-          side(t.Lx / static_cast<double>(t.c.output.map_cells)) {
-        while (static_cast<double>(ny) * side < t.Ly * (1 - 1e-14)) ++ny;
+          side(t.Lx / double(t.c.output.map_cells)) {
+        while (double(ny) * side < t.Ly * (1 - 1e-14)) ++ny;
     }
     // -1: outside
     long cell(double x, double y) const {
-        const auto i = static_cast<long>(std::floor((x - x0) / side)),
-                   j = static_cast<long>(std::floor((y - y0) / side));
+        const auto i = long(std::floor((x - x0) / side)), j = long(std::floor((y - y0) / side));
         return i >= 0 && i < nx && j >= 0 && j < ny ? j * nx + i : -1;
     }
 };
@@ -122,9 +121,8 @@ inline CellSums cells_of(const Contacts2& c, const Cells& cells) {
     // Pixels begin at their points; each cell has what lies in it, the last one also what sticks
     // out.
     const auto share = [](double from, double length, long i, long n) {
-        const double low = i == 0 ? from : std::max(from, static_cast<double>(i));
-        const double high =
-            i == n - 1 ? from + length : std::min(from + length, static_cast<double>(i + 1));
+        const double low = i == 0 ? from : std::max(from, double(i));
+        const double high = i == n - 1 ? from + length : std::min(from + length, double(i + 1));
         return std::max(0.0, high - low) / length;
     };
     const auto spread = [&](double x, double y, double area, double force) {
@@ -171,7 +169,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
     for (std::size_t k = 0; k < t.M && !t.elements; ++k)
         laws.push_back(make_law(t.c.asperities.law, t.r[k].asperities, t.E));
     const auto law = [&](std::size_t k, std::int32_t i) -> const Law& {
-        laws[k]->prepare(std::array{static_cast<int>(i)});
+        laws[k]->prepare(std::array{int(i)});
         return *laws[k];
     };
     const Vector A = t.rows([&](auto k, auto s) {
@@ -221,8 +219,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
     }));
     // How the solver went is its own.
     const auto of_level = [&](const char* name, auto LevelValues::*value) {
-        f.same(name,
-               t.rows([&](auto k, auto s) { return static_cast<double>(level(k, s).*value); }));
+        f.same(name, t.rows([&](auto k, auto s) { return double(level(k, s).*value); }));
     };
     of_level("iterations", &Level::iterations);
     of_level("products", &Level::products);
@@ -272,8 +269,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
     for (std::size_t i = 0;
          i < edges.size() && t.c.surface.source != Source::asperities && !t.elements && !t.periodic;
          ++i)
-        with_border[i] =
-            std::max(edges[i], static_cast<double>(level(i / t.steps, i % t.steps).edge_contacts));
+        with_border[i] = std::max(edges[i], double(level(i / t.steps, i % t.steps).edge_contacts));
     f.same("edge_contacts", with_border);
     const Vector nominal = t.rows([&](auto k, auto s) {
         if (t.periodic) return A0;
@@ -291,7 +287,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
     f.same("nominal_area", nominal, kRounding);
     // What the doubts are raised by: test_trust.
     f.same("status", t.rows([&](auto k, auto s) -> double {
-        const double given = static_cast<double>(level(k, s).status);
+        const double given = double(level(k, s).status);
         if (given >= 3) return given;  // how the solver ended
         if (level(k, s).doubts != 0) return 1;
         return pairs[k * t.steps + s] > 0 ? 2 : 0;

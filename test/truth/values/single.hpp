@@ -86,7 +86,7 @@ inline void contacts(CheckedFile& f, const Truth& t) {
     const auto law = make_law(t.c.asperities.law, t.r[0].asperities, t.E);
     Vector major, minor, angle;
     for (const auto k : indices(which)) {
-        const int i = static_cast<int>(which[k]) - 1;
+        const int i = int(which[k]) - 1;
         law->prepare({&i, 1});
         const double root = std::sqrt(law->axes(i));
         major.push_back(radius[k] / root);
@@ -101,7 +101,7 @@ inline void contacts(CheckedFile& f, const Truth& t) {
     for (std::size_t s = 0; s < t.steps && !std::isfinite(t.c.solids.hardness); ++s)
         for (const auto k : indices(t.contacts[0][s].spots)) {
             const Spot2& p = t.contacts[0][s].spots[k];
-            law->prepare(std::array{static_cast<int>(p.index)});
+            law->prepare(std::array{int(p.index)});
             CHECK_RELATIVE(p.f, law->force(p.index, t.r[0].levels[s].u[k]), 1e-4);
             CHECK_RELATIVE(p.area, law->area(p.index, t.r[0].levels[s].u[k]), kRounding);
         }
@@ -195,9 +195,9 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
     Grid g = t.heights[0];
     g.periodic = false;  // as it was measured
     const double points = number(g.z.size());
-    f.same("filled_points", {static_cast<double>(missing)});
-    f.attribute("filled_points", "share", {static_cast<double>(missing) / points}, kRounding);
-    f.same("form_removed", {static_cast<double>(keys.detrend)});
+    f.same("filled_points", {double(missing)});
+    f.attribute("filled_points", "share", {double(missing) / points}, kRounding);
+    f.same("form_removed", {double(keys.detrend)});
     f.attribute("form_removed", "flag_values", {0, 1, 2, 3, 4});
     if (keys.detrend == Detrend::sphere) f.attribute("form_removed", "radius", {m.form.radius});
     f.same("filter_cutoff", {keys.filter_cutoff});
