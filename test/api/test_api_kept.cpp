@@ -17,7 +17,7 @@ AsperitiesHandle make(unsigned seed) {
 // Force, place and stiffness along a path that moves the tip and presses as well.
 std::vector<double> go_on(rsc_contact* contact) {
     std::vector<double> answers;
-    for (const int k : up_to(12)) {
+    for (const int k : indices(12)) {
         double force = 0, separation = 0, stiffness = 0, energy = 0;
         if (k % 5 == 2) OK(rsc_contact_move_tip(contact, 0.5 + 0.003 * k, 0.5 - 0.002 * k));
         if (k % 4 == 3)
@@ -84,10 +84,10 @@ TEST(many_contacts) {
     const AsperitiesHandle asperities = make(1);
     std::vector<double> one, force(n), separation(n), forces(n);
     std::vector<std::int32_t> status(n);
-    for (const int k : up_to(n)) force[k] = 0.1 + 0.2 * k;
+    for (const int k : indices(n)) force[k] = 0.1 + 0.2 * k;
     const auto contacts = [&] {
         std::vector<rsc_contact*> made(n, nullptr);
-        for (const int k : up_to(n))
+        for (const int k : indices(n))
             OK(rsc_contact_create(&made[k], asperities, 94e3, 2.5, 0.4 + 0.01 * k, 0.5, nullptr));
         return made;
     };
@@ -98,12 +98,13 @@ TEST(many_contacts) {
         if (one.empty()) {
             auto alone = contacts();
             one.resize(n);
-            for (const std::size_t k : up_to(n)) OK(rsc_contact_press(alone[k], force[k], &one[k]));
+            for (const std::size_t k : indices(n))
+                OK(rsc_contact_press(alone[k], force[k], &one[k]));
             for (auto& c : alone) OK(rsc_contact_destroy(&c));
         }
         CHECK(separation == one);
         OK(rsc_contacts_indent(n, made.data(), separation.data(), forces.data(), nullptr, threads));
-        for (const std::size_t k : up_to(n))
+        for (const std::size_t k : indices(n))
             CHECK_RELATIVE(forces[k], force[k], 2e-6);  // solver%tolerance, twice
         for (auto& c : made) OK(rsc_contact_destroy(&c));
     }

@@ -116,8 +116,8 @@ void every_value(const Folder& folder, const Run& run) {
     const Values separation = file.values("separation"), force = file.values("force");
     if (file.has("pull_off_force")) {
         const Values least = file.values("least_force");
-        CHECK(least.back() < 0 && file.values("pull_off_force") ==
-                                      Values{*std::min_element(least.begin(), least.end())});
+        CHECK(least.back() < 0 &&
+              file.values("pull_off_force") == Values{*std::ranges::min_element(least)});
     }
     std::vector<std::string> names;
     for (const auto s : indices(separation)) {

@@ -16,8 +16,8 @@ struct Map {
     template <class Height>
     Values heights(Height&& z) const {
         Values all;
-        for (const int j : up_to(ny))
-            for (const int i : up_to(nx)) all.push_back(z(i, j));
+        for (const int j : indices(ny))
+            for (const int i : indices(nx)) all.push_back(z(i, j));
         return all;
     }
     SurfaceHandle take(const Values& z, bool periodic = false) const {

@@ -76,7 +76,7 @@ TEST(against_slow_solver) {
     int systems = 0;
     for (const Family& family : kFamilies) {
         int unique = 0;
-        for (const int k : up_to(family.systems)) {
+        for (const int k : indices(family.systems)) {
             const unsigned seed = 1000u + unsigned(k);
             Asperities a = random_asperities(1 + (k * family.n) / family.systems, family.spacing,
                                              0.01, family.radius, family.spread, seed);

@@ -28,7 +28,7 @@ template <class F>
 double integrate(double from, double to, F f) {
     const double node = std::sqrt(0.6), h = (to - from) / 64;
     double sum = 0;
-    for (const int i : up_to(64)) {
+    for (const int i : indices(64)) {
         const double m = from + (i + 0.5) * h;
         sum += h * (5 * f(m - 0.5 * h * node) + 8 * f(m) + 5 * f(m + 0.5 * h * node)) / 18;
     }

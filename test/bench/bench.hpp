@@ -31,7 +31,7 @@ inline double shortest(int runs, const std::function<void()>& work) {
 inline double middle(int runs, const std::function<void()>& work) {
     std::vector<double> times;
     for (int i = 0; i < runs; ++i) times.push_back(shortest(1, work));
-    std::sort(times.begin(), times.end());
+    std::ranges::sort(times);
     return times[times.size() / 2];
 }
 

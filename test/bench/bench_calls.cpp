@@ -47,7 +47,7 @@ void calls(const char* law, double step, bool force) {
         check(rsc_contact_value(contact, "iterations", &one));
         iterations += one / count;
     }
-    std::sort(times.begin(), times.end());
+    std::ranges::sort(times);
     std::printf(
         "  %-13s %s %-12s %3ld contacts, %4.1f products, %4.1f steps: median %6.1f us, least %6.1f "
         "us\n",

@@ -100,9 +100,9 @@ TEST(large) {
         CHECK(of_case(start, {}).find("NetCDF") != std::string::npos);
     // The hundred first faults are told.
     std::string wrong = "&run ";
-    for (const int i : up_to(101)) wrong += "a" + std::to_string(i) + "= 1\n";
+    for (const int i : indices(101)) wrong += "a" + std::to_string(i) + "= 1\n";
     const std::string told = of_case(wrong + "/", {});
-    CHECK(std::count(told.begin(), told.end(), '\n') == 99);
+    CHECK(std::ranges::count(told, '\n') == 99);
 }
 
 // Keys by name, as the libraries set and get them.

@@ -31,9 +31,9 @@ TEST(levels_do_not_remember) {
         const auto separation = [](int k) { return 0.03 - 0.001 * k; };
         Path down = path(a, indenter), up = path(a, indenter);
         std::vector<double> forward(levels), backward(levels);
-        for (const int k : up_to(levels)) forward[k] = down.at_separation(separation(k)).force;
+        for (const int k : indices(levels)) forward[k] = down.at_separation(separation(k)).force;
         for (int k = levels - 1; k >= 0; --k) backward[k] = up.at_separation(separation(k)).force;
-        for (const int k : up_to(levels)) {
+        for (const int k : indices(levels)) {
             const double alone = path(a, indenter).at_separation(separation(k)).force;
             CHECK_CLOSE(forward[k], alone, kTolerance * alone);
             CHECK_CLOSE(backward[k], alone, kTolerance * alone);
@@ -87,7 +87,7 @@ TEST(auto_chooses) {
     const auto method_of = [](int n, Method method, Interaction interaction, Period period) {
         std::vector<std::array<double, 4>> a;
         const int side = int(std::sqrt(n));
-        for (const int i : up_to(side * side))
+        for (const int i : indices(side * side))
             a.push_back(
                 {(i % side + 0.5) / side, (i / side + 0.5) / side, i == 0 ? 1e-2 : 1e-9, 1e-3});
         SolverOptions o = options(method);

@@ -76,8 +76,8 @@ TEST(selection) {
         const auto count = [&](double Z0, double& top) {
             int places = 0;
             top = -1;
-            for (const int j : up_to(map.ny))
-                for (const int i : up_to(map.nx)) {
+            for (const int j : indices(map.ny))
+                for (const int i : indices(map.nx)) {
                     const double z = tip.clearance(i * map.dx, j * map.dy, map(i, j));
                     if (z > top) top = z;
                     places += z > Z0;

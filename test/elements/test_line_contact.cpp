@@ -15,8 +15,8 @@ HeightMap map_of(int nx, int ny, double step, const std::function<double(double,
     map.dx = map.dy = step;
     map.x0 = -0.5 * (nx - 1) * step;
     map.y0 = -0.5 * (ny - 1) * step;
-    for (const int j : up_to(ny))
-        for (const int i : up_to(nx)) map.row(j)[i] = z(map.x(i), map.y(j));
+    for (const int j : indices(ny))
+        for (const int i : indices(nx)) map.row(j)[i] = z(map.x(i), map.y(j));
     return map;
 }
 

@@ -27,8 +27,8 @@ Spots spots(int nx, int ny) {
                         std::sqrt(r2 - a * a - b * b);
     }
     Spots all;
-    for (const int j : up_to(ny)) {
-        for (const int i : up_to(nx))
+    for (const int j : indices(ny)) {
+        for (const int i : indices(nx))
             if (const double p = plane[j * nx + i]; p > 0) {
                 all.column.push_back(i);
                 all.p.push_back(p);

@@ -58,7 +58,7 @@ TEST(lattice_sums) {
         const Lattice lattice({Lx, Ly});
         double worst = std::abs(lattice.self() - ewald(0, 0, Lx, Ly, 1.4)) * size;
         std::vector<double> x, y, f, phi(1);
-        for (const int k : up_to(150)) {
+        for (const int k : indices(150)) {
             x.push_back(Lx * uniform(random));
             y.push_back(Ly * uniform(random));
             f.push_back(uniform(random));
@@ -111,7 +111,7 @@ TEST(spots_wrap) {
     }
     std::vector<Spot> ring;
     const double r = 0.07, d = 0.1;
-    for (const int i : up_to(10)) ring.push_back({0.1 * i, 0.5, r, r, 0.3 * i});
+    for (const int i : indices(10)) ring.push_back({0.1 * i, 0.5, r, r, 0.3 * i});
     const double lens = 2 * r * r * std::acos(d / (2 * r)) - d / 2 * std::sqrt(4 * r * r - d * d);
     CHECK_CLOSE(union_area(ring, nullptr, period), 10 * (pi * r * r - lens), 1e-14);
 }

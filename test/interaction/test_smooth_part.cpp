@@ -36,8 +36,8 @@ double over(const Artificial& s, double x, double y, double a, double b) {
         return boost::math::quadrature::gauss<double, 7>::integrate(f, from, to);
     };
     double sum = 0;
-    for (const int i : up_to(nx))
-        for (const int j : up_to(ny))
+    for (const int i : indices(nx))
+        for (const int j : indices(ny))
             sum += integral(x - a + 2 * a * i / nx, x - a + 2 * a * (i + 1) / nx, [&](double u) {
                 return integral(y - b + 2 * b * j / ny, y - b + 2 * b * (j + 1) / ny,
                                 [&](double v) { return s.at(std::hypot(u, v)); });
@@ -85,10 +85,10 @@ void wave(int nx, int ny, int m, int n) {
                      factor = back ? 1 / answer : answer;
         pixels.apply(
             [&](int j, Real* row) {
-                for (const int i : up_to(nx)) row[i] = static_cast<Real>(value(i, j));
+                for (const int i : indices(nx)) row[i] = static_cast<Real>(value(i, j));
             },
             [&](int j, const Real* row) {
-                for (const int i : up_to(nx))
+                for (const int i : indices(nx))
                     CHECK_CLOSE(double(row[i]), factor * value(i, j),
                                 (sizeof(Real) == 4 ? 1e-5 : 1e-12) * factor);
             },

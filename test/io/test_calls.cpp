@@ -160,7 +160,7 @@ void one_thread_in_netcdf(const Folder& folder) {
     most_inside = 0;
     const Result result = sample::result(3);
     std::vector<std::thread> threads;
-    for (const int k : up_to(4))
+    for (const int k : indices(4))
         threads.emplace_back(
             [&, k] { write_result(result, folder / ("thread" + std::to_string(k) + ".nc"), {}); });
     for (std::thread& thread : threads) thread.join();

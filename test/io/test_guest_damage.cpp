@@ -19,7 +19,7 @@ using namespace rsc;
 std::vector<double> heights_in(const std::string& path) {
     const HeightMap map = read_heights(path, {}, "mm", "", Missing::refuse);
     std::vector<double> z{map.dx, map.dy, map.x0, map.y0};
-    for (const int j : up_to(map.ny)) z.insert(z.end(), map.row(j), map.row(j) + map.nx);
+    for (const int j : indices(map.ny)) z.insert(z.end(), map.row(j), map.row(j) + map.nx);
     return z;
 }
 

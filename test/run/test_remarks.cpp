@@ -140,7 +140,7 @@ TEST(sticks) {
 TEST(memory) {
     const Folder folder;
     std::ofstream list(folder / "many.txt");
-    for (const int k : up_to(300))
+    for (const int k : indices(300))
         list << 0.05 * (k % 20) << ' ' << 0.07 * (k / 20) << ' ' << 0.01 * std::sin(7.3 * k)
              << " 0.05\n";
     list.close();

@@ -1,7 +1,7 @@
 // Files of instruments, written here: what the readers are tested with.
 #pragma once
 
-#include "support/indices.hpp"
+#include "check.hpp"
 
 namespace map_files {
 

@@ -55,7 +55,7 @@ inline std::string write(const std::string& path, const Dimensions& dimensions,
 
 inline std::vector<double> counted(std::size_t n, double first, double step) {
     std::vector<double> v;
-    for (const std::size_t k : up_to(n)) v.push_back(first + double(k) * step);
+    for (const std::size_t k : indices(n)) v.push_back(first + double(k) * step);
     return v;
 }
 

@@ -28,8 +28,8 @@ TEST(against_brute_force) {
             // summit. The right half has rounded ridges along the diagonals, whose grid maxima are
             // saddles.
             const double ridge[] = {0, -1, -8, -9, -8, -1};
-            for (const int j : up_to(ny))
-                for (const int i : up_to(nx)) {
+            for (const int j : indices(ny))
+                for (const int i : indices(nx)) {
                     const double noise = double(random() % 40);
                     map.row(j)[i] = i < nx / 2 ? noise : 100 * ridge[(i - j + 6 * ny) % 6] + noise;
                 }
@@ -37,8 +37,8 @@ TEST(against_brute_force) {
             std::vector<std::array<int, 2>> summits;
             std::vector<double> k1, k2, kg;
             long saddles = 0;
-            for (const int j : up_to(ny))
-                for (const int i : up_to(nx)) {
+            for (const int j : indices(ny))
+                for (const int i : indices(nx)) {
                     if (!periodic && (i == 0 || j == 0 || i == nx - 1 || j == ny - 1)) continue;
                     bool top = true;
                     for (int b = -1; b <= 1; ++b)

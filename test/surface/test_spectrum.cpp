@@ -35,7 +35,7 @@ Moments by_quadrature(const Spectrum& s) {
     };
     const auto angular = [](int p) {
         double sum = 0;
-        for (const int i : up_to(64)) sum += std::pow(std::cos(2 * pi * i / 64), p);
+        for (const int i : indices(64)) sum += std::pow(std::cos(2 * pi * i / 64), p);
         return sum * 2 * pi / 64;  // exact for trigonometric polynomials
     };
     const auto moment = [&](int p) {
@@ -208,7 +208,7 @@ TEST(noise_is_philox) {
     std::vector<double> re(101), im(101);
     column_noise(key, kx, -50, 101, re.data(), im.data());
     bool same = true;
-    for (const int i : up_to(101)) {
+    for (const int i : indices(101)) {
         const auto one = mode_noise(key, kx, i - 50);
         same = same && one.real() == re[i] && one.imag() == im[i];
     }

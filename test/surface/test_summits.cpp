@@ -47,8 +47,9 @@ struct Waves {
         map.dx = L / nx;
         map.dy = L / ny;
         map.periodic = true;
-        for (const int j : up_to(ny))
-            for (const int i : up_to(nx)) map.row(j)[i] = derivative(i * map.dx, j * map.dy, 0, 0);
+        for (const int j : indices(ny))
+            for (const int i : indices(nx))
+                map.row(j)[i] = derivative(i * map.dx, j * map.dy, 0, 0);
         return map;
     }
 };
@@ -131,7 +132,7 @@ TEST(against_the_fourier_sum) {
                 // nothing is missed any more: 32 points in lambda_s tell all apart No summit twice.
                 a.size() == fine_summits);
         for (const auto i : indices(a))
-            for (const std::size_t j : up_to(i)) {
+            for (const std::size_t j : indices(i)) {
                 const double x = std::remainder(a.x[i] - a.x[j], s.L),
                              y = std::remainder(a.y[i] - a.y[j], s.L);
                 CHECK(std::hypot(x, y) > 1e-3 * s.L / n);
@@ -183,8 +184,8 @@ TEST(polynomial) {
         map.x0 = 3;
         map.y0 = -1;
         const double x0 = 4.23, y0 = 0.87;
-        for (const int j : up_to(21))
-            for (const int i : up_to(25)) {
+        for (const int j : indices(21))
+            for (const int i : indices(25)) {
                 const double x = 3 + 0.1 * i - x0, y = -1 + 0.2 * j - y0;
                 map.row(j)[i] = 1 - (round ? 1.5 * (x * x + y * y) : 2 * x * x + y * y + x * y) +
                                 0.3 * x * x * x - 0.5 * x * x * x * x - 0.25 * x * x * y * y -

@@ -34,8 +34,8 @@ TEST(spectra) {
                                       std::pow(std::sin(pi * (j + 0.5) / ny), 2);
             };
             double mean = 0, weight = 0, squares = 0;
-            for (const int j : up_to(ny))
-                for (const int i : up_to(nx)) {
+            for (const int j : indices(ny))
+                for (const int i : indices(nx)) {
                     mean += w(i, j) * map(i, j);
                     weight += w(i, j);
                     squares += w(i, j) * w(i, j);
@@ -46,8 +46,8 @@ TEST(spectra) {
             for (int q = -((ny - 1) / 2); q <= ny / 2; ++q)
                 for (int p = -((nx - 1) / 2); p <= nx / 2; ++p) {
                     std::complex<double> sum = 0;
-                    for (const int j : up_to(ny))
-                        for (const int i : up_to(nx))
+                    for (const int j : indices(ny))
+                        for (const int i : indices(nx))
                             sum += w(i, j) * (map(i, j) - mean) *
                                    std::polar(1.0,
                                               -2 * pi * (double(p * i) / nx + double(q * j) / ny));
@@ -80,18 +80,18 @@ TEST(spectra) {
 void depths(int nx, int ny) {
     const auto at = [nx](int i, int j) { return j * nx + i; };
     std::vector<std::uint8_t> hole(at(0, ny), 0);
-    for (const int j : up_to(ny))
-        for (const int i : up_to(nx))
+    for (const int j : indices(ny))
+        for (const int i : indices(nx))
             hole[at(i, j)] = std::hypot(i - 3, j - 9) < 6.5 || (i > 20 && j % 5 > 0);
     for (const int steps : {0, 1, 2, 3, 40}) {
         std::vector<std::uint8_t> kept = hole;
         keep_depths(kept, nx, ny, steps);
         long wrong = 0, deep = 0;
-        for (const int j : up_to(ny))
-            for (const int i : up_to(nx)) {
+        for (const int j : indices(ny))
+            for (const int i : indices(nx)) {
                 int nearest = nx + ny;
-                for (const int k : up_to(ny))
-                    for (const int h : up_to(nx))
+                for (const int k : indices(ny))
+                    for (const int h : indices(nx))
                         if (!hole[at(h, k)])
                             nearest = std::min(nearest, std::abs(h - i) + std::abs(k - j));
                 deep += nearest > steps;

@@ -192,7 +192,7 @@ TEST(test_moves) {
         const double length = reach(system.w);
         Asperities under = system.asperities;
         set_clearances(under, system.asperities, tip, 0.5, 0.5);
-        const double top = *std::max_element(under.z.begin(), under.z.end()), Z = top - 3 * length;
+        const double top = *std::ranges::max_element(under.z), Z = top - 3 * length;
         PathMinimiser slow(under, kE, JkrEdge{under, system.w});
         slow.Z = top;
         slow.go_to(Z, 0.02 * length);

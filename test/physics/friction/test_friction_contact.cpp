@@ -35,10 +35,10 @@ std::vector<Real> slip_problem(const Asperities& a, const Level& level, Real xi)
     const Real mu = kFriction.coefficient, m = kFriction.ratio, pi = std::numbers::pi_v<Real>;
     std::vector<Real> q(n, 0);
     for (int sweep = 0; sweep < 400; ++sweep) {
-        for (const std::size_t i : up_to(n)) {
+        for (const std::size_t i : indices(n)) {
             const auto at = level.asperity[i];
             Real moved = 0;
-            for (const std::size_t j : up_to(n)) {
+            for (const std::size_t j : indices(n)) {
                 const auto to = level.asperity[j];
                 if (j != i)
                     moved += q[j] / (m * pi * kE *
@@ -95,8 +95,8 @@ TEST(spots_against_slip_problem) {
 double conductance_of_spots(const Asperities& a, const Level& level) {
     const std::size_t n = level.asperity.size();
     std::vector<Real> A(n * n);
-    for (const std::size_t i : up_to(n))
-        for (const std::size_t j : up_to(n)) {
+    for (const std::size_t i : indices(n))
+        for (const std::size_t j : indices(n)) {
             const auto p = level.asperity[i], q = level.asperity[j];
             const Real d = std::hypot(Real(a.x[p]) - a.x[q], Real(a.y[p]) - a.y[q]);
             A[i * n + j] =

@@ -40,7 +40,7 @@ TEST(test_creep) {
     const std::vector<double> shares{0.05, 0.2, 0.1, 0.3, 0.02, 0.08},
         times{1e-3, 0.02, 0.3, 0.31, 7, 2e3};
     Relaxation sixteen;
-    for (const int k : up_to(kMostRelaxations)) {
+    for (const int k : indices(kMostRelaxations)) {
         sixteen.share.push_back(0.06);
         sixteen.time.push_back(std::pow(3.0, k - 8));
     }

@@ -202,7 +202,7 @@ TEST(files) {
     const std::size_t points = worn.size();
     CHECK(before.size() == 2 * points);
     double lost = 0, deepest = 0, mean = 0, square = 0;
-    for (const std::size_t i : up_to(points)) {
+    for (const std::size_t i : indices(points)) {
         CHECK(before[points + i] == worn[i]);
         lost += before[i] - worn[i];
         deepest = std::max(deepest, before[i] - worn[i]);

@@ -64,7 +64,7 @@ inline void separations(CheckedFile& f, const Truth& t) {
            1e-15);
     f.same("separation_mean", t.each_step([&](std::size_t s) {
         double m = 0;
-        for (const std::size_t k : up_to(t.M)) m += Z[k * t.steps + s] / number(t.M);
+        for (const std::size_t k : indices(t.M)) m += Z[k * t.steps + s] / number(t.M);
         return m;
     }),
            1e-14);
@@ -129,8 +129,8 @@ inline CellSums cells_of(const Contacts2& c, const Cells& cells) {
         if (cells.cell(x, y) < 0) return;
         const double u = (x - cells.x0) / cells.side, v = (y - cells.y0) / cells.side,
                      w = c.dx / cells.side, h = c.dy / cells.side;
-        for (const long j : up_to(cells.ny))
-            for (const long i : up_to(cells.nx)) {
+        for (const long j : indices(cells.ny))
+            for (const long i : indices(cells.nx)) {
                 const double part = share(u, w, i, cells.nx) * share(v, h, j, cells.ny);
                 out.area[j * cells.nx + i] += part * area;
                 out.force[j * cells.nx + i] += part * force;
@@ -213,7 +213,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         const Asperities& a = t.r[k].asperities;
         for (std::size_t i = 0; i < a.size() && !t.elements; ++i) place(a.x[i], a.y[i], a.z[i]);
         for (long j = 0; t.elements && j < t.heights[k].ny; ++j)
-            for (const long i : up_to(t.heights[k].nx))
+            for (const long i : indices(t.heights[k].nx))
                 place(t.heights[k].x(i), t.heights[k].y(j), t.heights[k].at_point(i, j));
         return n;
     }));
@@ -234,7 +234,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         double n = 0;
         const auto& p = spots(k, s);
         for (std::size_t i = 0; i < p.size() && !t.elements; ++i)
-            for (const std::size_t j : up_to(i))
+            for (const std::size_t j : indices(i))
                 n += t.distance(p[i].x, p[i].y, p[j].x, p[j].y) < p[i].radius() + p[j].radius();
         return n;
     });
@@ -300,8 +300,8 @@ inline void levels(CheckedFile& f, const Truth& t) {
     Vector deepest(t.elements ? 0 : t.r[0].asperities.size());
     Vector plastic, work;
     for (std::size_t k = 0; k < t.M && yields; ++k) {
-        std::fill(deepest.begin(), deepest.end(), 0.0);
-        for (const std::size_t s : up_to(t.steps)) {
+        std::ranges::fill(deepest, 0.0);
+        for (const std::size_t s : indices(t.steps)) {
             double n = 0, lost = 0;
             for (std::size_t i = 0; i < spots(k, s).size(); ++i) {
                 const Spot2& p = spots(k, s)[i];
@@ -397,7 +397,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         }
         return v;
     };
-    const double most = *std::max_element(N.begin(), N.end());
+    const double most = *std::ranges::max_element(N);
     // Summits between points also move with the tip (test_edges): shares of N.
     constexpr double kMotion = 0.01;
     f.same("lateral_force", pushed(false), kRounding,
@@ -424,9 +424,9 @@ inline void levels(CheckedFile& f, const Truth& t) {
         const Vector all = f.values(name);
         const std::size_t n = all.size() / t.M;
         Vector middle(n), deviation(n);
-        for (const std::size_t i : up_to(n)) {
-            for (const std::size_t k : up_to(t.M)) middle[i] += all[k * n + i] / number(t.M);
-            for (const std::size_t k : up_to(t.M))
+        for (const std::size_t i : indices(n)) {
+            for (const std::size_t k : indices(t.M)) middle[i] += all[k * n + i] / number(t.M);
+            for (const std::size_t k : indices(t.M))
                 deviation[i] += std::pow(all[k * n + i] - middle[i], 2);
             deviation[i] = t.M > 1 ? std::sqrt(deviation[i] / (number(t.M) - 1)) : kNone;
         }
@@ -434,7 +434,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         if (name == std::string("force") && t.c.indentation.control != Control::separation &&
             t.M > 1)
             deviation.assign(n, 0.0);
-        const double size = std::abs(*std::max_element(all.begin(), all.end()));
+        const double size = std::abs(*std::ranges::max_element(all));
         f.same(std::string(name) + "_mean", middle, 1e-13, 1e-15 * size);
         f.same(std::string(name) + "_std", deviation, 1e-9, 1e-14 * size);
     }

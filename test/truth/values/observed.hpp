@@ -9,7 +9,7 @@ using namespace rsc;
 
 inline void surfaces(CheckedFile& f, const Truth& t) {
     std::vector<Moments4> own, grid;
-    for (const std::size_t k : up_to(t.M)) {
+    for (const std::size_t k : indices(t.M)) {
         grid.push_back(t.list ? Moments4{} : t.heights[k].differences());
         own.push_back(t.synthetic ? t.heights[k].modes() : grid.back());
         if (t.list) own.back().m0 = Truth::variance(t.r[k].asperities.z);
@@ -130,8 +130,8 @@ inline void maps(CheckedFile& f, const Truth& t) {
     const Cells g(t);
     const std::size_t cells = g.nx * g.ny;
     Vector x, y;
-    for (const long i : up_to(g.nx)) x.push_back(g.x0 + g.side * (double(i) + 0.5));
-    for (const long j : up_to(g.ny)) y.push_back(g.y0 + g.side * (double(j) + 0.5));
+    for (const long i : indices(g.nx)) x.push_back(g.x0 + g.side * (double(i) + 0.5));
+    for (const long j : indices(g.ny)) y.push_back(g.y0 + g.side * (double(j) + 0.5));
     f.same("x", x, kRounding);
     f.same("y", y, kRounding);
     f.same("map_cell_side", {g.side}, kRounding);
@@ -140,10 +140,10 @@ inline void maps(CheckedFile& f, const Truth& t) {
     f.attribute("y", "share_of_last_row", {covered}, 1e-12);
     Vector area(t.steps * cells), force(area);
     std::vector<long double> area_sum(area.size()), force_sum(area.size());
-    for (const std::size_t k : up_to(t.M))
-        for (const std::size_t s : up_to(t.steps)) {
+    for (const std::size_t k : indices(t.M))
+        for (const std::size_t s : indices(t.steps)) {
             const CellSums c = cells_of(t.contacts[k][s], g);
-            for (const std::size_t i : up_to(cells)) {
+            for (const std::size_t i : indices(cells)) {
                 area_sum[s * cells + i] += c.area[i];
                 force_sum[s * cells + i] += c.force[i];
             }
@@ -153,7 +153,7 @@ inline void maps(CheckedFile& f, const Truth& t) {
         area[i] = double(area_sum[i]) / divisor;
         force[i] = double(force_sum[i]) / divisor;
     }
-    const double scale = *std::max_element(force.begin(), force.end());
+    const double scale = *std::ranges::max_element(force);
     f.same("map_area_fraction", area, 1e-13);
     f.same("map_pressure", force, 1e-13);
     CHECK(scale > 0);
@@ -164,16 +164,16 @@ inline void maps(CheckedFile& f, const Truth& t) {
         return CHECK(!f.has("radius") && !f.has("radial_pressure"));  // the tip is not over the map
     const std::size_t bins = t.c.output.radial_bins;
     Vector radius;
-    for (const std::size_t b : up_to(bins))
+    for (const std::size_t b : indices(bins))
         radius.push_back((number(b) + 0.5) * largest / number(bins));
     f.same("radius", radius, kRounding);
     const auto radial = [&](const Vector& map) {
         Vector out;
-        for (const std::size_t s : up_to(t.steps))
+        for (const std::size_t s : indices(t.steps))
             for (double r : radius) {
                 const int angles = 4 * std::max(16, int(std::ceil(4 * pi * r / g.side)));
                 double total = 0;
-                for (const int k : up_to(angles)) {
+                for (const int k : indices(angles)) {
                     const double phi = 2 * pi * (k + 0.5) / angles;
                     const double u = (t.tip_x + r * std::cos(phi) - g.x0) / g.side - 0.5,
                                  v = (t.tip_y + r * std::sin(phi) - g.y0) / g.side - 0.5;
@@ -198,7 +198,7 @@ inline void maps(CheckedFile& f, const Truth& t) {
     f.same("radial_pressure", radial(force), 1e-10, 1e-12 * scale);
     const Vector N = f.values("force_mean");
     Vector hertz;
-    for (const std::size_t s : up_to(t.steps))
+    for (const std::size_t s : indices(t.steps))
         for (double r : radius) {
             const double a = std::cbrt(3 * N[s] * t.R / (4 * t.E));
             hertz.push_back(r < a ? 3 * N[s] / (2 * pi * a * a) * std::sqrt(1 - r * r / (a * a))

@@ -48,8 +48,8 @@ struct Grid {
           y0(map.y0),
           periodic(map.periodic),
           joined(map.periodic) {
-        for (const int j : up_to(map.ny))
-            for (const int i : up_to(map.nx)) z.push_back(map(i, j));
+        for (const int j : indices(map.ny))
+            for (const int i : indices(map.nx)) z.push_back(map(i, j));
     }
     double power(int p) const {
         const double level = mean(z);
@@ -91,16 +91,16 @@ struct Grid {
             return std::polar(1.0, -2 * pi * double(k % n) / double(n));
         };
         std::vector<Complex> rows(z.size()), wx(nx), wy(ny);
-        for (const long k : up_to(nx)) wx[k] = root(k, nx);
-        for (const long k : up_to(ny)) wy[k] = root(k, ny);
-        for (const long j : up_to(ny))
+        for (const long k : indices(nx)) wx[k] = root(k, nx);
+        for (const long k : indices(ny)) wy[k] = root(k, ny);
+        for (const long j : indices(ny))
             for (long k = 0; k <= nx / 2; ++k)
-                for (const long i : up_to(nx)) rows[j * nx + k] += z[j * nx + i] * wx[i * k % nx];
+                for (const long i : indices(nx)) rows[j * nx + k] += z[j * nx + i] * wx[i * k % nx];
         Moments4 m{0, 0, 0};
         for (long k = 0; k <= nx / 2; ++k)
-            for (const long l : up_to(ny)) {
+            for (const long l : indices(ny)) {
                 Complex h = 0;
-                for (const long j : up_to(ny)) h += rows[j * nx + k] * wy[j * l % ny];
+                for (const long j : indices(ny)) h += rows[j * nx + k] * wy[j * l % ny];
                 const double both = k == 0 || 2 * k == nx ? 1 : 2,
                              power = both * std::norm(h / number(z.size()));
                 const double kx = 2 * pi * double(k) / (dx * double(nx));
@@ -275,7 +275,7 @@ struct Truth {
 
     explicit Truth(const Case& settings) : c(settings) {
         job = prepare(c);
-        for (const int k : up_to(c.run.realizations))
+        for (const int k : indices(c.run.realizations))
             r.push_back(realize(job, c.run.first_realization + k, 1));
         steps = r[0].levels.size();
         M = r.size();
@@ -334,7 +334,7 @@ struct Truth {
             m2_made = 0;
             for (const Grid& g : heights) m2_made += g.modes().m2 / number(M);
         }
-        for (const std::size_t k : up_to(M)) {
+        for (const std::size_t k : indices(M)) {
             contacts.emplace_back();
             for (const Level& l : r[k].levels) contacts.back().push_back(contacts_of(l, k));
         }
@@ -370,18 +370,18 @@ struct Truth {
     // A value of every level, realization by realization.
     Vector rows(const std::function<double(std::size_t, std::size_t)>& of) const {
         Vector v;
-        for (const std::size_t k : up_to(M))
-            for (const std::size_t s : up_to(steps)) v.push_back(of(k, s));
+        for (const std::size_t k : indices(M))
+            for (const std::size_t s : indices(steps)) v.push_back(of(k, s));
         return v;
     }
     Vector each_step(const std::function<double(std::size_t)>& of) const {
         Vector v;
-        for (const std::size_t s : up_to(steps)) v.push_back(of(s));
+        for (const std::size_t s : indices(steps)) v.push_back(of(s));
         return v;
     }
     Vector each_surface(const std::function<double(std::size_t)>& of) const {
         Vector v;
-        for (const std::size_t k : up_to(M)) v.push_back(of(k));
+        for (const std::size_t k : indices(M)) v.push_back(of(k));
         return v;
     }
     double hardness(std::int32_t i) const {
