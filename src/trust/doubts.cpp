@@ -1,5 +1,7 @@
 #include "trust/doubts.hpp"
 
+#include "base/format.hpp"
+
 namespace rsc {
 
 std::string sentence(Cause cause, bool elements) {

@@ -5,7 +5,6 @@
 
 #include <fftw3.h>
 
-
 #include "base/parallel.hpp"
 #include "support/paths.hpp"
 #include "surface/detection.hpp"
@@ -140,12 +139,9 @@ struct Part {
     bool only_named = false;  // minutes or gigabytes: not run unless asked for
 };
 const Part kParts[] = {
-    {"realization", bench_realization},
-    {"solve", bench_solve},
-    {"adhesion", bench_adhesion},
-    {"calls", bench::calls},
-    {"elements", bench::elements},
-    {"element_flats", bench::element_flats, true},
+    {"realization", bench_realization}, {"solve", bench_solve},
+    {"adhesion", bench_adhesion},       {"calls", bench::calls},
+    {"elements", bench::elements},      {"element_flats", bench::element_flats, true},
     {"scaling", bench::scaling, true},
 };
 

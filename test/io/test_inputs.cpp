@@ -23,7 +23,7 @@ std::string heights_file(const std::string& name, std::vector<double> x, std::ve
                          std::vector<std::pair<std::string, std::vector<double>>> attributes = {},
                          int format = NC_NETCDF4) {
     if (z.empty())
-        for (const int i : up_to(15)) z.push_back(10 * (i / 5) + i % 5);
+        for (const int i : indices(15)) z.push_back(10 * (i / 5) + i % 5);
     std::vector<Variable> all = {{"height", NC_DOUBLE, {"y", "x"}, z, {}, attributes}};
     if (!x.empty()) all.push_back({"x", NC_DOUBLE, {"x"}, x});
     if (!y.empty()) all.push_back({"y", NC_DOUBLE, {"y"}, y});

@@ -23,8 +23,8 @@ std::string write(const std::string& name, const std::string& content) {
 // 6 x 4 points of 2 x 3 micrometres; height 100 row + column nanometres, rows from the top.
 Map sample() {
     Map map{6, 4, 2e-6, 3e-6, {}};
-    for (const int j : up_to(4))
-        for (const int i : up_to(6)) map.z.push_back(1e-9 * (100 * j + i));
+    for (const int j : indices(4))
+        for (const int i : indices(6)) map.z.push_back(1e-9 * (100 * j + i));
     return map;
 }
 
@@ -34,8 +34,8 @@ void check_sample(const HeightMap& m, int missing) {
     CHECK(m.nx == 6 && m.ny == 4 && !m.periodic && m.x0 == 0 && m.y0 == 0);
     CHECK_RELATIVE(m.dx, 2.0, 1e-12);
     CHECK_RELATIVE(m.dy, 3.0, 1e-12);
-    for (const int j : up_to(4))
-        for (const int i : up_to(6))
+    for (const int j : indices(4))
+        for (const int i : indices(6))
             if (i == missing && j == 2)
                 CHECK(std::isnan(m(i, j)));
             else
@@ -289,8 +289,8 @@ TEST(example) {
     CHECK_RELATIVE(sdf.dx, 2.5, 1e-12);
     CHECK_RELATIVE(gwy.dy, 3.125, 1e-12);
     long different = 0;
-    for (const int j : up_to(128))
-        for (const int i : up_to(160))
+    for (const int j : indices(128))
+        for (const int i : indices(160))
             different += std::isnan(sdf(i, j)) != std::isnan(gwy(i, j)) ||
                          std::abs(sdf(i, j) - gwy(i, j)) > 1e-9;
     CHECK(different == 0);

@@ -69,7 +69,7 @@ double pull_off_error(double lambda, double resolution) {
     const Sphere truth{{1, 0.01, lambda, 1}};
     const double h = truth.range() / resolution,
                  widest = 1.05 * truth.pressed(0).c + 3 * truth.range() / resolution;
-    const int n = 2 * static_cast<int>(std::ceil(widest / h));
+    const int n = 2 * int(std::ceil(widest / h));
     const HeightMap map = paraboloid(n * h, n);
     const SolverOptions options = attracting(truth.w, truth.range());
     const auto contact =

@@ -82,7 +82,7 @@ void derivatives(const char* name) {
     CHECK(worst4 <= fourth * size4);
     double x[3] = {-0.1, 0.02, 0.3}, many[3];
     s->heights(3, x, 0.17, many);
-    for (const int k : up_to(3)) CHECK_CLOSE(many[k], s->height(x[k], 0.17), 1e-15);
+    for (const int k : indices(3)) CHECK_CLOSE(many[k], s->height(x[k], 0.17), 1e-15);
 }
 
 // lowest() and most_fallen() bound what is sampled.

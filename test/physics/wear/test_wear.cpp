@@ -205,15 +205,15 @@ TEST(files) {
     const std::size_t points = worn.size();
     CHECK(before.size() == 2 * points);
     double lost = 0, deepest = 0, mean = 0, square = 0;
-    for (const std::size_t i : up_to(points)) {
+    for (const std::size_t i : indices(points)) {
         CHECK(before[points + i] == worn[i]);
         lost += before[i] - worn[i];
         deepest = std::max(deepest, before[i] - worn[i]);
-        mean += worn[i] / static_cast<double>(points);
+        mean += worn[i] / double(points);
     }
-    for (const double z : worn) square += (z - mean) * (z - mean) / static_cast<double>(points);
-    CHECK_RELATIVE(lost / static_cast<double>(points), whole.values("worn_volume")[2], 1e-9);
-    CHECK_RELATIVE(lost / static_cast<double>(points), 1e-8 * 100 * 20, 1e-6);
+    for (const double z : worn) square += (z - mean) * (z - mean) / double(points);
+    CHECK_RELATIVE(lost / double(points), whole.values("worn_volume")[2], 1e-9);
+    CHECK_RELATIVE(lost / double(points), 1e-8 * 100 * 20, 1e-6);
     CHECK_RELATIVE(deepest, whole.values("wear_depth_max")[2], 1e-9);
     CHECK_RELATIVE(std::sqrt(square), whole.values("worn_rms")[2], 1e-9);
     // Where the bodies touch there is no gap, elsewhere there is one.
