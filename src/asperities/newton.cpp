@@ -206,66 +206,69 @@ double square_of_scaled(const Law& law, const WorkingSet& set, const std::vector
 
 }  // namespace
 
+// Newton's step within the trust region, which shrinks until the energy decreases enough; that
+// state becomes the present one. False if no step does.
+bool Newton::descend(const WorkingSet& set, double forcing, TrustRegion& trust) {
+    trust.radius = std::min(
+        trust.radius,
+        kLongest * std::sqrt(square_of_scaled(law_, set, now_.active, now_.v, now_.slope)));
+    // Expected residual after the step, since Newton's method has an order of at least 3/2.
+    const double expected = std::max(forcing * now_.residual, std::pow(now_.residual, 1.5));
+    Step next;
+    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+        products_->set_active(now_.active);
+        step(set, now_, forcing, trust.radius, trust.entering, next);
+        trial_.v.resize(now_.v.size());
+        for (std::size_t k = 0; k < now_.v.size(); ++k) trial_.v[k] = now_.v[k] + next.dv[k];
+        evaluate(set, trial_, !rough_will_do(expected));
+        const double decrease = now_.energy - trial_.energy;
+        const double noise =
+            std::max(kEnergyRounding, now_.accurate && trial_.accurate ? products_->full_error()
+                                                                       : products_->inner_error()) *
+            (now_.scale + trial_.scale);
+        const bool accepted =
+            decrease >= kSufficient * next.predicted ||
+            (decrease >= -noise && trial_.residual < now_.residual && !next.negative_curvature);
+        if (!accepted || decrease < kPoor * next.predicted) {
+            trust.radius = kShrink * next.norm;
+            if (!accepted) trust.entering *= kShrink;
+        } else {
+            if (next.border && decrease > kGood * next.predicted) trust.radius *= kGrow;
+            if (!next.border) trust.radius = kInfinity;
+            trust.entering = std::min(1.0, trust.entering / kShrink);
+        }
+        if (!accepted || !std::isfinite(trial_.energy)) continue;
+        std::swap(now_, trial_);
+        return true;
+    }
+    return false;
+}
+
 NewtonOutcome Newton::solve(const WorkingSet& set, double tolerance, int max_iterations, Vector& v,
                             bool ask_minimum) {
     NewtonOutcome outcome;
     now_.v = v;
     evaluate(set, now_, !rough_will_do(1));
-    double radius = kInfinity, entering = 1.0;
-    Step step_now;
+    TrustRegion trust;
     for (;; ++outcome.iterations) {
-        outcome.residual = now_.residual;
+        const bool last = outcome.iterations >= max_iterations;
         if (now_.residual <= tolerance) {
             Vector lowest;
             outcome.minimum = !ask_minimum || positive_definite(set, now_, lowest);
-            if (outcome.minimum || outcome.iterations >= max_iterations) {
+            if (outcome.minimum || last) {
                 outcome.converged = outcome.minimum;
                 break;
             }
             leave_saddle(set, lowest);
             continue;
         }
-        if (outcome.iterations >= max_iterations) {
-            if (!now_.accurate) {
-                evaluate(set, now_, true);
-                outcome.residual = now_.residual;
-            }
+        if (last) {
+            if (!now_.accurate) evaluate(set, now_, true);
             break;
         }
-        const double forcing = forcing_of(now_.residual, tolerance);
-        radius = std::min(radius, kLongest * std::sqrt(square_of_scaled(law_, set, now_.active,
-                                                                        now_.v, now_.slope)));
-        bool accepted = false;
-        for (int attempt = 0; attempt < kMostAttempts && !accepted; ++attempt) {
-            products_->set_active(now_.active);
-            step(set, now_, forcing, radius, entering, step_now);
-            trial_.v.resize(now_.v.size());
-            for (std::size_t k = 0; k < now_.v.size(); ++k)
-                trial_.v[k] = now_.v[k] + step_now.dv[k];
-            // Expected residual after the step, since Newton's method has an order of at least 3/2.
-            const double expected = std::max(forcing * now_.residual, std::pow(now_.residual, 1.5));
-            evaluate(set, trial_, !rough_will_do(expected));
-            const double decrease = now_.energy - trial_.energy;
-            const bool accurate = now_.accurate && trial_.accurate;
-            const double noise = std::max(kEnergyRounding, accurate ? products_->full_error()
-                                                                    : products_->inner_error()) *
-                                 (now_.scale + trial_.scale);
-            accepted = decrease >= kSufficient * step_now.predicted ||
-                       (decrease >= -noise && trial_.residual < now_.residual &&
-                        !step_now.negative_curvature);
-            if (!accepted || decrease < kPoor * step_now.predicted) {
-                radius = kShrink * step_now.norm;
-                if (!accepted) entering *= kShrink;
-            } else {
-                if (step_now.border && decrease > kGood * step_now.predicted) radius *= kGrow;
-                if (!step_now.border) radius = kInfinity;
-                entering = std::min(1.0, entering / kShrink);
-            }
-            if (!std::isfinite(trial_.energy)) accepted = false;
-        }
-        if (!accepted) break;
-        std::swap(now_, trial_);
+        if (!descend(set, forcing_of(now_.residual, tolerance), trust)) break;
     }
+    outcome.residual = now_.residual;
     outcome.converged = outcome.converged || (!ask_minimum && now_.residual <= tolerance);
     v = now_.v;
     return outcome;

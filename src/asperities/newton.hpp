@@ -100,6 +100,12 @@ private:
         bool border = false, negative_curvature = false;
     };
 
+    // Limits |w|, and the share of the penetration that asperities without force may gain.
+    struct TrustRegion {
+        double radius = kInfinity, entering = 1;
+    };
+
+    bool descend(const WorkingSet& set, double forcing, TrustRegion& trust);
     void evaluate(const WorkingSet& set, State& state, bool accurate);
     // True if inner products are accurate enough for a residual of this size.
     bool rough_will_do(double residual) const;
