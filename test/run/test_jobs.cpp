@@ -316,7 +316,7 @@ TEST(adhesion_that_flattens) {
             if (wave < 12 || wave > 16) continue;
             const double square = std::pow(wave, -2 * (1 + c.surface.hurst));
             squares += square;
-            energy += 2 * kPi * wave / *c.surface.L * square;
+            energy += 2 * std::numbers::pi * wave / *c.surface.L * square;
         }
     energy *= 0.25 * equivalent_modulus(c.solids.E, c.solids.nu) * std::pow(*c.surface.sigma, 2) /
               squares;

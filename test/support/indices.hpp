@@ -10,7 +10,4 @@ template <class Integer>
 auto up_to(Integer n) {
     return std::views::iota(Integer{}, std::max(Integer{}, n));
 }
-template <class Container>
-auto indices(const Container& values) {
-    return up_to(std::size(values));
-}
+using rsc::indices;
