@@ -6,8 +6,9 @@
 #include <iterator>
 #include <random>
 
-#include "support/indices.hpp"
+#include "base/std.hpp"
 
+using rsc::indices;
 using rsc::kInfinity;
 using std::numbers::pi;
 

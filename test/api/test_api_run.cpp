@@ -68,19 +68,16 @@ void level_by_calls(const Reader& file, rsc_contact* contact, std::size_t s,
     };
     CHECK(Z == of("separation") && N == of("force") && A == of("contact_area") && has_status());
     CHECK(!file.has("stiffness") || (S == of("stiffness") && W == of("energy")));
-    CHECK(static_cast<double>(n) == of("contacts") &&
-          static_cast<double>(pairs) == of("overlapping_pairs"));
-    CHECK(!file.has("large_contacts") || (static_cast<double>(large) == of("large_contacts") &&
-                                          static_cast<double>(edge) == of("edge_contacts") &&
-                                          static_cast<double>(beyond) == of("beyond_law")));
+    CHECK(double(n) == of("contacts") && double(pairs) == of("overlapping_pairs"));
+    CHECK(!file.has("large_contacts") ||
+          (double(large) == of("large_contacts") && double(edge) == of("edge_contacts") &&
+           double(beyond) == of("beyond_law")));
     OK(rsc_contact_level(contact, &status, &candidates, &iterations, &pairs, &residual));
-    CHECK(has_status() && static_cast<double>(pairs) == of("overlapping_pairs") &&
-          residual == of("residual"));
-    CHECK(static_cast<double>(candidates) == of("candidates") &&
-          static_cast<double>(iterations) == of("iterations"));
+    CHECK(has_status() && double(pairs) == of("overlapping_pairs") && residual == of("residual"));
+    CHECK(double(candidates) == of("candidates") && double(iterations) == of("iterations"));
     // Spots: the file's contacts of this level, counted from 1 there.
     const auto first = static_cast<std::size_t>(of("contact_start")) - 1;
-    CHECK(static_cast<double>(n) == of("contact_count"));
+    CHECK(double(n) == of("contact_count"));
     std::vector<std::int32_t> which(n);
     Values force(n), radius(n), penetration(n);
     OK(rsc_contact_spots(contact, n, which.data(), force.data(), radius.data(),
@@ -119,8 +116,8 @@ void every_value(const Folder& folder, const Run& run) {
     const Values separation = file.values("separation"), force = file.values("force");
     if (file.has("pull_off_force")) {
         const Values least = file.values("least_force");
-        CHECK(least.back() < 0 && file.values("pull_off_force") ==
-                                      Values{*std::min_element(least.begin(), least.end())});
+        CHECK(least.back() < 0 &&
+              file.values("pull_off_force") == Values{*std::ranges::min_element(least)});
     }
     std::vector<std::string> names;
     for (const auto s : indices(separation)) {

@@ -51,16 +51,16 @@ Answer work(int number) {
 std::vector<Answer> at_once(const std::function<Answer(int)>& work_of) {
     std::vector<Answer> answers(kThreads);
     std::vector<std::thread> threads;
-    for (const int t : up_to(kThreads)) threads.emplace_back([&, t] { answers[t] = work_of(t); });
+    for (const int t : indices(kThreads)) threads.emplace_back([&, t] { answers[t] = work_of(t); });
     for (auto& t : threads) t.join();
     return answers;
 }
 
 TEST(api_threads) {
     std::vector<Answer> alone;
-    for (const int t : up_to(kThreads)) alone.push_back(work(t));
+    for (const int t : indices(kThreads)) alone.push_back(work(t));
     const std::vector<Answer> together = at_once(work);
-    for (const std::size_t t : up_to(kThreads)) {
+    for (const std::size_t t : indices(kThreads)) {
         CHECK(alone[t].failures == 0 && alone[t].values.back() > 0 && alone[t] == together[t]);
         if (t > 0) CHECK(alone[t] != alone[0]);
     }

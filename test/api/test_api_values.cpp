@@ -16,8 +16,8 @@ struct Map {
     template <class Height>
     Values heights(Height&& z) const {
         Values all;
-        for (const int j : up_to(ny))
-            for (const int i : up_to(nx)) all.push_back(z(i, j));
+        for (const int j : indices(ny))
+            for (const int i : indices(nx)) all.push_back(z(i, j));
         return all;
     }
     SurfaceHandle take(const Values& z, bool periodic = false) const {
@@ -34,8 +34,8 @@ struct Map {
 
 double rms(const Values& z) {
     double mean = 0, square = 0;
-    for (const double v : z) mean += v / static_cast<double>(z.size());
-    for (const double v : z) square += (v - mean) * (v - mean) / static_cast<double>(z.size());
+    for (const double v : z) mean += v / double(z.size());
+    for (const double v : z) square += (v - mean) * (v - mean) / double(z.size());
     return std::sqrt(square);
 }
 

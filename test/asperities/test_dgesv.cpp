@@ -19,7 +19,7 @@ WorkingSet candidates(const Asperities& a, const Indenter& indenter, double Z0) 
     for (const auto i : indices(a)) {
         const double g0 = indenter.clearance(a.x[i], a.y[i], a.z[i]) - Z0;
         if (!(g0 > 0)) continue;
-        set.asperity.push_back(static_cast<int>(i));
+        set.asperity.push_back(int(i));
         set.x.push_back(a.x[i]);
         set.y.push_back(a.y[i]);
         set.g0.push_back(g0);
@@ -40,12 +40,11 @@ TEST(matrix) {
     CHECK(n > 20);
     const double delta = 0.005;
     std::vector<double> force(n), K(n * n), unused(n * n), above, below, R;
-    for (const std::size_t i : up_to(n))
-        force[i] = 2e-5 * (1 + std::sin(3.0 * static_cast<double>(i)));
+    for (const std::size_t i : indices(n)) force[i] = 2e-5 * (1 + std::sin(3.0 * double(i)));
     const auto penetrations = [&](const std::vector<double>& F) {
         std::vector<double> v = set.g0;
-        for (const std::size_t i : up_to(n))
-            for (const std::size_t j : up_to(n))
+        for (const std::size_t i : indices(n))
+            for (const std::size_t j : indices(n))
                 if (j != i)
                     v[i] -= F[j] / (pi * std::hypot(set.x[i] - set.x[j], set.y[i] - set.y[j]));
         return v;
@@ -56,7 +55,7 @@ TEST(matrix) {
     CHECK(near > 2 && inside > 2 && outside > 2);
     paper_equations(*law, *kernel, set, delta, force, v, R, K.data());
     double largest = 0, worst = 0;
-    for (const std::size_t j : up_to(n)) {
+    for (const std::size_t j : indices(n)) {
         // of forces near 1e-5: truncation and rounding of the difference are both below 1e-5 of K
         const double h = 1e-9;
         std::vector<double> F = force;
@@ -64,7 +63,7 @@ TEST(matrix) {
         paper_equations(*law, *kernel, set, delta, F, penetrations(F), above, unused.data());
         F[j] = force[j] - h;
         paper_equations(*law, *kernel, set, delta, F, penetrations(F), below, unused.data());
-        for (const std::size_t i : up_to(n)) {
+        for (const std::size_t i : indices(n)) {
             worst = std::max(worst, std::abs((above[i] - below[i]) / (2 * h) - K[j * n + i]));
             if (i != j) largest = std::max(largest, std::abs(K[j * n + i]));
         }

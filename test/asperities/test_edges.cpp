@@ -19,6 +19,10 @@ SolverOptions options(Method method, double tolerance = 1e-10) {
     return {.method = method, .tolerance = tolerance, .surface = {.sigma = 0.01}};
 }
 
+Path path(const Asperities& a, double R, Method method = Method::direct, double tolerance = 1e-10) {
+    return asperity_path(a, {kE, R, 0.5, 0.5}, options(method, tolerance));
+}
+
 // Everything in the level is finite, contacts are contacts, and sums are sums.
 void sane(const Level& level, const char* what) {
     bool ok = std::isfinite(level.force) && std::isfinite(level.area) &&
@@ -61,8 +65,7 @@ double residual(const Asperities& a, const Indenter& indenter, double Z0, const 
         error2 += (f - F[i]) * (f - F[i]);
         force2 += F[i] * F[i];
     }
-    return force2 > 0 ? static_cast<double>(std::sqrt(error2 / force2))
-                      : static_cast<double>(std::sqrt(error2));
+    return force2 > 0 ? double(std::sqrt(error2 / force2)) : double(std::sqrt(error2));
 }
 
 void check_answer(const Asperities& a, const Indenter& indenter, double Z0, Method method,
@@ -73,7 +76,7 @@ void check_answer(const Asperities& a, const Indenter& indenter, double Z0, Meth
     const bool told = !level.converged, right = left <= 2 * tolerance;
     if (told || !right)
         std::printf("%s, method %d: status %d, residual %.1e, true residual %.1e\n", what,
-                    static_cast<int>(method), static_cast<int>(level.status), level.residual, left);
+                    int(method), int(level.status), level.residual, left);
     CHECK(!told);
     CHECK(right);
     CHECK_CLOSE(
@@ -91,18 +94,14 @@ TEST(coincident) {
     const Asperities a = three(0);
     CHECK_THROWS(validate(a, [](std::size_t i) { return "asperity " + std::to_string(i); }), Error);
     for (Method method : kMethods)
-        refusal([&] {
-            sane(asperity_path(a, {kE, 2.5, 0.5, 0.5}, options(method)).at_separation(0.0),
-                 "coincident");
-        });
+        refusal([&] { sane(path(a, 2.5, method).at_separation(0.0), "coincident"); });
     // Nearly so: only one of the two can carry, whichever, and the level says that the other might
     // have. Nearer than the coordinates of the inner products resolve (2^-31 of the surface's
     // extent), the level may be said not to have converged instead.
     for (double gap : {1.2e-16, 1e-14, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4}) {
         const Asperities near = three(gap);
         for (Method method : kMethods) {
-            const Level level =
-                asperity_path(near, {kE, 2.5, 0.5, 0.5}, options(method)).at_separation(0.0);
+            const Level level = path(near, 2.5, method).at_separation(0.0);
             sane(level, "nearly coincident");
             if (gap < 1e-9) {
                 CHECK((!level.unique || !level.converged));
@@ -123,8 +122,7 @@ TEST(overlapping) {
     for (double d : {0.03, 0.015, 0.008, 0.004, 0.001, 1e-4}) {
         const Asperities a = asperities_at({{0.5 - d / 2, 0.5, g, r}, {0.5 + d / 2, 0.5, g, r}});
         for (Method method : kMethods) {
-            const Level level =
-                asperity_path(a, {kE, kInfinity, 0.5, 0.5}, options(method)).at_separation(0.0);
+            const Level level = path(a, kInfinity, method).at_separation(0.0);
             sane(level, "overlapping");
             CHECK(residual(a, {kE, kInfinity, 0.5, 0.5}, 0.0, level) <= 2e-10);
             bool overlap = level.f.size() == 2 && d < level.a[0] + level.a[1];
@@ -154,9 +152,7 @@ TEST(depths) {
                              ("depth " + std::to_string(Z0)).c_str());
             for (const double loose : {1e-6, 1e-7})
                 check_answer(a, {kE, R, 0.5, 0.5}, Z0, Method::direct, "loose", loose);
-            const double N = asperity_path(a, {kE, R, 0.5, 0.5}, options(Method::direct))
-                                 .at_separation(Z0)
-                                 .force;
+            const double N = path(a, R).at_separation(Z0).force;
             CHECK(N >= last);
             if (Z0 > 0.5) CHECK(N == 0);
             last = N;
@@ -164,20 +160,15 @@ TEST(depths) {
         CHECK(last > 0);
     }
     // The flat gives what a very large sphere gives.
-    const double flat = asperity_path(a, {kE, kInfinity, 0.5, 0.5}, options(Method::direct, 1e-12))
-                            .at_separation(0.0)
-                            .force;
-    CHECK_RELATIVE(asperity_path(a, {kE, 1e12, 0.5, 0.5}, options(Method::direct, 1e-12))
-                       .at_separation(0.0)
-                       .force,
-                   flat, 1e-9);
+    const double flat = path(a, kInfinity, Method::direct, 1e-12).at_separation(0.0).force;
+    CHECK_RELATIVE(path(a, 1e12, Method::direct, 1e-12).at_separation(0.0).force, flat, 1e-9);
 }
 
 // Loads from that of a touch to far beyond.
 TEST(forces) {
     const Asperities a = random_asperities(200, 0.03, 0.01, 1e-3, 0.5, 15);
     for (double N : {1e-9, 1e-3, 1.0, 1e3, 1e6, 1e9}) {
-        Path contact = asperity_path(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
+        Path contact = path(a, 2.5);
         const Level level = contact.at_force(N);
         sane(level, "force");
         // Z0 has neighbours only so near, and the force with it: the last term is what one summit
@@ -189,15 +180,14 @@ TEST(forces) {
                     1e-10 * N + 4 * ulp * std::abs(contact.stiffness()) +
                         kE * 0.1 * std::pow(4 * ulp, 1.5));
     }
-    Path contact = asperity_path(a, {kE, 2.5, 0.5, 0.5}, options(Method::direct));
+    Path contact = path(a, 2.5);
     for (double N : {0.0, -1.0, 1e-20, std::nan(""), kInfinity})
         CHECK_THROWS(contact.at_force(N), Error);
     for (double Z0 : {std::nan(""), kInfinity, -kInfinity})
         CHECK_THROWS(contact.at_separation(Z0), Error);
     for (double E : {0.0, -1.0, std::nan(""), kInfinity})
         CHECK_THROWS(asperity_path(a, {E, 2.5, 0.5, 0.5}, options(Method::direct)), Error);
-    for (double R : {0.0, -1.0, std::nan("")})
-        CHECK_THROWS(asperity_path(a, {kE, R, 0.5, 0.5}, options(Method::direct)), Error);
+    for (double R : {0.0, -1.0, std::nan("")}) CHECK_THROWS(path(a, R), Error);
 }
 
 // Residuals of numbers whose squares are none.

@@ -76,8 +76,8 @@ TEST(against_slow_solver) {
     int systems = 0;
     for (const Family& family : kFamilies) {
         int unique = 0;
-        for (const int k : up_to(family.systems)) {
-            const unsigned seed = 1000u + static_cast<unsigned>(k);
+        for (const int k : indices(family.systems)) {
+            const unsigned seed = 1000u + unsigned(k);
             Asperities a = random_asperities(1 + (k * family.n) / family.systems, family.spacing,
                                              0.01, family.radius, family.spread, seed);
             if (family.law != LawKind::hertz) shape(a, family.law, 0.06, seed);
@@ -95,16 +95,15 @@ TEST(against_slow_solver) {
                 CHECK(level.converged);
                 if ((!level.unique || !level.converged)) continue;  // the two may find two minima
                 unique += method == Method::direct;
-                const double N = static_cast<double>(reference.force) * kE,
-                             A = static_cast<double>(reference.area);
+                const double N = double(reference.force) * kE, A = double(reference.area);
                 CHECK_CLOSE(level.force, N, kTolerance * N);
                 CHECK_CLOSE(level.area, A, kTolerance * A);
                 std::vector<double> F(a.size(), 0.0);
                 for (const auto c : indices(level.f)) F[level.asperity[c]] = level.f[c];
                 double difference = 0;
                 for (const auto i : indices(a)) {
-                    difference = check::worse(
-                        difference, std::abs(F[i] - static_cast<double>(reference.load[i]) * kE));
+                    difference =
+                        check::worse(difference, std::abs(F[i] - double(reference.load[i]) * kE));
                 }
                 CHECK(difference <= kTolerance * N);
             }

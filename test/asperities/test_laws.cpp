@@ -28,7 +28,7 @@ template <class F>
 double integrate(double from, double to, F f) {
     const double node = std::sqrt(0.6), h = (to - from) / 64;
     double sum = 0;
-    for (const int i : up_to(64)) {
+    for (const int i : indices(64)) {
         const double m = from + (i + 0.5) * h;
         sum += h * (5 * f(m - 0.5 * h * node) + 8 * f(m) + 5 * f(m + 0.5 * h * node)) / 18;
     }
@@ -184,14 +184,12 @@ TEST(fourth_order_to_the_last_digits) {
             const long double x = k * 0.0103L, c = sign > 0 ? std::cos(x) : std::cosh(x),
                               v = sign > 0 ? std::sin(x) : std::sinh(x);
             const long double half = sign > 0 ? std::sin(x / 2) : std::sinh(x / 2);
-            const Answer r = ask(*law, static_cast<double>(2 * A * half * half));
-            const double slack = kRounding / static_cast<double>(std::abs(v));
-            CHECK_RELATIVE(std::sqrt(r.area / pi) * q, static_cast<double>(x), slack);
+            const Answer r = ask(*law, double(2 * A * half * half));
+            const double slack = kRounding / double(std::abs(v));
+            CHECK_RELATIVE(std::sqrt(r.area / pi) * q, double(x), slack);
             if (k < 30) continue;  // the closed form of P cancels
-            CHECK_RELATIVE(r.force, static_cast<double>(2 * kE * A / q * sign * (v - x * c)),
-                           slack);
-            CHECK_RELATIVE(r.force, law->force(0, static_cast<double>(2 * A * half * half)),
-                           kRounding);
+            CHECK_RELATIVE(r.force, double(2 * kE * A / q * sign * (v - x * c)), slack);
+            CHECK_RELATIVE(r.force, law->force(0, double(2 * A * half * half)), kRounding);
         }
     }
 }

@@ -78,7 +78,7 @@ TEST(shift_is_the_highest_point) {
         };
         double best = clearance(0, 0), far = 0;
         constexpr int around = 2000, out = 100;
-        for (const int a : up_to(around))
+        for (const int a : indices(around))
             for (int r = 1; r <= out; ++r) {
                 const double t = 2 * pi * a / around, d = farthest * r / out,
                              here = clearance(d * std::cos(t), d * std::sin(t));
@@ -131,7 +131,7 @@ TEST(no_history) {
             const double touch = fresh.first_touch(), Z0 = touch - 4e-4;
             const Level truth = fresh.at_separation(Z0);
             CHECK(truth.contacts > 0);
-            for (const int way : up_to(3)) {
+            for (const int way : indices(3)) {
                 Path moving = asperity_path(model.asperities, tip, options);
                 const int steps = way == 0 ? 1 : 12;
                 for (int k = 1; k <= steps; ++k) {
@@ -196,19 +196,19 @@ TEST(summits_of_maps) {
         Surface broken = measured(clean);
         HeightMap& map = broken.map;
         if (what[0] == 'g')
-            for (const int k : up_to(256)) {
+            for (const int k : indices(256)) {
                 map.row(k)[100] -= 8e-3;
                 map.row(140)[k] -= 8e-3;
             }
         if (what[0] == 's')
-            for (const int j : up_to(256))
+            for (const int j : indices(256))
                 for (int i = 128; i < 256; ++i) map.row(j)[i] -= 4e-3;
         const Asperities found =
             find_asperities(map, Curvature::geometric, nullptr, 1, Detail::subgrid);
         double above = 0;
         for (const auto k : indices(found)) {
-            const int i = static_cast<int>(std::lround(found.x[k] / map.dx)),
-                      j = static_cast<int>(std::lround(found.y[k] / map.dy));
+            const int i = int(std::lround(found.x[k] / map.dx)),
+                      j = int(std::lround(found.y[k] / map.dy));
             double highest = -1;
             for (int dj = -1; dj <= 1; ++dj)
                 for (int di = -1; di <= 1; ++di) highest = std::max(highest, map(i + di, j + dj));
@@ -249,8 +249,8 @@ TEST(summits_of_maps) {
         Surface rounded = measured(clean);
         HeightMap& map = rounded.map;
         const double step = part * 1e-3;
-        for (const int j : up_to(map.ny))
-            for (const int i : up_to(map.nx)) map.row(j)[i] = step * std::round(map(i, j) / step);
+        for (const int j : indices(map.ny))
+            for (const int i : indices(map.nx)) map.row(j)[i] = step * std::round(map(i, j) / step);
         CHECK_RELATIVE(height_step(map), step, 1e-6);
         CHECK(height_step(clean) == 0);
         for (const bool rows :

@@ -17,8 +17,8 @@ using Vector = std::vector<double>;
 Vector dense(const Vector& x, const Vector& y, const Vector& a) {
     const std::size_t n = a.size();
     Vector M(n * n);
-    for (const std::size_t i : up_to(n)) {
-        for (const std::size_t j : up_to(n)) {
+    for (const std::size_t i : indices(n)) {
+        for (const std::size_t j : indices(n)) {
             const double d = std::hypot(x[i] - x[j], y[i] - y[j]);
             M[i * n + j] = i == j ? 1.0 : 2 / pi * std::sqrt(a[i] * a[j]) / d;
         }
@@ -34,7 +34,7 @@ Points random_points(std::size_t n, double radius, double spread, unsigned seed)
     std::uniform_real_distribution<double> uniform(0, 1);
     std::normal_distribution<double> normal;
     Points p;
-    for (const std::size_t i : up_to(n)) {
+    for (const std::size_t i : indices(n)) {
         p.x.push_back(uniform(random));
         p.y.push_back(uniform(random));
         p.a.push_back(i % 7 == 6
@@ -50,7 +50,7 @@ TEST(proofs_are_true) {
         const Points p =
             random_points(5 + seed % 60, 0.002 * (1 + seed % 40), 0.5 * (seed % 4), seed);
         Vector M = dense(p.x, p.y, p.a);
-        const bool definite = lapack::is_positive_definite(static_cast<int>(p.a.size()), M.data());
+        const bool definite = lapack::is_positive_definite(int(p.a.size()), M.data());
         const bool proof = positive_definite_by_shells(p.x, p.y, p.a);
         CHECK(!proof || definite);
         proved += proof;
@@ -69,29 +69,29 @@ std::vector<Vector> all_minima(const Law& law, double E_star, const Asperities& 
     std::vector<Vector> minima;
     for (unsigned subset = 0; subset < 1u << n; ++subset) {
         Vector F(n), v(n);
-        for (const std::size_t i : up_to(n))
-            F[i] = subset >> i & 1 ? law.force(static_cast<int>(i), g0[i]) : 0;
+        for (const std::size_t i : indices(n))
+            F[i] = subset >> i & 1 ? law.force(int(i), g0[i]) : 0;
         double change = 1;
         for (int sweep = 0; sweep < 100000 && change > 1e-12; ++sweep) {
             change = 0;
-            for (const std::size_t i : up_to(n)) {
+            for (const std::size_t i : indices(n)) {
                 v[i] = g0[i];
-                for (const std::size_t j : up_to(n)) {
+                for (const std::size_t j : indices(n)) {
                     if (j != i)
                         v[i] -= F[j] / (pi * E_star * std::hypot(p.x[i] - p.x[j], p.y[i] - p.y[j]));
                 }
-                const double f = law.force(static_cast<int>(i), v[i]);
+                const double f = law.force(int(i), v[i]);
                 change = std::max(change, std::abs(f - F[i]));
                 F[i] = f;
             }
         }
         const auto same = [&](const Vector& other) {
-            for (const std::size_t i : up_to(n)) {
+            for (const std::size_t i : indices(n)) {
                 if (std::abs(other[i] - v[i]) > 1e-6) return false;
             }
             return true;
         };
-        if (std::none_of(minima.begin(), minima.end(), same)) minima.push_back(v);
+        if (std::ranges::none_of(minima, same)) minima.push_back(v);
     }
     return minima;
 }
@@ -102,25 +102,25 @@ TEST(told_only_where_it_is_so) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(0, 1);
     int unique = 0, several = 0, told = 0, several_wide = 0;
-    for (const int set : up_to(8000)) {
+    for (const int set : indices(8000)) {
         const std::size_t n = 2 + set % 5;
         const bool wide =
             // radii over decades: a flat asperity far outside the spot of a sharp one may be its
             // rival
             set >= 4000;
-        const double side = std::sqrt(static_cast<double>(n)) * (0.3 + 1.2 * uniform(random)) *
+        const double side = std::sqrt(double(n)) * (0.3 + 1.2 * uniform(random)) *
                             (wide ? 3 : 1);  // contact radii are up to 1
         Asperities p;
         Vector g0;
         std::vector<int> all;
-        for (const std::size_t i : up_to(n)) {
+        for (const std::size_t i : indices(n)) {
             p.x.push_back(side * uniform(random));
             p.y.push_back(side * uniform(random));
             p.z.push_back(0);
             p.radius.push_back(wide ? std::pow(10.0, -1 + 8 * uniform(random))
                                     : 0.3 + uniform(random));
             g0.push_back(wide ? std::pow(10.0, -2 * uniform(random)) : uniform(random));
-            all.push_back(static_cast<int>(i));
+            all.push_back(int(i));
         }
         const auto law = make_law(LawKind::hertz, p, E_star);
         law->prepare(all);
@@ -131,8 +131,7 @@ TEST(told_only_where_it_is_so) {
             (minima.size() == 1 ? unique : several) += 1;
         for (const Vector& v : minima) {
             Vector force(n), slope(n), work(n);
-            law->respond(static_cast<int>(n), all.data(), v.data(), force.data(), slope.data(),
-                         work.data());
+            law->respond(int(n), all.data(), v.data(), force.data(), slope.data(), work.data());
             const bool one = has_one_solution(*law, *make_kernel(Interaction::point, E_star), all,
                                               p.x, p.y, v, force, slope);
             CHECK(!one || minima.size() == 1);
@@ -153,17 +152,16 @@ TEST(lanczos_finds_the_lowest) {
         for (int i = 0; i < 60; ++i) {
             const double shift = 0.5 * (low + high);
             Vector shifted = M;
-            for (const std::size_t k : up_to(n)) shifted[k * n + k] -= shift;
-            (lapack::is_positive_definite(static_cast<int>(n), shifted.data()) ? low : high) =
-                shift;
+            for (const std::size_t k : indices(n)) shifted[k * n + k] -= shift;
+            (lapack::is_positive_definite(int(n), shifted.data()) ? low : high) = shift;
         }
         Vector vector;
         const double found = lapack::lanczos_lowest(
             n,
             [&](const Vector& in, Vector& out) {
-                for (const std::size_t i : up_to(n)) {
+                for (const std::size_t i : indices(n)) {
                     out[i] = 0;
-                    for (const std::size_t j : up_to(n)) out[i] += M[i * n + j] * in[j];
+                    for (const std::size_t j : indices(n)) out[i] += M[i * n + j] * in[j];
                 }
             },
             vector);

@@ -66,7 +66,7 @@ bool stops(const std::function<void()>& loop) {
 
 void test_stopping() {
     std::vector<rsc::Pixel> pixels;
-    for (const int k : up_to(128 * 128)) pixels.push_back({k % 128, k / 128});
+    for (const int k : indices(128 * 128)) pixels.push_back({k % 128, k / 128});
     const std::vector<double> p(pixels.size(), 1.0);
     std::vector<double> w(pixels.size());
     const auto products = rsc::make_tree_products(1.0, 1, 1, 1e-3, 1e-5);

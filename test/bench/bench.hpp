@@ -13,7 +13,7 @@ namespace bench {
 inline double now() {
     timespec t{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
 // The shortest of several runs: what the code costs when nothing else disturbs it.
@@ -31,14 +31,14 @@ inline double shortest(int runs, const std::function<void()>& work) {
 inline double middle(int runs, const std::function<void()>& work) {
     std::vector<double> times;
     for (int i = 0; i < runs; ++i) times.push_back(shortest(1, work));
-    std::sort(times.begin(), times.end());
+    std::ranges::sort(times);
     return times[times.size() / 2];
 }
 
 inline double peak_memory_mb() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024;
+    return double(usage.ru_maxrss) / 1024;
 }
 
 inline const rsc::Indenter kGold{78.0e3 / (1 - 0.42 * 0.42), 2.5, 0.5, 0.5};

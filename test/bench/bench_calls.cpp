@@ -9,7 +9,7 @@ namespace {
 double thread_time() {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
 void check(std::int32_t status) {
@@ -47,13 +47,13 @@ void calls(const char* law, double step, bool force) {
         check(rsc_contact_value(contact, "iterations", &one));
         iterations += one / count;
     }
-    std::sort(times.begin(), times.end());
+    std::ranges::sort(times);
     std::printf(
         "  %-13s %s %-12s %3ld contacts, %4.1f products, %4.1f steps: median %6.1f us, least %6.1f "
         "us\n",
         law, force ? "force,     " : "separation,",
-        step > 0 ? (step > 1e-5 ? "moved 1e-4" : "moved 1e-6") : "tip at rest",
-        static_cast<long>(contacts), products, iterations, times[count / 2], times[0]);
+        step > 0 ? (step > 1e-5 ? "moved 1e-4" : "moved 1e-6") : "tip at rest", long(contacts),
+        products, iterations, times[count / 2], times[0]);
     check(rsc_contact_destroy(&contact));
     check(rsc_asperities_destroy(&asperities));
     check(rsc_case_destroy(&c));

@@ -29,9 +29,8 @@ void print_cold(const char* what, const HeightMap& map, double wanted) {
     std::printf(
         "  %s, Z0 = sigma, cold: %zu pixels in contact of %d with g0 > 0, %d rounds, %ld products, "
         "residual %.1e%s: %.3f s (wanted: %g)\n",
-        what, level.pixels.index.size(), level.candidates, level.iterations,
-        static_cast<long>(level.products), level.residual,
-        !level.converged ? ", NOT CONVERGED" : "", time, wanted);
+        what, level.pixels.index.size(), level.candidates, level.iterations, long(level.products),
+        level.residual, !level.converged ? ", NOT CONVERGED" : "", time, wanted);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ double on_wall() {
 double of_this_thread() {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
 void run(const ScalingCase& one, int threads, const std::string& file) {
@@ -97,7 +97,7 @@ void profile(const ScalingCase& one, const std::string& file) {
                  tasks = all - outside - loops.seconds();
     std::printf("  one thread %.2f s, %.2f s outside loops; %ld loops of %.0f us; by count on", all,
                 outside, loops.loops(),
-                1e6 * loops.seconds() / static_cast<double>(std::max(1L, loops.loops())));
+                1e6 * loops.seconds() / double(std::max(1L, loops.loops())));
     for (std::size_t k = 0; k < cores.size(); ++k)
         std::printf(" %d: %.1f", cores[k], all / (outside + loops.seconds(k) + tasks / cores[k]));
     std::printf(" times as fast\n");
@@ -110,7 +110,7 @@ void scaling() {
         "\nscaling: threads, time on the wall [s], times as fast as one, processor time [s], that "
         "of one = 1, memory [MB]\n");
     const std::string file = "bench_scaling_" + std::to_string(getpid()) + ".nc";
-    const int most = static_cast<int>(std::thread::hardware_concurrency());
+    const int most = int(std::thread::hardware_concurrency());
     std::vector<int> counts;
     for (int threads = 1; threads < most; threads *= 2) counts.push_back(threads);
     counts.push_back(most);
@@ -123,7 +123,7 @@ void scaling() {
             if (!apart([&] { run(one, threads, file); }, used)) break;
             const double wall = on_wall() - start;
             const auto seconds = [](const timeval& t) {
-                return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+                return double(t.tv_sec) + 1e-6 * double(t.tv_usec);
             };
             const double work = seconds(used.ru_utime) + seconds(used.ru_stime);
             if (threads == 1) {
@@ -132,7 +132,7 @@ void scaling() {
             }
             std::printf("  %3d  %8.2f  %6.2f  %8.2f  %5.2f  %6.0f\n", threads, wall,
                         wall_of_one / wall, work, work / work_of_one,
-                        static_cast<double>(used.ru_maxrss) / 1024);
+                        double(used.ru_maxrss) / 1024);
         }
         apart([&] { profile(one, file); }, used);
     }

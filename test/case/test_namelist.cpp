@@ -69,7 +69,7 @@ std::string another_value(const Key& key, int salt) {
         case Type::integer:
         case Type::long_integer:
             return std::to_string(key.bounds.high < 1e9 && key.bounds.high > 0
-                                      ? static_cast<int>(key.bounds.high) - salt % 2
+                                      ? int(key.bounds.high) - salt % 2
                                       : 12345 + salt);
         case Type::string: return "'it''s a \"text\", number " + std::to_string(salt) + "!'";
         case Type::choice: return std::string("'") + key.choices[salt % key.choices.size()] + "'";
@@ -79,7 +79,7 @@ std::string another_value(const Key& key, int salt) {
     const double low = std::isfinite(key.bounds.low) ? key.bounds.low : -3.0;
     const double high = std::isfinite(key.bounds.high) ? key.bounds.high : low + 10.0;
     std::string text;
-    for (const int i : up_to((key.list ? 3 : key.size)))
+    for (const int i : indices((key.list ? 3 : key.size)))
         text +=
             (i > 0 ? ", " : "") + namelist::from_real(low + (high - low) * (salt + i + 1) /
                                                                 (salt + i + 1 + std::sqrt(2.0)));
@@ -89,7 +89,7 @@ std::string another_value(const Key& key, int salt) {
 TEST(test_round_trip) {
     CHECK_TEXT(effective_namelist(read_namelist(effective_namelist(Case{})).settings),
                effective_namelist(Case{}));
-    for (const int salt : up_to(40)) {
+    for (const int salt : indices(40)) {
         std::string text;
         for (const std::string_view group : group_names()) {
             text += "&" + std::string(group) + "\n";
@@ -155,7 +155,7 @@ TEST(test_study) {
 TEST(test_options) {
     const auto parse = [](std::vector<const char*> words) {
         words.insert(words.begin(), "rsc");
-        return parse_options(static_cast<int>(words.size()), words.data());
+        return parse_options(int(words.size()), words.data());
     };
     const Options o = parse({"-q", "--set", "surface%n=64", "-srun%seed=2", "--output=x.nc",
                              "case.nml", "--progress", "never", "--member", "3"});

@@ -16,7 +16,7 @@ std::string unescaped(const std::string& text) {
         if (text[i] != '\\') {
             result += text[i];
         } else if (text[++i] == 'x') {
-            result += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
+            result += char(std::stoi(text.substr(i + 1, 2), nullptr, 16));
             i += 2;
         } else {
             result += text[i] == 'n' ? '\n' : '\t';
@@ -44,7 +44,7 @@ std::string of_words(const std::string& line) {
             words.back() += c;
     std::vector<const char*> pointers;
     for (const std::string& word : words) pointers.push_back(word.c_str());
-    return refusal([&] { parse_options(static_cast<int>(pointers.size()), pointers.data()); });
+    return refusal([&] { parse_options(int(pointers.size()), pointers.data()); });
 }
 
 // One message for each place, in order; each begins with the place and contains the word.
@@ -100,9 +100,9 @@ TEST(large) {
         CHECK(of_case(start, {}).find("NetCDF") != std::string::npos);
     // The hundred first faults are told.
     std::string wrong = "&run ";
-    for (const int i : up_to(101)) wrong += "a" + std::to_string(i) + "= 1\n";
+    for (const int i : indices(101)) wrong += "a" + std::to_string(i) + "= 1\n";
     const std::string told = of_case(wrong + "/", {});
-    CHECK(std::count(told.begin(), told.end(), '\n') == 99);
+    CHECK(std::ranges::count(told, '\n') == 99);
 }
 
 // Keys by name, as the libraries set and get them.

@@ -69,7 +69,7 @@ TEST(every_variable) {
     int variables = 0;
     nc_inq_nvars(mm.id(), &variables);
     CHECK(variables > 80);
-    for (const int v : up_to(variables)) {
+    for (const int v : indices(variables)) {
         char name[NC_MAX_NAME + 1] = "";
         nc_inq_varname(mm.id(), v, name);
         if (std::set<std::string>{"iterations", "products", "residual"}.contains(name))

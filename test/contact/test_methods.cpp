@@ -16,6 +16,10 @@ SolverOptions options(Method method) {
     return {.method = method, .tolerance = 1e-11, .surface = {.sigma = 0.01}};
 }
 
+Path path(const Asperities& a, const Indenter& indenter) {
+    return asperity_path(a, indenter, options(Method::direct));
+}
+
 // Where the energy has several minima too: asperities in clusters, alone and within a series of
 // levels, forwards and backwards.
 TEST(levels_do_not_remember) {
@@ -25,15 +29,12 @@ TEST(levels_do_not_remember) {
         const Indenter indenter{kE, 2.5, 0.5, 0.5};
         constexpr int levels = 30;
         const auto separation = [](int k) { return 0.03 - 0.001 * k; };
-        Path down = asperity_path(a, indenter, options(Method::direct)),
-             up = asperity_path(a, indenter, options(Method::direct));
+        Path down = path(a, indenter), up = path(a, indenter);
         std::vector<double> forward(levels), backward(levels);
-        for (const int k : up_to(levels)) forward[k] = down.at_separation(separation(k)).force;
+        for (const int k : indices(levels)) forward[k] = down.at_separation(separation(k)).force;
         for (int k = levels - 1; k >= 0; --k) backward[k] = up.at_separation(separation(k)).force;
-        for (const int k : up_to(levels)) {
-            const double alone = asperity_path(a, indenter, options(Method::direct))
-                                     .at_separation(separation(k))
-                                     .force;
+        for (const int k : indices(levels)) {
+            const double alone = path(a, indenter).at_separation(separation(k)).force;
             CHECK_CLOSE(forward[k], alone, kTolerance * alone);
             CHECK_CLOSE(backward[k], alone, kTolerance * alone);
         }
@@ -46,11 +47,9 @@ TEST(pressed_levels_do_not_remember) {
     for (unsigned seed = 200; seed < 204; ++seed) {
         const Asperities a = random_asperities(400, 0.003, 0.01, 0.1, 0.7, seed);
         const Indenter indenter{kE, 1e4, 0.5, 0.5};
-        const auto fresh = [&](double Z0) {
-            return asperity_path(a, indenter, options(Method::direct)).at_separation(Z0);
-        };
+        const auto fresh = [&](double Z0) { return path(a, indenter).at_separation(Z0); };
         const double first = fresh(0.02).force;
-        Path pressed = asperity_path(a, indenter, options(Method::direct));
+        Path pressed = path(a, indenter);
         for (int k = 0; k < 12 && first > 0; ++k) {
             const double N = first * std::pow(1.5, k);
             const Level level = pressed.at_force(N), alone = fresh(level.separation);
@@ -87,8 +86,8 @@ TEST(of_two_the_first_met_carries) {
 TEST(auto_chooses) {
     const auto method_of = [](int n, Method method, Interaction interaction, Period period) {
         std::vector<std::array<double, 4>> a;
-        const int side = static_cast<int>(std::sqrt(n));
-        for (const int i : up_to(side * side))
+        const int side = int(std::sqrt(n));
+        for (const int i : indices(side * side))
             a.push_back(
                 {(i % side + 0.5) / side, (i / side + 0.5) / side, i == 0 ? 1e-2 : 1e-9, 1e-3});
         SolverOptions o = options(method);

@@ -17,7 +17,7 @@ double boussinesq(double f, double a, double d, double E_star) {
     const double p0 = 1.5 * f / (pi * a * a), half = d > a ? std::asin(a / d) : pi / 2;
     const int n = 200000;
     double sum = 0;
-    for (const int k : up_to(n)) {
+    for (const int k : indices(n)) {
         const double h = d * std::sin(half * ((2 * k + 1.0) / n - 1));
         sum += a * a - h * h;
     }

@@ -63,8 +63,8 @@ TEST(against_counting) {
     constexpr int n = 3000;
     constexpr double kCounting = 1e-4;  // n^(-3/2) of the square, and some
     long inside = 0;
-    for (const int i : up_to(n))
-        for (const int j : up_to(n)) {
+    for (const int i : indices(n))
+        for (const int j : indices(n)) {
             const double x = -2 + 4 * (i + 0.5) / n, y = -2 + 4 * (j + 0.5) / n;
             for (const Spot& s : spots) {
                 const double c = std::cos(s.angle), t = std::sin(s.angle), dx = x - s.x,
@@ -75,8 +75,7 @@ TEST(against_counting) {
                 break;
             }
         }
-    CHECK_CLOSE(union_area(spots), 16.0 * static_cast<double>(inside) / (double(n) * n) + pi * 0.25,
-                kCounting);
+    CHECK_CLOSE(union_area(spots), 16.0 * double(inside) / (double(n) * n) + pi * 0.25, kCounting);
 }
 
 TEST(all_spots) {

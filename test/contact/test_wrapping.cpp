@@ -21,10 +21,10 @@ struct Round {
         std::vector<double> z(kN * kN), turned(kN * kN);
         CHECK(rsc_surface_synthesize(&surface, keys, 1) == RSC_SUCCESS &&
               rsc_surface_heights(surface, kN * kN, z.data()) == RSC_SUCCESS);
-        for (const int j : up_to(kN))
-            for (const int i : up_to(kN))
+        for (const int j : indices(kN))
+            for (const int i : indices(kN))
                 turned[(j + kN / 2) % kN * kN + (i + kN / 2) % kN] = z[j * kN + i];
-        for (const int k : up_to(2)) {
+        for (const int k : indices(2)) {
             OK(rsc_surface_take(&surface, kN, kN, 1.0 / kN, 1.0 / kN, 0, 0, 1,
                                 (k == 0 ? z : turned).data()));
             OK(rsc_asperities_find(&on[k], surface, keys));
@@ -91,7 +91,7 @@ void test_contact(const std::string& keys, bool elastic) {
     }
     if (elastic) {
         double first[16] = {};
-        for (const int k : up_to(32)) {
+        for (const int k : indices(32)) {
             const double N = press(one, 0.5 + k / 16.0, 0.03125, Z0);
             if (k < 16)
                 first[k] = N;
@@ -116,7 +116,7 @@ void test_path(const std::string& keys) {
 void test_relaxing(const std::string& keys) {
     const Round round(keys);
     const ContactHandle one = round.contact(0), other = round.contact(1);
-    for (const int k : up_to(4)) {
+    for (const int k : indices(4)) {
         for (rsc_contact* contact : {one.get(), other.get()}) OK(rsc_contact_set_time(contact, k));
         const double N = press(one, 0.01 * k, 0.95, 0.01);
         CHECK_RELATIVE(N, press(other, 0.5 + 0.01 * k, 0.45, 0.01), kTolerance);

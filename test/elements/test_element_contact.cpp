@@ -28,7 +28,7 @@ TEST(hertz) {
     double error_before = 0;
     for (const double cells : {10.0, 20.0, 40.0}) {  // pixels a contact radius
         const double R = 2.5, a = 2.5e-3, delta = a * a / R, h = a / cells;
-        const int n = static_cast<int>(2.6 * cells);
+        const int n = int(2.6 * cells);
         const HeightMap map = flat_map(n, n, h, h);
         // Off the symmetry of the pixels, so that no luck helps.
         const auto contact = make_element_contact(
@@ -76,8 +76,8 @@ TEST(selection) {
         const auto count = [&](double Z0, double& top) {
             int places = 0;
             top = -1;
-            for (const int j : up_to(map.ny))
-                for (const int i : up_to(map.nx)) {
+            for (const int j : indices(map.ny))
+                for (const int i : indices(map.nx)) {
                     const double z = tip.clearance(i * map.dx, j * map.dy, map(i, j));
                     if (z > top) top = z;
                     places += z > Z0;

@@ -44,8 +44,7 @@ void compare(double R, const std::vector<double>& forces) {
         CHECK_RELATIVE(by_separation.levels[k].force, forces[k], 1e-6);
         CHECK_RELATIVE(by_force.levels[k].area, by_separation.levels[k].area, 1e-3);
     }
-    CHECK(static_cast<double>(by_force.products) <=
-          1.3 * static_cast<double>(by_separation.products));
+    CHECK(double(by_force.products) <= 1.3 * double(by_separation.products));
     {
         const LoopThreads loops(3);
         const Run again = run(map, tip, forces, under_force);

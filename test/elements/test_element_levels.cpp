@@ -35,43 +35,42 @@ struct Truth {
     int nx() const { return map.nx; }
     int ny() const { return map.ny; }
     std::size_t n() const { return z.size(); }
-    double x(std::size_t k) const { return map.x0 + map.dx * (static_cast<int>(k) % nx()); }
-    double y(std::size_t k) const { return map.y0 + map.dy * (static_cast<int>(k) / nx()); }
+    double x(std::size_t k) const { return map.x0 + map.dx * (int(k) % nx()); }
+    double y(std::size_t k) const { return map.y0 + map.dy * (int(k) / nx()); }
     double pixel() const { return map.dx * map.dy; }
     bool repeats() const { return tip.period.finite(); }
 
     Truth(const HeightMap& map_, const Indenter& tip_, const SolverOptions& options_)
         : map(map_), tip(tip_), options(options_) {
-        for (const int j : up_to(ny()))
-            for (const int i : up_to(nx())) z.push_back(map(i, j));
+        for (const int j : indices(ny()))
+            for (const int i : indices(nx())) z.push_back(map(i, j));
         if (repeats()) lattice.emplace(tip.period);
         pressed.assign(n(), 0.0);
         K.assign(n(), Vector(n()));
-        for (const std::size_t k : up_to(n()))
-            for (const std::size_t l : up_to(n()))
+        for (const std::size_t k : indices(n()))
+            for (const std::size_t l : indices(n()))
                 K[k][l] = !repeats()
                               ? love(x(k) - x(l), y(k) - y(l), map.dx / 2, map.dy / 2) / (pi * kE)
                           : k > 0 ? K[0][shifted(l, k)]
-                                  : answer(static_cast<int>(l) % nx(), static_cast<int>(l) / nx());
+                                  : answer(int(l) % nx(), int(l) / nx());
     }
     // Where pixel l lies seen from k.
     std::size_t shifted(std::size_t l, std::size_t k) const {
-        const int i = static_cast<int>(l) % nx() - static_cast<int>(k) % nx(),
-                  j = static_cast<int>(l) / nx() - static_cast<int>(k) / nx();
+        const int i = int(l) % nx() - int(k) % nx(), j = int(l) / nx() - int(k) / nx();
         return (j + ny()) % ny() * nx() + (i + nx()) % nx();
     }
     // The modes that the pixels carry, each with 2/(E* |k|).
     double answer(int i, int j) const {
         double sum = 0;
-        for (const int b : up_to(ny()))
-            for (const int a : up_to(nx())) {
+        for (const int b : indices(ny()))
+            for (const int a : indices(nx())) {
                 if (a == 0 && b == 0) continue;
                 const double kx = 2 * pi * (2 * a <= nx() ? a : a - nx()) / (nx() * map.dx),
                              ky = 2 * pi * (2 * b <= ny() ? b : b - ny()) / (ny() * map.dy);
                 sum += 2 / (kE * std::hypot(kx, ky)) *
                        std::cos(2 * pi * (double(a * i) / nx() + double(b * j) / ny()));
             }
-        return sum / static_cast<double>(n());
+        return sum / double(n());
     }
 
     double height(std::size_t k) const {
@@ -88,16 +87,16 @@ struct Truth {
     bool press(double Z0) {
         const double H = options.physics.hardness.H0;
         std::vector<int> state(n());  // 0 without pressure, 1 free, 2 at the hardness
-        for (const std::size_t k : up_to(n())) state[k] = height(k) > Z0;
+        for (const std::size_t k : indices(n())) state[k] = height(k) > Z0;
         for (int round = 0; round < 200; ++round) {
             std::vector<std::size_t> free;
-            for (const std::size_t k : up_to(n()))
+            for (const std::size_t k : indices(n()))
                 if (state[k] == 1) free.push_back(k);
             std::vector<Vector> A(free.size(), Vector(free.size()));
             Vector b(free.size());
             for (const auto i : indices(free)) {
                 b[i] = height(free[i]) - Z0;
-                for (const std::size_t l : up_to(n()))
+                for (const std::size_t l : indices(n()))
                     if (state[l] == 2) b[i] -= K[free[i]][l] * H;
                 for (const auto j : indices(free)) A[i][j] = K[free[i]][free[j]];
             }
@@ -105,11 +104,11 @@ struct Truth {
             p.assign(n(), 0.0);
             w.assign(n(), 0.0);
             for (const auto i : indices(free)) p[free[i]] = q[i];
-            for (const std::size_t k : up_to(n()))
+            for (const std::size_t k : indices(n()))
                 if (state[k] == 2) p[k] = H;
             bool settled = true;
-            for (const std::size_t k : up_to(n())) {
-                for (const std::size_t l : up_to(n())) w[k] += K[k][l] * p[l];
+            for (const std::size_t k : indices(n())) {
+                for (const std::size_t l : indices(n())) w[k] += K[k][l] * p[l];
                 w[k] -= height(k) - Z0;
                 if (state[k] == 1) w[k] = 0;
                 const int next = state[k] == 1   ? (p[k] <= 0   ? 0
@@ -128,7 +127,7 @@ struct Truth {
 
     // The level stays: what penetrates at the hardness is gone.
     void accept() {
-        for (const std::size_t k : up_to(n()))
+        for (const std::size_t k : indices(n()))
             if (p[k] >= options.physics.hardness.H0 && w[k] < 0) {
                 pressed[k] -= w[k];
                 z[k] += w[k];
@@ -138,13 +137,13 @@ struct Truth {
 
     double energy() const {
         double sum = 0;
-        for (const std::size_t k : up_to(n()))
-            for (const std::size_t l : up_to(n())) sum += 0.5 * p[k] * K[k][l] * p[l];
+        for (const std::size_t k : indices(n()))
+            for (const std::size_t l : indices(n())) sum += 0.5 * p[k] * K[k][l] * p[l];
         return sum * pixel();
     }
     double stiffness() const {  // on the way back all pixels are elastic
         std::vector<std::size_t> touching;
-        for (const std::size_t k : up_to(n()))
+        for (const std::size_t k : indices(n()))
             if (p[k] > 0) touching.push_back(k);
         std::vector<Vector> A(touching.size(), Vector(touching.size()));
         for (const auto i : indices(touching))
@@ -155,7 +154,7 @@ struct Truth {
     }
     double down(double px, double py) const {
         double sum = 0;
-        for (const std::size_t k : up_to(n())) {
+        for (const std::size_t k : indices(n())) {
             double dx = px - x(k), dy = py - y(k);
             if (repeats()) {
                 dx = std::remainder(dx, tip.period.x);
@@ -180,7 +179,7 @@ void whole_level(const Level& level, const Truth& t, double Z0) {
     std::vector<std::size_t> touching;
     double force = 0, pressed = 0, most = 0;
     long candidates = 0;
-    for (const std::size_t k : up_to(t.n())) {
+    for (const std::size_t k : indices(t.n())) {
         candidates += t.repeats() || t.height(k) + t.pressed[k] > Z0;
         pressed += t.pressed[k];
         if (!(t.p[k] > 0)) continue;
@@ -215,7 +214,7 @@ void whole_level(const Level& level, const Truth& t, double Z0) {
             }
             alone += t.p[touching[k]] * love(dx, dy, t.map.dx / 2, t.map.dy / 2) / (pi * kE);
         }
-        CHECK(level.asperity[c] == static_cast<int>(peak[c]));
+        CHECK(level.asperity[c] == int(peak[c]));
         SAME(u[c], alone, sigma);
     }
     SAME(separation, Z0, sigma);
@@ -256,7 +255,7 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
         for (const auto& [x, y] : {std::pair{0.41, -0.02}, {0.7, 0.11}})
             same(deflection(level, *kernel, x, y), t.down(x, y), 0.01, "deflection");
         double top = -kInfinity;
-        for (const std::size_t k : up_to(t.n())) top = std::max(top, t.height(k));
+        for (const std::size_t k : indices(t.n())) top = std::max(top, t.height(k));
         same(contact->first_touch(), top, 0.01, "first touch");
         deepest = level.force;
         large = std::max(large, level.contacts);
@@ -266,7 +265,7 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
     const ResidualProfile profile = contact->residual_profile();
     CHECK(profile.x.empty() || (profile.dx == map.dx && profile.dy == map.dy));
     std::size_t next = 0;
-    for (const std::size_t k : up_to(t.n())) {
+    for (const std::size_t k : indices(t.n())) {
         if (!(t.pressed[k] > 0)) continue;
         CHECK(next < profile.depth.size());
         if (next == profile.depth.size()) break;

@@ -39,7 +39,7 @@ double by_conjugate_gradients(const HeightMap& map, const std::vector<std::int32
         const double last = std::exchange(square, product(r, r));
         for (const auto k : indices(q)) d[k] = r[k] + square / last * d[k];
     }
-    return -map.dx * map.dy * std::accumulate(q.begin(), q.end(), 0.0);
+    return -map.dx * map.dy * sum_of(q);
 }
 
 TEST(flat_stiffness) {

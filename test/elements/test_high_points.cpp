@@ -63,8 +63,8 @@ TEST(test_heights) {
         const HeightMap some = make_element_surface(c, 1, 2, &job.indenter, levels).map;
         double top = -1, top_all = -1;
         long missing = 0;
-        for (const int j : up_to(all.ny))
-            for (const int i : up_to(all.nx)) {
+        for (const int j : indices(all.ny))
+            for (const int i : indices(all.nx)) {
                 const auto clearance = [&](const HeightMap& map) {
                     return job.indenter.clearance(i * map.dx, j * map.dy, map(i, j));
                 };
@@ -78,7 +78,7 @@ TEST(test_heights) {
     // A cone over a valley touches below the mean plane, where heights of 0 would be too high: all
     // are kept.
     int i = 0, j = 0;
-    for (const int k : up_to(all.nx * all.ny))
+    for (const int k : indices(all.nx * all.ny))
         if (all(k % all.nx, k / all.nx) < all(i, j)) {
             i = k % all.nx;
             j = k / all.nx;
@@ -89,7 +89,7 @@ TEST(test_heights) {
     const Indenter cone{1.0, shape_of(sharp), i * all.dx, j * all.dy};
     const std::vector<double> levels = {job.sigma};
     const HeightMap some = make_element_surface(c, 1, 2, &cone, levels).map;
-    for (const int k : up_to(all.nx * all.ny))
+    for (const int k : indices(all.nx * all.ny))
         CHECK(some(k % all.nx, k / all.nx) == all(k % all.nx, k / all.nx));
 }
 

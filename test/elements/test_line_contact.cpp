@@ -15,8 +15,8 @@ HeightMap map_of(int nx, int ny, double step, const std::function<double(double,
     map.dx = map.dy = step;
     map.x0 = -0.5 * (nx - 1) * step;
     map.y0 = -0.5 * (ny - 1) * step;
-    for (const int j : up_to(ny))
-        for (const int i : up_to(nx)) map.row(j)[i] = z(map.x(i), map.y(j));
+    for (const int j : indices(ny))
+        for (const int i : indices(nx)) map.row(j)[i] = z(map.x(i), map.y(j));
     return map;
 }
 
@@ -60,7 +60,7 @@ TEST(images_along_a_line) {
                        1 / std::hypot((long double)across, along - k * (long double)L) -
                        2 / (k * (long double)L);
             sum += (2 * along * along - across * across) / (2.0L * n * n * L * L * L);
-            CHECK_CLOSE(kernel.images(across, along), static_cast<double>(sum), 2e-12);
+            CHECK_CLOSE(kernel.images(across, along), double(sum), 2e-12);
         }
 }
 

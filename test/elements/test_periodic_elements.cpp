@@ -50,8 +50,8 @@ TEST(westergaard) {
     double before = 0;
     for (const int n : {32, 64, 128, 256}) {
         HeightMap map = empty(n, 4, 1.0 / n, 8.0 / n);
-        for (const int j : up_to(4))
-            for (const int i : up_to(n)) map.row(j)[i] = Delta * std::cos(k * i / n);
+        for (const int j : indices(4))
+            for (const int i : indices(n)) map.row(j)[i] = Delta * std::cos(k * i / n);
         const auto contact = make_element_contact(map, flat(map), options(1e-10));
         for (const double share : {0.1, 0.5, 0.9}) {
             const Level level = contact->at_force(share * closed * map.Ly());
@@ -90,8 +90,8 @@ TEST(any_grid) {
         const int nx = sides[random() % 7], ny = sides[random() % 7];
         HeightMap map = empty(nx, ny, 1, std::pow(4.0, uniform(random)));
         const bool waves = random() % 2 == 0;
-        for (const int j : up_to(ny))
-            for (const int i : up_to(nx))
+        for (const int j : indices(ny))
+            for (const int i : indices(nx))
                 map.row(j)[i] =
                     (waves ? 0.3 : 1.0) * uniform(random) +
                     (waves ? std::cos(4 * pi * i / nx) + std::cos(2 * pi * j / ny) : 0.0);

@@ -16,10 +16,10 @@ double integrated(double x, double y, double a, double b, int m) {
     const double t[2] = {0.3399810435848563, 0.8611363115940526},
                  w[2] = {0.6521451548625461, 0.3478548451374538};
     double sum = 0;
-    for (const int i : up_to(m))
-        for (const int j : up_to(m))
-            for (const int p : up_to(4))
-                for (const int q : up_to(4)) {
+    for (const int i : indices(m))
+        for (const int j : indices(m))
+            for (const int p : indices(4))
+                for (const int q : indices(4)) {
                     const double u = a * ((2 * i + 1 + (p < 2 ? t[p] : -t[p - 2])) / m - 1);
                     const double v = b * ((2 * j + 1 + (q < 2 ? t[q] : -t[q - 2])) / m - 1);
                     sum += w[p % 2] * w[q % 2] / std::hypot(x - u, y - v);
@@ -71,8 +71,7 @@ std::vector<Pixel> clusters(int spots, int radius, int extent, unsigned seed) {
     std::vector<Pixel> pixels;
     std::vector<char> taken(extent * extent, 0);
     for (int k = 0; k < spots; ++k) {
-        const int cx = static_cast<int>(random() % static_cast<unsigned>(extent)),
-                  cy = static_cast<int>(random() % static_cast<unsigned>(extent));
+        const int cx = int(random() % unsigned(extent)), cy = int(random() % unsigned(extent));
         for (int y = std::max(0, cy - radius); y < std::min(extent, cy + radius); ++y)
             for (int x = std::max(0, cx - radius); x < std::min(extent, cx + radius); ++x) {
                 auto& t = taken[y * extent + x];
@@ -105,23 +104,22 @@ TEST(products) {
             const std::size_t n = pixels.size();
             std::mt19937 random(3);
             std::vector<double> positive(n), mixed(n), w(n);
-            for (const std::size_t k : up_to(n)) {
-                positive[k] = static_cast<double>(random() % 1000) / 1000;
+            for (const std::size_t k : indices(n)) {
+                positive[k] = double(random() % 1000) / 1000;
                 mixed[k] = positive[k] - 0.5;
                 if (k % 5 == 3) positive[k] = 0;
             }
             const double scale = 1 / (pi * E);
             const std::size_t size = family.extent;
             std::vector<double> table(size * size);
-            for (const std::size_t y : up_to(size))
-                for (const std::size_t x : up_to(size))
+            for (const std::size_t y : indices(size))
+                for (const std::size_t x : indices(size))
                     table[y * size + x] =
-                        scale * love(static_cast<double>(x) * dx, static_cast<double>(y) * dy,
-                                     0.5 * dx, 0.5 * dy);
+                        scale * love(double(x) * dx, double(y) * dy, 0.5 * dx, 0.5 * dy);
             const auto exact = [&](const std::vector<double>& p) {
                 std::vector<double> sums(n, 0.0);
-                for (const std::size_t k : up_to(n))
-                    for (const std::size_t l : up_to(n))
+                for (const std::size_t k : indices(n))
+                    for (const std::size_t l : indices(n))
                         sums[k] += p[l] * table[std::abs(pixels[k].y - pixels[l].y) * size +
                                                 std::abs(pixels[k].x - pixels[l].x)];
                 return sums;
@@ -161,7 +159,7 @@ TEST(products) {
             std::vector<char> wanted(n);
             for (std::size_t k = 0; k < n; k += 97) wanted[k] = 1;
             tree->apply(positive.data(), one.data(), PixelProducts::Accuracy::full, wanted.data());
-            for (const std::size_t k : up_to(n))
+            for (const std::size_t k : indices(n))
                 CHECK(one[k] == w[k] || (one[k] == 0 && !wanted[k]));
         }
     }

@@ -18,9 +18,8 @@ Spots spots(int nx, int ny) {
     std::mt19937 random(3);
     std::vector<double> plane(nx * ny, 0.0);
     for (int s = 0; s < 20; ++s) {
-        const int x = static_cast<int>(random() % static_cast<unsigned>(nx)),
-                  y = static_cast<int>(random() % static_cast<unsigned>(ny));
-        const double r2 = 1 + static_cast<double>(random() % 60);
+        const int x = int(random() % unsigned(nx)), y = int(random() % unsigned(ny));
+        const double r2 = 1 + double(random() % 60);
         for (int b = -8; b <= 8; ++b)
             for (int a = -8; a <= 8; ++a)
                 if (a * a + b * b < r2)
@@ -28,8 +27,8 @@ Spots spots(int nx, int ny) {
                         std::sqrt(r2 - a * a - b * b);
     }
     Spots all;
-    for (const int j : up_to(ny)) {
-        for (const int i : up_to(nx))
+    for (const int j : indices(ny)) {
+        for (const int i : indices(nx))
             if (const double p = plane[j * nx + i]; p > 0) {
                 all.column.push_back(i);
                 all.p.push_back(p);

@@ -60,8 +60,7 @@ private:
                                      -kInfinity, NAN,    0.5,   2};
         const auto k = in_.ConsumeIntegral<std::uint8_t>();
         if (k < 32) return odd[k % 16];
-        return std::ldexp(static_cast<double>(in_.ConsumeIntegral<std::int16_t>()) / 32768,
-                          k % 16 - 12);
+        return std::ldexp(double(in_.ConsumeIntegral<std::int16_t>()) / 32768, k % 16 - 12);
     }
     double positive() {
         const double v = std::abs(number());

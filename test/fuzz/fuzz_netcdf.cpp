@@ -30,7 +30,7 @@ const double kValues[] = {0,           1,      -1,    2,        3,
 
 double value(FuzzedDataProvider& in) {
     const auto k = in.ConsumeIntegral<std::uint8_t>();
-    return k < 128 ? static_cast<double>(k) : kValues[k % (sizeof kValues / sizeof *kValues)];
+    return k < 128 ? double(k) : kValues[k % (sizeof kValues / sizeof *kValues)];
 }
 
 void attribute(FuzzedDataProvider& in, int file, int variable) {

@@ -35,7 +35,7 @@ Pairs by_double_loop(const Vector& x, const Vector& y, const Vector& reach, cons
 void the_same(const Vector& x, const Vector& y, const Vector& reach, const Period& period = {}) {
     Pairs pairs = found(x, y, reach, period);
     CHECK(pairs == found(x, y, reach, period));
-    std::sort(pairs.begin(), pairs.end());
+    std::ranges::sort(pairs);
     const Pairs truth = by_double_loop(x, y, reach, period);
     bool same = pairs.size() == truth.size();
     for (std::size_t k = 0; same && k < pairs.size(); ++k) {
@@ -44,7 +44,7 @@ void the_same(const Vector& x, const Vector& y, const Vector& reach, const Perio
         same = i == p && j == q && std::abs(d - distance) <= (period.finite() ? 1e-14 : 0);
     }
     CHECK(same);
-    CHECK(count_overlapping(x, y, reach, period) == static_cast<long>(pairs.size()));
+    CHECK(count_overlapping(x, y, reach, period) == long(pairs.size()));
 }
 
 // Sizes from equal to spread over ten decades, squares and thin strips of points; some points have
@@ -54,13 +54,13 @@ TEST(random_points) {
     std::uniform_real_distribution<double> uniform(0, 1);
     std::normal_distribution<double> normal;
     long met = 0;
-    for (const int set : up_to(240)) {
+    for (const int set : indices(240)) {
         const double flat = set % 3 == 0   ? 1
                             : set % 3 == 1 ? 0.01
                                            : 0,
                      spread = set % 5, side = set % 2 == 0 ? 1 : 1e-3;
         Vector x, y, reach;
-        for (const int i : up_to(2 + set)) {
+        for (const int i : indices(2 + set)) {
             x.push_back(5 + side * uniform(random));
             y.push_back(-7 + side * flat * uniform(random));
             if (set % 7 == 0) std::swap(x.back(), y.back());
@@ -78,7 +78,7 @@ TEST(one_huge_spot) {
     std::uniform_real_distribution<double> uniform(0, 1);
     for (double huge : {0.1, 0.5, 2.0, 1e6, kInfinity}) {
         Vector x, y, reach;
-        for (const int i : up_to(1500)) {
+        for (const int i : indices(1500)) {
             x.push_back(uniform(random));
             y.push_back(uniform(random));
             reach.push_back(i == 700 ? huge : i % 300 == 0 ? 0.1 : 0.01 * uniform(random));
@@ -91,9 +91,9 @@ TEST(one_huge_spot) {
 TEST(repeating) {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> uniform(0, 1);
-    for (const int set : up_to(60)) {
+    for (const int set : indices(60)) {
         Vector x, y, reach;
-        for (const int i : up_to(80)) {
+        for (const int i : indices(80)) {
             x.push_back(uniform(random) + (i % 5 - 2));
             y.push_back(0.7 * uniform(random));
             reach.push_back(i % 9 == 0 ? 0

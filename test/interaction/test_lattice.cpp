@@ -34,14 +34,13 @@ TEST(closed_forms) {
 // Another parameter shares the sum out otherwise between images and modes.
 double ewald(double x, double y, double Lx, double Ly, double b) {
     double sum = -2 * std::sqrt(pi) / (b * Lx * Ly);
-    const int mx = static_cast<int>(7 / (b * Lx)) + 2, my = static_cast<int>(7 / (b * Ly)) + 2;
+    const int mx = int(7 / (b * Lx)) + 2, my = int(7 / (b * Ly)) + 2;
     for (int m = -mx; m <= mx; ++m)
         for (int n = -my; n <= my; ++n) {
             const double d = std::hypot(x - m * Lx, y - n * Ly);
             sum += d > 0 ? std::erfc(b * d) / d : -2 * b / std::sqrt(pi);
         }
-    const int kx = static_cast<int>(14 * b * Lx / (2 * pi)) + 1,
-              ky = static_cast<int>(14 * b * Ly / (2 * pi)) + 1;
+    const int kx = int(14 * b * Lx / (2 * pi)) + 1, ky = int(14 * b * Ly / (2 * pi)) + 1;
     for (int m = -kx; m <= kx; ++m)
         for (int n = -ky; n <= ky; ++n) {
             if (m == 0 && n == 0) continue;
@@ -59,7 +58,7 @@ TEST(lattice_sums) {
         const Lattice lattice({Lx, Ly});
         double worst = std::abs(lattice.self() - ewald(0, 0, Lx, Ly, 1.4)) * size;
         std::vector<double> x, y, f, phi(1);
-        for (const int k : up_to(150)) {
+        for (const int k : indices(150)) {
             x.push_back(Lx * uniform(random));
             y.push_back(Ly * uniform(random));
             f.push_back(uniform(random));
@@ -112,7 +111,7 @@ TEST(spots_wrap) {
     }
     std::vector<Spot> ring;
     const double r = 0.07, d = 0.1;
-    for (const int i : up_to(10)) ring.push_back({0.1 * i, 0.5, r, r, 0.3 * i});
+    for (const int i : indices(10)) ring.push_back({0.1 * i, 0.5, r, r, 0.3 * i});
     const double lens = 2 * r * r * std::acos(d / (2 * r)) - d / 2 * std::sqrt(4 * r * r - d * d);
     CHECK_CLOSE(union_area(ring, nullptr, period), 10 * (pi * r * r - lens), 1e-14);
 }

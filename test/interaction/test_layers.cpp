@@ -57,7 +57,7 @@ double by_boundary_conditions(const LayeredBody& body, double wavenumber) {
     for (std::size_t l = 0; l <= layers; ++l) {
         const Layer& below = l < layers ? body.layer[l] : base;
         if (l == 0) {
-            for (const int c : up_to(4)) {
+            for (const int c : indices(4)) {
                 const State s = state(below, c, 0);
                 A[0][c] = s.normal;
                 A[1][c] = s.shear;
@@ -69,18 +69,19 @@ double by_boundary_conditions(const LayeredBody& body, double wavenumber) {
         const int conditions = l == layers && rigid ? 2 : 4;
         const auto put = [&](std::size_t column, const State& s, Real sign) {
             const Real values[] = {s.along, s.down, s.normal, s.shear};
-            for (const int c : up_to(conditions)) A[row + c][column] = sign * values[c];
+            for (const int c : indices(conditions)) A[row + c][column] = sign * values[c];
         };
-        for (const int c : up_to(4)) put(4 * (l - 1) + c, state(above, c, above.thickness), 1);
+        for (const int c : indices(4)) put(4 * (l - 1) + c, state(above, c, above.thickness), 1);
         if (conditions == 4)
-            for (const int c : up_to((l < layers ? 4 : 2))) put(4 * l + c, state(below, c, 0), -1);
+            for (const int c : indices((l < layers ? 4 : 2)))
+                put(4 * l + c, state(below, c, 0), -1);
         row += conditions;
     }
     const std::vector<Real> x = solved(A, b);
     Real down = 0;
-    for (const int c : up_to(4)) down += x[c] * state(body.layer[0], c, 0).down;
+    for (const int c : indices(4)) down += x[c] * state(body.layer[0], c, 0).down;
     const Real nu = body.layer[0].nu;  // a half-space: 2 (1 - nu^2)/(E k)
-    return static_cast<double>(down * k / (2 * (1 - nu * nu)));
+    return double(down * k / (2 * (1 - nu * nu)));
 }
 
 TEST(answers) {
@@ -89,7 +90,7 @@ TEST(answers) {
     const auto power = [&](double decades) {
         return std::pow(10.0, decades * (2 * uniform(random) - 1));
     };
-    for (const int stack : up_to(20)) {
+    for (const int stack : indices(20)) {
         std::vector<Layer> layers;
         for (int l = 0; l < 1 + stack % 4; ++l)
             layers.push_back({0.1 * power(0.7), 1e5 * power(1.5), 0.499 * uniform(random)});
@@ -164,7 +165,7 @@ Pressed axisymmetric(const LayeredBody& body, double R, double a) {
     const double h = body.layer[0].thickness,
                  E = body.layer[0].E / (1 - body.layer[0].nu * body.layer[0].nu);
     std::vector<double> t, weight;
-    for (const std::size_t i : up_to(n / 2))
+    for (const std::size_t i : indices(n / 2))
         for (const int side : {-1, 1}) {
             t.push_back(0.5 * a * (1 + side * Gauss::abscissa()[i]));
             weight.push_back(0.5 * a * Gauss::weights()[i]);
@@ -174,7 +175,7 @@ Pressed axisymmetric(const LayeredBody& body, double R, double a) {
     std::vector<double> k, rest;  // nodes over k, and (T - 1) times their weights
     const double step = std::min(0.25 / h, 2 / a);
     for (double from = 0; from < 20 / h; from += step)
-        for (const std::size_t i : up_to(n / 2))
+        for (const std::size_t i : indices(n / 2))
             for (const int side : {-1, 1}) {
                 k.push_back(from + 0.5 * step * (1 + side * Gauss::abscissa()[i]));
                 rest.push_back(0.5 * step * Gauss::weights()[i] *
@@ -196,7 +197,7 @@ Pressed axisymmetric(const LayeredBody& body, double R, double a) {
     curved = solved(A, curved);
     const double depth = curved[n] / flat[n];
     double force = 0;
-    for (const std::size_t i : up_to(n))
+    for (const std::size_t i : indices(n))
         force += 2 * pi * weight[i] * (depth * flat[i] - curved[i]);
     return {depth, force};
 }
@@ -264,7 +265,7 @@ TEST(limits) {
         if (model == 0) return make_asperity_contact(asperities, tip, options);
         return make_element_contact(map, tip, options);
     };
-    for (const int model : up_to(3)) {
+    for (const int model : indices(3)) {
         const double Z0 = model == 0 ? 0.0 : 0.012;
         const auto plain = contact(base, model);
         const Level truth = plain->at_separation(Z0);
@@ -297,7 +298,10 @@ TEST(hardness_of_the_top) {
     CHECK(yields.force > 0 && yields.force < elastic.force &&
           yields.force <= options.physics.hardness.H0 * yields.area * (1 + 1e-9));
     // The same table for the same body, as long as it is in use.
-    CHECK(layers_of(tip.layers, tip.E_star) == layers_of(tip.layers, tip.E_star));
+    const auto table = layers_of(tip.layers, tip.E_star);
+    CHECK(layers_of(tip.layers, tip.E_star) == table);
+    // Its share is in proportion to E*.
+    CHECK_RELATIVE(2 * layers_of(tip.layers, 0.5 * tip.E_star)->share(3), table->share(3), 1e-12);
 }
 
 // Between flats: the sum over images against the sum over modes, and all methods against each
@@ -318,6 +322,8 @@ TEST(repeating) {
             }
         CHECK_CLOSE(lattice.at(x, y), plain.at(x, y) + sum, 1e-8 * (1 + std::abs(sum)));
         CHECK(lattice.at(x, y) >= lattice.least());
+        CHECK_RELATIVE(lattice.nearest_smooth(x + 3 * Lx, y - 2 * Ly), lattice.nearest_smooth(x, y),
+                       1e-9);
     }
     const Asperities asperities = random_asperities(800, 0.005, 0.01, 2e-3, 0.5, 3);
     SolverOptions options{.tolerance = 1e-9, .surface = {.sigma = 0.01}};

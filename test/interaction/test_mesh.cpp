@@ -19,7 +19,7 @@ Points uniform_points(std::size_t n, unsigned seed, double length_x = 1, double 
     std::mt19937_64 engine(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
     Points p{Vector(n), Vector(n)};
-    for (const std::size_t i : up_to(n)) {
+    for (const std::size_t i : indices(n)) {
         p.x[i] = length_x * uniform(engine);
         p.y[i] = length_y * uniform(engine);
     }
@@ -31,8 +31,8 @@ Points clustered_points(std::size_t n, unsigned seed) {
     std::mt19937_64 engine(seed);
     std::normal_distribution<double> normal;
     Points p = uniform_points(n, seed);
-    for (const std::size_t i : up_to(n - n / 10)) {
-        const double cluster = static_cast<double>(i % 9);
+    for (const std::size_t i : indices(n - n / 10)) {
+        const double cluster = double(i % 9);
         p.x[i] = std::cos(cluster) + 0.01 * normal(engine);
         p.y[i] = std::sin(2 * cluster) + 0.01 * normal(engine);
     }
@@ -70,8 +70,7 @@ double error_of(const Points& p, const Vector& f, const Vector& phi) {
         difference += (phi[i] - sum) * (phi[i] - sum);
         norm += sum * sum;
     }
-    return norm > 0 ? static_cast<double>(std::sqrt(difference / norm))
-                    : static_cast<double>(std::sqrt(difference));
+    return norm > 0 ? double(std::sqrt(difference / norm)) : double(std::sqrt(difference));
 }
 
 void check_errors(const Points& p, const char* name, bool on_mesh = true) {
@@ -118,7 +117,7 @@ TEST(tiny) {
     const Points place{Vector(1000, 0.3), Vector(1000, -2.0)};
     MeshPotential potential(1000, place.x.data(), place.y.data(), 1e-6, kUnit);
     const Vector phi = product(potential, random_forces(1000, 12, true));
-    CHECK(std::all_of(phi.begin(), phi.end(), [](double value) { return value == 0; }));
+    CHECK(std::ranges::all_of(phi, [](double value) { return value == 0; }));
 }
 
 TEST(same_bits_for_any_threads) {

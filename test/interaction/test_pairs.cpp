@@ -18,7 +18,7 @@ Points random_points(std::size_t n, unsigned seed, double size = 1, double x0 = 
     std::mt19937_64 engine(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
     Points p{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
-    for (const std::size_t i : up_to(n)) {
+    for (const std::size_t i : indices(n)) {
         p.x[i] = x0 + size * uniform(engine);
         p.y[i] = size * uniform(engine);
         p.f[i] = uniform(engine) - 0.3;
@@ -41,8 +41,8 @@ void truth(const Points& targets, const Points& sources, std::vector<double>& ph
             sum += sources.f[j] / d;
             magnitude += std::abs(sources.f[j]) / d;
         }
-        phi[i] = static_cast<double>(sum);
-        size[i] = static_cast<double>(magnitude);
+        phi[i] = double(sum);
+        size[i] = double(magnitude);
     }
 }
 
@@ -52,7 +52,7 @@ double distance(const std::vector<T>& a, const std::vector<double>& b,
                 const std::vector<double>& size) {
     double largest = 0;
     for (const auto i : indices(b)) {
-        const double error = std::abs(static_cast<double>(a[i]) - b[i]);
+        const double error = std::abs(double(a[i]) - b[i]);
         const double relative = size[i] > 0 ? error / size[i] : error;
         if (!(relative <= largest)) largest = std::isnan(relative) ? kInfinity : relative;
     }
@@ -69,7 +69,7 @@ constexpr double kSingle = 2e-6;
 double single_tolerance(const Points& p) {
     double closest2 = kInfinity, extent2 = 0;
     for (const auto i : indices(p))
-        for (const std::size_t j : up_to(i)) {
+        for (const std::size_t j : indices(i)) {
             const double d2 = std::pow(p.x[i] - p.x[j], 2) + std::pow(p.y[i] - p.y[j], 2);
             if (d2 > 0) closest2 = std::min(closest2, d2);
             extent2 = std::max(extent2, d2);
@@ -110,7 +110,7 @@ TEST(sizes_and_shapes) {
     check_all_products(random_points(300, 4, 1e-160, 0), "lengths whose squares underflow", false);
     check_all_products(random_points(300, 5, 0x1p-10, 1000), "far from the origin");
     Points line = random_points(400, 6);
-    std::fill(line.y.begin(), line.y.end(), 3.5);
+    std::ranges::fill(line.y, 3.5);
     check_all_products(line, "collinear");
     Points forces = random_points(300, 7);
     for (double& f : forces.f) f *= 1e-35;
@@ -135,7 +135,7 @@ TEST(coincident) {
     sums.assign(100, p.x.data(), p.y.data());
     std::vector<double> phi(100, 1.0);
     sums.among(false, p.f.data(), phi.data());
-    CHECK(std::all_of(phi.begin(), phi.end(), [](double v) { return v == 0; }));
+    CHECK(std::ranges::all_of(phi, [](double v) { return v == 0; }));
 }
 
 // Every table against plain sums, the loops by themselves: 48 points i, 80 points j, already
@@ -148,7 +148,7 @@ TEST(instruction_sets) {
     std::vector<std::int32_t> x(n), y(n);
     std::vector<float> f(p.f.begin(), p.f.end());
     const double unit = 0x1p30;
-    for (const std::size_t i : up_to(n)) {
+    for (const std::size_t i : indices(n)) {
         x[i] = static_cast<std::int32_t>(p.x[i] * unit);
         y[i] = static_cast<std::int32_t>(p.y[i] * unit);
     }
@@ -173,7 +173,7 @@ TEST(instruction_sets) {
         CHECK_CLOSE(distance(phi, exact, size), 0, kDouble);
 
         const auto scaled = [&](std::vector<float> v) {
-            for (float& a : v) a *= static_cast<float>(unit / kSingleWeight);
+            for (float& a : v) a *= float(unit / kSingleWeight);
             return v;
         };
         std::vector<float> single(n, 0.0f);

@@ -52,7 +52,7 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
     const auto sums = [&](std::size_t targets, const Vector& tx, const Vector& ty, const Vector& sx,
                           const Vector& sy, const std::vector<int>& active) {
         Vector truth(targets, 0.0);
-        for (const std::size_t i : up_to(targets))
+        for (const std::size_t i : indices(targets))
             for (const std::size_t k : active)
                 truth[i] +=
                     force[k] * (&tx == &sx && i == k ? kernel->self()
@@ -72,7 +72,7 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
         for (const int every : {1, 2, 9, n, n + 1,
                                 1}) {  // every so many a point carries a force; none; and all again
             std::vector<int> active, passive;
-            for (const int k : up_to(n))
+            for (const int k : indices(n))
                 (k % every == (every > n ? n : every - 1) ? active : passive).push_back(k);
             p.set_active(active);
             CHECK(p.active() == active && p.passive() == passive);
@@ -93,7 +93,7 @@ void against_plain_sums(const std::shared_ptr<const Kernel>& kernel, int n, cons
                 CHECK(error_of(part, among) <= loose * kind.inner && p.count() == count + 2);
                 p.inner_everywhere(f.data(), all.data());
                 CHECK(error_of(all, truth) <= loose * kind.inner);
-                p.elsewhere(f.data(), static_cast<int>(others), xo.data(), yo.data(), there.data());
+                p.elsewhere(f.data(), int(others), xo.data(), yo.data(), there.data());
                 CHECK(error_of(there, elsewhere) <= kind.elsewhere);
                 p.inner_passive(f.data(), rest.data());
                 CHECK(error_of(rest, beside) <= loose * kind.inner);

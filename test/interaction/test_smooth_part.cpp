@@ -31,14 +31,13 @@ struct Artificial {
 
 // Over |x' - x| < a, |y' - y| < b, cut into parts not wider than half the depth.
 double over(const Artificial& s, double x, double y, double a, double b) {
-    const int nx = 1 + static_cast<int>(4 * a / s.depth),
-              ny = 1 + static_cast<int>(4 * b / s.depth);
+    const int nx = 1 + int(4 * a / s.depth), ny = 1 + int(4 * b / s.depth);
     const auto integral = [](double from, double to, auto f) {
         return boost::math::quadrature::gauss<double, 7>::integrate(f, from, to);
     };
     double sum = 0;
-    for (const int i : up_to(nx))
-        for (const int j : up_to(ny))
+    for (const int i : indices(nx))
+        for (const int j : indices(ny))
             sum += integral(x - a + 2 * a * i / nx, x - a + 2 * a * (i + 1) / nx, [&](double u) {
                 return integral(y - b + 2 * b * j / ny, y - b + 2 * b * (j + 1) / ny,
                                 [&](double v) { return s.at(std::hypot(u, v)); });
@@ -86,11 +85,11 @@ void wave(int nx, int ny, int m, int n) {
                      factor = back ? 1 / answer : answer;
         pixels.apply(
             [&](int j, Real* row) {
-                for (const int i : up_to(nx)) row[i] = static_cast<Real>(value(i, j));
+                for (const int i : indices(nx)) row[i] = static_cast<Real>(value(i, j));
             },
             [&](int j, const Real* row) {
-                for (const int i : up_to(nx))
-                    CHECK_CLOSE(static_cast<double>(row[i]), factor * value(i, j),
+                for (const int i : indices(nx))
+                    CHECK_CLOSE(double(row[i]), factor * value(i, j),
                                 (sizeof(Real) == 4 ? 1e-5 : 1e-12) * factor);
             },
             back ? PeriodicPixels<Real>::Answer::pressure

@@ -50,7 +50,7 @@ extern "C" {
 
 int fsync(int fd) {
     note("sync " + path_of(fd));
-    return static_cast<int>(::syscall(SYS_fsync, fd));
+    return int(::syscall(SYS_fsync, fd));
 }
 ssize_t write(int fd, const void* bytes, size_t n) {
     note("write " + path_of(fd));
@@ -66,11 +66,11 @@ int rename(const char* from, const char* to) noexcept {
         errno = ENOSPC;
         return -1;
     }
-    return static_cast<int>(::syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
+    return int(::syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
 }
 int unlink(const char* path) noexcept {
     note(std::string("unlink ") + path);
-    return static_cast<int>(::syscall(SYS_unlinkat, AT_FDCWD, path, 0));
+    return int(::syscall(SYS_unlinkat, AT_FDCWD, path, 0));
 }
 
 int nc_def_var(int id, const char* name, nc_type type, int n, const int* dimensions,
@@ -107,7 +107,7 @@ void named_after_the_disk_has_it(const std::string& path, bool folder_too) {
         CHECK(calls[k] != "unlink " + path);
         CHECK(calls[k] != "write " + path || renamed >= 0);
         if (!calls[k].starts_with("rename ") || !calls[k].ends_with(" > " + path)) continue;
-        renamed = static_cast<long>(k);
+        renamed = long(k);
         from = calls[k].substr(7, calls[k].size() - 7 - 3 - path.size());
     }
     CHECK(renamed > 0);
@@ -117,7 +117,7 @@ void named_after_the_disk_has_it(const std::string& path, bool folder_too) {
           synced > written);  // written: -1 where the C library writes by calls of its own
     if (!folder_too) return;
     const std::string folder = std::filesystem::path(path).parent_path().string();
-    CHECK(last_call("sync " + folder, static_cast<long>(calls.size())) > renamed);
+    CHECK(last_call("sync " + folder, long(calls.size())) > renamed);
 }
 
 void results(const Folder& folder) {
@@ -160,7 +160,7 @@ void one_thread_in_netcdf(const Folder& folder) {
     most_inside = 0;
     const Result result = sample::result(3);
     std::vector<std::thread> threads;
-    for (const int k : up_to(4))
+    for (const int k : indices(4))
         threads.emplace_back(
             [&, k] { write_result(result, folder / ("thread" + std::to_string(k) + ".nc"), {}); });
     for (std::thread& thread : threads) thread.join();

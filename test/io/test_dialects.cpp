@@ -39,7 +39,7 @@ TEST(test_units_in_comments) {
         CHECK(text_map(std::string(comment) + "\n" + kRows)(0, 0) == 1);
     // Of points the coordinates, too, have a unit.
     std::string points;
-    for (const int k : up_to(9))
+    for (const int k : indices(9))
         points += std::to_string(k % 3) + " " + std::to_string(k / 3) + " 1\n";
     REFUSED(text_map("# x [nm] y [nm] z [nm]\n" + points, {"nm", {}}), "run%length_unit");
     CHECK(text_map("# x [um] y [um] z [nm]\n" + points, {"nm", {}})(0, 0) == 0.001);
@@ -97,8 +97,8 @@ TEST(test_empty_cells) {
     const auto missing = [](const std::string& text) {
         const HeightMap map = text_map(text, {"", 0.5}, Missing::fill);
         std::string places;
-        for (const int j : up_to(map.ny))
-            for (const int i : up_to(map.nx))
+        for (const int j : indices(map.ny))
+            for (const int i : indices(map.nx))
                 if (std::isnan(map(i, j))) places += std::to_string(i) + std::to_string(j) + " ";
         return std::to_string(map.nx) + ": " + places;
     };
@@ -163,8 +163,8 @@ TEST(test_missing_values) {
 // SurfaceTopography's layout: attribute unit, y fastest, a mask; its 0 is a point that is there.
 TEST(test_netcdf_layouts) {
     std::vector<double> heights, mask;
-    for (const int i : up_to(4))
-        for (const int j : up_to(3)) {
+    for (const int i : indices(4))
+        for (const int j : indices(3)) {
             heights.push_back(10 * i + j);
             mask.push_back(i == 2 && j == 1);
         }
@@ -187,8 +187,8 @@ TEST(test_netcdf_layouts) {
 // Points x y z of a grid of which whole columns are missing, and coordinates with too few digits.
 TEST(test_points) {
     std::string dropped, rounded;
-    for (const int j : up_to(5))
-        for (const int i : up_to(7)) {
+    for (const int j : indices(5))
+        for (const int i : indices(7)) {
             if (i != 2 && i != 3) dropped += format("%.4f %.4f %d\n", i / 3.0, j / 3.0, i + j);
             rounded += format("%.1f %.4f %d\n", i / 3.0, j / 3.0, i + j);
         }

@@ -19,7 +19,7 @@ using namespace rsc;
 std::vector<double> heights_in(const std::string& path) {
     const HeightMap map = read_heights(path, {}, "mm", "", Missing::refuse);
     std::vector<double> z{map.dx, map.dy, map.x0, map.y0};
-    for (const int j : up_to(map.ny)) z.insert(z.end(), map.row(j), map.row(j) + map.nx);
+    for (const int j : indices(map.ny)) z.insert(z.end(), map.row(j), map.row(j) + map.nx);
     return z;
 }
 
@@ -44,7 +44,7 @@ void test_damage(const Folder& folder, Format format) {
     int read = 0, refused = 0;
     for (std::size_t k = 1; k <= 150; ++k) {
         std::string damaged = whole;
-        damaged[(k * whole.size()) / 151 + k % 7] ^= static_cast<char>(1 << k % 8);
+        damaged[(k * whole.size()) / 151 + k % 7] ^= char(1 << k % 8);
         folder.write("spoilt.nc", damaged);
         const auto look = [&](auto&& in, const auto& truth) {
             ++(accepted([&] { CHECK(in(spoilt) == truth); }) ? read : refused);
@@ -89,7 +89,7 @@ TEST(test_fill_values) {
     z[4] = 9.9692099683868690e+36;
     SurfaceHandle surface;
     CHECK(rsc_surface_take(&surface, 3, 3, 1, 1, 0, 0, 0, z.data()) == -9 && !surface);
-    z[4] = static_cast<double>(9.9692099683868690e+36f);
+    z[4] = double(9.9692099683868690e+36f);
     CHECK(rsc_surface_take(&surface, 3, 3, 1, 1, 0, 0, 0, z.data()) == -9 && !surface);
 }
 

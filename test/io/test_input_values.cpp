@@ -24,7 +24,7 @@ using Values = std::vector<double>;
 // height(y = 3, x = 4): 10 row + column.
 std::vector<double> heights() {
     std::vector<double> z;
-    for (const int k : up_to(12)) z.push_back(10 * (k / 4) + k % 4);
+    for (const int k : indices(12)) z.push_back(10 * (k / 4) + k % 4);
     return z;
 }
 
@@ -59,8 +59,8 @@ TEST(units_and_directions) {
                     CHECK_RELATIVE(m.dx, 1.5 * x / metre, 1e-13);
                     CHECK_RELATIVE(m.y0, -7 * y / metre, 1e-13);
                     CHECK_RELATIVE(m.dy, 2.5 * y / metre, 1e-13);
-                    for (const int j : up_to(3))
-                        for (const int i : up_to(4))
+                    for (const int j : indices(3))
+                        for (const int i : indices(4))
                             CHECK_RELATIVE(
                                 m(i, j), (10 * (down ? 2 - j : j) + (left ? 3 - i : i)) * z / metre,
                                 1e-13);
@@ -77,10 +77,10 @@ HeightMap filled(const std::vector<Variable>& variables) {
 TEST(types) {
     const std::vector<std::tuple<nc_type, double, bool>> all = {
         {NC_DOUBLE, NC_FILL_DOUBLE, true},
-        {NC_FLOAT, static_cast<double>(NC_FILL_FLOAT), true},
-        {NC_INT, static_cast<double>(NC_FILL_INT), true},
-        {NC_SHORT, static_cast<double>(NC_FILL_SHORT), true},
-        {NC_INT64, static_cast<double>(NC_FILL_INT64), true},
+        {NC_FLOAT, double(NC_FILL_FLOAT), true},
+        {NC_INT, double(NC_FILL_INT), true},
+        {NC_SHORT, double(NC_FILL_SHORT), true},
+        {NC_INT64, double(NC_FILL_INT64), true},
         {NC_BYTE, -127, false},
         {NC_UBYTE, 255, false},
         {NC_USHORT, 65535, false}};
@@ -92,8 +92,8 @@ TEST(types) {
                 if (offset != 0) v.numbers.push_back({"add_offset", {offset}});
                 const HeightMap m = read_heights(netcdf("t.nc", {{"y", 3}, {"x", 4}}, {v}), 2.0);
                 CHECK(m.dx == 0.5 && m.dy == 0.5 && m.x0 == 0 && m.y0 == 0);
-                for (const int j : up_to(3))
-                    for (const int i : up_to(4)) CHECK(m(i, j) == (10 * j + i) * scale + offset);
+                for (const int j : indices(3))
+                    for (const int i : indices(4)) CHECK(m(i, j) == (10 * j + i) * scale + offset);
             }
         std::vector<double> z = heights();
         z[6] = fill;
@@ -131,6 +131,9 @@ TEST(types) {
     v.numbers = {{"scale_factor", {-0.1}}, {"add_offset", {5}}, {"valid_range", {2.8, 9}}};
     const HeightMap packed = filled({v});
     CHECK(std::isnan(packed(3, 2)) && !std::isnan(packed(2, 2)) && packed(0, 0) == 5);
+    v.numbers = {{"scale_factor", {0.1}}, {"add_offset", {5}}, {"valid_min", {5.2}}};
+    const HeightMap high = filled({v});
+    CHECK(std::isnan(high(1, 0)) && !std::isnan(high(2, 0)) && !std::isnan(high(3, 2)));
     Values z = heights();
     z[5] = -25536;
     z[6] = -1;
@@ -264,11 +267,11 @@ TEST(texts) {
     CHECK(m.nx == 5 && m.ny == 3 && m.dx == 2 && m.dy == 2 && m.x0 == 0 && m.y0 == 0 &&
           !m.periodic);
     const double wanted[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, -11, 12, 13, 14, 15.5};
-    for (const int k : up_to(15)) CHECK(m(k % 5, k / 5) == wanted[k]);
+    for (const int k : indices(15)) CHECK(m(k % 5, k / 5) == wanted[k]);
     // Triples in any order: 5 columns of 0.5 from -1, 4 rows of 2 from 3; a line left out and a
     // word for it.
     std::string all, some;
-    for (const int k : up_to(20)) {
+    for (const int k : indices(20)) {
         const int p = 3 * k % 20, i = p % 5, j = p / 5;
         const std::string place =
             std::to_string(-1 + 0.5 * i) + " " + std::to_string(3 + 2 * j) + " ";
@@ -289,7 +292,7 @@ TEST(texts) {
         CHECK_CLOSE(map->y0, 3, 1e-14);
         CHECK_CLOSE(map->dx, 0.5, 1e-14);
         CHECK_CLOSE(map->dy, 2, 1e-14);
-        for (const int p : up_to(20)) {
+        for (const int p : indices(20)) {
             const double z = (*map)(p % 5, p / 5);
             if (map == &h && (p == 7 || p == 13 || p == 16))
                 CHECK(std::isnan(z));

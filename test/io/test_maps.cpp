@@ -23,8 +23,8 @@ std::string write(const std::string& name, const std::string& content) {
 // 6 x 4 points of 2 x 3 micrometres; height 100 row + column nanometres, rows from the top.
 Map sample() {
     Map map{6, 4, 2e-6, 3e-6, {}};
-    for (const int j : up_to(4))
-        for (const int i : up_to(6)) map.z.push_back(1e-9 * (100 * j + i));
+    for (const int j : indices(4))
+        for (const int i : indices(6)) map.z.push_back(1e-9 * (100 * j + i));
     return map;
 }
 
@@ -34,8 +34,8 @@ void check_sample(const HeightMap& m, int missing) {
     CHECK(m.nx == 6 && m.ny == 4 && !m.periodic && m.x0 == 0 && m.y0 == 0);
     CHECK_RELATIVE(m.dx, 2.0, 1e-12);
     CHECK_RELATIVE(m.dy, 3.0, 1e-12);
-    for (const int j : up_to(4))
-        for (const int i : up_to(6))
+    for (const int j : indices(4))
+        for (const int i : indices(6))
             if (i == missing && j == 2)
                 CHECK(std::isnan(m(i, j)));
             else
@@ -93,8 +93,9 @@ TEST(gwy) {
             "there is no channel '3'; there are 'Amplitude' (0) in 'V', 'Topography' (1) in 'm',");
     REFUSED(in_micrometres(write("three.gwy", three), "Amplitude"),
             "channel 'Amplitude': its values are in 'V',");
-    REFUSED(in_micrometres(write("three.gwy", three), "Phase"),
-            "there is no channel 'Phase'; there are");
+    for (const std::string name : {"Phase", "Topo"})  // also the beginning of a title
+        REFUSED(in_micrometres(write("three.gwy", three), name),
+                "there is no channel '" + name + "'; there are");
     REFUSED(in_micrometres(write("volt.gwy", gwy_file(gwy_channel(0, "A", map, "V")))),
             "no channel contains heights; there are 'A' (0) in");
     REFUSED(in_micrometres(write("number.gwy",
@@ -288,8 +289,8 @@ TEST(example) {
     CHECK_RELATIVE(sdf.dx, 2.5, 1e-12);
     CHECK_RELATIVE(gwy.dy, 3.125, 1e-12);
     long different = 0;
-    for (const int j : up_to(128))
-        for (const int i : up_to(160))
+    for (const int j : indices(128))
+        for (const int i : indices(160))
             different += std::isnan(sdf(i, j)) != std::isnan(gwy(i, j)) ||
                          std::abs(sdf(i, j) - gwy(i, j)) > 1e-9;
     CHECK(different == 0);

@@ -19,14 +19,14 @@ namespace fs = std::filesystem;
 void test_conventions(const Reader& file) {
     int ndims = 0, nvars = 0, natts = 0, unlimited = 0;
     CHECK(nc_inq(file.id(), &ndims, &nvars, &natts, &unlimited) == NC_NOERR);
-    for (const int v : up_to(nvars)) {
+    for (const int v : indices(nvars)) {
         char name[NC_MAX_NAME + 1] = "";
         nc_type type = NC_NAT;
         int attributes = 0;
         nc_inq_var(file.id(), v, name, &type, nullptr, nullptr, &attributes);
         CHECK(type == NC_DOUBLE || type == NC_INT);
         CHECK(!file.text(name, "units").empty() && !file.text(name, "long_name").empty());
-        for (const int a : up_to(attributes)) {
+        for (const int a : indices(attributes)) {
             char attribute[NC_MAX_NAME + 1] = "";
             nc_type att_type = NC_NAT;
             nc_inq_attname(file.id(), v, a, attribute);
@@ -37,7 +37,7 @@ void test_conventions(const Reader& file) {
     }
     const std::set<std::string> lists = {"asperity", "contact",
                                          "outline_point"};  // dimensions without a variable
-    for (const int d : up_to(ndims)) {
+    for (const int d : indices(ndims)) {
         char name[NC_MAX_NAME + 1] = "";
         nc_inq_dimname(file.id(), d, name);
         if (!lists.contains(name)) CHECK(file.has(name));

@@ -85,8 +85,8 @@ HeightMap measured_map() {
     map.dy = 0.07;
     map.x0 = 2;
     map.y0 = -1;
-    for (const int j : up_to(map.ny))
-        for (const int i : up_to(map.nx)) {
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) {
             const double x = map.dx * i, y = map.dy * j;
             double z = 0.0005 * x * x - 0.001 * y * y + 0.0008 * x * y + 0.002 * x - 0.003 * y + 7;
             for (int k = 1; k < 12; ++k)  // waves of all directions, shorter and lower

@@ -30,7 +30,7 @@ TEST(test_borders_of_cells) {
         for (const int cells : {7, 12, 49}) {
             const MapGrid grid = make_map_grid(0, 0, L, L, cells);
             const double dx = L / (3 * cells);
-            for (const int i : up_to(3 * cells)) CHECK(grid.cell(i * dx, 0) == i / 3);
+            for (const int i : indices(3 * cells)) CHECK(grid.cell(i * dx, 0) == i / 3);
         }
 }
 
@@ -43,7 +43,7 @@ TEST(test_oblong_maps) {
     level.pixels.columns = 30;
     level.pixels.dx = dx;
     level.pixels.dy = dy;
-    for (const int k : up_to(30 * 17)) {
+    for (const int k : indices(30 * 17)) {
         level.pixels.index.push_back(k);
         level.pixels.contact.push_back(0);
         level.pixels.pressure.push_back(p);
@@ -53,8 +53,8 @@ TEST(test_oblong_maps) {
     for (const int cells : {1, 2, 3, 4, 7, 30, 45}) {
         const MapGrid grid = make_map_grid(0, 0, Lx, Ly, cells);
         const MapLevel map = map_level(grid, level);
-        CHECK_RELATIVE(std::accumulate(map.force.begin(), map.force.end(), 0.0), force, 1e-13);
-        CHECK_RELATIVE(std::accumulate(map.area.begin(), map.area.end(), 0.0), Lx * Ly, 1e-13);
+        CHECK_RELATIVE(sum_of(map.force), force, 1e-13);
+        CHECK_RELATIVE(sum_of(map.area), Lx * Ly, 1e-13);
         CHECK(map.outside == 0);
         std::vector<double> pressure(grid.cells());
         for (const auto k : indices(map.cell))
@@ -107,7 +107,7 @@ TEST(test_exact_sums) {
         }
         const Wide high = static_cast<Wide>(whole.high / quantum);
         CHECK(high + static_cast<Wide>(whole.low / quantum) == truth);
-        CHECK(whole.high == static_cast<double>(truth) * quantum);  // the nearest double
+        CHECK(whole.high == double(truth) * quantum);  // the nearest double
         std::shuffle(values.begin(), values.end(), random);
     }
     // Where the quantum would leave the range of doubles, and of nothing.

@@ -73,7 +73,7 @@ TEST(test_archive) {
     CHECK(to_bytes(left) == to_bytes(sums));
     const Observations o = sums.finish();
     std::vector<double> area(job.observe.map.cells()), pressure = area;
-    for (const std::size_t s : up_to(sums.steps)) {
+    for (const std::size_t s : indices(sums.steps)) {
         o.map_area_fraction.fill(s, area);
         o.map_pressure.fill(s, pressure);
         restored.restore_map(s, area, pressure);
@@ -85,8 +85,7 @@ TEST(test_archive) {
 
 std::vector<std::string> some_records() {
     std::vector<std::string> records;
-    for (const int k : up_to(4))
-        records.push_back(std::string(40 + 13 * k, static_cast<char>('a' + k)));
+    for (const int k : indices(4)) records.push_back(std::string(40 + 13 * k, char('a' + k)));
     return records;
 }
 
@@ -143,7 +142,7 @@ TEST(test_torn) {
     // A spoilt byte: the records before it are there, and nothing wrong is.
     for (std::size_t at = 0; at < whole.size(); at += 5) {
         std::string spoilt = whole;
-        spoilt[at] = static_cast<char>(spoilt[at] ^ 0x20);
+        spoilt[at] = char(spoilt[at] ^ 0x20);
         write_bytes(state, spoilt);
         if (at < ends[0]) {
             CHECK(!refusal(file, c, true).empty());
@@ -274,9 +273,8 @@ TEST(test_every_difference) {
         Case now = there;
         set_key(now, element, other_value(key, get_key(there, element)));
         const auto lines = Checkpoint::differences(there, now);
-        const bool named = std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
-            return line.starts_with(name + ": ");
-        });
+        const bool named = std::ranges::any_of(
+            lines, [&](const std::string& line) { return line.starts_with(name + ": "); });
         if (!named) std::printf("  %s may change unnoticed\n", name.c_str());
         CHECK(named);
     }

@@ -40,8 +40,8 @@ Case synthetic() {
 std::string map_file(const std::string& name, double x0, double y0, double dx = 0.5,
                      double dy = 0.25, double high = 1) {
     std::string text;
-    for (const int j : up_to(20))
-        for (const int i : up_to(30)) {
+    for (const int j : indices(20))
+        for (const int i : indices(30)) {
             char line[100];
             std::snprintf(line, sizeof line, "%.10g %.10g %.17g\n", x0 + dx * i, y0 + dy * j,
                           high * 0.01 *
@@ -131,6 +131,9 @@ TEST(maps) {
     const Job job = prepare(c);
     CHECK(job.domain.x0 == -3 && job.domain.y0 == 7 && std::abs(job.domain.Lx - 15) < 1e-9 &&
           std::abs(job.domain.Ly - 5) < 1e-9);
+    const Rectangle& extent = job.solver.surface.extent;
+    CHECK(extent.x0 == -3 && extent.y0 == 7 && extent.Lx == job.domain.Lx &&
+          extent.Ly == job.domain.Ly);
     CHECK_CLOSE(job.indenter.x0, 4.25, 1e-9);  // the middle of the points
     CHECK_CLOSE(job.indenter.y0, 9.375, 1e-9);
     CHECK(!job.given && job.measured && job.measured->nx == 30);
@@ -150,8 +153,7 @@ TEST(maps) {
     }
     CHECK_RELATIVE(two.statistics.sigma, 1.5 * one.statistics.sigma, 1e-9);
     CHECK_RELATIVE(one.statistics.m2, one.statistics.m2_grid, 0);
-    CHECK_RELATIVE(job.domain.mean_spacing,
-                   std::sqrt(75 / static_cast<double>(one.asperities.size())), 1e-9);
+    CHECK_RELATIVE(job.domain.mean_spacing, std::sqrt(75 / double(one.asperities.size())), 1e-9);
     // As many files as realizations are asked for.
     c.run.first_realization = 2;
     CHECK(!accepted([&] { prepare(c); }));
@@ -192,8 +194,8 @@ TEST(maps) {
         CHECK(m.dx > 0.49 && m.dy < 0.26 && m.periodic == read.map.periodic &&
               g->domain.Lx == m.Lx() && g->domain.Ly == m.Ly());
         long same = 0;
-        for (const int j : up_to(20))
-            for (const int i : up_to(30)) same += m(i, j) == read.map(i, j);
+        for (const int j : indices(20))
+            for (const int i : indices(30)) same += m(i, j) == read.map(i, j);
         CHECK(same == 600);
     }
     Case made = synthetic();
@@ -239,7 +241,7 @@ TEST(pressures) {
         constexpr int points = 64;
         constexpr double a = 0.05, of_differences = 2e-3;
         std::string wave;
-        for (const int k : up_to(points * points))
+        for (const int k : indices(points * points))
             wave +=
                 format("%.12g %.12g %.12g\n", 3.0 * (k % points) / points,
                        3.0 * (k / points) / points, a * std::cos(2 * pi * (k % points) / points));
@@ -250,6 +252,22 @@ TEST(pressures) {
         CHECK_RELATIVE(two.levels[0], 0.01 * two.indenter.E_star * std::sqrt(2 * both) * 3 * 3,
                        of_differences);
     }
+}
+
+// The lay of a spectrum from a file turns with its direction.
+TEST(lay_of_a_spectrum) {
+    Case c = synthetic();
+    c.surface.source = Source::spectrum;
+    c.surface.file = write("psd.txt", "10 1\n40 0.01\n");
+    c.surface.L = 1.0;
+    c.surface.aspect = 4;
+    c.surface.direction = 25;
+    const MomentTensor one = theoretical_moments(spectrum_of(c)).tensor;
+    c.surface.direction = 115;
+    const MomentTensor other = theoretical_moments(spectrum_of(c)).tensor;
+    CHECK(one.m20 < 0.5 * one.m02);
+    CHECK_RELATIVE(one.m20, other.m02, 1e-12);
+    CHECK_RELATIVE(one.m11, -other.m11, 1e-12);
 }
 
 // Two elastic flats by elements are closed where their mean planes meet: that is known before they
@@ -289,7 +307,7 @@ TEST(punch_on_plane) {
     c.indentation.levels = {1};
     for (const double a : {0.05, 0.1}) {
         int outside = 0;
-        for (const int k : up_to(kPlaces)) {
+        for (const int k : indices(kPlaces)) {
             c.indenter.radius = a;
             c.indentation.centre[0] = 0.2 + 0.0007 * k;
             c.indentation.centre[1] = 0.2 - 0.0011 * k;
@@ -316,7 +334,7 @@ TEST(adhesion_that_flattens) {
             if (wave < 12 || wave > 16) continue;
             const double square = std::pow(wave, -2 * (1 + c.surface.hurst));
             squares += square;
-            energy += 2 * std::numbers::pi * wave / *c.surface.L * square;
+            energy += 2 * pi * wave / *c.surface.L * square;
         }
     energy *= 0.25 * equivalent_modulus(c.solids.E, c.solids.nu) * std::pow(*c.surface.sigma, 2) /
               squares;
@@ -373,7 +391,7 @@ TEST(groups_of_levels) {
     c.solver.model = ModelKind::elements;
     c.solver.tolerance = 1e-9;
     c.compare.levels = {};
-    for (const int k : up_to(37)) c.indentation.levels.push_back(2.5 - 0.05 * k);
+    for (const int k : indices(37)) c.indentation.levels.push_back(2.5 - 0.05 * k);
     const Job job = prepare(c);
     std::vector<std::size_t> order;
     const auto note = [&](std::size_t k, const Level&) { order.push_back(k); };

@@ -23,7 +23,7 @@ TEST(twins_of_an_oblong_map) {
     const HeightMap surface = synthesize(s, 128, Normalise::sample, 4, 1);
     map_files::Map map{128, 64, 1e-3 / 128, 1e-3 / 128, {}};
     for (int j = 63; j >= 0; --j)
-        for (const int i : up_to(128)) map.z.push_back(1e-3 * surface(i, j));
+        for (const int i : indices(128)) map.z.push_back(1e-3 * surface(i, j));
     const std::string file =
         folder.write("oblong.gwy", map_files::gwy_file(map_files::gwy_channel(0, "T", map)));
     Case settings;
@@ -94,7 +94,7 @@ Case map_case(double L_lambda_s, const std::function<void(int, int, double&)>& c
                    Normalise::sample, 4, 1);
     map_files::Map map{256, 256, 1e-3 / 256, 1e-3 / 256, {}};
     for (int j = 255; j >= 0; --j)
-        for (const int i : up_to(256)) change(i, j, map.z.emplace_back(1e-3 * surface(i, j)));
+        for (const int i : indices(256)) change(i, j, map.z.emplace_back(1e-3 * surface(i, j)));
     Case settings;
     set_key(settings, "surface%source", "'heights'");
     set_key(settings, "surface%file",

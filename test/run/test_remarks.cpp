@@ -36,7 +36,7 @@ TEST(thresholds) {
                remarks(change).find(word) != std::string::npos;
     };
     for (const auto k : indices(kCauseNames)) {
-        const Cause cause{static_cast<int>(k)};
+        const Cause cause{int(k)};
         CHECK(said(words_of_doubts(bit(cause)).c_str(), [&](V& v) { v.doubts = bit(cause); }));
     }
     CHECK(!said("E*/10", [](V& v) { v.extreme_area_fraction = 0.01; }) &&
@@ -140,7 +140,7 @@ TEST(sticks) {
 TEST(memory) {
     const Folder folder;
     std::ofstream list(folder / "many.txt");
-    for (const int k : up_to(300))
+    for (const int k : indices(300))
         list << 0.05 * (k % 20) << ' ' << 0.07 * (k / 20) << ' ' << 0.01 * std::sin(7.3 * k)
              << " 0.05\n";
     list.close();

@@ -20,7 +20,7 @@ inline RandomAsperities random_asperities(int n, unsigned seed, double apart) {
     std::mt19937 generator(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
     rsc::Asperities a;
-    while (static_cast<int>(a.x.size()) < n) {
+    while (int(a.x.size()) < n) {
         const double px = uniform(generator), py = uniform(generator);
         bool close = false;
         for (const auto k : indices(a.x))
@@ -138,7 +138,7 @@ public:
     double Z = 1;  // the present separation
 
     void go_to(double end, double step) {
-        const int steps = static_cast<int>(std::ceil(std::abs(end - Z) / step));
+        const int steps = int(std::ceil(std::abs(end - Z) / step));
         const double from = Z;
         for (int k = 1; k <= steps; ++k) {
             Z = from + (end - from) * k / steps;
@@ -152,8 +152,7 @@ public:
         return sum;
     }
     int attached() const {
-        return static_cast<int>(
-            std::count_if(radius_.begin(), radius_.end(), [](double c) { return c > 0; }));
+        return int(std::ranges::count_if(radius_, [](double c) { return c > 0; }));
     }
 
 private:
@@ -169,22 +168,22 @@ private:
         const std::size_t n = radius_.size();
         for (int step = 0; step < 60; ++step) {
             std::vector<double> slope(n), m(n * n), rest(n);
-            for (const std::size_t i : up_to(n))
+            for (const std::size_t i : indices(n))
                 f_[i] = radius_[i] > 0 ? edge_.force(i, radius_[i], u_[i], slope[i]) : 0.0;
             double worst = 0;
-            for (const std::size_t i : up_to(n)) {
+            for (const std::size_t i : indices(n)) {
                 rest[i] = a_.z[i] - Z - u_[i];
-                for (const std::size_t j : up_to(n)) {
+                for (const std::size_t j : indices(n)) {
                     rest[i] -= compliance(i, j) * f_[j];
                     m[i * n + j] = (i == j ? 1 : 0) + compliance(i, j) * slope[j];
                 }
                 worst = std::max(worst, std::abs(rest[i]));
             }
             const std::vector<double> change = solved(m, rest);
-            for (const std::size_t i : up_to(n)) u_[i] += change[i];
+            for (const std::size_t i : indices(n)) u_[i] += change[i];
             if (worst < 1e-17) break;
         }
-        for (const std::size_t i : up_to(n)) {
+        for (const std::size_t i : indices(n)) {
             double slope;
             f_[i] = radius_[i] > 0 ? edge_.force(i, radius_[i], u_[i], slope) : 0.0;
         }

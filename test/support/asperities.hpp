@@ -1,5 +1,5 @@
-// Sets of asperities for tests: given, or random and reproducible, with heights and radii of a rough
-// surface or worse.
+// Sets of asperities for tests: given, or random and reproducible, with heights and radii of a
+// rough surface or worse.
 #pragma once
 
 #include <random>
@@ -40,7 +40,7 @@ inline rsc::Asperities random_asperities(int n, double spacing, double sigma, do
     std::uniform_real_distribution<double> uniform(0, 1);
     std::normal_distribution<double> normal(0, 1);
     rsc::Asperities a;
-    for (int tries = 0; static_cast<int>(a.size()) < n && tries < 100 * n; ++tries) {
+    for (int tries = 0; int(a.size()) < n && tries < 100 * n; ++tries) {
         const double x = uniform(random), y = uniform(random);
         bool free = true;
         for (std::size_t k = 0; k < a.size() && free; ++k)

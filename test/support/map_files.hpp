@@ -1,7 +1,7 @@
 // Files of instruments, written here: what the readers are tested with.
 #pragma once
 
-#include "support/indices.hpp"
+#include "check.hpp"
 
 namespace map_files {
 
@@ -96,7 +96,7 @@ std::string sdf_binary(const Map& map, int type, double scale, const std::vector
     put(f, scale);
     put(f, -1.0);
     f += '\0';
-    f += static_cast<char>(type);
+    f += char(type);
     f += '\0';
     for (const T v : values) put(f, v);
     return f;

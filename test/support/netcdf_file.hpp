@@ -38,8 +38,7 @@ inline std::string write(const std::string& path, const Dimensions& dimensions,
         std::vector<int> ids;
         for (const std::string& d : v.dimensions) ids.push_back(of.at(d).first);
         int variable = -1;
-        ok(nc_def_var(id, v.name.c_str(), v.type, static_cast<int>(ids.size()), ids.data(),
-                      &variable));
+        ok(nc_def_var(id, v.name.c_str(), v.type, int(ids.size()), ids.data(), &variable));
         for (const auto& [key, text] : v.texts)
             ok(nc_put_att_text(id, variable, key.c_str(), text.size(), text.c_str()));
         for (const auto& [key, n] : v.numbers)
@@ -49,14 +48,14 @@ inline std::string write(const std::string& path, const Dimensions& dimensions,
     ok(nc_enddef(id));
     for (const auto k : indices(variables))
         if (!variables[k].values.empty())
-            ok(nc_put_var_double(id, static_cast<int>(k), variables[k].values.data()));
+            ok(nc_put_var_double(id, int(k), variables[k].values.data()));
     ok(nc_close(id));
     return path;
 }
 
 inline std::vector<double> counted(std::size_t n, double first, double step) {
     std::vector<double> v;
-    for (const std::size_t k : up_to(n)) v.push_back(first + static_cast<double>(k) * step);
+    for (const std::size_t k : indices(n)) v.push_back(first + double(k) * step);
     return v;
 }
 

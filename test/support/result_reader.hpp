@@ -29,7 +29,7 @@ public:
         std::array<int, NC_MAX_VAR_DIMS> ids{};
         nc_inq_var(id_, var(name), nullptr, nullptr, &n, ids.data(), nullptr);
         std::vector<std::string> names;
-        for (const int d : up_to(n)) {
+        for (const int d : indices(n)) {
             char text[NC_MAX_NAME + 1] = "";
             nc_inq_dimname(id_, ids[d], text);
             names.emplace_back(text);

@@ -1,7 +1,7 @@
 // A fresh folder, removed with everything in it.
 #pragma once
 
-#include "support/indices.hpp"
+#include "check.hpp"
 
 struct Folder {
     std::string name = (std::filesystem::temp_directory_path() / "rsc-test-XXXXXX").string();

@@ -28,17 +28,17 @@ TEST(against_brute_force) {
             // summit. The right half has rounded ridges along the diagonals, whose grid maxima are
             // saddles.
             const double ridge[] = {0, -1, -8, -9, -8, -1};
-            for (const int j : up_to(ny))
-                for (const int i : up_to(nx)) {
-                    const double noise = static_cast<double>(random() % 40);
+            for (const int j : indices(ny))
+                for (const int i : indices(nx)) {
+                    const double noise = double(random() % 40);
                     map.row(j)[i] = i < nx / 2 ? noise : 100 * ridge[(i - j + 6 * ny) % 6] + noise;
                 }
             const auto z = [&](int i, int j) { return map((i + nx) % nx, (j + ny) % ny); };
             std::vector<std::array<int, 2>> summits;
             std::vector<double> k1, k2, kg;
             long saddles = 0;
-            for (const int j : up_to(ny))
-                for (const int i : up_to(nx)) {
+            for (const int j : indices(ny))
+                for (const int i : indices(nx)) {
                     if (!periodic && (i == 0 || j == 0 || i == nx - 1 || j == ny - 1)) continue;
                     bool top = true;
                     for (int b = -1; b <= 1; ++b)
@@ -66,7 +66,7 @@ TEST(against_brute_force) {
             const Asperities found = find_asperities(map, Curvature::geometric, &count);
             CHECK(found.size() == summits.size());
             CHECK(count.saddles == saddles);
-            CHECK(count.summits == static_cast<long>(summits.size()));
+            CHECK(count.summits == long(summits.size()));
             if (nx == 41) CHECK(saddles > 10 && summits.size() > 30);
             double worst = 0, sum_g = 0, sum_a = 0;
             for (std::size_t s = 0; s < std::min(found.size(), summits.size()); ++s) {
@@ -82,10 +82,8 @@ TEST(against_brute_force) {
             }
             CHECK_CLOSE(worst, 0, 1e-12);
             if (!summits.empty()) {
-                CHECK_RELATIVE(count.mean_kappa_g, sum_g / static_cast<double>(summits.size()),
-                               1e-12);
-                CHECK_RELATIVE(count.mean_kappa_a, sum_a / static_cast<double>(summits.size()),
-                               1e-12);
+                CHECK_RELATIVE(count.mean_kappa_g, sum_g / double(summits.size()), 1e-12);
+                CHECK_RELATIVE(count.mean_kappa_a, sum_a / double(summits.size()), 1e-12);
             }
             const Asperities algebraic = find_asperities(map, Curvature::algebraic, &count);
             for (std::size_t s = 0; s < std::min(algebraic.size(), k1.size()); ++s)

@@ -25,7 +25,7 @@ TEST(all_breaks) {
         const int at[4][2] = {{20, 30}, {60, 61}, {90, 1}, {100, 100}};
         for (const auto& [i, j] : at) map.row(j)[i] -= 10 * sigma;
         map.row(50)[70] -= 20 * sigma;
-        for (const int k : up_to(n)) {  // grooves that cross
+        for (const int k : indices(n)) {  // grooves that cross
             map.row(k)[40] -= 8 * sigma;
             map.row(110)[k] -= 8 * sigma;
         }
@@ -50,8 +50,8 @@ TEST(all_breaks) {
     {
         // A smooth hill is none, however flat the map around it is.
         HeightMap map = smooth();
-        for (const int j : up_to(n))
-            for (const int i : up_to(n))
+        for (const int j : indices(n))
+            for (const int i : indices(n))
                 map.row(j)[i] =
                     1e-2 * map(i, j) +
                     50 * sigma * std::exp(-(std::pow(i - 60, 2) + std::pow(j - 70, 2)) / 50);
@@ -62,7 +62,7 @@ TEST(all_breaks) {
     {
         HeightMap map = smooth();
         map.row(33)[44] += 10 * sigma;
-        for (const int j : up_to(n))
+        for (const int j : indices(n))
             for (int i = 80; i < n; ++i) map.row(j)[i] -= 5 * sigma;
         const Breaks breaks = find_breaks(map, 0);
         CHECK(breaks.found[Breaks::spike].points == 1 &&

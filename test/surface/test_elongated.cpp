@@ -14,7 +14,7 @@ TEST(all_elongated) {
     constexpr double E = 1e5, height = 0.01, step = 1.0 / 200;
     for (const double ratio : {1.0, 5.0, 20.0}) {
         const double narrow = std::sqrt(ratio);
-        const int half = 100, short_half = static_cast<int>(half / narrow);
+        const int half = 100, short_half = int(half / narrow);
         const auto wave = [](double x) { return std::cos(2 * pi * x); };
         HeightMap map = height_map(2 * half + 1, 2 * short_half + 1, step, step, [&](int i, int j) {
             return 0.5 * height *

@@ -26,8 +26,8 @@ HeightMap made(const Spectrum& s, int n, Moments* sampled = nullptr, int threads
 
 double difference(const HeightMap& a, const HeightMap& b, int step = 1, bool transposed = false) {
     double worst = 0;
-    for (const int j : up_to(a.ny))
-        for (const int i : up_to(a.nx))
+    for (const int j : indices(a.ny))
+        for (const int i : indices(a.nx))
             worst = check::worse(
                 worst, std::abs(a(i, j) - (transposed ? b(j, i) : b(step * i, step * j))));
     return worst;
@@ -188,8 +188,8 @@ TEST(distributions) {
 // Amplitude of a mode of a map by its definition.
 double amplitude(const HeightMap& map, int kx, int ky) {
     std::complex<double> sum = 0;
-    for (const int j : up_to(map.ny))
-        for (const int i : up_to(map.nx))
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx))
             sum += map(i, j) *
                    std::polar(1.0, -2 * pi * (1.0 * kx * i / map.nx + 1.0 * ky * j / map.ny));
     return std::abs(sum) / (map.nx * map.ny);
@@ -230,8 +230,8 @@ TEST(tabulated) {
         std::vector<double> rings, psd;
         for (double q = 1; q <= 100; q *= 1.01) {
             rings.push_back(2 * pi * q);
-            for (const std::size_t a : up_to(angles)) {
-                const double angle = pi * static_cast<double>(a) / angles;
+            for (const std::size_t a : indices(angles)) {
+                const double angle = pi * double(a) / angles;
                 psd.push_back(relative_psd(s, q * std::cos(angle), q * std::sin(angle)));
             }
         }
@@ -240,8 +240,8 @@ TEST(tabulated) {
         table.shape = s.shape;
         const HeightMap stretched = made(s, 256), same = made(table, 256);
         double product = 0, squares = 0;
-        for (const int j : up_to(same.ny))
-            for (const int i : up_to(same.nx)) {
+        for (const int j : indices(same.ny))
+            for (const int i : indices(same.nx)) {
                 product += stretched(i, j) * same(i, j);
                 squares += stretched(i, j) * stretched(i, j);
             }

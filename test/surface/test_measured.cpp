@@ -21,8 +21,8 @@ HeightMap make(int nx, int ny, double dx, double dy, Height height) {
 
 double largest(const HeightMap& map) {
     double most = 0;
-    for (const int j : up_to(map.ny))
-        for (const int i : up_to(map.nx)) most = std::fmax(most, std::abs(map(i, j)));
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) most = std::fmax(most, std::abs(map(i, j)));
     return most;
 }
 
@@ -96,8 +96,8 @@ TEST(forms) {
                 HeightMap ball = make(80, 50, 0.1, 0.15, sphere);
                 ball.row(7)[9] = std::nan("");
                 double span = 0, lowest = kInfinity, highest = -kInfinity;
-                for (const int j : up_to(50))
-                    for (const int i : up_to(80)) {
+                for (const int j : indices(50))
+                    for (const int i : indices(80)) {
                         lowest = std::fmin(lowest, ball(i, j));
                         highest = std::fmax(highest, ball(i, j));
                     }
@@ -121,8 +121,8 @@ TEST(forms) {
     const HeightMap rough = synthesize(spectrum, 128, Normalise::sample, 3, 1);
     HeightMap both = rough.copy();
     both.periodic = false;
-    for (const int j : up_to(128))
-        for (const int i : up_to(128)) {
+    for (const int j : indices(128))
+        for (const int i : indices(128)) {
             const double x = i * both.dx - 4, y = j * both.dy - 4;
             both.row(j)[i] += std::sqrt(30.0 * 30 - x * x - y * y);
         }
@@ -143,6 +143,17 @@ TEST(forms) {
     CHECK_THROWS(fill_missing(nothing), Error);
 }
 
+// Stretched back by its lay, a spectrum has the cutoffs that it was made with.
+TEST(lay) {
+    const Spectrum spectrum{
+        .L = 1, .L_lambda_l = 8, .L_lambda_s = 40, .sigma = 0.01, .aspect = 3, .direction = 30};
+    HeightMap map = synthesize(spectrum, 256, Normalise::sample, 5, 1);
+    const Measured m = measure(map, {});
+    CHECK(m.fit && m.fit->aspect > 2);
+    CHECK_RELATIVE(m.fit->kl.value, 2 * pi * 8, 0.1);
+    CHECK_RELATIVE(m.fit->ks.value, 2 * pi * 40, 0.1);
+}
+
 TEST(missing_points) {
     // The difference equation is exact for harmonic polynomials up to the third degree; on
     // rectangular pixels up to the second.
@@ -154,8 +165,8 @@ TEST(missing_points) {
         HeightMap map = make(60, 45, dx, dy, height);
         const HeightMap truth = map.copy();
         long holes = 0;
-        for (const int j : up_to(map.ny))
-            for (const int i : up_to(map.nx)) {
+        for (const int j : indices(map.ny))
+            for (const int i : indices(map.nx)) {
                 const bool ring = std::hypot(i - 30, j - 22) < 12 && std::hypot(i - 30, j - 22) > 5;
                 if (ring || (i == 3 && j == 4) || (i > 50 && i < 56 && j > 2 && j < 40)) {
                     map.row(j)[i] = std::nan("");
@@ -166,8 +177,8 @@ TEST(missing_points) {
         const auto filled = fill_missing(map);
         CHECK(filled.size() == 60u * 45u && filled[4 * 60 + 3] == 1 && filled[0] == 0);
         double error = 0, span = 0;
-        for (const int j : up_to(map.ny))
-            for (const int i : up_to(map.nx)) {
+        for (const int j : indices(map.ny))
+            for (const int i : indices(map.nx)) {
                 error = std::fmax(error, std::abs(map(i, j) - truth(i, j)));
                 span = std::fmax(span, std::abs(truth(i, j) - truth(0, 0)));
             }
@@ -179,7 +190,7 @@ TEST(missing_points) {
     // x = 0 and Lx.
     HeightMap edge = make(40, 40, 1, 1, [](double, double y) { return 2 * y; });
     for (int j = 10; j < 20; ++j)
-        for (const int i : up_to(6)) edge.row(j)[i] = std::nan("");
+        for (const int i : indices(6)) edge.row(j)[i] = std::nan("");
     fill_missing(edge);
     for (int j = 10; j < 20; ++j) CHECK_CLOSE(edge(0, j), 2.0 * j, 1e-8);
 }
@@ -196,8 +207,8 @@ TEST(filtering) {
     HeightMap half = wave.copy();
     gaussian_filter(half, 2 * pi / k);
     double error = 0;
-    for (const int j : up_to(48))
-        for (const int i : up_to(64))
+    for (const int j : indices(48))
+        for (const int i : indices(64))
             error = std::fmax(error, std::abs(half(i, j) - 0.5 * wave(i, j)));
     CHECK_CLOSE(error, 0.0, 1e-13);
     // Against the convolution with the weighting function of the standard, exp(-pi (r/(alpha

@@ -39,8 +39,8 @@ TEST(measured_slopes) {
     const auto map_with = [&](double share, double everywhere) {
         HeightMap map = fine.copy();
         map.periodic = false;
-        for (const int j : up_to(n))
-            for (const int i : up_to(n))
+        for (const int j : indices(n))
+            for (const int i : indices(n))
                 map.row(j)[i] +=
                     share * coarse(i, j) * (everywhere + std::abs(std::cos(pi * (i + 0.5) / n)));
         return map;

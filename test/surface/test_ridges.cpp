@@ -18,7 +18,7 @@ TEST(lay) {
     c.surface.sigma = 1e-3;
     c.solids.R[1] = 10;
     c.solver.model = ModelKind::elements;
-    for (const int k : up_to(20)) c.indentation.levels.push_back(2.9 - 0.1 * k);
+    for (const int k : indices(20)) c.indentation.levels.push_back(2.9 - 0.1 * k);
     int levels = 0, force = 0, area = 0;
     for (const bool campaign : {false, true}) {
         c.surface.direction = campaign ? 90 : 0;

@@ -35,7 +35,7 @@ Moments by_quadrature(const Spectrum& s) {
     };
     const auto angular = [](int p) {
         double sum = 0;
-        for (const int i : up_to(64)) sum += std::pow(std::cos(2 * pi * i / 64), p);
+        for (const int i : indices(64)) sum += std::pow(std::cos(2 * pi * i / 64), p);
         return sum * 2 * pi / 64;  // exact for trigonometric polynomials
     };
     const auto moment = [&](int p) {
@@ -174,8 +174,8 @@ TEST(elementary_functions) {
         double c, s;
         vector_math::cos_sin_turns(u, c, s);
         const long double turn = 2 * std::numbers::pi_v<long double> * u;
-        worst_trig = std::max({worst_trig, std::abs(c - static_cast<double>(std::cos(turn))),
-                               std::abs(s - static_cast<double>(std::sin(turn)))});
+        worst_trig = std::max({worst_trig, std::abs(c - double(std::cos(turn))),
+                               std::abs(s - double(std::sin(turn)))});
     }
     const double ulp = 2.3e-16;
     CHECK(worst_log < 2 * ulp);  // our error and the library's
@@ -193,7 +193,7 @@ TEST(noise_is_philox) {
     const auto w = philox({{17u, static_cast<std::uint32_t>(-5), 0xfffffffdu, 0xffffffffu}},
                           {{0x89abcdefu, 0x01234567u}});
     const auto uniform = [](std::uint32_t low, std::uint32_t high) {
-        return static_cast<double>(low | (static_cast<std::uint64_t>(high & 0xfffff) << 32)) /
+        return double(low | (static_cast<std::uint64_t>(high & 0xfffff) << 32)) /
                4503599627370496.0;
     };
     const double radius = std::sqrt(-std::log(1 - uniform(w[0], w[1]))),
@@ -208,7 +208,7 @@ TEST(noise_is_philox) {
     std::vector<double> re(101), im(101);
     column_noise(key, kx, -50, 101, re.data(), im.data());
     bool same = true;
-    for (const int i : up_to(101)) {
+    for (const int i : indices(101)) {
         const auto one = mode_noise(key, kx, i - 50);
         same = same && one.real() == re[i] && one.imag() == im[i];
     }

@@ -47,8 +47,9 @@ struct Waves {
         map.dx = L / nx;
         map.dy = L / ny;
         map.periodic = true;
-        for (const int j : up_to(ny))
-            for (const int i : up_to(nx)) map.row(j)[i] = derivative(i * map.dx, j * map.dy, 0, 0);
+        for (const int j : indices(ny))
+            for (const int i : indices(nx))
+                map.row(j)[i] = derivative(i * map.dx, j * map.dy, 0, 0);
         return map;
     }
 };
@@ -58,7 +59,7 @@ Waves waves_of(const Spectrum& s, std::int64_t seed, std::int64_t realization) {
     Waves w;
     w.L = s.L;
     double square = 0;
-    const int most = static_cast<int>(s.L_lambda_s);
+    const int most = int(s.L_lambda_s);
     for (int kx = 0; kx <= most; ++kx)
         for (int ky = kx > 0 ? -most : 1; ky <= most; ++ky) {
             const double phi = relative_psd(s, kx, ky);
@@ -78,7 +79,7 @@ Spectrum small_spectrum(double L_lambda_l, double L_lambda_s) {
 double rms(const std::vector<double>& v) {
     double sum = 0;
     for (double x : v) sum += x * x;
-    return std::sqrt(sum / static_cast<double>(v.size()));
+    return std::sqrt(sum / double(v.size()));
 }
 
 // Largest distances of each summit from the truth: the gradient there as a way to the top, height,
@@ -120,7 +121,7 @@ TEST(against_the_fourier_sum) {
               // the last step is not applied to the derivatives: kNear^2 and the stencil's 1e-9
               1e-7);
         CHECK(e[3] < 2e-7);
-        CHECK(a.size() == a.biharmonic.size() && static_cast<long>(a.size()) == count.summits);
+        CHECK(a.size() == a.biharmonic.size() && long(a.size()) == count.summits);
         for (const auto i : indices(a)) {
             CHECK(a.x[i] >= 0 && a.x[i] < s.L && a.y[i] >= 0 && a.y[i] < s.L);
             CHECK_RELATIVE(a.radius[i], 1 / std::sqrt(a.kappa1[i] * a.kappa2[i]), 1e-12);
@@ -131,7 +132,7 @@ TEST(against_the_fourier_sum) {
                 // nothing is missed any more: 32 points in lambda_s tell all apart No summit twice.
                 a.size() == fine_summits);
         for (const auto i : indices(a))
-            for (const std::size_t j : up_to(i)) {
+            for (const std::size_t j : indices(i)) {
                 const double x = std::remainder(a.x[i] - a.x[j], s.L),
                              y = std::remainder(a.y[i] - a.y[j], s.L);
                 CHECK(std::hypot(x, y) > 1e-3 * s.L / n);
@@ -183,8 +184,8 @@ TEST(polynomial) {
         map.x0 = 3;
         map.y0 = -1;
         const double x0 = 4.23, y0 = 0.87;
-        for (const int j : up_to(21))
-            for (const int i : up_to(25)) {
+        for (const int j : indices(21))
+            for (const int i : indices(25)) {
                 const double x = 3 + 0.1 * i - x0, y = -1 + 0.2 * j - y0;
                 map.row(j)[i] = 1 - (round ? 1.5 * (x * x + y * y) : 2 * x * x + y * y + x * y) +
                                 0.3 * x * x * x - 0.5 * x * x * x * x - 0.25 * x * x * y * y -

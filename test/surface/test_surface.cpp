@@ -13,9 +13,9 @@ using namespace rsc;
 
 double rms(const HeightMap& map) {
     double sum = 0;
-    for (const int j : up_to(map.ny))
-        for (const int i : up_to(map.nx)) sum += map(i, j) * map(i, j);
-    return std::sqrt(sum / (static_cast<double>(map.nx) * map.ny));
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) sum += map(i, j) * map(i, j);
+    return std::sqrt(sum / (double(map.nx) * map.ny));
 }
 
 // z = sum over the half plane of 2 Re[c exp(i K.x)], mode by mode and point by point.
@@ -26,7 +26,7 @@ std::vector<double> by_cosines(const Spectrum& s, int n, NoiseKey key) {
     };
     std::vector<Mode> modes;
     double expected = 0;
-    const int top = static_cast<int>(s.L_lambda_s);
+    const int top = int(s.L_lambda_s);
     for (int kx = 0; kx <= top; ++kx)
         for (int ky = kx > 0 ? -top : 1; ky <= top; ++ky) {
             const double psd = relative_psd(s, kx, ky);
@@ -35,8 +35,8 @@ std::vector<double> by_cosines(const Spectrum& s, int n, NoiseKey key) {
             expected += 2 * psd;
         }
     std::vector<double> z;
-    for (const int j : up_to(n))
-        for (const int i : up_to(n)) {
+    for (const int j : indices(n))
+        for (const int i : indices(n)) {
             double h = 0;
             for (const Mode& m : modes)
                 h += 2 * (m.c * std::polar(1.0, 2 * pi * (m.kx * i + m.ky * j) / n)).real();
@@ -59,8 +59,8 @@ TEST(against_cosines) {
             const HeightMap map = synthesize(s, n, Normalise::ensemble, 11, 5);
             const std::vector<double> z = by_cosines(s, n, {11, 5});
             double worst = 0;
-            for (const int j : up_to(n))
-                for (const int i : up_to(n))
+            for (const int j : indices(n))
+                for (const int i : indices(n))
                     worst = check::worse(worst, std::abs(map(i, j) - z[j * n + i]));
             CHECK_CLOSE(worst, 0.0,
                         1e-13 * 0.1 * 10);  // rounding of the slow sum over some 700 modes
@@ -77,8 +77,8 @@ TEST(against_cosines) {
     for (const auto& [s, n] : {std::pair{tabulated, 22}, {tabulated, 26}, {smallest, 2}}) {
         const HeightMap map = synthesize(s, n, Normalise::ensemble, 4, 2, nullptr, 3);
         const std::vector<double> z = by_cosines(s, n, {4, 2});
-        for (const int j : up_to(n))
-            for (const int i : up_to(n)) CHECK_CLOSE(map(i, j), z[j * n + i], 1e-13);
+        for (const int j : indices(n))
+            for (const int i : indices(n)) CHECK_CLOSE(map(i, j), z[j * n + i], 1e-13);
     }
 }
 
@@ -89,8 +89,8 @@ TEST(normalisation) {
         const HeightMap map = synthesize(s, n, Normalise::sample, 9, 4, &sampled);
         CHECK_RELATIVE(rms(map), s.sigma, 1e-13);
         double mean = 0;
-        for (const int j : up_to(n))
-            for (const int i : up_to(n)) mean += map(i, j);
+        for (const int j : indices(n))
+            for (const int i : indices(n)) mean += map(i, j);
         CHECK_CLOSE(mean / (n * n), 0.0, 1e-15);
     }
     CHECK_RELATIVE(sampled.m0, s.sigma * s.sigma, 1e-13);

@@ -14,11 +14,25 @@ HeightMap rough(int nx, int ny, double dx, double dy) {
     HeightMap map = height_map(nx, ny, dx, dy, [&](int i, int j) {
         return 3 + 0.05 * i - 0.03 * j + std::sin(0.9 * i + 0.4 * j) +
                0.6 * std::cos(0.7 * i - 1.1 * j + 0.3) + 0.3 * std::sin(0.2 * i * 1.7 + 1.6 * j) +
-               0.2 * (static_cast<double>(random()) / 4294967296.0 - 0.5);
+               0.2 * (double(random()) / 4294967296.0 - 0.5);
     });
     map.x0 = -1.3;
     map.y0 = 2.1;
     return map;
+}
+
+// Without its rounding a tilted map has the slopes it had.
+TEST(rounded) {
+    constexpr double step = 0.2;
+    HeightMap map = height_map(48, 36, 0.3, 0.2, [](int i, int j) {
+        return step * std::round((0.6 * i - 0.9 * j + std::sin(0.3 * i + 0.2 * j)) / step);
+    });
+    HeightMap before = map.copy();
+    const Form with = detrend(before, Detrend::plane);
+    smooth_rounded(map, step);
+    const Form without = detrend(map, Detrend::plane);
+    CHECK_RELATIVE(without.slope_x, with.slope_x, 1e-3);
+    CHECK_RELATIVE(without.slope_y, with.slope_y, 1e-3);
 }
 
 // Every ring of the spectrum from a sum over all points for each mode.
@@ -34,8 +48,8 @@ TEST(spectra) {
                                       std::pow(std::sin(pi * (j + 0.5) / ny), 2);
             };
             double mean = 0, weight = 0, squares = 0;
-            for (const int j : up_to(ny))
-                for (const int i : up_to(nx)) {
+            for (const int j : indices(ny))
+                for (const int i : indices(nx)) {
                     mean += w(i, j) * map(i, j);
                     weight += w(i, j);
                     squares += w(i, j) * w(i, j);
@@ -46,12 +60,11 @@ TEST(spectra) {
             for (int q = -((ny - 1) / 2); q <= ny / 2; ++q)
                 for (int p = -((nx - 1) / 2); p <= nx / 2; ++p) {
                     std::complex<double> sum = 0;
-                    for (const int j : up_to(ny))
-                        for (const int i : up_to(nx))
+                    for (const int j : indices(ny))
+                        for (const int i : indices(nx))
                             sum += w(i, j) * (map(i, j) - mean) *
-                                   std::polar(1.0, -2 * pi *
-                                                       (static_cast<double>(p * i) / nx +
-                                                        static_cast<double>(q * j) / ny));
+                                   std::polar(1.0,
+                                              -2 * pi * (double(p * i) / nx + double(q * j) / ny));
                     const std::size_t r = std::lround(std::hypot(sx * p, sy * q) / ring);
                     if (r < power.size()) {
                         power[r] += std::norm(sum) / (nx * ny * squares * sx * sy);
@@ -65,7 +78,7 @@ TEST(spectra) {
                 if (modes[r] == 0) continue;
                 CHECK(k < s.psd.size());
                 if (k >= s.psd.size()) return;
-                CHECK_RELATIVE(s.wavenumber[k], static_cast<double>(r) * ring, 1e-14);
+                CHECK_RELATIVE(s.wavenumber[k], double(r) * ring, 1e-14);
                 CHECK(s.modes[k] == modes[r]);
                 CHECK_RELATIVE(s.psd[k], power[r] / modes[r], 1e-9);
                 ++k;
@@ -81,18 +94,18 @@ TEST(spectra) {
 void depths(int nx, int ny) {
     const auto at = [nx](int i, int j) { return j * nx + i; };
     std::vector<std::uint8_t> hole(at(0, ny), 0);
-    for (const int j : up_to(ny))
-        for (const int i : up_to(nx))
+    for (const int j : indices(ny))
+        for (const int i : indices(nx))
             hole[at(i, j)] = std::hypot(i - 3, j - 9) < 6.5 || (i > 20 && j % 5 > 0);
     for (const int steps : {0, 1, 2, 3, 40}) {
         std::vector<std::uint8_t> kept = hole;
         keep_depths(kept, nx, ny, steps);
         long wrong = 0, deep = 0;
-        for (const int j : up_to(ny))
-            for (const int i : up_to(nx)) {
+        for (const int j : indices(ny))
+            for (const int i : indices(nx)) {
                 int nearest = nx + ny;
-                for (const int k : up_to(ny))
-                    for (const int h : up_to(nx))
+                for (const int k : indices(ny))
+                    for (const int h : indices(nx))
                         if (!hole[at(h, k)])
                             nearest = std::min(nearest, std::abs(h - i) + std::abs(k - j));
                 deep += nearest > steps;

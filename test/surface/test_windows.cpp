@@ -45,9 +45,8 @@ TEST(coverage) {
                                      .sigma = 1e-3};
                     // Phi of the ensemble at kl by its definition: the sum over modes is sigma^2.
                     double sum = 0;
-                    for (int q = -static_cast<int>(high); q <= high; ++q)
-                        for (int r = -static_cast<int>(high); r <= high; ++r)
-                            sum += relative_psd(s, q, r);
+                    for (int q = -int(high); q <= high; ++q)
+                        for (int r = -int(high); r <= high; ++r) sum += relative_psd(s, q, r);
                     const double phi = s.sigma * s.sigma / (sum * std::pow(2 * pi, 2));
                     for (int k = 1; k <= kWindows; ++k) {
                         const SelfAffineFit fit =

@@ -51,7 +51,7 @@ TEST(observed) {
 // What each spot has for itself adds up to the union; of two in one place one has all.
 TEST(own_areas) {
     std::vector<Spot> spots;
-    for (const int k : up_to(40))
+    for (const int k : indices(40))
         spots.push_back({std::fmod(0.37 * k, 1.0), std::fmod(0.71 * k, 1.0), 0.12 + 0.002 * k,
                          0.05 + 0.001 * k, 0.3 * k});
     std::vector<double> own;
@@ -105,8 +105,8 @@ TEST(mirrored) {
             if (flats) flat.period = {n * 1.0, n + 3.0};
             const HeightMap a = coarser_map(map, flat), b = coarser_map(other, flat);
             std::vector<double> left, right;
-            for (const int j : up_to(a.ny))
-                for (const int i : up_to(a.nx)) {
+            for (const int j : indices(a.ny))
+                for (const int i : indices(a.nx)) {
                     left.push_back(a(i, j));
                     right.push_back(b(i, j));
                 }

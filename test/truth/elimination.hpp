@@ -1,17 +1,17 @@
 // A small dense system of equations.
 #pragma once
 
-#include "support/indices.hpp"
+#include "check.hpp"
 
 // Solves A x = b by elimination; A is n x n.
 template <class Real>
 std::vector<Real> solved(std::vector<Real> A, std::vector<Real> b) {
     const std::size_t n = b.size();
-    for (const std::size_t k : up_to(n)) {
+    for (const std::size_t k : indices(n)) {
         std::size_t pivot = k;
         for (std::size_t i = k; i < n; ++i)
             if (std::abs(A[i * n + k]) > std::abs(A[pivot * n + k])) pivot = i;
-        for (const std::size_t j : up_to(n)) std::swap(A[k * n + j], A[pivot * n + j]);
+        for (const std::size_t j : indices(n)) std::swap(A[k * n + j], A[pivot * n + j]);
         std::swap(b[k], b[pivot]);
         for (std::size_t i = k + 1; i < n; ++i) {
             const Real q = A[i * n + k] / A[k * n + k];

@@ -5,7 +5,7 @@
 
 #include <deque>
 
-#include "support/indices.hpp"
+#include "check.hpp"
 
 namespace truth {
 
@@ -30,8 +30,8 @@ inline double conductance(double a, double b, double side, double distance) {
 inline std::vector<double> outflow(const Gap& m, const std::vector<double>& p, double gx,
                                    double gy) {
     std::vector<double> out(m.g.size(), 0.0);
-    for (const int j : up_to(m.ny))
-        for (const int i : up_to(m.nx)) {
+    for (const int j : indices(m.ny))
+        for (const int i : indices(m.nx)) {
             const std::array<std::array<int, 2>, 4> steps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
             for (const auto& [a, b] : steps) {
                 const int x = (i + a + m.nx) % m.nx, y = (j + b + m.ny) % m.ny;
@@ -50,27 +50,27 @@ inline std::vector<double> outflow(const Gap& m, const std::vector<double>& p, d
 inline std::vector<double> pressures(const Gap& m, double gx, double gy) {
     const std::size_t n = m.g.size();
     std::vector<double> p(n, 0.0), zero = outflow(m, p, gx, gy), r(n), z(n), d(n, 0.0), diagonal(n);
-    for (const int j : up_to(m.ny))
-        for (const int i : up_to(m.nx))
+    for (const int j : indices(m.ny))
+        for (const int i : indices(m.nx))
             diagonal[j * m.nx + i] = conductance(m.at(i, j), m.at(i + 1, j), m.dy, m.dx) +
                                      conductance(m.at(i, j), m.at(i - 1, j), m.dy, m.dx) +
                                      conductance(m.at(i, j), m.at(i, j + 1), m.dx, m.dy) +
                                      conductance(m.at(i, j), m.at(i, j - 1), m.dx, m.dy);
     double before = 0, first = 0;
-    for (const std::size_t k : up_to(n)) r[k] = -zero[k];
-    for (const int step : up_to(200 * (m.nx + m.ny))) {
+    for (const std::size_t k : indices(n)) r[k] = -zero[k];
+    for (const int step : indices(200 * (m.nx + m.ny))) {
         double rz = 0;
-        for (const std::size_t k : up_to(n)) {
+        for (const std::size_t k : indices(n)) {
             z[k] = diagonal[k] > 0 ? r[k] / diagonal[k] : 0;
             rz += r[k] * z[k];
         }
         if (step == 0) first = rz;
         if (!(rz > 1e-28 * first)) break;
-        for (const std::size_t k : up_to(n)) d[k] = z[k] + (step > 0 ? rz / before * d[k] : 0);
+        for (const std::size_t k : indices(n)) d[k] = z[k] + (step > 0 ? rz / before * d[k] : 0);
         const std::vector<double> Ad = outflow(m, d, 0, 0);
         double dAd = 0;
-        for (const std::size_t k : up_to(n)) dAd += d[k] * Ad[k];
-        for (const std::size_t k : up_to(n)) {
+        for (const std::size_t k : indices(n)) dAd += d[k] * Ad[k];
+        for (const std::size_t k : indices(n)) {
             p[k] += rz / dAd * d[k];
             r[k] -= rz / dAd * Ad[k];
         }
@@ -86,8 +86,8 @@ inline std::array<double, 3> permeability(const Gap& m) {
     const double area = m.nx * m.dx * m.ny * m.dy;
     for (const bool along_x : {true, false}) {
         const std::vector<double> p = pressures(m, along_x ? 1 : 0, along_x ? 0 : 1);
-        for (const int j : up_to(m.ny))
-            for (const int i : up_to(m.nx)) {
+        for (const int j : indices(m.ny))
+            for (const int i : indices(m.nx)) {
                 const double here = p[j * m.nx + i];
                 const double right = p[j * m.nx + (i + 1) % m.nx];
                 const double up = p[(j + 1) % m.ny * m.nx + i];
@@ -108,7 +108,7 @@ inline std::array<double, 3> permeability(const Gap& m) {
 inline std::array<bool, 2> percolates(const Gap& m) {
     std::array<bool, 2> winds{false, false};
     std::vector<char> done(m.g.size(), 0);
-    for (const int start : up_to(m.nx * m.ny)) {
+    for (const int start : indices(m.nx * m.ny)) {
         if (!(m.g[start] > 0) || done[start]) continue;
         std::map<std::pair<int, int>, std::set<std::pair<int, int>>> seen;  // point: its periods
         std::deque<std::array<int, 2>> walk{{start % m.nx, start / m.nx}};

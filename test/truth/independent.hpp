@@ -10,7 +10,7 @@
 // over one force, so the sweeps go down to a minimum.
 #pragma once
 
-#include "support/indices.hpp"
+#include "check.hpp"
 
 namespace independent {
 
@@ -108,14 +108,14 @@ inline Answer press(const std::vector<Summit>& summits, Real R, Real x0, Real y0
                     Real tolerance, int most = 20000) {
     const std::size_t n = summits.size();
     Vector g0(n), nearness(n * n);
-    for (const std::size_t i : up_to(n)) {
+    for (const std::size_t i : indices(n)) {
         const Summit& s = summits[i];
         const Real rho2 = (s.x - x0) * (s.x - x0) + (s.y - y0) * (s.y - y0);
         if (std::isinf(R))
             g0[i] = s.z - Z0;
         else
             g0[i] = rho2 <= R * R ? s.z + std::sqrt(R * R - rho2) - R - Z0 : -1;
-        for (const std::size_t j : up_to(n)) {
+        for (const std::size_t j : indices(n)) {
             const Real dx = s.x - summits[j].x, dy = s.y - summits[j].y;
             nearness[i * n + j] = i == j ? 0 : 1 / (kPi * std::sqrt(dx * dx + dy * dy));
         }
@@ -124,7 +124,7 @@ inline Answer press(const std::vector<Summit>& summits, Real R, Real x0, Real y0
     while (out.sweeps < most && !out.converged) {
         ++out.sweeps;
         Real change = 0, total = 0;
-        for (const std::size_t i : up_to(n)) {
+        for (const std::size_t i : indices(n)) {
             Real g = g0[i];
             for (std::size_t j = 0; j < n && g > 0; ++j) g -= nearness[i * n + j] * out.load[j];
             out.a[i] = radius(summits[i], g * summits[i].per_F2);
@@ -135,7 +135,7 @@ inline Answer press(const std::vector<Summit>& summits, Real R, Real x0, Real y0
         }
         out.converged = change <= tolerance * total;
     }
-    for (const std::size_t i : up_to(n)) {
+    for (const std::size_t i : indices(n)) {
         out.force += out.load[i];
         out.area += kPi * summits[i].F1_squared * out.a[i] * out.a[i];
     }

@@ -2,7 +2,7 @@
 // nothing of it is shared with src/physics/stress.
 #pragma once
 
-#include "support/indices.hpp"
+#include "check.hpp"
 
 namespace truth {
 
@@ -41,9 +41,9 @@ inline Tensor point_force(int along, double x, double y, double z, double nu) {
 inline Tensor rectangle(double x, double y, double z, double a, double b, double nu,
                         std::array<double, 3> traction, int n) {
     Tensor sum{};
-    for (const int i : up_to(n))
-        for (const int j : up_to(n))
-            for (const int along : up_to(3)) {
+    for (const int i : indices(n))
+        for (const int j : indices(n))
+            for (const int along : indices(3)) {
                 const Tensor t = point_force(along, x + a - 2 * a * (i + 0.5) / n,
                                              y + b - 2 * b * (j + 0.5) / n, z, nu);
                 for (std::size_t c = 0; c < 6; ++c)

@@ -25,25 +25,25 @@ inline WornBall worn_ball(double E_star, double R, double N, double k, double s,
     const std::size_t n = rings;
     const double width = most / rings;
     std::vector<double> r(n), area(n), K(n * n), worn(n, 0.0), p(n, 0.0);
-    for (const std::size_t i : up_to(n)) {
-        r[i] = (static_cast<double>(i) + 0.5) * width;
+    for (const std::size_t i : indices(n)) {
+        r[i] = (double(i) + 0.5) * width;
         area[i] = 2 * pi * r[i] * width;
-        for (const std::size_t j : up_to(n)) {
-            const double inner = static_cast<double>(j) * width;
+        for (const std::size_t j : indices(n)) {
+            const double inner = double(j) * width;
             K[i * n + j] = (under_disc(r[i], inner + width) - under_disc(r[i], inner)) / E_star;
         }
     }
     WornBall ball;
     std::size_t touching = n / 4;  // the contact is a disc
     for (int step = 0; step <= steps; ++step) {
-        const double part = static_cast<double>(step) / steps, before = part - 1.0 / steps;
+        const double part = double(step) / steps, before = part - 1.0 / steps;
         const double rate = step > 0 ? k * s * (part * part - before * before) : 0;
         const auto gap0 = [&](std::size_t i) { return -r[i] * r[i] / (2 * R) - worn[i]; };
         for (bool settled = false; !settled;) {
             const std::size_t m = touching + 1;
             std::vector<double> A(m * m, 0.0), b(m, N);
-            for (const std::size_t i : up_to(touching)) {
-                for (const std::size_t j : up_to(touching)) A[i * m + j] = K[i * n + j];
+            for (const std::size_t i : indices(touching)) {
+                for (const std::size_t j : indices(touching)) A[i * m + j] = K[i * n + j];
                 A[i * m + i] += rate;
                 A[i * m + touching] = 1;
                 A[touching * m + i] = area[i];
@@ -51,20 +51,20 @@ inline WornBall worn_ball(double E_star, double R, double N, double k, double s,
             }
             const std::vector<double> x = solved(A, b);
             ball.separation = x[touching];
-            std::fill(p.begin(), p.end(), 0.0);
+            std::ranges::fill(p, 0.0);
             std::copy(x.begin(), x.end() - 1, p.begin());
             double next = ball.separation - gap0(touching);
-            for (const std::size_t j : up_to(touching)) next += K[touching * n + j] * p[j];
+            for (const std::size_t j : indices(touching)) next += K[touching * n + j] * p[j];
             settled = p[touching - 1] >= 0 && next >= 0;
             if (!settled) touching += next < 0 ? 1 : -1;
         }
-        for (const std::size_t i : up_to(n)) worn[i] += rate * p[i];
+        for (const std::size_t i : indices(n)) worn[i] += rate * p[i];
     }
     ball.depth = worn[0];
-    ball.largest_pressure = *std::max_element(p.begin(), p.end());
-    for (const std::size_t i : up_to(n)) ball.volume += worn[i] * area[i];
+    ball.largest_pressure = *std::ranges::max_element(p);
+    for (const std::size_t i : indices(n)) ball.volume += worn[i] * area[i];
     // its edge lies in the last ring
-    ball.area = pi * std::pow(width * (static_cast<double>(touching) - 0.5), 2);
+    ball.area = pi * std::pow(width * (double(touching) - 0.5), 2);
     return ball;
 }
 

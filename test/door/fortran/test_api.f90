@@ -9,6 +9,59 @@ program test_api
 
   call options_by_name()
   call lifetimes()
+  print '(i0,a)', failures, ' failed'
+  if (failures > 0) error stop 'test_api'
+
+contains
+
+  include 'check.inc'
+
+  subroutine options_by_name()
+    type(rsc_case) :: options, other
+    character(200) :: errmsg, text
+    integer :: stat
+    real :: single
+    call options%set('surface%sigma', 0.02_dp)
+    call options%set('surface%n', 4096)
+    call options%set('surface%plateau', .true.)
+    call options%set('solver%method', "'direct'")
+    call check(options%get('surface%sigma') == '0.02', 'real by name')
+    call check(options%get('Surface%N ') == '4096', 'integer by name')
+    call check(options%get('surface%plateau') == '.true.', 'logical by name')
+    call check(options%get('solver%method') == "'direct'", 'text by name')
+    call other%read(options%text())
+    call check(other%text() == options%text(), 'case as text and back')
+    call options%set('surface%sigma', 0.1)
+    call check(options%get('surface%sigma') == '0.1', 'default real by name, as written')
+    call options%set('surface%sigma', 1.0 / 3)
+    text = options%get('surface%sigma')
+    read (text, *) single
+    call check(single == 1.0 / 3, 'default real by name, every bit of it')
+    call options%set('run%seed', 9000000000_c_int64_t)
+    call check(options%get('run%seed') == '9000000000', 'long integer by name')
+    call options%set('solids%E', [1.0e5_dp, 2.0e5_dp])
+    call check(options%get('solids%E') == '1e+05, 2e+05', 'array by name')
+    call options%set('solids%nu', [0.3, 0.25])
+    call check(options%get('solids%nu') == '0.3, 0.25', 'default real array by name')
+    call options%set('indentation%levels', [3, 2, 1])
+    call check(options%get('indentation%levels') == '3.0, 2.0, 1.0', 'integer array by name')
+    call options%set('solids%E', 1.0_dp, stat, errmsg)
+    call check(stat < 0 .and. index(errmsg, 'solids%E(1)') > 0, 'one value for two')
+    call options%set('solids%E(1)', 1.0_dp / 3)  ! every bit of it
+    call other%copy(options)
+    call options%set('solids%E(1)', 2.0_dp)
+    call check(other%get('solids%E(1)') == '0.3333333333333333', 'a copied case is its own')
+    errmsg = 'untouched'
+    call options%set('surface%n', 128, stat, errmsg)
+    call check(stat == 0 .and. errmsg == 'untouched', 'errmsg keeps its value without failure')
+    call options%set('surface%simga', 1, stat, errmsg)
+    call check(stat < 0 .and. index(errmsg, 'sigma') > 0, 'unknown name')
+    call options%read('&surface n = 64 /', stat)
+    call check(stat < 0 .and. options%get('surface%n') == '128', 'a refused text changes nothing')
+    call check(index(rsc_library_version(), '.') > 0, 'version')
+    call options%free()
+    call other%free()
+  end subroutine
 
   ! Objects created, created again and released: a leak or a double release shows under valgrind or
   ! AddressSanitizer.
@@ -36,20 +89,5 @@ program test_api
     call check(abs(M - N) <= 1e-10_dp * N, 'copies outlive what they came from')
     call contact%free()
     call other%free()
-  end subroutine
-
-  subroutine given_surface()
-    type(rsc_surface) :: surface
-    real(dp) :: z(3, 4), back(3, 4), g(4)
-    integer :: n(2)
-    logical :: periodic
-    call random_number(z)
-    call surface%take(z, 0.5_dp, dy=2.0_dp, x0=1.0_dp, y0=-3.0_dp, periodic=.true.)
-    call surface%grid(n(1), n(2), g(1), g(2), g(3), g(4), periodic)
-    call surface%heights(back)
-    call check(all(n == [3, 4]) .and. all(abs(g - [0.5_dp, 2.0_dp, 1.0_dp, -3.0_dp]) <= 0) .and. &
-               periodic, 'the grid of a surface')
-    call check(all(abs(back - z) <= 0), 'its heights')
-    call surface%free()
   end subroutine
 end program

@@ -120,8 +120,7 @@ struct JkrEdge {
 
 TEST(test_minimiser) {
     for (unsigned seed = 1; seed <= 7; ++seed) {
-        const RandomAsperities system =
-            random_asperities(2 + static_cast<int>(seed % 7), seed, 0.2);
+        const RandomAsperities system = random_asperities(2 + int(seed % 7), seed, 0.2);
         PathMinimiser slow(system.asperities, kE, JkrEdge{system.asperities, system.w});
         const auto contact = under_flat(system.asperities, sticky(system.w));
         const double length = reach(system.w);
@@ -188,13 +187,12 @@ TEST(test_first_state) {
 TEST(test_moves) {
     int jumps = 0;
     for (unsigned seed = 1; seed <= 5; ++seed) {
-        const RandomAsperities system =
-            random_asperities(2 + static_cast<int>(seed % 5), seed, 0.2);
+        const RandomAsperities system = random_asperities(2 + int(seed % 5), seed, 0.2);
         const Indenter tip{kE, 10.0, 0.5, 0.5};
         const double length = reach(system.w);
         Asperities under = system.asperities;
         set_clearances(under, system.asperities, tip, 0.5, 0.5);
-        const double top = *std::max_element(under.z.begin(), under.z.end()), Z = top - 3 * length;
+        const double top = *std::ranges::max_element(under.z), Z = top - 3 * length;
         PathMinimiser slow(under, kE, JkrEdge{under, system.w});
         slow.Z = top;
         slow.go_to(Z, 0.02 * length);
@@ -204,7 +202,7 @@ TEST(test_moves) {
             constexpr int parts = 10, fine = 40;
             const Vec2 from{x, y};
             for (int k = 1; k <= parts * fine; ++k) {
-                const double share = static_cast<double>(k) / (parts * fine);
+                const double share = double(k) / (parts * fine);
                 x = from.x + share * (to.x - from.x);
                 y = from.y + share * (to.y - from.y);
                 set_clearances(under, system.asperities, tip, x, y);

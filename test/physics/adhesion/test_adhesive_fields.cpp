@@ -17,12 +17,12 @@ double boussinesq(Pressure&& pressure, double c, double d) {
     constexpr int n = 1000;
     const double widest = d > c ? std::asin(c / d) : pi / 2;
     double sum = 0;
-    for (const int j : up_to(n)) {
+    for (const int j : indices(n)) {
         const double s = (2 * j + 1.0) / n - 1,
                      angle = widest * std::sin(pi / 2 * s);  // dense at the tangents
         const double h = d * std::sin(angle), half = std::sqrt(std::max(c * c - h * h, 0.0));
         double chord = 0;
-        for (const int i : up_to(n)) {
+        for (const int i : indices(n)) {
             const double t = pi / 2 * ((2 * i + 1.0) / n - 1), l = half * std::sin(t);
             chord += pressure(std::sqrt(h * h + l * l)) * half * std::cos(t) * pi / n;
         }
@@ -41,7 +41,7 @@ TEST(test_tension) {
         };
         double force = 0;
         constexpr int n = 200000;
-        for (const int k : up_to(n)) {
+        for (const int k : indices(n)) {
             const double t = pi / 2 * (k + 0.5) / n, r = c * std::sin(t);
             force += 2 * pi * r * pressure(r) * c * std::cos(t) * pi / 2 / n;
         }
@@ -94,7 +94,7 @@ TEST(test_one) {
                            1e-9);  // Griffith: K^2/(2 E*) = w
             double elastic = 0;
             constexpr int n = 2000;
-            for (const int k : up_to(n)) {
+            for (const int k : indices(n)) {
                 const double t = pi / 2 * (k + 0.5) / n;
                 const double p = 1.5 * pressed / (pi * a * a) * std::cos(t) +
                                  pulled / (2 * pi * a * a) / std::cos(t);
@@ -133,7 +133,7 @@ TEST(test_oblong) {
     pressed.add_contact(0, 0.8, 2.1, 1.5, 1.0, 0.1);
     const Fields f = fields_of(map, tip, Interaction::point,
                                {{0, &open, {{0.5}, {4.0}, {0.03}}}, {1, &pressed, {}}}, kAll);
-    for (const int k : up_to(12))
+    for (const int k : indices(12))
         CHECK_CLOSE(f.gap[k], 5 - map(k % 4, k / 4) + (k == 9 ? 0.03 : 0), 1e-14);
     CHECK_RELATIVE(std::accumulate(f.pressure.begin() + 12, f.pressure.end(), 0.0) * 0.5 * 2, 1.5,
                    1e-14);
@@ -215,6 +215,20 @@ TEST(test_element_fields) {
             CHECK_CLOSE(cohesive, level.cohesive_area, 1e-10);
         }
     }
+}
+
+// A window holds the points within it, whatever the steps.
+TEST(test_window) {
+    const HeightMap map = height_map(40, 60, 0.02, 0.01, [](int, int) { return 0.0; });
+    Level level;
+    level.separation = 1;
+    FieldsAsked asked = kAll;
+    asked.window = {0.095, 0.505, 0.195, 0.305};
+    const Fields f =
+        fields_of(map, {kE, kInfinity, 0.5, 0.5}, Interaction::point, {{0, &level, {}}}, asked);
+    CHECK(f.x.size() == 21 && f.y.size() == 11);
+    CHECK_CLOSE(f.x.front() + f.x.back(), 0.6, 1e-12);
+    CHECK_CLOSE(f.y.front() + f.y.back(), 0.5, 1e-12);
 }
 
 // Fields of an elliptic spot beside its summit: its points touch, and its pressure is Hertz's, with

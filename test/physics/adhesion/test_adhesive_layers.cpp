@@ -44,7 +44,7 @@ void test_conditions(bool flats, const LayeredBody& body, bool fine) {
     const auto contact = make_element_contact(map, tip, sticky(kWork, kRange));
     const Substrate substrate = substrate_of(tip);
     std::vector<double> kernel;
-    for (const int i : up_to(kSide * kSide))
+    for (const int i : indices(kSide * kSide))
         kernel.push_back(substrate.under_pixel(i % kSide * kStep, i / kSide * kStep, kStep, kStep));
     const double s0 = kWork / kRange;
     Level before = contact->at_separation(separation(flats, 0));
@@ -68,7 +68,7 @@ void test_conditions(bool flats, const LayeredBody& body, bool fine) {
         for (int i = 0; i < kSide * kSide; i += 3) {
             double gap = level.separation - tip.clearance(i % kSide * kStep, i / kSide * kStep,
                                                           map(i % kSide, i / kSide));
-            for (const int j : up_to(kSide * kSide))
+            for (const int j : indices(kSide * kSide))
                 gap += p[j] * kernel[std::abs(i / kSide - j / kSide) * kSide +
                                      std::abs(i % kSide - j % kSide)];
             // The gap is linear between points: a part of s0 acts where a neighbour is within the

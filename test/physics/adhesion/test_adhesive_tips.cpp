@@ -147,8 +147,8 @@ TEST(test_edge) {
     CHECK(contact->indenter().x0 == 1.2);
     // A sphere whose edge comes to a step of nearly its height after some pieces of the way.
     HeightMap step = waves(32, 2, 0.02);
-    for (const int j : up_to(32))
-        for (const int i : up_to(32)) step.row(j)[i] += step.x0 + i * step.dx > 1.3 ? 0.95 : 0.0;
+    for (const int j : indices(32))
+        for (const int i : indices(32)) step.row(j)[i] += step.x0 + i * step.dx > 1.3 ? 0.95 : 0.0;
     const auto sphere = make_element_contact(step, {1.0, 1.0, 0.25, 1.0}, sticky(kWork, 0.12));
     (void)sphere->at_separation(0);
     const double energy = sphere->energy(), stiffness = sphere->stiffness();
@@ -162,7 +162,7 @@ TEST(test_edge) {
 // loses and what it does are counted.
 TEST(test_climb) {
     HeightMap map = waves(28, 2, 0);
-    for (const int j : up_to(28))
+    for (const int j : indices(28))
         for (int i = 14; i < 28; ++i) map.row(j)[i] = 0.5;
     const auto contact = make_element_contact(map, {1.0, 1.0, 0.2, 1.0}, sticky(kWork, 0.1));
     CHECK(contact->at_separation(0.25).force == 0);
@@ -179,8 +179,8 @@ TEST(test_climb) {
 TEST(test_moment) {
     HeightMap map = waves(32, 2, 0);
     const double x = map.x0 + 10 * map.dx, y = map.y0 + 13 * map.dy;
-    for (const int j : up_to(32))
-        for (const int i : up_to(32))
+    for (const int j : indices(32))
+        for (const int i : indices(32))
             map.row(j)[i] =
                 0.3 *
                 std::exp(-8 * (std::pow((i - 10) * map.dx, 2) + std::pow((j - 13) * map.dy, 2)));

@@ -99,9 +99,9 @@ TEST(test_reversible) {
         const RandomAsperities system = random_asperities(12, seed, 0.1);
         const auto contact = under_flat(system.asperities, sticky(w, range));
         std::vector<double> down;
-        for (const std::size_t k : up_to(2 * steps)) {
+        for (const std::size_t k : indices(2 * steps)) {
             const std::size_t place = std::min(k, 2 * steps - 1 - k);
-            const Level level = contact->at_separation(0.075 - 0.01 * static_cast<double>(place));
+            const Level level = contact->at_separation(0.075 - 0.01 * double(place));
             CHECK(level.converged);
             if (k < steps) down.push_back(level.force);
             CHECK_CLOSE(level.force, down[place], 1e-9 * std::abs(level.force) + 1e-6 * w);

@@ -13,8 +13,8 @@ using namespace rsc;
 
 truth::Gap gap(int nx, int ny, double dx, double dy, const std::function<double(int, int)>& at) {
     truth::Gap m{nx, ny, dx, dy, {}};
-    for (const int j : up_to(ny))
-        for (const int i : up_to(nx)) m.g.push_back(at(i, j));
+    for (const int j : indices(ny))
+        for (const int i : indices(nx)) m.g.push_back(at(i, j));
     return m;
 }
 
@@ -33,11 +33,9 @@ std::vector<double> noise(int nx, int ny, int most, unsigned seed) {
             if (a * a + b * b > most * most || (b == 0 && a <= 0)) continue;
             const double c = normal(random), s = normal(random);
             power += 1;
-            for (const int j : up_to(ny))
-                for (const int i : up_to(nx)) {
-                    const double phase =
-                        2 * pi *
-                        (a * static_cast<double>(i) / nx + b * static_cast<double>(j) / ny);
+            for (const int j : indices(ny))
+                for (const int i : indices(nx)) {
+                    const double phase = 2 * pi * (a * double(i) / nx + b * double(j) / ny);
                     z[j * nx + i] += c * std::cos(phase) + s * std::sin(phase);
                 }
         }
@@ -55,7 +53,7 @@ TEST(stripes_along_and_across_the_flow) {
     const auto width = [](int k) { return 1.3 + std::sin(0.7 * k) + 0.2 * (k % 3); };
     const int n = 17;
     double cube = 0, inverse = 0;
-    for (const int k : up_to(n)) {
+    for (const int k : indices(n)) {
         const double w = std::abs(width(k)) + 0.01;
         cube += w * w * w / n;
         inverse += 1 / (w * w * w) / n;
@@ -102,7 +100,7 @@ TEST(channels_dead_ends_and_islands) {
         });
     };
     double inverse = 0;
-    for (const int i : up_to(10)) inverse += 0.1 * std::pow(1.0 + 0.1 * i, -3);
+    for (const int i : indices(10)) inverse += 0.1 * std::pow(1.0 + 0.1 * i, -3);
     const Permeability K = solved(channel(true));
     CHECK_RELATIVE(K.xx, 1 / (12 * inverse) / 12, 1e-12);
     CHECK(K.yy == 0 && K.xy == 0);
@@ -129,7 +127,7 @@ TEST(the_flux_at_each_point_adds_up) {
     const truth::Gap m = rough(40, 32, 0.5, 0.6, 3);
     std::vector<double> flow;
     const Permeability K = permeability(view(m), &flow);
-    const double mean = std::accumulate(flow.begin(), flow.end(), 0.0) / (40 * 32);
+    const double mean = sum_of(flow) / (40 * 32);
     CHECK(mean > std::hypot(K.xx, K.xy));  // the mean of magnitudes
     for (const auto k : indices(flow)) CHECK(m.g[k] > 0 || flow[k] == 0);
     permeability(view(gap(6, 9, 0.3, 0.7, [](int, int) { return 2.0; })), &flow);
@@ -139,7 +137,7 @@ TEST(the_flux_at_each_point_adds_up) {
 TEST(percolation_by_walks) {
     std::mt19937 random(5);
     int along[2] = {0, 0};
-    for (const int sample : up_to(300)) {
+    for (const int sample : indices(300)) {
         const int nx = 3 + sample % 11, ny = 2 + sample % 8;
         const truth::Gap m =
             gap(nx, ny, 1, 1, [&](int, int) { return random() % 1000 < 580 ? 1.0 : 0.0; });
@@ -162,7 +160,7 @@ TEST(every_point_is_eliminated_once) {
         std::vector<std::uint8_t> used(nx * ny);
         for (auto& u : used) u = random() % 3 > 0;
         std::vector<std::uint32_t> order = dissection(nx, ny, used);
-        std::sort(order.begin(), order.end());
+        std::ranges::sort(order);
         std::vector<std::uint32_t> expected;
         for (std::uint32_t k = 0; k < used.size(); ++k)
             if (used[k]) expected.push_back(k);
@@ -181,7 +179,7 @@ constexpr const char* kFlats =
 TEST(the_gap_of_a_level) {
     const Job job = prepare(settings_of(kFlats));
     const Realization r = realize(job, 1, 1);
-    const int n = static_cast<int>(r.fields.x.size());
+    const int n = int(r.fields.x.size());
     const std::size_t points = n * n;
     for (std::size_t s = 0; s < 2; ++s) {
         const Level& level = r.levels[s];
@@ -227,8 +225,8 @@ TEST(the_distribution_of_gaps) {
     const double width = 2 * one.values("gap_bin")[0];
     std::vector<double> counts(26, 0.0);
     for (std::size_t k = step * points; k < (step + 1) * points; ++k)
-        if (gap[k] > 0) ++counts[std::min(25, static_cast<int>(gap[k] / width))];
-    const double open = std::accumulate(counts.begin(), counts.end(), 0.0);
+        if (gap[k] > 0) ++counts[std::min(25, int(gap[k] / width))];
+    const double open = sum_of(counts);
     CHECK(one.numbers("gap_count", "overflow")[0] == counts.back());
     counts.pop_back();
     CHECK(one.values("gap_count") == counts);
@@ -240,7 +238,7 @@ TEST(the_distribution_of_gaps) {
     double all = 0, sum = 0;
     for (const double n : three.values("gap_count")) all += n;
     for (std::size_t k = 0; k < 3; ++k)
-        sum += three.values("gap_mean")[k * 3 + step] * static_cast<double>(points);
+        sum += three.values("gap_mean")[k * 3 + step] * double(points);
     all += three.numbers("gap_count", "overflow")[0];
     CHECK_RELATIVE(three.numbers("gap_pdf", "mean")[0] * all, sum, 1e-12);
 }

@@ -18,7 +18,7 @@ struct Spheres : LoadCurve {
     std::vector<double> touch, R;
     Spheres(std::vector<double> touch_, std::vector<double> R_)
         : touch(std::move(touch_)), R(std::move(R_)) {}
-    double first_touch() const override { return *std::min_element(touch.begin(), touch.end()); }
+    double first_touch() const override { return *std::ranges::min_element(touch); }
     Load load(double delta) override {
         Load sum;
         for (const auto i : indices(R)) {
@@ -51,7 +51,7 @@ Spheres several() { return {{-0.001, 0.0004, 0.002, 0.0021, 0.005}, {0.3, 1.0, 0
 TEST(ratio_of_stiffnesses) {
     const double E[2] = {70e3, 210e3}, nu[2] = {0.22, 0.3};
     double G_star = 0, E_star = 0;
-    for (const int i : up_to(2)) {
+    for (const int i : indices(2)) {
         G_star += (2 - nu[i]) / (E[i] / (2 * (1 + nu[i])));
         E_star += (1 - nu[i] * nu[i]) / E[i];
     }
@@ -141,9 +141,9 @@ struct Springs {
     std::vector<Slide> u;
     double lost = 0;
     Springs(LoadCurve& curve, double low, double high, std::size_t n)
-        : first(low), step((high - low) / static_cast<double>(n)) {
-        for (const std::size_t k : up_to(n)) {
-            const double s = low + step * static_cast<double>(k);
+        : first(low), step((high - low) / double(n)) {
+        for (const std::size_t k : indices(n)) {
+            const double s = low + step * double(k);
             stiffness.push_back((curve.load(s + step).force - 2 * curve.load(s).force +
                                  curve.load(s - step).force) /
                                 step);
@@ -154,7 +154,7 @@ struct Springs {
     void go(const Friction& f, double from, double delta, Slide dxi) {
         const double c = f.coefficient / f.ratio;
         for (const auto k : indices(u)) {
-            const double s = first + step * static_cast<double>(k);
+            const double s = first + step * double(k);
             if (from <= s && delta <= s) break;
             // A spring that touches on the way, or lets go, follows its part of the slide only.
             double part = 1;
@@ -217,7 +217,7 @@ TEST(random_histories) {
             const Step to = random_step(random, low, high, c, at);
             path.go_to(curve, to.delta, {to.xi, 0});
             constexpr int parts = 60;
-            for (const int k : up_to(parts)) {
+            for (const int k : indices(parts)) {
                 const double dd = (to.delta - at.delta) / parts;
                 springs.go(kFriction, at.delta + k * dd, at.delta + (k + 1) * dd,
                            {(to.xi - at.xi) / parts, 0});
@@ -258,7 +258,7 @@ TEST(two_directions) {
         turned.go_to(curve, delta, xi);
         springs.go(kFriction, low - 1, delta, {});
         double work = 0, curvature = 0, course = 6 * uniform(random);
-        for (const int step : up_to(300)) {
+        for (const int step : indices(300)) {
             if (step % 60 == 0) curvature = turn * (uniform(random) - 0.5);
             course += curvature;
             const double next =

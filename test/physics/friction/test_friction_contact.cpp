@@ -35,10 +35,10 @@ std::vector<Real> slip_problem(const Asperities& a, const Level& level, Real xi)
     const Real mu = kFriction.coefficient, m = kFriction.ratio, pi = std::numbers::pi_v<Real>;
     std::vector<Real> q(n, 0);
     for (int sweep = 0; sweep < 400; ++sweep) {
-        for (const std::size_t i : up_to(n)) {
+        for (const std::size_t i : indices(n)) {
             const auto at = level.asperity[i];
             Real moved = 0;
-            for (const std::size_t j : up_to(n)) {
+            for (const std::size_t j : indices(n)) {
                 const auto to = level.asperity[j];
                 if (j != i)
                     moved += q[j] / (m * pi * kE *
@@ -73,22 +73,19 @@ TEST(spots_against_slip_problem) {
         CHECK(spots.size() == q.size());
         for (const auto i : indices(q)) {
             Q += q[i];
-            CHECK_CLOSE(spots[i].force.y, static_cast<double>(q[i]),
-                        1e-8 * kFriction.coefficient * level.force);
+            CHECK_CLOSE(spots[i].force.y, double(q[i]), 1e-8 * kFriction.coefficient * level.force);
             CHECK(spots[i].force.x == 0 && spots[i].stick_radius < spots[i].radius);
             CHECK(spots[i].asperity == level.asperity[i]);
             CHECK_RELATIVE(spots[i].radius, level.a[i], 1e-10);
             // c = a (1 - q/(mu f))^(1/3), Mindlin's stick radius of a spot of its own.
-            const double left =
-                1 - static_cast<double>(q[i]) / (kFriction.coefficient * level.f[i]);
+            const double left = 1 - double(q[i]) / (kFriction.coefficient * level.f[i]);
             CHECK_CLOSE(spots[i].stick_radius, level.a[i] * std::cbrt(std::max(0.0, left)),
                         1e-5 * level.a[i]);
         }
-        CHECK_CLOSE(path.tangential_force().y, static_cast<double>(Q),
+        CHECK_CLOSE(path.tangential_force().y, double(Q),
                     1e-8 * kFriction.coefficient * level.force);
         const auto points = slide_to(slid.curve, kFriction, delta, {part * full});
-        CHECK_CLOSE(points[0].force, static_cast<double>(Q),
-                    1e-8 * kFriction.coefficient * level.force);
+        CHECK_CLOSE(points[0].force, double(Q), 1e-8 * kFriction.coefficient * level.force);
     }
 }
 
@@ -98,8 +95,8 @@ TEST(spots_against_slip_problem) {
 double conductance_of_spots(const Asperities& a, const Level& level) {
     const std::size_t n = level.asperity.size();
     std::vector<Real> A(n * n);
-    for (const std::size_t i : up_to(n))
-        for (const std::size_t j : up_to(n)) {
+    for (const std::size_t i : indices(n))
+        for (const std::size_t j : indices(n)) {
             const auto p = level.asperity[i], q = level.asperity[j];
             const Real d = std::hypot(Real(a.x[p]) - a.x[q], Real(a.y[p]) - a.y[q]);
             A[i * n + j] =
@@ -107,7 +104,7 @@ double conductance_of_spots(const Asperities& a, const Level& level) {
         }
     Real sum = 0;
     for (const Real current : solved(A, std::vector<Real>(n, 1))) sum += current;
-    return static_cast<double>(sum);
+    return double(sum);
 }
 
 TEST(conductance) {

@@ -62,7 +62,7 @@ TEST(smooth_sphere_of_cattaneo_and_mindlin) {
         const auto slide = row(x, k, points), force = row(Q, k, points);
         // Some 20 and 35 pixels over a: elements are within 0.2 %.
         CHECK_RELATIVE(slide[first - 1], full, 2e-3);
-        for (const std::size_t i : up_to(first))
+        for (const std::size_t i : indices(first))
             CHECK_CLOSE(force[i], mu * N * (1 - std::pow(std::max(0.0, 1 - slide[i] / full), 1.5)),
                         2e-3 * mu * N);
         CHECK_CLOSE(force[first - 1], mu * N, 1e-6 * mu * N);
@@ -129,7 +129,7 @@ TEST(rough_surfaces_slide_as_their_asperities_do) {
             // At the origin the stiffness is that of stick.
             CHECK_RELATIVE(q[1] / a[1], T[1][k], 0.05);
             CHECK_RELATIVE(loop_area(a, q, first), work[1][k], 0.01);
-            for (const std::size_t i : up_to(first))
+            for (const std::size_t i : indices(first))
                 CHECK_CLOSE(q[i] / (0.2 * N[1][k]), p[i] / (0.2 * N[0][k]), 0.03);
             CHECK_RELATIVE(a[first - 1], b[first - 1], 0.1);
         }

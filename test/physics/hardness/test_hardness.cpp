@@ -165,9 +165,9 @@ std::vector<long double> solve_slowly(const Asperities& a, const std::vector<Yie
     std::vector<long double> f(n, 0), u(n, 0);
     for (int sweep = 0; sweep < 3000; ++sweep) {
         long double moved = 0, largest = 0;
-        for (const std::size_t i : up_to(n)) {
+        for (const std::size_t i : indices(n)) {
             long double lowered = 0;
-            for (const std::size_t j : up_to(n))
+            for (const std::size_t j : indices(n))
                 if (j != i)
                     lowered += f[j] / (std::numbers::pi_v<long double> * kE *
                                        std::hypot(static_cast<long double>(a.x[i]) - a.x[j],
@@ -188,7 +188,7 @@ TEST(test_independent) {
     std::uniform_real_distribution<double> uniform(0, 1);
     int compared = 0;
     double worst = 0;
-    for (const int system : up_to(120)) {
+    for (const int system : indices(120)) {
         const int n = 2 + system % 7;
         const Asperities a = few(random, n);
         const double H0 = 200 * std::pow(100.0, uniform(random)),
@@ -219,10 +219,9 @@ TEST(test_independent) {
             if (!(N > 0)) continue;
             // Errors count against the largest so far: close to where an unloaded summit lets go
             // they are those of its depth.
-            most = {std::max(most.first, static_cast<double>(N)),
-                    std::max(most.second, static_cast<double>(A))};
-            worst = std::max({worst, std::abs(level.force - static_cast<double>(N)) / most.first,
-                              std::abs(level.area - static_cast<double>(A)) / most.second});
+            most = {std::max(most.first, double(N)), std::max(most.second, double(A))};
+            worst = std::max({worst, std::abs(level.force - double(N)) / most.first,
+                              std::abs(level.area - double(A)) / most.second});
             ++compared;
         }
     }
@@ -273,6 +272,10 @@ TEST(test_path) {
     indented.at_separation(by_force.separation);
     const double back = by_force.separation + 2e-4;
     CHECK_RELATIVE(pressed.at_separation(back).force, indented.at_separation(back).force, 1e-11);
+    // Without its past a contact is a new one.
+    pressed.forget();
+    const Level again = pressed.at_separation(bottom);
+    CHECK(again.force == end(1).force && again.plastic_work == end(1).plastic_work);
 }
 
 TEST(test_limits) {

@@ -66,7 +66,7 @@ TEST(test_sphere) {
          {15.0, 40.0,
           10.0}) {  // pixels a radius at the first yield, the finest of the loaded ones first
         const double h = a / cells;
-        const int n = static_cast<int>(7 * cells);
+        const int n = int(7 * cells);
         const HeightMap map = flat_map(n, n, h, h);
         const Indenter tip{kE, R, (0.5 * n + 0.31) * h, (0.5 * n - 0.17) * h};
         const auto contact = make_element_contact(map, tip, options(H, 1e-8));

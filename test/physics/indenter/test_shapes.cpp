@@ -39,7 +39,7 @@ void closed_form(const char* name, const ShapeKeys& keys, double depth, double s
     const auto truth = s->smooth(kE);
     CHECK(truth.has_value());
     double errors[2];
-    for (const int k : up_to(2)) {
+    for (const int k : indices(2)) {
         const int points = k == 0 ? n : 4 * n;
         const HeightMap map = flat_map(points, points, side / points);
         const auto contact = make_element_contact(map, {kE, s, 0, 0}, elements());
@@ -157,8 +157,8 @@ TEST(all_shapes) {
         std::make_shared<HeightMap>(height_map(96, 96, 1.0 / 48, 1.0 / 48, [q](int i, int j) {
             return 4e-3 * std::sin(2 * q * i + 1) * std::cos(3 * q * j);
         }));
-    for (const int j : up_to(48))
-        for (const int i : up_to(48))
+    for (const int j : indices(48))
+        for (const int i : indices(48))
             rough.row(j)[i] = 3e-3 * std::cos(4 * q * i) * std::cos(3 * q * j + 0.3 * i * q);
     Asperities asperities = random_asperities(300, 0.005, 0.01, 1e-3, 0.02, 5);
     for (double& x : asperities.x) x -= 0.5;

@@ -33,14 +33,14 @@ double talbot(const Relaxation& body, double t) {
         const C s = r * a * C(cot, 1);
         sum += (std::exp(s * C(t)) * transform(s) * C(1, a + (a * cot - 1) * cot)).real();
     }
-    return static_cast<double>(sum * r / terms);
+    return double(sum * r / terms);
 }
 
 TEST(test_creep) {
     const std::vector<double> shares{0.05, 0.2, 0.1, 0.3, 0.02, 0.08},
         times{1e-3, 0.02, 0.3, 0.31, 7, 2e3};
     Relaxation sixteen;
-    for (const int k : up_to(kMostRelaxations)) {
+    for (const int k : indices(kMostRelaxations)) {
         sixteen.share.push_back(0.06);
         sixteen.time.push_back(std::pow(3.0, k - 8));
     }
@@ -122,7 +122,7 @@ double ramp_error(const Relaxation& body, int steps) {
     One one(body);
     double worst = 0;
     for (int k = 0; k <= 2 * steps; ++k) {
-        const double t = static_cast<double>(k) / steps, u = t <= 1 ? t : 2 - t;
+        const double t = double(k) / steps, u = t <= 1 ? t : 2 - t;
         one.step(k > 0 ? 1.0 / steps : 0.0);
         const double size = one.size(u), f = one.go(u);
         if (k % (steps / 8) != 0) continue;

@@ -115,7 +115,7 @@ void test_limits(const Kind& model) {
     CHECK_RELATIVE(soft->energy() + relaxed.energy_lost, elastic->energy(),
                    1e-5);  // no work; a few pixels leave and enter the contact
     const auto pressed = make(model, kBody);
-    for (const int k : up_to(7)) {
+    for (const int k : indices(7)) {
         pressed->set_time(1e4 * k);
         (void)pressed->at_force(0.3 * e.force);
     }

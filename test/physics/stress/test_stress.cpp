@@ -26,10 +26,10 @@ LevelPixels pressures(const PointGrid& grid, const std::function<double(double, 
     pixels.y0 = grid.y0;
     pixels.dx = grid.dx;
     pixels.dy = grid.dy;
-    for (const int j : up_to(grid.ny))
-        for (const int i : up_to(grid.nx))
+    for (const int j : indices(grid.ny))
+        for (const int i : indices(grid.nx))
             if (const double value = p(grid.x(i), grid.y(j)); value > 0) {
-                pixels.index.push_back(static_cast<int>(grid.index(i, j)));
+                pixels.index.push_back(int(grid.index(i, j)));
                 pixels.pressure.push_back(value);
             }
     return pixels;
@@ -160,7 +160,7 @@ TEST(hertz_line_between_flats) {
     const double mu = 0.4;
     StressPlane plane;
     stress_below(grid, line, {0.5, {mu, 0}, both(grid)}, 0, whole(grid), &plane);
-    for (const int i : up_to(grid.nx))
+    for (const int i : indices(grid.nx))
         if (std::abs(grid.x(i)) < 0.8) CHECK(plane.shear[i] > 0.97 * mu);
     CHECK_CLOSE(plane.shear[800], std::sqrt(mu * mu), 0.02);
 }
@@ -246,7 +246,7 @@ TEST(hertz_line_that_repeats_along_its_axis) {
         stress_below(strip, pressures(strip, spot), {nu, sliding, {}}, 0.4,
                      {0, (n - 1) / 2 * one.ny, one.nx, one.ny}, &plane);
         apart.push_back(0);
-        for (const std::size_t k : up_to(one.points()))
+        for (const std::size_t k : indices(one.points()))
             apart.back() = std::max(apart.back(), std::abs(repeated.mises[k] - plane.mises[k]));
     }
     CHECK(apart[1] < 0.55 * apart[0] && apart[2] < 0.55 * apart[1] &&
@@ -268,8 +268,8 @@ TEST(spots_of_asperities) {
          std::vector<std::array<double, 2>>{{0.5, 0.3}, {1.0, 0.2}, {2.0, 1.0}}) {
         truth::Tensor sum{};
         const int n = 400;
-        for (const int i : up_to(n))
-            for (const int j : up_to(n)) {
+        for (const int i : indices(n))
+            for (const int j : indices(n)) {
                 const double u = 2 * (i + 0.5) / n - 1, v = 2 * (j + 0.5) / n - 1;
                 const double p = std::sqrt(std::max(0.0, 1 - u * u - v * v)) * 4 / n / n;
                 const truth::Tensor t = truth::point_force(2, r - u, -v, z, nu);
@@ -339,7 +339,7 @@ TEST(a_file_holds_the_stresses_of_its_pressures) {
         for (std::size_t d = 0; d < 2; ++d) {
             const double z = d == 0 ? 0.02 : 0.1;
             truth::Tensor sum{};
-            for (const std::size_t k : up_to(points)) {
+            for (const std::size_t k : indices(points)) {
                 if (!(pressure[k] > 0)) continue;
                 const double dx = at_x[2 + d] - x[k % x.size()], dy = at_y[2 + d] - y[k / x.size()];
                 const int n = std::hypot(dx, dy) < 4 * half ? 40 : 8;
@@ -383,7 +383,7 @@ TEST(stresses_of_threads_and_campaigns_are_the_same_bits) {
         const std::size_t each = one.size() / names.size();
         bool same = true;
         for (const auto v : indices(names))
-            for (const std::size_t k : up_to(each))
+            for (const std::size_t k : indices(each))
                 same = same && both[2 * v * each + k] == one[v * each + k] &&
                        both[(2 * v + 1) * each + k] == second[v * each + k];
         CHECK(same);

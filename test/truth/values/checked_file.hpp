@@ -45,7 +45,7 @@ public:
     void finish() const {
         int variables = 0;
         nc_inq_nvars(file_.id(), &variables);
-        for (const int v : up_to(variables)) stored(v);
+        for (const int v : indices(variables)) stored(v);
     }
 
 private:

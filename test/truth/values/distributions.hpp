@@ -44,10 +44,8 @@ inline Moments1 moments_of(const std::vector<Part>& parts) {
     }
     for (long double& v : m) v /= all;
     const long double a = m[1], v = m[2] - a * a, d = std::sqrt(v);
-    return {static_cast<double>(a), static_cast<double>(d),
-            static_cast<double>((m[3] - 3 * a * m[2] + 2 * a * a * a) / (v * d)),
-            static_cast<double>((m[4] - 4 * a * m[3] + 6 * a * a * m[2] - 3 * a * a * a * a) /
-                                (v * v))};
+    return {double(a), double(d), double((m[3] - 3 * a * m[2] + 2 * a * a * a) / (v * d)),
+            double((m[4] - 4 * a * m[3] + 6 * a * a * m[2] - 3 * a * a * a * a) / (v * v))};
 }
 
 inline void distributions(CheckedFile& f, const Truth& t) {
@@ -63,7 +61,7 @@ inline void distributions(CheckedFile& f, const Truth& t) {
                  width_A = 10 * t.sigma / sqrt_m4 / number(n);
     const auto axis = [&](const std::string& name, double width) {
         Vector v;
-        for (const std::size_t b : up_to(n)) v.push_back((number(b) + 0.5) * width);
+        for (const std::size_t b : indices(n)) v.push_back((number(b) + 0.5) * width);
         f.same(name, v, 1e-9);
         f.attribute(name, "bin_width", {width}, 1e-9);
     };
@@ -79,11 +77,11 @@ inline void distributions(CheckedFile& f, const Truth& t) {
     Vector counts, count_over, count_pdf, spot_counts, spot_over, spot_pdf, areas, area_over,
         area_pdf, independent;
     std::array<std::vector<Moments1>, 3> moments;
-    for (const std::size_t d : up_to(D)) {
+    for (const std::size_t d : indices(D)) {
         Vector p, A, one, count(n), spot(n), area(n);
         std::vector<Part> parts;
         double over = 0, over_A = 0, over_q = 0, Z = 0, squares = 0, where = -1;
-        for (const std::size_t k : up_to(t.M)) {
+        for (const std::size_t k : indices(t.M)) {
             std::size_t s = 0;
             for (std::size_t i = 1; i < t.steps; ++i)
                 if (std::abs(t.r[k].levels[i].separation - wanted[d] * t.sigma) <
@@ -109,7 +107,7 @@ inline void distributions(CheckedFile& f, const Truth& t) {
             for (double a : pixels) squares += a * a;
         }
         const auto put = [&](Vector& into, double& beyond, double value, double width) {
-            for (const std::size_t b : up_to(n))
+            for (const std::size_t b : indices(n))
                 if (value >= number(b) * width && value < (number(b) + 1) * width)
                     return void(into[b] += 1);
             beyond += 1;
@@ -123,7 +121,7 @@ inline void distributions(CheckedFile& f, const Truth& t) {
                        : edge > q.p ? 1.0
                                     : 0.0;
             };
-            for (const std::size_t b : up_to(n))
+            for (const std::size_t b : indices(n))
                 area[b] += q.area * (below((number(b) + 1) * width_q) - below(number(b) * width_q));
             over_q += q.area * (1 - below(number(n) * width_q));
             total += q.area;
@@ -134,7 +132,7 @@ inline void distributions(CheckedFile& f, const Truth& t) {
         count_over.push_back(over);
         spot_over.push_back(over_A);
         area_over.push_back(over_q);
-        for (const std::size_t b : up_to(n)) {
+        for (const std::size_t b : indices(n)) {
             counts.push_back(count[b]);
             spot_counts.push_back(spot[b]);
             areas.push_back(area[b]);
@@ -155,7 +153,7 @@ inline void distributions(CheckedFile& f, const Truth& t) {
     f.attribute("pressure_mean_count", "overflow", count_over);
     f.same("spot_area_count", spot_counts);
     f.attribute("spot_area_count", "overflow", spot_over);
-    const double most = *std::max_element(areas.begin(), areas.end());
+    const double most = *std::ranges::max_element(areas);
     f.same("pressure_area", areas, 1e-9, 1e-12 * most);
     f.attribute("pressure_area", "overflow", area_over, 1e-9, 1e-12 * most);
     f.same("pressure_mean_pdf", count_pdf, 1e-9);

@@ -16,7 +16,7 @@ inline void header(CheckedFile& f, const Truth& t) {
     const std::string text = f.reader().text("", "case");
     CHECK(case_text(read_case_text(text, "case").settings) == text);
     if (t.c.run.seed <= 2147483647)
-        f.attribute("", "seed", {static_cast<double>(t.c.run.seed)});
+        f.attribute("", "seed", {double(t.c.run.seed)});
     else
         CHECK(f.reader().text("", "seed") == std::to_string(t.c.run.seed));
     if ((f.reader().text("", "path") != "") != std::isfinite(t.c.solids.hardness))
@@ -64,7 +64,7 @@ inline void separations(CheckedFile& f, const Truth& t) {
            1e-15);
     f.same("separation_mean", t.each_step([&](std::size_t s) {
         double m = 0;
-        for (const std::size_t k : up_to(t.M)) m += Z[k * t.steps + s] / number(t.M);
+        for (const std::size_t k : indices(t.M)) m += Z[k * t.steps + s] / number(t.M);
         return m;
     }),
            1e-14);
@@ -97,13 +97,12 @@ struct Cells {
           ny(0),
           x0(t.x0),
           y0(t.y0),
-          side(t.Lx / static_cast<double>(t.c.output.map_cells)) {
-        while (static_cast<double>(ny) * side < t.Ly * (1 - 1e-14)) ++ny;
+          side(t.Lx / double(t.c.output.map_cells)) {
+        while (double(ny) * side < t.Ly * (1 - 1e-14)) ++ny;
     }
     // -1: outside
     long cell(double x, double y) const {
-        const auto i = static_cast<long>(std::floor((x - x0) / side)),
-                   j = static_cast<long>(std::floor((y - y0) / side));
+        const auto i = long(std::floor((x - x0) / side)), j = long(std::floor((y - y0) / side));
         return i >= 0 && i < nx && j >= 0 && j < ny ? j * nx + i : -1;
     }
 };
@@ -122,17 +121,16 @@ inline CellSums cells_of(const Contacts2& c, const Cells& cells) {
     // Pixels begin at their points; each cell has what lies in it, the last one also what sticks
     // out.
     const auto share = [](double from, double length, long i, long n) {
-        const double low = i == 0 ? from : std::max(from, static_cast<double>(i));
-        const double high =
-            i == n - 1 ? from + length : std::min(from + length, static_cast<double>(i + 1));
+        const double low = i == 0 ? from : std::max(from, double(i));
+        const double high = i == n - 1 ? from + length : std::min(from + length, double(i + 1));
         return std::max(0.0, high - low) / length;
     };
     const auto spread = [&](double x, double y, double area, double force) {
         if (cells.cell(x, y) < 0) return;
         const double u = (x - cells.x0) / cells.side, v = (y - cells.y0) / cells.side,
                      w = c.dx / cells.side, h = c.dy / cells.side;
-        for (const long j : up_to(cells.ny))
-            for (const long i : up_to(cells.nx)) {
+        for (const long j : indices(cells.ny))
+            for (const long i : indices(cells.nx)) {
                 const double part = share(u, w, i, cells.nx) * share(v, h, j, cells.ny);
                 out.area[j * cells.nx + i] += part * area;
                 out.force[j * cells.nx + i] += part * force;
@@ -171,7 +169,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
     for (std::size_t k = 0; k < t.M && !t.elements; ++k)
         laws.push_back(make_law(t.c.asperities.law, t.r[k].asperities, t.E));
     const auto law = [&](std::size_t k, std::int32_t i) -> const Law& {
-        laws[k]->prepare(std::array{static_cast<int>(i)});
+        laws[k]->prepare(std::array{int(i)});
         return *laws[k];
     };
     const Vector A = t.rows([&](auto k, auto s) {
@@ -215,14 +213,13 @@ inline void levels(CheckedFile& f, const Truth& t) {
         const Asperities& a = t.r[k].asperities;
         for (std::size_t i = 0; i < a.size() && !t.elements; ++i) place(a.x[i], a.y[i], a.z[i]);
         for (long j = 0; t.elements && j < t.heights[k].ny; ++j)
-            for (const long i : up_to(t.heights[k].nx))
+            for (const long i : indices(t.heights[k].nx))
                 place(t.heights[k].x(i), t.heights[k].y(j), t.heights[k].at_point(i, j));
         return n;
     }));
     // How the solver went is its own.
     const auto of_level = [&](const char* name, auto LevelValues::*value) {
-        f.same(name,
-               t.rows([&](auto k, auto s) { return static_cast<double>(level(k, s).*value); }));
+        f.same(name, t.rows([&](auto k, auto s) { return double(level(k, s).*value); }));
     };
     of_level("iterations", &Level::iterations);
     of_level("products", &Level::products);
@@ -237,7 +234,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         double n = 0;
         const auto& p = spots(k, s);
         for (std::size_t i = 0; i < p.size() && !t.elements; ++i)
-            for (const std::size_t j : up_to(i))
+            for (const std::size_t j : indices(i))
                 n += t.distance(p[i].x, p[i].y, p[j].x, p[j].y) < p[i].radius() + p[j].radius();
         return n;
     });
@@ -272,8 +269,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
     for (std::size_t i = 0;
          i < edges.size() && t.c.surface.source != Source::asperities && !t.elements && !t.periodic;
          ++i)
-        with_border[i] =
-            std::max(edges[i], static_cast<double>(level(i / t.steps, i % t.steps).edge_contacts));
+        with_border[i] = std::max(edges[i], double(level(i / t.steps, i % t.steps).edge_contacts));
     f.same("edge_contacts", with_border);
     const Vector nominal = t.rows([&](auto k, auto s) {
         if (t.periodic) return A0;
@@ -291,7 +287,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
     f.same("nominal_area", nominal, kRounding);
     // What the doubts are raised by: test_trust.
     f.same("status", t.rows([&](auto k, auto s) -> double {
-        const double given = static_cast<double>(level(k, s).status);
+        const double given = double(level(k, s).status);
         if (given >= 3) return given;  // how the solver ended
         if (level(k, s).doubts != 0) return 1;
         return pairs[k * t.steps + s] > 0 ? 2 : 0;
@@ -304,8 +300,8 @@ inline void levels(CheckedFile& f, const Truth& t) {
     Vector deepest(t.elements ? 0 : t.r[0].asperities.size());
     Vector plastic, work;
     for (std::size_t k = 0; k < t.M && yields; ++k) {
-        std::fill(deepest.begin(), deepest.end(), 0.0);
-        for (const std::size_t s : up_to(t.steps)) {
+        std::ranges::fill(deepest, 0.0);
+        for (const std::size_t s : indices(t.steps)) {
             double n = 0, lost = 0;
             for (std::size_t i = 0; i < spots(k, s).size(); ++i) {
                 const Spot2& p = spots(k, s)[i];
@@ -401,7 +397,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         }
         return v;
     };
-    const double most = *std::max_element(N.begin(), N.end());
+    const double most = *std::ranges::max_element(N);
     // Summits between points also move with the tip (test_edges): shares of N.
     constexpr double kMotion = 0.01;
     f.same("lateral_force", pushed(false), kRounding,
@@ -428,9 +424,9 @@ inline void levels(CheckedFile& f, const Truth& t) {
         const Vector all = f.values(name);
         const std::size_t n = all.size() / t.M;
         Vector middle(n), deviation(n);
-        for (const std::size_t i : up_to(n)) {
-            for (const std::size_t k : up_to(t.M)) middle[i] += all[k * n + i] / number(t.M);
-            for (const std::size_t k : up_to(t.M))
+        for (const std::size_t i : indices(n)) {
+            for (const std::size_t k : indices(t.M)) middle[i] += all[k * n + i] / number(t.M);
+            for (const std::size_t k : indices(t.M))
                 deviation[i] += std::pow(all[k * n + i] - middle[i], 2);
             deviation[i] = t.M > 1 ? std::sqrt(deviation[i] / (number(t.M) - 1)) : kNone;
         }
@@ -438,7 +434,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         if (name == std::string("force") && t.c.indentation.control != Control::separation &&
             t.M > 1)
             deviation.assign(n, 0.0);
-        const double size = std::abs(*std::max_element(all.begin(), all.end()));
+        const double size = std::abs(*std::ranges::max_element(all));
         f.same(std::string(name) + "_mean", middle, 1e-13, 1e-15 * size);
         f.same(std::string(name) + "_std", deviation, 1e-9, 1e-14 * size);
     }

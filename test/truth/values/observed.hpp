@@ -9,7 +9,7 @@ using namespace rsc;
 
 inline void surfaces(CheckedFile& f, const Truth& t) {
     std::vector<Moments4> own, grid;
-    for (const std::size_t k : up_to(t.M)) {
+    for (const std::size_t k : indices(t.M)) {
         grid.push_back(t.list ? Moments4{} : t.heights[k].differences());
         own.push_back(t.synthetic ? t.heights[k].modes() : grid.back());
         if (t.list) own.back().m0 = Truth::variance(t.r[k].asperities.z);
@@ -37,14 +37,13 @@ inline void surfaces(CheckedFile& f, const Truth& t) {
     if (!t.elements) {
         f.same("summits", t.each_surface([&](auto k) {
             return own_summits ? number(t.r[k].asperities.size())
-                               : static_cast<double>(t.r[k].statistics.summits);
+                               : double(t.r[k].statistics.summits);
         }));
         f.same("saddles",
                t.each_surface([&](auto k) -> double {  // of summits between the points: every_value
                    if (t.list || !t.hertz || (t.c.surface.missing == Missing::fill))
-                       return static_cast<double>(t.r[k].statistics.saddles);
-                   return static_cast<double>(t.heights[k].maxima()) -
-                          number(t.r[k].asperities.size());
+                       return double(t.r[k].statistics.saddles);
+                   return double(t.heights[k].maxima()) - number(t.r[k].asperities.size());
                }));
     }
 
@@ -116,13 +115,13 @@ inline void regimes(CheckedFile& f, const Truth& t) {
 // Means of a map over circles: cubic curves between cell centres (radial.hpp), written as
 // Hermite's.
 inline double cubic(long n, const std::function<double(long)>& f, double s) {
-    const long i = std::clamp(static_cast<long>(std::floor(s)), 0L, n - 2);
+    const long i = std::clamp(long(std::floor(s)), 0L, n - 2);
     const auto slope = [&](long k) {
         if (k == 0) return (-3 * f(0) + 4 * f(1) - f(2)) / 2;
         if (k == n - 1) return (3 * f(k) - 4 * f(k - 1) + f(k - 2)) / 2;
         return (f(k + 1) - f(k - 1)) / 2;
     };
-    const double t = s - static_cast<double>(i), u = 1 - t;
+    const double t = s - double(i), u = 1 - t;
     return (1 + 2 * t) * u * u * f(i) + t * u * u * slope(i) + t * t * (3 - 2 * t) * f(i + 1) -
            t * t * u * slope(i + 1);
 }
@@ -131,30 +130,30 @@ inline void maps(CheckedFile& f, const Truth& t) {
     const Cells g(t);
     const std::size_t cells = g.nx * g.ny;
     Vector x, y;
-    for (const long i : up_to(g.nx)) x.push_back(g.x0 + g.side * (static_cast<double>(i) + 0.5));
-    for (const long j : up_to(g.ny)) y.push_back(g.y0 + g.side * (static_cast<double>(j) + 0.5));
+    for (const long i : indices(g.nx)) x.push_back(g.x0 + g.side * (double(i) + 0.5));
+    for (const long j : indices(g.ny)) y.push_back(g.y0 + g.side * (double(j) + 0.5));
     f.same("x", x, kRounding);
     f.same("y", y, kRounding);
     f.same("map_cell_side", {g.side}, kRounding);
-    const double below_last = static_cast<double>(g.ny - 1) * g.side,
+    const double below_last = double(g.ny - 1) * g.side,
                  covered = std::min(1.0, (t.Ly - below_last) / g.side);
     f.attribute("y", "share_of_last_row", {covered}, 1e-12);
     Vector area(t.steps * cells), force(area);
     std::vector<long double> area_sum(area.size()), force_sum(area.size());
-    for (const std::size_t k : up_to(t.M))
-        for (const std::size_t s : up_to(t.steps)) {
+    for (const std::size_t k : indices(t.M))
+        for (const std::size_t s : indices(t.steps)) {
             const CellSums c = cells_of(t.contacts[k][s], g);
-            for (const std::size_t i : up_to(cells)) {
+            for (const std::size_t i : indices(cells)) {
                 area_sum[s * cells + i] += c.area[i];
                 force_sum[s * cells + i] += c.force[i];
             }
         }
     const double divisor = g.side * g.side * number(t.M);
     for (const auto i : indices(area)) {
-        area[i] = static_cast<double>(area_sum[i]) / divisor;
-        force[i] = static_cast<double>(force_sum[i]) / divisor;
+        area[i] = double(area_sum[i]) / divisor;
+        force[i] = double(force_sum[i]) / divisor;
     }
-    const double scale = *std::max_element(force.begin(), force.end());
+    const double scale = *std::ranges::max_element(force);
     f.same("map_area_fraction", area, 1e-13);
     f.same("map_pressure", force, 1e-13);
     CHECK(scale > 0);
@@ -165,17 +164,16 @@ inline void maps(CheckedFile& f, const Truth& t) {
         return CHECK(!f.has("radius") && !f.has("radial_pressure"));  // the tip is not over the map
     const std::size_t bins = t.c.output.radial_bins;
     Vector radius;
-    for (const std::size_t b : up_to(bins))
+    for (const std::size_t b : indices(bins))
         radius.push_back((number(b) + 0.5) * largest / number(bins));
     f.same("radius", radius, kRounding);
     const auto radial = [&](const Vector& map) {
         Vector out;
-        for (const std::size_t s : up_to(t.steps))
+        for (const std::size_t s : indices(t.steps))
             for (double r : radius) {
-                const int angles =
-                    4 * std::max(16, static_cast<int>(std::ceil(4 * pi * r / g.side)));
+                const int angles = 4 * std::max(16, int(std::ceil(4 * pi * r / g.side)));
                 double total = 0;
-                for (const int k : up_to(angles)) {
+                for (const int k : indices(angles)) {
                     const double phi = 2 * pi * (k + 0.5) / angles;
                     const double u = (t.tip_x + r * std::cos(phi) - g.x0) / g.side - 0.5,
                                  v = (t.tip_y + r * std::sin(phi) - g.y0) / g.side - 0.5;
@@ -200,7 +198,7 @@ inline void maps(CheckedFile& f, const Truth& t) {
     f.same("radial_pressure", radial(force), 1e-10, 1e-12 * scale);
     const Vector N = f.values("force_mean");
     Vector hertz;
-    for (const std::size_t s : up_to(t.steps))
+    for (const std::size_t s : indices(t.steps))
         for (double r : radius) {
             const double a = std::cbrt(3 * N[s] * t.R / (4 * t.E));
             hertz.push_back(r < a ? 3 * N[s] / (2 * pi * a * a) * std::sqrt(1 - r * r / (a * a))

@@ -50,7 +50,7 @@ inline void contacts(CheckedFile& f, const Truth& t) {
     if (t.M > 1 || t.c.output.contacts == Contacts::none)
         return CHECK(!f.has("contact_start") && !f.has("contact_force"));
     Vector start, count, which, x, y, force, radius, yields;
-    for (const std::size_t s : up_to(t.steps)) {
+    for (const std::size_t s : indices(t.steps)) {
         const auto& spots = t.contacts[0][s].spots;
         const bool kept = t.c.output.contacts != Contacts::last || s + 1 == t.steps;
         start.push_back(number(force.size()) + 1);
@@ -86,7 +86,7 @@ inline void contacts(CheckedFile& f, const Truth& t) {
     const auto law = make_law(t.c.asperities.law, t.r[0].asperities, t.E);
     Vector major, minor, angle;
     for (const auto k : indices(which)) {
-        const int i = static_cast<int>(which[k]) - 1;
+        const int i = int(which[k]) - 1;
         law->prepare({&i, 1});
         const double root = std::sqrt(law->axes(i));
         major.push_back(radius[k] / root);
@@ -101,7 +101,7 @@ inline void contacts(CheckedFile& f, const Truth& t) {
     for (std::size_t s = 0; s < t.steps && !std::isfinite(t.c.solids.hardness); ++s)
         for (const auto k : indices(t.contacts[0][s].spots)) {
             const Spot2& p = t.contacts[0][s].spots[k];
-            law->prepare(std::array{static_cast<int>(p.index)});
+            law->prepare(std::array{int(p.index)});
             CHECK_RELATIVE(p.f, law->force(p.index, t.r[0].levels[s].u[k]), 1e-4);
             CHECK_RELATIVE(p.area, law->area(p.index, t.r[0].levels[s].u[k]), kRounding);
         }
@@ -139,8 +139,8 @@ inline void heights(CheckedFile& f, const Truth& t) {
     if (!t.c.output.heights) return CHECK(!f.has("height"));
     const Grid& g = t.heights[0];
     Vector x, y;
-    for (const long i : up_to(g.nx)) x.push_back(g.x(i));
-    for (const long j : up_to(g.ny)) y.push_back(g.y(j));
+    for (const long i : indices(g.nx)) x.push_back(g.x(i));
+    for (const long j : indices(g.ny)) y.push_back(g.y(j));
     f.same("height_x", x, 0, 1e-13 * t.Lx);
     f.same("height_y", y, 0, 1e-13 * t.Ly);
     f.same("height", g.z);
@@ -164,7 +164,7 @@ inline void friction(CheckedFile& f, const Truth& t) {
     for (const auto i : indices(a)) touch = std::max(touch, a.z[i] + t.top(a.x[i], a.y[i]));
     const Vector xi = f.values("tangential_displacement"), Q = f.values("tangential_force");
     Vector stiffness;
-    for (const std::size_t s : up_to(t.steps)) {
+    for (const std::size_t s : indices(t.steps)) {
         const Level& level = t.r[0].levels[s];
         const std::size_t begin = s * points, full = begin + first - 1;
         const bool touches = level.separation < touch;
@@ -188,16 +188,16 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
     if (!as_read) return CHECK(!f.has("sq") && !f.has("filled_points"));
     HeightMap map = as_read->copy();
     long missing = 0;
-    for (const int j : up_to(map.ny))
-        for (const int i : up_to(map.nx)) missing += std::isnan(map(i, j));
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) missing += std::isnan(map(i, j));
     const auto& keys = t.c.surface;
     const Measured m = measure(map, {keys.missing, keys.detrend, keys.filter_cutoff});
     Grid g = t.heights[0];
     g.periodic = false;  // as it was measured
     const double points = number(g.z.size());
-    f.same("filled_points", {static_cast<double>(missing)});
-    f.attribute("filled_points", "share", {static_cast<double>(missing) / points}, kRounding);
-    f.same("form_removed", {static_cast<double>(keys.detrend)});
+    f.same("filled_points", {double(missing)});
+    f.attribute("filled_points", "share", {double(missing) / points}, kRounding);
+    f.same("form_removed", {double(keys.detrend)});
     f.attribute("form_removed", "flag_values", {0, 1, 2, 3, 4});
     if (keys.detrend == Detrend::sphere) f.attribute("form_removed", "radius", {m.form.radius});
     f.same("filter_cutoff", {keys.filter_cutoff});
@@ -221,7 +221,7 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
     f.same("sdq", {std::sqrt(2 * last.m2)}, 1e-9);
     // Mean square slopes in all directions.
     double low = 1e300, high = 0;
-    for (const int k : up_to(3600)) {
+    for (const int k : indices(3600)) {
         const double c = std::cos(pi * k / 3600), s = std::sin(pi * k / 3600);
         static double xx, xy, yy;
         if (k == 0) {
@@ -246,7 +246,7 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
     f.same("points_per_wave", {m.shortest_wave / std::max(g.dx, g.dy)}, kRounding);
     Vector middles, density(60);
     const double width = sq / 6, level = mean(g.z);
-    for (const int b : up_to(60)) middles.push_back((b - 29.5) * width);
+    for (const int b : indices(60)) middles.push_back((b - 29.5) * width);
     for (double z : g.z)
         for (std::size_t b = 0; b < 60; ++b)
             if (z - level >= middles[b] - width / 2 && z - level < middles[b] + width / 2)
@@ -265,7 +265,7 @@ inline void measured(CheckedFile& f, const Truth& t, const HeightMap* as_read) {
             constexpr int angles = 180;
             for (double k : m.spectrum.wavenumber) {
                 double sum = 0;
-                for (const int a : up_to(angles)) {
+                for (const int a : indices(angles)) {
                     const double way = pi * (a + 0.5) / angles, g2 = fit.aspect;
                     const double q = k * std::sqrt(g2 * std::pow(std::cos(way), 2) +
                                                    std::pow(std::sin(way), 2) / g2);

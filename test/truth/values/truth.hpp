@@ -19,8 +19,8 @@ inline double sum(const Vector& v) {
     for (double x : v) s += x;
     return s;
 }
-inline double mean(const Vector& v) { return sum(v) / static_cast<double>(v.size()); }
-inline double number(std::size_t n) { return static_cast<double>(n); }
+inline double mean(const Vector& v) { return sum(v) / double(v.size()); }
+inline double number(std::size_t n) { return double(n); }
 
 // --- Surfaces
 
@@ -36,8 +36,8 @@ struct Grid {
     bool joined = false;  // differences across the border are those of the surface
     Vector z;
     double at_point(long i, long j) const { return z[(j + ny) % ny * nx + (i + nx) % nx]; }
-    double x(long i) const { return x0 + dx * static_cast<double>(i); }
-    double y(long j) const { return y0 + dy * static_cast<double>(j); }
+    double x(long i) const { return x0 + dx * double(i); }
+    double y(long j) const { return y0 + dy * double(j); }
 
     explicit Grid(const HeightMap& map)
         : nx(map.nx),
@@ -48,8 +48,8 @@ struct Grid {
           y0(map.y0),
           periodic(map.periodic),
           joined(map.periodic) {
-        for (const int j : up_to(map.ny))
-            for (const int i : up_to(map.nx)) z.push_back(map(i, j));
+        for (const int j : indices(map.ny))
+            for (const int i : indices(map.nx)) z.push_back(map(i, j));
     }
     double power(int p) const {
         const double level = mean(z);
@@ -88,24 +88,23 @@ struct Grid {
     Moments4 modes() const {
         using Complex = std::complex<double>;
         const auto root = [](long k, long n) {
-            return std::polar(1.0, -2 * pi * static_cast<double>(k % n) / static_cast<double>(n));
+            return std::polar(1.0, -2 * pi * double(k % n) / double(n));
         };
         std::vector<Complex> rows(z.size()), wx(nx), wy(ny);
-        for (const long k : up_to(nx)) wx[k] = root(k, nx);
-        for (const long k : up_to(ny)) wy[k] = root(k, ny);
-        for (const long j : up_to(ny))
+        for (const long k : indices(nx)) wx[k] = root(k, nx);
+        for (const long k : indices(ny)) wy[k] = root(k, ny);
+        for (const long j : indices(ny))
             for (long k = 0; k <= nx / 2; ++k)
-                for (const long i : up_to(nx)) rows[j * nx + k] += z[j * nx + i] * wx[i * k % nx];
+                for (const long i : indices(nx)) rows[j * nx + k] += z[j * nx + i] * wx[i * k % nx];
         Moments4 m{0, 0, 0};
         for (long k = 0; k <= nx / 2; ++k)
-            for (const long l : up_to(ny)) {
+            for (const long l : indices(ny)) {
                 Complex h = 0;
-                for (const long j : up_to(ny)) h += rows[j * nx + k] * wy[j * l % ny];
+                for (const long j : indices(ny)) h += rows[j * nx + k] * wy[j * l % ny];
                 const double both = k == 0 || 2 * k == nx ? 1 : 2,
                              power = both * std::norm(h / number(z.size()));
-                const double kx = 2 * pi * static_cast<double>(k) / (dx * static_cast<double>(nx));
-                const double ky = 2 * pi * static_cast<double>(2 * l > ny ? l - ny : l) /
-                                  (dy * static_cast<double>(ny));
+                const double kx = 2 * pi * double(k) / (dx * double(nx));
+                const double ky = 2 * pi * double(2 * l > ny ? l - ny : l) / (dy * double(ny));
                 if (k == 0 && l == 0) continue;
                 m.m0 += power;
                 m.m2 += power * (kx * kx + ky * ky) / 2;
@@ -172,7 +171,7 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
     out.dx = q.dx;
     out.dy = q.dy;
     std::vector<long> place(nx * ny, -1), own(q.index.size(), -1);
-    for (const auto k : indices(q.index)) place[q.index[k]] = static_cast<long>(k);
+    for (const auto k : indices(q.index)) place[q.index[k]] = long(k);
     const auto neighbours = [&](std::size_t k) {
         std::vector<long> found;
         const long i = q.index[k] % nx, j = q.index[k] / nx;
@@ -190,8 +189,7 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
     // Sides where the map itself ends: no border of the contact.
     const auto beyond = [&](std::size_t k) {
         const long i = q.index[k] % nx, j = q.index[k] / nx;
-        return periodic ? 0.0
-                        : static_cast<double>((i == 0) + (i == nx - 1) + (j == 0) + (j == ny - 1));
+        return periodic ? 0.0 : double((i == 0) + (i == nx - 1) + (j == 0) + (j == ny - 1));
     };
     std::map<long, std::int32_t> library;  // my number to the level's
     long sets = 0;
@@ -231,18 +229,17 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
         }
         out.spots[q.contact[k]].f += q.pressure[k] * out.pixel;
         out.spots[q.contact[k]].yields = out.spots[q.contact[k]].yields || hard;
-        out.pixels.push_back({q.x0 + q.dx * static_cast<double>(q.index[k] % nx),
-                              q.y0 + q.dy * static_cast<double>(q.index[k] / nx), q.pressure[k],
-                              q.contact[k]});
+        out.pixels.push_back({q.x0 + q.dx * double(q.index[k] % nx),
+                              q.y0 + q.dy * double(q.index[k] / nx), q.pressure[k], q.contact[k]});
     }
-    CHECK(static_cast<long>(library.size()) == sets);
+    CHECK(long(library.size()) == sets);
     for (const auto k : indices(own)) {  // middles, from the peak
         Sum& s = sums[q.contact[k]];
         long a = q.index[k] % nx - s.i, b = q.index[k] / nx - s.j;
-        if (periodic) a -= nx * std::lround(static_cast<double>(a) / static_cast<double>(nx));
-        if (periodic) b -= ny * std::lround(static_cast<double>(b) / static_cast<double>(ny));
-        s.px += q.pressure[k] * static_cast<double>(a);
-        s.py += q.pressure[k] * static_cast<double>(b);
+        if (periodic) a -= nx * std::lround(double(a) / double(nx));
+        if (periodic) b -= ny * std::lround(double(b) / double(ny));
+        s.px += q.pressure[k] * double(a);
+        s.py += q.pressure[k] * double(b);
     }
     for (const auto c : indices(sums)) {
         const Sum& s = sums[c];
@@ -251,9 +248,9 @@ inline Contacts2 of_pixels(const Level& level, long nx, long ny, bool periodic, 
             (pi - 1 + std::log(2.0)) / 24 * (1 + s.hard / s.n * (s.hard / s.n)) * s.sides;
         const double p = spot.f / out.pixel;
         spot.area = out.pixel * (s.n - border);
-        double i = static_cast<double>(s.i) + s.px / p, j = static_cast<double>(s.j) + s.py / p;
-        if (periodic) i -= static_cast<double>(nx) * std::floor(i / static_cast<double>(nx));
-        if (periodic) j -= static_cast<double>(ny) * std::floor(j / static_cast<double>(ny));
+        double i = double(s.i) + s.px / p, j = double(s.j) + s.py / p;
+        if (periodic) i -= double(nx) * std::floor(i / double(nx));
+        if (periodic) j -= double(ny) * std::floor(j / double(ny));
         spot.x = q.x0 + q.dx * i;
         spot.y = q.y0 + q.dy * j;
     }
@@ -278,7 +275,7 @@ struct Truth {
 
     explicit Truth(const Case& settings) : c(settings) {
         job = prepare(c);
-        for (const int k : up_to(c.run.realizations))
+        for (const int k : indices(c.run.realizations))
             r.push_back(realize(job, c.run.first_realization + k, 1));
         steps = r[0].levels.size();
         M = r.size();
@@ -298,8 +295,8 @@ struct Truth {
             const Grid& g = heights[0];
             x0 = g.x0;
             y0 = g.y0;
-            Lx = static_cast<double>(g.nx) * g.dx;
-            Ly = static_cast<double>(g.ny) * g.dy;
+            Lx = double(g.nx) * g.dx;
+            Ly = double(g.ny) * g.dy;
         }
         E = 1 / ((1 - c.solids.nu[0] * c.solids.nu[0]) / c.solids.E[0] +
                  (1 - c.solids.nu[1] * c.solids.nu[1]) / c.solids.E[1]);
@@ -337,7 +334,7 @@ struct Truth {
             m2_made = 0;
             for (const Grid& g : heights) m2_made += g.modes().m2 / number(M);
         }
-        for (const std::size_t k : up_to(M)) {
+        for (const std::size_t k : indices(M)) {
             contacts.emplace_back();
             for (const Level& l : r[k].levels) contacts.back().push_back(contacts_of(l, k));
         }
@@ -373,18 +370,18 @@ struct Truth {
     // A value of every level, realization by realization.
     Vector rows(const std::function<double(std::size_t, std::size_t)>& of) const {
         Vector v;
-        for (const std::size_t k : up_to(M))
-            for (const std::size_t s : up_to(steps)) v.push_back(of(k, s));
+        for (const std::size_t k : indices(M))
+            for (const std::size_t s : indices(steps)) v.push_back(of(k, s));
         return v;
     }
     Vector each_step(const std::function<double(std::size_t)>& of) const {
         Vector v;
-        for (const std::size_t s : up_to(steps)) v.push_back(of(s));
+        for (const std::size_t s : indices(steps)) v.push_back(of(s));
         return v;
     }
     Vector each_surface(const std::function<double(std::size_t)>& of) const {
         Vector v;
-        for (const std::size_t k : up_to(M)) v.push_back(of(k));
+        for (const std::size_t k : indices(M)) v.push_back(of(k));
         return v;
     }
     double hardness(std::int32_t i) const {
