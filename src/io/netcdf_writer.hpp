@@ -7,10 +7,10 @@
 
 namespace rsc {
 
-// Writes the result to `path` in the format of its case, completely or not at all. `command` follows
-// the date in the attribute `history`. Throws Error(file_system) with a remedy,
-// and Error(internal) for a value that is not finite in a variable without missing values; NaN in
-// the others becomes _FillValue.
+// Writes the result to `path` in the format of its case, completely or not at all. `command`
+// follows the date in the attribute `history`. Throws Error(file_system) with a remedy, and
+// Error(internal) for a value that is not finite in a variable without missing values; NaN in the
+// others becomes _FillValue.
 //
 // Equal results give equal files except for the attribute `history`, whose date is that of the
 // environment variable SOURCE_DATE_EPOCH (seconds since 1970) if it is set.

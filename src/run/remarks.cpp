@@ -170,8 +170,8 @@ struct Remarks {
         print_failures();
     }
 
-    // "N = 1.23 N +- 5 %": the last level of a single run that has expected errors; under a prescribed
-    // force the separation instead of N.
+    // "N = 1.23 N +- 5 %": the last level of a single run that has expected errors; under a
+    // prescribed force the separation instead of N.
     void print_bounds() const {
         const auto last = std::find_if(levels.rbegin(), levels.rend(), [](const LevelValues& l) {
             return l.force_error_expected >= 0 || l.separation_error_expected >= 0;
@@ -182,7 +182,7 @@ struct Remarks {
             first = format("Z0 = %.6g %s +- %.2g %s", last->separation, l,
                            last->separation_error_expected, l);
         } else {
-            // Where adhesion nearly balances N, the error is many times N, and is printed as a force.
+            // Where adhesion nearly balances N, the error is many times N: printed as a force.
             const double error = last->force_error_expected;
             first =
                 format("N = %.4g %s +- ", last->force, f) +
@@ -196,8 +196,8 @@ struct Remarks {
                       first.c_str(), area.c_str());
     }
 
-    // The summary of plastic contacts for cases with hardness, of what is worn off, and of the energy
-    // lost in bodies that relax.
+    // The summary of plastic contacts for cases with hardness, of what is worn off, and of the
+    // energy lost in bodies that relax.
     void print_changes() const {
         if (relaxes(c) && !levels.empty() && c.run.realizations == 1)
             out << format(

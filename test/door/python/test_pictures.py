@@ -73,7 +73,7 @@ CASES = {
     "smooth": SMALL.replace("0.01", "1e-8") + "&indenter shape='paraboloid' radii=5.0,Infinity /"
     "&indentation boundary='periodic_y' control='force' levels=50,200 /",
     "pulled": SMALL.replace("0.01", "0.0001") + "&run realizations=3 /"
-    "&solids E=2,Infinity R=Infinity,5 adhesion=2e-5 / &indentation levels=3,1,0,1,3,9 /"
+    "&solids E=200,Infinity R=Infinity,5 adhesion=2e-5 / &indentation levels=3,1,0,1,3,9 /"
     "&study surface%sigma=1e-4,2e-4,4e-4 /",
     "pressed": "&surface n=128 L_lambda_l=4 L_lambda_s=32 sigma=0.0009 / "
     "&solids R=Infinity,Infinity / &run realizations=3 /"
