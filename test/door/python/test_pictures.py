@@ -72,9 +72,9 @@ CASES = {
     "&output fields='pressure','traction' field_levels=50 /",
     "smooth": SMALL.replace("0.01", "1e-8") + "&indenter shape='paraboloid' radii=5.0,Infinity /"
     "&indentation boundary='periodic_y' control='force' levels=50,200 /",
-    "pulled": SMALL.replace("0.01", "0.0001") + "&run realizations=3 /"
+    "pulled": SMALL.replace("0.01", "0.001") + "&run realizations=3 /"
     "&solids E=2,Infinity R=Infinity,5 adhesion=2e-5 / &indentation levels=3,1,0,1,3,9 /"
-    "&study surface%sigma=1e-4,2e-4,4e-4 /",
+    "&study surface%sigma=1e-3,2e-3,4e-3 /",
     "pressed": "&surface n=128 L_lambda_l=4 L_lambda_s=32 sigma=0.0009 / "
     "&solids R=Infinity,Infinity / &run realizations=3 /"
     "&indentation boundary='periodic' control='pressure' unit='relative' levels=0.001,0.004,0.01 /",
@@ -655,7 +655,7 @@ class Numbers(Drawn):
         files = members("pulled", 3)
         figure = self.figure("pulloff", *files)
         found = [raw(name)[0]["pull_off_force"] for name in files]
-        self.has_curve(figure, np.array([1e-4, 2e-4, 4e-4]), -np.array([f.mean() for f in found]))
+        self.has_curve(figure, np.array([1e-3, 2e-3, 4e-3]), -np.array([f.mean() for f in found]))
         bars = next(c for c in figure.axes[0].collections if c.get_gid() == "bars")
         spread = [np.ptp(segment[:, 1]) / 2 for segment in bars.get_segments()]
         self.assertTrue(np.allclose(spread, [f.std(ddof=1) / np.sqrt(3) for f in found]))
