@@ -42,10 +42,6 @@ constexpr double kFirstLeap = 0.5, kLastLeap = 1e-6;
 }  // namespace
 
 double relative_residual(const Vector& error, const Vector& force) {
-    const double error2 = dot(error, error), force2 = dot(force, force);
-    constexpr double smallest = 1e-290, largest = 1e290;
-    if (force2 > smallest && force2 < largest && error2 < largest)
-        return std::sqrt(error2 / force2);
     double most = 0, e2 = 0, f2 = 0;  // scaled by the largest value
     for (std::size_t k = 0; k < force.size(); ++k)
         most = std::max({most, std::abs(force[k]), std::abs(error[k])});

@@ -191,20 +191,21 @@ private:
         constexpr double give = 0.1;
         f_low_ = forces(low);
         f_high_ = forces(high);
-        Vector& up = relief_;
+        // Sets relief_ to what less force on the partners, less(k), adds to the penetrations.
+        const auto relieve = [&](auto less) {
+            for (std::size_t k = 0; k < v_.size(); ++k) change_[k] = less(k);
+            couple(inside_, change_, relief_);
+        };
+        relieve(
+            [&](std::size_t k) { return std::max(f_high_[k] - force_[k], force_[k] - f_low_[k]); });
+        Vector slack(relief_);
+        for (double& s : slack) s = give * s + noise_;
+        relieve([&](std::size_t k) { return force_[k] - f_low_[k]; });
         for (std::size_t k = 0; k < v_.size(); ++k)
-            change_[k] = std::max(f_high_[k] - force_[k], force_[k] - f_low_[k]);
-        couple(inside_, change_, up);
-        Vector slack(up);
-        for (std::size_t k = 0; k < slack.size(); ++k) slack[k] = give * slack[k] + noise_;
-        for (std::size_t k = 0; k < v_.size(); ++k) change_[k] = force_[k] - f_low_[k];
-        couple(inside_, change_, up);
+            high[k] = std::min(high[k], v_[k] + relief_[k] + slack[k]);
+        relieve([&](std::size_t k) { return f_high_[k] - force_[k]; });
         for (std::size_t k = 0; k < v_.size(); ++k)
-            high[k] = std::min(high[k], v_[k] + up[k] + slack[k]);
-        for (std::size_t k = 0; k < v_.size(); ++k) change_[k] = f_high_[k] - force_[k];
-        couple(inside_, change_, up);
-        for (std::size_t k = 0; k < v_.size(); ++k)
-            low[k] = std::max(low[k], v_[k] - up[k] - slack[k]);
+            low[k] = std::max(low[k], v_[k] - relief_[k] - slack[k]);
         for (std::size_t k = 0; k < v_.size(); ++k) {
             if (low[k] > high[k]) return false;
         }

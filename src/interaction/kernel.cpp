@@ -86,10 +86,19 @@ SquareTable::SquareTable(double unit, const std::function<double(double)>& value
     }
 }
 
+namespace {
+
+// The piece of y = 1 + t^2/unit^2, and the distance from its middle relative to its octave.
+std::pair<std::size_t, double> piece_of(double y) {
+    const auto bits = std::bit_cast<std::uint64_t>(y);
+    return {std::min<std::uint64_t>((bits >> kShift) - kFirst, kPieces - 1),
+            std::bit_cast<double>((bits & kRest) | kOne) - kMiddle};
+}
+
+}  // namespace
+
 double SquareTable::at_square(double t2) const {
-    const auto bits = std::bit_cast<std::uint64_t>(1 + t2 * inverse_square_);
-    const std::size_t piece = std::min<std::uint64_t>((bits >> kShift) - kFirst, kPieces - 1);
-    const double t = std::bit_cast<double>((bits & kRest) | kOne) - kMiddle;
+    const auto [piece, t] = piece_of(1 + t2 * inverse_square_);
     double sum = coefficient_[kDegree * kPieces + piece];
     for (std::size_t k = kDegree; k-- > 0;) sum = sum * t + coefficient_[k * kPieces + piece];
     return sum;
@@ -100,10 +109,8 @@ void SquareTable::values(std::size_t n, const double* squares, double* value) co
 }
 
 double SquareTable::moment(double t) const {
-    const auto bits = std::bit_cast<std::uint64_t>(1 + t * t * inverse_square_);
-    const std::size_t piece = std::min<std::uint64_t>((bits >> kShift) - kFirst, kPieces - 1);
+    const auto [piece, to] = piece_of(1 + t * t * inverse_square_);
     constexpr double half = 0.5 / kOctavePieces;
-    const double to = std::bit_cast<double>((bits & kRest) | kOne) - kMiddle;
     double sum = 0, high = to, low = -half;
     for (std::size_t k = 0; k <= kDegree; ++k, high *= to, low *= -half)
         sum += coefficient_[k * kPieces + piece] * (high - low) / static_cast<double>(k + 1);
@@ -169,20 +176,13 @@ double SmoothPart::corner(double s, double t) const {
 template <unsigned n>
 double SmoothPart::by_points(double x, double y, double a, double b) const {
     using Rule = boost::math::quadrature::gauss<double, n>;
-    double place[n], weight[n];
-    for (unsigned k = 0; k < n;
-         ++k) {  // the rule lists the points from the middle of its interval to one end
-        const unsigned i = n % 2 == 1 ? (k + 1) / 2 : k / 2;
-        place[k] = k % 2 == n % 2 ? Rule::abscissa()[i] : -Rule::abscissa()[i];
-        weight[k] = Rule::weights()[i];
-    }
-    double sum = 0;
-    for (unsigned i = 0; i < n; ++i)
-        for (unsigned j = 0; j < n; ++j) {
-            const double dx = x + a * place[i], dy = y + b * place[j];
-            sum += weight[i] * weight[j] * at_square(dx * dx + dy * dy);
-        }
-    return a * b * sum;
+    return a * b * Rule::integrate([&](double u) {
+               const double dx = x + a * u;
+               return Rule::integrate([&](double v) {
+                   const double dy = y + b * v;
+                   return at_square(dx * dx + dy * dy);
+               });
+           });
 }
 
 double SmoothPart::over_rectangle(double x, double y, double a, double b) const {

@@ -1,18 +1,98 @@
 #include "interaction/products.hpp"
 
+#include "base/dispatch.hpp"
 #include "interaction/mesh.hpp"
-#include "interaction/pair_matrix.hpp"
 #include "interaction/pairs.hpp"
 
 namespace rsc {
 namespace {
 
+// sum = row . f and phi += own row over n numbers, a multiple of kLanes. The partial sums are the
+// same on every machine.
+constexpr std::size_t kLanes = 8;
+RSC_ALWAYS_INLINE void both_body(std::size_t n, const double* row, const double* f, double own,
+                                 double* phi, double& sum) {
+    double lanes[kLanes] = {};
+    for (std::size_t j = 0; j < n; j += kLanes)
+        for (std::size_t l = 0; l < kLanes; ++l) {
+            lanes[l] += row[j + l] * f[j + l];
+            phi[j + l] += own * row[j + l];
+        }
+    sum = 0;
+    for (const double lane : lanes) sum += lane;
+}
+RSC_DISPATCH(both_ways, both_body,
+             (std::size_t n, const double* row, const double* f, double own, double* phi,
+              double& sum),
+             (n, row, f, own, phi, sum))
+
+// G between the points of a set, for kernels that are expensive to evaluate (layers): a solution
+// takes some forty products with the same points.
+class StoredPairs {
+public:
+    explicit StoredPairs(const Kernel& kernel) : kernel_(kernel) {}
+
+    bool suits(std::size_t n) const {
+        return kernel_.smooth() && !kernel_.none() && !kernel_.lattice() &&
+               n * n <= 2 * kMostStoredValues;
+    }
+    bool empty() const { return begin_.empty(); }
+    void clear() { begin_.clear(); }
+
+    void store(const std::vector<double>& x, const std::vector<double>& y) {
+        const std::size_t n = x.size();
+        begin_.assign(1, 0);
+        for (std::size_t i = 0; i < n; ++i) begin_.push_back(begin_.back() + whole(i));
+        values_.assign(begin_.back(), 0.0);
+        for (std::vector<double>* of_points : {&square_, &force_, &phi_})
+            of_points->assign(whole(n), 0.0);
+        for (std::size_t i = 0; i < n; ++i) {
+            double* const row = values_.data() + begin_[i];
+            for (std::size_t j = 0; j < i; ++j)
+                square_[j] = (x[j] - x[i]) * (x[j] - x[i]) + (y[j] - y[i]) * (y[j] - y[i]);
+            for (std::size_t j = 0; j < i; j += SquareTable::kBlock)
+                kernel_.smooth()->table().values(std::min(SquareTable::kBlock, i - j),
+                                                 square_.data() + j, row + j);
+            // 1/d does not apply to coinciding points.
+            for (std::size_t j = 0; j < i; ++j)
+                row[j] = square_[j] > 0
+                             ? row[j] + (kernel_.shift() + kernel_.near() / std::sqrt(square_[j]))
+                             : kernel_.self();
+        }
+    }
+
+    // G f at the points `from`, of their forces f, and at the points `also`; by number of the
+    // point.
+    const std::vector<double>& product(const std::vector<int>& from, const double* f,
+                                       const std::vector<int>& also) {
+        for (std::vector<double>* of_points : {&force_, &phi_})
+            std::fill(of_points->begin(), of_points->end(), 0.0);
+        for (std::size_t k = 0; k < from.size(); ++k) force_[at(from[k])] = f[k];
+        for (const std::vector<int>* points : {&from, &also})
+            for (const int point : *points) {
+                const std::size_t i = at(point);
+                double sum = 0;
+                both_ways(whole(i), values_.data() + begin_[i], force_.data(), force_[i],
+                          phi_.data(), sum);
+                phi_[i] += sum + kernel_.self() * force_[i];
+            }
+        return phi_;
+    }
+
+private:
+    static std::size_t whole(std::size_t n) { return (n + kLanes - 1) / kLanes * kLanes; }
+
+    const Kernel& kernel_;
+    // Rows of the points before each, with 0 up to a multiple of kLanes.
+    std::vector<double> values_;
+    std::vector<std::size_t> begin_;
+    std::vector<double> square_, force_, phi_;  // of all points
+};
+
 class Direct final : public Products {
 public:
     explicit Direct(std::shared_ptr<const Kernel> kernel)
-        : Products(std::move(kernel)), sums_(*kernel_) {
-        if (!kernel_->none() && kernel_->smooth() && !kernel_->lattice()) matrix_.emplace(*kernel_);
-    }
+        : Products(std::move(kernel)), sums_(*kernel_), stored_(*kernel_) {}
 
     void set_points(int n, const double* x, const double* y) override {
         if (std::equal(x, x + n, x_.begin(), x_.end()) &&
@@ -21,31 +101,16 @@ public:
         x_.assign(x, x + n);
         y_.assign(y, y + n);
         fresh_ = true;
+        stored_.clear();
     }
 
     void set_active(const std::vector<int>& active) override {
-        if (!fresh_ && active == active_) return;
-        const bool moved = std::exchange(fresh_, false);
+        if (!std::exchange(fresh_, false) && active == active_) return;
         divide(active);
-        stored_ = keeps_pairs(passive_.size());
-        if (stored_) {
-            const bool again = matrix_->stale(active_.size());
-            if (again) {
-                matrix_->forget();
-                xo_.clear();
-            }
-            if (moved || again || all_.size() != x_.size())
-                number(x_.size(), x_.data(), y_.data(), all_);
-            select(active_, active_numbers_);
-            select(passive_, passive_numbers_);
-            stored_ = matrix_->set_active(active_numbers_);
-        }
-        if (!stored_) {
-            all_.clear();
-            gather(active_, xa_, ya_);
-            sums_.assign(active_.size(), xa_.data(), ya_.data());
-            gather(passive_, xp_, yp_);
-        }
+        gather(active_, xa_, ya_);
+        gather(passive_, xp_, yp_);
+        sums_.assign(active_.size(), xa_.data(), ya_.data());
+        if (stored_.empty() && stored_.suits(x_.size())) stored_.store(x_, y_);
         active_phi_.resize(active_.size());
         passive_phi_.resize(passive_.size());
     }
@@ -60,21 +125,7 @@ public:
     }
 
     void elsewhere(const double* f, int n, const double* x, const double* y, double* phi) override {
-        const auto count = static_cast<std::size_t>(n);
-        if (stored_ && keeps_pairs(count)) {
-            if (!std::equal(x, x + count, xo_.begin(), xo_.end()) ||
-                !std::equal(y, y + count, yo_.begin(), yo_.end())) {
-                number(count, x, y, other_numbers_);
-                xo_.assign(x, x + count);
-                yo_.assign(y, y + count);
-            }
-            return matrix_->onto(sums_.has_single(), f, other_numbers_, phi);
-        }
-        if (stored_) {
-            gather(active_, xa_, ya_);
-            sums_.assign(active_.size(), xa_.data(), ya_.data());
-        }
-        sums_.onto(true, count, x, y, f, phi);
+        sums_.onto(true, static_cast<std::size_t>(n), x, y, f, phi);
     }
 
     void full(const double* f, double* phi) override {
@@ -89,42 +140,23 @@ public:
     double inner_error() const override { return sums_.has_single() ? 1e-6 : full_error(); }
 
 private:
-    // True if the values at the pairs are stored.
-    bool keeps_pairs(std::size_t others) const {
-        return matrix_ && !matrix_->too_large(active_.size(), others);
-    }
-
     void among(bool single, const double* f, double* phi) {
-        if (stored_)
-            matrix_->among(single, f, phi);
-        else
-            sums_.among(single, f, phi);
+        if (stored_.empty()) return sums_.among(single, f, phi);
+        const std::vector<double>& all = stored_.product(active_, f, {});
+        for (std::size_t k = 0; k < active_.size(); ++k) phi[k] = all[at(active_[k])];
     }
 
     void onto_passive(bool single, const double* f, double* phi) {
-        if (stored_)
-            matrix_->onto(single, f, passive_numbers_, phi);
-        else
-            sums_.onto(single, passive_.size(), xp_.data(), yp_.data(), f, phi);
+        if (stored_.empty())
+            return sums_.onto(single, passive_.size(), xp_.data(), yp_.data(), f, phi);
+        const std::vector<double>& all = stored_.product(active_, f, passive_);
+        for (std::size_t k = 0; k < passive_.size(); ++k) phi[k] = all[at(passive_[k])];
     }
 
-    void number(std::size_t n, const double* x, const double* y, std::vector<std::uint32_t>& to) {
-        to.resize(n);
-        for (std::size_t k = 0; k < n; ++k) to[k] = matrix_->find(x[k], y[k]);
-    }
-    void select(const std::vector<int>& which, std::vector<std::uint32_t>& to) const {
-        to.resize(which.size());
-        for (std::size_t k = 0; k < which.size(); ++k)
-            to[k] = all_[static_cast<std::size_t>(which[k])];
-    }
-
-    bool fresh_ = true;    // true until set_active() is called for the current points
-    bool stored_ = false;  // the matrix is used for the current points
-    std::vector<double> xa_, ya_, xp_, yp_, xo_, yo_, active_phi_, passive_phi_;
-    std::vector<std::uint32_t> all_, active_numbers_, passive_numbers_,
-        other_numbers_;  // numbers of points in the matrix
+    bool fresh_ = true;  // true until set_active() is called for the current points
+    std::vector<double> xa_, ya_, xp_, yp_, active_phi_, passive_phi_;
     PairSums sums_;
-    std::optional<PairMatrix> matrix_;
+    StoredPairs stored_;
 };
 
 }  // namespace
@@ -163,7 +195,7 @@ void Products::divide(const std::vector<int>& active) {
 // from a table. Values of these kernels are stored for as many contacts as memory allows.
 double direct_rate(const Kernel& kernel, std::size_t candidates) {
     if (kernel.lattice()) return 3e7;
-    constexpr std::size_t stored = 4500;
+    constexpr std::size_t stored = 8000;  // about half of the candidates are near contact
     return !kernel.smooth() || candidates < stored ? 6e9 : 4e8;
 }
 
@@ -172,20 +204,6 @@ std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> ker
 }
 
 namespace {
-
-// True if sums over pairs are cheaper than a mesh that resolves the smooth part of the kernel, as
-// for a thin layer.
-bool too_fine_a_mesh(const Kernel& kernel, std::size_t n, const double* x, const double* y,
-                     double error) {
-    if (!kernel.smooth() || kernel.lattice() || n == 0) return false;
-    const auto [west, east] = std::minmax_element(x, x + n);
-    const auto [south, north] = std::minmax_element(y, y + n);
-    const double width = *east - *west, height = *north - *south, side = std::max(width, height);
-    if (!(std::min(width, height) > 0)) return false;
-    const double pairs = static_cast<double>(n) * static_cast<double>(n);
-    return pairs / direct_rate(kernel, n) <
-           MeshPotential::estimated_cost(n, error, width / height, kernel.smooth()->scale() / side);
-}
 
 // Products over the whole working set, with zero forces at passive points.
 class Mesh final : public Products {
@@ -205,18 +223,12 @@ public:
         inner_.reset();  // created on first use
         exact_.reset();
         among_.reset();
-        by_pairs_ = too_fine_a_mesh(*kernel_, size, x, y, inner_error_);
-        if (by_pairs_) return by_pairs().set_points(n, x, y);
         if (direct()) pairs_.assign(size, x, y);
     }
 
-    void set_active(const std::vector<int>& active) override {
-        divide(active);
-        if (by_pairs_) by_pairs().set_active(active);
-    }
+    void set_active(const std::vector<int>& active) override { divide(active); }
 
     void inner(const double* f, double* phi) override {
-        if (by_pairs_) return ++count_, by_pairs().inner(f, phi);
         constexpr double few = 0.8;  // share of active points below which a separate mesh is faster
         if (static_cast<double>(active_.size()) < few * static_cast<double>(x_.size())) {
             ++count_;
@@ -229,14 +241,12 @@ public:
     }
 
     void inner_passive(const double* f, double* phi) override {
-        if (by_pairs_) return by_pairs().inner_passive(f, phi);
         everywhere(f, false);
         for (std::size_t k = 0; k < passive_.size(); ++k)
             phi[k] = phi_[static_cast<std::size_t>(passive_[k])];
     }
 
     void elsewhere(const double* f, int n, const double* x, const double* y, double* phi) override {
-        if (by_pairs_) return by_pairs().elsewhere(f, n, x, y, phi);
         const std::size_t sources = active_.size(), targets = static_cast<std::size_t>(n);
         std::vector<double> xa, ya;
         gather(active_, xa, ya);
@@ -259,7 +269,6 @@ public:
     }
 
     void full(const double* f, double* phi) override {
-        if (by_pairs_) return ++count_, by_pairs().full(f, phi);
         everywhere(f, true);
         std::copy(phi_.begin(), phi_.end(), phi);
     }
@@ -273,11 +282,6 @@ private:
     bool direct() const { return full_error_ < kFinest; }
     // Error of products at other points.
     static constexpr double kElsewhere = 1e-5;
-
-    Products& by_pairs() {
-        if (!pair_products_) pair_products_ = make_direct_products(kernel_);
-        return *pair_products_;
-    }
 
     MeshPotential& made(std::optional<MeshPotential>& mesh, double error) {
         if (!mesh) mesh.emplace(x_.size(), x_.data(), y_.data(), error, kernel_);
@@ -309,8 +313,6 @@ private:
     }
 
     double full_error_, inner_error_;
-    bool by_pairs_ = false;
-    std::unique_ptr<Products> pair_products_;
     std::vector<double> f_, phi_;
     std::optional<MeshPotential> inner_, exact_, among_;
     std::vector<int> among_active_;  // active points for which among_ was created

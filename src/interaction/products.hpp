@@ -58,6 +58,9 @@ protected:
 // choice of the method.
 double direct_rate(const Kernel& kernel, std::size_t candidates);
 
+// Largest number of values that direct sums store for kernels with layers.
+inline constexpr std::size_t kMostStoredValues = 8'000'000;
+
 // Direct sums over pairs.
 std::unique_ptr<Products> make_direct_products(std::shared_ptr<const Kernel> kernel);
 // Particle-mesh sums; relative errors of full and inner products (2-norm).

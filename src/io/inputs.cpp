@@ -526,41 +526,50 @@ bool is_instrument_map(const std::string& path) {
 
 bool is_text_map(const std::string& path) { return !is_netcdf(path) && !is_instrument_map(path); }
 
+// The lowest and the highest height other than `code`; infinities if there is none.
+static std::pair<double, double> range_of(const HeightMap& map, double code) {
+    double low = kInfinity, high = -kInfinity;
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx))
+            if (const double z = map(i, j); z != code) {
+                low = std::fmin(low, z);
+                high = std::fmax(high, z);
+            }
+    return {low, high};
+}
+
+static long count_of(const HeightMap& map, double height) {
+    long count = 0;
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) count += map(i, j) == height;
+    return count;
+}
+
 // True if `code`, the lowest or highest height, is farther from the others than these are from each
 // other, or is met more often than the height next to it, by five standard deviations of counts:
 // towards its end a distribution of heights only becomes thinner.
-static bool ends_in_code(std::span<const double> heights, double code, bool lowest, double many,
+static bool ends_in_code(const HeightMap& map, double code, bool lowest, double many,
                          long& points) {
-    double least = kInfinity, most = -kInfinity;  // of the others
-    for (const double z : heights)
-        if (z != code) {
-            least = std::fmin(least, z);
-            most = std::fmax(most, z);
-        }
-    points = std::ranges::count(heights, code);
+    const auto [least, most] = range_of(map, code);
+    points = count_of(map, code);
     if (points < 2 || !(least < most)) return false;  // one is an outlier
     const double next = lowest ? least : most;
     if (double(points) > many && std::abs(next - code) > most - least) return true;
-    const long at_next = std::ranges::count(heights, next);
+    const long at_next = count_of(map, next);
     constexpr double kDeviations = 5;
     const auto more = double(points - at_next);
-    return 2 * points < std::ssize(heights) &&
+    return 2 * points < long(map.points()) &&
            more > kDeviations * std::sqrt(double(points + at_next));
 }
 
 std::optional<double> likely_code(const HeightMap& map, long& points) {
     constexpr double kShare = 1e-3;
-    const std::span<const double> heights(map.data.get(), map.points());
-    double low = kInfinity, high = -kInfinity;
-    for (const double z : heights) {
-        low = std::fmin(low, z);
-        high = std::fmax(high, z);
-    }
+    const auto [low, high] = range_of(map, std::nan(""));
     const double many = kShare * double(map.points());
     for (const double code : {low, high})
-        if (ends_in_code(heights, code, code == low, many, points)) return code;
+        if (ends_in_code(map, code, code == low, many, points)) return code;
     long zero_blocks = 0, other_blocks = 0;
-    points = std::ranges::count(heights, 0.0);
+    points = count_of(map, 0);
     for (int j = 1; j + 1 < map.ny; ++j)
         for (int i = 1; i + 1 < map.nx; ++i) {
             bool block = true;

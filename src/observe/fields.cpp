@@ -26,6 +26,23 @@ struct Range {
 
 std::size_t at(std::int64_t k) { return static_cast<std::size_t>(k); }
 
+// A part of a map.
+struct Window {
+    Range columns, rows;
+    int nx;  // columns of the map
+
+    std::size_t points() const { return at(columns.size()) * at(rows.size()); }
+    std::size_t index(int i, int j) const {
+        return at(j - rows.first) * at(columns.size()) + at(i - columns.first);
+    }
+    // Of a point of the map by its index there; nothing outside.
+    std::optional<std::size_t> find(std::int64_t point) const {
+        const int i = static_cast<int>(point % nx), j = static_cast<int>(point / nx);
+        if (i < columns.first || i > columns.last || j < rows.first || j > rows.last) return {};
+        return index(i, j);
+    }
+};
+
 // Indices of the points within [low, high] along one axis.
 Range points_within(double origin, double step, int n, double low, double high) {
     const auto number = [&](double x) {
@@ -139,8 +156,9 @@ Pressures pressures_of(const HeightMap& map, bool repeats, const Level& level) {
 
 // Deflections caused by the pressures at the points of a window, row by row.
 std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
-                                const Pressures& pressures, Range columns, Range rows) {
-    std::vector<double> u(at(columns.size()) * at(rows.size()), 0.0);
+                                const Pressures& pressures, const Window& window) {
+    const auto& [columns, rows, unused] = window;
+    std::vector<double> u(window.points(), 0.0);
     if (pressures.empty()) return u;
     const Substrate body = substrate_of(indenter);
     if (indenter.period.finite()) {
@@ -159,8 +177,7 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
             [&](int j, const double* row) {
                 if (j < rows.first || j > rows.last) return;
                 for (int i = columns.first; i <= columns.last; ++i)
-                    u[at(j - rows.first) * at(columns.size()) + at(i - columns.first)] =
-                        whole.unit() * row[i];
+                    u[window.index(i, j)] = whole.unit() * row[i];
             });
         return u;
     }
@@ -171,13 +188,12 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
     for (int j = rows.first; j <= rows.last; ++j)
         for (int i = columns.first; i <= columns.last; ++i) pixels.push_back({i, j});
     for (const auto& [point, load] : pressures) {
-        const int i = static_cast<int>(point % map.nx), j = static_cast<int>(point / map.nx);
-        if (i >= columns.first && i <= columns.last && j >= rows.first && j <= rows.last)
-            p[at(j - rows.first) * at(columns.size()) + at(i - columns.first)] = load.pressure;
-        else {
-            pixels.push_back({i, j});
-            p.push_back(load.pressure);
+        if (const auto inside = window.find(point)) {
+            p[*inside] = load.pressure;
+            continue;
         }
+        pixels.push_back({static_cast<int>(point % map.nx), static_cast<int>(point / map.nx)});
+        p.push_back(load.pressure);
     }
     std::vector<double> w(p.size());
     products->elsewhere(p.data(), pixels, w.data());
@@ -185,12 +201,10 @@ std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
     return u;
 }
 
-// Sets the columns and rows to those of all points under pressure with a margin, or to the whole
-// map if there are none.
-void about_contact(const HeightMap& map, const std::vector<Pressures>& levels, Range& columns,
-                   Range& rows) {
-    columns = {map.nx, -1};
-    rows = {map.ny, -1};
+// The columns and rows of all points under pressure with a margin, or the whole map if there are
+// none.
+Window about_contact(const HeightMap& map, const std::vector<Pressures>& levels) {
+    Range columns{map.nx, -1}, rows{map.ny, -1};
     for (const Pressures& pressures : levels)
         for (const auto& [point, p] : pressures) {
             const int i = static_cast<int>(point % map.nx), j = static_cast<int>(point / map.nx);
@@ -204,30 +218,51 @@ void about_contact(const HeightMap& map, const std::vector<Pressures>& levels, R
                           : Range{std::max(0, r.first - more), std::min(n - 1, r.last + more)};
     };
     const double margin = 0.15 * std::max(columns.size() * map.dx, rows.size() * map.dy);
-    columns = widened(columns, map.nx, margin / map.dx);
-    rows = widened(rows, map.ny, margin / map.dy);
+    return {widened(columns, map.nx, margin / map.dx), widened(rows, map.ny, margin / map.dy),
+            map.nx};
+}
+
+// The window whose fields are requested.
+Window asked_window(const HeightMap& map, bool repeats, const std::vector<Pressures>& levels,
+                    const FieldsAsked& asked) {
+    if (!asked.window)
+        return repeats ? Window{{0, map.nx - 1}, {0, map.ny - 1}, map.nx}
+                       : about_contact(map, levels);
+    const auto& w = *asked.window;
+    const Window window{points_within(map.x0, map.dx, map.nx, w[0], w[1]),
+                        points_within(map.y0, map.dy, map.ny, w[2], w[3]), map.nx};
+    if (window.columns.size() < 1 || window.rows.size() < 1)
+        bad_input("output%field_window contains no point of the surface");
+    return window;
+}
+
+template <class T>
+void append(std::vector<T>& to, const std::vector<T>& values) {
+    to.insert(to.end(), values.begin(), values.end());
+}
+
+// Appends the part of a row of the map in the window.
+void append_row(std::vector<double>& to, const double* row, const Window& window) {
+    to.insert(to.end(), row + window.columns.first, row + window.columns.last + 1);
 }
 
 // Adds mu times what the pressures of a level are above those of the pixels that stick.
-void add_tractions(Fields& f, const HeightMap& map, const FieldLevel& level, Range columns,
-                   Range rows, double friction) {
+void add_tractions(Fields& f, const FieldLevel& level, const Window& window, double friction) {
     const std::size_t begin = f.traction.size();
-    f.traction.resize(begin + at(columns.size()) * at(rows.size()), 0.0);
+    f.traction.resize(begin + window.points(), 0.0);
     const auto add = [&](const LevelPixels& pixels, double factor) {
-        for (std::size_t k = 0; k < pixels.index.size(); ++k) {
-            const int i = pixels.index[k] % map.nx - columns.first,
-                      j = pixels.index[k] / map.nx - rows.first;
-            if (i < 0 || i >= columns.size() || j < 0 || j >= rows.size()) continue;
-            f.traction[begin + at(j) * at(columns.size()) + at(i)] += factor * pixels.pressure[k];
-        }
+        for (std::size_t k = 0; k < pixels.index.size(); ++k)
+            if (const auto inside = window.find(pixels.index[k]))
+                f.traction[begin + *inside] += factor * pixels.pressure[k];
     };
     add(level.level->pixels, friction);
     add(level.stuck, -friction);
 }
 
 // Adds the stresses under the pressures to the requested fields.
-void add_stresses(Fields& f, const HeightMap& map, const Pressures& pressures, Range columns,
-                  Range rows, const FieldsAsked& asked) {
+void add_stresses(Fields& f, const HeightMap& map, const Pressures& pressures, const Window& window,
+                  const FieldsAsked& asked) {
+    const auto& [columns, rows, unused] = window;
     LevelPixels pixels;
     pixels.columns = map.nx;
     for (const auto& [point, load] : pressures) {
@@ -238,13 +273,28 @@ void add_stresses(Fields& f, const HeightMap& map, const Pressures& pressures, R
         StressPlane plane;
         stress_below(map, pixels, asked.body, depth,
                      {columns.first, rows.first, columns.size(), rows.size()}, &plane);
-        const auto append = [](std::vector<double>& to, const std::vector<double>& values) {
-            to.insert(to.end(), values.begin(), values.end());
-        };
         if (asked.mises) append(f.mises, plane.mises);
         if (asked.shear) append(f.shear, plane.shear);
         if (asked.tension) append(f.tension, plane.tension);
     }
+}
+
+// Adds the gap between the indenter and the heights, deflected by the pressures; 0 in contact.
+void add_gap(Fields& f, const HeightMap& heights, const Indenter& indenter, double separation,
+             const std::vector<std::int32_t>& touches, const Window& window,
+             std::vector<double> deflection) {
+    const auto& [columns, rows, unused] = window;
+    parallel_for(rows.size(), kRows, 0, [&](int j) {
+        for (int i = 0; i < columns.size(); ++i) {
+            double& gap = deflection[at(j) * f.x.size() + at(i)];
+            gap += separation - indenter.clearance(f.x[at(i)], f.y[at(j)],
+                                                   heights(columns.first + i, rows.first + j));
+            gap = touches[at(j) * f.x.size() + at(i)] ? 0
+                  : std::isfinite(gap)                ? std::max(gap, 0.0)
+                                       : kNotComputed;  // NaN outside a map of the indenter
+        }
+    });
+    append(f.gap, deflection);
 }
 
 }  // namespace
@@ -298,24 +348,14 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
         f.step.push_back(level.step);
         pressures.push_back(pressures_of(map, repeats, *level.level));
     }
-    Range columns{0, map.nx - 1}, rows{0, map.ny - 1};
-    if (asked.window) {
-        const auto& w = *asked.window;
-        columns = points_within(map.x0, map.dx, map.nx, w[0], w[1]);
-        rows = points_within(map.y0, map.dy, map.ny, w[2], w[3]);
-        if (columns.size() < 1 || rows.size() < 1)
-            bad_input("output%field_window contains no point of the surface");
-    } else if (!repeats) {
-        about_contact(map, pressures, columns, rows);
-    }
+    const Window window = asked_window(map, repeats, pressures, asked);
+    const auto& [columns, rows, unused] = window;
     for (int i = columns.first; i <= columns.last; ++i) f.x.push_back(map.x(i));
     for (int j = rows.first; j <= rows.last; ++j) f.y.push_back(map.y(j));
-    const std::size_t points = f.x.size() * f.y.size();
     if (asked.stresses()) f.depth = asked.depths;
     const auto add_heights = [&](const HeightMap& of) {
         for (int j = rows.first; j <= rows.last && asked.heights; ++j)
-            f.heights.insert(f.heights.end(), of.row(j) + columns.first,
-                             of.row(j) + columns.last + 1);
+            append_row(f.heights, of.row(j), window);
     };
     if (!asked.worn) add_heights(map);
     for (std::size_t s = 0; s < levels.size(); ++s) {
@@ -324,50 +364,28 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
         const HeightMap changed = depths.depth.empty() ? HeightMap{} : lowered_map(map, depths);
         const HeightMap& lowered = changed.data ? changed : map;
         if (asked.worn) add_heights(lowered);
-        std::vector<double> p(asked.pressure ? points : 0, 0.0);
-        std::vector<std::int32_t> touches(points, 0);
-        for (const auto& [point, load] : pressures[s]) {
-            const int i = static_cast<int>(point % map.nx) - columns.first,
-                      j = static_cast<int>(point / map.nx) - rows.first;
-            if (i < 0 || i >= columns.size() || j < 0 || j >= rows.size()) continue;
-            if (asked.pressure) p[at(j) * f.x.size() + at(i)] = load.pressure;
-            touches[at(j) * f.x.size() + at(i)] = load.touches;
-        }
-        if (asked.contact) f.contact.insert(f.contact.end(), touches.begin(), touches.end());
-        if (asked.gap) {
-            std::vector<double> gap;
-            if (interaction == Interaction::none) {
-                gap.assign(points, 0.0);
-            } else {
-                const std::optional<Level>& lasting = levels[s].lasting;
-                gap = deflections(map, indenter,
-                                  lasting ? pressures_of(map, repeats, *lasting) : pressures[s],
-                                  columns, rows);
+        std::vector<double> p(window.points(), 0.0);
+        std::vector<std::int32_t> touches(p.size(), 0);
+        for (const auto& [point, load] : pressures[s])
+            if (const auto inside = window.find(point)) {
+                p[*inside] = load.pressure;
+                touches[*inside] = load.touches;
             }
-            parallel_for(rows.size(), kRows, 0, [&](int j) {
-                for (int i = 0; i < columns.size(); ++i) {
-                    const std::size_t k = at(j) * f.x.size() + at(i);
-                    gap[k] += level.separation -
-                              indenter.clearance(f.x[at(i)], f.y[at(j)],
-                                                 lowered(columns.first + i, rows.first + j));
-                    gap[k] = touches[k] ? 0
-                             : std::isfinite(gap[k])
-                                 ? std::max(gap[k], 0.0)
-                                 : kNotComputed;  // NaN outside a map of the indenter
-                }
-            });
-            if (f.gap.empty())
-                f.gap = std::move(gap);
-            else
-                f.gap.insert(f.gap.end(), gap.begin(), gap.end());
+        if (asked.contact) append(f.contact, touches);
+        if (asked.pressure) append(f.pressure, p);
+        if (asked.gap) {
+            const std::optional<Level>& lasting = levels[s].lasting;
+            add_gap(f, lowered, indenter, level.separation, touches, window,
+                    interaction == Interaction::none
+                        ? std::vector<double>(p.size(), 0.0)
+                        : deflections(map, indenter,
+                                      lasting ? pressures_of(map, repeats, *lasting) : pressures[s],
+                                      window));
         }
-        if (asked.pressure) f.pressure.insert(f.pressure.end(), p.begin(), p.end());
-        if (asked.traction) add_tractions(f, map, levels[s], columns, rows, asked.friction);
-        if (asked.stresses()) add_stresses(f, map, pressures[s], columns, rows, asked);
-        for (int j = rows.first; j <= rows.last && asked.flow; ++j) {
-            const auto row = levels[s].flow.begin() + std::ptrdiff_t{j} * map.nx;
-            f.flow.insert(f.flow.end(), row + columns.first, row + columns.last + 1);
-        }
+        if (asked.traction) add_tractions(f, levels[s], window, asked.friction);
+        if (asked.stresses()) add_stresses(f, map, pressures[s], window, asked);
+        for (int j = rows.first; j <= rows.last && asked.flow; ++j)
+            append_row(f.flow, levels[s].flow.data() + std::ptrdiff_t{j} * map.nx, window);
     }
     return f;
 }

@@ -1,5 +1,7 @@
 #include "observe/regimes.hpp"
 
+#include <boost/math/quadrature/gauss.hpp>
+
 #include "base/error.hpp"
 
 namespace rsc {
@@ -52,19 +54,14 @@ double area_bgt(double p_star) { return std::sqrt(2 * pi) * p_star; }
 
 namespace {
 
-// F_n(h) by Simpson's rule in w, t = h + w^2, whose integrand is smooth for n = 1 and 3/2.
+// F_n(h) by a Gauss rule in w, t = h + w^2, whose integrand is smooth for n = 1 and 3/2.
 double greenwood_williamson(double n, double h) {
-    const double end = std::sqrt(std::max(0.0, -h) + 9);
-    constexpr int steps = 400;
-    double sum = 0;
-    for (int k = 0; k <= steps; ++k) {
-        const double w = end * k / steps, t = h + w * w;
-        sum += (k == 0 || k == steps ? 1
-                : k % 2              ? 4
-                                     : 2) *
-               2 * std::pow(w, 2 * n + 1) * std::exp(-t * t / 2) / std::sqrt(2 * pi);
-    }
-    return sum * end / (3 * steps);
+    return boost::math::quadrature::gauss<double, 60>::integrate(
+        [&](double w) {
+            const double t = h + w * w;
+            return 2 * std::pow(w, 2 * n + 1) * std::exp(-t * t / 2) / std::sqrt(2 * pi);
+        },
+        0.0, std::sqrt(std::max(0.0, -h) + 9));
 }
 
 }  // namespace

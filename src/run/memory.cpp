@@ -1,6 +1,6 @@
 #include "run/memory.hpp"
 
-#include "interaction/pair_matrix.hpp"
+#include "interaction/products.hpp"
 #include "physics/flow/permeability.hpp"
 
 namespace rsc {
@@ -224,16 +224,13 @@ private:
     double each_;  // bytes for each point of the surface, of hardness, adhesion and wear
 };
 
-// Of the stored values of the kernel of coated asperities, of the contacts among each other and
-// onto the other candidates [byte]. From the peaks of six runs, within 5 %; a mesh stores fewer.
+// Of the stored values of the kernel of coated asperities, at most between all candidates [byte].
 double coated_asperities(const Job& job) {
-    constexpr double touching_share = 0.4, bytes = 33, most_bytes = 11;
     double values = 0;
-    for (const double level : job.levels) {
-        const double all = expected_candidates(job, likely_separation(job, level));
-        values = std::max(values, touching_share * (1 - 0.5 * touching_share) * all * all);
-    }
-    return std::min(bytes * values, most_bytes * 2.0 * kMostKeptValues);
+    for (const double level : job.levels)
+        values =
+            std::max(values, std::pow(expected_candidates(job, likely_separation(job, level)), 2));
+    return sizeof(double) * std::min(values, static_cast<double>(kMostStoredValues));
 }
 
 }  // namespace

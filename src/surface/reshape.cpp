@@ -62,7 +62,7 @@ public:
         modes_.runs([&](int kx, int ky, int count, const std::complex<double>*) {
             runs_.push_back({kx, ky < 0 ? ky + m_ : ky, count});
         });
-        plans_ = plans();
+        make_plans();
     }
 
     // The heights of the caller's modes, and their moments.
@@ -138,29 +138,16 @@ private:
     static fftwf_complex* fftw(Complex* p) { return reinterpret_cast<fftwf_complex*>(p); }
     static float* numbers(Complex* p) { return reinterpret_cast<float*>(p); }
     static const float* numbers(const Complex* p) { return reinterpret_cast<const float*>(p); }
-    struct Plans {
-        FftwfPlan up, down;
-    };
-    // Planning takes longer than the transforms of a small surface: the plans of the last sizes are
-    // kept for the next surfaces.
-    std::shared_ptr<const Plans> plans() const {
-        constexpr std::size_t most = 4;
-        static std::deque<std::pair<int, std::shared_ptr<const Plans>>> kept;
-        const std::lock_guard lock(library_lock());
-        for (const auto& [points, p] : kept)
-            if (points == m_) return p;
-        const auto planning = fftw_planning();
-        const auto p = std::make_shared<Plans>();
-        p->up.reset(
-            fftwf_plan_dft_1d(m_, fftw(line_), fftw(store_.get()), FFTW_BACKWARD, FFTW_ESTIMATE));
-        p->down.reset(
-            fftwf_plan_dft_1d(m_, fftw(line_), fftw(store_.get()), FFTW_FORWARD, FFTW_ESTIMATE));
-        if (!p->up || !p->down)
-            throw Error(Failure::internal,
-                        "surface: FFTW made no plan for heights that are not Gaussian");
-        kept.emplace_front(m_, p);
-        if (kept.size() > most) kept.pop_back();
-        return p;
+    void make_plans() {
+        const auto lock = fftw_planning();
+        for (auto [plan, sign] :
+             {std::pair(&up_, FFTW_BACKWARD), std::pair(&down_, FFTW_FORWARD)}) {
+            plan->reset(
+                fftwf_plan_dft_1d(m_, fftw(line_), fftw(store_.get()), sign, FFTW_ESTIMATE));
+            if (!*plan)
+                throw Error(Failure::internal,
+                            "surface: FFTW made no plan for heights that are not Gaussian");
+        }
     }
     static constexpr int kBlock = 8;  // pairs of rows at a time
     static constexpr int kBins = 1024;
@@ -189,7 +176,7 @@ private:
             });
             for (int ky = 1; kx == 0 && 2 * ky < m_; ++ky)
                 line_[m_ - ky] = std::conj(line_[ky]);  // kx = 0 contains its own mirror image
-            fftwf_execute_dft(plans_->up.get(), fftw(line_), fftw(store_.get() + kx * stride_));
+            fftwf_execute_dft(up_.get(), fftw(line_), fftw(store_.get() + kx * stride_));
         }
         double sums[3] = {};
         for (int j = 0; j < m_ / 2; j += kBlock) {
@@ -209,7 +196,7 @@ private:
             }
             Complex* const z = heights_.get() + j * m_;
             for (int r = 0; r < count; ++r)
-                fftwf_execute_dft(plans_->up.get(), fftw(rows_.get() + r * m_), fftw(z + r * m_));
+                fftwf_execute_dft(up_.get(), fftw(rows_.get() + r * m_), fftw(z + r * m_));
             add_powers(numbers(z), 2 * count * m_, sums);
         }
         const double points = static_cast<double>(m_) * m_, variance = sums[0] / points;
@@ -227,7 +214,7 @@ private:
             for (int r = 0; r < count; ++r) {
                 const float* const z = numbers(heights_.get() + (j + r) * m_);
                 for (int i = 0; i < 2 * m_; ++i) numbers(line_)[i] = of(z[i]);
-                fftwf_execute_dft(plans_->down.get(), fftw(line_), fftw(rows_.get() + r * m_));
+                fftwf_execute_dft(down_.get(), fftw(line_), fftw(rows_.get() + r * m_));
             }
             for (int kx = 0; kx < columns_; ++kx) {
                 const Complex *const from = rows_.get() + kx, *const mirror =
@@ -244,7 +231,7 @@ private:
         auto next = runs_.begin();
         std::size_t done = 0;
         for (int kx = 0; kx < columns_; ++kx) {
-            fftwf_execute_dft(plans_->down.get(), fftw(store_.get() + kx * stride_), fftw(line_));
+            fftwf_execute_dft(down_.get(), fftw(store_.get() + kx * stride_), fftw(line_));
             each(kx, next, done, [&](std::size_t k, int first, std::size_t count) {
                 visit(k, line_ + first, count);
             });
@@ -391,7 +378,7 @@ private:
     Memory store_, rows_, heights_;  // heights_: of pairs of rows
     Complex* line_;                  // a column or a row
     std::vector<Run> runs_;
-    std::shared_ptr<const Plans> plans_;
+    FftwfPlan up_, down_;  // transforms of a line
     HeightShape now_, from_,
         missed_;       // the heights' now and before the last step; what that one missed
     double step_ = 0;  // rms change of heights by the last step

@@ -1,14 +1,9 @@
 #include "surface/synthesis.hpp"
 
-#include "base/dispatch.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "surface/height_distribution.hpp"
 #include "surface/modes.hpp"
-
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
 
 namespace rsc {
 namespace {
@@ -29,68 +24,16 @@ HeightMap empty_map(double L, int n, bool zeros) {
     return map;
 }
 
-// Four numbers, and their storage at places aligned to 16 bytes. A map of more than kCached heights
-// is better written past the cache, which would read it first.
-constexpr std::size_t kCached = 1200 * 1200;
-using Four [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
-struct ToCache {
-    static void store(double* to, const Four& v) { reinterpret_cast<Four&>(*to) = v; }
-    static void end() {}
-};
-#if defined(__SSE2__)
-struct PastCache {
-    static void store(double* to, const Four& v) {
-        _mm_stream_pd(to, __m128d{v[0], v[1]});
-        _mm_stream_pd(to + 2, __m128d{v[2], v[3]});
-    }
-    static void end() { _mm_sfence(); }
-};
-#else
-using PastCache = ToCache;
-#endif
-
-// Copies rows of n numbers, `stride` apart, to the first `rows` places of n rows of `to`.
-template <class Target>
-RSC_ALWAYS_INLINE void transpose_body(const double* from, std::ptrdiff_t stride, int rows, int n,
-                                      double* to, std::ptrdiff_t distance) {
-    const int rows4 = rows - rows % 4, n4 = n - n % 4;
-    for (int i = 0; i < n4; i += 4) {
-        double* const out = to + i * distance;
-        if constexpr (std::is_same_v<Target, ToCache>) {
-            // The distance is too large for the hardware prefetcher.
-            const double* const soon = to + std::min(i + 4, n - 4) * distance;
-            for (int k = 0; k < 4; ++k)
-                for (int r = 0; r < rows; r += 8) __builtin_prefetch(soon + k * distance + r, 1);
-        }
-        for (int r = 0; r < rows4; r += 4) {
-            const double* const in = from + r * stride + i;
-            const Four &a = reinterpret_cast<const Four&>(in[0]),
-                       &b = reinterpret_cast<const Four&>(in[stride]);
-            const Four &c = reinterpret_cast<const Four&>(in[2 * stride]),
-                       &d = reinterpret_cast<const Four&>(in[3 * stride]);
-            const Four ab0 = __builtin_shufflevector(a, b, 0, 4, 2, 6),
-                       ab1 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-            const Four cd0 = __builtin_shufflevector(c, d, 0, 4, 2, 6),
-                       cd1 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-            double* const place = out + r;
-            Target::store(place, __builtin_shufflevector(ab0, cd0, 0, 1, 4, 5));
-            Target::store(place + distance, __builtin_shufflevector(ab1, cd1, 0, 1, 4, 5));
-            Target::store(place + 2 * distance, __builtin_shufflevector(ab0, cd0, 2, 3, 6, 7));
-            Target::store(place + 3 * distance, __builtin_shufflevector(ab1, cd1, 2, 3, 6, 7));
-        }
-    }
-    for (int r = 0; r < rows; ++r)
-        for (int i = r < rows4 ? n4 : 0; i < n; ++i) to[i * distance + r] = from[r * stride + i];
-    Target::end();
+// Copies rows of n numbers, `stride` apart, to the first `rows` places of n rows of `to`, in square
+// tiles, whose lines remain in the cache.
+void transpose(const double* from, std::ptrdiff_t stride, int rows, int n, double* to) {
+    constexpr int tile = 8;
+    for (int i0 = 0; i0 < n; i0 += tile)
+        for (int r0 = 0; r0 < rows; r0 += tile)
+            for (int i = i0; i < std::min(i0 + tile, n); ++i)
+                for (int r = r0; r < std::min(r0 + tile, rows); ++r)
+                    to[i * stride + r] = from[r * stride + i];
 }
-RSC_DISPATCH(transpose_to_cache, transpose_body<ToCache>,
-             (const double* from, std::ptrdiff_t stride, int rows, int n, double* to,
-              std::ptrdiff_t distance),
-             (from, stride, rows, n, to, distance))
-RSC_DISPATCH(transpose_past_cache, transpose_body<PastCache>,
-             (const double* from, std::ptrdiff_t stride, int rows, int n, double* to,
-              std::ptrdiff_t distance),
-             (from, stride, rows, n, to, distance))
 
 // Columns are too far apart for the hardware prefetcher: what a row takes from a column is
 // requested kAhead columns before.
@@ -135,9 +78,6 @@ RowSource::RowSource(const Spectrum& wanted, int n, Normalise normalise, std::in
     column_stride_ =
         (n + 3) / 4 * 4 + 4;  // multiples of 64 bytes, and columns not a power of two apart
     row_stride_ = (n + 2 + 7) / 8 * 8 + 8;
-    // For these sizes FFTW's complex transform takes less time than two real ones. The bits of
-    // isotropic surfaces are kept.
-    pairs_ = spectrum.aspect != 1 && n >= 64 && n <= 2048 && (n & (n - 1)) == 0;
     columns_data_.reset(allocate_doubles(
         2 * static_cast<std::size_t>(columns_) * static_cast<std::size_t>(column_stride_),
         "the modes of a synthetic surface"));
@@ -152,17 +92,7 @@ FftwPlan RowSource::make_plans(double* column, double* row, std::complex<double>
         const auto lock = fftw_planning();
         column_plan.reset(
             fftw_plan_dft_1d(n_, fftw(column), fftw(stored), FFTW_BACKWARD, FFTW_ESTIMATE));
-        // Real and imaginary parts are exchanged: FFTW knows only forward transforms of separate
-        // parts.
-        if (pairs_) {
-            const fftw_iodim all{n_, 1, 1};
-            double* const to = row + 2 * row_distance(n_);
-            row_plan_.reset(fftw_plan_guru_split_dft(1, &all, 0, nullptr, row + row_distance(n_),
-                                                     row, to + row_distance(n_), to,
-                                                     FFTW_ESTIMATE));
-        } else {
-            row_plan_.reset(fftw_plan_dft_c2r_1d(n_, fftw(row), row + row_stride_, FFTW_ESTIMATE));
-        }
+        row_plan_.reset(fftw_plan_dft_c2r_1d(n_, fftw(row), row + row_stride_, FFTW_ESTIMATE));
     }
     if (!column_plan || !row_plan_)
         throw Error(Failure::internal, "surface: FFTW made no plan for n = " + std::to_string(n_));
@@ -177,7 +107,7 @@ void RowSource::draw(const Spectrum& spectrum, Normalise normalise, std::int64_t
     std::vector<Buffer> drawn(static_cast<std::size_t>(threads));
     for (auto& buffer : drawn)
         buffer.reset(allocate_doubles(doubles, "a column of a synthetic surface"));
-    const Buffer row(allocate_doubles(4 * static_cast<std::size_t>(row_stride_),
+    const Buffer row(allocate_doubles(2 * static_cast<std::size_t>(row_stride_),
                                       "a row of a synthetic surface"));
     const FftwPlan column_plan = make_plans(drawn[0].get(), row.get(), store);
     auto& plan = *column_plan;
@@ -236,51 +166,10 @@ void RowSource::scale_moments(const Spectrum& spectrum, Normalise normalise, con
 }
 
 RowSource::Scratch::Scratch(const RowSource& source)
-    : coefficients_(allocate_doubles(static_cast<std::size_t>((kBlock + 4) * source.row_stride_),
+    : coefficients_(allocate_doubles(static_cast<std::size_t>(kBlock * source.row_stride_),
                                      "rows of a synthetic surface")) {}
 
-// Rows j ... j + count - 1, count at most kBlock, by transforms of row 2i + sqrt(-1) row 2i + 1.
-// parts: kBlock + 4 rows.
-void RowSource::make_pairs(int j, int count, double* out, std::ptrdiff_t stride,
-                           double* parts) const {
-    const auto* const store = reinterpret_cast<const std::complex<double>*>(columns_data_.get());
-    const std::ptrdiff_t apart = row_distance(n_);  // of the parts
-    const int first = j - j % 2, rows = (j + count + 1) / 2 * 2 - first;
-    const double factor = factor_;
-    for (int kx = 0; kx < columns_; ++kx) {
-        const auto* const from =
-            reinterpret_cast<const double*>(store + kx * column_stride_ + first);
-        prefetch(from + std::min(kAhead, columns_ - 1 - kx) * 2 * column_stride_, 2 * rows);
-        // the coefficients of a row are its own mirror image here
-        const bool real = kx == 0 || 2 * kx == n_;
-        double *to = parts + kx, *mirror = parts + (real ? kx : n_ - kx);
-        for (int r = 0; r < rows; r += 2, to += 2 * apart, mirror += 2 * apart) {
-            const double a = factor * from[2 * r], b = real ? 0 : factor * from[2 * r + 1];
-            const double c = factor * from[2 * r + 2], d = real ? 0 : factor * from[2 * r + 3];
-            to[0] = a - d;
-            to[apart] = b + c;
-            mirror[0] = a + d;
-            mirror[apart] = c - b;
-        }
-    }
-    double* const spare = parts + rows * apart;  // for a row that is not wanted
-    for (int r = 0; r < rows; r += 2) {
-        double *const re = parts + r * apart, *const im = re + apart;
-        if (const int none = n_ + 1 - 2 * columns_; none > 0) {
-            std::fill_n(re + columns_, none, 0.0);
-            std::fill_n(im + columns_, none, 0.0);
-        }
-        const int at = first + r - j;  // row of `out`
-        const bool direct = at >= 0 && at + 1 < count && stride == apart;
-        double* const to = direct ? out + at * stride : spare;
-        fftw_execute_split_dft(row_plan_.get(), im, re, to + apart, to);
-        if (direct) continue;
-        if (at >= 0) std::copy_n(to, n_, out + at * stride);
-        if (at + 1 < count) std::copy_n(to + apart, n_, out + (at + 1) * stride);
-    }
-}
-
-// The same rows by a real transform of each.
+// Rows j ... j + count - 1, count at most kBlock.
 void RowSource::make_rows(int j, int count, double* out, std::ptrdiff_t stride,
                           double* coefficients) const {
     const auto* const store = reinterpret_cast<const std::complex<double>*>(columns_data_.get());
@@ -306,8 +195,7 @@ void RowSource::rows(int j, int count, double* out, std::ptrdiff_t stride, Scrat
     while (count > 0) {
         j = wrapped(j, n_);
         const int block = std::min({count, kBlock, n_ - j});
-        (this->*(pairs_ ? &RowSource::make_pairs : &RowSource::make_rows))(
-            j, block, out, stride, scratch.coefficients_.get());
+        make_rows(j, block, out, stride, scratch.coefficients_.get());
         j += block;
         count -= block;
         out += block * stride;
@@ -343,9 +231,7 @@ HeightMap RowSource::all(int threads, const Wanted& wanted) const {
                         std::copy_n(z, points, map.row(first + r) + i);
                 }
         else if (exchanged_)
-            (static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_) > kCached
-                 ? transpose_past_cache
-                 : transpose_to_cache)(made, stride, count, n_, map.row(0) + first, stride);
+            transpose(made, stride, count, n_, map.row(0) + first);
     });
     return map;
 }

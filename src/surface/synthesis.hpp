@@ -60,14 +60,12 @@ private:
     FftwPlan make_plans(double* column, double* row, std::complex<double>* stored);
     void scale_moments(const Spectrum& spectrum, Normalise normalise, const ModeSums& total,
                        const HeightShape& shape, double difference_step);
-    void make_pairs(int j, int count, double* out, std::ptrdiff_t stride, double* parts) const;
     void make_rows(int j, int count, double* out, std::ptrdiff_t stride,
                    double* coefficients) const;
 
     int n_ = 0;
     double L_ = 0;
     bool exchanged_ = false;
-    bool pairs_ = false;                // rows 2i and 2i + 1 are the parts of one complex transform
     int columns_ = 0;                   // 0 ... columns_ - 1 hold modes
     std::ptrdiff_t column_stride_ = 0;  // in complex numbers
     std::ptrdiff_t row_stride_ = 0;     // of the scratch rows, in doubles

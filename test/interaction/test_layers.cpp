@@ -298,7 +298,10 @@ TEST(hardness_of_the_top) {
     CHECK(yields.force > 0 && yields.force < elastic.force &&
           yields.force <= options.physics.hardness.H0 * yields.area * (1 + 1e-9));
     // The same table for the same body, as long as it is in use.
-    CHECK(layers_of(tip.layers, tip.E_star) == layers_of(tip.layers, tip.E_star));
+    const auto table = layers_of(tip.layers, tip.E_star);
+    CHECK(layers_of(tip.layers, tip.E_star) == table);
+    // Its share is in proportion to E*.
+    CHECK_RELATIVE(2 * layers_of(tip.layers, 0.5 * tip.E_star)->share(3), table->share(3), 1e-12);
 }
 
 // Between flats: the sum over images against the sum over modes, and all methods against each
@@ -319,6 +322,8 @@ TEST(repeating) {
             }
         CHECK_CLOSE(lattice.at(x, y), plain.at(x, y) + sum, 1e-8 * (1 + std::abs(sum)));
         CHECK(lattice.at(x, y) >= lattice.least());
+        CHECK_RELATIVE(lattice.nearest_smooth(x + 3 * Lx, y - 2 * Ly), lattice.nearest_smooth(x, y),
+                       1e-9);
     }
     const Asperities asperities = random_asperities(800, 0.005, 0.01, 2e-3, 0.5, 3);
     SolverOptions options{.tolerance = 1e-9, .surface = {.sigma = 0.01}};

@@ -131,6 +131,9 @@ TEST(types) {
     v.numbers = {{"scale_factor", {-0.1}}, {"add_offset", {5}}, {"valid_range", {2.8, 9}}};
     const HeightMap packed = filled({v});
     CHECK(std::isnan(packed(3, 2)) && !std::isnan(packed(2, 2)) && packed(0, 0) == 5);
+    v.numbers = {{"scale_factor", {0.1}}, {"add_offset", {5}}, {"valid_min", {5.2}}};
+    const HeightMap high = filled({v});
+    CHECK(std::isnan(high(1, 0)) && !std::isnan(high(2, 0)) && !std::isnan(high(3, 2)));
     Values z = heights();
     z[5] = -25536;
     z[6] = -1;

@@ -93,8 +93,9 @@ TEST(gwy) {
             "there is no channel '3'; there are 'Amplitude' (0) in 'V', 'Topography' (1) in 'm',");
     REFUSED(in_micrometres(write("three.gwy", three), "Amplitude"),
             "channel 'Amplitude': its values are in 'V',");
-    REFUSED(in_micrometres(write("three.gwy", three), "Phase"),
-            "there is no channel 'Phase'; there are");
+    for (const std::string name : {"Phase", "Topo"})  // also the beginning of a title
+        REFUSED(in_micrometres(write("three.gwy", three), name),
+                "there is no channel '" + name + "'; there are");
     REFUSED(in_micrometres(write("volt.gwy", gwy_file(gwy_channel(0, "A", map, "V")))),
             "no channel contains heights; there are 'A' (0) in");
     REFUSED(in_micrometres(write("number.gwy",

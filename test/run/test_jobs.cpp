@@ -131,6 +131,9 @@ TEST(maps) {
     const Job job = prepare(c);
     CHECK(job.domain.x0 == -3 && job.domain.y0 == 7 && std::abs(job.domain.Lx - 15) < 1e-9 &&
           std::abs(job.domain.Ly - 5) < 1e-9);
+    const Rectangle& extent = job.solver.surface.extent;
+    CHECK(extent.x0 == -3 && extent.y0 == 7 && extent.Lx == job.domain.Lx &&
+          extent.Ly == job.domain.Ly);
     CHECK_CLOSE(job.indenter.x0, 4.25, 1e-9);  // the middle of the points
     CHECK_CLOSE(job.indenter.y0, 9.375, 1e-9);
     CHECK(!job.given && job.measured && job.measured->nx == 30);
@@ -249,6 +252,22 @@ TEST(pressures) {
         CHECK_RELATIVE(two.levels[0], 0.01 * two.indenter.E_star * std::sqrt(2 * both) * 3 * 3,
                        of_differences);
     }
+}
+
+// The lay of a spectrum from a file turns with its direction.
+TEST(lay_of_a_spectrum) {
+    Case c = synthetic();
+    c.surface.source = Source::spectrum;
+    c.surface.file = write("psd.txt", "10 1\n40 0.01\n");
+    c.surface.L = 1.0;
+    c.surface.aspect = 4;
+    c.surface.direction = 25;
+    const MomentTensor one = theoretical_moments(spectrum_of(c)).tensor;
+    c.surface.direction = 115;
+    const MomentTensor other = theoretical_moments(spectrum_of(c)).tensor;
+    CHECK(one.m20 < 0.5 * one.m02);
+    CHECK_RELATIVE(one.m20, other.m02, 1e-12);
+    CHECK_RELATIVE(one.m11, -other.m11, 1e-12);
 }
 
 // Two elastic flats by elements are closed where their mean planes meet: that is known before they

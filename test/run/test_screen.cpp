@@ -101,4 +101,18 @@ TEST(levels) {
         CHECK(seen.find(words) != std::string::npos);
 }
 
+// A duration as it is told, in seconds.
+double seconds_of(const std::string& told) {
+    const std::map<std::string, double> units{{"ms", 1e-3}, {"s", 1}, {"min", 60}, {"h", 3600}};
+    std::istringstream words(told);
+    double sum = 0, number = 0;
+    for (std::string unit; words >> number >> unit;) sum += number * units.at(unit);
+    return sum;
+}
+
+TEST(durations) {
+    for (const double seconds : {0.02, 7.3, 130.0, 3725.0, 7260.0, 1e6})
+        CHECK_CLOSE(seconds_of(duration(seconds)), seconds, seconds < 5400 ? 0.5 : 30);
+}
+
 }  // namespace test_screen

@@ -143,6 +143,17 @@ TEST(forms) {
     CHECK_THROWS(fill_missing(nothing), Error);
 }
 
+// Stretched back by its lay, a spectrum has the cutoffs that it was made with.
+TEST(lay) {
+    const Spectrum spectrum{
+        .L = 1, .L_lambda_l = 8, .L_lambda_s = 40, .sigma = 0.01, .aspect = 3, .direction = 30};
+    HeightMap map = synthesize(spectrum, 256, Normalise::sample, 5, 1);
+    const Measured m = measure(map, {});
+    CHECK(m.fit && m.fit->aspect > 2);
+    CHECK_RELATIVE(m.fit->kl.value, 2 * pi * 8, 0.1);
+    CHECK_RELATIVE(m.fit->ks.value, 2 * pi * 40, 0.1);
+}
+
 TEST(missing_points) {
     // The difference equation is exact for harmonic polynomials up to the third degree; on
     // rectangular pixels up to the second.

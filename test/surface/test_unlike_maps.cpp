@@ -21,6 +21,20 @@ HeightMap rough(int nx, int ny, double dx, double dy) {
     return map;
 }
 
+// Without its rounding a tilted map has the slopes it had.
+TEST(rounded) {
+    constexpr double step = 0.2;
+    HeightMap map = height_map(48, 36, 0.3, 0.2, [](int i, int j) {
+        return step * std::round((0.6 * i - 0.9 * j + std::sin(0.3 * i + 0.2 * j)) / step);
+    });
+    HeightMap before = map.copy();
+    const Form with = detrend(before, Detrend::plane);
+    smooth_rounded(map, step);
+    const Form without = detrend(map, Detrend::plane);
+    CHECK_RELATIVE(without.slope_x, with.slope_x, 1e-3);
+    CHECK_RELATIVE(without.slope_y, with.slope_y, 1e-3);
+}
+
 // Every ring of the spectrum from a sum over all points for each mode.
 TEST(spectra) {
     for (const auto& [nx, ny, dx, dy] :

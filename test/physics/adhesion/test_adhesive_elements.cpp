@@ -240,6 +240,21 @@ TEST(test_cut_body) {
     }
 }
 
+// A saved state goes on as the contact itself.
+TEST(test_saved) {
+    const HeightMap map = paraboloid(1.6, 24);
+    const Indenter tip{1.0, 2.0, 0.8, 0.8};
+    const auto contact = make_element_contact(map, tip, attracting(0.02, 0.15)),
+               other = make_element_contact(map, tip, attracting(0.02, 0.15));
+    for (const double Z : {-0.1, 0.1}) (void)contact->at_separation(Z);
+    other->restore(contact->state());
+    const Level level = contact->at_separation(-0.1), same = other->at_separation(-0.1);
+    CHECK(level.least_force < -0.1 * std::abs(level.force));
+    CHECK(same.least_force == level.least_force && same.energy_lost == level.energy_lost &&
+          same.jumps == level.jumps);
+    CHECK_RELATIVE(same.force, level.force, 1e-6);
+}
+
 // Whole periods of a surface that repeats do not count.
 TEST(test_wrapped) {
     const HeightMap map = paraboloid(1.6, 24);

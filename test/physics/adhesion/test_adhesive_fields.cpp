@@ -217,6 +217,20 @@ TEST(test_element_fields) {
     }
 }
 
+// A window holds the points within it, whatever the steps.
+TEST(test_window) {
+    const HeightMap map = height_map(40, 60, 0.02, 0.01, [](int, int) { return 0.0; });
+    Level level;
+    level.separation = 1;
+    FieldsAsked asked = kAll;
+    asked.window = {0.095, 0.505, 0.195, 0.305};
+    const Fields f =
+        fields_of(map, {kE, kInfinity, 0.5, 0.5}, Interaction::point, {{0, &level, {}}}, asked);
+    CHECK(f.x.size() == 21 && f.y.size() == 11);
+    CHECK_CLOSE(f.x.front() + f.x.back(), 0.6, 1e-12);
+    CHECK_CLOSE(f.y.front() + f.y.back(), 0.5, 1e-12);
+}
+
 // Fields of an elliptic spot beside its summit: its points touch, and its pressure is Hertz's, with
 // the second moments a^2/5 and b^2/5.
 TEST(test_elliptic_spot) {

@@ -272,6 +272,10 @@ TEST(test_path) {
     indented.at_separation(by_force.separation);
     const double back = by_force.separation + 2e-4;
     CHECK_RELATIVE(pressed.at_separation(back).force, indented.at_separation(back).force, 1e-11);
+    // Without its past a contact is a new one.
+    pressed.forget();
+    const Level again = pressed.at_separation(bottom);
+    CHECK(again.force == end(1).force && again.plastic_work == end(1).plastic_work);
 }
 
 TEST(test_limits) {

@@ -12,11 +12,12 @@ namespace test_indenter {
 
 using namespace rsc;
 
-// A second body of a few waves, n x n points on the unit square.
+// A second body of a few waves, n x 3/2 n points on the unit square.
 std::shared_ptr<const HeightMap> waves(int n, bool periodic) {
-    const double k = 2 * pi / n;
-    auto map = std::make_shared<HeightMap>(height_map(n, n, 1.0 / n, 1.0 / n, [k](int i, int j) {
-        return 0.01 * (std::cos(3 * k * i + 1) * std::cos(2 * k * j) + std::sin(k * (i - 2 * j)));
+    const int ny = 3 * n / 2;
+    auto map = std::make_shared<HeightMap>(height_map(n, ny, 1.0 / n, 1.0 / ny, [=](int i, int j) {
+        const double x = 2 * pi * i / n, y = 2 * pi * j / ny;
+        return 0.01 * (std::cos(3 * x + 1) * std::cos(2 * y) + std::sin(x - 2 * y));
     }));
     map->periodic = periodic;
     return map;
@@ -146,7 +147,7 @@ TEST(all_indenter) {
         k = keys();
         k.map = waves(32, periodic);
         const Shape map = shape("map", k);
-        CHECK(map->height((5 - 15.5) / 32.0, (20 - 15.5) / 32.0) == -(*k.map)(5, 20));
+        CHECK(map->height((5 - 15.5) / 32.0, (20 - 23.5) / 48.0) == -(*k.map)(5, 20));
         CHECK(std::isinf(map->height(0.6, 0)) == !periodic && map->repeats(1, 1) == periodic &&
               !map->repeats(1, 2));
     }

@@ -20,9 +20,9 @@ SolverOptions wearing(double k, double tolerance = 1e-7) {
 }
 
 // Waves of short and long length over a period 1, with the rms height 1.2e-3.
-HeightMap waves(int n) {
-    return height_map(n, n, 1.0 / n, 1.0 / n, [n](int i, int j) {
-        const double x = 2 * pi * i / n, y = 2 * pi * j / n;
+HeightMap waves(int nx, int ny) {
+    return height_map(nx, ny, 1.0 / nx, 1.0 / ny, [=](int i, int j) {
+        const double x = 2 * pi * i / nx, y = 2 * pi * j / ny;
         return 1e-3 * (std::cos(x + 0.3) * std::cos(2 * y) + std::sin(3 * x - y) +
                        0.7 * std::cos(5 * y + 0.5) * std::sin(4 * x));
     });
@@ -41,13 +41,13 @@ std::vector<Body> bodies() {
     roller.radii[0] = 2;
     roller.radii[1] = kInfinity;
     std::vector<Body> all;
-    all.push_back({"ball", waves(48), {1e3, 2.0, 0.5, 0.5}, 0.2});
+    all.push_back({"ball", waves(48, 60), {1e3, 2.0, 0.5, 0.5}, 0.2});
     all.push_back({"roller",
-                   waves(48),
+                   waves(48, 48),
                    {1e3, make_shape(shape_number("paraboloid"), roller), 0.5, 0.5},
                    0.5});
     all.back().indenter.period = {kInfinity, 1};
-    all.push_back({"flats", waves(64), {1e3, kInfinity, 0, 0, {1, 1}}, 1});
+    all.push_back({"flats", waves(64, 64), {1e3, kInfinity, 0, 0, {1, 1}}, 1});
     return all;
 }
 
