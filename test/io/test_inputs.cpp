@@ -147,7 +147,7 @@ TEST(heights_from_text) {
                        Missing::fill)(2, 2) == 9);
     REFUSED(heights("1 2 3 1\n4 5 6 1\n7 8 9 1\n"), "four columns are a list of asperities x y z");
     std::string points;
-    for (const int k : up_to(9)) points += format("%d %d %d\n", k % 3, k / 3, k);
+    for (const int k : indices(9)) points += format("%d %d %d\n", k % 3, k / 3, k);
     CHECK(heights(points)(1, 2) == 7);
     REFUSED(heights(points + "1 2 5\n"), "t:10: x = 1, y = 2 is already in line 8");
     // The header of Gwyddion's text exports: the unit of the heights.
