@@ -148,8 +148,9 @@ TEST(heights_from_text) {
     REFUSED(heights("1 2 3 1\n4 5 6 1\n7 8 9 1\n"), "four columns are a list of asperities x y z");
     std::string points;
     for (const int k : indices(9)) points += format("%d %d %d\n", k % 3, k / 3, k);
-    CHECK(heights(points)(1, 2) == 7);
-    REFUSED(heights(points + "1 2 5\n"), "t:10: x = 1, y = 2 is already in line 8");
+    CHECK(read_heights(write("t", points), {})(1, 2) == 7);
+    REFUSED(read_heights(write("t", points + "1 2 5\n"), {}),
+            "t:10: x = 1, y = 2 is already in line 8");
     // The header of Gwyddion's text exports: the unit of the heights.
     const std::string told = write("t",
                                    "# Channel: Height\r\n# Width: 5 mm\r\n# Value units: m\r\n1 2 "
