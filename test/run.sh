@@ -1,6 +1,6 @@
 #!/bin/sh
 # The tests: installs what is missing, builds everything, runs ctest. Without arguments what takes
-# long (labels fuzz, long) is left out; arguments go to ctest, e.g. -L unit.
+# long (labels fuzz, long) is left out; arguments go to ctest, e.g. -L rooms.
 set -eu
 top=$(cd "$(dirname "$0")/.." && pwd)
 cd "$top"
