@@ -655,7 +655,7 @@ class Numbers(Drawn):
         files = members("pulled", 3)
         figure = self.figure("pulloff", *files)
         found = [raw(name)[0]["pull_off_force"] for name in files]
-        self.has_curve(figure, np.array([1e-3, 2e-3, 4e-3]), -np.array([f.mean() for f in found]))
+        self.has_curve(figure, np.array([1e-4, 2e-4, 4e-4]), -np.array([f.mean() for f in found]))
         bars = next(c for c in figure.axes[0].collections if c.get_gid() == "bars")
         spread = [np.ptp(segment[:, 1]) / 2 for segment in bars.get_segments()]
         self.assertTrue(np.allclose(spread, [f.std(ddof=1) / np.sqrt(3) for f in found]))
