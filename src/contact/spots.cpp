@@ -29,10 +29,8 @@ struct Interval {
     double from, to;
 };
 
-constexpr double
-    kStart = 0.3,
-    kEnd = kStart +
-           2 * pi;  // range of the parameter t along a border; not from 0, where spots often touch
+// Range of the parameter t along a border. It does not begin at 0, where spots often touch.
+constexpr double kStart = 0.3, kEnd = kStart + 2 * pi;
 
 // Sample points along a border, denser than the (at most four) extrema of f usually are.
 struct Samples {
@@ -98,10 +96,12 @@ public:
                 if ((f_top < 0) == in || std::abs(f_top) < 1e-13 * scale_) continue;
                 const double first = root(low, top, 0.5 * (low + top), in, value),
                              last = root(top, high, 0.5 * (top + high), !in, value);
-                if (in)
-                    covered.push_back({from, first}), from = last;
-                else
+                if (in) {
+                    covered.push_back({from, first});
+                    from = last;
+                } else {
                     covered.push_back({first, last});
+                }
             }
         }
         if (values.back() < 0) covered.push_back({from, kEnd});
@@ -119,8 +119,7 @@ private:
     }
 
     // Newton's method from t between two points of different sign, with bisection if it leaves this
-    // interval. The function is negative at
-    // `low` if it `rises`; `of` returns value and slope.
+    // interval. The function is negative at `low` if it `rises`; `of` returns value and slope.
     template <class F>
     double root(double low, double high, double t, bool rises, F of) const {
         for (int k = 0; k < 100; ++k) {
@@ -129,7 +128,7 @@ private:
             ((f.x < 0) == rises ? low : high) = t;
             const double newton = t - f.x / f.y;
             const bool inside = newton > low && newton < high;
-            // its square is below rounding
+            // The square of this step is below rounding.
             const bool last = inside && std::abs(newton - t) < 1e-8;
             t = inside ? newton : 0.5 * (low + high);
             if (last || !(low < t && t < high)) break;
@@ -150,6 +149,90 @@ double swept(const Ellipse& e, const Vector& origin, double from, double to) {
                  dy = along * e.axis.y + across * e.axis.x;
     return 0.5 * (e.major * e.minor * (to - from) + x * dy - y * dx);
 }
+
+double area_of(const Ellipse& e) { return pi * e.major * e.minor; }
+
+// The area of each of a number of spots that earlier spots cover, in its own frame, so that
+// periodic images need no special treatment. Spots are numbered in the order in which they are met.
+class Coverage {
+public:
+    // Adds a spot that has close neighbours; returns its number.
+    std::size_t add(const Spot& s) {
+        const Vector axis{std::cos(s.angle), std::sin(s.angle)};
+        spots_.push_back({{{0, 0}, axis, s.major, s.minor}, {}, {}});
+        return spots_.size() - 1;
+    }
+
+    // Two spots meet; `centre` is that of the first relative to the later one, at a distance d.
+    void meet(std::size_t first, std::size_t later, const Vector& centre, double d) {
+        Ellipse p = spots_[first].ellipse;
+        const Ellipse q = spots_[later].ellipse;
+        p.centre = centre;
+        const Vector direction{centre.x / d, centre.y / d};
+        if (d > 0 && d >= p.extent(direction) + q.extent(direction)) return;
+        cover(p, q, first, later);
+        cover(q, p, later, first);
+        spots_[later].before.push_back({first, centre});
+    }
+
+    // Area of each spot that earlier ones cover; after all spots have met.
+    std::vector<double> areas() {
+        for (Covered& p : spots_)
+            std::ranges::sort(p.parts, [](const Part& a, const Part& b) {
+                return a.from != b.from ? a.from < b.from : a.by < b.by;
+            });
+        std::vector<double> covered(spots_.size(), 0.0);
+        for (const auto k : indices(spots_)) {
+            const Covered& p = spots_[k];
+            if (p.before.empty()) continue;
+            covered[k] = area_of(p.ellipse) - open_part(p, {0, 0}, {kStart, kEnd}, k);
+            for (const auto& [spot, centre] : p.before) {
+                const Covered& q = spots_[spot];
+                for (const Part& c : q.parts)
+                    if (c.by == k) covered[k] += open_part(q, centre, c, k);
+            }
+        }
+        return covered;
+    }
+
+private:
+    struct Part : Interval {  // of a border, covered by another spot
+        std::size_t by;
+    };
+    struct Before {
+        std::size_t spot;
+        Vector centre;  // relative to the later spot
+    };
+    struct Covered {
+        Ellipse ellipse;
+        std::vector<Part> parts;
+        std::vector<Before> before;
+    };
+
+    void cover(const Ellipse& p, const Ellipse& q, std::size_t whose, std::size_t by) {
+        std::vector<Interval> inside;
+        Border(p, q).append_inside(inside);
+        for (const Interval& part : inside) spots_[whose].parts.push_back({part, by});
+    }
+
+    // Area swept by a part of the border of p about the origin, where it is not covered by spots
+    // before number `later`.
+    static double open_part(const Covered& p, const Vector& centre, Interval part,
+                            std::size_t later) {
+        Ellipse e = p.ellipse;
+        e.centre = centre;
+        double sum = 0;
+        for (const Part& c : p.parts) {
+            if (c.by >= later || c.to <= part.from) continue;
+            if (c.from >= part.to) break;
+            if (c.from > part.from) sum += swept(e, {0, 0}, part.from, c.from);
+            part.from = std::max(part.from, c.to);
+        }
+        return part.from < part.to ? sum + swept(e, {0, 0}, part.from, part.to) : sum;
+    }
+
+    std::vector<Covered> spots_;
+};
 
 }  // namespace
 
@@ -184,92 +267,25 @@ double union_area(const std::vector<Spot>& spots, long* close, const Period& per
         *close = std::ranges::count_if(
             pairs, [&](const Near& p) { return p.d < radius(p.i) + radius(p.j); });
 
-    // Computes for each spot the area not covered by earlier ones, in its own frame, so that
-    // periodic images need no special treatment.
-    struct Cover : Interval {
-        std::size_t by;
-    };
-    struct Before {
-        std::size_t spot;
-        Vector centre;  // relative to the later spot
-    };
-    struct Place {
-        Ellipse ellipse;
-        std::vector<Cover> covered;  // covered parts of the border
-        std::vector<Before> before;
-    };
     constexpr std::size_t none = at(-1);
-    std::vector<std::size_t> place_of(
-        n, none);  // index in `places` of a spot that has close neighbours
-    std::vector<Place> places;
-    const auto place = [&](std::size_t i) {
-        if (place_of[i] == none) {
-            const Spot& s = spots[i];
-            place_of[i] = places.size();
-            places.push_back(
-                {{{0, 0}, {std::cos(s.angle), std::sin(s.angle)}, s.major, s.minor}, {}, {}});
-        }
-        return place_of[i];
+    std::vector<std::size_t> number(n, none);  // in `coverage`, of a spot with close neighbours
+    Coverage coverage;
+    const auto number_of = [&](std::size_t i) {
+        if (number[i] == none) number[i] = coverage.add(spots[i]);
+        return number[i];
     };
-    std::vector<Interval> inside;
     for (const auto& [i, j, d] : pairs) {
-        const std::size_t first = std::min(place(i), place(j)),
-                          later = std::max(place(i), place(j));
-        const bool forward = first == place_of[i];
+        const std::size_t l = number_of(j), k = number_of(i);
         const double dx = period.nearest_x(x[j] - x[i]), dy = period.nearest_y(y[j] - y[i]);
-        const Vector centre = forward ? Vector{-dx, -dy} : Vector{dx, dy};
-        Ellipse p = places[first].ellipse;
-        const Ellipse q = places[later].ellipse;
-        p.centre = centre;
-        if (d > 0 && d >= p.extent({dx / d, dy / d}) + q.extent({dx / d, dy / d})) continue;
-        const auto cover = [&](const Ellipse& a, const Ellipse& b, std::size_t whose,
-                               std::size_t by) {
-            inside.clear();
-            Border(a, b).append_inside(inside);
-            for (const Interval& part : inside) places[whose].covered.push_back({part, by});
-        };
-        cover(p, q, first, later);
-        cover(q, p, later, first);
-        places[later].before.push_back({first, centre});
+        coverage.meet(std::min(k, l), std::max(k, l), k < l ? Vector{-dx, -dy} : Vector{dx, dy}, d);
     }
-    for (Place& p : places)
-        std::ranges::sort(p.covered, [](const Cover& a, const Cover& b) {
-            return a.from != b.from ? a.from < b.from : a.by < b.by;
-        });
-    // Area swept by a part of the border of p about the origin, where it is not covered by spots
-    // before number `later`.
-    const auto open_part = [&](const Place& p, const Vector& centre, Interval part,
-                               std::size_t later) {
-        Ellipse e = p.ellipse;
-        e.centre = centre;
-        double sum = 0;
-        for (const Cover& c : p.covered) {
-            if (c.by >= later || c.to <= part.from) continue;
-            if (c.from >= part.to) break;
-            if (c.from > part.from) sum += swept(e, {0, 0}, part.from, c.from);
-            part.from = std::max(part.from, c.to);
-        }
-        return part.from < part.to ? sum + swept(e, {0, 0}, part.from, part.to) : sum;
-    };
-    std::vector<double> covered(places.size(), 0.0);  // area of a spot covered by earlier ones
-    for (const auto k : indices(places)) {
-        const Place& p = places[k];
-        if (p.before.empty()) continue;
-        covered[k] =
-            pi * p.ellipse.major * p.ellipse.minor - open_part(p, {0, 0}, {kStart, kEnd}, k);
-        for (const auto& [spot, centre] : p.before) {
-            const Place& q = places[spot];
-            for (const Cover& c : q.covered)
-                if (c.by == k) covered[k] += open_part(q, centre, c, k);
-        }
-        area -= covered[k];
-    }
+    const std::vector<double> covered = coverage.areas();
+    for (const double hidden : covered) area -= hidden;
     if (own) {
-        // Places are numbered in the order in which they occur in pairs, not as the spots.
         own->clear();
         for (const auto i : indices(n))
             own->push_back(pi * spots[i].major * spots[i].minor -
-                           (place_of[i] == none ? 0.0 : covered[place_of[i]]));
+                           (number[i] == none ? 0.0 : covered[number[i]]));
     }
     return area;
 }
