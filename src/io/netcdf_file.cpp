@@ -126,6 +126,9 @@ template <class... Functions>
 struct Overloaded : Functions... {
     using Functions::operator()...;
 };
+// clang 14 does not deduce the arguments of an aggregate by itself.
+template <class... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;
 
 void put_attribute(int ncid, int varid, const std::string& name, const NetcdfAttribute& value,
                    const std::string& path) {

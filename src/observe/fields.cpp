@@ -157,7 +157,7 @@ Pressures pressures_of(const HeightMap& map, bool repeats, const Level& level) {
 // Deflections caused by the pressures at the points of a window, row by row.
 std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
                                 const Pressures& pressures, const Window& window) {
-    const auto& [columns, rows, unused] = window;
+    const Range &columns = window.columns, &rows = window.rows;
     std::vector<double> u(window.points(), 0.0);
     if (pressures.empty()) return u;
     const Substrate body = substrate_of(indenter);
@@ -262,7 +262,7 @@ void add_tractions(Fields& f, const FieldLevel& level, const Window& window, dou
 // Adds the stresses under the pressures to the requested fields.
 void add_stresses(Fields& f, const HeightMap& map, const Pressures& pressures, const Window& window,
                   const FieldsAsked& asked) {
-    const auto& [columns, rows, unused] = window;
+    const Range &columns = window.columns, &rows = window.rows;
     LevelPixels pixels;
     pixels.columns = map.nx;
     for (const auto& [point, load] : pressures) {
@@ -283,7 +283,7 @@ void add_stresses(Fields& f, const HeightMap& map, const Pressures& pressures, c
 void add_gap(Fields& f, const HeightMap& heights, const Indenter& indenter, double separation,
              const std::vector<std::int32_t>& touches, const Window& window,
              std::vector<double> deflection) {
-    const auto& [columns, rows, unused] = window;
+    const Range &columns = window.columns, &rows = window.rows;
     parallel_for(rows.size(), kRows, 0, [&](int j) {
         for (int i = 0; i < columns.size(); ++i) {
             double& gap = deflection[at(j) * f.x.size() + at(i)];
@@ -349,7 +349,7 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
         pressures.push_back(pressures_of(map, repeats, *level.level));
     }
     const Window window = asked_window(map, repeats, pressures, asked);
-    const auto& [columns, rows, unused] = window;
+    const Range &columns = window.columns, &rows = window.rows;
     for (int i = columns.first; i <= columns.last; ++i) f.x.push_back(map.x(i));
     for (int j = rows.first; j <= rows.last; ++j) f.y.push_back(map.y(j));
     if (asked.stresses()) f.depth = asked.depths;
