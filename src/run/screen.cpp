@@ -77,7 +77,8 @@ double smooth_radius(const Job& job) {
 // Lengths and moduli in another unit than that of the case are a common mistake. No solid is
 // stiffer than diamond, 1.2e12 Pa, and gels softer than 1 kPa flow.
 void print_unlikely_units(std::ostream& out, const Job& job) {
-    const auto [l, f, time] = units_of(job);
+    const UnitNames units = units_of(job);
+    const char *l = units.length, *f = units.force;
     constexpr double stiffest = 2e12, softest = 1e3, steepest = 3, flattest = 1e-6, highest = 0.1;
     const double in_pascals = pascals(job.settings);
     const auto modulus = [&](const char* key, double E) {
