@@ -340,12 +340,13 @@ double unit_of_pressures(const Job& job) {
     return unit * job.indenter.period.area();
 }
 
-// Refuses adhesion that closes all gaps of the roughness: the contacts of asperities merge. It does
-// where the work of adhesion is more than the elastic energy of flat surfaces, (E*/4) <q> sigma^2
-// for each area with wavenumbers q (Persson and Tosatti, 2001), which is at most E* sigma h'/4,
-// since <q>^2 <= <q^2>.
+// Refuses adhesion that closes all gaps of the roughness, so that the contacts of asperities merge:
+// the work of adhesion is more than the elastic energy that flattens the roughness, for each unit
+// of area (E*/4) sigma^2 times the mean wavenumber <q> (Persson and Tosatti, 2001). The energy is
+// at most E* sigma h'/4, since <q>^2 <= <q^2>; with layers no such bound is known.
 void require_separate_contacts(const Job& job) {
-    if (!attracts(job.settings) || !job.theory) return;
+    if (!attracts(job.settings) || !job.theory || !job.settings.solids.layer_thickness.empty())
+        return;
     const double flat = 0.25 * job.indenter.E_star * job.sigma * job.theory->rms_slope();
     if (const double w = job.settings.solids.adhesion; w >= flat)
         bad_input(
