@@ -137,6 +137,7 @@ module rsc
     procedure :: level => contact_level
     procedure :: answer => contact_answer
     procedure :: value => contact_value
+    procedure :: error => contact_error
     procedure :: spots => contact_spots
     procedure :: per_asperity => contact_per_asperity
     procedure :: deflection => contact_deflection

@@ -617,6 +617,15 @@ RSC_API int32_t rsc_contact_answer(rsc_contact* contact, double* separation, dou
  *     RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_value(rsc_contact* contact, const char* name, double* value);
 
+/* The expected error of a quantity of the latest level, which is not exceeded in nine of ten cases.
+ * It is relative, except for "separation", whose error is a length.
+ *     contact: the contact;
+ *     name: as in rsc_contact_value;
+ *     error (out): the error.
+ * Errors: -1, -3 null; -2 null or unknown; RSC_NO_RESULT, also if no error of it is stated;
+ *     RSC_NO_MEMORY. */
+RSC_API int32_t rsc_contact_error(const rsc_contact* contact, const char* name, double* error);
+
 /* dN/dZ0 of the latest level: negative, or 0 without contact; with solids%hardness, the unloading
  * stiffness. Costs one more solution of linear equations.
  *     contact: the contact;

@@ -224,6 +224,12 @@ class Contact(_Object):
         message lists all, Error (no result)."""
         return _number("rsc_contact_value", self, name)
 
+    def error(self, name: str) -> float:
+        """The expected error of a quantity of the last level, by its name as in value(): relative,
+        except for "separation" [length]; not exceeded in nine of ten cases. Raises ArgumentError
+        for an unknown name, Error (no result), also if no error of it is stated."""
+        return _number("rsc_contact_error", self, name)
+
     def stiffness(self) -> float:
         """dN/dZ0 of the last level, negative, 0 without contact [force/length]. Raises Error (no
         result)."""

@@ -68,6 +68,7 @@ rsc_contact_answer(rsc_contact* contact, double* separation, double* force, doub
     int64_t* contacts, int64_t* overlapping_pairs, int64_t* large_contacts, int64_t* beyond_law,
     int64_t* edge_contacts)
 rsc_contact_value(rsc_contact* contact, const char* name, double* value)
+rsc_contact_error(const rsc_contact* contact, const char* name, double* error)
 rsc_contact_stiffness(rsc_contact* contact, double* stiffness)
 rsc_contact_energy(const rsc_contact* contact, double* energy)
 rsc_contact_asperities(rsc_asperities** asperities, const rsc_contact* contact)

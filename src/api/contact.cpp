@@ -2,11 +2,7 @@
 
 #include "api/guard.hpp"
 #include "api/handles.hpp"
-#include "contact/answers.hpp"
 #include "contact/deflection.hpp"
-#include "observe/quantities.hpp"
-#include "physics/flow/permeability.hpp"
-#include "run/gap.hpp"
 #include "surface/asperities.hpp"
 
 namespace rsc::api {
@@ -89,92 +85,25 @@ void tell_convergence(const rsc_contact& contact) {
         "the solver did not reach its tolerance; the results are those of its last iterate"};
 }
 
-double stiffness_of(rsc_contact& contact) {
-    double& known = contact.path.level()->stiffness;
-    if (std::isnan(known)) known = contact.path.stiffness();
-    return known;
+// Computes a quantity of the last level, which has a state, if it does not come with the solution.
+void compute(rsc_contact& contact, const LevelQuantity& quantity) {
+    if (!quantity.compute) return;
+    (void)level_of(&contact);
+    LevelSource source = source_of(contact);
+    if (const char* const none = quantity.compute(source)) throw Outcome{RSC_NO_RESULT, none};
 }
 
-double conductance_length_of(rsc_contact& contact) {
-    if (contact.path.indenter().layers.count > 0)
-        throw Outcome{RSC_NO_RESULT, "conductance is not available for a body with layers"};
-    double& known = contact.path.level()->conductance_length;
-    const double stiffness = stiffness_of(contact);
-    if (std::isnan(known)) known = conductance_length(contact.path, stiffness);
-    return known;
+double computed(rsc_contact& contact, std::string_view name) {
+    const auto found = find_quantity(name);
+    compute(contact, *found->quantity);
+    return found->of(*contact.path.level());
 }
 
-double resistance_of(rsc_contact& contact) {
-    const auto& resistivity = contact.keys->solids.resistivity;
-    if (!(resistivity[0] + resistivity[1] > 0))
-        throw Outcome{
-            RSC_NO_RESULT,
-            "there is no resistance: solids%resistivity is 0 in the case of this contact"};
-    if (contact.path.level()->contacts == 0)
-        throw Outcome{RSC_NO_RESULT, "there is no contact: the resistance is infinite"};
-    return constriction_resistance(conductance_length_of(contact), resistivity);
-}
-
-// The level with its gap, and with its permeability if `with_flow`.
-const Level& gap_of(rsc_contact& contact, bool with_flow) {
-    Level& level = *contact.path.level();
-    if (!contact.on->points || !contact.path.indenter().period.finite())
-        throw Outcome{RSC_NO_RESULT, "only two flats solved by elements have a gap"};
-    if (with_flow && !has_permeability())
-        throw Outcome{RSC_NO_RESULT, "this rsc was built without CHOLMOD"};
-    const double known = with_flow ? level.permeability_xx : level.gap_mean;
-    if (std::isnan(known)) measure_gap(*contact.on->points, contact.path, level, {}, with_flow);
-    return level;
-}
-
-template <double LevelValues::*member, bool with_flow = false>
-double of_gap(rsc_contact& contact) {
-    return gap_of(contact, with_flow).*member;
-}
-
-// Quantities that are not direct members of a level, by the names of the result file (vectors by
-// component).
-struct Derived {
-    std::string_view name;
-    double (*of)(rsc_contact&);
-};
-constexpr Derived kDerived[] = {
-    {"separation", [](rsc_contact& c) { return c.path.level()->separation; }},
-    {"stiffness", stiffness_of},
-    {"energy", [](rsc_contact& c) { return c.path.level()->energy; }},
-    {"conductance_length", conductance_length_of},
-    {"resistance", resistance_of},
-    {"lateral_force_x", [](rsc_contact& c) { return lateral_force_of(c).x; }},
-    {"lateral_force_y", [](rsc_contact& c) { return lateral_force_of(c).y; }},
-    {"moment_x", [](rsc_contact& c) { return moment_of(c).x; }},
-    {"moment_y", [](rsc_contact& c) { return moment_of(c).y; }},
-    {"gap_mean", of_gap<&LevelValues::gap_mean>},
-    {"gap_mean_open", of_gap<&LevelValues::gap_mean_open>},
-    {"percolates_x", of_gap<&LevelValues::percolates_x>},
-    {"percolates_y", of_gap<&LevelValues::percolates_y>},
-    {"permeability_xx", of_gap<&LevelValues::permeability_xx, true>},
-    {"permeability_yy", of_gap<&LevelValues::permeability_yy, true>},
-    {"permeability_xy", of_gap<&LevelValues::permeability_xy, true>},
-    {"hydraulic_gap_x", of_gap<&LevelValues::hydraulic_gap_x, true>},
-    {"hydraulic_gap_y", of_gap<&LevelValues::hydraulic_gap_y, true>},
-};
-
-// Quantities of the result file that rsc_contact_value does not return: those of maps, which the
-// library does not compute, and vectors and tensors (their components have names).
-bool of_map(std::string_view name) {
-    const LevelQuantity* quantity = find_quantity(name);
-    return name == "crowded_cells" || name == "contacts_outside_map" || (quantity && quantity->y);
-}
-
-std::string known_values() {
-    std::string names;
-    for (const Derived& d : kDerived) enlist(names, ", ", d.name);
-    for (const LevelQuantity& q : level_quantities()) {
-        const bool derived =
-            std::ranges::any_of(kDerived, [&](const Derived& d) { return d.name == q.name; });
-        if (!derived && !of_map(q.name)) enlist(names, ", ", q.name);
-    }
-    return names;
+QuantityComponent quantity_of(const char* name) {
+    require(name, 2, "name");
+    const auto found = find_quantity(name);
+    if (!found) refuse(2, "name", "must be one of ", names_of_quantities());
+    return *found;
 }
 
 }  // namespace
@@ -237,9 +166,11 @@ int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0) {
         const Indenter& now = contact->path.indenter();
         if (place.x == now.x0 && place.y == now.y0) return;
         // Contacts with a memory follow the tip at once: what can be asked of the last level is
-        // kept.
-        if (contact->path.path_dependent() && contact->path.level())
-            (void)(now.layers.count > 0 ? stiffness_of(*contact) : conductance_length_of(*contact));
+        // computed before.
+        if (contact->path.path_dependent() && contact->path.level()) {
+            LevelSource source = source_of(*contact);
+            compute_quantities(source, Stage::solution);
+        }
         contact->path.move_tip(place.x, place.y);
     });
 }
@@ -336,7 +267,7 @@ int32_t rsc_contact_stiffness(rsc_contact* contact, double* stiffness) {
     return guarded(0, [&] {
         (void)level_of(contact);
         require(stiffness, 2, "stiffness");
-        put_finite(stiffness, stiffness_of(*contact));
+        put_finite(stiffness, computed(*contact, "stiffness"));
     });
 }
 
@@ -356,16 +287,16 @@ int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* for
     return guarded(0, [&] {
         const Level& level = level_of(contact);
         double dN_dZ0 = 0, W = 0;  // nothing is written until all values are known to be finite
-        if (stiffness) put_finite(&dN_dZ0, stiffness_of(*contact));
+        if (stiffness) put_finite(&dN_dZ0, computed(*contact, "stiffness"));
         if (energy) put_finite(&W, level.energy);
-        const Vec2 lateral = lateral_x || lateral_y ? lateral_force_of(*contact) : Vec2{};
+        if (lateral_x || lateral_y) (void)computed(*contact, "lateral_force_x");
         put(separation, level.separation);
         put(force, level.force);
         put(stiffness, dN_dZ0);
         put(area, level.area);
         put(energy, W);
-        put(lateral_x, lateral.x);
-        put(lateral_y, lateral.y);
+        put(lateral_x, level.lateral_x);
+        put(lateral_y, level.lateral_y);
         put(level_status, level.status);
         put(contacts, level.contacts);
         put(overlapping_pairs, level.overlapping_pairs);
@@ -378,17 +309,21 @@ int32_t rsc_contact_answer(rsc_contact* contact, double* separation, double* for
 int32_t rsc_contact_value(rsc_contact* contact, const char* name, double* value) {
     return guarded(0, [&] {
         const Level& level = last_level_of(contact);
-        require(name, 2, "name");
+        const QuantityComponent asked = quantity_of(name);
         require(value, 3, "value");
-        const std::string_view asked = name;
-        for (const Derived& quantity : kDerived)
-            if (quantity.name == asked) {
-                if (asked != "separation") (void)level_of(contact);
-                return put_finite(value, quantity.of(*contact));
-            }
-        const LevelQuantity* quantity = find_quantity(asked);
-        if (!quantity || of_map(asked)) refuse(2, "name", "must be one of ", known_values());
-        put_finite(value, quantity->of(level));
+        compute(*contact, *asked.quantity);
+        put_finite(value, asked.of(level));
+    });
+}
+
+int32_t rsc_contact_error(const rsc_contact* contact, const char* name, double* error) {
+    return guarded(0, [&] {
+        const Level& level = level_of(contact);
+        const QuantityComponent asked = quantity_of(name);
+        require(error, 3, "error");
+        const double expected = asked.error(level);
+        if (std::isnan(expected)) throw Outcome{RSC_NO_RESULT, "no error of this value is stated"};
+        put(error, expected);
     });
 }
 
@@ -451,7 +386,7 @@ int32_t rsc_contact_deflection(const rsc_contact* contact, int64_t n, const doub
         require_finite(x, n, 3, "x");
         require_finite(y, n, 4, "y");
         require(deflection, 5, "deflection");
-        const Indenter indenter = contact->indenter_at_level();
+        const Indenter indenter = contact->path.indenter_at_level();
         const auto kernel =
             make_kernel(Interaction::point, substrate_of(indenter), indenter.period);
         const std::optional<Level> lasting = contact->path.lasting_loads(last);

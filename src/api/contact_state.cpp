@@ -38,12 +38,12 @@ Vec2 place_of(const rsc_contact& contact, double x0, double y0) {
     return {x0, y0};
 }
 
-Vec2 lateral_force_of(const rsc_contact& contact) {
-    return lateral_force(contact.indenter_at_level(), *contact.path.level());
-}
-
-Vec2 moment_of(const rsc_contact& contact) {
-    return tip_moment(contact.indenter_at_level(), *contact.path.level());
+LevelSource source_of(rsc_contact& contact) {
+    const auto& resistivity = contact.keys->solids.resistivity;
+    return {contact.path,
+            *contact.path.level(),
+            {resistivity[0], resistivity[1]},
+            contact.on->points.get()};
 }
 
 Indenter surrounded(Indenter indenter, const SurfaceDomain& domain) {
@@ -69,13 +69,6 @@ rsc_contact::rsc_contact(std::shared_ptr<const SurfaceModel> on_, std::shared_pt
 rsc_contact::rsc_contact(const rsc_contact& like)
     : rsc_contact(like.on, like.keys, like.path.indenter()) {
     given = like.given;
-}
-
-Indenter rsc_contact::indenter_at_level() const {
-    Indenter tip = path.indenter();
-    tip.x0 = path.place_of_level().x;
-    tip.y0 = path.place_of_level().y;
-    return tip;
 }
 
 int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* original) {

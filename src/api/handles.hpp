@@ -57,8 +57,6 @@ struct rsc_contact {
     rsc::Path& path;
     rsc::Judge judge;            // elements have no second grid here
     rsc::Path::State committed;  // initially the new contact
-    // The indenter where it was at the last level; it may have moved since.
-    rsc::Indenter indenter_at_level() const;
 };
 
 struct rsc_friction {
@@ -77,9 +75,8 @@ struct rsc_friction {
 
 namespace rsc::api {
 
-// Lateral force and moment of the last level (contact/answers.hpp).
-Vec2 lateral_force_of(const rsc_contact& contact);
-Vec2 moment_of(const rsc_contact& contact);
+// The last level, with what its quantities are computed from.
+LevelSource source_of(rsc_contact& contact);
 
 // The settings of a case, or the defaults for null.
 const Case& settings_of(const rsc_case* a_case);

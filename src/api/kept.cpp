@@ -11,8 +11,8 @@
 #include "base/archive.hpp"
 #include "base/version.h"
 #include "case/read_case.hpp"
+#include "contact/quantities.hpp"
 #include "io/whole_file.hpp"
-#include "observe/quantities.hpp"
 
 namespace rsc::api {
 namespace {

@@ -86,19 +86,20 @@ int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0, c
         if (stiffness)
             if (const int32_t found = rsc_contact_stiffness(contact, &slope); found != RSC_SUCCESS)
                 return found;
-        const Level& level = *contact->path.level();
-        const Vec2 lateral = lateral_x || lateral_y ? lateral_force_of(*contact) : Vec2{};
-        const Vec2 moment = moment_x || moment_y ? moment_of(*contact) : Vec2{};
+        LevelSource source = source_of(*contact);
+        if (lateral_x || lateral_y) (void)compute_lateral_force(source);
+        if (moment_x || moment_y) (void)compute_moment(source);
+        const Level& level = source.level;
         const auto to = [&](auto* output, auto of) {
             if (output) output[k] = static_cast<std::decay_t<decltype(*output)>>(of);
         };
         to(separation, level.separation);
         to(force, level.force);
         to(stiffness, slope);
-        to(lateral_x, lateral.x);
-        to(lateral_y, lateral.y);
-        to(moment_x, moment.x);
-        to(moment_y, moment.y);
+        to(lateral_x, level.lateral_x);
+        to(lateral_y, level.lateral_y);
+        to(moment_x, level.moment_x);
+        to(moment_y, level.moment_y);
         to(level_status, level.status);
         return reached;
     });

@@ -55,22 +55,49 @@ double conductance_length(Path& contact, double stiffness) {
     return 2 * (contact.pulls() ? contact.clamped_stiffness() : 0 - stiffness) / indenter.E_star;
 }
 
-double constriction_resistance(double conductance_length, const double (&resistivity)[2]) {
+double constriction_resistance(double conductance_length,
+                               const std::array<double, 2>& resistivity) {
     const double sum = resistivity[0] + resistivity[1];
     return sum > 0 && conductance_length > 0 ? sum / conductance_length : kNotComputed;
 }
 
-void add_answers(Path& contact, Level& level, const double (&resistivity)[2]) {
-    if (std::isnan(level.force)) return;  // there is no valid state
-    const Indenter& indenter = contact.indenter();
-    level.stiffness = contact.stiffness();
-    const Vec2 force = lateral_force(indenter, level), moment = tip_moment(indenter, level);
-    level.lateral_x = force.x;
-    level.lateral_y = force.y;
-    level.moment_x = moment.x;
-    level.moment_y = moment.y;
-    level.conductance_length = conductance_length(contact, level.stiffness);
-    level.resistance = constriction_resistance(level.conductance_length, resistivity);
+const char* compute_stiffness(LevelSource& source) {
+    double& known = source.level.stiffness;
+    if (std::isnan(known)) known = source.contact.stiffness();
+    return nullptr;
+}
+
+const char* compute_lateral_force(LevelSource& source) {
+    const Vec2 force = lateral_force(source.contact.indenter_at_level(), source.level);
+    source.level.lateral_x = force.x;
+    source.level.lateral_y = force.y;
+    return nullptr;
+}
+
+const char* compute_moment(LevelSource& source) {
+    const Vec2 moment = tip_moment(source.contact.indenter_at_level(), source.level);
+    source.level.moment_x = moment.x;
+    source.level.moment_y = moment.y;
+    return nullptr;
+}
+
+const char* compute_conductance(LevelSource& source) {
+    if (source.contact.indenter().layers.count > 0)
+        return "conductance is not available for a body with layers";
+    (void)compute_stiffness(source);
+    double& known = source.level.conductance_length;
+    if (std::isnan(known)) known = conductance_length(source.contact, source.level.stiffness);
+    return nullptr;
+}
+
+const char* compute_resistance(LevelSource& source) {
+    const auto& resistivity = source.resistivity;
+    if (!(resistivity[0] + resistivity[1] > 0))
+        return "there is no resistance: solids%resistivity is 0 in the case of this contact";
+    if (source.level.contacts == 0) return "there is no contact: the resistance is infinite";
+    if (const char* const none = compute_conductance(source)) return none;
+    source.level.resistance = constriction_resistance(source.level.conductance_length, resistivity);
+    return nullptr;
 }
 
 }  // namespace rsc

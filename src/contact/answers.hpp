@@ -2,7 +2,7 @@
 // conductance.
 #pragma once
 
-#include "contact/path.hpp"
+#include "contact/quantities.hpp"
 
 namespace rsc {
 
@@ -15,10 +15,15 @@ double conductance_length(Path& contact, double stiffness);
 
 // Constriction resistance (rho_1 + rho_2)/conductance_length [resistivity/length]; NaN without
 // contact or if both resistivities are 0.
-double constriction_resistance(double conductance_length, const double (&resistivity)[2]);
+double constriction_resistance(double conductance_length, const std::array<double, 2>& resistivity);
 
-// Adds these results to the last level of a contact. The stiffness requires one more linear solve.
-void add_answers(Path& contact, Level& level, const double (&resistivity)[2]);
+// Compute these for the last level of a contact (LevelQuantity::compute). The stiffness requires
+// one more linear solve.
+const char* compute_stiffness(LevelSource& source);
+const char* compute_lateral_force(LevelSource& source);
+const char* compute_moment(LevelSource& source);
+const char* compute_conductance(LevelSource& source);
+const char* compute_resistance(LevelSource& source);
 
 // Lateral force on the indenter at fixed Z0 [force]: F = -dW/d(x0, y0), where W is the elastic
 // energy. At a solution dW = sum f_i dg0_i, so F = -sum f_i grad s(x_i - x0, y_i - y0) with the

@@ -45,8 +45,18 @@ inline constexpr double kExtreme = 0.1,
 
 inline constexpr double kNotComputed = std::numeric_limits<double>::quiet_NaN();
 
+template <std::size_t n>
+constexpr std::array<double, n> none_computed() {
+    std::array<double, n> all{};
+    all.fill(kNotComputed);
+    return all;
+}
+
+// At least as many as all quantities have components.
+inline constexpr std::size_t kMostComponents = 96;
+
 // Scalars of a level, written to checkpoints as they are. One row of the table in
-// observe/quantities.cpp declares each to files, screen and libraries.
+// contact/quantities.cpp declares each to files, screen and libraries.
 struct LevelValues {
     double separation = 0;  // Z0 [length]
     double force = 0;       // N = sum f [force]
@@ -71,7 +81,7 @@ struct LevelValues {
     // asperities: largest slope of the indenter at a contact over the gentlest slope of the surface
     double slope_ratio = kNotComputed;
     double filled_share = kNotComputed;  // share of the contact area in holes of a measured map
-    // Set by add_answers (contact/answers.hpp):
+    // Computed on request (contact/answers.hpp):
     double stiffness = kNotComputed;  // dN/dZ0, negative [force/length]
     double energy = kNotComputed;     // elastic energy W, dW/dZ0 = -N [force length]
     double lateral_x = kNotComputed,
@@ -131,6 +141,9 @@ struct LevelValues {
     // Of the coarse map (observe/map.hpp):
     std::int32_t crowded_cells = 0;  // cells with an area fraction above pi/16
     std::int32_t outside_map = 0;    // contacts outside the map
+    // Expected relative errors of quantities, by LevelQuantity::slot (contact/quantities.hpp); NaN:
+    // none is stated.
+    std::array<double, kMostComponents> errors = none_computed<kMostComponents>();
 };
 
 // Boundary elements: pixels under pressure, row by row. Empty for asperities.

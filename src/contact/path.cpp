@@ -336,6 +336,13 @@ double Path::energy() {
     return model_->energy() - 0.5 * c * solved_force_ * solved_force_;
 }
 
+Indenter Path::indenter_at_level() const {
+    Indenter tip = indenter();
+    tip.x0 = level_place_.x;
+    tip.y0 = level_place_.y;
+    return tip;
+}
+
 void Path::move_tip(double x0, double y0) {
     if (!std::isfinite(x0) || !std::isfinite(y0)) bad_input("the tip's position must be finite");
     model_->move_tip(x0, y0);

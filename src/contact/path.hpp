@@ -39,6 +39,8 @@ public:
     const std::optional<Level>& level() const { return level_; }
     // The tip of that level.
     Vec2 place_of_level() const { return level_place_; }
+    // The indenter where it was at that level; it may have moved since.
+    Indenter indenter_at_level() const;
 
     // Sets the time of the following levels, or their distance of sliding if that is the clock. The
     // separation, or under force control the force, changes linearly from the last accepted level,

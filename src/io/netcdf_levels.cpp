@@ -1,8 +1,8 @@
 // The first half of the table: global attributes, axes, levels, surfaces, closed forms.
 
 #include "base/version.h"
+#include "contact/quantities.hpp"
 #include "io/netcdf_table.hpp"
-#include "observe/quantities.hpp"
 #include "observe/regimes.hpp"
 #include "trust/doubts.hpp"
 
@@ -67,16 +67,36 @@ void ResultTable::axes() {
     if (!r_.force_control()) separation.resize(o_.steps);  // the same in every realization
     std::vector<double> scaled = separation;
     for (double& z : scaled) z /= r_.sigma;
-    add("separation", dims, unit(1), "separation of the indenter's tip from the mean plane, Z0",
-        separation);
+    const LevelQuantity& Z0 = *find_quantity("separation")->quantity;
+    add(Z0.name, dims, units(Z0), Z0.meaning, separation, with_error(Z0));
     add_absent("separation_sigma", dims, "1", "separation over rms height, Z0/sigma", scaled,
                "sigma is sigma_reference");
 }
 
-// The declared quantities of a level (observe/quantities.hpp).
+// The attribute of a quantity that names its expected error, if some level has one (CF, section
+// 3.4).
+NetcdfAttributes ResultTable::with_error(const LevelQuantity& q) const {
+    for (const LevelValues& level : o_.rows)
+        for (const auto c : indices(q.components()))
+            if (!std::isnan(q.error(level, c))) return {{"ancillary_variables", q.error_name()}};
+    return {};
+}
+
+// The expected error of a quantity that has no row for it.
+void ResultTable::error_of(const LevelQuantity& q, const Names& shape) {
+    if (q.error_member || with_error(q).empty()) return;
+    std::vector<double> errors;
+    for (const LevelValues& level : o_.rows)
+        for (const auto c : indices(q.components())) errors.push_back(q.error(level, c));
+    add_absent(q.error_name(), shape, "1", std::string("expected relative error of ") + q.name,
+               errors, "not exceeded in nine of ten cases; follows from pixels_per_contact");
+}
+
+// The declared quantities of a level (contact/quantities.hpp).
 void ResultTable::levels() {
     const Names dims{"realization", "step"};
     for (const LevelQuantity& q : level_quantities()) {
+        if (q.separate) continue;
         NetcdfAttributes attributes;
         if (std::holds_alternative<LevelStatus LevelValues::*>(q.member))
             attributes = flags(kLevelStatusNames);
@@ -107,10 +127,13 @@ void ResultTable::levels() {
         }
         if (q.components() > 1) shape.push_back(components(q.components()));
         // Levels that did not converge may have no force.
+        const NetcdfAttributes error = with_error(q);
+        append(attributes, error);
         if (q.of_step || (q.always && std::ranges::none_of(o_.rows, absent)))
             add(q.name, shape, units(q), q.meaning, values, attributes);
         else
-            add_absent(q.name, shape, units(q), q.meaning, values, q.comment);
+            add_absent(q.name, shape, units(q), q.meaning, values, q.comment, error);
+        error_of(q, shape);
     }
     std::vector<double> pull_off(o_.realizations, std::numeric_limits<double>::quiet_NaN());
     bool adhesive = false;

@@ -4,9 +4,9 @@
 
 #include "base/format.hpp"
 #include "case/units.hpp"
+#include "contact/quantities.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/result.hpp"
-#include "observe/quantities.hpp"
 
 namespace rsc {
 
@@ -105,6 +105,8 @@ private:
     void axes();
     void levels();
     static bool computed(const std::vector<double>& values);
+    NetcdfAttributes with_error(const LevelQuantity& q) const;
+    void error_of(const LevelQuantity& q, const Names& shape);
     std::string components(std::size_t number);
     std::set<std::size_t> components_;  // whose dimensions are declared
     template <class T>
@@ -183,11 +185,13 @@ private:
     }
     // A variable that may have missing values.
     void add_absent(const std::string& name, Names dimensions, const std::string& units,
-                    const std::string& long_name, std::vector<double> values,
-                    std::string note = "") {
+                    const std::string& long_name, std::vector<double> values, std::string note = "",
+                    const NetcdfAttributes& more = {}) {
         note = note.empty() ? kAbsentMeans : note + "; " + kAbsentMeans;
+        NetcdfAttributes attributes = comment(note);
+        append(attributes, more);
         file_.variable({name, std::move(dimensions), units, long_name, std::move(values),
-                        comment(note), true});
+                        std::move(attributes), true});
     }
 
     // Of all levels, or surfaces: what `get`, a function or a member, gives.

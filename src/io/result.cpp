@@ -1,8 +1,8 @@
 #include "io/result.hpp"
 
 #include "base/error.hpp"
+#include "contact/quantities.hpp"
 #include "io/input_netcdf.hpp"
-#include "observe/quantities.hpp"
 
 namespace rsc {
 
@@ -167,7 +167,7 @@ void read_levels(const Columns& file, Accumulators& sums) {
     for (const auto k : indices(sums.rows))
         sums.rows[k].separation = separation[of_each ? k : k % steps];
     for (const LevelQuantity& q : level_quantities()) {
-        if (!file.find(q.name) && !q.always) continue;  // no level has it
+        if (q.separate || (!file.find(q.name) && !q.always)) continue;  // no level has it
         const std::size_t parts = q.components();
         std::vector<std::size_t> lengths{count, steps};
         if (q.of_step) lengths = {steps};
@@ -176,6 +176,10 @@ void read_levels(const Columns& file, Accumulators& sums) {
         for (const auto k : indices(sums.rows))
             for (const auto c : indices(parts))
                 q.put(sums.rows[k], values[(q.of_step ? k % steps : k) * parts + c], c);
+        if (q.error_member || !file.find(q.error_name())) continue;
+        const std::vector<double> errors = file.values(q.error_name(), lengths);
+        for (const auto k : indices(errors))
+            sums.rows[k / parts].errors[q.slot + k % parts] = errors[k];
     }
 }
 

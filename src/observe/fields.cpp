@@ -1,50 +1,15 @@
 #include "observe/fields.hpp"
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
-#include "elements/periodic_pixels.hpp"
-#include "elements/pixel_products.hpp"
-#include "interaction/kernel.hpp"
+#include "elements/deformed.hpp"
 
 namespace rsc {
 namespace {
 
-struct Load {
-    double pressure = 0;
-    bool touches = false;
-};
-// By point index, row * nx + column, in its order.
-using Pressures = std::vector<std::pair<std::int64_t, Load>>;
 using PressureMap = std::map<std::int64_t, Load>;
-constexpr int kRows = 16;  // that a thread takes at a time
-
-// Columns and rows first .. last.
-struct Range {
-    int first, last;
-    int size() const { return last - first + 1; }
-};
-
-std::size_t at(std::int64_t k) { return static_cast<std::size_t>(k); }
-
-// A part of a map.
-struct Window {
-    Range columns, rows;
-    int nx;  // columns of the map
-
-    std::size_t points() const { return at(columns.size()) * at(rows.size()); }
-    std::size_t index(int i, int j) const {
-        return at(j - rows.first) * at(columns.size()) + at(i - columns.first);
-    }
-    // Of a point of the map by its index there; nothing outside.
-    std::optional<std::size_t> find(std::int64_t point) const {
-        const int i = static_cast<int>(point % nx), j = static_cast<int>(point / nx);
-        if (i < columns.first || i > columns.last || j < rows.first || j > rows.last) return {};
-        return index(i, j);
-    }
-};
 
 // Indices of the points within [low, high] along one axis.
-Range points_within(double origin, double step, int n, double low, double high) {
+PointRange points_within(double origin, double step, int n, double low, double high) {
     const auto number = [&](double x) {
         return std::clamp((x - origin) / step, -1.0, static_cast<double>(n));
     };
@@ -62,13 +27,13 @@ void add_spot(PressureMap& all, const HeightMap& map, bool repeats, const Spot& 
     const auto range = [&](double origin, double step, int n, double centre, double along,
                            double across) {
         const double half = std::hypot(s.major * along, s.minor * across);
-        const Range r{static_cast<int>(std::ceil((centre - half - origin) / step)),
-                      static_cast<int>(std::floor((centre + half - origin) / step))};
-        return repeats ? r : Range{std::max(r.first, 0), std::min(r.last, n - 1)};
+        const PointRange r{static_cast<int>(std::ceil((centre - half - origin) / step)),
+                           static_cast<int>(std::floor((centre + half - origin) / step))};
+        return repeats ? r : PointRange{std::max(r.first, 0), std::min(r.last, n - 1)};
     };
     const double cosine = std::cos(s.angle), sine = std::sin(s.angle);
-    const Range columns = range(map.x0, map.dx, map.nx, s.x, cosine, sine),
-                rows = range(map.y0, map.dy, map.ny, s.y, sine, cosine);
+    const PointRange columns = range(map.x0, map.dx, map.nx, s.x, cosine, sine),
+                     rows = range(map.y0, map.dy, map.ny, s.y, sine, cosine);
     PressureMap spot;
     double sum = 0;
     std::vector<Load*> outermost;
@@ -101,18 +66,6 @@ void add_spot(PressureMap& all, const HeightMap& map, bool repeats, const Spot& 
         here.pressure += force * load.pressure / (sum * map.dx * map.dy);
         here.touches = here.touches || load.touches;
     }
-}
-
-Pressures pressures_of(const LevelPixels& pixels) {
-    Pressures all(pixels.index.size());
-    parallel_for(all.size(), 4096, 0, [&](std::size_t k) {
-        all[k] = {pixels.index[k], {pixels.pressure[k], true}};
-    });
-    if (pixels.cohesive.empty()) return all;
-    PressureMap with_tension(all.begin(), all.end());
-    for (std::size_t k = 0; k < pixels.cohesive.size(); ++k)
-        with_tension[pixels.cohesive[k]] = {pixels.attraction[k], false};
-    return {with_tension.begin(), with_tension.end()};
 }
 
 PressureMap pressures_of_spots(const HeightMap& map, bool repeats, const Level& level) {
@@ -154,68 +107,21 @@ Pressures pressures_of(const HeightMap& map, bool repeats, const Level& level) {
     return {all.begin(), all.end()};
 }
 
-// Deflections caused by the pressures at the points of a window, row by row.
-std::vector<double> deflections(const HeightMap& map, const Indenter& indenter,
-                                const Pressures& pressures, const Window& window) {
-    const Range &columns = window.columns, &rows = window.rows;
-    std::vector<double> u(window.points(), 0.0);
-    if (pressures.empty()) return u;
-    const Substrate body = substrate_of(indenter);
-    if (indenter.period.finite()) {
-        std::function<double(double)> share;
-        if (body.smooth()) share = [&](double k) { return body.smooth()->share(k); };
-        PeriodicPixels<double> whole(map.nx, map.ny, map.dx, map.dy, share);
-        whole.apply(
-            [&](int j, double* row) {
-                std::fill_n(row, map.nx, 0.0);
-                const std::int64_t begin = std::int64_t{j} * map.nx;
-                for (auto k = std::ranges::lower_bound(pressures, begin, {},
-                                                       [](const auto& p) { return p.first; });
-                     k != pressures.end() && k->first < begin + map.nx; ++k)
-                    row[k->first - begin] = k->second.pressure / body.modulus();
-            },
-            [&](int j, const double* row) {
-                if (j < rows.first || j > rows.last) return;
-                for (int i = columns.first; i <= columns.last; ++i)
-                    u[window.index(i, j)] = whole.unit() * row[i];
-            });
-        return u;
-    }
-    constexpr double kError = 1e-6;
-    const auto products = make_products(body, indenter.period, map, kError, kError, false);
-    std::vector<Pixel> pixels;  // of the window, then others under pressure
-    std::vector<double> p(u.size(), 0.0);
-    for (int j = rows.first; j <= rows.last; ++j)
-        for (int i = columns.first; i <= columns.last; ++i) pixels.push_back({i, j});
-    for (const auto& [point, load] : pressures) {
-        if (const auto inside = window.find(point)) {
-            p[*inside] = load.pressure;
-            continue;
-        }
-        pixels.push_back({static_cast<int>(point % map.nx), static_cast<int>(point / map.nx)});
-        p.push_back(load.pressure);
-    }
-    std::vector<double> w(p.size());
-    products->elsewhere(p.data(), pixels, w.data());
-    u.assign(w.begin(), w.begin() + static_cast<std::ptrdiff_t>(u.size()));
-    return u;
-}
-
 // The columns and rows of all points under pressure with a margin, or the whole map if there are
 // none.
-Window about_contact(const HeightMap& map, const std::vector<Pressures>& levels) {
-    Range columns{map.nx, -1}, rows{map.ny, -1};
+PointWindow about_contact(const HeightMap& map, const std::vector<Pressures>& levels) {
+    PointRange columns{map.nx, -1}, rows{map.ny, -1};
     for (const Pressures& pressures : levels)
         for (const auto& [point, p] : pressures) {
             const int i = static_cast<int>(point % map.nx), j = static_cast<int>(point / map.nx);
             columns = {std::min(columns.first, i), std::max(columns.last, i)};
             rows = {std::min(rows.first, j), std::max(rows.last, j)};
         }
-    const auto widened = [](Range r, int n, double margin) {
+    const auto widened = [](PointRange r, int n, double margin) {
         const int more =
             std::max(4, static_cast<int>(std::ceil(std::min(margin, static_cast<double>(n)))));
-        return r.last < 0 ? Range{0, n - 1}
-                          : Range{std::max(0, r.first - more), std::min(n - 1, r.last + more)};
+        return r.last < 0 ? PointRange{0, n - 1}
+                          : PointRange{std::max(0, r.first - more), std::min(n - 1, r.last + more)};
     };
     const double margin = 0.15 * std::max(columns.size() * map.dx, rows.size() * map.dy);
     return {widened(columns, map.nx, margin / map.dx), widened(rows, map.ny, margin / map.dy),
@@ -223,14 +129,14 @@ Window about_contact(const HeightMap& map, const std::vector<Pressures>& levels)
 }
 
 // The window whose fields are requested.
-Window asked_window(const HeightMap& map, bool repeats, const std::vector<Pressures>& levels,
-                    const FieldsAsked& asked) {
+PointWindow asked_window(const HeightMap& map, bool repeats, const std::vector<Pressures>& levels,
+                         const FieldsAsked& asked) {
     if (!asked.window)
-        return repeats ? Window{{0, map.nx - 1}, {0, map.ny - 1}, map.nx}
+        return repeats ? PointWindow{{0, map.nx - 1}, {0, map.ny - 1}, map.nx}
                        : about_contact(map, levels);
     const auto& w = *asked.window;
-    const Window window{points_within(map.x0, map.dx, map.nx, w[0], w[1]),
-                        points_within(map.y0, map.dy, map.ny, w[2], w[3]), map.nx};
+    const PointWindow window{points_within(map.x0, map.dx, map.nx, w[0], w[1]),
+                             points_within(map.y0, map.dy, map.ny, w[2], w[3]), map.nx};
     if (window.columns.size() < 1 || window.rows.size() < 1)
         bad_input("output%field_window contains no point of the surface");
     return window;
@@ -242,12 +148,12 @@ void append(std::vector<T>& to, const std::vector<T>& values) {
 }
 
 // Appends the part of a row of the map in the window.
-void append_row(std::vector<double>& to, const double* row, const Window& window) {
+void append_row(std::vector<double>& to, const double* row, const PointWindow& window) {
     to.insert(to.end(), row + window.columns.first, row + window.columns.last + 1);
 }
 
 // Adds mu times what the pressures of a level are above those of the pixels that stick.
-void add_tractions(Fields& f, const FieldLevel& level, const Window& window, double friction) {
+void add_tractions(Fields& f, const FieldLevel& level, const PointWindow& window, double friction) {
     const std::size_t begin = f.traction.size();
     f.traction.resize(begin + window.points(), 0.0);
     const auto add = [&](const LevelPixels& pixels, double factor) {
@@ -260,9 +166,9 @@ void add_tractions(Fields& f, const FieldLevel& level, const Window& window, dou
 }
 
 // Adds the stresses under the pressures to the requested fields.
-void add_stresses(Fields& f, const HeightMap& map, const Pressures& pressures, const Window& window,
-                  const FieldsAsked& asked) {
-    const Range &columns = window.columns, &rows = window.rows;
+void add_stresses(Fields& f, const HeightMap& map, const Pressures& pressures,
+                  const PointWindow& window, const FieldsAsked& asked) {
+    const PointRange &columns = window.columns, &rows = window.rows;
     LevelPixels pixels;
     pixels.columns = map.nx;
     for (const auto& [point, load] : pressures) {
@@ -279,24 +185,6 @@ void add_stresses(Fields& f, const HeightMap& map, const Pressures& pressures, c
     }
 }
 
-// Adds the gap between the indenter and the heights, deflected by the pressures; 0 in contact.
-void add_gap(Fields& f, const HeightMap& heights, const Indenter& indenter, double separation,
-             const std::vector<std::int32_t>& touches, const Window& window,
-             std::vector<double> deflection) {
-    const Range &columns = window.columns, &rows = window.rows;
-    parallel_for(rows.size(), kRows, 0, [&](int j) {
-        for (int i = 0; i < columns.size(); ++i) {
-            double& gap = deflection[at(j) * f.x.size() + at(i)];
-            gap += separation - indenter.clearance(f.x[at(i)], f.y[at(j)],
-                                                   heights(columns.first + i, rows.first + j));
-            gap = touches[at(j) * f.x.size() + at(i)] ? 0
-                  : std::isfinite(gap)                ? std::max(gap, 0.0)
-                                       : kNotComputed;  // NaN outside a map of the indenter
-        }
-    });
-    append(f.gap, deflection);
-}
-
 }  // namespace
 
 ResidualProfile lowered_summits(const HeightMap& map, bool repeats, const Asperities& asperities,
@@ -308,10 +196,10 @@ ResidualProfile lowered_summits(const HeightMap& map, bool repeats, const Asperi
                      top = asperities.z[k] - depths[k];
         const double x = asperities.x[k], y = asperities.y[k];
         const auto range = [radius](double centre, double step) {
-            return Range{static_cast<int>(std::ceil((centre - radius) / step)),
-                         static_cast<int>(std::floor((centre + radius) / step))};
+            return PointRange{static_cast<int>(std::ceil((centre - radius) / step)),
+                              static_cast<int>(std::floor((centre + radius) / step))};
         };
-        const Range columns = range(x - map.x0, map.dx), rows = range(y - map.y0, map.dy);
+        const PointRange columns = range(x - map.x0, map.dx), rows = range(y - map.y0, map.dy);
         for (int j = rows.first; j <= rows.last; ++j)
             for (int i = columns.first; i <= columns.last; ++i) {
                 if (!repeats && (i < 0 || j < 0 || i >= map.nx || j >= map.ny)) continue;
@@ -326,18 +214,6 @@ ResidualProfile lowered_summits(const HeightMap& map, bool repeats, const Asperi
     return lowered;
 }
 
-HeightMap lowered_map(const HeightMap& map, const ResidualProfile& lowered) {
-    HeightMap now = map.copy();
-    const auto index = [](double x, double first, double step, int n) {
-        const int k = static_cast<int>(std::round((x - first) / step));
-        return (k % n + n) % n;
-    };
-    for (std::size_t k = 0; k < lowered.depth.size(); ++k)
-        now.row(index(lowered.y[k], map.y0, map.dy,
-                      map.ny))[index(lowered.x[k], map.x0, map.dx, map.nx)] -= lowered.depth[k];
-    return now;
-}
-
 Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction interaction,
                  const std::vector<FieldLevel>& levels, const FieldsAsked& asked) {
     Fields f;
@@ -348,8 +224,8 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
         f.step.push_back(level.step);
         pressures.push_back(pressures_of(map, repeats, *level.level));
     }
-    const Window window = asked_window(map, repeats, pressures, asked);
-    const Range &columns = window.columns, &rows = window.rows;
+    const PointWindow window = asked_window(map, repeats, pressures, asked);
+    const PointRange &columns = window.columns, &rows = window.rows;
     for (int i = columns.first; i <= columns.last; ++i) f.x.push_back(map.x(i));
     for (int j = rows.first; j <= rows.last; ++j) f.y.push_back(map.y(j));
     if (asked.stresses()) f.depth = asked.depths;
@@ -375,12 +251,14 @@ Fields fields_of(const HeightMap& map, const Indenter& indenter, Interaction int
         if (asked.pressure) append(f.pressure, p);
         if (asked.gap) {
             const std::optional<Level>& lasting = levels[s].lasting;
-            add_gap(f, lowered, indenter, level.separation, touches, window,
-                    interaction == Interaction::none
-                        ? std::vector<double>(p.size(), 0.0)
-                        : deflections(map, indenter,
-                                      lasting ? pressures_of(map, repeats, *lasting) : pressures[s],
-                                      window));
+            std::vector<double> deflection =
+                interaction == Interaction::none
+                    ? std::vector<double>(p.size(), 0.0)
+                    : deflections(map, indenter,
+                                  lasting ? pressures_of(map, repeats, *lasting) : pressures[s],
+                                  window);
+            append(f.gap, gaps(lowered, indenter, level.separation, touches, window,
+                               std::move(deflection)));
         }
         if (asked.traction) add_tractions(f, levels[s], window, asked.friction);
         if (asked.stresses()) add_stresses(f, map, pressures[s], window, asked);

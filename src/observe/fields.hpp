@@ -72,9 +72,6 @@ inline constexpr StressQuantity kStressQuantities[] = {
 ResidualProfile lowered_summits(const HeightMap& map, bool repeats, const Asperities& asperities,
                                 const std::vector<double>& depths);
 
-// The map without what was permanently lowered.
-HeightMap lowered_map(const HeightMap& map, const ResidualProfile& lowered);
-
 // A level whose fields are requested. `lowered`: plastic residual after the level; `lasting`:
 // Path::lasting_loads().
 struct FieldLevel {

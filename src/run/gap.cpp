@@ -23,20 +23,6 @@ void require_flow_memory(const Case& settings, double points) {
                points, 1e-9 * needed, 1e-9 * memory, side, side));
 }
 
-void measure_gap(const HeightMap& map, const Path& contact, Level& level, const PdfBins& bins,
-                 bool with_flow, std::vector<double>* flow) {
-    if (std::isnan(level.force)) return;  // there is no state
-    FieldsAsked asked;
-    asked.gap = true;
-    const Fields fields =
-        fields_of(map, contact.indenter(), Interaction::point,
-                  {{0, &level, contact.residual_profile(), contact.lasting_loads(level)}}, asked);
-    const GapMap gap{map.nx, map.ny, map.dx, map.dy, fields.gap};
-    add_gap(level, gap);
-    if (bins.gap_max > 0) level.gaps = count_gaps(gap, bins.bins, bins.gap_width());
-    if (with_flow) add_permeability(level, gap, flow);
-}
-
 void print_gap(std::ostream& out, std::span<const LevelValues> levels, const Job& job) {
     if (!job.settings.output.flow) return;
     const auto open = [](const LevelValues& l) { return l.percolates_x > 0; };

@@ -4,10 +4,11 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "case/registry.hpp"
-#include "contact/answers.hpp"
 #include "contact/make.hpp"
+#include "elements/deformed.hpp"
 #include "io/inputs.hpp"
 #include "physics/adhesion/adhesive_elements.hpp"
+#include "physics/flow/flow.hpp"
 #include "run/friction.hpp"
 #include "run/gap.hpp"
 #include "run/stress.hpp"
@@ -166,6 +167,11 @@ struct Pressed {
 };
 using MakePressed = std::function<Pressed()>;
 
+LevelSource source_of(const Job& job, Path& contact, Level& level) {
+    const auto& resistivity = job.settings.solids.resistivity;
+    return {contact, level, {resistivity[0], resistivity[1]}};
+}
+
 // Solves level k of the case. `complete` adds what its status depends on.
 Level press(const Job& job, std::size_t k, Pressed& pressed,
             const std::function<void(Level&)>& complete) {
@@ -175,7 +181,8 @@ Level press(const Job& job, std::size_t k, Pressed& pressed,
     Level level = by_force ? contact.at_force(job.levels[k]) : contact.at_separation(job.levels[k]);
     if (!job.times.empty())
         (job.settings.indentation.slides() ? level.distance : level.time) = job.times[k];
-    add_answers(contact, level, job.settings.solids.resistivity);
+    LevelSource source = source_of(job, contact, level);
+    compute_quantities(source, Stage::solution);
     complete(level);
     pressed.judge.judge(level, contact, by_force);
     return level;
@@ -484,6 +491,19 @@ const HeightMap& heights_of(const Job& job, const Realization& r) {
     return job.given_heights ? *job.given_heights : *r.heights;
 }
 
+// Computes what a level has of its gap. `flux`: as in LevelSource.
+void measure_gap(const Job& job, const HeightMap& map, Path& contact, Level& level,
+                 std::vector<double>* flux) {
+    if (std::isnan(level.force)) return;  // there is no state
+    LevelSource source = source_of(job, contact, level);
+    source.map = &map;
+    source.flux = flux;
+    compute_quantities(source, Stage::gap);
+    if (job.settings.output.flow) compute_quantities(source, Stage::flow);
+    const PdfBins& bins = job.observe.pdf;
+    if (bins.gap_max > 0) level.gaps = count_gaps(gap_of(source), bins.bins, bins.gap_width());
+}
+
 // Refuses a force that no separation has, before the levels below it are solved.
 void require_reachable(const Job& job, Path& contact) {
     const auto& settings = job.settings;
@@ -534,7 +554,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
         const bool field = contains(field_steps, std::int32_t(k));
         std::vector<double> flow;
         if (has_gap(settings))
-            measure_gap(heights_of(job, r), *contact, level, job.observe.pdf, settings.output.flow,
+            measure_gap(job, heights_of(job, r), *contact, level,
                         field && fields_asked(job).flow ? &flow : nullptr);
         if (field && !std::isnan(level.force)) {  // a level without a state has none
             fields.push_back(field_level(job, r, *contact, k, level, std::move(flow)));

@@ -5,7 +5,7 @@
 #include "base/format.hpp"
 #include "case/units.hpp"
 #include "io/inputs.hpp"
-#include "observe/quantities.hpp"
+#include "contact/quantities.hpp"
 #include "observe/regimes.hpp"
 #include "run/gap.hpp"
 #include "trust/doubts.hpp"

@@ -52,6 +52,16 @@ void level_by_calls(const Reader& file, rsc_contact* contact, std::size_t s,
             continue;
         }
         if (elements && (name == "status" || name == "doubts") && wanted != 0) continue;
+        // A variable names that of its error.
+        if (const std::string error = file.text(variable, "ancillary_variables"); !error.empty()) {
+            if (!elements) {
+                OK(rsc_contact_error(contact, name.c_str(), &value));
+                CHECK(value == file.values(error)[s]);
+                compared.insert(error);
+            }
+        } else {
+            CHECK(rsc_contact_error(contact, name.c_str(), &value) == RSC_NO_RESULT);
+        }
         OK(rsc_contact_value(contact, name.c_str(), &value));
         if (value != wanted)
             std::printf("%s: %.17g in the file, %.17g by name\n", name.c_str(), wanted, value);

@@ -18,11 +18,12 @@ int rank_of(const std::string& room) {
     return found == ranks.end() ? -1 : found->second;
 }
 
-// Each folder of physics/ is a room of its own; so is the file that knows all models.
+// Each folder of physics/ is a room of its own; so are the files that know all of them.
 std::string room_of(const std::string& path) {
     const auto first = path.find('/');
     if (first == std::string::npos) return "";
-    if (path.starts_with("contact/make.")) return "contact/make";
+    if (path.starts_with("contact/make.") || path == "contact/quantities.cpp")
+        return "contact/make";
     if (path.substr(0, first) != "physics") return path.substr(0, first);
     return path.substr(0, path.find('/', first + 1));
 }

@@ -21,7 +21,12 @@ constexpr double kE = 3.0;
 // Levels are asked for a residual of 1e-11; the matrices' condition is some hundreds. Sums over
 // pixels that touch come down to rounding.
 constexpr double kSame = 1e-8, kTolerance = 1e-11;
-constexpr double kResistivity[2] = {2, 3};
+constexpr std::array<double, 2> kResistivity = {2, 3};
+
+void complete(Path& contact, Level& level) {
+    LevelSource source{contact, level, kResistivity};
+    compute_quantities(source, Stage::solution);
+}
 
 struct Truth {
     const HeightMap& map;
@@ -248,7 +253,7 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
     double deepest = 0;
     for (const double Z0 : {0.012, 0.006, 0.0085, 0.004}) {
         Level level = contact->at_separation(Z0);
-        add_answers(*contact, level, kResistivity);
+        complete(*contact, level);
         CHECK(t.press(Z0));
         t.accept();
         whole_level(level, t, Z0);
@@ -277,7 +282,7 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
     // By force, and with the tip elsewhere: the surface as it is now.
     const double N = 1.3 * deepest;
     Level level = contact->at_force(N);
-    add_answers(*contact, level, kResistivity);
+    complete(*contact, level);
     CHECK(t.press(level.separation));
     t.accept();
     same(level.force, N, N, "force asked for");
@@ -286,7 +291,7 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
     t.tip.x0 = 0.5;
     t.tip.y0 = 0.12;
     level = contact->at_separation(0.005);
-    add_answers(*contact, level, kResistivity);
+    complete(*contact, level);
     CHECK(t.press(0.005));
     t.accept();
     whole_level(level, t, 0.005);

@@ -1,6 +1,7 @@
 #include "physics/flow/flow.hpp"
 
 #include "base/parallel.hpp"
+#include "elements/deformed.hpp"
 
 namespace rsc {
 namespace {
@@ -46,13 +47,44 @@ GapCounts count_gaps(const GapMap& map, int bins, double width) {
     return counts;
 }
 
-void add_permeability(LevelValues& level, const GapMap& map, std::vector<double>* flow) {
-    const Permeability k = permeability(map, flow);
+GapMap gap_of(LevelSource& source) {
+    const HeightMap& map = *source.map;
+    if (source.gap.empty()) {
+        const Path& contact = source.contact;
+        const PointWindow whole{{0, map.nx - 1}, {0, map.ny - 1}, map.nx};
+        const Pressures pressures = pressures_of(source.level.pixels);
+        std::vector<std::int32_t> touches(whole.points(), 0);
+        for (const auto& [point, load] : pressures) touches[at(point)] = load.touches;
+        const ResidualProfile depths = contact.residual_profile();
+        const HeightMap lowered = depths.depth.empty() ? HeightMap{} : lowered_map(map, depths);
+        const std::optional<Level> lasting = contact.lasting_loads(source.level);
+        source.gap = gaps(lowered.data ? lowered : map, contact.indenter(), source.level.separation,
+                          touches, whole,
+                          deflections(map, contact.indenter(),
+                                      lasting ? pressures_of(lasting->pixels) : pressures, whole));
+    }
+    return {map.nx, map.ny, map.dx, map.dy, source.gap};
+}
+
+const char* compute_gap(LevelSource& source) {
+    if (!source.map || !source.contact.indenter().period.finite())
+        return "only two flats solved by elements have a gap";
+    if (std::isnan(source.level.gap_mean)) add_gap(source.level, gap_of(source));
+    return nullptr;
+}
+
+const char* compute_permeability(LevelSource& source) {
+    if (const char* const none = compute_gap(source)) return none;
+    if (!has_permeability()) return "this rsc was built without CHOLMOD";
+    LevelValues& level = source.level;
+    if (!std::isnan(level.permeability_xx)) return nullptr;
+    const Permeability k = permeability(gap_of(source), source.flux);
     level.permeability_xx = k.xx;
     level.permeability_yy = k.yy;
     level.permeability_xy = k.xy;
     level.hydraulic_gap_x = std::cbrt(12 * k.xx);
     level.hydraulic_gap_y = std::cbrt(12 * k.yy);
+    return nullptr;
 }
 
 }  // namespace rsc

@@ -2,7 +2,7 @@
 // output%flow its permeability.
 #pragma once
 
-#include "contact/level.hpp"
+#include "contact/quantities.hpp"
 #include "physics/flow/permeability.hpp"
 
 namespace rsc {
@@ -13,7 +13,11 @@ void add_gap(LevelValues& level, const GapMap& map);
 // The open points of the gap in `bins` bins of this width.
 GapCounts count_gaps(const GapMap& map, int bins, double width);
 
-// Sets permeability and hydraulic_gap; `flow` as in permeability().
-void add_permeability(LevelValues& level, const GapMap& map, std::vector<double>* flow = nullptr);
+// The gap of a level of two flats by elements at the points of its map; computed once.
+GapMap gap_of(LevelSource& source);
+
+// Compute the quantities of the gap, and its permeability (LevelQuantity::compute).
+const char* compute_gap(LevelSource& source);
+const char* compute_permeability(LevelSource& source);
 
 }  // namespace rsc

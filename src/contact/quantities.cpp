@@ -1,16 +1,27 @@
-#include "observe/quantities.hpp"
+#include "contact/quantities.hpp"
+
+#include "base/error.hpp"
+#include "contact/answers.hpp"
+#include "physics/flow/flow.hpp"
 
 namespace rsc {
 namespace {
 
 using V = LevelValues;
 
-constexpr LevelQuantity kQuantities[] = {
+constexpr LevelQuantity kRows[] = {
+    {.name = "separation",
+     .member = &V::separation,
+     .length_power = 1,
+     .meaning = "separation of the indenter's tip from the mean plane, Z0",
+     .error_member = &V::separation_error_expected,
+     .separate = true},
     {.name = "force",
      .member = &V::force,
      .force_power = 1,
      .meaning = "normal force, N",
      .comment = "N = sum of the forces f of the contacts",
+     .error_member = &V::force_error_expected,
      .statistics = true,
      .plain = "force",
      .heading = "N",
@@ -23,6 +34,7 @@ constexpr LevelQuantity kQuantities[] = {
      .comment = "law 'hertz': sum of pi a^2 over the contacts; 'elliptic' and 'fourth_order': area "
                 "of the union of their elliptic spots; boundary elements: area of the pixels under "
                 "pressure, corrected at borders below the hardness",
+     .error_member = &V::area_error_expected,
      .statistics = true,
      .plain = "contact area",
      .heading = "A",
@@ -71,6 +83,8 @@ constexpr LevelQuantity kQuantities[] = {
      .length_power = 1,
      .meaning = "mean gap between two flats",
      .comment = "boundary elements, over the whole cell; 0 where the bodies touch",
+     .compute = compute_gap,
+     .stage = Stage::gap,
      .always = false,
      .statistics = true,
      .of_flow = true,
@@ -82,6 +96,8 @@ constexpr LevelQuantity kQuantities[] = {
      .member = &V::gap_mean_open,
      .length_power = 1,
      .meaning = "mean gap where two flats do not touch",
+     .compute = compute_gap,
+     .stage = Stage::gap,
      .always = false},
     {.name = "percolates",
      .member = &V::percolates_x,
@@ -90,6 +106,8 @@ constexpr LevelQuantity kQuantities[] = {
      .meaning = "1 if the gap is open across any number of periods, otherwise 0",
      .comment = "along x, along y: points of the gap connected by their sides wind around the "
                 "periodic cell",
+     .compute = compute_gap,
+     .stage = Stage::gap,
      .always = false,
      .statistics = true,
      .plain = "percolation (its share)"},
@@ -102,6 +120,8 @@ constexpr LevelQuantity kQuantities[] = {
      .comment = "flux per width q = -(K/eta) grad P of a fluid of viscosity eta; a parallel gap h "
                 "has h^3/12. A seal of length l along x and width w leaks w K_xx/(eta l) times the "
                 "pressure drop",
+     .compute = compute_permeability,
+     .stage = Stage::flow,
      .always = false,
      .statistics = true,
      .logarithm = true,
@@ -111,6 +131,8 @@ constexpr LevelQuantity kQuantities[] = {
      .y = &V::hydraulic_gap_y,
      .length_power = 1,
      .meaning = "parallel gap of the same permeability, (12 K)^(1/3), along x and along y",
+     .compute = compute_permeability,
+     .stage = Stage::flow,
      .always = false,
      .of_flow = true,
      .plain = "hydraulic gap",
@@ -372,10 +394,12 @@ constexpr LevelQuantity kQuantities[] = {
     {.name = "crowded_cells",
      .member = &V::crowded_cells,
      .meaning = "number of map cells with an area fraction above pi/16",
-     .comment = "above 19.6 % interaction by point forces is inaccurate"},
+     .comment = "above 19.6 % interaction by point forces is inaccurate",
+     .of_map = true},
     {.name = "contacts_outside_map",
      .member = &V::outside_map,
-     .meaning = "contacts outside the map, included in force and contact_area but in no cell"},
+     .meaning = "contacts outside the map, included in force and contact_area but in no cell",
+     .of_map = true},
     {.name = "stiffness",
      .member = &V::stiffness,
      .length_power = -1,
@@ -383,6 +407,7 @@ constexpr LevelQuantity kQuantities[] = {
      .meaning = "derivative of the force with respect to the separation, dN/dZ0",
      .comment =
          "boundary elements with adhesion: at fixed attracting points, as in small oscillations",
+     .compute = compute_stiffness,
      .always = false,
      .statistics = true,
      .plain = "stiffness"},
@@ -402,6 +427,7 @@ constexpr LevelQuantity kQuantities[] = {
      .meaning = "lateral force on the indenter at fixed separation",
      .comment = "-dW/dx0 and -dW/dy0: lateral components of the normal forces of the contacts, "
                 "without friction",
+     .compute = compute_lateral_force,
      .always = false,
      .statistics = true,
      .plain = "lateral force"},
@@ -412,6 +438,7 @@ constexpr LevelQuantity kQuantities[] = {
      .force_power = 1,
      .meaning = "moment of the contact forces on the indenter about its tip",
      .comment = "about the axes x and y through the tip",
+     .compute = compute_moment,
      .always = false,
      .statistics = true,
      .plain = "moment about the tip"},
@@ -421,6 +448,7 @@ constexpr LevelQuantity kQuantities[] = {
      .meaning = "conductance of the contact times the sum of the resistivities, -2 (dN/dZ0)/E* at "
                 "fixed contact areas",
      .comment = "electrical or thermal (Barber 2003); 4 a for a single spot",
+     .compute = compute_conductance,
      .always = false,
      .statistics = true,
      .plain = "conductance length"},
@@ -431,10 +459,25 @@ constexpr LevelQuantity kQuantities[] = {
      .comment =
          "sum of solids%resistivity [ohm times run%length_unit] over conductance_length; thermal "
          "resistivities [K/W times run%length_unit] make it K/W; absent without contact",
+     .compute = compute_resistance,
      .always = false,
      .statistics = true,
      .plain = "constriction resistance"},
 };
+
+// Names of components by their number.
+constexpr const char* kComponents[][3] = {{""}, {"_x", "_y"}, {"_xx", "_yy", "_xy"}};
+
+std::vector<LevelQuantity> with_slots(std::span<const LevelQuantity> rows) {
+    std::vector<LevelQuantity> all(rows.begin(), rows.end());
+    std::size_t slots = 0;
+    for (LevelQuantity& q : all) {
+        q.slot = slots;
+        slots += q.components();
+    }
+    if (slots > kMostComponents) throw Error(Failure::internal, "too many quantities of a level");
+    return all;
+}
 
 }  // namespace
 
@@ -453,12 +496,43 @@ void LevelQuantity::put(LevelValues& level, double value, std::size_t component)
         member);
 }
 
-std::span<const LevelQuantity> level_quantities() { return kQuantities; }
+double LevelQuantity::error(const LevelValues& level, std::size_t component) const {
+    return error_member ? level.*error_member : level.errors[slot + component];
+}
 
-const LevelQuantity* find_quantity(std::string_view name) {
-    for (const LevelQuantity& q : kQuantities)
-        if (name == q.name) return &q;
-    return nullptr;
+std::string LevelQuantity::error_name() const {
+    if (error_member)
+        for (const LevelQuantity& q : level_quantities())
+            if (q.member == Member(error_member)) return q.name;
+    return name + std::string("_error_expected");
+}
+
+std::span<const LevelQuantity> level_quantities() {
+    static const std::vector<LevelQuantity> all = with_slots(kRows);
+    return all;
+}
+
+std::optional<QuantityComponent> find_quantity(std::string_view name) {
+    for (const LevelQuantity& q : level_quantities())
+        for (const auto c : indices(q.components()))
+            if (!q.of_map && name.starts_with(q.name) &&
+                name.substr(std::strlen(q.name)) == kComponents[q.components() - 1][c])
+                return QuantityComponent{&q, c};
+    return std::nullopt;
+}
+
+std::string names_of_quantities() {
+    std::string names;
+    for (const LevelQuantity& q : level_quantities())
+        for (std::size_t c = 0; c < q.components() && !q.of_map; ++c)
+            enlist(names, ", ", std::string(q.name) + kComponents[q.components() - 1][c]);
+    return names;
+}
+
+void compute_quantities(LevelSource& source, Stage stage) {
+    if (std::isnan(source.level.force)) return;  // there is no state
+    for (const LevelQuantity& q : level_quantities())
+        if (q.compute && q.stage == stage) (void)q.compute(source);
 }
 
 }  // namespace rsc

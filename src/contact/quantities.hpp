@@ -1,0 +1,97 @@
+// Quantities of a level. Each is defined by one member of LevelValues (contact/level.hpp) and one row
+// in quantities.cpp: name, unit, meaning, how it is computed if it does not come with the solution,
+// and how its error depends on the resolution. Result files, checkpoints, screen output, means of
+// campaigns, rsc_contact_value() and rsc_contact_error() use this table.
+#pragma once
+
+#include "contact/path.hpp"
+#include "surface/surface.hpp"
+
+namespace rsc {
+
+// What the quantities of a level are computed from.
+struct LevelSource {
+    Path& contact;  // that solved the level
+    Level& level;
+    std::array<double, 2> resistivity = {};  // of the bodies; 0: not known
+    const HeightMap* map = nullptr;          // of elements, before any change; null for asperities
+    // If not null, computing the permeability also gives its flux (physics/flow/permeability.hpp).
+    std::vector<double>* flux = nullptr;
+    std::vector<double> gap = {};  // of two flats at all points; empty: not yet computed [length]
+};
+
+// When a run computes a quantity: with the solution, or for two flats by elements from the gap of
+// the level, or also from its flow if the case has output%flow.
+enum class Stage { solution, gap, flow };
+
+struct LevelQuantity {
+    using Member = std::variant<double LevelValues::*, std::int32_t LevelValues::*,
+                                std::int64_t LevelValues::*, LevelStatus LevelValues::*,
+                                Method LevelValues::*, Fallback LevelValues::*>;
+    const char* name;  // of the variable in files and in calls by name
+    Member member;     // NaN (double): not computed
+    // second component of a vector, whose first is `member`; adds a dimension in files
+    double LevelValues::*y = nullptr;
+    // third component of a symmetric tensor: member, y and z are xx, yy and xy
+    double LevelValues::*z = nullptr;
+    int length_power = 0, force_power = 0;  // powers in its unit
+    const char* unit = nullptr;  // unit that replaces these powers; "time": the unit of times
+    bool of_step = false;        // has the same value in every realization
+    const char* meaning = "";    // long_name
+    const char* comment = "";
+    // Sets it in the level unless it is known. Returns null, or why the level has none; for levels
+    // with a state only. Null: it comes with the solution, or from the judge or the map.
+    const char* (*compute)(LevelSource&) = nullptr;
+    Stage stage = Stage::solution;
+    // Its expected relative error is error_factor * pixels_per_contact^(-error_exponent), for which
+    // nine of ten levels of the study in input/trust were within it; 0: none is stated.
+    double error_factor = 0, error_exponent = 0;
+    // The quantity that is its expected error, if that has a row and a meaning of its own.
+    double LevelValues::*error_member = nullptr;
+    bool separate = false;  // an axis of files, which they write before the others
+    bool of_map = false;    // of the maps of a run: not available by name
+    bool always = true;     // false: written only if some level has it
+    // A count: written with this quantity, even if it is 0 at all levels.
+    double LevelValues::*beside = nullptr;
+    bool statistics = false;  // files also have name_mean and name_std over realizations
+    // these are of its logarithm, name_log_mean ..., over the realizations where it is positive
+    bool logarithm = false;
+    bool of_flow = false;  // on the screen only with output%flow
+    const char* plain = "";
+    const char* heading = nullptr;  // of its column on the screen; null: not shown
+    int width = 0, digits = 0;      // of the column; significant digits of a double, 0: "%.1e"
+
+    std::size_t components() const { return z ? 3 : y ? 2 : 1; }
+    // The value of a component as a double; NaN if it was not computed.
+    double of(const LevelValues& level, std::size_t component = 0) const;
+    // Stores a value returned by of().
+    void put(LevelValues& level, double value, std::size_t component = 0) const;
+    bool integer() const { return !std::holds_alternative<double LevelValues::*>(member); }
+    // Expected error of a component: relative, unless error_member is another one; NaN: none is
+    // stated.
+    double error(const LevelValues& level, std::size_t component = 0) const;
+    std::string error_name() const;  // of this error in files: name_error_expected
+
+    std::size_t slot = 0;  // of its first component in LevelValues::errors; set by the table
+};
+
+// All quantities in the order of files and screen.
+std::span<const LevelQuantity> level_quantities();
+
+// A quantity, or one component of it.
+struct QuantityComponent {
+    const LevelQuantity* quantity;
+    std::size_t component;
+    double of(const LevelValues& level) const { return quantity->of(level, component); }
+    double error(const LevelValues& level) const { return quantity->error(level, component); }
+};
+
+// The scalars available by name: components of vectors are "lateral_force_x", of tensors
+// "permeability_xx", ...
+std::optional<QuantityComponent> find_quantity(std::string_view name);
+std::string names_of_quantities();  // separated by commas
+
+// Computes all quantities of a stage that a level has.
+void compute_quantities(LevelSource& source, Stage stage);
+
+}  // namespace rsc
