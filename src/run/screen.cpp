@@ -4,8 +4,8 @@
 
 #include "base/format.hpp"
 #include "case/units.hpp"
-#include "io/inputs.hpp"
 #include "contact/quantities.hpp"
+#include "io/inputs.hpp"
 #include "observe/regimes.hpp"
 #include "run/gap.hpp"
 #include "trust/doubts.hpp"
