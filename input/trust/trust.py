@@ -667,9 +667,13 @@ def fit(out, header):
         )
     print("\n".join(report))
     (out / "report.txt").write_text("\n".join(report) + "\n")
-    of_laws = lambda of: braces(
-        [braces([of(tables[law], what) for what in ("N", "A")]) for law in LAWS]
-    )
+    by_what = lambda of: braces([of(what) for what in ("N", "A")])
+    table_rows = [
+        f'    {{"{law}", {by_what(lambda what: braces(tables[law].errors[what]))},'
+        f" {by_what(lambda what: tables[law].of_files[what])},"
+        f" {by_what(lambda what: tables[law].of_yielding[what])}}},"
+        for law in LAWS
+    ]
     lines = [
         (
             "// Written by input/trust/trust.py from its study of asperities against elements; do"
@@ -685,17 +689,18 @@ def fit(out, header):
         f"inline constexpr double kFewestPointsPerWave = {4 / COARSEST:.4g};",
         "// Upper ends of the bins of the mean contact radius over the mean spacing of summits.",
         f"inline constexpr double kRadii[] = {braces(edges)};",
-        "// Relative errors by law (hertz, elliptic, fourth_order), of N and A, by bin.",
-        f"inline constexpr double kErrors[3][2][{BINS}] =",
-        f"    {of_laws(lambda table, what: braces(table.errors[what]))};",
         (
-            "// Factors of heights from a file or not isotropic and Gaussian, and of yielding"
-            " contacts."
+            "// Relative errors of N and A, by bin, of the laws that were compared; factors of"
+            " heights from a"
         ),
-        "inline constexpr double kOfFiles[3][2] =",
-        f"    {of_laws(lambda table, what: table.of_files[what])};",
-        "inline constexpr double kOfYielding[3][2] =",
-        f"    {of_laws(lambda table, what: table.of_yielding[what])};",
+        "// file or not isotropic and Gaussian, and of yielding contacts.",
+        "struct LawError {",
+        "    const char* law;",
+        f"    double errors[2][{BINS}], of_files[2], of_yielding[2];",
+        "};",
+        "inline constexpr LawError kLawErrors[] = {",
+        *table_rows,
+        "};",
         "",
         "}  // namespace rsc",
         "",

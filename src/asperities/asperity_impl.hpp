@@ -51,7 +51,7 @@ struct AsperityModel::Impl : ContactBodies {
     NewtonOutcome solve_from(const std::vector<double>& start, bool rough_start);
     // True if the solution continues the branch of the accepted levels (path-dependent laws). For
     // other laws solve_cold() selects among several solutions.
-    bool follows() const { return law->path_dependent(); }
+    bool follows() const { return law->memory() != nullptr; }
     // Descends from the no-interaction start to a minimum of the energy. This defines the solution
     // if there are several.
     NewtonOutcome solve_cold() {

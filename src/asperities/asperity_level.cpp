@@ -12,7 +12,7 @@ namespace {
 std::vector<Spot> spots_of(const Level& level, const Law& law, const Asperities& asperities) {
     std::vector<Spot> spots;
     for (std::size_t k = 0; k < level.asperity.size(); ++k) {
-        const double root = std::sqrt(law.axes(level.asperity[k]));
+        const double root = std::sqrt(law.footprint(level.asperity[k], 0).axes);
         spots.push_back({level.x[k], level.y[k], level.a[k] / root, level.a[k] * root,
                          asperities.angle[at(level.asperity[k])]});
     }

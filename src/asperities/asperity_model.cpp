@@ -79,7 +79,7 @@ Level AsperityModel::Impl::report(double Z0) const {
     level.yields.reserve(order.size());
     double extreme = 0;
     for (std::size_t k : order) {
-        const double area = law->area(set.asperity[k], v[k]);
+        const auto [area, axes, beyond] = law->footprint(set.asperity[k], v[k]);
         const double f = force[k] / scale();
         const auto i = at(set.asperity[k]);
         const Vec2 place = indenter.image(asperities.x[i], asperities.y[i]);
@@ -87,8 +87,8 @@ Level AsperityModel::Impl::report(double Z0) const {
                           v[k]);
         level.force += f;
         level.area += area;
-        level.beyond_law += law->beyond(set.asperity[k], v[k]);
-        level.yields.push_back(law->yields(set.asperity[k], v[k]));
+        level.beyond_law += beyond;
+        level.yields.push_back(law->memory() && law->memory()->yields(set.asperity[k], v[k]));
         level.plastic_contacts += level.yields.back();
         if (f > kExtreme * indenter.E_star * area) extreme += area;
     }
@@ -206,7 +206,7 @@ Level AsperityModel::solve(double Z0, bool trial) {
 
 void AsperityModel::accept(Level& level) {
     Impl& my = *impl_;
-    if (!my.law->path_dependent()) return;
+    if (!my.law->memory()) return;
     const WorkingSet& set = my.candidates.set;
     my.earlier.remember(my.solved.separation, my.candidates, my.solution.v, my.solved.unique);
     my.history->accept(set, my.solution, *my.products, level);
@@ -216,7 +216,7 @@ void AsperityModel::accept(Level& level) {
     my.newton.take(set, my.solution.v);
 }
 
-History* AsperityModel::history() { return impl_->law->path_dependent() ? this : nullptr; }
+History* AsperityModel::history() { return impl_->law->memory() ? this : nullptr; }
 
 double AsperityModel::shortest_time() const { return impl_->options.physics.relaxation.shortest(); }
 
@@ -224,7 +224,7 @@ void AsperityModel::step(double dt) { impl_->history->step(dt); }
 
 void AsperityModel::forget() {
     const Impl& my = *impl_;
-    if (my.law->path_dependent()) {
+    if (my.law->memory()) {
         impl_ = std::make_unique<Impl>(my.of_surface, my.indenter, my.options, my.make);
         return;
     }
@@ -268,7 +268,7 @@ double AsperityModel::energy() const {
 void AsperityModel::move_tip(double x0, double y0) {
     Impl& my = *impl_;
     my.tried.reset();
-    if (my.of_difference && my.law->path_dependent()) return move_with_history(x0, y0);
+    if (my.of_difference && my.law->memory()) return move_with_history(x0, y0);
     my.earlier.carry(my.candidates, my.solution.v, my.asperities.size(),
                      {my.indenter.x0, my.indenter.y0}, {x0, y0});
     my.indenter.move(x0, y0);

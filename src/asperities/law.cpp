@@ -10,7 +10,7 @@
 namespace rsc {
 namespace {
 
-class Hertz final : public Law {
+class Hertz final : public Law, Truncation, Widening {
 public:
     Hertz(const Asperities& asperities, double E_star, ShiftedSummits*)
         : radius_(asperities.radius), E_star_(E_star), c_(asperities.size()) {}
@@ -30,11 +30,11 @@ public:
         }
     }
 
-    double area(int asperity, double u) const override {
-        return u > 0 ? std::numbers::pi * radius_[at(asperity)] * u : 0.0;
+    Footprint footprint(int asperity, double u) const override {
+        return {u > 0 ? std::numbers::pi * radius_[at(asperity)] * u : 0.0, 1, false};
     }
-    double axes(int) const override { return 1; }
-    bool beyond(int, double) const override { return false; }
+    LawCapabilities capabilities() const override { return {this, this, true, true}; }
+    bool sinks() const override { return false; }
     Spread spread(int asperity, double u) const override {
         const double slope = std::numbers::pi * radius_[at(asperity)];
         return {slope * u, slope, 0.5 * slope * u * u};
@@ -53,7 +53,7 @@ private:
 };
 
 // Laws 'fourth_order' and 'elliptic'; the latter has q = 0.
-class FourthOrder final : public Law {
+class FourthOrder final : public Law, Truncation, Widening {
 public:
     FourthOrder(const Asperities& asperities, double E_star, ShiftedSummits* shifts, bool quartic)
         : asperities_(asperities),
@@ -106,15 +106,14 @@ public:
         }
     }
 
-    double area(int asperity, double u) const override {
-        if (!(u > 0)) return 0;
+    Footprint footprint(int asperity, double u) const override {
         const Summit& s = summit(asperity);
+        if (!(u > 0)) return {0, s.axes, false};
         const double smooth = std::min(u, s.last), radius = profile_.at(argument(s, u)).radius;
-        return s.spot * s.r * smooth * radius * radius;
+        return {s.spot * s.r * smooth * radius * radius, s.axes, u > s.last};
     }
-
-    double axes(int asperity) const override { return summit(asperity).axes; }
-    bool beyond(int asperity, double u) const override { return u > summit(asperity).last; }
+    LawCapabilities capabilities() const override { return {this, this, !quartic_, true}; }
+    bool sinks() const override { return quartic_; }
 
     double widening(int asperity, double u) const override {
         const Summit& s = summit(asperity);
@@ -210,10 +209,10 @@ std::unique_ptr<Law> made(const Asperities& asperities, double E_star, ShiftedSu
     return std::make_unique<T>(asperities, E_star, shifts, more...);
 }
 constexpr Row kLaws[] = {
-    // curvatures, biharmonic, between points, sinks, elliptic spots
-    {{kLawNames[0], false, false, false, false, false}, made<Hertz>},
-    {{kLawNames[1], true, false, true, false, true}, made<FourthOrder, false>},
-    {{kLawNames[2], true, true, true, true, true}, made<FourthOrder, true>},
+    // curvatures, biharmonic, between points, elliptic spots
+    {{kLawNames[0], false, false, false, false}, made<Hertz>},
+    {{kLawNames[1], true, false, true, true}, made<FourthOrder, false>},
+    {{kLawNames[2], true, true, true, true}, made<FourthOrder, true>},
 };
 static_assert(std::size(kLaws) == kLawNames.size());
 
@@ -239,6 +238,10 @@ std::unique_ptr<Law> make_law(LawKind kind, const Asperities& asperities, double
                     "not given: 'hertz' and 'elliptic' are possible");
     }
     return kLaws[static_cast<int>(kind)].make(asperities, E_star, shifts);
+}
+
+LawCapabilities capabilities_of(LawKind kind) {
+    return make_law(kind, Asperities(), 1)->capabilities();
 }
 
 }  // namespace rsc

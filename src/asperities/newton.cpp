@@ -180,7 +180,7 @@ void Newton::step(const WorkingSet& set, const State& state, double forcing, dou
         const double change = -state.res[i] - passive_[k];
         const double reached = state.v[i] + change;
         // penetration at which the force begins
-        const double begin = law_.residual_depth(set.asperity[i]);
+        const double begin = law_.onset(set.asperity[i]);
         out.dv[i] = reached > begin ? begin + entering * (reached - begin) - state.v[i] : change;
     }
 }
@@ -198,7 +198,7 @@ double square_of_scaled(const Law& law, const WorkingSet& set, const std::vector
                         const Vector& v, const Vector& slope) {
     double square = 0;
     for (int k : active) {
-        const double u = v[at(k)] - law.residual_depth(set.asperity[at(k)]);
+        const double u = v[at(k)] - law.onset(set.asperity[at(k)]);
         square += slope[at(k)] * u * u;
     }
     return square;
@@ -309,8 +309,8 @@ void Newton::leave_saddle(const WorkingSet& set, const Vector& w) {
     double largest = 0;
     for (std::size_t k = 0; k < w.size(); ++k) {
         const std::size_t i = at(now_.active[k]);
-        largest = std::max(largest, std::abs(w[k] / root_[k]) /
-                                        (now_.v[i] - law_.residual_depth(set.asperity[i])));
+        largest = std::max(largest,
+                           std::abs(w[k] / root_[k]) / (now_.v[i] - law_.onset(set.asperity[i])));
     }
     double gradient = 0;
     for (std::size_t k = 0; k < w.size(); ++k)

@@ -142,7 +142,8 @@ void couple(const std::vector<Coupling>& C, const Vector& x, Vector& out) {
 double secant(const Law& law, double E_star, int asperity, double v, double force, double slope,
               double high) {
     if (v <= 0 && high <= 0) return 0;
-    if (!law.convex()) return law.steepest(asperity, std::max(v, high)) / (2 * E_star);
+    if (!law.capabilities().convex)
+        return law.memory()->steepest(asperity, std::max(v, high)) / (2 * E_star);
     const double rise = high - v;
     if (std::abs(rise) <= 1e-6 * std::max(high, v)) return slope / (2 * E_star);
     return (law.force(asperity, high) - force) / rise / (2 * E_star);
@@ -354,6 +355,7 @@ bool has_one_solution(const Law& law, const Kernel& kernel, const std::vector<in
                       const Vector& x, const Vector& y, const Vector& v, const Vector& force,
                       const Vector& slope) {
     if (kernel.none() || v.empty()) return true;
+    if (!law.capabilities().convex && !law.memory()) return false;  // its slopes are not bounded
     const double E_star = kernel.modulus();
     const std::size_t n = v.size();
     const double deepest = *std::max_element(v.begin(), v.end());

@@ -1,5 +1,6 @@
 // The checks of a case, key by key and as a whole.
 
+#include "asperities/law.hpp"
 #include "base/error.hpp"
 #include "case/case.hpp"
 #include "case/registry.hpp"
@@ -143,18 +144,30 @@ private:
                    paper = c_.indentation.selection == Selection::paper;
         const bool size_effect = hard && s.size_effect > 0,
                    resistivity = s.resistivity[0] > 0 || s.resistivity[1] > 0;
-        const bool fourth_order = c_.asperities.law == LawKind::fourth_order,
-                   line = c_.indentation.line();
+        const bool line = c_.indentation.line();
+        const bool ask_law = !elements_ && (adhesion || hard || relaxes);
+        const LawCapabilities law =
+            ask_law ? capabilities_of(c_.asperities.law) : LawCapabilities{};
+        const std::string of_law =
+            joined("law = '", kLawNames[at(c_.asperities.law)], "' does not say ");
         const struct {
             bool both;
-            const char *key, *other, *why;
+            const char *key, *other;
+            std::string why;
         } pairs[] = {
             {adhesion && hard, "solids%adhesion", "solids%hardness", ""},
             {adhesion && friction, "solids%adhesion", "solids%friction", ""},
             {adhesion && relaxes, "solids%adhesion", "solids%relaxation_share", ""},
-            {adhesion && range && !elements_ && fourth_order, "solids%adhesion", "asperities%law",
-             "with adhesion_range > 0 law = 'fourth_order' is for elements; give 'hertz' or "
-             "'elliptic'"},
+            {adhesion && !elements_ && !law.widening, "solids%adhesion", "asperities%law",
+             of_law + "how its contacts widen"},
+            {adhesion && range && !elements_ && !law.paraboloid, "solids%adhesion",
+             "asperities%law",
+             of_law + "that it is that of a paraboloid, which adhesion_range > 0 needs: give "
+                      "'hertz' or 'elliptic'"},
+            {hard && !elements_ && !law.truncation, "solids%hardness", "asperities%law",
+             of_law + "how its contacts grow by truncation"},
+            {relaxes && !elements_ && !law.convex, "solids%relaxation_share", "asperities%law",
+             of_law + "that its slope increases with the penetration"},
             {adhesion && !range && elements_, "solids%adhesion", "solver%model",
              "elements need adhesion_range > 0"},
             {adhesion && !range && compare, "solids%adhesion", "compare%levels",
@@ -194,7 +207,7 @@ private:
         };
         for (const auto& [both, key, other, why] : pairs)
             require(!both, {key, other}, "not available together with ", other,
-                    *why ? std::string("; ") + why : "");
+                    why.empty() ? "" : "; ", why);
     }
 
     void check_solids() {

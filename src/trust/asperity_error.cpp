@@ -11,16 +11,25 @@ double mean_radius(const Level& level) {
            sum_of(level.f);
 }
 
+// Null: the law was not compared with elements.
+const LawError* errors_of(LawKind kind) {
+    const std::string_view name = kLawNames[at(kind)];
+    const auto found = std::ranges::find(kLawErrors, name, &LawError::law);
+    return found == std::end(kLawErrors) ? nullptr : found;
+}
+
 }  // namespace
+
+bool is_compared(LawKind kind) { return errors_of(kind) != nullptr; }
 
 AsperityError asperity_error(const Level& level, const SolverOptions& options) {
     const double radius = mean_radius(level) / options.surface.mean_spacing;
-    const auto law = at(options.law);
+    const LawError* const law = errors_of(options.law);
     const auto bin = at(std::ranges::upper_bound(kRadii, radius) - std::begin(kRadii));
-    if (bin >= std::size(kRadii)) return {};
+    if (!law || bin >= std::size(kRadii)) return {};
     const auto error = [&](std::size_t what) {
-        return kErrors[law][what][bin] * (options.surface.measured ? kOfFiles[law][what] : 1.0) *
-               (level.plastic_contacts > 0 ? kOfYielding[law][what] : 1.0);
+        return law->errors[what][bin] * (options.surface.measured ? law->of_files[what] : 1.0) *
+               (level.plastic_contacts > 0 ? law->of_yielding[what] : 1.0);
     };
     return {error(0), error(1)};
 }

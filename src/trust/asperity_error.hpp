@@ -12,6 +12,9 @@ struct AsperityError {
     double force = kNotComputed, area = kNotComputed;
 };
 
+// True if the study has this law.
+bool is_compared(LawKind law);
+
 // Of a level with contacts, by their mean radius, weighted by the forces, over the mean spacing of
 // the summits.
 AsperityError asperity_error(const Level& level, const SolverOptions& options);

@@ -11,12 +11,16 @@ namespace rsc {
 inline constexpr double kFewestPointsPerWave = 2.667;
 // Upper ends of the bins of the mean contact radius over the mean spacing of summits.
 inline constexpr double kRadii[] = {0.169, 0.219, 0.335};
-// Relative errors by law (hertz, elliptic, fourth_order), of N and A, by bin.
-inline constexpr double kErrors[3][2][3] = {{{0.247, 0.232, 0.314}, {0.289, 0.352, 0.61}},
-                                            {{0.113, 0.171, 0.266}, {0.298, 0.466, 0.807}},
-                                            {{0.0801, 0.0607, 0.102}, {0.148, 0.141, 0.259}}};
-// Factors of heights from a file or not isotropic and Gaussian, and of yielding contacts.
-inline constexpr double kOfFiles[3][2] = {{5, 2.87}, {1.1, 1.22}, {2.15, 1.66}};
-inline constexpr double kOfYielding[3][2] = {{1, 1}, {1.02, 1}, {1.49, 1}};
+// Relative errors of N and A, by bin, of the laws that were compared; factors of heights from a
+// file or not isotropic and Gaussian, and of yielding contacts.
+struct LawError {
+    const char* law;
+    double errors[2][3], of_files[2], of_yielding[2];
+};
+inline constexpr LawError kLawErrors[] = {
+    {"hertz", {{0.247, 0.232, 0.314}, {0.289, 0.352, 0.61}}, {5, 2.87}, {1, 1}},
+    {"elliptic", {{0.113, 0.171, 0.266}, {0.298, 0.466, 0.807}}, {1.1, 1.22}, {1.02, 1}},
+    {"fourth_order", {{0.0801, 0.0607, 0.102}, {0.148, 0.141, 0.259}}, {2.15, 1.66}, {1.49, 1}},
+};
 
 }  // namespace rsc

@@ -39,9 +39,10 @@ bool calibrated(const Level& level, const Path& contact, const SolverOptions& op
     const bool yields = std::isfinite(options.physics.hardness.H0);
     const std::vector<double> depths = contact.residual_depths();
     const auto yielded = std::ranges::count_if(depths, [](double depth) { return depth > 0; });
-    return options.interaction == Interaction::point && options.selection == Selection::overlap &&
-           options.physics.adhesion.work == 0 && options.physics.relaxation.none() &&
-           known_shape(contact.indenter()) && options.surface.mean_spacing > 0 &&
+    return is_compared(options.law) && options.interaction == Interaction::point &&
+           options.selection == Selection::overlap && options.physics.adhesion.work == 0 &&
+           options.physics.relaxation.none() && known_shape(contact.indenter()) &&
+           options.surface.mean_spacing > 0 &&
            !(options.surface.measured && contact.indenter().shape->flat()) &&
            options.surface.gentlest_slope > 0 &&
            !(yields &&

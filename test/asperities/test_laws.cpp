@@ -96,13 +96,15 @@ TEST(everything_of_every_law) {
             const auto law = make_law(kind, s, kE);
             law->prepare(both);
             law->prepare(both);  // once more changes nothing
-            CHECK(law->convex() && !law->path_dependent() && law->work_lost() == 0);
+            const LawCapabilities can = law->capabilities();
+            CHECK(can.convex && !law->memory());
+            CHECK(can.paraboloid == (kind != LawKind::fourth_order));
             for (const int i : both) {
                 const auto k = i;
                 const EllipseFactors f = kind == LawKind::hertz
                                              ? EllipseFactors{}
                                              : ellipse_factors(s.kappa1[k] / s.kappa2[k]);
-                CHECK(law->axes(i) == f.axes);
+                CHECK(law->footprint(i, 1e-9).axes == f.axes);
                 const double kappa = 1 / s.radius[k];
                 const double q2 = kind == LawKind::fourth_order
                                       ? s.biharmonic[k] / (s.kappa1[k] + s.kappa2[k])
@@ -119,16 +121,16 @@ TEST(everything_of_every_law) {
                 for (double u : {0.0, -1e-3}) {
                     const Answer r = respond(u);
                     CHECK(r.force == 0 && r.slope == 0 && r.work == 0 && r.area == 0 &&
-                          law->force(i, u) == 0 && !law->beyond(i, u));
+                          law->force(i, u) == 0 && !law->footprint(i, u).beyond);
                 }
-                CHECK(!law->yields(i, 1) && law->residual_depth(i) == 0);
+                CHECK(law->onset(i) == 0);
                 const double most = q2 > 0 ? 2.5 * last : 1e-2;
                 double work = 0, force = 0, before = 0;
                 for (double u = 1e-4 * most; u < most; u *= 1.31) {
                     const Answer r = respond(u);
                     CHECK_RELATIVE(law->force(i, u), r.force, 1e-14);
                     CHECK_RELATIVE(r.slope, 2 * kE * std::sqrt(r.area / pi) / (f.F1 * f.F2), 1e-12);
-                    CHECK(law->beyond(i, u) == (u > last));
+                    CHECK(law->footprint(i, u).beyond == (u > last));
                     // From the last penetration to this one, in the root of it, and up to the end
                     // of the law's own range apart.
                     for (const auto& [from, to] :
@@ -143,22 +145,24 @@ TEST(everything_of_every_law) {
                     CHECK_RELATIVE(r.force, force, 1e-6);  // the slope ends like a root at `last`
                     CHECK_RELATIVE(r.work, work, 1e-7);
                     before = u;
-                    const Spread now = law->spread(i, u);
+                    const Truncation::Spread now = can.truncation->spread(i, u);
                     const double h = 1e-4 * u;
                     if (u < flattest) CHECK_RELATIVE(now.area, r.area, 1e-12);
                     if (u > flattest)
-                        CHECK_RELATIVE(now.slope, law->spread(i, flattest).slope, 1e-12);
+                        CHECK_RELATIVE(now.slope, can.truncation->spread(i, flattest).slope, 1e-12);
                     // The radius grows like the root of the area: d ln(a)/du.
                     if (u < std::min(flattest, last))
-                        CHECK_RELATIVE(law->widening(i, u), 0.5 * now.slope / now.area, 1e-12);
-                    const Spread low = law->spread(i, u - h), high = law->spread(i, u + h);
+                        CHECK_RELATIVE(can.widening->widening(i, u), 0.5 * now.slope / now.area,
+                                       1e-12);
+                    const Truncation::Spread low = can.truncation->spread(i, u - h),
+                                             high = can.truncation->spread(i, u + h);
                     CHECK_RELATIVE(now.slope, (high.area - low.area) / (2 * h), 1e-6);
                     CHECK_RELATIVE(now.area, (high.integral - low.integral) / (2 * h), 1e-6);
                     CHECK(now.integral > 0 && now.integral < u * now.area);
                     // Asked for the mean pressure here: the same place or, where it was reached
                     // before, that one.
                     const double pressure = r.force / r.area,
-                                 first = law->yield_penetration(i, pressure);
+                                 first = can.truncation->yield_penetration(i, pressure);
                     CHECK_RELATIVE(law->force(i, first), pressure * law->area(i, first), 1e-11);
                     if (u < flattest) CHECK_RELATIVE(first, u, 1e-8);
                     CHECK(first <= u * (1 + 1e-8));

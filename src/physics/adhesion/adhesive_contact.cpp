@@ -111,7 +111,7 @@ Level AdhesiveAsperities::report() {
         cohesive += state.outer - state.area;
         l.force += state.f;
         l.area += state.area;
-        l.beyond_law += state.beyond || my.law->beyond(i, my.now.s[k]);
+        l.beyond_law += state.beyond || my.law->footprint(i, my.now.s[k]).beyond;
     }
     complete_level(l, *my.law, my);
     if (my.options.physics.adhesion.range > 0) l.cohesive_area = cohesive;

@@ -42,9 +42,6 @@ AdhesivePath::AdhesivePath(const Asperities& asperities_, const Indenter& indent
         refuse(
             "not available with indentation%selection = 'paper': other asperities are attracted as "
             "well");
-    if (options.physics.adhesion.range > 0 && options.law == LawKind::fourth_order)
-        refuse(
-            "not available yet with solids%adhesion_range > 0 and asperities%law = 'fourth_order'");
     for (std::size_t i = 0; of_difference && i < asperities.size(); ++i) of_difference->shift(i);
     margin = options.physics.adhesion.range;
     ranking.assign(asperities, indenter);

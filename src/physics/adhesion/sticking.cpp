@@ -2,6 +2,8 @@
 
 #include <boost/math/tools/toms748_solve.hpp>
 
+#include "base/error.hpp"
+
 namespace rsc {
 namespace {
 
@@ -20,10 +22,20 @@ double border(double yes, double no, Property&& holds) {
     return yes;
 }
 
+const Widening& widening_of(const Law& law, double range) {
+    const LawCapabilities can = law.capabilities();
+    if (!can.widening || (range > 0 && !can.paraboloid))
+        bad_input("solids%adhesion: not available with this asperities%law");
+    return *can.widening;
+}
+
 }  // namespace
 
+Sticking::Sticking(Law& law, double w, double range)
+    : law_(law), widening_(widening_of(law, range)), w_(w), z0_(range) {}
+
 double Sticking::spreading(int asperity, double s) const {
-    return law_.widening(asperity, s) *
+    return widening_.widening(asperity, s) *
            std::sqrt(w_ * law_.area(asperity, s) / law_.response(asperity, s).slope);
 }
 
@@ -50,10 +62,11 @@ Sticking::Limits Sticking::limits_of_jkr(int i) const {
     Limits limits;
     limits.last = kInfinity;
     double high = std::max(4 * start, 1e-300);
-    if (law_.beyond(i, deepest)) {
+    const auto beyond = [&](double at) { return law_.footprint(i, at).beyond; };
+    if (beyond(deepest)) {
         const double small =
-            0.01 * start < deepest && !law_.beyond(i, 1e-3 * start) ? 1e-3 * start : 1e-200;
-        const double end = border(small, deepest, [&](double at) { return !law_.beyond(i, at); });
+            0.01 * start < deepest && !beyond(1e-3 * start) ? 1e-3 * start : 1e-200;
+        const double end = border(small, deepest, [&](double at) { return !beyond(at); });
         // l h decreases from 1 and increases again before the trough.
         double low = std::min(1e-3 * start, 0.5 * end);
         high = end;
@@ -96,7 +109,7 @@ Sticking::State Sticking::bare(int asperity, double s) const {
     State state;
     const auto [f0, D, W0] = law_.response(asperity, s);
     const double A = law_.area(asperity, s), h = std::sqrt(w_ * A / D),
-                 lh = law_.widening(asperity, s) * h;
+                 lh = widening_.widening(asperity, s) * h;
     state.u = s - 2 * h;
     state.f = f0 - 2 * h * D;
     state.pressed = f0;

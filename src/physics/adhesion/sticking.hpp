@@ -37,8 +37,9 @@ namespace rsc {
 class Sticking {
 public:
     // w: work of adhesion [force/length], positive; range: z0 [length], 0: JKR. The law must
-    // outlive this object.
-    Sticking(Law& law, double w, double range = 0) : law_(law), w_(w), z0_(range) {}
+    // outlive this object. Throws Error(bad_input) unless the law can widen, and with a range is
+    // that of a paraboloid.
+    Sticking(Law& law, double w, double range = 0);
 
     double touches() const { return -z0_; }  // penetration at which a free asperity attaches
 
@@ -89,6 +90,7 @@ private:
     double spreading(int asperity, double s) const;  // l h
 
     Law& law_;
+    const Widening& widening_;
     double w_, z0_;
     std::vector<int> place_;  // index of an asperity in limits_; -1: not prepared
     std::vector<Limits> limits_;

@@ -9,19 +9,20 @@ namespace {
 
 using std::numbers::pi;
 
-class Yielding final : public Law {
+using Spread = Truncation::Spread;
+
+// The slope decreases where a reloaded asperity continues to yield: the law is not convex.
+class Yielding final : public YieldingLaw {
 public:
-    Yielding(std::unique_ptr<Law> elastic, const Asperities& asperities, const Hardness& hardness,
-             bool sinks)
+    Yielding(std::unique_ptr<Law> elastic, const Truncation& truncation,
+             const Asperities& asperities, const Hardness& hardness)
         : elastic_(std::move(elastic)),
+          truncation_(truncation),
           radius_(asperities.radius),
           hardness_(hardness),
-          sinks_(sinks),
           place_(asperities.size(), -1) {}
 
-    // The slope decreases where a reloaded asperity continues to yield.
-    bool convex() const override { return false; }
-    bool path_dependent() const override { return true; }
+    const LawMemory* memory() const override { return this; }
 
     void prepare(std::span<const int> asperities) override {
         elastic_->prepare(asperities);
@@ -30,12 +31,12 @@ public:
             place_[at(i)] = int(summits_.size());
             Summit s;
             s.H = hardness_.H0 * std::sqrt(1 + hardness_.length / radius_[at(i)]);
-            s.yield = elastic_->yield_penetration(i, s.H);
+            s.yield = truncation_.yield_penetration(i, s.H);
             const double area = elastic_->area(i, s.yield);
             const Response first = elastic_->response(i, s.yield);
-            s.start = {s.yield, area, std::sqrt(area / pi), elastic_->spread(i, s.yield)};
+            s.start = {s.yield, area, std::sqrt(area / pi), truncation_.spread(i, s.yield)};
             s.modulus = 3 * first.force / (4 * s.start.radius * s.yield);
-            s.sink = sinks_ ? 4 * s.H / (pi * s.modulus) : 0.0;
+            s.sink = truncation_.sinks() ? 4 * s.H / (pi * s.modulus) : 0.0;
             s.work = first.work;
             summits_.push_back(s);
         }
@@ -68,17 +69,14 @@ public:
         }
     }
 
-    double area(int asperity, double u) const override {
+    Footprint footprint(int asperity, double u) const override {
         const Summit& s = summit(asperity);
+        Footprint spot = elastic_->footprint(asperity, u);
         if (s.deepest > 0 && u <= s.deepest)
-            return u > s.rest ? s.end.area * ((u - s.rest) / (s.deepest - s.rest)) : 0.0;
-        return u > s.yield ? flat(asperity, u).area : elastic_->area(asperity, u);
-    }
-
-    double axes(int asperity) const override { return elastic_->axes(asperity); }
-    bool beyond(int asperity, double u) const override { return elastic_->beyond(asperity, u); }
-    double yield_penetration(int asperity, double pressure) const override {
-        return elastic_->yield_penetration(asperity, pressure);
+            spot.area = u > s.rest ? s.end.area * ((u - s.rest) / (s.deepest - s.rest)) : 0.0;
+        else if (u > s.yield)
+            spot.area = flat(asperity, u).area;
+        return spot;
     }
 
     double steepest(int asperity, double high) const override {
@@ -92,9 +90,6 @@ public:
                         s.H * growth(s, std::max(from.spread.slope, to.spread.slope), to.radius));
     }
 
-    double first_loading(int asperity, double u) const override {
-        return std::max(u, summit(asperity).deepest);
-    }
     bool yields(int asperity, double u) const override {
         const Summit& s = summit(asperity);
         return u > s.yield && u >= s.deepest;
@@ -165,7 +160,7 @@ private:
 
     Flat flat_at(int asperity, double depth) const {
         const Summit& s = summit(asperity);
-        const Spread spread = elastic_->spread(asperity, depth);
+        const Spread spread = truncation_.spread(asperity, depth);
         const double area = s.start.area + 2 * (spread.area - s.start.spread.area);
         return {depth, area, std::sqrt(area / pi), spread};
     }
@@ -207,9 +202,9 @@ private:
     }
 
     std::unique_ptr<Law> elastic_;
+    const Truncation& truncation_;  // of the elastic law
     const std::vector<double>& radius_;
     Hardness hardness_;
-    bool sinks_;
     std::vector<int> place_;  // index of an asperity in summits_; -1: not prepared
     std::vector<Summit> summits_;
     std::vector<int> yielded_;  // increasing
@@ -217,7 +212,8 @@ private:
 
 class YieldingAsperities final : public AsperityHistory {
 public:
-    YieldingAsperities(Law& law, std::size_t asperities) : law_(law), asperities_(asperities) {}
+    YieldingAsperities(YieldingLaw& law, std::size_t asperities)
+        : law_(law), asperities_(asperities) {}
 
     void accept(const WorkingSet& set, const Solution& solution, Products&, Level& level) override {
         law_.commit(set.size(), set.asperity.data(), solution.v.data());
@@ -248,27 +244,27 @@ public:
     }
 
 private:
-    Law& law_;
+    YieldingLaw& law_;
     std::size_t asperities_;
 };
 
 }  // namespace
 
-std::unique_ptr<Law> make_yielding(std::unique_ptr<Law> elastic, const Asperities& asperities,
-                                   const Hardness& hardness, bool sinks) {
-    if (!(hardness.H0 > 0)) bad_input("solids%hardness must be positive (Infinity: elastic)");
-    if (!(hardness.length >= 0) || std::isinf(hardness.length))
-        bad_input("solids%size_effect must not be negative");
-    if (std::isinf(hardness.H0)) return elastic;
-    return std::make_unique<Yielding>(std::move(elastic), asperities, hardness, sinks);
+std::unique_ptr<YieldingLaw> make_yielding(std::unique_ptr<Law> elastic,
+                                           const Asperities& asperities, const Hardness& hardness) {
+    const Truncation* const truncation = elastic->capabilities().truncation;
+    if (!truncation) bad_input("solids%hardness: not available with this asperities%law");
+    return std::make_unique<Yielding>(std::move(elastic), *truncation, asperities, hardness);
 }
 
 AsperityPhysics make_yielding_asperities(const ContactBodies& bodies,
                                          std::unique_ptr<Law> elastic) {
-    const SolverOptions& options = bodies.options;
-    auto law = make_yielding(std::move(elastic), bodies.asperities, options.physics.hardness,
-                             traits(options.law).sinks);
-    if (!law->path_dependent()) return {std::move(law), std::make_unique<AsperityHistory>()};
+    const Hardness& hardness = bodies.options.physics.hardness;
+    if (!(hardness.H0 > 0)) bad_input("solids%hardness must be positive (Infinity: elastic)");
+    if (!(hardness.length >= 0) || std::isinf(hardness.length))
+        bad_input("solids%size_effect must not be negative");
+    if (std::isinf(hardness.H0)) return {std::move(elastic), std::make_unique<AsperityHistory>()};
+    auto law = make_yielding(std::move(elastic), bodies.asperities, hardness);
     auto history = std::make_unique<YieldingAsperities>(*law, bodies.asperities.size());
     return {std::move(law), std::move(history)};
 }

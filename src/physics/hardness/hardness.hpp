@@ -5,7 +5,7 @@
 // reaches H, the area grows by truncation at constant pressure:
 //     A = A(u_c) + 2 [A(u) - A(u_c)],   f = H A
 //     (sphere: u_c = (3 pi H/(4 E*))^2 r, A = pi r (2u - u_c))
-// where A(u) is the area of the elastic law, extrapolated linearly beyond its range (Law::spread).
+// where A(u) is the area of the elastic law, extrapolated linearly beyond its range (Truncation::spread).
 // Force and area are continuous; the slope increases abruptly at u_c (sphere: from 1.5 pi H r to 2
 // pi H r). Unloading from (u_m, f_m, a_m) is elastic, like a sphere of radius r' = 4 E' a_m^3/(3
 // f_m) that touches at u_r = u_m - a_m^2/r'. E' = 3 f(u_c)/(4 a(u_c) u_c), which is E* for a
@@ -29,12 +29,24 @@
 
 namespace rsc {
 
-// Wraps a law to limit its pressures. Throws Error(bad_input) unless H0 > 0 and length is finite
-// and not negative.
-std::unique_ptr<Law> make_yielding(std::unique_ptr<Law> elastic, const Asperities& asperities,
-                                   const Hardness& hardness, bool sinks);
+// A law with limited pressures. Its memory is the largest accepted penetration of each asperity.
+class YieldingLaw : public Law, public LawMemory {
+public:
+    // Accepts a level with penetrations u[k] of asperity[k]; all others are out of contact.
+    virtual void commit(int n, const int* asperity, const double* u) = 0;
+    virtual double deepest(int asperity) const = 0;    // 0 if it never yielded
+    virtual std::span<const int> yielded() const = 0;  // in increasing order
+    virtual double work_lost() const = 0;              // of all asperities [force length]
+    virtual void forget() = 0;
+};
+
+// Wraps a law to limit its pressures; H0 is finite. Throws Error(bad_input) if the law cannot be
+// truncated.
+std::unique_ptr<YieldingLaw> make_yielding(std::unique_ptr<Law> elastic,
+                                           const Asperities& asperities, const Hardness& hardness);
 
 // The law of the bodies with its history: the largest penetration of each asperity that yielded.
+// Throws Error(bad_input) unless H0 > 0 and length is finite and not negative.
 AsperityPhysics make_yielding_asperities(const ContactBodies& bodies, std::unique_ptr<Law> elastic);
 
 }  // namespace rsc

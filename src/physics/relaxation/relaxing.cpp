@@ -13,7 +13,12 @@ public:
           passage_(creep_, 0),
           place_(asperities, -1) {}
 
-    bool path_dependent() const override { return true; }
+    LawCapabilities capabilities() const override { return {.convex = true}; }
+    const LawMemory* memory() const override { return this; }
+    bool yields(int, double) const override { return false; }
+    double steepest(int asperity, double high) const override {
+        return response(asperity, high).slope;
+    }
     void prepare(std::span<const int> asperities) override { elastic_->prepare(asperities); }
 
     void step(double dt) override {
@@ -78,14 +83,9 @@ public:
             }
         }
     }
-    double area(int asperity, double u) const override {
-        return elastic_->area(asperity, edge_of(asperity, u));
+    Footprint footprint(int asperity, double u) const override {
+        return elastic_->footprint(asperity, edge_of(asperity, u));
     }
-    double axes(int asperity) const override { return elastic_->axes(asperity); }
-    bool beyond(int asperity, double u) const override {
-        return elastic_->beyond(asperity, edge_of(asperity, u));
-    }
-    double first_loading(int asperity, double u) const override { return edge_of(asperity, u); }
     double residual_depth(int asperity) const override {
         const Summit* s = summit(asperity);
         return s ? s->nodes[0].release : 0.0;
@@ -334,6 +334,8 @@ private:
 
 std::unique_ptr<RelaxingLaw> make_relaxing(std::unique_ptr<Law> elastic, std::size_t asperities,
                                            const Creep& creep) {
+    if (!elastic->capabilities().convex)
+        bad_input("solids%relaxation_share: not available with this asperities%law");
     return std::make_unique<Relaxing>(std::move(elastic), asperities, creep);
 }
 

@@ -32,8 +32,11 @@
 
 namespace rsc {
 
-class RelaxingLaw : public Law {
+class RelaxingLaw : public Law, public LawMemory {
 public:
+    // Accepts a level with penetrations u[k] of asperity[k]; all others are out of contact.
+    virtual void commit(int n, const int* asperity, const double* u) = 0;
+    virtual void forget() = 0;
     // Sets the duration dt of the step after the last commit. The true forces at its end are
     // modulus() times those of this law.
     virtual void step(double dt) = 0;
@@ -57,6 +60,7 @@ public:
     virtual void read(std::span<const double> numbers) = 0;  // throws Error(bad_input)
 };
 
+// Throws Error(bad_input) unless the slope of the law increases with the penetration.
 std::unique_ptr<RelaxingLaw> make_relaxing(std::unique_ptr<Law> elastic, std::size_t asperities,
                                            const Creep& creep);
 

@@ -178,7 +178,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         for (const Spot2& p : spots(k, s)) {
             a += p.area;
             if (!ellipses) continue;
-            const double root = std::sqrt(law(k, p.index).axes(p.index));
+            const double root = std::sqrt(law(k, p.index).footprint(p.index, 0).axes);
             union_of.push_back(
                 {p.x, p.y, p.radius() / root, p.radius() * root, t.r[k].asperities.angle[p.index]});
         }
@@ -249,7 +249,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
         double n = 0;
         for (std::size_t i = 0; i < spots(k, s).size() && !t.elements; ++i) {
             const std::int32_t which = spots(k, s)[i].index;
-            n += law(k, which).beyond(which, level(k, s).u[i]);
+            n += law(k, which).footprint(which, level(k, s).u[i]).beyond;
         }
         return n;
     });

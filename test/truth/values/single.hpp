@@ -88,7 +88,7 @@ inline void contacts(CheckedFile& f, const Truth& t) {
     for (const auto k : indices(which)) {
         const int i = int(which[k]) - 1;
         law->prepare({&i, 1});
-        const double root = std::sqrt(law->axes(i));
+        const double root = std::sqrt(law->footprint(i, 0).axes);
         major.push_back(radius[k] / root);
         minor.push_back(radius[k] * root);
         angle.push_back(t.r[0].asperities.angle[i]);
