@@ -197,6 +197,8 @@ private:
              "wear would thin the layers"},
             {wears && friction, "solids%wear_coefficient", "solids%friction",
              "it is for surfaces that remain as they are"},
+            {wears && shape() == "map", "solids%wear_coefficient", "indenter%shape",
+             "the heights of body 2 would have to move over body 1 and wear, too"},
             {wears && !elements_, "solids%wear_coefficient", "solver%model",
              "points of the surface wear, not asperities; use model = 'elements'"},
             {relaxes && hard, "solids%relaxation_share", "solids%hardness", ""},
@@ -437,6 +439,9 @@ private:
                     "give the period of the list of asperities");
         }
         if (i.line()) check_line();
+        require(i.line() || !i.line_reference,
+                {"indentation%line_reference", "indentation%boundary"},
+                "is for line contact, boundary = 'periodic_x' or 'periodic_y'");
         const bool pressure = i.control == Control::pressure,
                    of_pressure = relative || i.unit == LevelUnit::pressure;
         require(!pressure || periodic, {"indentation%control", "indentation%boundary"},
@@ -487,6 +492,8 @@ private:
         require(c_.solids.layer_thickness.empty(),
                 {"output%stress_depths", "solids%layer_thickness"},
                 "stresses below the surface are not available in layers");
+        require(std::isfinite(c_.solids.E[0]), {"output%stress_depths", "solids%E"},
+                "stresses are those of body 1, which is rigid here; give the elastic body first");
         require(elements_ || !attracts(c_), {"output%stress_depths", "solids%adhesion"},
                 "with adhesion stresses are available for model = 'elements'");
         if (!o.sliding_direction) return;

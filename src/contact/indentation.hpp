@@ -133,6 +133,9 @@ struct SurfaceFacts {
     // errors are larger.
     bool measured = false;
     std::shared_ptr<const MapMarks> marks = nullptr;  // marks of a measured map, or null
+    // Of a list of asperities, the law that takes all that is given of them: hertz where only radii
+    // are known, elliptic without the biharmonic.
+    LawKind richest_law = LawKind::fourth_order;
 };
 
 struct SolverOptions {

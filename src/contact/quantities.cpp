@@ -162,6 +162,15 @@ constexpr LevelQuantity kRows[] = {
          "pressure and of remaining penetrations, relative to the mean overlap under pressure",
      .heading = "residual",
      .width = 9},
+    {.name = "certificate",
+     .member = &V::certificate,
+     .meaning = "largest violation of the contact conditions by the returned pressures",
+     .comment = "boundary elements, recomputed in double precision: the largest of the penetration "
+                "and of the gap under pressure (relative to the mean overlap under pressure), of "
+                "the complementarity sum p gap (relative to sum p overlap), and of the difference "
+                "of the prescribed force. It tells how well the discrete problem is solved, not how "
+                "far that is from the continuous one",
+     .always = false},
     {.name = "status",
      .member = &V::status,
      .meaning = "outcome of the level",
@@ -209,6 +218,13 @@ constexpr LevelQuantity kRows[] = {
      .comment = "half of the contact area belongs to contacts with at most this number of pixels; "
                 "contacts of few pixels are inaccurate",
      .always = false},
+    {.name = "border_share",
+     .member = &V::border_share,
+     .unit = "1",
+     .meaning = "sides of pixels on the borders of contacts over pixels in contact",
+     .comment = "boundary elements; 2.5 over the radius in pixels of a round contact. Expected "
+                "errors grow in proportion to it",
+     .always = false},
     {.name = "force_error_expected",
      .member = &V::force_error_expected,
      .unit = "1",
@@ -238,6 +254,13 @@ constexpr LevelQuantity kRows[] = {
      .meaning = "largest slope of the indenter at a contact over the rms slope of the surface, "
                 "with a lay sqrt(2) times that along it",
      .comment = "above 0.2 the surface also touches beside its summits, and no error is stated",
+     .always = false},
+    {.name = "indenter_slope",
+     .member = &V::indenter_slope,
+     .unit = "1",
+     .meaning = "rms slope of the face of body 2 over the contacts, weighted by the forces",
+     .comment = "above 0.5 slopes are not small, as the theory of both models assumes: no error is "
+                "stated",
      .always = false},
     {.name = "filled_share",
      .member = &V::filled_share,
@@ -332,18 +355,18 @@ constexpr LevelQuantity kRows[] = {
     {.name = "worn_rms",
      .member = &V::worn_rms,
      .length_power = 1,
-     .meaning = "rms height of the worn surface",
-     .comment = "of all points about their mean",
+     .meaning = "rms height of the worn points",
+     .comment = "of the worn points, without their form: a quadratic surface, for two flats the mean",
      .always = false,
      .statistics = true,
-     .plain = "rms height of the worn surface"},
+     .plain = "rms height of the worn points"},
     {.name = "sliding_error",
      .member = &V::sliding_error,
      .unit = "1",
      .meaning = "error by the steps in which the level was reached",
-     .comment = "change of N, relative to the larger N of the two levels, by halving the steps; "
-                "under a force that of the separation, relative to its depth below first touch of "
-                "the worn surface; without the errors of earlier levels",
+     .comment = "relative change of N by halving the steps; under a force that of the separation, "
+                "relative to its depth below first touch of the worn surface; without the errors "
+                "of earlier levels",
      .always = false},
     {.name = "energy_lost",
      .member = &V::energy_lost,

@@ -96,6 +96,31 @@ double BoundedSolver::error() {
            std::abs(sums.overlap / sums.weight);
 }
 
+double BoundedSolver::certificate() {
+    struct Sums {
+        double largest = 0, weight = 0, overlap = 0, product = 0;
+        Sums operator+(const Sums& o) const {
+            return {std::max(largest, o.largest), weight + o.weight, overlap + o.overlap,
+                    product + o.product};
+        }
+    };
+    const Sums sums = sum_with<Sums>([&](Sums& part, std::size_t k) {
+        const bool held = p_[k] >= highest_, pressed = p_[k] > 0;
+        const double violation = held      ? std::max(w_[k], 0.0)
+                                 : pressed ? std::abs(w_[k])
+                                           : std::max(-w_[k], 0.0);
+        part.largest = std::max(part.largest, violation);
+        part.weight += p_[k];
+        part.overlap += p_[k] * (z_[k] - Z0_);
+        part.product += p_[k] * violation;
+    });
+    if (!(sums.weight > 0)) return 0;
+    const double overlap = std::abs(sums.overlap),
+                 load = wanted_ ? std::abs(sums.weight / *wanted_ - 1) : 0.0,
+                 farthest = std::max(sums.largest, std::sqrt(outside()));
+    return std::max({farthest * sums.weight / overlap, sums.product / overlap, load});
+}
+
 void BoundedSolver::find_free() {
     set_free([&](std::size_t k) {
         return !((p_[k] <= 0 && w_[k] >= 0) || (p_[k] >= highest_ && w_[k] <= 0));
@@ -314,6 +339,7 @@ ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool e
         exact = exactly && judge_exactly(exact, outcome.residual, outcome.iterations);
         evaluate(exact);
     }
+    if (exact) outcome.certificate = certificate();
     return outcome;
 }
 

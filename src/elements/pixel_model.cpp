@@ -35,7 +35,7 @@ void PixelModel::forget() {
     if (!history()) return;
     residual_.clear();
     if (!loads_) residual_changed();
-    step(0);
+    step(0, 0);
 }
 
 std::vector<double> PixelModel::write() const {
@@ -84,31 +84,16 @@ void PixelModel::read(const std::vector<double>& numbers) {
         read_depths(numbers);
         residual_changed();
     }
-    step(0);
-}
-
-// The depths become twice the present ones less the coarse ones, nowhere less than before. Their
-// sum is exact for a force that changes linearly, and is kept.
-void PixelModel::extrapolate(const std::vector<double>& before, const std::vector<double>& coarse) {
-    const auto of = [](const std::vector<double>& depths, std::size_t k) {
-        return depths.empty() ? 0.0 : depths[k];
-    };
-    double wanted = 0, sum = 0;
-    for (std::size_t k = 0; k < residual_.size(); ++k) {
-        residual_[k] = 2 * residual_[k] - of(coarse, k) - of(before, k);
-        wanted += residual_[k];
-        residual_[k] = std::max(residual_[k], 0.0);
-        sum += residual_[k];
-    }
-    for (std::size_t k = 0; k < residual_.size(); ++k)
-        residual_[k] = of(before, k) + (sum > 0 ? residual_[k] * (wanted / sum) : 0.0);
-    residual_changed();
+    step(0, 0);
 }
 
 void PixelModel::solve_again(double z, const Level& level) {
     start_from(z, level);
-    // Two worn flats may be in full contact, where only their force is known.
-    if (!(lowering_ && level.force > 0 && solve_under(level.force))) (void)solve(z, false);
+    // In full contact of two flats the separation does not determine the level, and worn flats are
+    // in full contact in the course of time.
+    const bool by_force = lowering_ || level.pixels.index.size() ==
+                                           at(heights_.nx) * at(heights_.ny);
+    if (!(by_force && level.force > 0 && solve_under(level.force))) (void)solve(z, false);
     accepted_ = true;
 }
 
@@ -145,14 +130,16 @@ void PixelModel::accept(Level& level) {
     const LevelPixels& pixels = level.pixels;
     if (loads_) return accept_loads(level);
     if (lowering_) {
-        if (const double depth = rate(); depth > 0 && !pixels.index.empty()) {
-            settle();
+        if (const double depth = lowering_->lasting_rate();
+            depth > 0 && !pixels.index.empty()) {
+            // The last solution remains that of the lowered points, but for a first stage.
+            if (depth == rate()) settle();
             lower_points([&](auto&& lower) {
                 for (std::size_t k = 0; k < pixels.index.size(); ++k)
                     lower(pixel_of(pixels, k), depth * pixels.pressure[k]);
             });
         }
-        return lowering_->measure(level, heights_, residual_);
+        return lowering_->measure(level, heights_, indenter_, residual_);
     }
     if (!pixels.index.empty())
         lower_points([&](auto&& lower) {
@@ -187,6 +174,7 @@ Level PixelModel::report(double Z0, const ElementsOutcome& outcome, std::size_t 
     level.iterations = outcome.iterations;
     level.products = outcome.products;
     level.residual = outcome.residual;
+    level.certificate = outcome.certificate;
     level.method = Method::automatic;
     level.converged = outcome.converged;
     for (double& p : pressure) p /= scale();

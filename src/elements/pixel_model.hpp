@@ -13,12 +13,14 @@ namespace rsc {
 class Lowering {
 public:
     virtual ~Lowering() = default;
-    // The following levels end a step of this length.
-    virtual void step(double length) = 0;
-    // Depth by which a unit pressure lowers a point in this step [length/pressure].
+    // The following levels end a step of this length, of which `lasting` remains when they are
+    // accepted (Path: the stages of a step).
+    virtual void step(double length, double lasting) = 0;
+    // Depth by which a unit pressure lowers a point in this step, and for good [length/pressure].
     virtual double rate() const = 0;
-    // Adds the quantities of the lowered map to an accepted level.
-    virtual void measure(Level& level, const HeightMap& map,
+    virtual double lasting_rate() const = 0;
+    // Adds the quantities of the lowered map, under this indenter, to an accepted level.
+    virtual void measure(Level& level, const HeightMap& map, const Indenter& indenter,
                          const std::vector<double>& depths) const = 0;
     // As History.
     virtual PathClock clock() const = 0;
@@ -86,13 +88,12 @@ private:
     PathClock clock() const final { return lowering_ ? lowering_->clock() : History::clock(); }
     double shortest_time() const final { return options_.physics.relaxation.shortest(); }
     double accuracy() const final { return lowering_ ? lowering_->accuracy() : 0.0; }
-    void step(double length) final {
+    void step(double length, double lasting) final {
         if (loads_) loads_->step(length);
-        if (lowering_) lowering_->step(length);
+        if (lowering_) lowering_->step(length, lasting);
         step_changed();
     }
     void accept_loads(Level& level);
-    void extrapolate(const std::vector<double>& before, const std::vector<double>& coarse) final;
     void read_depths(const std::vector<double>& numbers);
     std::optional<Level> lasting_loads(const Level& level) const final;
     ResidualProfile residual_profile() const final;

@@ -130,6 +130,7 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
     add_about_peaks(touching, label, pressure, tension, map, indenter, period_x, period_y, sums);
     if (!touching.empty()) {
         level.pixels_per_contact = median_by_area(sums);
+        level.border_share = std::accumulate(open.begin(), open.end(), 0.0) / double(touching.size());
         level.pressure_max = *std::max_element(pressure.begin(), pressure.end());
     }
     const auto inside = [](double column, int n) {

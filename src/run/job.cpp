@@ -504,18 +504,6 @@ void measure_gap(const Job& job, const HeightMap& map, Path& contact, Level& lev
     if (bins.gap_max > 0) level.gaps = count_gaps(gap_of(source), bins.bins, bins.gap_width());
 }
 
-// Refuses a force that no separation has, before the levels below it are solved.
-void require_reachable(const Job& job, Path& contact) {
-    const auto& settings = job.settings;
-    if (settings.indentation.control == Control::separation || job.levels.empty()) return;
-    try {
-        contact.require_gap(wears(settings) ? job.levels.front() : std::ranges::max(job.levels));
-    } catch (const Error& error) {
-        if (error.kind() != Failure::bad_input) throw;
-        bad_input(key_of_largest(settings.indentation), error.what(), "; give smaller ones");
-    }
-}
-
 // The state of a level of which fields are requested.
 FieldLevel field_level(const Job& job, const Realization& r, Path& contact, std::size_t k,
                        const Level& level, std::vector<double> flow) {
@@ -548,7 +536,6 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     Pressed pressed = make();
     std::unique_ptr<Path>& contact = pressed.contact;
     std::vector<FieldLevel> fields;
-    require_reachable(job, *contact);
     const auto take = [&](std::size_t k, Level solved) {
         Level& level = r.levels.emplace_back(std::move(solved));
         const bool field = contains(field_steps, std::int32_t(k));

@@ -64,10 +64,11 @@ Indenter indenter_of(const Case& settings, const SurfaceDomain& domain) {
 }
 
 Period period_of(const Case& settings, const SurfaceDomain& domain) {
+    const std::optional<double>& reference = settings.indentation.line_reference;
     switch (settings.indentation.boundary) {
         case Boundary::periodic: return {domain.Lx, domain.Ly};
-        case Boundary::periodic_x: return {domain.Lx, kInfinity};
-        case Boundary::periodic_y: return {kInfinity, domain.Ly};
+        case Boundary::periodic_x: return {domain.Lx, kInfinity, reference.value_or(domain.Ly)};
+        case Boundary::periodic_y: return {kInfinity, domain.Ly, reference.value_or(domain.Lx)};
         case Boundary::free: break;
     }
     return {};
@@ -86,7 +87,7 @@ double sigma_of(const Case& settings, const SurfaceDomain& domain) {
 SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     SolverOptions options;
     options.method = settings.solver.method;
-    options.law = settings.asperities.law;
+    options.law = std::min(settings.asperities.law, domain.richest_law);
     options.physics.hardness = {settings.solids.hardness, settings.solids.size_effect};
     if (relaxes(settings)) {
         const Case::Solids& s = settings.solids;

@@ -26,7 +26,9 @@ std::string sentence(Cause cause, bool elements) {
         "such surfaces or bodies were not compared with elements, so that no error is stated",
         "N = 0 is uncertain: the bodies may touch between the points of the grid",
         "N may differ from that of elements at this separation by more than 10 %",
-        "the steps of sliding may change N by more than 1 %: give closer distances"};
+        "the steps of sliding may change N by more than 1 %: give closer distances",
+        "body 2 is steep where it touches (rms slope above 0.5): both models assume small slopes, "
+        "and nothing that rsc computes says how far N is off"};
     static_assert(sentences.size() == kCauseNames.size());
     return sentences[at(cause)];
 }

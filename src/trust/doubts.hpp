@@ -18,12 +18,13 @@ enum class Cause {
     outside_calibration,
     missed_contact,
     model_error,
-    sliding_steps
+    sliding_steps,
+    steep_indenter
 };
 inline constexpr std::array kCauseNames = {
     "border",      "filled_points", "grid",           "slope_ratio",         "beyond_law",
     "few_points",  "layer",         "adhesion_range", "outside_calibration", "missed_contact",
-    "model_error", "sliding_steps"};
+    "model_error", "sliding_steps", "steep_indenter"};
 constexpr std::int32_t bit(Cause cause) { return std::int32_t{1} << int(cause); }
 
 // Explanation for the screen, without the remedy. `elements`: the level was solved by elements.

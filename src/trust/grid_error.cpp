@@ -208,6 +208,14 @@ double touch_between_points(const HeightMap& map, const Indenter& indenter) {
     clearances(map, indenter, continued(-1, map.ny, repeats_y), below);
     clearances(map, indenter, 0, here);
     double highest = -kInfinity;
+    // Body 2 may lie between the points altogether.
+    const double reach = indenter.shape->reach() + std::hypot(map.dx, map.dy);
+    if (reach < 3 * std::hypot(map.dx, map.dy))
+        for (const int j : indices(map.ny))
+            for (const int i : indices(map.nx)) {
+                const Vec2 d = indenter.from_tip(map.x(i), map.y(j));
+                if (std::hypot(d.x, d.y) < reach) highest = std::max(highest, map(i, j));
+            }
     for (const int j : indices(map.ny)) {
         clearances(map, indenter, continued(j + 1, map.ny, repeats_y), above);
         for (const int i : indices(map.nx)) {

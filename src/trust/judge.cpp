@@ -14,6 +14,10 @@ constexpr double kMuchError = 0.1;
 // Asperities: largest slope_ratio. Above, the bodies touch beside the summits.
 constexpr double kSteepest = 0.2;
 
+// Largest slope that counts as small, of the surface (kSteep of run/remarks.cpp) and of the indenter
+// over the contacts alike.
+constexpr double kSmallSlope = 0.5;
+
 // A larger share of the contact area on filled points is a doubt.
 constexpr double kMuchFilled = 0.01;
 
@@ -110,6 +114,7 @@ void Judge::judge(Level& level, Path& contact, bool by_force) {
     if (!level.converged) return conclude(level, {}, by_force);
     std::vector<Doubt> doubts =
         elements ? of_elements(level, contact, by_force) : of_asperities(level, contact);
+    if (level.indenter_slope > kSmallSlope) doubts.push_back({Cause::steep_indenter});
     if (level.edge_contacts > 0) doubts.push_back({Cause::border});
     if (!surface_.filled.empty()) {
         level.filled_share =
@@ -164,7 +169,8 @@ std::vector<Doubt> Judge::of_elements(Level& level, Path& contact, bool by_force
         doubts.push_back(grid(level, contact, by_force));
     if (const double error = level.sliding_error; !std::isnan(error)) {
         const double depth = contact.first_touch() - level.separation;
-        doubts.push_back({Cause::sliding_steps, by_force ? 0.0 : error, level.sliding_area_error,
+        const double area_error = std::abs(1 - level.with_half_the_steps->area / level.area);
+        doubts.push_back({Cause::sliding_steps, by_force ? 0.0 : error, area_error,
                           error > kUnresolved, by_force ? error * depth : 0.0});
     }
     if (surface_.scattered > 0) {

@@ -1,46 +1,54 @@
 #include "physics/wear/wear.hpp"
 
 #include "base/error.hpp"
+#include "surface/form.hpp"
 
 namespace rsc {
 namespace {
 
-// Error of N, or of the depth, by the steps of sliding to a level.
+// Change of N, or of the depth, and of the area, when the steps of sliding to a level are halved.
 constexpr double kAccuracy = 2e-3;
+
+// rms height of the points that are worn, without their form: a quadratic surface, for two flats
+// their mean. NaN where too few points are worn to have a form.
+double worn_rms(const HeightMap& map, const std::vector<double>& depths, bool flats) {
+    HeightMap worn = map.copy();
+    worn.periodic = false;
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) {
+            const double depth = depths.empty() ? 0.0 : depths[at(j) * at(map.nx) + at(i)];
+            double& z = worn.row(j)[i];
+            z = depth > 0 || flats ? z - depth : kNotComputed;
+        }
+    try {
+        return detrend(worn, flats ? Detrend::mean : Detrend::quadratic).rms;
+    } catch (const Error&) {
+        return kNotComputed;
+    }
+}
 
 class WornPoints final : public Lowering {
 public:
     explicit WornPoints(double coefficient) : coefficient_(coefficient) {}
 
-    void step(double length) override { rate_ = coefficient_ * length; }
+    void step(double length, double lasting) override {
+        rate_ = coefficient_ * length;
+        lasting_rate_ = coefficient_ * lasting;
+    }
     double rate() const override { return rate_; }
+    double lasting_rate() const override { return lasting_rate_; }
     PathClock clock() const override { return PathClock::distance; }
     double accuracy() const override { return kAccuracy; }
 
-    void measure(Level& level, const HeightMap& map,
+    void measure(Level& level, const HeightMap& map, const Indenter& indenter,
                  const std::vector<double>& depths) const override {
-        double volume = 0, deepest = 0, sum = 0, squares = 0;
-        const auto each = [&](auto&& visit) {
-            for (const int j : indices(map.ny))
-                for (const int i : indices(map.nx))
-                    visit(map(i, j), depths.empty() ? 0.0 : depths[at(j) * at(map.nx) + at(i)]);
-        };
-        each([&](double height, double depth) {
-            volume += depth;
-            deepest = std::max(deepest, depth);
-            sum += height - depth;
-        });
-        const double points = double(map.nx) * map.ny, mean = sum / points;
-        each([&](double height, double depth) {
-            squares += (height - depth - mean) * (height - depth - mean);
-        });
-        level.worn_volume = volume * map.dx * map.dy;
-        level.wear_depth_max = deepest;
-        level.worn_rms = std::sqrt(squares / points);
+        level.worn_volume = sum_of(depths) * map.dx * map.dy;
+        level.wear_depth_max = depths.empty() ? 0.0 : std::ranges::max(depths);
+        level.worn_rms = worn_rms(map, depths, indenter.shape->flat());
     }
 
 private:
-    double coefficient_, rate_ = 0;
+    double coefficient_, rate_ = 0, lasting_rate_ = 0;
 };
 
 void refuse(const char* why) { bad_input("wear is not available ", why); }
