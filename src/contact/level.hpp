@@ -73,8 +73,9 @@ struct LevelValues {
     double pressure_max = kNotComputed;  // boundary elements: largest pressure [force/length^2]
     // boundary elements: median pixels per contact, weighted by area
     double pixels_per_contact = kNotComputed;
-    // boundary elements: sides of pixels on the borders of contacts over pixels under pressure, 2.5
-    // over the radius of a round contact in pixels; the errors of the grid depend on it
+    // boundary elements: sides of pixels on the borders of contacts over pixels under pressure (of
+    // two flats, or over those of the gap if these are fewer), 2.5 over the radius of a round contact
+    // in pixels; the errors of the grid depend on it
     double border_share = kNotComputed;
     // Expected relative errors of N and A, and under a prescribed force the error of Z0 [length]
     // (trust/judge.hpp).

@@ -21,6 +21,8 @@ constexpr LevelQuantity kRows[] = {
      .force_power = 1,
      .meaning = "normal force, N",
      .comment = "N = sum of the forces f of the contacts",
+     .error_factor = 0.0089,
+     .error_averages = true,
      .error_member = &V::force_error_expected,
      .statistics = true,
      .plain = "force",
@@ -34,6 +36,8 @@ constexpr LevelQuantity kRows[] = {
      .comment = "law 'hertz': sum of pi a^2 over the contacts; 'elliptic' and 'fourth_order': area "
                 "of the union of their elliptic spots; boundary elements: area of the pixels under "
                 "pressure, corrected at borders below the hardness",
+     .error_factor = 0.098,
+     .error_averages = true,
      .error_member = &V::area_error_expected,
      .statistics = true,
      .plain = "contact area",
@@ -46,6 +50,8 @@ constexpr LevelQuantity kRows[] = {
      .meaning = "area of the pixels under pressure, without border correction",
      .comment = "boundary elements: contact_area is smaller by (pi - 1 + ln 2)/24 of a pixel for "
                 "each pixel side on the border; yielding borders: see src/elements/pixel_spots.hpp",
+     .error_factor = 0.16,
+     .error_averages = true,
      .always = false},
     {.name = "pressure",
      .member = &V::pressure,
@@ -61,6 +67,8 @@ constexpr LevelQuantity kRows[] = {
     {.name = "area_fraction",
      .member = &V::area_fraction,
      .meaning = "ratio of true to nominal contact area of two flats, A/A0",
+     .error_factor = 0.098,
+     .error_averages = true,
      .always = false,
      .statistics = true,
      .plain = "area fraction",
@@ -85,6 +93,7 @@ constexpr LevelQuantity kRows[] = {
      .comment = "boundary elements, over the whole cell; 0 where the bodies touch",
      .compute = compute_gap,
      .stage = Stage::gap,
+     .error_factor = 0.0016,
      .always = false,
      .statistics = true,
      .of_flow = true,
@@ -208,6 +217,7 @@ constexpr LevelQuantity kRows[] = {
      .length_power = -2,
      .force_power = 1,
      .meaning = "largest pressure at a point (boundary elements)",
+     .error_factor = 0.048,
      .always = false,
      .statistics = true,
      .plain = "largest pressure"},
@@ -222,7 +232,8 @@ constexpr LevelQuantity kRows[] = {
      .member = &V::border_share,
      .unit = "1",
      .meaning = "sides of pixels on the borders of contacts over pixels in contact",
-     .comment = "boundary elements; 2.5 over the radius in pixels of a round contact. Expected "
+     .comment = "boundary elements; of two flats over the pixels of the gap if these are fewer; 2.5 "
+                "over the radius in pixels of a round contact. Expected "
                 "errors grow in proportion to it",
      .always = false},
     {.name = "force_error_expected",
@@ -431,6 +442,8 @@ constexpr LevelQuantity kRows[] = {
      .comment =
          "boundary elements with adhesion: at fixed attracting points, as in small oscillations",
      .compute = compute_stiffness,
+     .error_factor = 0.036,
+     .error_averages = true,
      .always = false,
      .statistics = true,
      .plain = "stiffness"},
@@ -440,6 +453,8 @@ constexpr LevelQuantity kRows[] = {
      .force_power = 1,
      .meaning = "elastic energy of the contact, W",
      .comment = "dW/dZ0 = -N",
+     .error_factor = 0.0132,
+     .error_averages = true,
      .always = false,
      .statistics = true,
      .plain = "elastic energy"},
@@ -472,6 +487,8 @@ constexpr LevelQuantity kRows[] = {
                 "fixed contact areas",
      .comment = "electrical or thermal (Barber 2003); 4 a for a single spot",
      .compute = compute_conductance,
+     .error_factor = 0.036,
+     .error_averages = true,
      .always = false,
      .statistics = true,
      .plain = "conductance length"},
@@ -483,6 +500,8 @@ constexpr LevelQuantity kRows[] = {
          "sum of solids%resistivity [ohm times run%length_unit] over conductance_length; thermal "
          "resistivities [K/W times run%length_unit] make it K/W; absent without contact",
      .compute = compute_resistance,
+     .error_factor = 0.036,
+     .error_averages = true,
      .always = false,
      .statistics = true,
      .plain = "constriction resistance"},

@@ -210,7 +210,7 @@ public:
         for (const auto g : indices(groups_)) {
             Level& level = levels_[g * kGroup].emplace(press(job_, g * kGroup, first_, none));
             points = std::max(points, level.candidates);
-            begin_[g] = {first_.contact->state(), first_.judge.state()};
+            begin_[g] = first_.contact->state();
             if (g == 0) take_(taken_++, std::move(level));
         }
         if (points > kFewPoints) {
@@ -234,13 +234,10 @@ private:
 
     void press_group(std::size_t g, Pressed& pressed) {
         pressed.contact->forget();
-        pressed.contact->restore(begin_[g].contact);
-        pressed.judge.restore(begin_[g].judge, pressed.contact->indenter());
+        pressed.contact->restore(begin_[g]);
         // The second level starts from those between which it lies.
-        for (std::size_t from = std::min(g + 2, groups_); from-- > g;) {
-            if (const auto& level = begin_[from].contact.level) pressed.contact->start_from(*level);
-            pressed.judge.start_from(begin_[from].judge);
-        }
+        for (std::size_t from = std::min(g + 2, groups_); from-- > g;)
+            if (const auto& level = begin_[from].level) pressed.contact->start_from(*level);
         for (std::size_t k = g * kGroup + 1; k < std::min(levels_.size(), (g + 1) * kGroup); ++k)
             levels_[k] = press(job_, k, pressed, none);
         const std::lock_guard lock(mutex_);
@@ -265,11 +262,7 @@ private:
     std::vector<std::optional<Level>> levels_ =
         std::vector<std::optional<Level>>(job_.levels.size());
     std::size_t groups_ = (levels_.size() + kGroup - 1) / kGroup, taken_ = 0;
-    struct Begin {
-        Path::State contact;
-        std::optional<Path::State> judge;
-    };
-    std::vector<Begin> begin_ = std::vector<Begin>(groups_);
+    std::vector<Path::State> begin_ = std::vector<Path::State>(groups_);
     std::vector<char> solved_ = std::vector<char>(groups_, 0);
     std::mutex mutex_;
 };
@@ -449,7 +442,6 @@ void prepare_elements(const Job& job, std::int64_t number, int threads, Realizat
     }
     s.map = job.given ? &*job.given_heights : &*r.heights;
     s.judged.map = s.map;
-    s.judged.second_grid = true;
     if (job.theory) s.judged.curvature = curvature_at_unit_height(*job.theory);
 }
 

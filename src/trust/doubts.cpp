@@ -1,7 +1,6 @@
 #include "trust/doubts.hpp"
 
 #include "base/format.hpp"
-#include "contact/quantities.hpp"
 
 namespace rsc {
 
@@ -62,12 +61,6 @@ void conclude(LevelValues& level, std::span<const Doubt> doubts, bool by_force) 
         known && by_force && level.stiffness < 0
             ? separation + force * std::abs(level.force) / std::abs(level.stiffness)
             : kNotComputed;
-    for (const LevelQuantity& q : level_quantities())
-        for (const auto c : indices(q.components()))
-            level.errors[q.slot + c] =
-                level.converged && q.error_factor > 0
-                    ? q.error_factor * std::pow(level.pixels_per_contact, -q.error_exponent)
-                    : kNotComputed;
 }
 
 }  // namespace rsc

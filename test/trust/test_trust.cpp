@@ -93,30 +93,6 @@ TEST(coarser) {
     CHECK(half.x0 == map.x0 && half(8, 5) == map(16, 10));
 }
 
-// The coarser map of a mirrored map is the mirrored coarser map, whatever the numbers of points.
-TEST(mirrored) {
-    for (const int n : {15, 16})
-        for (const bool flats : {false, true}) {
-            const auto z = [&](int i, int j) { return std::sin(1.3 * i + 0.4 * j * j) + 0.1 * i; };
-            const HeightMap map = height_map(n, n + 3, 1, 1, z),
-                            other = height_map(n, n + 3, 1, 1,
-                                               [&](int i, int j) { return z(n - 1 - i, j); });
-            Indenter flat{1e3, kInfinity, 0, 0};
-            if (flats) flat.period = {n * 1.0, n + 3.0};
-            const HeightMap a = coarser_map(map, flat), b = coarser_map(other, flat);
-            std::vector<double> left, right;
-            for (const int j : indices(a.ny))
-                for (const int i : indices(a.nx)) {
-                    left.push_back(a(i, j));
-                    right.push_back(b(i, j));
-                }
-            std::ranges::sort(left);
-            std::ranges::sort(right);
-            CHECK(a.nx == b.nx && (flats ? a.Lx() == n : a.dx == 2));
-            if (n % 2 == 0 || !flats) CHECK(left == right);
-        }
-}
-
 TEST(filled) {
     std::vector<std::uint8_t> missing(16);
     missing[5] = 1;  // the point (1, 1)
@@ -179,7 +155,7 @@ TEST(resolution) {
         const double error = std::abs(level.force / N - 1);
         CHECK(level.force_error_expected >= 0.9 * error);
         CHECK((level.status == LevelStatus::out_of_validity) ==
-              (level.force_error_expected > 0.01));
+              (level.force_error_expected > 0.03 || level.area_error_expected > 0.1));
     }
     CHECK(r.levels[0].status == LevelStatus::out_of_validity);
     CHECK(r.levels[2].force_error_expected < r.levels[0].force_error_expected);
