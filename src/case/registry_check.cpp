@@ -192,7 +192,6 @@ private:
             {line && adhesion, "indentation%boundary", "solids%adhesion", ""},
             {wears && adhesion, "solids%wear_coefficient", "solids%adhesion", ""},
             {wears && relaxes, "solids%wear_coefficient", "solids%relaxation_share", ""},
-            {wears && hard, "solids%wear_coefficient", "solids%hardness", ""},
             {wears && layers, "solids%wear_coefficient", "solids%layer_thickness",
              "wear would thin the layers"},
             {wears && friction, "solids%wear_coefficient", "solids%friction",

@@ -119,6 +119,8 @@ struct LevelValues {
     // with output%flow [length^3], [length]
     double permeability_xx = kNotComputed, permeability_yy = kNotComputed;
     double permeability_xy = kNotComputed;
+    // xx and yy of the same gap on every second point, for the error (not in files)
+    double coarse_permeability_x = kNotComputed, coarse_permeability_y = kNotComputed;
     double hydraulic_gap_x = kNotComputed, hydraulic_gap_y = kNotComputed;
     std::int32_t jumps = 0;             // number of jumps since the previous level
     std::int32_t plastic_contacts = 0;  // yielding contacts at this level
@@ -207,6 +209,8 @@ struct Level : LevelValues {
     LevelPixels pixels;
     LevelTractions tractions;
     GapCounts gaps;
+    // Two flats: the magnitude of the flux at each point (LevelSource::flux); empty: not asked for.
+    std::vector<double> flux;
     std::vector<double>
         // area of an elliptic spot not covered by earlier spots; the sum is the area of the union;
         // empty: pi a^2

@@ -12,9 +12,9 @@ constexpr double kReleased = 1e-3;  // resolution of pulling off, relative to th
 // Steps of the approach to a force: the most by which one is longer than the last.
 constexpr double kGrowth = 4;
 constexpr int kMostSteps = 64;  // of sliding to a level
-// Sliding: accuracy of the area, whose smallest change is a pixel; and a change of N that no longer
-// matters, relative to N before the level.
-constexpr double kAreaSteps = 0.02, kWornOff = 1e-6;
+// Sliding: accuracy of the area and the largest pressure, whose smallest change is a pixel; and a
+// change of N that no longer matters, relative to N before the level.
+constexpr double kCoarseSteps = 0.05, kWornOff = 1e-6;
 constexpr int kTrials = 2;      // number of failures after which no trials are used
 
 // Evaluation of a level at z: it is the solution (or failed), or lies above it; `next` is the next
@@ -224,8 +224,8 @@ Level Path::in_equal_steps(int steps, double from, double to, Reach reach) {
 // A step of sliding has two implicit stages (SDIRK2: Alexander, SIAM J. Numer. Anal. 14, 1977): it is
 // of second order, exact for the volume under a force that changes linearly, never adds material,
 // and damps at once the pressures that a step before left uneven. The number of steps is doubled
-// until N (under a force the depth below first touch) and the area change by less than the
-// accuracy. Where wear takes the force off, its change is relative to that before the level.
+// until N (under a force the depth below first touch), the area and the largest pressure change
+// by less than the accuracy. Where wear takes the force off, its change is relative to that before the level.
 Level Path::in_sliding_steps(double from, double to, Reach reach, const State& before) {
     const double stage = 1 - 1 / std::numbers::sqrt2;
     const bool by_force = reach == &Path::to_force;
@@ -254,8 +254,10 @@ Level Path::in_sliding_steps(double from, double to, Reach reach, const State& b
             const double accuracy = history()->accuracy();
             const bool settled = level.sliding_error <= accuracy ||
                                  (!by_force && std::abs(value - other) <= kWornOff * before.force);
-            const bool same_area = std::abs(last->area - level.area) <= kAreaSteps * level.area;
-            if ((settled && same_area) || n >= kMostSteps) return level;
+            const auto near = [&](double a, double b) { return std::abs(a - b) <= kCoarseSteps * b; };
+            const bool alike = near(last->area, level.area) &&
+                               near(last->pressure_max, level.pressure_max);
+            if ((settled && alike) || n >= kMostSteps) return level;
         }
         last = level;
     }

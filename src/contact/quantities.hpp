@@ -48,6 +48,8 @@ struct LevelQuantity {
     // number. Nine of ten levels of the study in input/trust were within it; 0: none is stated.
     double error_factor = 0;
     bool error_averages = false;
+    // Instead of this, the expected relative error of a component, from other values of the level.
+    double (*own_error)(const LevelValues&, std::size_t component) = nullptr;
     // The quantity that is its expected error, if that has a row and a meaning of its own.
     double LevelValues::*error_member = nullptr;
     bool separate = false;  // an axis of files, which they write before the others

@@ -89,7 +89,7 @@ void ResultTable::error_of(const LevelQuantity& q, const Names& shape) {
     for (const LevelValues& level : o_.rows)
         for (const auto c : indices(q.components())) errors.push_back(q.error(level, c));
     add_absent(q.error_name(), shape, "1", std::string("expected relative error of ") + q.name,
-               errors, "not exceeded in nine of ten cases; follows from pixels_per_contact");
+               errors, "not exceeded in nine of ten cases; follows from border_share");
 }
 
 // The declared quantities of a level (contact/quantities.hpp).

@@ -164,12 +164,27 @@ FieldsAsked fields_asked(const Job& job) {
 struct Pressed {
     std::unique_ptr<Path> contact;
     Judge judge;
+    const HeightMap* map;  // of elements
 };
 using MakePressed = std::function<Pressed()>;
 
 LevelSource source_of(const Job& job, Path& contact, Level& level) {
     const auto& resistivity = job.settings.solids.resistivity;
     return {contact, level, {resistivity[0], resistivity[1]}};
+}
+
+// Computes what a level has of its gap, and the flux at its points if a field asks for it.
+void measure_gap(const Job& job, const HeightMap& map, Path& contact, Level& level, std::size_t k) {
+    if (std::isnan(level.force)) return;  // there is no state
+    const bool field =
+        fields_asked(job).flow && contains(steps_of_fields(job), std::int32_t(k));
+    LevelSource source = source_of(job, contact, level);
+    source.map = &map;
+    source.flux = field ? &level.flux : nullptr;
+    compute_quantities(source, Stage::gap);
+    if (job.settings.output.flow) compute_quantities(source, Stage::flow);
+    const PdfBins& bins = job.observe.pdf;
+    if (bins.gap_max > 0) level.gaps = count_gaps(gap_of(source), bins.bins, bins.gap_width());
 }
 
 // Solves level k of the case. `complete` adds what its status depends on.
@@ -183,6 +198,7 @@ Level press(const Job& job, std::size_t k, Pressed& pressed,
         (job.settings.indentation.slides() ? level.distance : level.time) = job.times[k];
     LevelSource source = source_of(job, contact, level);
     compute_quantities(source, Stage::solution);
+    if (has_gap(job.settings)) measure_gap(job, *pressed.map, contact, level, k);
     complete(level);
     pressed.judge.judge(level, contact, by_force);
     return level;
@@ -483,19 +499,6 @@ const HeightMap& heights_of(const Job& job, const Realization& r) {
     return job.given_heights ? *job.given_heights : *r.heights;
 }
 
-// Computes what a level has of its gap. `flux`: as in LevelSource.
-void measure_gap(const Job& job, const HeightMap& map, Path& contact, Level& level,
-                 std::vector<double>* flux) {
-    if (std::isnan(level.force)) return;  // there is no state
-    LevelSource source = source_of(job, contact, level);
-    source.map = &map;
-    source.flux = flux;
-    compute_quantities(source, Stage::gap);
-    if (job.settings.output.flow) compute_quantities(source, Stage::flow);
-    const PdfBins& bins = job.observe.pdf;
-    if (bins.gap_max > 0) level.gaps = count_gaps(gap_of(source), bins.bins, bins.gap_width());
-}
-
 // The state of a level of which fields are requested.
 FieldLevel field_level(const Job& job, const Realization& r, Path& contact, std::size_t k,
                        const Level& level, std::vector<double> flow) {
@@ -524,19 +527,15 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     if (settings.solids.friction > 0) friction.emplace(settings, make_contact);
     r.levels.reserve(job.levels.size());
     const std::vector<std::int32_t> field_steps = steps_of_fields(job);
-    const MakePressed make = [&] { return Pressed{make_contact(), Judge(solver, surface.judged)}; };
+    const MakePressed make = [&] { return Pressed{make_contact(), Judge(solver, surface.judged), map}; };
     Pressed pressed = make();
     std::unique_ptr<Path>& contact = pressed.contact;
     std::vector<FieldLevel> fields;
     const auto take = [&](std::size_t k, Level solved) {
         Level& level = r.levels.emplace_back(std::move(solved));
         const bool field = contains(field_steps, std::int32_t(k));
-        std::vector<double> flow;
-        if (has_gap(settings))
-            measure_gap(job, heights_of(job, r), *contact, level,
-                        field && fields_asked(job).flow ? &flow : nullptr);
         if (field && !std::isnan(level.force)) {  // a level without a state has none
-            fields.push_back(field_level(job, r, *contact, k, level, std::move(flow)));
+            fields.push_back(field_level(job, r, *contact, k, level, std::move(level.flux)));
             if (fields_asked(job).traction)
                 fields.back().stuck = friction->stuck(level, kTractionSlide);
         }

@@ -8,7 +8,11 @@ namespace {
 
 // Heights from a file may have waves as short as their grid; the error is that of a measurement twice
 // as fine.
-constexpr double kRead = 2;
+constexpr double kRead = 1.5;
+
+// Largest stresses, over border_share, at the surface; they fall with the depth in pixels. The tension
+// behind the edge of a sliding contact rises like the root of the distance, and so does its error.
+constexpr double kMises = 0.14, kShear = 0.16, kTension = 0.05, kSlidingEdge = 0.5;
 
 // Elements, sharp punches on a plane: N differs from 2 a E* d by up to this share of the ratio of
 // pixel side to radius, in nine of ten cases.
@@ -68,16 +72,30 @@ double crest_height(const HeightMap& map, const Indenter& indenter,
 
 }  // namespace
 
-double error_of_resolution(const LevelQuantity& quantity, const LevelValues& level, bool read) {
+double error_of_resolution(const LevelQuantity& quantity, std::size_t component,
+                           const LevelValues& level, bool read) {
+    if (quantity.own_error) return quantity.own_error(level, component);
     if (!(quantity.error_factor > 0) || !(level.contacts > 0)) return kNotComputed;
     const double averaged = quantity.error_averages ? std::pow(level.contacts, -0.25) : 1.0;
     return quantity.error_factor * level.border_share * averaged * (read ? kRead : 1.0);
 }
 
+void state_errors(LargestStress& stress, double depth, bool sliding, const LevelValues& level,
+                  bool read) {
+    const double border = level.border_share * (read ? kRead : 1.0);
+    const double shallow = 1 + 2 * depth;
+    stress.mises.error = kMises * border * std::pow(shallow, -0.75);
+    stress.shear.error = kShear * border * std::pow(shallow, -0.75);
+    double tension = kTension * border / shallow * stress.mises.value;
+    if (sliding)
+        tension += kSlidingEdge * std::sqrt(border) / shallow * std::abs(stress.tension.value);
+    stress.tension.error = tension / std::abs(stress.tension.value);
+}
+
 GridError error_of_grid(const LevelValues& level, const Indenter& indenter, double side,
                         bool read) {
     const auto of = [&](const char* name) {
-        return error_of_resolution(*find_quantity(name)->quantity, level, read);
+        return error_of_resolution(*find_quantity(name)->quantity, 0, level, read);
     };
     const double edge = edge_share(indenter, side);
     return {of("force") + edge, of("contact_area") + edge};

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "contact/quantities.hpp"
+#include "physics/stress/stress.hpp"
 #include "surface/surface.hpp"
 
 namespace rsc {
@@ -25,7 +26,14 @@ struct PlaceOfTip {
 // Expected relative error of a quantity from the resolution of the contacts; NaN where none was
 // calibrated, or there is no contact. `read`: the heights were measured, and may have waves as short
 // as their grid.
-double error_of_resolution(const LevelQuantity& quantity, const LevelValues& level, bool read);
+double error_of_resolution(const LevelQuantity& quantity, std::size_t component,
+                           const LevelValues& level, bool read);
+
+// States the errors of the largest stresses at a depth [pixels] of boundary elements. That of the
+// tension, which may vanish, is in proportion to von Mises's stress there. Without a level at rest,
+// `sliding`, the tension at the surface is that behind the edges of contacts.
+void state_errors(LargestStress& stress, double depth, bool sliding, const LevelValues& level,
+                  bool read);
 
 // The same of N and A, and of N for a punch whose edge lies between points `side` apart [length].
 GridError error_of_grid(const LevelValues& level, const Indenter& indenter, double side, bool read);

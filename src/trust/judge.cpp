@@ -6,9 +6,8 @@
 namespace rsc {
 namespace {
 
-// Larger expected errors are a doubt: of N of elements, of N of asperities or with adhesion, and of
-// A. Under a prescribed force the error of N is one of the separation.
-constexpr double kUnresolved = 0.03, kMuchError = 0.1, kMuchAreaError = 0.1;
+// Larger expected errors are a doubt: of N of asperities or with adhesion, and of A of elements.
+constexpr double kMuchError = 0.1, kMuchAreaError = 0.1;
 
 // A larger error of N by the steps of sliding is a doubt.
 constexpr double kLongSteps = 0.01;
@@ -109,7 +108,7 @@ void state_errors(Level& level, std::span<const Doubt> doubts, bool read) {
         if (doubt.cause != Cause::grid) others += doubt.force;
     for (const LevelQuantity& quantity : level_quantities())
         for (const auto c : indices(quantity.components())) {
-            double error = error_of_resolution(quantity, level, read) + others;
+            double error = error_of_resolution(quantity, c, level, read) + others;
             if (level.with_half_the_steps)
                 error += std::abs(1 - quantity.of(*level.with_half_the_steps, c) /
                                           quantity.of(level, c));

@@ -10,6 +10,10 @@
 
 namespace rsc {
 
+// A larger expected error of N of elements is a doubt. Under a prescribed force it is an error of the
+// separation.
+inline constexpr double kUnresolved = 0.03;
+
 // Mean curvature of a synthetic surface at points of unit height [1/length^2].
 Tensor curvature_at_unit_height(const Moments& moments);
 

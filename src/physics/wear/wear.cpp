@@ -41,9 +41,16 @@ public:
     double accuracy() const override { return kAccuracy; }
 
     void measure(Level& level, const HeightMap& map, const Indenter& indenter,
-                 const std::vector<double>& depths) const override {
-        level.worn_volume = sum_of(depths) * map.dx * map.dy;
-        level.wear_depth_max = depths.empty() ? 0.0 : std::ranges::max(depths);
+                 const std::vector<double>& depths,
+                 const std::vector<double>& yielded) const override {
+        double volume = 0, deepest = 0;
+        for (const auto k : indices(depths)) {
+            const double worn = depths[k] - (yielded.empty() ? 0.0 : yielded[k]);
+            volume += worn;
+            deepest = std::max(deepest, worn);
+        }
+        level.worn_volume = volume * map.dx * map.dy;
+        level.wear_depth_max = deepest;
         level.worn_rms = worn_rms(map, depths, indenter.shape->flat());
     }
 
@@ -60,7 +67,6 @@ std::unique_ptr<Lowering> make_wear(const SolverOptions& options) {
     if (k == 0) return nullptr;
     if (!(k > 0 && std::isfinite(k)))
         bad_input("the coefficient of wear must be positive and finite");
-    if (std::isfinite(options.physics.hardness.H0)) refuse("with a hardness");
     if (options.physics.adhesion.work > 0) refuse("with adhesion");
     if (!options.physics.relaxation.none()) refuse("for bodies that relax");
     return std::make_unique<WornPoints>(k);

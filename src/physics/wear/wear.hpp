@@ -9,7 +9,7 @@
 namespace rsc {
 
 // Null without wear. Throws Error(bad_input) for a coefficient out of range, and for bodies that
-// also yield, attract or relax.
+// also attract or relax.
 std::unique_ptr<Lowering> make_wear(const SolverOptions& options);
 
 // Throws Error(bad_input) with wear, which asperities cannot have.
