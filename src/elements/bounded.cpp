@@ -88,12 +88,12 @@ double BoundedSolver::error() {
         part.inside += e * e;
         part.touching += p_[k] > 0;
         part.weight += p_[k];
-        part.overlap += p_[k] * (z_[k] - Z0_);
+        part.overlap += p_[k] * std::abs(z_[k] - Z0_);
     });
     const double bad = sums.inside + outside();
     if (sums.touching == 0) return bad > 0 ? kInfinity : 0.0;
     return std::sqrt(bad / static_cast<double>(sums.touching)) /
-           std::abs(sums.overlap / sums.weight);
+           (sums.overlap / sums.weight);
 }
 
 double BoundedSolver::certificate() {
@@ -111,11 +111,11 @@ double BoundedSolver::certificate() {
                                            : std::max(-w_[k], 0.0);
         part.largest = std::max(part.largest, violation);
         part.weight += p_[k];
-        part.overlap += p_[k] * (z_[k] - Z0_);
+        part.overlap += p_[k] * std::abs(z_[k] - Z0_);
         part.product += p_[k] * violation;
     });
     if (!(sums.weight > 0)) return 0;
-    const double overlap = std::abs(sums.overlap),
+    const double overlap = sums.overlap,
                  load = wanted_ ? std::abs(sums.weight / *wanted_ - 1) : 0.0,
                  farthest = std::max(sums.largest, std::sqrt(outside()));
     return std::max({farthest * sums.weight / overlap, sums.product / overlap, load});

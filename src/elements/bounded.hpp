@@ -88,12 +88,12 @@ protected:
 
     void evaluate(bool exact);
     // Relative error: rms (per pixel under pressure) of w where 0 < p < highest and of penetrations
-    // elsewhere, divided by the mean of z -
-    // Z0 weighted with p.
+    // elsewhere, divided by the mean of
+    // |z - Z0| weighted with p.
     double error();
     // The largest of the penetration w < 0 at a pixel without pressure, and of |w| at one between
-    // its bounds, both over the mean of z - Z0 weighted with p, of the complementarity sum |p w|
-    // over sum p (z - Z0), and of the difference of the given sum of p over this sum.
+    // its bounds, both over the mean of |z - Z0| weighted with p, of the complementarity sum |p w|
+    // over sum p |z - Z0|, and of the difference of the given sum of p over this sum.
     double certificate();
     void find_Z0();
     // Returns the decrease of p'Kp - 2 (z - Z0)'p by its steps.

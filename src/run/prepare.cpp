@@ -132,6 +132,8 @@ SurfaceModel read_list(const Case& settings) {
     SurfaceModel model;
     model.asperities = read_asperities(keys.file, settings.run.length_unit);
     model.domain = list_domain(model.asperities, keys.L, "the asperities in " + keys.file);
+    make_law(law_of(settings, model.domain), model.asperities,
+             1);  // refuses asperities without the properties that the law needs
     model.statistics.summits = std::int64_t(model.asperities.size());
     model.statistics.sigma = model.domain.sigma;
     model.list = true;

@@ -84,10 +84,15 @@ double sigma_of(const Case& settings, const SurfaceDomain& domain) {
     return settings.surface.sigma.value_or(domain.sigma);
 }
 
+LawKind law_of(const Case& settings, const SurfaceFacts& surface) {
+    const LawKind law = settings.asperities.law;
+    return law == LawKind::fourth_order ? surface.richest_law : law;
+}
+
 SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     SolverOptions options;
     options.method = settings.solver.method;
-    options.law = std::min(settings.asperities.law, domain.richest_law);
+    options.law = law_of(settings, domain);
     options.physics.hardness = {settings.solids.hardness, settings.solids.size_effect};
     if (relaxes(settings)) {
         const Case::Solids& s = settings.solids;

@@ -9,6 +9,7 @@
 #include "run/prepare.hpp"
 #include "support/asperities.hpp"
 #include "support/height_maps.hpp"
+#include "support/judged.hpp"
 #include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "trust/judge.hpp"
@@ -135,6 +136,25 @@ TEST(pixels_of_contacts) {
     add_pixels(level, flat_map(8, 8, 1, 1), {1.0, 2.0, 0, 0}, kInfinity, touching,
                std::vector<double>(touching.size(), 1.0));
     CHECK(level.contacts == 4 && level.pixels_per_contact == 9);
+}
+
+// A ball narrower than a step of the grid may touch between the points, and one pressed as deep as
+// its radius is steep; neither is an answer without a doubt. A paraboloid's slope r/R, weighted with
+// Hertz's pressure, has the square 2 a^2/(5 R^2).
+TEST(narrow_and_steep) {
+    const HeightMap map = flat_map(60, 60, 0.1, 0.1);
+    const auto judged_at = [&](double R, double x0, double Z0) {
+        const Indenter ball{1e3, R, x0, x0};
+        const SolverOptions options;
+        const auto contact = make_element_contact(map, ball, options);
+        return judged(contact->at_separation(Z0), *contact, options, &map);
+    };
+    CHECK(judged_at(0.04, 3.05, -0.02).doubts == bit(Cause::missed_contact));
+    CHECK(judged_at(0.04, 3.05, 0.01).doubts == 0);
+    CHECK(has(judged_at(2.0, 2.95, -2.0), Cause::steep_indenter));
+    const Level shallow = judged_at(20.0, 2.95, -0.1);
+    CHECK(!has(shallow, Cause::steep_indenter));
+    CHECK_RELATIVE(shallow.indenter_slope, std::sqrt(0.4 * 0.1 / 20.0), 0.02);  // a^2 = 0.1 R
 }
 
 TEST(resolution) {
