@@ -179,14 +179,17 @@ def hertz_force(result, approach):
 
 def hertz_line(result, approach):
     """Force of the smooth cylinder in line contact at an approach. A load P per length, pressed on
-    the width 2 b with the pressure of Hertz, lowers the middle by
-    2 P/(pi E*) [ln(4 L/b) + 1/2 - 0.5772], because separations of line contacts count from a
-    constant of the length L (output/README)."""
+    the width 2 b with the pressure of Hertz, lowers the middle by 2 P/(pi E*) [ln(2 D/b) + 1/2],
+    where D is line_reference (output/README). Results before 0.5 lack it: their D is
+    2 L exp(-0.5772)."""
     length = np.nanmax(result.mean("force") / result.mean("force_per_length"))
-    # The approach grows with the load up to half-widths of L.
-    loads = np.geomspace(1e-6, 1, 500) * np.pi * result["e_star"] * length
-    loads = loads[result.half_width_under(loads) < length]
-    lowered = np.log(4 * length / result.half_width_under(loads)) + 0.5 - np.euler_gamma
+    reference = 2 * length * np.exp(-np.euler_gamma)
+    if "line_reference" in result:
+        reference = float(result["line_reference"])
+    # The approach grows with the load up to half-widths of D.
+    loads = np.geomspace(1e-6, 1, 500) * np.pi * result["e_star"] * reference
+    loads = loads[result.half_width_under(loads) < reference]
+    lowered = np.log(2 * reference / result.half_width_under(loads)) + 0.5
     known = 2 * loads / (np.pi * result["e_star"]) * lowered
     return np.interp(approach, known, loads * length, left=np.nan, right=np.nan)
 

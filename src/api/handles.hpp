@@ -55,7 +55,7 @@ struct rsc_contact {
     rsc::SolverOptions options;
     std::unique_ptr<rsc::Path> owned;
     rsc::Path& path;
-    rsc::Judge judge;            // elements have no second grid here
+    rsc::Judge judge;
     rsc::Path::State committed;  // initially the new contact
 };
 

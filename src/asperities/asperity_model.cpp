@@ -220,7 +220,7 @@ History* AsperityModel::history() { return impl_->law->memory() ? this : nullptr
 
 double AsperityModel::shortest_time() const { return impl_->options.physics.relaxation.shortest(); }
 
-void AsperityModel::step(double dt) { impl_->history->step(dt); }
+void AsperityModel::step(double dt, double) { impl_->history->step(dt); }
 
 void AsperityModel::forget() {
     const Impl& my = *impl_;

@@ -47,7 +47,7 @@ private:
     std::vector<double> write() const override;
     void read(const std::vector<double>& numbers) override;
     double shortest_time() const override;
-    void step(double dt) override;
+    void step(double dt, double lasting) override;
     std::optional<Level> lasting_loads(const Level& level) const override;
     std::vector<double> residual_depths() const override;
 

@@ -82,7 +82,7 @@ struct Case {
     } surface;
     struct AsperityKeys {
         Curvature curvature = Curvature::geometric;
-        LawKind law = LawKind::hertz;
+        LawKind law = LawKind::fourth_order;
     } asperities;
     struct IndenterKeys {
         int shape = 0;  // row of kShapes (physics/indenter/shapes.hpp); a sphere takes solids%R
@@ -110,6 +110,9 @@ struct Case {
         std::vector<double> distances;   // explicit list instead
         bool slides() const { return sliding || !distances.empty(); }
         std::optional<double> centre[2];  // default: the middle of the surface
+        // line contact: distance from the line at which a uniform line load lowers nothing;
+        // default: the side of the surface across the line
+        std::optional<double> line_reference;
         Selection selection = Selection::overlap;
         double selection_factor = 1.5;
     } indentation;

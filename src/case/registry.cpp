@@ -204,6 +204,11 @@ std::vector<Key> keys_of_indentation() {
              "list of levels instead of start, stop and steps"),
         number(RSC_KEY(indentation, centre), "length", kAny, "x and y of the tip of the indenter",
                "the middle of the surface"),
+        number(RSC_KEY(indentation, line_reference), "length", kPositive,
+               "line contact: distance from the line at which a uniform line load lowers nothing; "
+               "separation, stiffness and resistance depend on it. In a real body it is of the "
+               "order of its radius or thickness",
+               "the side of the surface across the line"),
         choice(RSC_KEY(indentation, selection), kSelectionNames,
                "asperities in the system of equations: all that can touch, or those within "
                "selection_factor times the paper's radius"),

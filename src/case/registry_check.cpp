@@ -376,6 +376,9 @@ private:
                     "give the period of the list of asperities");
         }
         if (i.line()) check_line();
+        require(i.line() || !i.line_reference,
+                {"indentation%line_reference", "indentation%boundary"},
+                "is for line contact, boundary = 'periodic_x' or 'periodic_y'");
         const bool pressure = i.control == Control::pressure,
                    of_pressure = relative || i.unit == LevelUnit::pressure;
         require(!pressure || periodic, {"indentation%control", "indentation%boundary"},
@@ -426,6 +429,8 @@ private:
         require(c_.solids.layer_thickness.empty(),
                 {"output%stress_depths", "solids%layer_thickness"},
                 "stresses below the surface are not available in layers");
+        require(std::isfinite(c_.solids.E[0]), {"output%stress_depths", "solids%E"},
+                "stresses are those of body 1, which is rigid here; give the elastic body first");
         require(elements_ || !any_physics(c_, &Physics::pulls),
                 {"output%stress_depths", "solver%model"},
                 "with adhesion stresses are available for model = 'elements'");

@@ -68,9 +68,15 @@ struct LevelValues {
     double area_fraction = kNotComputed;     // two flats: A/A0
     double force_per_length = kNotComputed;  // line contact: N/L [force/length]
     double residual = 0;  // |F - C<G0 - B F>^(3/2)| / |F|, unregularised, over all candidates
+    // boundary elements: largest violation of the contact conditions by the returned pressures
+    double certificate = kNotComputed;
     double pressure_max = kNotComputed;  // boundary elements: largest pressure [force/length^2]
     // boundary elements: median pixels per contact, weighted by area
     double pixels_per_contact = kNotComputed;
+    // boundary elements: sides of pixels on the borders of contacts over pixels under pressure (of
+    // two flats, or over those of the gap if these are fewer), 2.5 over the radius of a round contact
+    // in pixels; the errors of the grid depend on it
+    double border_share = kNotComputed;
     // Expected relative errors of N and A, and under a prescribed force the error of Z0 [length]
     // (trust/judge.hpp).
     double force_error_expected = kNotComputed, area_error_expected = kNotComputed;
@@ -80,6 +86,8 @@ struct LevelValues {
     bool converged = true, unique = true;
     // asperities: largest slope of the indenter at a contact over the gentlest slope of the surface
     double slope_ratio = kNotComputed;
+    // rms slope of the indenter's face over the contacts, weighted by the forces; not for flats
+    double indenter_slope = kNotComputed;
     double filled_share = kNotComputed;  // share of the contact area in holes of a measured map
     // Computed on request (contact/answers.hpp):
     double stiffness = kNotComputed;  // dN/dZ0, negative [force/length]
@@ -111,18 +119,19 @@ struct LevelValues {
     // with output%flow [length^3], [length]
     double permeability_xx = kNotComputed, permeability_yy = kNotComputed;
     double permeability_xy = kNotComputed;
+    // xx and yy of the same gap on every second point, for the error (not in files)
+    double coarse_permeability_x = kNotComputed, coarse_permeability_y = kNotComputed;
     double hydraulic_gap_x = kNotComputed, hydraulic_gap_y = kNotComputed;
     std::int32_t jumps = 0;             // number of jumps since the previous level
     std::int32_t plastic_contacts = 0;  // yielding contacts at this level
     double time = kNotComputed;         // time of the level, relaxing bodies [time]
     // Bodies that wear: sliding distance of the level [length]; volume and largest depth that are
-    // worn off, rms height of the worn surface [length^3], [length]; error by the steps of the
-    // distance, of N, or under a force of the depth of the separation below first touch, relative
-    // to these.
+    // worn off, rms height of the worn points without their form [length^3], [length]; change of N,
+    // or under a force of the depth of the separation below first touch, relative to these, when the
+    // steps of the distance are halved.
     double distance = kNotComputed;
     double worn_volume = kNotComputed, wear_depth_max = kNotComputed, worn_rms = kNotComputed;
     double sliding_error = kNotComputed;
-    double sliding_area_error = kNotComputed;  // likewise of the area, relative; not in files
     double energy_lost = kNotComputed;  // energy dissipated since the first level [force length]
     std::int32_t contacts = 0;
     std::int32_t candidates = 0;  // asperities or pixels passed to the solver
@@ -200,6 +209,8 @@ struct Level : LevelValues {
     LevelPixels pixels;
     LevelTractions tractions;
     GapCounts gaps;
+    // Two flats: the magnitude of the flux at each point (LevelSource::flux); empty: not asked for.
+    std::vector<double> flux;
     std::vector<double>
         // area of an elliptic spot not covered by earlier spots; the sum is the area of the union;
         // empty: pi a^2
@@ -208,6 +219,8 @@ struct Level : LevelValues {
     // the spot of another one is the other's.
     // Empty: circles of radius a.
     std::vector<Spot> spots;
+    // Bodies that wear: the values that half as many steps of sliding give.
+    std::optional<LevelValues> with_half_the_steps;
     std::vector<int> yields;   // nonzero if the contact yields (hardness); empty or one per contact
     bool provisional = false;  // a trial of force control (contact/model.hpp), without contacts
 

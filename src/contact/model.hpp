@@ -31,16 +31,16 @@ public:
     virtual PathClock clock() const {
         return shortest_time() < kInfinity ? PathClock::time : PathClock::none;
     }
-    // Bodies that wear: steps are halved until N, or the depth, changes by less than this share.
+    // Bodies that wear: the number of steps is doubled until N, or the depth, changes by less than
+    // this share.
     virtual double accuracy() const { return 0; }
-    // Removes the error of first order of the steps, for a history reached in steps half as long as
-    // those from `before` to `coarse`, both from write().
-    virtual void extrapolate(const std::vector<double>& before, const std::vector<double>& coarse) {
-        (void)before;
-        (void)coarse;
+    // With a clock: following solutions end a step of this length that begins at the last accepted
+    // one. What they change in the bodies for good is, when they are accepted, that of a step of
+    // length `lasting` at their pressures: another length in a stage of a step of sliding.
+    virtual void step(double length, double lasting) {
+        (void)length;
+        (void)lasting;
     }
-    // With a clock: following solutions end a step that begins at the last accepted one.
-    virtual void step(double length) { (void)length; }
 
     // Relaxing bodies: the loads under which the instantaneous body has the present deflections,
     // where earlier loads last; empty for others. Their pixels, or their contacts, are those that
@@ -71,11 +71,8 @@ public:
     // Separation at which the indenter touches the surface [length]; -Infinity if nothing lies
     // under it.
     virtual double first_touch() const = 0;
-    // Separation of full contact, at and below which there is no solution.
+    // Separation of full contact: below it there is no solution, at it N is not determined.
     virtual double closed() const { return -kInfinity; }
-    // Throws Error(bad_input) if the surfaces are in full contact under the force N, where this is
-    // known in advance.
-    virtual void require_gap(double N) { (void)N; }
 
     // The model's separations z are measured from a plane that each unit force raises by this
     // [length/force], so that forces only lower the surface: Z0 = z + shift() N (Kernel::shift()).
@@ -103,7 +100,8 @@ public:
     virtual void forget() = 0;
 
     // Of the last solution, or with adhesion of the state after move_tip(): dN/dz (negative; 0
-    // without contact) [force/length], to a relative accuracy; for unloading if it is accepted.
+    // without contact, NaN in full contact of two flats, where N is no function of z)
+    // [force/length], to a relative accuracy; for unloading if it is accepted.
     virtual double stiffness(double accuracy) = 0;
     // Of bodies that attract: the force that a unit approach adds at fixed contact areas
     // [force/length], positive. Without attraction, this is -stiffness().

@@ -11,7 +11,10 @@ constexpr double kFarAbove = 100;   // relative to the requested force
 constexpr double kReleased = 1e-3;  // resolution of pulling off, relative to the range
 // Steps of the approach to a force: the most by which one is longer than the last.
 constexpr double kGrowth = 4;
-constexpr int kMostSteps = 64;  // of sliding to a level, the longer ones
+constexpr int kMostSteps = 64;  // of sliding to a level
+// Sliding: accuracy of the area and the largest pressure, whose smallest change is a pixel; and a
+// change of N that no longer matters, relative to N before the level.
+constexpr double kCoarseSteps = 0.05, kWornOff = 1e-6;
 constexpr int kTrials = 2;      // number of failures after which no trials are used
 
 // Evaluation of a level at z: it is the solution (or failed), or lies above it; `next` is the next
@@ -183,16 +186,18 @@ Level Path::in_steps(double from, double to, Reach reach) {
     Level level;
     // A level that is not reached leaves the history before it.
     const auto take_back = [&] {
+        stage_.reset();
         if (before) restore_history(*before);
         time_ = end;
     };
     try {
-        level = halved ? in_halved_steps(from, to, reach, *before)
+        level = halved ? in_sliding_steps(from, to, reach, *before)
                        : in_equal_steps(steps, from, to, reach);
     } catch (...) {
         take_back();
         throw;
     }
+    stage_.reset();
     ++levels_since_move_;
     if (before && !level.converged) take_back();
     if (relaxes()) level.time = end;
@@ -216,51 +221,53 @@ Level Path::in_equal_steps(int steps, double from, double to, Reach reach) {
     return level;
 }
 
-// Steps of sliding are of first order. n steps and 2 n steps, over all of the way but a quarter of
-// a shorter one, are extrapolated to second order. The quarter that remains is a step of its own,
-// because the pressures on extrapolated heights are not smooth at the edges of contacts. n is
-// doubled, from a single step in all on, until the level changes by less than the accuracy. As N
-// may vanish when the surface is worn off, its change is relative to the larger one of both ends.
-Level Path::in_halved_steps(double from, double to, Reach reach, const State& before) {
+// A step of sliding has two implicit stages (SDIRK2: Alexander, SIAM J. Numer. Anal. 14, 1977): it is
+// of second order, exact for the volume under a force that changes linearly, never adds material,
+// and damps at once the pressures that a step before left uneven. The number of steps is doubled
+// until N (under a force the depth below first touch), the area and the largest pressure change
+// by less than the accuracy. Where wear takes the force off, its change is relative to that before the level.
+Level Path::in_sliding_steps(double from, double to, Reach reach, const State& before) {
+    const double stage = 1 - 1 / std::numbers::sqrt2;
     const bool by_force = reach == &Path::to_force;
     const double start = *accepted_, end = time_;
     Effort effort;
-    double last = kNotComputed, last_area = kNotComputed;
-    for (int n = 0;; n = std::max(2 * n, 1)) {
-        if (!std::isnan(last)) restore_history(before);
+    std::optional<LevelValues> last;
+    for (int n = 1;; n *= 2) {
+        if (last) restore_history(before);
+        const double length = (end - start) / n;
         Level level;
-        level.converged = true;
-        const auto go = [&](int steps, double part) {
-            if (!level.converged) return;
-            const double now = *accepted_, begin = (now - start) / (end - start);
-            time_ = part < 1 ? start + part * (end - start) : end;
-            level =
-                in_equal_steps(steps, from + begin * (to - from), from + part * (to - from), reach);
+        const auto go = [&](double part, double lasting) {
+            time_ = part < n ? start + part * length : end;
+            stage_ = {stage * length, lasting * length};
+            level = (this->*reach)(from + part / n * (to - from));
             effort.add(level);
+            return level.converged;
         };
-        if (n > 0) {
-            const double part = 1 - 0.125 / n;
-            go(n, part);
-            const std::vector<double> coarse = history()->write();
-            restore_history(before);
-            go(2 * n, part);
-            history()->extrapolate(before.history, coarse);
+        for (int k = 0; k < n; ++k)
+            if (!go(k + stage, 1 - stage) || !go(k + 1, stage)) return level;
+        if (last) {
+            const double value = by_force ? level.separation : level.force,
+                         other = by_force ? last->separation : last->force,
+                         whole = by_force ? first_touch() - value : level.force;
+            level.sliding_error = std::abs(value - other) / std::abs(whole);
+            level.with_half_the_steps = last;
+            const double accuracy = history()->accuracy();
+            const bool settled = level.sliding_error <= accuracy ||
+                                 (!by_force && std::abs(value - other) <= kWornOff * before.force);
+            const auto near = [&](double a, double b) { return std::abs(a - b) <= kCoarseSteps * b; };
+            const bool alike = near(last->area, level.area) &&
+                               near(last->pressure_max, level.pressure_max);
+            if ((settled && alike) || n >= kMostSteps) return level;
         }
-        go(1, 1);
-        if (!level.converged) return level;
-        const double value = by_force ? level.separation : level.force;
-        const double whole = by_force ? first_touch() - value : std::max(value, before.force);
-        level.sliding_error = std::abs(value - last) / whole;
-        level.sliding_area_error = std::abs(1 - last_area / level.area);
-        if (n > 0 && (!(level.sliding_error > history()->accuracy()) || n == kMostSteps))
-            return level;
-        last = value;
-        last_area = level.area;
+        last = level;
     }
 }
 
 void Path::begin_step() {
-    if (clock() != PathClock::none) history()->step(accepted_ ? time_ - *accepted_ : 0.0);
+    if (clock() == PathClock::none) return;
+    const double length = accepted_ ? time_ - *accepted_ : 0.0;
+    const Stage step = stage_.value_or(Stage{length, length});
+    history()->step(step.length, step.lasting);
 }
 
 Level Path::to_separation(double Z0) {
@@ -499,7 +506,9 @@ void Path::require_resolved(Level& level, double N) {
 Level Path::to_force(double N) {
     begin_step();
     if (!std::isfinite(first_touch()))
-        bad_input("no asperity lies under the indenter, so that it cannot carry a force");
+        bad_input(
+            "no point of the surface lies under body 2, so that it cannot carry a force: it is "
+            "narrower than a step of the grid, or lies beyond the border");
     std::optional<Level> level = model_->solve_under(N);
     if (level)
         level->separation += model_->shift() * level->force;

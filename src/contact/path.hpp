@@ -29,10 +29,6 @@ public:
     // Trial separations have no effect on later levels.
     Level at_force(double N);
 
-    // Throws Error(bad_input) if the surfaces are in full contact under the force N, as at_force()
-    // would; where this is known in advance.
-    void require_gap(double N) { model_->require_gap(N); }
-
     // The last level with its energy, from at_separation(), at_force() or restore(); the caller may
     // complete it. Empty: there is none.
     std::optional<Level>& level() { return level_; }
@@ -115,12 +111,18 @@ private:
     void restore_history(const State& state);
     void solve_level_again();
 
+    // A stage of a step of sliding: History::step().
+    struct Stage {
+        double length, lasting;
+    };
+    std::optional<Stage> stage_;
+
     // Reaches a level in steps, on which its separation, or its force, changes linearly `from` that
     // of the last accepted level.
     using Reach = Level (Path::*)(double);
     Level in_steps(double from, double to, Reach reach);
     Level in_equal_steps(int steps, double from, double to, Reach reach);
-    Level in_halved_steps(double from, double to, Reach reach, const State& before);
+    Level in_sliding_steps(double from, double to, Reach reach, const State& before);
     Level to_separation(double Z0);  // as at_separation and at_force, in one step of time
     Level to_force(double N);
     Level search_force(double N);

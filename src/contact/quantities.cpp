@@ -22,6 +22,8 @@ constexpr LevelQuantity kRows[] = {
      .force_power = 1,
      .meaning = "normal force, N",
      .comment = "N = sum of the forces f of the contacts",
+     .error_factor = 0.0133,
+     .error_averages = true,
      .error_member = &V::force_error_expected,
      .statistics = true,
      .plain = "force",
@@ -35,6 +37,8 @@ constexpr LevelQuantity kRows[] = {
      .comment = "law 'hertz': sum of pi a^2 over the contacts; 'elliptic' and 'fourth_order': area "
                 "of the union of their elliptic spots; boundary elements: area of the pixels under "
                 "pressure, corrected at borders below the hardness",
+     .error_factor = 0.111,
+     .error_averages = true,
      .error_member = &V::area_error_expected,
      .statistics = true,
      .plain = "contact area",
@@ -47,6 +51,8 @@ constexpr LevelQuantity kRows[] = {
      .meaning = "area of the pixels under pressure, without border correction",
      .comment = "boundary elements: contact_area is smaller by (pi - 1 + ln 2)/24 of a pixel for "
                 "each pixel side on the border; yielding borders: see src/elements/pixel_spots.hpp",
+     .error_factor = 0.16,
+     .error_averages = true,
      .always = false},
     {.name = "pressure",
      .member = &V::pressure,
@@ -62,6 +68,8 @@ constexpr LevelQuantity kRows[] = {
     {.name = "area_fraction",
      .member = &V::area_fraction,
      .meaning = "ratio of true to nominal contact area of two flats, A/A0",
+     .error_factor = 0.111,
+     .error_averages = true,
      .always = false,
      .statistics = true,
      .plain = "area fraction",
@@ -86,6 +94,7 @@ constexpr LevelQuantity kRows[] = {
      .comment = "boundary elements, over the whole cell; 0 where the bodies touch",
      .compute = compute_gap,
      .stage = Stage::gap,
+     .error_factor = 0.0014,
      .always = false,
      .statistics = true,
      .of_flow = true,
@@ -123,6 +132,7 @@ constexpr LevelQuantity kRows[] = {
                 "pressure drop",
      .compute = compute_permeability,
      .stage = Stage::flow,
+     .own_error = permeability_error,
      .always = false,
      .statistics = true,
      .logarithm = true,
@@ -134,6 +144,7 @@ constexpr LevelQuantity kRows[] = {
      .meaning = "parallel gap of the same permeability, (12 K)^(1/3), along x and along y",
      .compute = compute_permeability,
      .stage = Stage::flow,
+     .own_error = hydraulic_gap_error,
      .always = false,
      .of_flow = true,
      .plain = "hydraulic gap",
@@ -163,6 +174,15 @@ constexpr LevelQuantity kRows[] = {
          "pressure and of remaining penetrations, relative to the mean overlap under pressure",
      .heading = "residual",
      .width = 9},
+    {.name = "certificate",
+     .member = &V::certificate,
+     .meaning = "largest violation of the contact conditions by the returned pressures",
+     .comment = "boundary elements, recomputed in double precision: the largest of the penetration "
+                "and of the gap under pressure (relative to the mean overlap under pressure), of "
+                "the complementarity sum p gap (relative to sum p overlap), and of the difference "
+                "of the prescribed force. It tells how well the discrete problem is solved, not how "
+                "far that is from the continuous one",
+     .always = false},
     {.name = "status",
      .member = &V::status,
      .meaning = "outcome of the level",
@@ -200,6 +220,7 @@ constexpr LevelQuantity kRows[] = {
      .length_power = -2,
      .force_power = 1,
      .meaning = "largest pressure at a point (boundary elements)",
+     .error_factor = 0.067,
      .always = false,
      .statistics = true,
      .plain = "largest pressure"},
@@ -209,6 +230,14 @@ constexpr LevelQuantity kRows[] = {
      .meaning = "number of pixels per contact (boundary elements), median weighted by area",
      .comment = "half of the contact area belongs to contacts with at most this number of pixels; "
                 "contacts of few pixels are inaccurate",
+     .always = false},
+    {.name = "border_share",
+     .member = &V::border_share,
+     .unit = "1",
+     .meaning = "sides of pixels on the borders of contacts over pixels in contact",
+     .comment = "boundary elements; of two flats over the pixels of the gap if these are fewer; 2.5 "
+                "over the radius in pixels of a round contact. Expected "
+                "errors grow in proportion to it",
      .always = false},
     {.name = "force_error_expected",
      .member = &V::force_error_expected,
@@ -239,6 +268,13 @@ constexpr LevelQuantity kRows[] = {
      .meaning = "largest slope of the indenter at a contact over the rms slope of the surface, "
                 "with a lay sqrt(2) times that along it",
      .comment = "above 0.2 the surface also touches beside its summits, and no error is stated",
+     .always = false},
+    {.name = "indenter_slope",
+     .member = &V::indenter_slope,
+     .unit = "1",
+     .meaning = "rms slope of the face of body 2 over the contacts, weighted by the forces",
+     .comment = "above 0.5 slopes are not small, as the theory of both models assumes: no error is "
+                "stated",
      .always = false},
     {.name = "filled_share",
      .member = &V::filled_share,
@@ -308,6 +344,8 @@ constexpr LevelQuantity kRows[] = {
      .comment =
          "boundary elements with adhesion: at fixed attracting points, as in small oscillations",
      .compute = compute_stiffness,
+     .error_factor = 0.044,
+     .error_averages = true,
      .always = false,
      .statistics = true,
      .plain = "stiffness"},
@@ -317,6 +355,8 @@ constexpr LevelQuantity kRows[] = {
      .force_power = 1,
      .meaning = "elastic energy of the contact, W",
      .comment = "dW/dZ0 = -N",
+     .error_factor = 0.0148,
+     .error_averages = true,
      .always = false,
      .statistics = true,
      .plain = "elastic energy"},
@@ -349,6 +389,8 @@ constexpr LevelQuantity kRows[] = {
                 "fixed contact areas",
      .comment = "electrical or thermal (Barber 2003); 4 a for a single spot",
      .compute = compute_conductance,
+     .error_factor = 0.044,
+     .error_averages = true,
      .always = false,
      .statistics = true,
      .plain = "conductance length"},
@@ -360,6 +402,8 @@ constexpr LevelQuantity kRows[] = {
          "sum of solids%resistivity [ohm times run%length_unit] over conductance_length; thermal "
          "resistivities [K/W times run%length_unit] make it K/W; absent without contact",
      .compute = compute_resistance,
+     .error_factor = 0.044,
+     .error_averages = true,
      .always = false,
      .statistics = true,
      .plain = "constriction resistance"},

@@ -44,9 +44,13 @@ struct LevelQuantity {
     // with a state only. Null: it comes with the solution, or from the judge or the map.
     const char* (*compute)(LevelSource&) = nullptr;
     Stage stage = Stage::solution;
-    // Its expected relative error is error_factor * pixels_per_contact^(-error_exponent), for which
-    // nine of ten levels of the study in input/trust were within it; 0: none is stated.
-    double error_factor = 0, error_exponent = 0;
+    // Boundary elements: its expected relative error is error_factor border_share, for a sum over all
+    // contacts (error_averages), whose errors partly cancel, divided by the fourth root of their
+    // number. Nine of ten levels of the study in input/trust were within it; 0: none is stated.
+    double error_factor = 0;
+    bool error_averages = false;
+    // Instead of this, the expected relative error of a component, from other values of the level.
+    double (*own_error)(const LevelValues&, std::size_t component) = nullptr;
     // The quantity that is its expected error, if that has a row and a meaning of its own.
     double LevelValues::*error_member = nullptr;
     bool separate = false;  // an axis of files, which they write before the others

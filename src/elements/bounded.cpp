@@ -88,12 +88,37 @@ double BoundedSolver::error() {
         part.inside += e * e;
         part.touching += p_[k] > 0;
         part.weight += p_[k];
-        part.overlap += p_[k] * (z_[k] - Z0_);
+        part.overlap += p_[k] * std::abs(z_[k] - Z0_);
     });
     const double bad = sums.inside + outside();
     if (sums.touching == 0) return bad > 0 ? kInfinity : 0.0;
     return std::sqrt(bad / static_cast<double>(sums.touching)) /
-           std::abs(sums.overlap / sums.weight);
+           (sums.overlap / sums.weight);
+}
+
+double BoundedSolver::certificate() {
+    struct Sums {
+        double largest = 0, weight = 0, overlap = 0, product = 0;
+        Sums operator+(const Sums& o) const {
+            return {std::max(largest, o.largest), weight + o.weight, overlap + o.overlap,
+                    product + o.product};
+        }
+    };
+    const Sums sums = sum_with<Sums>([&](Sums& part, std::size_t k) {
+        const bool held = p_[k] >= highest_, pressed = p_[k] > 0;
+        const double violation = held      ? std::max(w_[k], 0.0)
+                                 : pressed ? std::abs(w_[k])
+                                           : std::max(-w_[k], 0.0);
+        part.largest = std::max(part.largest, violation);
+        part.weight += p_[k];
+        part.overlap += p_[k] * std::abs(z_[k] - Z0_);
+        part.product += p_[k] * violation;
+    });
+    if (!(sums.weight > 0)) return 0;
+    const double overlap = sums.overlap,
+                 load = wanted_ ? std::abs(sums.weight / *wanted_ - 1) : 0.0,
+                 farthest = std::max(sums.largest, std::sqrt(outside()));
+    return std::max({farthest * sums.weight / overlap, sums.product / overlap, load});
 }
 
 void BoundedSolver::find_free() {
@@ -314,6 +339,7 @@ ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool e
         exact = exactly && judge_exactly(exact, outcome.residual, outcome.iterations);
         evaluate(exact);
     }
+    if (exact) outcome.certificate = certificate();
     return outcome;
 }
 

@@ -23,6 +23,8 @@ struct ElementsOutcome {
     int iterations = 0;   // rounds, i.e. active sets tried
     long products = 0;    // products with K
     double residual = 0;  // violation of the conditions, BoundedSolver::error()
+    // Largest violation by the pressures of the solution; NaN unless their product was exact.
+    double certificate = std::numeric_limits<double>::quiet_NaN();
 };
 
 class BoundedSolver {
@@ -86,9 +88,13 @@ protected:
 
     void evaluate(bool exact);
     // Relative error: rms (per pixel under pressure) of w where 0 < p < highest and of penetrations
-    // elsewhere, divided by the mean of z -
-    // Z0 weighted with p.
+    // elsewhere, divided by the mean of
+    // |z - Z0| weighted with p.
     double error();
+    // The largest of the penetration w < 0 at a pixel without pressure, and of |w| at one between
+    // its bounds, both over the mean of |z - Z0| weighted with p, of the complementarity sum |p w|
+    // over sum p |z - Z0|, and of the difference of the given sum of p over this sum.
+    double certificate();
     void find_Z0();
     // Returns the decrease of p'Kp - 2 (z - Z0)'p by its steps.
     double descend(int most_steps, double reduction);

@@ -348,7 +348,7 @@ void ElementModel::solve_more(double tolerance, int iterations, std::optional<do
                               ElementsOutcome& all) {
     const ElementsOutcome now = solver_.solve(pixels_, g0_, tolerance, iterations, p_, sum);
     all = {now.converged, all.iterations + now.iterations, all.products + now.products,
-           now.residual};
+           now.residual, now.certificate};
 }
 
 // Rough solutions at separations until one has a force near N; false if none has.

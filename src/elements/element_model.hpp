@@ -18,8 +18,8 @@
 // With periodic boundaries (two rough flats; Johnson 1985, chapter 13) separations are measured
 // from z = 0 of the heights (the mean plane of synthetic surfaces and detrended maps) to the flat;
 // the mean deflection is 0. As for asperities, a pressure mode of wavenumber k deflects the surface
-// by 2/(E* k) times itself, the mean pressure by nothing. There is no level at full contact:
-// Error(bad_input).
+// by 2/(E* k) times itself, the mean pressure by nothing. In full contact the separation is that of
+// the mean plane at every force: a separation below it is refused with Error(bad_input).
 #pragma once
 
 #include "contact/model.hpp"

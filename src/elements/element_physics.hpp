@@ -10,13 +10,17 @@ namespace rsc {
 class Lowering {
 public:
     virtual ~Lowering() = default;
-    // The following levels end a step of this length.
-    virtual void step(double length) = 0;
-    // Depth by which a unit pressure lowers a point in this step [length/pressure].
+    // The following levels end a step of this length, of which `lasting` remains when they are
+    // accepted (Path: the stages of a step).
+    virtual void step(double length, double lasting) = 0;
+    // Depth by which a unit pressure lowers a point in this step, and for good [length/pressure].
     virtual double rate() const = 0;
-    // Adds the quantities of the lowered map to an accepted level.
-    virtual void measure(Level& level, const HeightMap& map,
-                         const std::vector<double>& depths) const = 0;
+    virtual double lasting_rate() const = 0;
+    // Adds the quantities of the lowered map, under this indenter, to an accepted level. `depths`: by
+    // which the points were lowered, of these `yielded` by yielding; empty: nowhere.
+    virtual void measure(Level& level, const HeightMap& map, const Indenter& indenter,
+                         const std::vector<double>& depths,
+                         const std::vector<double>& yielded) const = 0;
     // As History.
     virtual PathClock clock() const = 0;
     virtual double accuracy() const = 0;

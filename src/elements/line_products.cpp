@@ -94,7 +94,7 @@ public:
         constexpr double same = 1e-9;
         if (std::abs(period_ * step - L) > same * L)
             throw Error(Failure::internal, "the map is not the period of a line contact");
-        const LineKernel kernel(L);
+        const LineKernel kernel(L, period.reference > 0 ? period.reference : width_ * across_step);
         const auto point = [&](int i, int j) {
             const double x = i * across_step, y = j * step;
             return kernel.images(x, y) + (i > 0 || j > 0 ? 1 / std::hypot(x, y) : kInfinity);

@@ -22,14 +22,12 @@ public:
     }
 
     double stiffness(double) override {
-        return touches_ ? 0 - area() * solver_.stiffness(accepted_) : 0;
+        if (!touches_) return 0;
+        return solver_.full() ? kNotComputed : 0 - area() * solver_.stiffness(accepted_);
     }
     double energy() const override {
         if (loads_) return pixel_area() * loads_->stored();
         return touches_ ? area() * solver_.energy() : 0;
-    }
-    void require_gap(double N) override {
-        if (!limited()) solver_.require_gap(N / area());
     }
     void move_tip(double x0, double y0) override {
         indenter_.x0 = x0;
@@ -49,15 +47,8 @@ public:
             throw Error(Failure::bad_input,
                         format("a nominal pressure of %.9g exceeds the hardness %.9g", p, H));
         if (std::isfinite(H)) return std::nullopt;
-        ElementsOutcome outcome;
-        try {
-            outcome = solver_.press(scale() * p, options_.tolerance, options_.max_iterations);
-        } catch (const Error& error) {
-            // Bodies that soften may close the gap in the course of time: a level without a state,
-            // so that the ones before are kept.
-            if (!loads_ || error.kind() != Failure::bad_input) throw;
-            outcome.residual = kInfinity;
-        }
+        const ElementsOutcome outcome =
+            solver_.press(scale() * p, options_.tolerance, options_.max_iterations);
         return report(solver_.separation(), outcome);
     }
     double closed() const override { return solver_.closed(); }

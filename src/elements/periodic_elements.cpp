@@ -99,7 +99,6 @@ void PeriodicElements::prepare_inverse() {
 
 void PeriodicElements::set_diagonal(double diagonal) {
     diagonal_ = diagonal / (rms_ / pressure_unit_);
-    closes_ = true;
 }
 
 int PeriodicElements::threads() const { return relief_.nx >= kThreads / relief_.ny ? 0 : 1; }
@@ -379,25 +378,9 @@ std::vector<std::pair<Pixel, double>> PeriodicElements::press_out() {
     return lowered;
 }
 
-[[noreturn]] static void refuse_closing(double p, double closing) {
-    throw Error(
-        Failure::bad_input,
-        format("a nominal pressure of %.9g is above that of full contact on this surface, %.9g", p,
-               closing));
-}
-
 ElementsOutcome PeriodicElements::press(double mean_pressure, double tolerance,
                                         int most_iterations) {
-    const ElementsOutcome outcome =
-        solve({true, mean_pressure / pressure_unit_}, tolerance, most_iterations, true);
-    if (!closes_ && pixels_.size() == at(relief_.nx) * at(relief_.ny))
-        refuse_closing(mean_pressure, closing_pressure());
-    return outcome;
-}
-
-void PeriodicElements::require_gap(double mean_pressure) {
-    if (const double closing = closing_pressure(); mean_pressure >= closing)
-        refuse_closing(mean_pressure, closing);
+    return solve({true, mean_pressure / pressure_unit_}, tolerance, most_iterations, true);
 }
 
 ElementsOutcome PeriodicElements::approach(double Z0, double tolerance, int most_iterations) {
@@ -424,17 +407,6 @@ std::vector<double> PeriodicElements::deflections(const std::vector<Pixel>& pixe
                          plane[at(j) * nx + i] = unit_ * row[i] * rms_;
                  });
     return plane;
-}
-
-double PeriodicElements::closing_pressure() {
-    std::vector<double> least(at(relief_.ny));
-    fine().apply(
-        [&](int j, double* row) {
-            for (int i = 0; i < relief_.nx; ++i) row[i] = height(j, i);
-        },
-        [&](int j, const double* row) { least[at(j)] = *std::min_element(row, row + relief_.nx); },
-        PeriodicPixels<double>::Answer::pressure);
-    return 0 - *std::min_element(least.begin(), least.end()) / unit_ * pressure_unit_;
 }
 
 double PeriodicElements::stiffness(bool back) {

@@ -30,12 +30,17 @@ public:
     PeriodicElements(const Relief& relief, const Substrate& substrate, double highest);
 
     // Solves for a given mean pressure > 0, or a separation Z0 (from z = 0 to the flat; the mean of
-    // K p is 0). Throws Error(bad_input) at full contact, where Z0 does not determine the pressure.
+    // K p is 0). approach() throws Error(bad_input) at full contact, where Z0 does not determine the
+    // pressure.
     ElementsOutcome press(double mean_pressure, double tolerance, int most_iterations);
     ElementsOutcome approach(double Z0, double tolerance, int most_iterations);
 
-    // Throws as press() does, without a solution, if the mean pressure leaves no gap.
-    void require_gap(double mean_pressure);
+    // True if the last solution has all points in contact and none at the highest pressure: the
+    // pressures then grow without any change of the separation.
+    bool full() const {
+        return !(diagonal_ > 0 || highest_ < kInfinity) &&
+               pixels_.size() == at(relief_.nx) * at(relief_.ny);
+    }
 
     // Separation of full contact: the mean height, to rounding. None with a highest pressure,
     // because pixels at this pressure can penetrate.
@@ -59,7 +64,7 @@ public:
     double separation() const { return zero_ + Z0_ * rms_; }
     const std::vector<Pixel>& pixels() const { return pixels_; }  // under pressure, row by row
     const std::vector<double>& pressures() const { return pressures_; }  // of these pixels
-    // -d(mean pressure)/dZ0. For further loading, pixels at the highest pressure keep it; for
+    // -d(mean pressure)/dZ0, not in full contact. For further loading, pixels at the highest pressure keep it; for
     // unloading (`back`) they are elastic.
     double stiffness(bool back);
     // p'Kp/2 per pixel, with an error of the order of the square of the residual.
@@ -87,7 +92,6 @@ private:
     double height(int j, int i) const {
         return (relief_.z[j * relief_.stride + i] - zero_) * scale_;
     }
-    double closing_pressure();  // mean pressure of full contact: -min of K^-1 z
     int threads() const;        // for loops over rows
     PeriodicPixels<double>& fine();
 
@@ -123,7 +127,6 @@ private:
     double zero_ = 0, rms_ = 1, scale_ = 1, pressure_unit_ = 1, unit_ = 1;
     double mean_ = 0;        // mean of the current heights
     double aspect_;          // dy/dx
-    bool closes_ = false;    // a diagonal was set
     double inverse_of_ = 0;  // the diagonal for which the preconditioner is
     PeriodicPixels<float> inner_;
     std::unique_ptr<PeriodicPixels<double>> fine_;

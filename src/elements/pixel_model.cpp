@@ -24,19 +24,19 @@ PixelModel::PixelModel(const HeightMap& heights, const Indenter& indenter,
 }
 
 template <class Visit>
-void PixelModel::lower_points(Visit&& visit) {
-    residual_.resize(at(heights_.nx) * at(heights_.ny), 0.0);
-    visit([&](const Pixel& pixel, double depth) { residual_[at(place(pixel))] += depth; });
-    residual_changed();
+void PixelModel::lower(std::vector<double>& depths, Visit&& visit) {
+    depths.resize(at(heights_.nx) * at(heights_.ny), 0.0);
+    visit([&](const Pixel& pixel, double depth) { depths[at(place(pixel))] += depth; });
 }
 
 void PixelModel::forget() {
     forget_solutions();
     if (loads_) loads_->forget();
     if (!history()) return;
-    residual_.clear();
+    lowered_points_.clear();
+    yielded_.clear();
     if (!loads_) residual_changed();
-    step(0);
+    step(0, 0);
 }
 
 std::vector<double> PixelModel::write() const {
@@ -45,11 +45,12 @@ std::vector<double> PixelModel::write() const {
         loads_->write(numbers);
         return numbers;
     }
-    if (lowering_) return residual_;
+    if (lowering_) numbers = lowered_points_;
     const auto columns = at(heights_.nx);
-    for (std::size_t k = 0; k < residual_.size(); ++k)
-        if (residual_[k] > 0)
-            numbers.insert(numbers.end(), {double(k % columns), double(k / columns), residual_[k]});
+    const std::vector<double>& depths = yielded();
+    for (std::size_t k = 0; k < depths.size(); ++k)
+        if (depths[k] > 0)
+            numbers.insert(numbers.end(), {double(k % columns), double(k / columns), depths[k]});
     return numbers;
 }
 
@@ -59,19 +60,20 @@ void PixelModel::read_depths(const std::vector<double>& numbers) {
     };
     const std::size_t points = at(heights_.nx) * at(heights_.ny);
     const auto sound = [](double depth) { return depth >= 0 && depth < 1e50; };
-    if (lowering_) {
-        if (!(numbers.empty() || numbers.size() == points) || !std::ranges::all_of(numbers, sound))
-            refuse();
-        residual_ = numbers;
-        return;
-    }
-    residual_.assign(numbers.empty() ? 0 : points, 0.0);
-    for (std::size_t k = 0; k + 2 < numbers.size(); k += 3) {
+    const std::size_t worn = lowering_ && !numbers.empty() ? points : 0;
+    if (numbers.size() < worn || (numbers.size() - worn) % 3 != 0 ||
+        (numbers.size() > worn && !limited()))
+        refuse();
+    lowered_points_.assign(numbers.begin(), numbers.begin() + std::ptrdiff_t(worn));
+    if (!std::ranges::all_of(lowered_points_, sound)) refuse();
+    std::vector<double>& yielded = lowering_ ? yielded_ : lowered_points_;
+    yielded.assign(numbers.size() > worn ? points : 0, 0.0);
+    for (std::size_t k = worn; k < numbers.size(); k += 3) {
         const double column = numbers[k], row = numbers[k + 1], depth = numbers[k + 2];
         if (!(column >= 0 && column < heights_.nx && row >= 0 && row < heights_.ny && sound(depth)))
             refuse();
-        residual_[static_cast<std::size_t>(row) * at(heights_.nx) +
-                  static_cast<std::size_t>(column)] += depth;
+        yielded[static_cast<std::size_t>(row) * at(heights_.nx) +
+                static_cast<std::size_t>(column)] += depth;
     }
 }
 
@@ -85,42 +87,27 @@ void PixelModel::read(const std::vector<double>& numbers) {
         read_depths(numbers);
         residual_changed();
     }
-    step(0);
-}
-
-// The depths become twice the present ones less the coarse ones, nowhere less than before. Their
-// sum is exact for a force that changes linearly, and is kept.
-void PixelModel::extrapolate(const std::vector<double>& before, const std::vector<double>& coarse) {
-    const auto of = [](const std::vector<double>& depths, std::size_t k) {
-        return depths.empty() ? 0.0 : depths[k];
-    };
-    double wanted = 0, sum = 0;
-    for (std::size_t k = 0; k < residual_.size(); ++k) {
-        residual_[k] = 2 * residual_[k] - of(coarse, k) - of(before, k);
-        wanted += residual_[k];
-        residual_[k] = std::max(residual_[k], 0.0);
-        sum += residual_[k];
-    }
-    for (std::size_t k = 0; k < residual_.size(); ++k)
-        residual_[k] = of(before, k) + (sum > 0 ? residual_[k] * (wanted / sum) : 0.0);
-    residual_changed();
+    step(0, 0);
 }
 
 void PixelModel::solve_again(double z, const Level& level) {
     start_from(z, level);
-    // Two worn flats may be in full contact, where only their force is known.
-    if (!(lowering_ && level.force > 0 && solve_under(level.force))) (void)solve(z, false);
+    // In full contact of two flats the separation does not determine the level, and worn flats are
+    // in full contact in the course of time.
+    const bool by_force = lowering_ || level.pixels.index.size() ==
+                                           at(heights_.nx) * at(heights_.ny);
+    if (!(by_force && level.force > 0 && solve_under(level.force))) (void)solve(z, false);
     accepted_ = true;
 }
 
 ResidualProfile PixelModel::residual_profile() const {
     ResidualProfile profile{{}, {}, {}, heights_.dx, heights_.dy};
-    for (std::size_t k = 0; k < residual_.size(); ++k) {
-        if (!(residual_[k] > 0)) continue;
+    for (std::size_t k = 0; k < lowered_points_.size(); ++k) {
+        if (!(lowered_points_[k] > 0)) continue;
         const Pixel pixel = pixel_at(static_cast<std::int32_t>(k));
         profile.x.push_back(x(pixel.x));
         profile.y.push_back(y(pixel.y));
-        profile.depth.push_back(residual_[k]);
+        profile.depth.push_back(lowered_points_[k]);
     }
     return profile;
 }
@@ -145,22 +132,32 @@ void PixelModel::accept(Level& level) {
     accepted_ = true;
     const LevelPixels& pixels = level.pixels;
     if (loads_) return accept_loads(level);
-    if (lowering_) {
-        if (const double depth = rate(); depth > 0 && !pixels.index.empty()) {
-            settle();
-            lower_points([&](auto&& lower) {
-                for (std::size_t k = 0; k < pixels.index.size(); ++k)
-                    lower(pixel_of(pixels, k), depth * pixels.pressure[k]);
-            });
-        }
-        return lowering_->measure(level, heights_, residual_);
-    }
-    if (!pixels.index.empty())
-        lower_points([&](auto&& lower) {
-            for (const auto& [pixel, depth] : press_out()) lower(pixel, depth);
+    const double worn = lowering_ ? lowering_->lasting_rate() : 0.0;
+    // A first stage of a step of sliding wears other depths than it was solved with.
+    const bool stage = worn != rate();
+    if (worn > 0 && !pixels.index.empty()) {
+        // The last solution remains that of the lowered points.
+        if (!stage) settle();
+        lower(lowered_points_, [&](auto&& add) {
+            for (std::size_t k = 0; k < pixels.index.size(); ++k)
+                add(pixel_of(pixels, k), worn * pixels.pressure[k]);
         });
-    level.plastic_work =
-        highest_ * pixel_area() * std::accumulate(residual_.begin(), residual_.end(), 0.0);
+    }
+    if (limited() && !stage && !pixels.index.empty()) {
+        const auto pressed_out = press_out();
+        const auto press = [&](std::vector<double>& depths) {
+            lower(depths, [&](auto&& add) {
+                for (const auto& [pixel, depth] : pressed_out) add(pixel, depth);
+            });
+        };
+        press(lowered_points_);
+        if (lowering_) press(yielded_);
+    }
+    if (!lowered_points_.empty()) residual_changed();
+    if (limited())
+        level.plastic_work = highest_ * pixel_area() * sum_of(yielded());
+    if (lowering_)
+        lowering_->measure(level, heights_, indenter_, lowered_points_, yielded_);
 }
 
 void PixelModel::accept_loads(Level& level) {
@@ -188,6 +185,7 @@ Level PixelModel::report(double Z0, const ElementsOutcome& outcome, std::size_t 
     level.iterations = outcome.iterations;
     level.products = outcome.products;
     level.residual = outcome.residual;
+    level.certificate = outcome.certificate;
     level.method = Method::automatic;
     level.converged = outcome.converged;
     for (double& p : pressure) p /= scale();

@@ -41,10 +41,10 @@ protected:
     double scale() const { return loads_ ? loads_->compliance() : 1.0; }
     double rate() const { return lowering_ ? lowering_->rate() : 0.0; }
     double pixel_area() const { return heights_.dx * heights_.dy; }
-    // Height of a point of the map less its residual.
+    // Height of a point of the map less what was pressed out and worn off.
     double height(int column, int row) const {
-        return heights_(column, row) -
-               (residual_.empty() ? 0.0 : residual_[at(row) * at(heights_.nx) + at(column)]);
+        const std::size_t k = at(row) * at(heights_.nx) + at(column);
+        return heights_(column, row) - (lowered_points_.empty() ? 0.0 : lowered_points_[k]);
     }
     std::vector<Pixel> loaded_pixels() const;
     // The tip, the residual or the load memory has changed, and with them the highest point.
@@ -65,29 +65,31 @@ protected:
 
 private:
     void accept(Level& level) final;
-    // Triples of column, row and residual depth of a yielded point, the worn depths of all points,
-    // or loads on a relaxing body.
+    // Triples of column, row and residual depth of a yielded point, after the depths of all points
+    // of bodies that wear; or loads on a relaxing body.
     std::vector<double> write() const final;
     void read(const std::vector<double>& numbers) final;
     PathClock clock() const final { return lowering_ ? lowering_->clock() : History::clock(); }
     double shortest_time() const final { return options_.physics.relaxation.shortest(); }
     double accuracy() const final { return lowering_ ? lowering_->accuracy() : 0.0; }
-    void step(double length) final {
+    void step(double length, double lasting) final {
         if (loads_) loads_->step(length);
-        if (lowering_) lowering_->step(length);
+        if (lowering_) lowering_->step(length, lasting);
         step_changed();
     }
     void accept_loads(Level& level);
-    void extrapolate(const std::vector<double>& before, const std::vector<double>& coarse) final;
     void read_depths(const std::vector<double>& numbers);
     std::optional<Level> lasting_loads(const Level& level) const final;
     ResidualProfile residual_profile() const final;
 
-    // Lowers the pixels with which `visit` calls its argument, by the depths.
+    // Adds to the depths of the pixels with which `visit` calls its argument.
     template <class Visit>
-    void lower_points(Visit&& visit);
+    void lower(std::vector<double>& depths, Visit&& visit);
 
-    std::vector<double> residual_;  // depth of each point of the map [length]; empty: none
+    // Depths of all points of the map [length]: by wear and yielding together, and, of bodies that
+    // wear, the part by yielding. Empty: none.
+    std::vector<double> lowered_points_, yielded_;
+    const std::vector<double>& yielded() const { return lowering_ ? yielded_ : lowered_points_; }
 };
 
 // Two rough flats: contact with periodic boundaries.

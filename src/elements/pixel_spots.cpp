@@ -124,6 +124,11 @@ void add_pixels(Level& level, const HeightMap& map, const Indenter& indenter, do
     add_about_peaks(touching, label, pressure, tension, map, indenter, period_x, period_y, sums);
     if (!touching.empty()) {
         level.pixels_per_contact = median_by_area(sums);
+        const double border = std::accumulate(open.begin(), open.end(), 0.0),
+                     pressed = double(touching.size()), all = double(map.nx) * map.ny;
+        // Near full contact it is the gaps that have few pixels.
+        const double pixels = indenter.period.finite() ? std::min(pressed, all - pressed) : pressed;
+        if (pixels > 0) level.border_share = border / pixels;
         level.pressure_max = *std::max_element(pressure.begin(), pressure.end());
     }
     const auto inside = [](double column, int n) {

@@ -6,7 +6,7 @@ namespace rsc {
 
 double LineKernel::images(double across, double along) const {
     const double x = std::abs(across) / period_, y = along / period_;
-    return (x < 0.5 ? near(x, y) : far(x, y)) / period_;
+    return ((x < 0.5 ? near(x, y) : far(x, y)) + constant_) / period_;
 }
 
 // Period 1. The first images one by one, the others by Euler and Maclaurin's formula.
@@ -28,7 +28,7 @@ double LineKernel::near(double x, double y) const {
     return sum + rest + slope / 24 - 7 * third / 5760;
 }
 
-// Period 1: Lekner's sum.
+// Period 1: Lekner's sum, as near() without the constant of the reference.
 double LineKernel::far(double x, double y) const {
     constexpr double gamma = std::numbers::egamma, smallest = 1e-17;
     const double pi = std::numbers::pi;

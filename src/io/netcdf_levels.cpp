@@ -84,7 +84,7 @@ void ResultTable::error_of(const LevelQuantity& q, const Names& shape) {
     for (const LevelValues& level : o_.rows)
         for (const auto c : indices(q.components())) errors.push_back(q.error(level, c));
     add_absent(q.error_name(), shape, "1", std::string("expected relative error of ") + q.name,
-               errors, "not exceeded in nine of ten cases; follows from pixels_per_contact");
+               errors, "not exceeded in nine of ten cases; follows from border_share");
 }
 
 // The declared quantities of a level (contact/quantities.hpp).
@@ -294,6 +294,11 @@ void ResultTable::theory() {
         comment("1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2; on a body with layers that of the top layer"));
     add_absent("r_star", {}, unit(1), "equivalent radius R*", {std::isfinite(R) ? R : kAbsent},
                "1/R* = 1/R1 + 1/R2; missing for two flats and for shapes other than spheres");
+    if (r_.indenter.period.line())
+        add("line_reference", unit(1),
+            "distance from the line at which a uniform line load lowers nothing",
+            r_.indenter.period.reference,
+            comment("separation, stiffness, energy and resistance of line contact count from it"));
     add("tip_x", unit(1), "x of the indenter's tip", r_.indenter.x0);
     add("tip_y", unit(1), "y of the indenter's tip", r_.indenter.y0);
     outline();

@@ -225,6 +225,12 @@ void read_stresses(const Columns& file, Accumulators& sums) {
             const std::vector<double> values = file.values(std::string(q.name) + suffix, lengths);
             for (const auto k : indices(values)) (sums.stresses[k].*q.of).*part = values[k];
         }
+    for (const StressQuantity& q : kStressQuantities) {
+        const std::string name = std::string(q.name) + "_max_error_expected";
+        if (!file.find(name)) continue;
+        const std::vector<double> errors = file.values(name, lengths);
+        for (const auto k : indices(errors)) (sums.stresses[k].*q.of).error = errors[k];
+    }
 }
 
 void read_distributions(const Columns& file, Accumulators& sums) {

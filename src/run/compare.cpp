@@ -94,7 +94,7 @@ bool turns(const std::vector<LevelValues>& levels, std::size_t k) {
     return k == 0 ? on >= 0 : (levels[k].separation - levels[k - 1].separation) * on <= 0;
 }
 
-// Elements on the surface of a realization, with a second grid for their error. Synthetic surfaces
+// Elements on the surface of a realization, with their expected errors. Synthetic surfaces
 // are refined if the error is too large, unless they yield, because the path would have to be
 // repeated.
 class Reference {
@@ -125,7 +125,7 @@ public:
 
 private:
     JudgedSurface judged() const {
-        JudgedSurface surface{map_.get(), true};
+        JudgedSurface surface{map_.get()};
         if (job_.theory) surface.curvature = curvature_at_unit_height(*job_.theory);
         return surface;
     }

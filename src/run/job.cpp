@@ -164,12 +164,27 @@ FieldsAsked fields_asked(const Job& job) {
 struct Pressed {
     std::unique_ptr<Path> contact;
     Judge judge;
+    const HeightMap* map;  // of elements
 };
 using MakePressed = std::function<Pressed()>;
 
 LevelSource source_of(const Job& job, Path& contact, Level& level) {
     const auto& resistivity = job.settings.solids.resistivity;
     return {contact, level, {resistivity[0], resistivity[1]}};
+}
+
+// Computes what a level has of its gap, and the flux at its points if a field asks for it.
+void measure_gap(const Job& job, const HeightMap& map, Path& contact, Level& level, std::size_t k) {
+    if (std::isnan(level.force)) return;  // there is no state
+    const bool field =
+        fields_asked(job).flow && contains(steps_of_fields(job), std::int32_t(k));
+    LevelSource source = source_of(job, contact, level);
+    source.map = &map;
+    source.flux = field ? &level.flux : nullptr;
+    compute_quantities(source, Stage::gap);
+    if (job.settings.output.flow) compute_quantities(source, Stage::flow);
+    const PdfBins& bins = job.observe.pdf;
+    if (bins.gap_max > 0) level.gaps = count_gaps(gap_of(source), bins.bins, bins.gap_width());
 }
 
 // Solves level k of the case. `complete` adds what its status depends on.
@@ -182,6 +197,7 @@ Level press(const Job& job, std::size_t k, Pressed& pressed,
     if (!job.times.empty()) (job.slides ? level.distance : level.time) = job.times[k];
     LevelSource source = source_of(job, contact, level);
     compute_quantities(source, Stage::solution);
+    if (has_gap(job.settings)) measure_gap(job, *pressed.map, contact, level, k);
     complete(level);
     pressed.judge.judge(level, contact, by_force);
     return level;
@@ -209,7 +225,7 @@ public:
         for (const auto g : indices(groups_)) {
             Level& level = levels_[g * kGroup].emplace(press(job_, g * kGroup, first_, none));
             points = std::max(points, level.candidates);
-            begin_[g] = {first_.contact->state(), first_.judge.state()};
+            begin_[g] = first_.contact->state();
             if (g == 0) take_(taken_++, std::move(level));
         }
         if (points > kFewPoints) {
@@ -233,13 +249,10 @@ private:
 
     void press_group(std::size_t g, Pressed& pressed) {
         pressed.contact->forget();
-        pressed.contact->restore(begin_[g].contact);
-        pressed.judge.restore(begin_[g].judge, pressed.contact->indenter());
+        pressed.contact->restore(begin_[g]);
         // The second level starts from those between which it lies.
-        for (std::size_t from = std::min(g + 2, groups_); from-- > g;) {
-            if (const auto& level = begin_[from].contact.level) pressed.contact->start_from(*level);
-            pressed.judge.start_from(begin_[from].judge);
-        }
+        for (std::size_t from = std::min(g + 2, groups_); from-- > g;)
+            if (const auto& level = begin_[from].level) pressed.contact->start_from(*level);
         for (std::size_t k = g * kGroup + 1; k < std::min(levels_.size(), (g + 1) * kGroup); ++k)
             levels_[k] = press(job_, k, pressed, none);
         const std::lock_guard lock(mutex_);
@@ -264,11 +277,7 @@ private:
     std::vector<std::optional<Level>> levels_ =
         std::vector<std::optional<Level>>(job_.levels.size());
     std::size_t groups_ = (levels_.size() + kGroup - 1) / kGroup, taken_ = 0;
-    struct Begin {
-        Path::State contact;
-        std::optional<Path::State> judge;
-    };
-    std::vector<Begin> begin_ = std::vector<Begin>(groups_);
+    std::vector<Path::State> begin_ = std::vector<Path::State>(groups_);
     std::vector<char> solved_ = std::vector<char>(groups_, 0);
     std::mutex mutex_;
 };
@@ -427,7 +436,6 @@ void prepare_elements(const Job& job, std::int64_t number, int threads, Realizat
     }
     s.map = job.given ? &*job.given_heights : &*r.heights;
     s.judged.map = s.map;
-    s.judged.second_grid = true;
     if (job.theory) s.judged.curvature = curvature_at_unit_height(*job.theory);
 }
 
@@ -469,33 +477,6 @@ const HeightMap& heights_of(const Job& job, const Realization& r) {
     return job.given_heights ? *job.given_heights : *r.heights;
 }
 
-// Computes what a level has of its gap. `flux`: as in LevelSource.
-void measure_gap(const Job& job, const HeightMap& map, Path& contact, Level& level,
-                 std::vector<double>* flux) {
-    if (std::isnan(level.force)) return;  // there is no state
-    LevelSource source = source_of(job, contact, level);
-    source.map = &map;
-    source.flux = flux;
-    compute_quantities(source, Stage::gap);
-    if (job.settings.output.flow) compute_quantities(source, Stage::flow);
-    const PdfBins& bins = job.observe.pdf;
-    if (bins.gap_max > 0) level.gaps = count_gaps(gap_of(source), bins.bins, bins.gap_width());
-}
-
-// Refuses a force that no separation has, before the levels below it are solved.
-void require_reachable(const Job& job, Path& contact) {
-    const auto& settings = job.settings;
-    if (settings.indentation.control == Control::separation || job.levels.empty()) return;
-    try {
-        contact.require_gap(any_physics(settings, &Physics::reshapes)
-                                ? job.levels.front()
-                                : std::ranges::max(job.levels));
-    } catch (const Error& error) {
-        if (error.kind() != Failure::bad_input) throw;
-        bad_input(key_of_largest(settings.indentation), error.what(), "; give smaller ones");
-    }
-}
-
 // The state of a level of which fields are requested.
 FieldLevel field_level(const Job& job, const Realization& r, Path& contact, std::size_t k,
                        const Level& level, std::vector<double> flow) {
@@ -524,20 +505,15 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     if (settings.solids.friction > 0) friction.emplace(settings, make_contact);
     r.levels.reserve(job.levels.size());
     const std::vector<std::int32_t> field_steps = steps_of_fields(job);
-    const MakePressed make = [&] { return Pressed{make_contact(), Judge(solver, surface.judged)}; };
+    const MakePressed make = [&] { return Pressed{make_contact(), Judge(solver, surface.judged), map}; };
     Pressed pressed = make();
     std::unique_ptr<Path>& contact = pressed.contact;
     std::vector<FieldLevel> fields;
-    require_reachable(job, *contact);
     const auto take = [&](std::size_t k, Level solved) {
         Level& level = r.levels.emplace_back(std::move(solved));
         const bool field = contains(field_steps, std::int32_t(k));
-        std::vector<double> flow;
-        if (has_gap(settings))
-            measure_gap(job, heights_of(job, r), *contact, level,
-                        field && fields_asked(job).flow ? &flow : nullptr);
         if (field && !std::isnan(level.force)) {  // a level without a state has none
-            fields.push_back(field_level(job, r, *contact, k, level, std::move(flow)));
+            fields.push_back(field_level(job, r, *contact, k, level, std::move(level.flux)));
             if (fields_asked(job).traction)
                 fields.back().stuck = friction->stuck(level, kTractionSlide);
         }

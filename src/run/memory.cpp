@@ -186,8 +186,8 @@ private:
         constexpr double of_contact = 170, deep = 50, of_table = 1500, most_tables = 90e6;
         const double tables = std::min(most_tables, of_table * under);
         const double level = tables + heights + (of_contact + deep * under / points_) * under;
-        // Groups of levels side by side (job.hpp): a contact and its second grid for each thread.
-        const double beside = tables + 1.25 * of_contact * under + heights / 4;
+        // Groups of levels side by side (job.hpp): a contact for each thread.
+        const double beside = tables + of_contact * under;
         return std::max(modes, level + (groups_at_once(under) - 1) * beside);
     }
 

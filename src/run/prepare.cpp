@@ -132,9 +132,9 @@ SurfaceModel read_list(const Case& settings) {
     const auto& keys = settings.surface;
     SurfaceModel model;
     model.asperities = read_asperities(keys.file, settings.run.length_unit);
-    make_law(settings.asperities.law, model.asperities,
-             1);  // refuses asperities without the properties that the law needs
     model.domain = list_domain(model.asperities, keys.L, "the asperities in " + keys.file);
+    make_law(law_of(settings, model.domain), model.asperities,
+             1);  // refuses asperities without the properties that the law needs
     model.statistics.summits = std::int64_t(model.asperities.size());
     model.statistics.sigma = model.domain.sigma;
     model.list = true;
@@ -316,6 +316,9 @@ SurfaceDomain list_domain(const Asperities& asperities, std::optional<double> L,
     }
     domain.sigma = rms(asperities.z);
     domain.guessed = !L;
+    domain.richest_law = asperities.kappa1.empty()       ? LawKind::hertz
+                         : asperities.biharmonic.empty() ? LawKind::elliptic
+                                                         : LawKind::fourth_order;
     if (L || extent > 0)
         domain.mean_spacing = std::sqrt(domain.Lx * domain.Ly / double(asperities.size()));
     return domain;

@@ -65,10 +65,11 @@ Indenter indenter_of(const Case& settings, const SurfaceDomain& domain) {
 }
 
 Period period_of(const Case& settings, const SurfaceDomain& domain) {
+    const std::optional<double>& reference = settings.indentation.line_reference;
     switch (settings.indentation.boundary) {
         case Boundary::periodic: return {domain.Lx, domain.Ly};
-        case Boundary::periodic_x: return {domain.Lx, kInfinity};
-        case Boundary::periodic_y: return {kInfinity, domain.Ly};
+        case Boundary::periodic_x: return {domain.Lx, kInfinity, reference.value_or(domain.Ly)};
+        case Boundary::periodic_y: return {kInfinity, domain.Ly, reference.value_or(domain.Lx)};
         case Boundary::free: break;
     }
     return {};
@@ -84,10 +85,15 @@ double sigma_of(const Case& settings, const SurfaceDomain& domain) {
     return settings.surface.sigma.value_or(domain.sigma);
 }
 
+LawKind law_of(const Case& settings, const SurfaceFacts& surface) {
+    const LawKind law = settings.asperities.law;
+    return law == LawKind::fourth_order ? surface.richest_law : law;
+}
+
 SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     SolverOptions options;
     options.method = settings.solver.method;
-    options.law = settings.asperities.law;
+    options.law = law_of(settings, domain);
     options.physics = physics_of(settings);
     options.interaction = settings.solver.interaction;
     options.selection = settings.indentation.selection;

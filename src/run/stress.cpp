@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "case/units.hpp"
 #include "physics/stress/spot_stress.hpp"
+#include "trust/grid_error.hpp"
 
 namespace rsc {
 
@@ -44,10 +45,12 @@ void add_stresses(std::vector<LargestStress>& all, const Job& job, const HeightM
     for (const double depth : job.observe.stress_depths) {
         if (std::isnan(level.force))
             all.emplace_back();
-        else if (map)
+        else if (map) {
             all.push_back(stress_below(*map, level.pixels, body, depth,
                                        stressed_window(*map, level.pixels, body.period, depth)));
-        else
+            state_errors(all.back(), depth / std::max(map->dx, map->dy), body.sliding.any(), level,
+                         job.solver.surface.measured);
+        } else
             all.push_back(stress_below(level, body.nu, depth));
     }
 }

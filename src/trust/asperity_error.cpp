@@ -34,6 +34,11 @@ AsperityError asperity_error(const Level& level, const SolverOptions& options) {
     return {error(0), error(1)};
 }
 
+double least_stated_error(LawKind law) {
+    const LawError* const errors = errors_of(law);
+    return errors ? std::ranges::min(errors->errors[0]) : kInfinity;
+}
+
 bool few_points(const SolverOptions& options) {
     return !(options.surface.points_per_wave >= kFewestPointsPerWave);
 }

@@ -19,6 +19,9 @@ bool is_compared(LawKind law);
 // the summits.
 AsperityError asperity_error(const Level& level, const SolverOptions& options);
 
+// The smallest error of N that is ever stated for a law; Infinity: none is stated.
+double least_stated_error(LawKind law);
+
 // True if the grid of the surface has fewer points in the shortest wave than those of the study.
 bool few_points(const SolverOptions& options);
 

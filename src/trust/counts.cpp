@@ -119,6 +119,21 @@ void count_edges(Level& level, const Indenter& indenter, const SolverOptions& op
         level.edge_contacts += border_contacts(level, indenter, *options.surface.marks);
 }
 
+double rms_slope_at_contacts(const Level& level, const Indenter& indenter) {
+    double squares = 0, forces = 0;
+    const auto add = [&](double x, double y, double force) {
+        const Vec2 d = indenter.from_tip(x, y);
+        const Vec2 slope = indenter.shape->gradient(d.x, d.y);
+        squares += std::abs(force) * (slope.x * slope.x + slope.y * slope.y);
+        forces += std::abs(force);
+    };
+    const LevelPixels& pixels = level.pixels;
+    for (const auto k : indices(pixels.index)) add(pixels.x(k), pixels.y(k), pixels.pressure[k]);
+    if (pixels.index.empty())
+        for (const auto k : indices(level.f)) add(level.x[k], level.y[k], level.f[k]);
+    return forces > 0 ? std::sqrt(squares / forces) : kNotComputed;
+}
+
 }  // namespace
 
 void count_contacts(Level& level, const Indenter& indenter, const SolverOptions& options) {
@@ -131,6 +146,7 @@ void count_contacts(Level& level, const Indenter& indenter, const SolverOptions&
         level.wide_contacts = larger_than(indenter.layers.layer[0].thickness / 5) /
                               std::max(double(level.a.size()), 1.0);
     count_edges(level, indenter, options);
+    if (!indenter.shape->flat()) level.indenter_slope = rms_slope_at_contacts(level, indenter);
     level.nominal_area = nominal_area(level, indenter, options.surface.extent);
 }
 

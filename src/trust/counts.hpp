@@ -5,7 +5,7 @@
 
 namespace rsc {
 
-// Sets large_contacts, wide_contacts, edge_contacts and nominal_area of a level.
+// Sets large_contacts, wide_contacts, edge_contacts, nominal_area and indenter_slope of a level.
 void count_contacts(Level& level, const Indenter& indenter, const SolverOptions& options);
 
 // True if the contact area exceeds the nominal area.

@@ -1,7 +1,6 @@
 #include "trust/doubts.hpp"
 
 #include "base/format.hpp"
-#include "contact/quantities.hpp"
 
 namespace rsc {
 
@@ -26,7 +25,9 @@ std::string sentence(Cause cause, bool elements) {
         "such surfaces or bodies were not compared with elements, so that no error is stated",
         "N = 0 is uncertain: the bodies may touch between the points of the grid",
         "N may differ from that of elements at this separation by more than 10 %",
-        "the steps of sliding may change N by more than 1 %: give closer distances"};
+        "the steps of sliding may change N by more than 1 %: give closer distances",
+        "body 2 is steep where it touches (rms slope above 0.5): both models assume small slopes, "
+        "and nothing that rsc computes says how far N is off"};
     static_assert(sentences.size() == kCauseNames.size());
     return sentences[at(cause)];
 }
@@ -60,12 +61,6 @@ void conclude(LevelValues& level, std::span<const Doubt> doubts, bool by_force) 
         known && by_force && level.stiffness < 0
             ? separation + force * std::abs(level.force) / std::abs(level.stiffness)
             : kNotComputed;
-    for (const LevelQuantity& q : level_quantities())
-        for (const auto c : indices(q.components()))
-            level.errors[q.slot + c] =
-                level.converged && q.error_factor > 0
-                    ? q.error_factor * std::pow(level.pixels_per_contact, -q.error_exponent)
-                    : kNotComputed;
 }
 
 }  // namespace rsc

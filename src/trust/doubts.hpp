@@ -18,12 +18,13 @@ enum class Cause {
     outside_calibration,
     missed_contact,
     model_error,
-    sliding_steps
+    sliding_steps,
+    steep_indenter
 };
 inline constexpr std::array kCauseNames = {
     "border",      "filled_points", "grid",           "slope_ratio",         "beyond_law",
     "few_points",  "layer",         "adhesion_range", "outside_calibration", "missed_contact",
-    "model_error", "sliding_steps"};
+    "model_error", "sliding_steps", "steep_indenter"};
 constexpr std::int32_t bit(Cause cause) { return std::int32_t{1} << int(cause); }
 
 // Explanation for the screen, without the remedy. `elements`: the level was solved by elements.
@@ -44,9 +45,7 @@ struct Doubt {
 
 // Sets status, doubts and expected errors of a level: the errors are the sums over all doubts, and
 // missing if one of them is not known. Under a prescribed force the error of N is one of the
-// separation, for which the level's stiffness must be known, and adds to that of the area. Errors
-// of other quantities follow from the pixels per contact, as their rows say
-// (contact/quantities.hpp).
+// separation, for which the level's stiffness must be known, and adds to that of the area.
 void conclude(LevelValues& level, std::span<const Doubt> doubts, bool by_force);
 
 }  // namespace rsc

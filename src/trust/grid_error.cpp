@@ -1,32 +1,22 @@
 #include "trust/grid_error.hpp"
 
-#include "base/error.hpp"
 #include "base/parallel.hpp"
-#include "contact/make.hpp"
 #include "surface/summits.hpp"
 
 namespace rsc {
 namespace {
 
-// Expected error of N for contacts of one pixel, on synthetic surfaces and on maps, assumed to
-// decrease as the third power of the contact radius in pixels: an empirical lower bound for
-// contacts of few pixels.
-constexpr double kOnePixel = 2, kOnePixelRead = 0.7;
-double of_pixels(double pixels, bool read) {
-    return (read ? kOnePixelRead : kOnePixel) * std::pow(pixels, -1.5);
-}
+// Heights from a file may have waves as short as their grid; the error is that of a measurement twice
+// as fine.
+constexpr double kRead = 1.5;
 
-// Error of A of pixels in whole numbers: fitted to 180 levels of random surfaces and shapes against
-// 40 points in the shortest wave (test/README).
-constexpr double kPixelArea = 0.5;
+// Largest stresses, over border_share, at the surface; they fall with the depth in pixels. The tension
+// behind the edge of a sliding contact rises like the root of the distance, and so does its error.
+constexpr double kMises = 0.14, kShear = 0.16, kTension = 0.05, kSlidingEdge = 0.5;
 
 // Elements, sharp punches on a plane: N differs from 2 a E* d by up to this share of the ratio of
 // pixel side to radius, in nine of ten cases.
 constexpr double kEdgeShare = 0.17;
-
-// Two flats: changes of N with the grid are several times larger than this tolerance, and are
-// needed to one digit.
-constexpr double kTolerance = 2e-5;
 
 // Errors of N and A on ridges, fitted to 150 ridged bodies (test/README). If all crests rose above
 // the points as far as they can, N would grow by a share q. The error of N is 0.35 q where contacts
@@ -47,58 +37,6 @@ void clearances(const HeightMap& map, const Indenter& indenter, int row,
     line.resize(std::size_t(map.nx));
     for (const int i : indices(map.nx))
         line[std::size_t(i)] = indenter.clearance(map.x(i), map.y(row), map(i, row));
-}
-
-// Column and row of the highest point under the indenter.
-std::array<int, 2> highest_point(const HeightMap& map, const Indenter& indenter) {
-    struct Top {
-        double z;
-        int column;
-    };
-    std::vector<Top> tops(std::size_t(map.ny));
-    parallel_for(map.ny, kRows, 0, [&](int j) {
-        std::vector<double> line;
-        clearances(map, indenter, j, line);
-        const auto top = std::ranges::max_element(line);
-        tops[std::size_t(j)] = {std::isnan(*top) ? -kInfinity : *top, int(top - line.begin())};
-    });
-    const auto highest = std::ranges::max_element(tops, {}, &Top::z);
-    return {highest->column, int(highest - tops.begin())};
-}
-
-// Along an axis that repeats the points of the coarse map are evenly spaced over the period,
-// otherwise they are every second point.
-HeightMap coarser_period(const HeightMap& map, const Period& period, std::array<int, 2> first) {
-    struct Axis {
-        int points, first, n;
-        bool repeats;
-        double step;
-        Axis(int n_, int first_, double step_, bool repeats_)
-            : first(first_), n(n_), repeats(repeats_) {
-            points = (n + 1) / 2;
-            step = n * step_ / points;
-            if (repeats) return;
-            first %= 2;
-            points = (n - first + 1) / 2;
-            step = 2 * step_;
-        }
-        int at(int k) const {
-            return repeats ? wrapped(first + int(std::int64_t{k} * n / points), n) : first + 2 * k;
-        }
-    };
-    const Axis x(map.nx, first[0], map.dx, std::isfinite(period.x)),
-        y(map.ny, first[1], map.dy, std::isfinite(period.y));
-    HeightMap coarse;
-    coarse.allocate(x.points, y.points, x.points);
-    coarse.dx = x.step;
-    coarse.dy = y.step;
-    coarse.x0 = map.x(x.first);
-    coarse.y0 = map.y(y.first);
-    coarse.periodic = map.periodic;
-    parallel_for(y.points, kRows, 0, [&](int j) {
-        for (const int i : indices(x.points)) coarse.row(j)[i] = map(x.at(i), y.at(j));
-    });
-    return coarse;
 }
 
 // Height of a crest above points half a step beside it, as far as it is longer than wide: (k1 - k2)
@@ -134,58 +72,33 @@ double crest_height(const HeightMap& map, const Indenter& indenter,
 
 }  // namespace
 
-HeightMap coarser_map(const HeightMap& map, const Indenter& indenter) {
-    std::array<int, 2> first = highest_point(map, indenter);
-    for (int& k : first) ++k;
-    if (indenter.period.finite() || indenter.period.line())
-        return coarser_period(map, indenter.period, first);
-    return every_second_point_of(map, first[0] % 2, first[1] % 2);
+double error_of_resolution(const LevelQuantity& quantity, std::size_t component,
+                           const LevelValues& level, bool read) {
+    if (quantity.own_error) return quantity.own_error(level, component);
+    if (!(quantity.error_factor > 0) || !(level.contacts > 0)) return kNotComputed;
+    const double averaged = quantity.error_averages ? std::pow(level.contacts, -0.25) : 1.0;
+    return quantity.error_factor * level.border_share * averaged * (read ? kRead : 1.0);
 }
 
-SecondGrid::SecondGrid(const HeightMap& map, const Indenter& indenter, const SolverOptions& options,
-                       bool read)
-    : map_(coarser_map(map, indenter)), read_(read) {
-    SolverOptions coarse = options;
-    if (indenter.period.finite()) coarse.tolerance = std::max(coarse.tolerance, kTolerance);
-    contact_ = make_element_contact(map_, indenter, coarse);
+void state_errors(LargestStress& stress, double depth, bool sliding, const LevelValues& level,
+                  bool read) {
+    const double border = level.border_share * (read ? kRead : 1.0);
+    const double shallow = 1 + 2 * depth;
+    stress.mises.error = kMises * border * std::pow(shallow, -0.75);
+    stress.shear.error = kShear * border * std::pow(shallow, -0.75);
+    double tension = kTension * border / shallow * stress.mises.value;
+    if (sliding)
+        tension += kSlidingEdge * std::sqrt(border) / shallow * std::abs(stress.tension.value);
+    stress.tension.error = tension / std::abs(stress.tension.value);
 }
 
-std::optional<GridError> SecondGrid::error(const LevelValues& level, Path& contact, bool by_force) {
-    const Indenter &here = contact.indenter(), &there = contact_->indenter();
-    if (here.x0 != there.x0 || here.y0 != there.y0) contact_->move_tip(here.x0, here.y0);
-    contact_->set_time(contact.time());
-    Level other;
-    try {
-        other = by_force && level.force > 0 ? contact_->at_force(level.force)
-                                            : contact_->at_separation(level.separation);
-    } catch (const Error& error) {  // two flats closer than this grid allows
-        if (error.kind() != Failure::bad_input) throw;
-        return {};
-    }
-    if (!other.converged || level.contacts == 0) return {};
-    // Under the same force the change of the separation is one of N at the separation.
-    const double change_of_N = by_force
-                                   ? contact.stiffness() * (level.separation - other.separation)
-                                   : level.force - other.force;
-    const double part = read_ ? 0.5 : 1.0, force = part * std::abs(change_of_N / level.force),
-                 area = part * std::abs(1 - other.area / level.area);
-    const GridError few =
-        error_of_pixels(level, contact.indenter(), 0.5 * std::max(map_.dx, map_.dy), read_);
-    // Fitted to maps solved on a grid of half the step (test/README, elements on maps): nine of ten
-    // are within these bounds.
-    if (read_) return GridError{few.force + force + 0.04 * area, few.area + 1.4 * area + 2 * force};
-    // Contacts of a few pixels may have the same error on both grids, and their areas in whole
-    // pixels by chance.
-    const double by_chance = of_pixels(level.pixels_per_contact, false);
-    return GridError{few.force + std::max(force - by_chance, 0.0),
-                     few.area + std::max(area - by_chance, 0.0)};
-}
-
-GridError error_of_pixels(const LevelValues& level, const Indenter& indenter, double side,
-                          bool read) {
-    const double pixels = level.pixels_per_contact,
-                 force = of_pixels(pixels, read) + edge_share(indenter, side);
-    return {force, force + (read ? 1.0 : kPixelArea) * std::pow(pixels, -0.75)};
+GridError error_of_grid(const LevelValues& level, const Indenter& indenter, double side,
+                        bool read) {
+    const auto of = [&](const char* name) {
+        return error_of_resolution(*find_quantity(name)->quantity, 0, level, read);
+    };
+    const double edge = edge_share(indenter, side);
+    return {of("force") + edge, of("contact_area") + edge};
 }
 
 GridError error_of_crests(const Level& level, double stiffness, const HeightMap& map,
@@ -208,6 +121,14 @@ double touch_between_points(const HeightMap& map, const Indenter& indenter) {
     clearances(map, indenter, continued(-1, map.ny, repeats_y), below);
     clearances(map, indenter, 0, here);
     double highest = -kInfinity;
+    // Body 2 may lie between the points altogether.
+    const double reach = indenter.shape->reach() + std::hypot(map.dx, map.dy);
+    if (reach < 3 * std::hypot(map.dx, map.dy))
+        for (const int j : indices(map.ny))
+            for (const int i : indices(map.nx)) {
+                const Vec2 d = indenter.from_tip(map.x(i), map.y(j));
+                if (std::hypot(d.x, d.y) < reach) highest = std::max(highest, map(i, j));
+            }
     for (const int j : indices(map.ny)) {
         clearances(map, indenter, continued(j + 1, map.ny, repeats_y), above);
         for (const int i : indices(map.nx)) {

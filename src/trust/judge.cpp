@@ -7,13 +7,18 @@
 namespace rsc {
 namespace {
 
-// A larger expected error of N of asperities, or with adhesion, is a doubt. Under a prescribed
-// force N of elements is not in doubt; the error of the separation is, above kUnresolved times the
-// rms height, and this one of the area.
-constexpr double kMuchError = 0.1;
+// Larger expected errors are a doubt: of N of asperities or with adhesion, and of A of elements.
+constexpr double kMuchError = 0.1, kMuchAreaError = 0.1;
+
+// A larger error of N by the steps of sliding is a doubt.
+constexpr double kLongSteps = 0.01;
 
 // Asperities: largest slope_ratio. Above, the bodies touch beside the summits.
 constexpr double kSteepest = 0.2;
+
+// Largest slope that counts as small, of the surface (kSteep of run/remarks.cpp) and of the indenter
+// over the contacts alike.
+constexpr double kSmallSlope = 0.5;
 
 // A larger share of the contact area on filled points is a doubt.
 constexpr double kMuchFilled = 0.01;
@@ -83,7 +88,7 @@ Doubt edges_of_adhesion(const Level& level, const Indenter& indenter, const Heig
     double dN = kEdgeError * traction * std::max(map.dx, map.dy) * 2 *
                 std::sqrt(std::numbers::pi * attracting);
     if (level.contacts > 0) {
-        const GridError few = error_of_pixels(level, indenter, std::max(map.dx, map.dy), read);
+        const GridError few = error_of_grid(level, indenter, std::max(map.dx, map.dy), read);
         dN += few.force * std::max(level.force + pulled, 0.0);
         doubt.area =
             few.area +
@@ -94,6 +99,23 @@ Doubt edges_of_adhesion(const Level& level, const Indenter& indenter, const Heig
     doubt.force = dN / std::abs(level.force);
     doubt.serious = doubt.force > kMuchError;
     return doubt;
+}
+
+// The errors of the quantities of elements: by the resolution, by the steps of sliding, and the error
+// of N that other causes have.
+void state_errors(Level& level, std::span<const Doubt> doubts, bool read) {
+    level.errors.fill(kNotComputed);
+    double others = level.converged ? 0.0 : kNotComputed;
+    for (const Doubt& doubt : doubts)
+        if (doubt.cause != Cause::grid) others += doubt.force;
+    for (const LevelQuantity& quantity : level_quantities())
+        for (const auto c : indices(quantity.components())) {
+            double error = error_of_resolution(quantity, c, level, read) + others;
+            if (level.with_half_the_steps)
+                error += std::abs(1 - quantity.of(*level.with_half_the_steps, c) /
+                                          quantity.of(level, c));
+            level.errors[quantity.slot + c] = error;
+        }
 }
 
 }  // namespace
@@ -112,6 +134,7 @@ void Judge::judge(Level& level, Path& contact, bool by_force) {
     if (!level.converged) return conclude(level, {}, by_force);
     std::vector<Doubt> doubts =
         elements ? of_elements(level, contact, by_force) : of_asperities(level, contact);
+    if (level.indenter_slope > kSmallSlope) doubts.push_back({Cause::steep_indenter});
     if (level.edge_contacts > 0) doubts.push_back({Cause::border});
     if (!surface_.filled.empty()) {
         level.filled_share =
@@ -119,6 +142,7 @@ void Judge::judge(Level& level, Path& contact, bool by_force) {
         if (level.filled_share > kMuchFilled) doubts.push_back({Cause::filled_points});
     }
     conclude(level, doubts, by_force);
+    if (elements) state_errors(level, doubts, options_.surface.measured);
 }
 
 std::vector<Doubt> Judge::of_asperities(Level& level, const Path& contact) const {
@@ -151,27 +175,26 @@ std::vector<Doubt> Judge::of_asperities(Level& level, const Path& contact) const
     return doubts;
 }
 
-std::vector<Doubt> Judge::of_elements(Level& level, Path& contact, bool by_force) {
+std::vector<Doubt> Judge::of_elements(const Level& level, Path& contact, bool by_force) {
     std::vector<Doubt> doubts;
     const bool attracts = level.cohesive_area > 0;
     if (level.contacts == 0 && !attracts) {
         if (level.separation < touch_between(contact)) doubts.push_back({Cause::missed_contact});
-        // The other grid follows the path.
-        if (surface_.second_grid && contact.path_dependent()) (void)grid(level, contact, by_force);
         return doubts;
     }
     if (options_.physics.adhesion.work > 0 && level.cohesive_resolution < kResolved)
         doubts.push_back({Cause::adhesion_range});
-    if (surface_.second_grid || options_.physics.adhesion.work > 0)
-        doubts.push_back(grid(level, contact, by_force));
-    if (const double error = level.sliding_error; !std::isnan(error)) {
-        const double depth = contact.first_touch() - level.separation;
-        doubts.push_back({Cause::sliding_steps, by_force ? 0.0 : error, level.sliding_area_error,
-                          error > kUnresolved, by_force ? error * depth : 0.0});
+    doubts.push_back(grid(level, contact));
+    if (level.with_half_the_steps) {
+        const double error = level.sliding_error,
+                     depth = contact.first_touch() - level.separation,
+                     area_error = std::abs(1 - level.with_half_the_steps->area / level.area);
+        doubts.push_back({Cause::sliding_steps, by_force ? 0.0 : error, area_error,
+                          error > kLongSteps, by_force ? error * depth : 0.0});
     }
     if (surface_.scattered > 0) {
         const double share = kScattered * surface_.scattered;
-        doubts.push_back({Cause::filled_points, share, share, share > kUnresolved});
+        doubts.push_back({Cause::filled_points, share, share, share > kLongSteps});
     }
     return doubts;
 }
@@ -194,39 +217,20 @@ double Judge::touch_between(const Path& contact) {
                                   (std::abs(c.xx) * dx * dx + std::abs(c.yy) * dy * dy);
 }
 
-SecondGrid& Judge::second_grid(const Indenter& indenter) {
-    if (!second_) second_.emplace(*surface_.map, indenter, options_, !surface_.curvature);
-    return *second_;
-}
-
-void Judge::restore(const std::optional<Path::State>& state, const Indenter& indenter) {
-    if (second_) second_->forget();
-    if (state) second_grid(indenter).restore(*state);
-}
-
-void Judge::start_from(const std::optional<Path::State>& state) {
-    if (second_ && state && state->level) second_->start_from(*state->level);
-}
-
 // The error by the grid, with adhesion by the resolution of the edges, too.
-Doubt Judge::grid(const Level& level, Path& contact, bool by_force) {
+Doubt Judge::grid(const Level& level, Path& contact) const {
     const Indenter& indenter = contact.indenter();
     const HeightMap& map = *surface_.map;
-    const bool read = !surface_.curvature;
+    const bool read = options_.surface.measured;
     if (options_.physics.adhesion.work > 0)
         return edges_of_adhesion(level, indenter, map, read, options_);
     Doubt doubt{Cause::grid};
-    if (std::min(map.nx, map.ny) < kFewestPoints) return doubt;
-    const auto error = second_grid(indenter).error(level, contact, by_force);
-    if (!error) return doubt;
     const double stiffness = std::isnan(level.stiffness) ? contact.stiffness() : level.stiffness;
-    const GridError crests = error_of_crests(level, stiffness, map, indenter, surface_.curvature);
-    doubt.force = std::max(error->force, crests.force);
-    doubt.area = std::max(error->area, crests.area);
-    const double change = doubt.force * std::abs(level.force / stiffness);  // of the separation
-    doubt.serious = by_force
-                        ? change > kUnresolved * options_.surface.sigma || doubt.area > kMuchError
-                        : doubt.force > kUnresolved;
+    const GridError by_size = error_of_grid(level, indenter, std::max(map.dx, map.dy), read),
+                    crests = error_of_crests(level, stiffness, map, indenter, surface_.curvature);
+    doubt.force = std::max(by_size.force, crests.force);
+    doubt.area = std::max(by_size.area, crests.area);
+    doubt.serious = doubt.force > kUnresolved || doubt.area > kMuchAreaError;
     return doubt;
 }
 

@@ -10,8 +10,9 @@
 
 namespace rsc {
 
-// A larger expected error of N of elements is a doubt.
-inline constexpr double kUnresolved = 0.01;
+// A larger expected error of N of elements is a doubt. Under a prescribed force it is an error of the
+// separation.
+inline constexpr double kUnresolved = 0.03;
 
 // Mean curvature of a synthetic surface at points of unit height [1/length^2].
 Tensor curvature_at_unit_height(const Moments& moments);
@@ -19,9 +20,6 @@ Tensor curvature_at_unit_height(const Moments& moments);
 // What of the surface the judgement depends on, beside the options of the solver.
 struct JudgedSurface {
     const HeightMap* map = nullptr;  // of elements; must outlive the judge
-    // Elements: the levels are solved on a second grid, without which they have no expected error.
-    // Path-dependent levels must then all be judged, in the order of the path.
-    bool second_grid = false;
     // Elements on a synthetic surface: curvature_at_unit_height().
     std::optional<Tensor> curvature = {};
     std::vector<FilledPoints> filled = {};  // of the maps of both bodies
@@ -35,25 +33,15 @@ public:
     // Judges a level of `contact`, which must be at that level. `by_force`: the level was found for
     // a prescribed force.
     void judge(Level& level, Path& contact, bool by_force);
-    // State of the second grid, for another judge of the same bodies: solutions there start from
-    // its level. Empty: it has none yet.
-    std::optional<Path::State> state() const {
-        return second_ ? std::optional(second_->state()) : std::nullopt;
-    }
-    void restore(const std::optional<Path::State>& state, const Indenter& indenter);
-    // The second grid starts from the level of this state, too.
-    void start_from(const std::optional<Path::State>& state);
 
 private:
     std::vector<Doubt> of_asperities(Level& level, const Path& contact) const;
-    std::vector<Doubt> of_elements(Level& level, Path& contact, bool by_force);
+    std::vector<Doubt> of_elements(const Level& level, Path& contact, bool by_force);
     double touch_between(const Path& contact);
-    SecondGrid& second_grid(const Indenter& indenter);
-    Doubt grid(const Level& level, Path& contact, bool by_force);
+    Doubt grid(const Level& level, Path& contact) const;
 
     SolverOptions options_;
     JudgedSurface surface_;
-    std::optional<SecondGrid> second_;  // once it is needed
     std::optional<PlaceOfTip> between_at_;
     double between_ = 0;  // Z0 at which the bodies may touch between points, at that place
 };

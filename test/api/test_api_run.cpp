@@ -38,7 +38,8 @@ void level_by_calls(const Reader& file, rsc_contact* contact, std::size_t s,
     double Z = 0, N = 0, A = 0, S = 0, W = 0, x = 0, y = 0, residual = 0, value = 0;
     std::int32_t status = -1;
     std::int64_t n = 0, candidates = 0, iterations = 0, pairs = 0, large = 0, beyond = 0, edge = 0;
-    // How far elements may be off themselves takes finer grids, which the calls do not solve.
+    // The errors of crests on synthetic elements follow from the theory of the surface, or in calls
+    // from its heights.
     const bool elements = !file.has("asperity_x");
     for (const std::string& name : names) {
         const bool vector = name.ends_with("_x") || name.ends_with("_y");
@@ -48,7 +49,7 @@ void level_by_calls(const Reader& file, rsc_contact* contact, std::size_t s,
         const double wanted = vector ? of_file[2 * s + (name.ends_with("_y") ? 1 : 0)] : of_file[s];
         if (wanted > 1e36) continue;  // absent, as the resistance without contact
         if (elements && name.ends_with("_error_expected")) {
-            CHECK(rsc_contact_value(contact, name.c_str(), &value) == RSC_NO_RESULT);
+            CHECK(rsc_contact_value(contact, name.c_str(), &value) == RSC_SUCCESS && value > 0);
             continue;
         }
         if (elements && (name == "status" || name == "doubts") && wanted != 0) continue;
@@ -229,7 +230,7 @@ TEST(api_run) {
     // Flats pressed deeper than asperities bear: no state, and no numbers of one.
     const std::string flat =
         "&surface n=64 L_lambda_l=2 L_lambda_s=8 sigma=0.02 / &solids R=Infinity,Infinity / "
-        "&solver model='asperities' / "
+        "&solver model='asperities' / &asperities law='hertz' / "
         "&compare levels='none' / "
         "&indentation boundary='periodic' levels=1,-3 /";
     const Made deep(flat.c_str());

@@ -172,7 +172,7 @@ TEST(asked_later) {
 TEST(first_state_of_a_force) {
     Made made(
         "&surface L=2 n=256 sigma=1e-3 L_lambda_l=8 L_lambda_s=64 / &solids E=2,Infinity nu=0.49,0 "
-        "R=Infinity,50 adhesion=1e-5 /");
+        "R=Infinity,50 adhesion=1e-5 / &asperities law='hertz' /");
     constexpr double N = -9.5e-6, below = 1.7623e-3;
     double Z0 = 0;
     OK(rsc_contact_press(made.contact, 3e-3, &Z0));
@@ -325,7 +325,7 @@ TEST(guest_state) {
         test_kept(relaxing + (model.empty() ? tight : model + " tolerance=1e-9"), "energy_lost");
     }
     for (const std::string& range :
-         {std::string(), std::string("adhesion_range=2e-4"), "adhesion_range=0.02" + elements})
+         {std::string(), std::string("adhesion_range=2e-4 / &asperities law='hertz'"), "adhesion_range=0.02" + elements})
         test_kept("adhesion=0.5 " + range, "energy_lost");
     // Attached summits of z - shape, at each place others: their numbers stay under a flat ball.
     test_kept("adhesion=0.05 / &asperities law='elliptic'", "energy_lost",

@@ -299,7 +299,7 @@ void along_a_path(const HeightMap& map, const Indenter& tip, double hardness, co
     if (check::failures > before) std::printf("%s: %d failures\n", name, check::failures - before);
 }
 
-TEST(element_levels) {
+HeightMap uneven() {
     HeightMap map = height_map(20, 13, 0.03, 0.042, [](int i, int j) {
         double z = 0;
         for (const auto& [a, b, phase] :
@@ -310,6 +310,52 @@ TEST(element_levels) {
     });
     map.x0 = 0.2;
     map.y0 = -0.15;
+    return map;
+}
+
+// What the certificate of a level says of its pressures, from these and the full matrix. Levels of a
+// loose tolerance, whose certificate is not rounding.
+TEST(certificate) {
+    HeightMap map = uneven();
+    for (const bool repeats : {false, true})
+        for (const double hardness : {kInfinity, 0.35}) {
+            map.periodic = repeats;
+            Indenter tip{kE, repeats ? kInfinity : 20.0, 0.47, 0.07, {}};
+            if (repeats) tip.period = {map.Lx(), map.Ly()};
+            SolverOptions options{.tolerance = 3e-3, .physics = {.hardness = {.H0 = hardness}}};
+            const auto contact = make_element_contact(map, tip, options);
+            const Level level = contact->at_separation(0.006);
+            const Truth t(map, tip, options);
+            Vector p(t.n());
+            for (const auto k : indices(level.pixels.index))
+                p[std::size_t(level.pixels.index[k])] = level.pixels.pressure[k];
+            double largest = 0, sum = 0, overlap = 0, product = 0;
+            for (const std::size_t k : indices(t.n())) {
+                double w = 0;
+                for (const std::size_t l : indices(t.n())) w += t.K[k][l] * p[l];
+                w -= t.height(k) - level.separation;
+                const double wrong = p[k] >= hardness ? std::max(w, 0.0)
+                                     : p[k] > 0       ? std::abs(w)
+                                                      : std::max(-w, 0.0);
+                largest = std::max(largest, wrong);
+                sum += p[k];
+                overlap += p[k] * (t.height(k) - level.separation);
+                product += p[k] * wrong;
+            }
+            // Free penetrations of two flats are counted by their norm, which is larger.
+            const double certificate = std::max(largest * sum, product) / overlap;
+            CHECK(certificate > 1e-6);
+            if (repeats)
+                CHECK(level.certificate >= (1 - 1e-6) * certificate &&
+                      level.certificate < 10 * certificate);
+            else
+                // The products of the solver have an error of a tenth of the tolerance.
+                CHECK_CLOSE(level.certificate, certificate, 0.1 * options.tolerance);
+        }
+}
+
+TEST(element_levels) {
+    HeightMap map = uneven();
     const Indenter sphere{kE, 20.0, 0.47, 0.07, {}}, flat{kE, kInfinity, 0.47, 0.07, {}},
         repeating{kE, kInfinity, 0.47, 0.07, {map.Lx(), map.Ly()}};
     for (const double hardness : {kInfinity, 0.35}) {

@@ -127,6 +127,8 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
         ".true., sigma = 1.5";
     const std::string out =
         "&output map_cells = 9, radial_bins = 7, pdf_levels = 0.9, 0.25, pdf_bins = 31";
+    const std::string asperities =
+        "&solver model = 'asperities' /\n&asperities law = 'hertz' /\n";
     const std::string of_map =
         "&surface source = 'heights', file = '" + folder / "input_map.nc" + "', missing = 'fill', ";
 
@@ -135,16 +137,17 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
                    "&run length_unit = 'um', force_unit = 'mN', seed = 12345678901, title = 'Of "
                    "its own' /\n" +
                        bodies + ", friction = 0.3 /\n" + surface +
-                       " /\n&indentation levels = 9.0, 1.5, 0.8, 0.2, centre = 57, 38 /\n" + out +
+                       " /\n&asperities law = 'hertz' /\n&indentation levels = 9.0, 1.5, 0.8, 0.2, centre = 57, 38 /\n" + out +
                        ", heights = .true. /\n&compare levels = 8.5, 0.3, 1.2 /\n"});
     all.push_back(
         {"rough", micro + bodies + " /\n" + rough +
-                      " /\n&indentation start = 2.5, stop = -3.2, steps = 5, centre = 44, 52 /\n" +
+                      " /\n&asperities law = 'hertz' /\n&solver model = 'asperities' /\n" +
+                      "&indentation start = 2.5, stop = -3.2, steps = 5, centre = 44, 52 /\n" +
                       "&output map_cells = 8, radial_bins = 5, pdf_levels = -0.5, pdf_bins = 40, "
                       "contacts = 'last' /\n"});
     all.push_back(
         {"paper", micro + bodies + " /\n" + surface +
-                      ", normalise = 'ensemble' /\n&asperities curvature = 'algebraic' /\n" +
+                      ", normalise = 'ensemble' /\n&asperities curvature = 'algebraic', law = 'hertz' /\n" +
                       "&indentation start = 2.5, stop = 0.3, steps = 4, spacing = 'log', selection "
                       "= 'paper', selection_factor = 0.4 /\n" +
                       "&solver method = 'dgesv', tolerance = 1e-8 /\n&output format = 'cdf5', "
@@ -209,7 +212,8 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
         "= 25 /\n";
     all.push_back({"map",
                    of_map +
-                       "detrend = 'quadratic' /\n&solids E = 3000, 9000  R(2) = 80 /\n&compare "
+                       "detrend = 'quadratic' /\n&solids E = 3000, 9000  R(2) = 80 /\n" +
+                       "&asperities law = 'hertz' /\n&compare "
                        "levels = 0.2 /\n" +
                        "&indentation levels = 0.8, 0.2, centre = 5.3, 1.6 " + on_map,
                    {},
@@ -235,11 +239,11 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
     all.push_back(
         {"list",
          micro + bodies + " /\n&surface source = 'asperities', file = '" + folder / "list.txt" +
-             "', L = 90, sigma = 0.03 /\n" +
+             "', L = 90, sigma = 0.03 /\n&asperities law = 'hertz' /\n" +
              "&indentation levels = 0.25, -0.2, unit = 'length', centre = 41, 55 /\n" +
              "&output map_cells = 9, radial_bins = 7, pdf_levels = 8, -7, pdf_bins = 3 /\n"});
     all.push_back({"spectrum", micro + bodies + " /\n&surface source = 'spectrum', file = '" +
-                                   folder / "psd.txt" + "', n = 128, L = 100 /\n" +
+                                   folder / "psd.txt" + "', n = 128, L = 100 /\n" + asperities +
                                    "&indentation levels = 0.5, -0.4, centre = 41, 55 /\n" + out +
                                    " /\n"});
     // Campaigns.
@@ -247,16 +251,18 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
         {"campaign",
          "&run length_unit = 'um', force_unit = 'mN', realizations = 4, first_realization = 3 /\n" +
              bodies + " /\n" + surface +
-             " /\n&indentation levels = 9.0, 1.2, 0.3, centre = 57, 38 /\n" + out +
+             " /\n" + asperities + "&indentation levels = 9.0, 1.2, 0.3, centre = 57, 38 /\n" + out +
              " /\n&compare levels = 0.3 /\n"});
     all.push_back(
         {"campaign_force", "&run realizations = 4 /\n" + bodies + " /\n" + surface +
-                               " /\n&indentation control = 'force', levels = 200, 900 /\n" + out +
+                               " /\n" + asperities +
+                               "&indentation control = 'force', levels = 200, 900 /\n" + out +
                                ", format = 'classic' /\n"});
     all.push_back(
         {"campaign_flats",
          "&run realizations = 4 /\n" + flats + " /\n" + surface +
-             " /\n&indentation boundary = 'periodic', control = 'pressure', unit = 'pressure', "
+             " /\n" + asperities +
+             "&indentation boundary = 'periodic', control = 'pressure', unit = 'pressure', "
              "levels = 0.1 /\n" +
              "&output map_cells = 6, pdf_levels = 2.0, pdf_bins = 20, format = 'classic' /\n"});
     all.push_back({"campaign_elements",

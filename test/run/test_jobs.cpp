@@ -126,6 +126,7 @@ TEST(maps) {
     map_file("p3.txt", 0, 0, 0.5, 0.25, 0.5);
     Case c = case_of_map(folder / "p?.txt");
     c.solver.model = ModelKind::asperities;
+    c.asperities.law = LawKind::hertz;
     c.run.realizations = 3;
     c.indentation.levels = {1.0};
     const Job job = prepare(c);

@@ -13,6 +13,7 @@ using namespace rsc;
 // Each remark is there beyond its threshold and not at it, with levels made up for it.
 TEST(thresholds) {
     Job job;
+    job.settings.solver.model = ModelKind::asperities;
     job.sigma = 2;
     job.indenter.E_star = 50e3 * (1 + 1e-9);  // E*/10 is above the 5 GPa of hardened steel
     using V = LevelValues;

@@ -5,6 +5,6 @@
 
 inline rsc::Level judged(rsc::Level level, rsc::Path& contact, const rsc::SolverOptions& options,
                          const rsc::HeightMap* map = nullptr) {
-    rsc::Judge(options, {map, map != nullptr}).judge(level, contact, false);
+    rsc::Judge(options, {map}).judge(level, contact, false);
     return level;
 }

@@ -16,7 +16,7 @@ inline Case make_case(int realizations) {
     return settings_of(
         "&run title='A sample' realizations=" + std::to_string(realizations) +
         " / &surface n=128 L_lambda_l=4 L_lambda_s=32 / &solver model='asperities' / "
-        "&indentation steps=12 / "
+        "&asperities law='hertz' / &indentation steps=12 / "
         "&output map_cells=20 radial_bins=16 pdf_bins=24 pdf_levels=2,1 /");
 }
 

@@ -9,6 +9,7 @@
 #include "run/prepare.hpp"
 #include "support/asperities.hpp"
 #include "support/height_maps.hpp"
+#include "support/judged.hpp"
 #include "support/runs.hpp"
 #include "support/temporary_folder.hpp"
 #include "trust/judge.hpp"
@@ -93,30 +94,6 @@ TEST(coarser) {
     CHECK(half.x0 == map.x0 && half(8, 5) == map(16, 10));
 }
 
-// The coarser map of a mirrored map is the mirrored coarser map, whatever the numbers of points.
-TEST(mirrored) {
-    for (const int n : {15, 16})
-        for (const bool flats : {false, true}) {
-            const auto z = [&](int i, int j) { return std::sin(1.3 * i + 0.4 * j * j) + 0.1 * i; };
-            const HeightMap map = height_map(n, n + 3, 1, 1, z),
-                            other = height_map(n, n + 3, 1, 1,
-                                               [&](int i, int j) { return z(n - 1 - i, j); });
-            Indenter flat{1e3, kInfinity, 0, 0};
-            if (flats) flat.period = {n * 1.0, n + 3.0};
-            const HeightMap a = coarser_map(map, flat), b = coarser_map(other, flat);
-            std::vector<double> left, right;
-            for (const int j : indices(a.ny))
-                for (const int i : indices(a.nx)) {
-                    left.push_back(a(i, j));
-                    right.push_back(b(i, j));
-                }
-            std::ranges::sort(left);
-            std::ranges::sort(right);
-            CHECK(a.nx == b.nx && (flats ? a.Lx() == n : a.dx == 2));
-            if (n % 2 == 0 || !flats) CHECK(left == right);
-        }
-}
-
 TEST(filled) {
     std::vector<std::uint8_t> missing(16);
     missing[5] = 1;  // the point (1, 1)
@@ -161,6 +138,25 @@ TEST(pixels_of_contacts) {
     CHECK(level.contacts == 4 && level.pixels_per_contact == 9);
 }
 
+// A ball narrower than a step of the grid may touch between the points, and one pressed as deep as
+// its radius is steep; neither is an answer without a doubt. A paraboloid's slope r/R, weighted with
+// Hertz's pressure, has the square 2 a^2/(5 R^2).
+TEST(narrow_and_steep) {
+    const HeightMap map = flat_map(60, 60, 0.1, 0.1);
+    const auto judged_at = [&](double R, double x0, double Z0) {
+        const Indenter ball{1e3, R, x0, x0};
+        const SolverOptions options;
+        const auto contact = make_element_contact(map, ball, options);
+        return judged(contact->at_separation(Z0), *contact, options, &map);
+    };
+    CHECK(judged_at(0.04, 3.05, -0.02).doubts == bit(Cause::missed_contact));
+    CHECK(judged_at(0.04, 3.05, 0.01).doubts == 0);
+    CHECK(has(judged_at(2.0, 2.95, -2.0), Cause::steep_indenter));
+    const Level shallow = judged_at(20.0, 2.95, -0.1);
+    CHECK(!has(shallow, Cause::steep_indenter));
+    CHECK_RELATIVE(shallow.indenter_slope, std::sqrt(0.4 * 0.1 / 20.0), 0.02);  // a^2 = 0.1 R
+}
+
 TEST(resolution) {
     const Folder folder;
     Case c = case_of_map(folder.write(
@@ -179,7 +175,7 @@ TEST(resolution) {
         const double error = std::abs(level.force / N - 1);
         CHECK(level.force_error_expected >= 0.9 * error);
         CHECK((level.status == LevelStatus::out_of_validity) ==
-              (level.force_error_expected > 0.01));
+              (level.force_error_expected > 0.03 || level.area_error_expected > 0.1));
     }
     CHECK(r.levels[0].status == LevelStatus::out_of_validity);
     CHECK(r.levels[2].force_error_expected < r.levels[0].force_error_expected);

@@ -20,4 +20,9 @@ GapMap gap_of(LevelSource& source);
 const char* compute_gap(LevelSource& source);
 const char* compute_permeability(LevelSource& source);
 
+// Expected relative errors of K_xx and K_yy, and of the hydraulic gaps along x and y: from the same
+// gap on every second point (LevelQuantity::own_error).
+double permeability_error(const LevelValues& level, std::size_t component);
+double hydraulic_gap_error(const LevelValues& level, std::size_t component);
+
 }  // namespace rsc

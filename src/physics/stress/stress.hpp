@@ -26,6 +26,7 @@ struct LargestStress {
     struct Value {
         double value = std::numeric_limits<double>::quiet_NaN();  // [force/length^2]
         double x = value, y = value;                              // [length]
+        double error = value;  // expected, relative (trust/grid_error.hpp); NaN: none is stated
 
         // Keeps the larger value, the first of equal ones.
         void take(double other, double x_, double y_);

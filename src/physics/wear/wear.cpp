@@ -1,46 +1,61 @@
 #include "physics/wear/wear.hpp"
 
 #include "base/error.hpp"
+#include "surface/form.hpp"
 
 namespace rsc {
 namespace {
 
-// Error of N, or of the depth, by the steps of sliding to a level.
+// Change of N, or of the depth, and of the area, when the steps of sliding to a level are halved.
 constexpr double kAccuracy = 2e-3;
+
+// rms height of the points that are worn, without their form: a quadratic surface, for two flats
+// their mean. NaN where too few points are worn to have a form.
+double worn_rms(const HeightMap& map, const std::vector<double>& depths, bool flats) {
+    HeightMap worn = map.copy();
+    worn.periodic = false;
+    for (const int j : indices(map.ny))
+        for (const int i : indices(map.nx)) {
+            const double depth = depths.empty() ? 0.0 : depths[at(j) * at(map.nx) + at(i)];
+            double& z = worn.row(j)[i];
+            z = depth > 0 || flats ? z - depth : kNotComputed;
+        }
+    try {
+        return detrend(worn, flats ? Detrend::mean : Detrend::quadratic).rms;
+    } catch (const Error&) {
+        return kNotComputed;
+    }
+}
 
 class WornPoints final : public Lowering {
 public:
     explicit WornPoints(double coefficient) : coefficient_(coefficient) {}
 
-    void step(double length) override { rate_ = coefficient_ * length; }
+    void step(double length, double lasting) override {
+        rate_ = coefficient_ * length;
+        lasting_rate_ = coefficient_ * lasting;
+    }
     double rate() const override { return rate_; }
+    double lasting_rate() const override { return lasting_rate_; }
     PathClock clock() const override { return PathClock::distance; }
     double accuracy() const override { return kAccuracy; }
 
-    void measure(Level& level, const HeightMap& map,
-                 const std::vector<double>& depths) const override {
-        double volume = 0, deepest = 0, sum = 0, squares = 0;
-        const auto each = [&](auto&& visit) {
-            for (const int j : indices(map.ny))
-                for (const int i : indices(map.nx))
-                    visit(map(i, j), depths.empty() ? 0.0 : depths[at(j) * at(map.nx) + at(i)]);
-        };
-        each([&](double height, double depth) {
-            volume += depth;
-            deepest = std::max(deepest, depth);
-            sum += height - depth;
-        });
-        const double points = double(map.nx) * map.ny, mean = sum / points;
-        each([&](double height, double depth) {
-            squares += (height - depth - mean) * (height - depth - mean);
-        });
+    void measure(Level& level, const HeightMap& map, const Indenter& indenter,
+                 const std::vector<double>& depths,
+                 const std::vector<double>& yielded) const override {
+        double volume = 0, deepest = 0;
+        for (const auto k : indices(depths)) {
+            const double worn = depths[k] - (yielded.empty() ? 0.0 : yielded[k]);
+            volume += worn;
+            deepest = std::max(deepest, worn);
+        }
         level.worn_volume = volume * map.dx * map.dy;
         level.wear_depth_max = deepest;
-        level.worn_rms = std::sqrt(squares / points);
+        level.worn_rms = worn_rms(map, depths, indenter.shape->flat());
     }
 
 private:
-    double coefficient_, rate_ = 0;
+    double coefficient_, rate_ = 0, lasting_rate_ = 0;
 };
 
 std::vector<Key> wear_keys() {
@@ -65,6 +80,10 @@ void check_wear(const Case& settings, const Complain& complain) {
         complain({"indentation%sliding", "solids%wear_coefficient"},
                  "body 1 wears (solids%wear_coefficient), and the levels have no distances of "
                  "sliding; give sliding or distances");
+    if (settings.solids.wear_coefficient > 0 && !settings.indenter.file.empty())
+        complain({"solids%wear_coefficient", "indenter%shape"},
+                 "not available together with indenter%shape; the heights of body 2 would have to "
+                 "move over body 1 and wear, too");
 }
 
 std::vector<LevelQuantity> wear_quantities() {
@@ -103,19 +122,20 @@ std::vector<LevelQuantity> wear_quantities() {
         {.name = "worn_rms",
          .member = &V::worn_rms,
          .length_power = 1,
-         .meaning = "rms height of the worn surface",
-         .comment = "of all points about their mean",
+         .meaning = "rms height of the worn points",
+         .comment =
+             "of the worn points, without their form: a quadratic surface, for two flats the mean",
          .always = false,
          .statistics = true,
-         .plain = "rms height of the worn surface"},
+         .plain = "rms height of the worn points"},
         {.name = "sliding_error",
          .member = &V::sliding_error,
          .unit = "1",
          .meaning = "error by the steps in which the level was reached",
          .comment =
-             "change of N, relative to the larger N of the two levels, by halving the steps; "
-             "under a force that of the separation, relative to its depth below first touch of "
-             "the worn surface; without the errors of earlier levels",
+             "relative change of N by halving the steps; under a force that of the separation, "
+             "relative to its depth below first touch of the worn surface; without the errors of "
+             "earlier levels",
          .always = false},
     };
 }
@@ -141,7 +161,6 @@ const Physics kWear = {
     .asked = [](const BodyPhysics& bodies) { return bodies.wear.coefficient != 0; },
     .excludes = {{"adhesion"},
                  {"relaxation"},
-                 {"hardness"},
                  {"solids%layer_thickness", "wear would thin the layers",
                   [](const Combination& c) { return c.layers; }},
                  {"friction", "it is for surfaces that remain as they are"},

@@ -1,8 +1,7 @@
 // Wear of the rough body by sliding (Archard, J. Appl. Phys. 24, 1953): at each point of boundary
-// elements the depth grows by coefficient p ds. A step ds is implicit: with the pressures p at its
-// end, which solve the elastic problem with coefficient ds added to the deflection of a point by
-// its own pressure. It is stable for any ds, and the worn volume is coefficient times the sum of
-// N ds. Steps are extrapolated to second order by Path.
+// elements the depth grows by coefficient p ds. A stage of a step is implicit: with the pressures p
+// at its end, which solve the elastic problem with coefficient ds added to the deflection of a point
+// by its own pressure. Path combines two stages to a step of second order (contact/path.cpp).
 #pragma once
 
 #include "physics/physics.hpp"

@@ -34,10 +34,6 @@ test_refused() {
     run 2 "" --case nowhere.nc; out ''; err 'nowhere.nc: No such file'
     run 2 "" --chek; out ''; err 'chek.*--check'
     run 2 "" --describe surface%simga; out ''; err 'sigma'
-    run 2 "" <<< "&surface n=64 L_lambda_l=2 L_lambda_s=8 / &solids R=2*Infinity /
-&solver model='elements' /
-&indentation boundary='periodic' control='pressure' unit='relative' levels=0.01, 9 /"
-    err '^<stdin>: indentation%levels: .* full contact .* smaller'
 }
 
 test_asked() {

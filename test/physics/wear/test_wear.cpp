@@ -137,6 +137,46 @@ TEST(steps) {
     }
 }
 
+// Bodies that yield and wear: the volume is still k N s, no pressure exceeds the hardness, which a
+// hardness out of reach does not change; and where all of the contact yields, N = H A.
+TEST(hardness) {
+    for (const Body& body : bodies()) {
+        const double k = 2e-3;
+        SolverOptions options = wearing(k);
+        options.physics.hardness.H0 = 1e6;
+        const auto elastic = path_of(body, k),
+                   same_as = make_element_contact(body.map, body.indenter, options);
+        options.physics.hardness.H0 = 2 * body.force / (body.map.Lx() * body.map.Ly());
+        const auto soft = make_element_contact(body.map, body.indenter, options);
+        for (const double s : {0.0, 0.02, 0.1}) {
+            const Level a = slid(*elastic, s, body.force), b = slid(*same_as, s, body.force),
+                        c = slid(*soft, s, body.force);
+            CHECK_RELATIVE(b.separation, a.separation, 1e-5);
+            CHECK_CLOSE(b.worn_volume, a.worn_volume, 1e-6 * (k * body.force * s));
+            CHECK_CLOSE(c.worn_volume, k * body.force * s, 1e-5 * (k * body.force * s));
+            CHECK(c.converged && c.pressure_max <= options.physics.hardness.H0 * (1 + 1e-9));
+            CHECK(c.plastic_work > 0 && c.area_pixels >= 0.5 * body.map.Lx() * body.map.Ly());
+        }
+    }
+}
+
+// A force that falls by ten in one level: the pressures of the worn surface are those of many levels.
+TEST(falling_force) {
+    const Body flats = std::move(bodies()[2]);
+    const auto one = path_of(flats), many = path_of(flats);
+    for (const auto& path : {&one, &many}) {
+        (void)slid(**path, 0, flats.force);
+        (void)slid(**path, 0.05, flats.force);
+    }
+    constexpr int levels = 20;
+    Level last;
+    for (int k = 1; k <= levels; ++k)
+        last = slid(*many, 0.05 + 0.2 * k / levels, flats.force * (1 - 0.9 * k / levels));
+    const Level level = slid(*one, 0.25, 0.1 * flats.force);
+    CHECK_RELATIVE(level.separation, last.separation, 5e-3);
+    CHECK_RELATIVE(level.pressure_max, last.pressure_max, 0.1);  // it changes by less per halving
+}
+
 // What remains of a wave in full contact: K of E* is 2/(E* q) for the wavenumber q, so that the
 // amplitude falls by exp(-k E* q s/2); the mean height falls by k p s, and with it Z0.
 TEST(full_contact) {
@@ -234,11 +274,10 @@ TEST(files) {
 TEST(refused) {
     const HeightMap map = flat_map(16, 16, 0.01, 0.01);
     const Indenter ball{1e3, 1.0, 0.075, 0.075};
-    SolverOptions hard = wearing(1e-4), sticky = hard, soft = hard;
-    hard.physics.hardness.H0 = 10;
+    SolverOptions sticky = wearing(1e-4), soft = sticky;
     sticky.physics.adhesion = {1e-3, 1e-4};
     soft.physics.relaxation = {{0.5}, {1.0}};
-    for (const SolverOptions& options : {hard, sticky, soft, wearing(-1), wearing(kInfinity)})
+    for (const SolverOptions& options : {sticky, soft, wearing(-1), wearing(kInfinity)})
         CHECK_THROWS(make_element_contact(map, ball, options), Error);
     Asperities one;
     CHECK_THROWS(make_asperity_contact(one, ball, wearing(1e-4)), Error);

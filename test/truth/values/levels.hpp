@@ -226,6 +226,21 @@ inline void levels(CheckedFile& f, const Truth& t) {
     of_level("method", &Level::method);
     of_level("fallback", &Level::fallback);
     of_level("residual", &Level::residual);
+    if (t.elements) of_level("certificate", &Level::certificate);
+    if (std::isfinite(t.R))
+        f.same("indenter_slope", t.rows([&](auto k, auto s) {
+            double squares = 0, force = 0;
+            const auto add = [&](double x, double y, double part) {
+                const double rho = std::hypot(x - t.tip_x, y - t.tip_y);
+                squares += part * rho * rho / (t.R * t.R - rho * rho);
+                force += part;
+            };
+            for (const Pixel2& q : t.contacts[k][s].pixels) add(q.x, q.y, q.p);
+            for (const Spot2& p : spots(k, s))
+                if (!t.elements) add(p.x, p.y, p.f);
+            return force > 0 ? std::sqrt(squares / force) : kNone;
+        }),
+               kRounding);
     f.attribute("method", "flag_values", {1, 2, 3});
     f.attribute("fallback", "flag_values", {0, 1, 2, 3, 4, 5, 6});
     f.attribute("status", "flag_values", {0, 1, 2, 3, 4});
