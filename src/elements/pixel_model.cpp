@@ -152,7 +152,8 @@ void PixelModel::accept(Level& level) {
                     lower(pixel_of(pixels, k), depth * pixels.pressure[k]);
             });
         }
-        return lowering_->measure(level, heights_, residual_);
+        lowering_->measure(level, heights_, residual_);
+        return step(0);
     }
     if (!pixels.index.empty())
         lower_points([&](auto&& lower) {
@@ -177,6 +178,7 @@ void PixelModel::accept_loads(Level& level) {
     loads_->accept(where, p,
                    [&](const std::vector<double>& q) { return deflections(loaded_pixels(), q); });
     level.energy_lost = pixel_area() * loads_->lost();
+    step(0);
 }
 
 Level PixelModel::report(double Z0, const ElementsOutcome& outcome, std::size_t candidates,

@@ -211,6 +211,9 @@ public:
             Level& level = levels_[g * kGroup].emplace(press(job_, g * kGroup, first_, none));
             points = std::max(points, level.candidates);
             begin_[g] = {first_.contact->state(), first_.judge.state()};
+            // The others start from levels of several groups, not from earlier solutions.
+            begin_[g].contact.solution.clear();
+            if (begin_[g].judge) begin_[g].judge->solution.clear();
             if (g == 0) take_(taken_++, std::move(level));
         }
         if (points > kFewPoints) {
