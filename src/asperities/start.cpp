@@ -83,15 +83,6 @@ bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& sta
     return any;
 }
 
-bool EarlierLevels::fits(std::size_t asperities) const {
-    for (const Carried* of : {&carried_, &before_}) {
-        if (!of->phi.empty() && of->phi.size() != asperities) return false;
-        for (const int i : of->known)
-            if (i < 0 || at(i) >= of->phi.size()) return false;
-    }
-    return true;
-}
-
 std::optional<double> EarlierLevels::likely_separation(double first_touch) const {
     if (past_) return past_->separation;
     if (carried_.known.empty() || !(carried_.separation < first_touch)) return std::nullopt;
