@@ -348,8 +348,7 @@ bool within(const std::vector<Pixel>& pixels, int columns, int rows) {
 
 double ElementsSolver::stiffness(double tolerance, bool back) {
     constexpr int rounds = 60;
-    tolerance_ = tolerance;
-    full_p_.clear();  // the answer does not depend on how the solution was found
+    tolerance_ = 0;  // products in full, so that nothing depends on the last one
     return BoundedSolver::stiffness(back, tolerance, rounds, 4 * kSteps,
                                     std::max(0.1 * products_.inner_error(), 1e-3));
 }
