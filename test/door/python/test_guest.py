@@ -72,7 +72,7 @@ time.sleep(0.5)
         ended = subprocess.run(
             [sys.executable, "-c", program], cwd=self.folder, stderr=subprocess.PIPE, timeout=60
         )
-        self.assertEqual((ended.returncode, ended.stderr), (0, b""))
+        self.assertEqual(ended.returncode, 0, ended.stderr)  # 134: aborted
 
     def test_fork_during_a_call(self):
         case = rsc.Case(SMALL)
