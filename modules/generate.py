@@ -372,23 +372,15 @@ def wrapper(f):
     refusal, verb = [], f.short.split("_", 1)[1]
     if inputs:
         first, *others = [a for a in arguments if a.role in ("in", "array")]
-        required = " .and. ".join(
-            f"size({a.name}) == size({first.name})" for a in others if not a.optional
-        )
-        refusal = [f"same = {required or '.true.'}"]
-        refusal += [
-            f"if (present({a.name})) same = same .and. size({a.name}) == size({first.name})"
-            for a in others
-            if a.optional
-        ]
-        refusal += [
-            "if (.not. same) then",
-            f"  call refuse('{f.kind}%{verb}: the arrays are not of one size', &",
-            "              stat, errmsg)",
-            "  return",
-            "end if",
-        ]
-        local.append(("logical", "same"))
+        for a in others:
+            number = f.arguments.index(a) + 1
+            present = f"if (present({a.name})) " if a.optional else ""
+            refusal.append(
+                f"{present}call compare({number}, '{a.name}', shape({a.name}), "
+                f"shape({first.name}), unlike)"
+            )
+        refusal.append(f"if (refused('{f.kind}%{verb}', unlike, stat, errmsg)) return")
+        local.append(("type(difference)", "unlike"))
     if f.makes:
         local += [(SHORT, "status"), ("type(c_ptr)", "handle")]
         before = [
@@ -454,13 +446,14 @@ def ownership(kind):
   end subroutine
 
   !> Releases the object; nothing happens if there is none.
-  subroutine {kind}_free(self)
+  subroutine {kind}_free(self, stat, errmsg)
     class(rsc_{kind}), intent(inout) :: self
-    integer(c_int32_t) :: status
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
     type(c_ptr) :: handle
     handle = rsc_handle_taken(self%number)
     self%number = 0
-    status = rsc_{kind}_destroy(handle)
+    call finish(rsc_{kind}_destroy(handle), stat, errmsg)
   end subroutine
 """.splitlines() + [
         ""

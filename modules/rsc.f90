@@ -181,6 +181,12 @@ module rsc
     end function
   end interface
 
+  !> Of the first argument of another shape than it must have: its number in rsc.h; 0: none.
+  type :: difference
+    integer :: argument = 0
+    character(120) :: message = ''
+  end type
+
 contains
 
   ! --- failures and text --------------------------------------------------------------------------
@@ -205,18 +211,44 @@ contains
     end if
   end subroutine
 
-  !> An error detected before a function of rsc.h is called.
-  subroutine refuse(message, stat, errmsg)
-    character(*), intent(in) :: message
+  !> Notes that an argument has another shape than it must have, if it is the first one. argument:
+  !> its number in rsc.h.
+  subroutine compare(argument, name, found, wanted, unlike)
+    integer, intent(in) :: argument, found(:), wanted(:)
+    character(*), intent(in) :: name
+    type(difference), intent(inout) :: unlike
+    if (unlike%argument /= 0 .or. all(found == wanted)) return
+    unlike%argument = argument
+    unlike%message = 'argument ' // name // ' (number ' // extents([argument]) // &
+        ' in rsc.h) has the shape (' // extents(found) // '), not (' // extents(wanted) // ')'
+  end subroutine
+
+  function extents(shape) result(text)
+    integer, intent(in) :: shape(:)
+    character(:), allocatable :: text
+    integer :: i
+    text = trim(of_integer(int(shape(1), c_int64_t)))
+    do i = 2, size(shape)
+      text = text // ',' // trim(of_integer(int(shape(i), c_int64_t)))
+    end do
+  end function
+
+  !> Reports an argument of another shape, before a function of rsc.h is called; false if all are
+  !> right.
+  logical function refused(caller, unlike, stat, errmsg)
+    character(*), intent(in) :: caller
+    type(difference), intent(in) :: unlike
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
+    refused = unlike%argument /= 0
+    if (.not. refused) return
     if (present(stat)) then
-      stat = -1
-      if (present(errmsg)) errmsg = message
+      stat = -unlike%argument
+      if (present(errmsg)) errmsg = caller // ': ' // unlike%message
     else
-      error stop 'rsc: ' // message
+      error stop 'rsc: ' // caller // ': ' // trim(unlike%message)
     end if
-  end subroutine
+  end function
 
   !> Allocates n values, or none after a failure, so that the array has a size.
   subroutine make_room(array, n, status)
@@ -252,30 +284,36 @@ contains
   end function
 
   !> The version of the library.
-  function rsc_library_version() result(text)
+  function rsc_library_version(stat, errmsg) result(text)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
     character(:), allocatable :: text
     character(kind=c_char) :: buffer(64)
     integer(c_int64_t) :: length
-    text = ''
-    if (rsc_version(buffer, size(buffer, kind=c_int64_t), length) == rsc_success) then
-      text = joined(buffer, length)
-    end if
+    length = 0
+    call finish(rsc_version(buffer, size(buffer, kind=c_int64_t), length), stat, errmsg)
+    text = joined(buffer, length)
   end function
 
   !> The names of all keys, 'group%key', padded with blanks, as for get, set and ./rsc --describe.
-  function rsc_keys() result(names)
+  function rsc_keys(stat, errmsg) result(names)
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
     character(:), allocatable :: names(:)
     character(kind=c_char) :: buffer(64)
     integer(c_int64_t) :: n, k, length
+    integer(c_int32_t) :: status
     n = 0
-    if (rsc_key_count(n) /= rsc_success) n = 0
+    status = rsc_key_count(n)
     allocate (character(64) :: names(n))
     do k = 1, n
-      names(k) = ''
-      if (rsc_key_name(k - 1, buffer, size(buffer, kind=c_int64_t), length) == rsc_success) then
-        names(k) = joined(buffer, length)
+      length = 0
+      if (status == rsc_success) then
+        status = rsc_key_name(k - 1, buffer, size(buffer, kind=c_int64_t), length)
       end if
+      names(k) = joined(buffer, length)
     end do
+    call finish(status, stat, errmsg)
   end function
 
   function joined(buffer, length) result(text)
@@ -639,12 +677,11 @@ contains
     character(*), intent(inout), optional :: errmsg
     integer(c_int64_t) :: nx, ny
     integer(c_int32_t) :: status
+    type(difference) :: unlike
     status = rsc_surface_grid(rsc_handle_of(self%number), nx, ny)
     if (status == rsc_success) then
-      if (size(z, 1) /= nx .or. size(z, 2) /= ny) then
-        call refuse('the shape of z is not that of the surface', stat, errmsg)
-        return
-      end if
+      call compare(3, 'z', shape(z), int([nx, ny]), unlike)
+      if (refused('surface%heights', unlike, stat, errmsg)) return
       status = rsc_surface_heights(rsc_handle_of(self%number), size(z, kind=c_int64_t), z)
     end if
     call finish(status, stat, errmsg)
@@ -737,20 +774,15 @@ contains
     real(c_double), intent(out), contiguous, optional :: force(:), radius(:), penetration(:)
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    logical :: same
+    type(difference) :: unlike
     integer(c_int64_t) :: n
     n = 0
     if (present(penetration)) n = size(penetration, kind=c_int64_t)
     if (present(radius)) n = size(radius, kind=c_int64_t)
     if (present(force)) n = size(force, kind=c_int64_t)
-    same = .true.
-    if (present(force)) same = same .and. size(force) == n
-    if (present(radius)) same = same .and. size(radius) == n
-    if (present(penetration)) same = same .and. size(penetration) == n
-    if (.not. same) then
-      call refuse('contact%per_asperity: the arrays are not of one size', stat, errmsg)
-      return
-    end if
+    if (present(radius)) call compare(4, 'radius', shape(radius), [int(n)], unlike)
+    if (present(penetration)) call compare(5, 'penetration', shape(penetration), [int(n)], unlike)
+    if (refused('contact%per_asperity', unlike, stat, errmsg)) return
     call finish(rsc_contact_per_asperity(rsc_handle_of(self%number), n, force, radius, &
                                          penetration), stat, errmsg)
   end subroutine
@@ -766,7 +798,11 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     type(c_ptr) :: handles(size(contacts))
-    if (.not. of_one_size('rsc_press_all', contacts, force, separation, each, stat, errmsg)) return
+    type(difference) :: unlike
+    call compare(3, 'force', shape(force), shape(contacts), unlike)
+    call compare(4, 'separation', shape(separation), shape(contacts), unlike)
+    if (present(each)) call compare(5, 'each', shape(each), shape(contacts), unlike)
+    if (refused('rsc_press_all', unlike, stat, errmsg)) return
     handles = handles_of(contacts)
     call finish(rsc_contacts_press(size(contacts, kind=c_int64_t), handles, force, separation, &
                                    each, team_of(threads)), stat, errmsg)
@@ -783,7 +819,11 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     type(c_ptr) :: handles(size(contacts))
-    if (.not. of_one_size('rsc_indent_all', contacts, separation, force, each, stat, errmsg)) return
+    type(difference) :: unlike
+    call compare(3, 'separation', shape(separation), shape(contacts), unlike)
+    call compare(4, 'force', shape(force), shape(contacts), unlike)
+    if (present(each)) call compare(5, 'each', shape(each), shape(contacts), unlike)
+    if (refused('rsc_indent_all', unlike, stat, errmsg)) return
     handles = handles_of(contacts)
     call finish(rsc_contacts_indent(size(contacts, kind=c_int64_t), handles, separation, force, &
                                     each, team_of(threads)), stat, errmsg)
@@ -806,41 +846,28 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     type(c_ptr) :: handles(size(contacts))
-    logical :: same
-    same = size(value) == size(contacts)
-    if (present(x0)) same = same .and. size(x0) == size(contacts)
-    if (present(y0)) same = same .and. size(y0) == size(contacts)
-    if (present(separation)) same = same .and. size(separation) == size(contacts)
-    if (present(force)) same = same .and. size(force) == size(contacts)
-    if (present(stiffness)) same = same .and. size(stiffness) == size(contacts)
-    if (present(lateral_x)) same = same .and. size(lateral_x) == size(contacts)
-    if (present(lateral_y)) same = same .and. size(lateral_y) == size(contacts)
-    if (present(moment_x)) same = same .and. size(moment_x) == size(contacts)
-    if (present(moment_y)) same = same .and. size(moment_y) == size(contacts)
-    if (present(level_status)) same = same .and. size(level_status) == size(contacts)
-    if (present(each)) same = same .and. size(each) == size(contacts)
-    if (.not. same) then
-      call refuse('rsc_step_all: the arrays are not of one size', stat, errmsg)
-      return
-    end if
+    type(difference) :: unlike
+    integer :: n(1)
+    n = shape(contacts)
+    call compare(6, 'value', shape(value), n, unlike)
+    if (present(x0)) call compare(3, 'x0', shape(x0), n, unlike)
+    if (present(y0)) call compare(4, 'y0', shape(y0), n, unlike)
+    if (present(separation)) call compare(7, 'separation', shape(separation), n, unlike)
+    if (present(force)) call compare(8, 'force', shape(force), n, unlike)
+    if (present(stiffness)) call compare(9, 'stiffness', shape(stiffness), n, unlike)
+    if (present(lateral_x)) call compare(10, 'lateral_x', shape(lateral_x), n, unlike)
+    if (present(lateral_y)) call compare(11, 'lateral_y', shape(lateral_y), n, unlike)
+    if (present(moment_x)) call compare(12, 'moment_x', shape(moment_x), n, unlike)
+    if (present(moment_y)) call compare(13, 'moment_y', shape(moment_y), n, unlike)
+    if (present(level_status)) call compare(14, 'level_status', shape(level_status), n, unlike)
+    if (present(each)) call compare(15, 'each', shape(each), n, unlike)
+    if (refused('rsc_step_all', unlike, stat, errmsg)) return
     handles = handles_of(contacts)
     call finish(rsc_contacts_step(size(contacts, kind=c_int64_t), handles, x0, y0, &
                                   merge(1_c_int32_t, 0_c_int32_t, by_force), value, separation, &
                                   force, stiffness, lateral_x, lateral_y, moment_x, moment_y, &
                                   level_status, each, team_of(threads)), stat, errmsg)
   end subroutine
-
-  logical function of_one_size(name, contacts, given, answer, each, stat, errmsg)
-    character(*), intent(in) :: name
-    type(rsc_contact), intent(in) :: contacts(:)
-    real(c_double), intent(in) :: given(:), answer(:)
-    integer(c_int32_t), intent(in), optional :: each(:)
-    integer, intent(out), optional :: stat
-    character(*), intent(inout), optional :: errmsg
-    of_one_size = size(given) == size(contacts) .and. size(answer) == size(contacts)
-    if (present(each)) of_one_size = of_one_size .and. size(each) == size(contacts)
-    if (.not. of_one_size) call refuse(name//': the arrays are not of one size', stat, errmsg)
-  end function
 
   function handles_of(contacts) result(handles)
     type(rsc_contact), intent(inout) :: contacts(:)

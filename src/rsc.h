@@ -35,8 +35,9 @@
  *     same handle to functions that take it as a pointer to const. NetCDF, HDF5 and the FFTW
  *     planner are not thread-safe: rsc calls them under one global lock, and programs that call
  *     these libraries themselves must take the same lock, rsc_lock. After a fork the child may use
- *     its copies of the handles, and computes with one thread. See "rsc inside your program" in
- *     modules/README.
+ *     its copies of the handles, except those that another thread was using in a call at the fork,
+ *     whose state is unknown: only the caller can know which. The child computes with one thread.
+ *     See "rsc inside your program" in modules/README.
  * Numbers
  *     Numbers in arrays, and the parameters of a grid, a sphere or a material, must be finite and
  *     at most 1e50 in magnitude; quantities that must be positive must be at least 1e-50. Beyond
@@ -443,7 +444,7 @@ RSC_API int32_t rsc_contact_create_from_case(rsc_contact** contact,
                                              const rsc_case* a_case);
 
 /* Creates an independent copy of a contact, including its latest level, loading history and
- * committed state.
+ * committed state. The same calls on both give the same results, bit for bit.
  *     contact (out): the handle;
  *     original: the contact; meanwhile other threads may call only functions that take it as a
  *       pointer to const.
@@ -473,15 +474,15 @@ RSC_API int32_t rsc_contact_destroy(rsc_contact** contact);
  *     RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_move_tip(rsc_contact* contact, double x0, double y0);
 
-/* Stores the state for rsc_contact_rollback: the tip, the latest level and the loading history. Use
- * it in codes that may have to repeat a step. The initial state of a new contact counts as
- * committed.
+/* Stores the state for rsc_contact_rollback: the tip, the latest level, the loading history, and
+ * the time or distance that was set. Use it in codes that may have to repeat a step. The initial
+ * state of a new contact counts as committed.
  *     contact: the contact.
  * Errors: -1 null; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_commit(rsc_contact* contact);
 
-/* Restores the last committed state. Levels computed afterwards equal, within the tolerance, those
- * computed directly after the commit.
+/* Restores the last committed state. Results afterwards equal, bit for bit, those of the same calls
+ * directly after the commit.
  *     contact: the contact.
  * Errors: -1 null; RSC_NO_MEMORY. */
 RSC_API int32_t rsc_contact_rollback(rsc_contact* contact);
@@ -728,10 +729,12 @@ RSC_API int32_t rsc_contacts_indent(int64_t n, rsc_contact** contacts, const dou
  *     lateral_x, lateral_y (out) [force], moment_x, moment_y (out) [force length]: as in
  *       rsc_contact_value;
  *     level_status (out): values of RSC_LEVEL_LIST;
- *     status (out): status of rsc_contact_move_tip, _indent or _press for each;
+ *     status (out): status of rsc_contact_move_tip, _indent or _press for each; if these succeed,
+ *       that of rsc_contact_stiffness;
  *     threads: 1 or more, 0 for all processors.
- * Any output may be null. If a contact fails, its outputs are unchanged, unless the status is
- * RSC_NOT_CONVERGED.
+ * Any output may be null. If a contact fails before it has a level, its outputs are unchanged;
+ * otherwise they are written: NaN for the stiffness if there is none, and for all values but
+ * separation and level_status if the solver found no equilibrium.
  * Errors: -1, -5, -16 out of range; -2 null, a null handle, or one given twice; -3, -4 only one of
  *     the two is null; -6 null with n > 0. Otherwise as in rsc_contacts_press. */
 RSC_API int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0,
@@ -741,14 +744,13 @@ RSC_API int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const doubl
                                   double* moment_y, int32_t* level_status, int32_t* status,
                                   int32_t threads);
 
-/* Saves a contact to a file: tip, options, latest level, loading history and committed state, but
- * not the asperities or the surface of elements. Afterwards the saved and the restored contact give
- * the same results, bit for bit if elastic. For this, saving makes the contact forget the earlier
- * levels it uses as initial guesses. Later results may therefore differ, within the tolerance, from
- * those of a contact that was never saved. Files are not portable between machine types, but later
- * versions of the library can read them. The file is written completely or not at all. An existing
- * file is replaced only if it was saved by rsc; links, devices, read-only files and all others are
- * left unchanged.
+/* Saves a contact to a file: tip, options, the time or distance that was set, latest level, loading
+ * history and committed state, but not the asperities or the surface of elements. The contact is
+ * not changed, and the restored one gives the same results, bit for bit, if the same version of the
+ * library restores it. Later versions can read the file, too; the results are then the same within
+ * the tolerance. Files are not portable between machine types. The file is written completely or
+ * not at all. An existing file is replaced only if it was saved by rsc; links, devices, read-only
+ * files and all others are left unchanged.
  *     contact: the contact;
  *     path: the file.
  * Errors: -1 null; -2 null or empty; RSC_FILE; RSC_NO_MEMORY; RSC_INTERNAL. */

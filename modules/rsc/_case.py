@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import ctypes
 import itertools
@@ -19,6 +20,7 @@ from ._library import (
     _number,
     _Object,
     _refuse,
+    _refuse_masked,
     _text,
     _Watch,
     lock,
@@ -30,6 +32,17 @@ Source = Union["Case", Mapping[str, Any], str, "os.PathLike[str]", None]
 _Result = TypeVar("_Result")
 
 
+_running: set[tuple[threading.Event, threading.Event]] = set()  # to stop each run, and its end
+
+
+@atexit.register
+def _stop_runs() -> None:
+    """Ends the runs of daemon threads while the interpreter still runs, which they call."""
+    for stop, done in list(_running):
+        stop.set()
+        done.wait()
+
+
 def keys() -> list[str]:
     """The names of all keys of a case, 'group%key', a list of texts in the order of the
     documentation (rsc --describe)."""
@@ -38,6 +51,7 @@ def keys() -> list[str]:
 
 def _namelist_value(name: str, value: Any) -> str:
     """A Python value in namelist syntax."""
+    _refuse_masked(name, value)
     if value is None:
         return ""
     if isinstance(value, (bool, np.bool_)):
@@ -196,12 +210,14 @@ class Case(_Object):
             except BaseException as error:
                 raised.append(error)
             finally:
+                _running.discard((stop, done))
                 done.set()
 
         # NetCDF suppresses HDF5's messages in the first thread that uses it, the lock in this one,
         # which may read the result.
+        _running.add((stop, done))
         with lock():
-            threading.Thread(target=work).start()
+            threading.Thread(target=work, daemon=True).start()
         try:
             while not done.wait(0.05):
                 if progress is not None and seen:

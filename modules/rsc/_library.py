@@ -138,14 +138,39 @@ shared_object, shared_object_path = _load()
 _Watch = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_double, ctypes.c_double, ctypes.c_void_p)
 
 
+_forks = 0  # of which this process is the child
+
+
+def _count_fork():
+    global _forks
+    _forks += 1
+
+
+os.register_at_fork(after_in_child=_count_fork)
+
+
 class _Lock:
-    """Lock for many readers or one writer. A waiting writer blocks new readers."""
+    """Lock for many readers or one writer. A waiting writer blocks new readers. In the child of a
+    fork, a lock that another thread held can never be acquired."""
 
     def __init__(self):
+        self._lost = False
+        self._renew()
+
+    def _renew(self):
         self._gate, self._busy, self._count = threading.Lock(), threading.Lock(), threading.Lock()
         self._readers = 0
+        self._forks = _forks
 
     def acquire(self, shared):
+        if self._forks != _forks:
+            self._lost = self._lost or self._busy.locked()
+            self._renew()
+        if self._lost:
+            raise Error(
+                "this object was in use by another thread when the process was forked: its state "
+                "in the child is unknown"
+            )
         with self._gate:
             if not shared:
                 self._busy.acquire()
@@ -252,9 +277,17 @@ def _given(name, value):
     return value
 
 
+def _refuse_masked(name: str, value: Any) -> None:
+    """Refuses masked arrays with masked values, also in a list."""
+    values = value if isinstance(value, (list, tuple)) else [value]
+    if any(isinstance(v, np.ma.MaskedArray) and np.ma.is_masked(v) for v in values):
+        _refuse(name, "some of its values are masked: fill or remove them")
+
+
 def _array(name: str, value: Any, shape: Any = None, dtype: Any = np.float64) -> Any:
     """The array itself if it needs no conversion; lists and numbers are converted. 1-D slices with
     a stride are copied."""
+    _refuse_masked(name, value)
     if not isinstance(value, np.ndarray):
         try:
             value = np.array(value, dtype=dtype)
@@ -292,6 +325,7 @@ def _output(name, array, shape):
 def _convert(argument, value):
     """A Python value converted for ctypes, and objects that must exist until the call ends."""
     name, kind = argument.name, argument.type
+    _refuse_masked(name, value)
     if argument.stars == 0 and kind.startswith("rsc_"):  # a callback
         return ctypes.cast(value, ctypes.c_void_p), value
     if argument.stars == 0:
@@ -320,8 +354,6 @@ def _convert(argument, value):
         text = ctypes.create_string_buffer(value.encode("utf-8", "surrogateescape"))
         return ctypes.addressof(text), text
     if isinstance(value, np.ndarray):
-        if np.ma.is_masked(value):
-            _refuse(name, "some of its values are masked: fill or remove them")
         wanted = np.float64 if kind == "double" else _INTEGERS[kind][1]
         if value.dtype != wanted:
             _refuse(name, f"an array of {np.dtype(wanted).name} is expected, not of {value.dtype}")

@@ -226,8 +226,8 @@ int32_t rsc_contact_set_distance(rsc_contact* contact, double distance) {
 int32_t rsc_contact_press(rsc_contact* contact, double force, double* separation) {
     return on(contact, "contact", 2, [&] {
         const bool pulls = contact->path.pulls();
-        if (!(force >= 0 || pulls) || !std::isfinite(force))
-            refuse(2, "force", "must be positive or zero, and finite");
+        if (!(force >= 0 || pulls)) refuse(2, "force", "must be positive or zero");
+        require_finite(force, 2, "force");
         const double touch = contact->path.first_touch();
         if (!std::isfinite(touch))
             refuse(1, "contact", "has no asperity under its sphere, so its force is always 0");

@@ -61,22 +61,32 @@ rsc_contact::rsc_contact(std::shared_ptr<const SurfaceModel> on_, std::shared_pt
     : on(std::move(on_)),
       keys(std::move(keys_)),
       options(solver_of(*keys, domain_of(*keys, *on))),
-      owned(make_contact(*on, indenter, options)),
+      first(indenter),
+      owned(make_contact(*on, first, options)),
       path(*owned),
       judge(options, JudgedSurface{on->points.get()}),
       committed(path.state()) {}
 
-rsc_contact::rsc_contact(const rsc_contact& like)
-    : rsc_contact(like.on, like.keys, like.path.indenter()) {
+rsc_contact::rsc_contact(const rsc_contact& like, const Indenter& indenter)
+    : rsc_contact(like.on, like.keys, indenter) {
     given = like.given;
+}
+
+void rsc_contact::restore(const Path::State& state) {
+    const Indenter& now = path.indenter();
+    if (now.repeats.finite() && now.around.finite() != state.moved) {
+        Indenter tip = first;
+        tip.around = state.moved ? tip.repeats : Period{};
+        path = std::move(*make_contact(*on, tip, options));
+    }
+    path.restore(state);
 }
 
 int32_t rsc_contact_copy(rsc_contact** contact, const rsc_contact* original) {
     return constructed(0, contact, "contact", [&] {
         require(original, 2, "original");
-        auto made = std::make_unique<rsc_contact>(*original);
-        made->path.restore(original->path.state());
-        made->path.set_time(original->path.time());
+        auto made = std::make_unique<rsc_contact>(*original, original->first);
+        made->restore(original->path.state());
         made->committed = original->committed;
         return made.release();
     });
@@ -87,5 +97,5 @@ int32_t rsc_contact_commit(rsc_contact* contact) {
 }
 
 int32_t rsc_contact_rollback(rsc_contact* contact) {
-    return on(contact, "contact", 0, [&] { contact->path.restore(contact->committed); });
+    return on(contact, "contact", 0, [&] { contact->restore(contact->committed); });
 }

@@ -10,10 +10,6 @@ namespace {
 
 constexpr const char* kNoPath = "friction has no path yet: call rsc_friction_update first";
 
-void require_usable(double value, int argument, const char* name) {
-    if (!usable(value)) refuse(argument, name, kNumberBounds);
-}
-
 const FrictionHistory& path_of(const rsc_friction* friction) {
     require(friction, 1, "friction");
     if (!friction->history.state().begun) throw Outcome{RSC_NO_RESULT, kNoPath};
@@ -43,6 +39,8 @@ void put_tip(rsc_friction& friction, const Vec2& tip) {
     friction.inner.path.move_tip(tip.x, tip.y);
     friction.curve.forget();
 }
+
+const Indenter& tip_of(const rsc_contact* contact) { return contact->path.indenter(); }
 
 // The share of the first level's force on contacts that also exist in the second level.
 double shared_force(const Level& first, const Level& second) {
@@ -97,7 +95,7 @@ int32_t rsc_friction_create(rsc_friction** friction, const rsc_contact* contact,
         if (!(mu >= 0) || !usable(mu))
             refuse(3, "mu", "must be zero or positive, and at most 1e50");
         if (!usable_positive(ratio)) refuse(4, "ratio", kPositiveBounds);
-        return new rsc_friction(*contact, {mu, ratio});
+        return new rsc_friction(*contact, tip_of(contact), {mu, ratio});
     });
 }
 
@@ -109,7 +107,7 @@ int32_t rsc_friction_create_from_case(rsc_friction** friction, const rsc_contact
         const Case& settings = settings_of(a_case);
         require_valid(settings, {"solids"});
         return new rsc_friction(
-            *contact,
+            *contact, tip_of(contact),
             {settings.solids.friction, tangential_ratio(settings.solids.E, settings.solids.nu)});
     });
 }
@@ -117,11 +115,20 @@ int32_t rsc_friction_create_from_case(rsc_friction** friction, const rsc_contact
 int32_t rsc_friction_copy(rsc_friction** friction, const rsc_friction* original) {
     return constructed(0, friction, "friction", [&] {
         require(original, 2, "original");
-        auto made = std::make_unique<rsc_friction>(original->outer, original->history.friction());
-        made->history = original->history;
-        made->committed_tip = original->committed_tip;
+        const rsc_contact& outer = original->outer;
+        auto made =
+            std::make_unique<rsc_friction>(outer, outer.first, original->history.friction());
+        made->restore(original->state());
+        made->committed = original->committed;
         return made.release();
     });
+}
+
+void rsc_friction::restore(const State& state) {
+    outer.restore(state.outer);
+    inner.restore(state.inner);
+    curve.recall(state.known);
+    history.restore(state.path, state.path);
 }
 
 int32_t rsc_friction_destroy(rsc_friction** friction) { return destroyed(friction, "friction"); }
@@ -129,9 +136,9 @@ int32_t rsc_friction_destroy(rsc_friction** friction) { return destroyed(frictio
 int32_t rsc_friction_update(rsc_friction* friction, double separation, double x, double y,
                             double* force, double* force_x, double* force_y, double* lost) {
     return on(friction, "friction", 2, [&] {
-        require_usable(separation, 2, "separation");
-        require_usable(x, 3, "x");
-        require_usable(y, 4, "y");
+        require_finite(separation, 2, "separation");
+        require_finite(x, 3, "x");
+        require_finite(y, 4, "y");
         with_levels(*friction, [&] {
             FrictionHistory& history = friction->history;
             history.go_to(friction->curve, -separation, {x, y});
@@ -203,18 +210,11 @@ int32_t rsc_friction_state(const rsc_friction* friction, double* separation, dou
 }
 
 int32_t rsc_friction_commit(rsc_friction* friction) {
-    return on(friction, "friction", 0, [&] {
-        const Indenter& tip = friction->outer.path.indenter();
-        friction->committed_tip = {tip.x0, tip.y0};
-        friction->history.commit();
-    });
+    return on(friction, "friction", 0, [&] { friction->committed = friction->state(); });
 }
 
 int32_t rsc_friction_rollback(rsc_friction* friction) {
-    return on(friction, "friction", 0, [&] {
-        put_tip(*friction, friction->committed_tip);
-        friction->history.rollback();
-    });
+    return on(friction, "friction", 0, [&] { friction->restore(friction->committed); });
 }
 
 int32_t rsc_friction_first_loading(rsc_friction* friction, int64_t n, const double* slide,

@@ -50,6 +50,10 @@ std::int32_t status_of(const Error& error, int input) noexcept {
     return RSC_INTERNAL;
 }
 
+void require_finite(double value, int argument, const char* name) {
+    if (!usable(value)) refuse(argument, name, kNumberBounds);
+}
+
 void require_finite(const double* values, std::int64_t n, int argument, const char* name) {
     require(values, argument, name);
     for (std::int64_t k = 0; k < n; ++k) {

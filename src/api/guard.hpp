@@ -77,11 +77,9 @@ void require(T* pointer, int argument, const char* name) {
             refuse(argument, name, "was already released, or is a handle of another kind");
 }
 
-inline void require_finite(double value, int argument, const char* name) {
-    if (!std::isfinite(value)) refuse(argument, name, "must be finite");
-}
-
-// Arrays: not null, all values finite.
+// Within the limits of rsc.h, "Numbers".
+void require_finite(double value, int argument, const char* name);
+// Arrays: not null, all values within these limits.
 void require_finite(const double* values, std::int64_t n, int argument, const char* name);
 
 template <class T, class U>

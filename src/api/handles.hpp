@@ -47,30 +47,46 @@ struct rsc_contact {
     // invalid keys.
     rsc_contact(std::shared_ptr<const rsc::SurfaceModel> on, std::shared_ptr<const rsc::Case> keys,
                 const rsc::Indenter& indenter);
-    explicit rsc_contact(const rsc_contact& like);  // a copy of the contact without a result
+    rsc_contact(const rsc_contact& like, const rsc::Indenter& indenter);  // without a result
     std::shared_ptr<const rsc::SurfaceModel> on;
     std::shared_ptr<const rsc::Case> keys;
     std::optional<std::array<double, 2>>
         given;  // E* and R of rsc_contact_create; none: those of the case
     rsc::SolverOptions options;
+    // With which the contact was made. A model takes units from the gap under it, so that copies
+    // are made with it, too.
+    rsc::Indenter first;
     std::unique_ptr<rsc::Path> owned;
     rsc::Path& path;
     rsc::Judge judge;
     rsc::Path::State committed;  // initially the new contact
+    // Also of a state before the first move of the tip.
+    void restore(const rsc::Path::State& state);
 };
 
 struct rsc_friction {
     rsc::api::Tag<0x7273635f66726963> tag;
-    rsc_friction(const rsc_contact& like, const rsc::Friction& friction)
-        : outer(like),
-          inner(like),
+    rsc_friction(const rsc_contact& like, const rsc::Indenter& indenter,
+                 const rsc::Friction& friction)
+        : outer(like, indenter),
+          inner(like, indenter),
           curve(outer.path, inner.path),
           history(friction),
-          committed_tip{like.path.indenter().x0, like.path.indenter().y0} {}
+          committed(state()) {}
+    // All that later answers depend on, to the last bit.
+    struct State {
+        rsc::FrictionHistory::State path;
+        rsc::Path::State outer, inner;
+        std::array<bool, 2> known;  // ContactCurve::known()
+    };
+    State state() const {
+        return {history.state(), outer.path.state(), inner.path.state(), curve.known()};
+    }
+    void restore(const State& state);
     rsc_contact outer, inner;  // the outer and inner end of the memory of the path
     rsc::ContactCurve curve;
     rsc::FrictionHistory history;
-    rsc::Vec2 committed_tip;  // of history's committed state
+    State committed;  // initially the new contact
 };
 
 namespace rsc::api {

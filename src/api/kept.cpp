@@ -127,6 +127,7 @@ void put_making(Entries& to, const rsc_contact& contact) {
     const Indenter& indenter = contact.path.indenter();
     to.numbers["ground"] = {digest(*contact.on)};
     to.numbers["tip"] = {indenter.x0, indenter.y0};
+    to.numbers["first"] = {contact.first.x0, contact.first.y0};
     to.numbers["moved"] = {double(indenter.around.finite())};
     if (contact.given) to.numbers["given"] = {(*contact.given)[0], (*contact.given)[1]};
     to.texts["case"] = effective_namelist(*contact.keys);
@@ -136,7 +137,7 @@ std::unique_ptr<rsc_contact> get_making(const Entries& from, const rsc_asperitie
     const SurfaceModel& on = *asperities.model;
     if (from.one("ground") != digest(on))
         refuse(2, "asperities", "must be the ones that the file was saved with");
-    const Numbers& tip = from.of("tip");
+    const Numbers& tip = from.of(from.numbers.contains("first") ? "first" : "tip");
     if (tip.size() != 2 || !from.texts.contains("case")) bad_input(kBroken);
     const auto keys = std::make_shared<const Case>(read_namelist(from.texts.at("case")).settings);
     const SurfaceDomain domain = domain_of(*keys, on);
@@ -178,14 +179,18 @@ void visit_arrays(Level& level, Visit&& visit) {
     visit("attached_pulled", t.pulled);
     visit("pixel_cohesive", level.pixels.cohesive);
     visit("pixel_attraction", level.pixels.attraction);
+    visit("own_area", level.own_area);
+    visit("gaps", level.gaps.of_bin);
 }
 
 constexpr const char* kComponents[] = {"", ".y", ".z"};  // of a quantity of a level
 
 void put_state(Entries& to, const std::string& prefix, const Path::State& state) {
     to.numbers[prefix + "tip"] = {state.x0, state.y0};
+    to.numbers[prefix + "clock"] = {state.clock, double(state.moved)};
     to.numbers[prefix + "accepted"] = {state.time, state.separation, state.force};
     to.numbers[prefix + "history"] = state.history;
+    to.texts[prefix + "solution"] = state.solution;
     if (!state.level) return;
     Level level = *state.level;
     to.numbers[prefix + "level"] = {level.separation, state.level_x0, state.level_y0};
@@ -197,6 +202,27 @@ void put_state(Entries& to, const std::string& prefix, const Path::State& state)
     });
     const LevelPixels& p = level.pixels;
     to.numbers[prefix + "level.pixels"] = {double(p.columns), p.x0, p.y0, p.dx, p.dy};
+    Numbers& more = to.numbers[prefix + "level.more"];
+    more = {double(level.converged), double(level.unique), level.sliding_area_error,
+            double(level.gaps.beyond)};
+    append(more, level.gaps.power);
+    Numbers& spots = to.numbers[prefix + "level.spots"];
+    for (const Spot& s : level.spots) append(spots, {s.x, s.y, s.major, s.minor, s.angle});
+}
+
+// Of what files of rsc 0.4 lack.
+void get_rest(const Entries& from, const std::string& prefix, Level& level) {
+    if (!from.numbers.contains(prefix + "level.more")) return;
+    const Numbers &more = from.of(prefix + "level.more"), &spots = from.of(prefix + "level.spots");
+    auto& power = level.gaps.power;
+    if (more.size() != 4 + power.size() || spots.size() % 5 != 0) bad_input(kBroken);
+    level.converged = more[0] != 0;
+    level.unique = more[1] != 0;
+    level.sliding_area_error = more[2];
+    level.gaps.beyond = std::int32_t(more[3]);
+    std::copy(more.begin() + 4, more.end(), power.begin());
+    for (std::size_t k = 0; k < spots.size(); k += 5)
+        level.spots.push_back({spots[k], spots[k + 1], spots[k + 2], spots[k + 3], spots[k + 4]});
 }
 
 // Files of version 0.3 have one array in place of "accepted" and "history".
@@ -217,6 +243,8 @@ void get_history(const Entries& from, const std::string& prefix, bool relaxes, P
     state.force = accepted[2];
 }
 
+bool tip_moved(const rsc_contact& contact) { return contact.path.indenter().around.finite(); }
+
 Path::State get_state(const Entries& from, const std::string& prefix, const rsc_contact& contact) {
     Path::State state;
     const Numbers& tip = from.of(prefix + "tip");
@@ -224,6 +252,14 @@ Path::State get_state(const Entries& from, const std::string& prefix, const rsc_
     state.x0 = tip[0];
     state.y0 = tip[1];
     get_history(from, prefix, contact.path.relaxes(), state);
+    const bool whole = from.numbers.contains(prefix + "clock");
+    const Numbers clock =
+        whole ? from.of(prefix + "clock") : Numbers{kNotComputed, double(tip_moved(contact))};
+    if (clock.size() != 2) bad_input(kBroken);
+    state.clock = clock[0];
+    state.moved = clock[1] != 0;
+    if (whole && from.texts.at("rsc") == RSC_VERSION)
+        state.solution = from.texts.at(prefix + "solution");
     if (!from.numbers.contains(prefix + "level")) return state;
     const Numbers& known = from.of(prefix + "level");
     const Numbers& pixels = from.of(prefix + "level.pixels");
@@ -266,6 +302,7 @@ Path::State get_state(const Entries& from, const std::string& prefix, const rsc_
         level.pixels.attraction.size() != level.pixels.cohesive.size())
         bad_input(kBroken);
     if (known.size() == 8) level.energy = known[3];  // version 0.3
+    get_rest(from, prefix, level);
     state.level = std::move(level);
     return state;
 }
@@ -289,6 +326,36 @@ FrictionHistory::State get_path(const Entries& from, const std::string& prefix) 
     return path;
 }
 
+void put_friction(Entries& to, const std::string& prefix, const rsc_friction::State& state) {
+    put_state(to, prefix + "outer.", state.outer);
+    put_state(to, prefix + "inner.", state.inner);
+    to.numbers[prefix + "known"] = {double(state.known[0]), double(state.known[1])};
+}
+
+rsc_friction::State get_friction(const Entries& from, const std::string& prefix,
+                                 const std::string& path, const rsc_friction& friction) {
+    rsc_friction::State state = friction.state();
+    state.path = get_path(from, path);
+    if (!from.numbers.contains(prefix + "known")) {  // files of rsc 0.4
+        const Numbers& tip = from.of(prefix.empty() ? "tip" : "committed_tip");
+        if (tip.size() != 2) bad_input(kBroken);
+        state.known = {};
+        for (Path::State* contact : {&state.outer, &state.inner}) {
+            contact->x0 = tip[0];
+            contact->y0 = tip[1];
+            contact->solution.clear();
+            contact->level.reset();
+        }
+        return state;
+    }
+    state.outer = get_state(from, prefix + "outer.", friction.outer);
+    state.inner = get_state(from, prefix + "inner.", friction.inner);
+    const Numbers& known = from.of(prefix + "known");
+    if (known.size() != 2) bad_input(kBroken);
+    state.known = {known[0] != 0, known[1] != 0};
+    return state;
+}
+
 }  // namespace
 }  // namespace rsc::api
 
@@ -298,15 +365,11 @@ using namespace rsc::api;
 int32_t rsc_contact_save(rsc_contact* contact, const char* path) {
     return on(contact, "contact", 2, [&] {
         require_path(path, 2);
-        const Path::State now = contact->path.state();
         Entries entries;
         put_making(entries, *contact);
-        put_state(entries, "", now);
+        put_state(entries, "", contact->path.state());
         put_state(entries, "committed.", contact->committed);
         write(path, kContact, entries);
-        // So that the saved and the restored contact start from the same state.
-        contact->path.forget();
-        contact->path.restore(now);
     });
 }
 
@@ -317,7 +380,7 @@ int32_t rsc_contact_restore(rsc_contact** contact, const rsc_asperities* asperit
         require_path(path, 3);
         const Entries entries = read(path, kContact);
         auto made = get_making(entries, *asperities);
-        made->path.restore(get_state(entries, "", *made));
+        made->restore(get_state(entries, "", *made));
         made->committed = get_state(entries, "committed.", *made);
         return made.release();
     });
@@ -330,13 +393,11 @@ int32_t rsc_friction_save(rsc_friction* friction, const char* path) {
         put_making(entries, friction->outer);
         entries.numbers["friction"] = {friction->history.friction().coefficient,
                                        friction->history.friction().ratio};
+        put_friction(entries, "", friction->state());
+        put_friction(entries, "committed.", friction->committed);
         put_path(entries, "path", friction->history.state());
-        put_path(entries, "committed", friction->history.committed());
-        entries.numbers["committed_tip"] = {friction->committed_tip.x, friction->committed_tip.y};
+        put_path(entries, "committed", friction->committed.path);
         write(path, kFriction, entries);
-        friction->outer.path.forget();
-        friction->inner.path.forget();
-        friction->curve.forget();
     });
 }
 
@@ -348,12 +409,10 @@ int32_t rsc_friction_restore(rsc_friction** friction, const rsc_asperities* aspe
         const Entries entries = read(path, kFriction);
         const Numbers& with = entries.of("friction");
         if (with.size() != 2) bad_input(kBroken);
-        auto made = std::make_unique<rsc_friction>(*get_making(entries, *asperities),
-                                                   Friction{with[0], with[1]});
-        const Numbers& tip = entries.of("committed_tip");
-        if (tip.size() != 2) bad_input(kBroken);
-        made->history.restore(get_path(entries, "path"), get_path(entries, "committed"));
-        made->committed_tip = {tip[0], tip[1]};
+        const auto like = get_making(entries, *asperities);
+        auto made = std::make_unique<rsc_friction>(*like, like->first, Friction{with[0], with[1]});
+        made->restore(get_friction(entries, "", "path", *made));
+        made->committed = get_friction(entries, "committed.", "committed", *made);
         return made.release();
     });
 }

@@ -7,6 +7,12 @@
 namespace rsc::api {
 namespace {
 
+std::string last_message() {
+    char text[500] = "";
+    rsc_message(text, sizeof text, nullptr);
+    return text;
+}
+
 // `value`, `last`: numbers of the arguments with the values and the threads.
 template <class Each>
 std::int32_t for_all(std::int64_t n, rsc_contact** contacts, const double* given, int value,
@@ -29,9 +35,7 @@ std::int32_t for_all(std::int64_t n, rsc_contact** contacts, const double* given
         parallel_for(at(n), 1, threads, [&](std::size_t k) {
             outcome[k] = each(std::int64_t(k));
             if (outcome[k] == RSC_SUCCESS) return;
-            char text[500] = "";
-            rsc_message(text, sizeof text, nullptr);
-            reason[k] = text;
+            reason[k] = last_message();
         });
         if (status) std::ranges::copy(outcome, status);
         const auto bad =
@@ -82,25 +86,27 @@ int32_t rsc_contacts_step(int64_t n, rsc_contact** contacts, const double* x0, c
         const int32_t reached = by_force ? rsc_contact_press(contact, value[k], nullptr)
                                          : rsc_contact_indent(contact, value[k], nullptr);
         if (reached != RSC_SUCCESS && reached != RSC_NOT_CONVERGED) return reached;
-        double slope = 0;
-        if (stiffness)
-            if (const int32_t found = rsc_contact_stiffness(contact, &slope); found != RSC_SUCCESS)
-                return found;
         LevelSource source = source_of(*contact);
-        if (lateral_x || lateral_y) (void)compute_lateral_force(source);
-        if (moment_x || moment_y) (void)compute_moment(source);
         const Level& level = source.level;
+        const bool none = std::isnan(level.force);  // the solver found no state
+        if (!none && (lateral_x || lateral_y)) (void)compute_lateral_force(source);
+        if (!none && (moment_x || moment_y)) (void)compute_moment(source);
         const auto to = [&](auto* output, auto of) {
             if (output) output[k] = static_cast<std::decay_t<decltype(*output)>>(of);
         };
         to(separation, level.separation);
         to(force, level.force);
-        to(stiffness, slope);
         to(lateral_x, level.lateral_x);
         to(lateral_y, level.lateral_y);
         to(moment_x, level.moment_x);
         to(moment_y, level.moment_y);
         to(level_status, level.status);
-        return reached;
+        if (!stiffness) return reached;
+        // Last, and its status only after that of the level.
+        stiffness[k] = kNotComputed;
+        if (none) return reached;
+        const std::string why = last_message();
+        const int32_t found = rsc_contact_stiffness(contact, stiffness + k);
+        return reached == RSC_SUCCESS ? found : failed(reached, why);
     });
 }

@@ -47,6 +47,32 @@ void AsperityModel::solve_again(double Z0, const Level& level) {
     my.earlier.remember(Z0, my.candidates, my.solution.v, my.solved.unique);
 }
 
+void AsperityModel::keep(ArchiveWriter& to) const {
+    to(*impl_);
+    if (!impl_->solution.v.empty()) to(impl_->products->x(), impl_->products->y());
+}
+
+void AsperityModel::recall(ArchiveReader& from) {
+    Impl& my = *impl_;
+    my.tried.reset();
+    from(my);
+    const WorkingSet& set = my.candidates.set;
+    const std::size_t n = set.asperity.size(), all = my.of_surface.size();
+    bool sound = my.earlier.fits(all) && (my.solution.v.empty() || my.solution.v.size() == n);
+    for (const auto* values : {&set.x, &set.y, &set.g0}) sound = sound && values->size() == n;
+    sound = sound && my.candidates.rank.size() == n && std::ranges::is_sorted(my.candidates.rank) &&
+            (n == 0 || my.candidates.rank.back() < all) &&
+            std::ranges::all_of(set.asperity, [all](int i) { return i >= 0 && at(i) < all; });
+    if (sound && !my.solution.v.empty()) {
+        std::vector<double> x, y;
+        from(x, y);
+        sound = x.size() == y.size() && my.newton.fits(x.size()) && my.solution.force.size() == n;
+        my.use(my.method);
+        if (sound) my.products->set_points(int(x.size()), x.data(), y.data());
+    }
+    if (!sound) bad_input("the state does not belong to these asperities");
+}
+
 // The summits of the difference are those of the new place. The history is stored by the number of
 // the summit.
 void AsperityModel::move_with_history(double x0, double y0) {

@@ -25,6 +25,14 @@ struct AsperityModel::Impl : ContactBodies {
         double separation = 0;
         bool unique = true;  // the solution is proved to be unique
     } solved;                // last result of solve()
+
+    // All of the last solution but the points of the products.
+    template <class Archive, class Self>
+    static void archive(Archive& a, Self& my) {
+        a(my.earlier, my.candidates, my.solution, my.solved.separation, my.solved.unique,
+          my.method);
+        if (!my.solution.v.empty()) a(my.newton);
+    }
     struct Tried {
         double separation;
         NewtonOutcome outcome;

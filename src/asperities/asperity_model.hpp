@@ -33,6 +33,8 @@ public:
     Level solve(double z, bool trial) override;
     void solve_again(double z, const Level& level) override;
     void forget() override;
+    void keep(ArchiveWriter& to) const override;
+    void recall(ArchiveReader& from) override;
 
     double stiffness(double accuracy) override;
     // W = sum W_i(u_i) + F'BF/2: the work W_i = int_0^u f du of the asperities plus the interaction

@@ -31,6 +31,10 @@ struct Candidates {
     WorkingSet set;
     std::vector<std::size_t> rank;  // position of each candidate in the ranking
     int size() const { return set.size(); }
+    template <class Archive, class Self>
+    static void archive(Archive& a, Self& my) {
+        a(my.rank, my.set.asperity, my.set.x, my.set.y, my.set.g0);
+    }
 };
 
 // Selects the asperities with g0 > 0. No others can touch, because forces only lower the surface (B
@@ -49,6 +53,10 @@ struct Solution {
         v.clear();
         force.clear();
         slope.clear();
+    }
+    template <class Archive, class Self>
+    static void archive(Archive& a, Self& my) {
+        a(my.v, my.force, my.slope);
     }
 };
 

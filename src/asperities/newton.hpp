@@ -86,6 +86,19 @@ public:
     // After stiffness(): dv/dZ0 at the active points.
     std::vector<double> sinking() const;
 
+    template <class Archive, class Self>
+    static void archive(Archive& a, Self& newton) {
+        auto& now = newton.now_;
+        a(now.v, now.force, now.slope, now.work, now.phi, now.res, now.active, now.energy,
+          now.scale, now.residual, now.accurate);
+    }
+    // Whether an archived solution is one of n points.
+    bool fits(std::size_t n) const {
+        for (const auto* of : {&now_.v, &now_.force, &now_.slope, &now_.phi, &now_.res})
+            if (of->size() != n) return false;
+        return std::ranges::all_of(now_.active, [n](int k) { return k >= 0 && at(k) < n; });
+    }
+
 private:
     struct State {
         std::vector<double> v, force, slope, work, phi, res;

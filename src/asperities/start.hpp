@@ -36,11 +36,24 @@ public:
     std::optional<double> likely_separation(double first_touch) const;
     std::size_t size() const { return solved_; }  // number of levels stored since the tip moved
 
+    // Whether archived levels are of this many asperities.
+    bool fits(std::size_t asperities) const {
+        return carried_.fits(asperities) && before_.fits(asperities);
+    }
+    template <class Archive, class Self>
+    static void archive(Archive& a, Self& my) {
+        a(my.past_, my.solved_, my.unique_, my.carried_, my.before_, my.ahead_);
+    }
+
 private:
     struct Past {
-        double separation;
+        double separation = 0;
         std::vector<double> phi;         // B F by rank; NaN: unknown
         std::vector<double> slope = {};  // d phi/dZ0; empty: unknown
+        template <class Archive, class Self>
+        static void archive(Archive& a, Self& my) {
+            a(my.separation, my.phi, my.slope);
+        }
     };
     std::optional<Past> past_;  // the last level at this place of the tip
     std::size_t solved_ = 0;
@@ -51,8 +64,27 @@ private:
         Vec2 place{};
         std::vector<double> phi;  // B F by asperity; NaN: unknown
         std::vector<int> known;   // asperities with known B F
-    } carried_, before_;          // of the last place of the tip, and of the one before
-    double ahead_ = 0;  // the last move of the tip relative to the one before; 0: not straight on
+        // Without the many that are unknown.
+        template <class Archive, class Self>
+        static void archive(Archive& a, Self& my) {
+            std::uint64_t size = my.phi.size();
+            std::vector<double> values;
+            if constexpr (Archive::writing)
+                for (const int i : my.known) values.push_back(my.phi[at(i)]);
+            a(my.separation, my.place.x, my.place.y, my.known, values, size);
+            if constexpr (!Archive::writing) my.spread(values, at(size));
+        }
+        void spread(const std::vector<double>& values, std::size_t size) {
+            phi.assign(size, std::numeric_limits<double>::quiet_NaN());
+            if (values.size() != known.size() || !fits(size)) return;
+            for (std::size_t k = 0; k < values.size(); ++k) phi[at(known[k])] = values[k];
+        }
+        bool fits(std::size_t asperities) const {
+            return (phi.empty() || phi.size() == asperities) &&
+                   std::ranges::all_of(known, [&](int i) { return i >= 0 && at(i) < phi.size(); });
+        }
+    } carried_, before_;  // of the last place of the tip, and of the one before
+    double ahead_ = 0;    // the last move of the tip relative to the one before; 0: not straight on
 };
 
 // Mean-field start: penetrations g0 - s of the no-interaction forces F = f(<g0 - s>), where s is

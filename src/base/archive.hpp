@@ -1,5 +1,6 @@
 // Values as they lie in memory, one after another in a string of bytes, and back: for files of this
-// machine and this version.
+// machine and this version. A class whose members do not lie in one piece, or with gaps between
+// them, has a function archive(archive, object), which calls the archive with its members.
 #pragma once
 
 #include "base/error.hpp"
@@ -28,12 +29,28 @@ public:
     std::string bytes;
 
 private:
-    void put(const auto& value) { bytes += bytes_of(value); }
+    template <class T>
+    void put(const T& value) {
+        if constexpr (requires { T::archive(*this, value); })
+            T::archive(*this, value);
+        else
+            bytes += bytes_of(value);
+    }
+    template <class T>
+    void put(const std::optional<T>& value) {
+        put(char(value.has_value()));
+        if (value) put(*value);
+    }
     template <class T>
     void put(const std::vector<T>& values) {
         static_assert(std::is_trivially_copyable_v<T>);
         put(std::uint64_t(values.size()));
         bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+    }
+    template <class T>
+    void put(const std::deque<T>& values) {
+        put(std::uint64_t(values.size()));
+        for (const T& value : values) put(value);
     }
 };
 
@@ -52,8 +69,19 @@ public:
 private:
     template <class T>
     void get(T& value) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        std::memcpy(&value, take(sizeof value), sizeof value);
+        if constexpr (requires { T::archive(*this, value); }) {
+            T::archive(*this, value);
+        } else {
+            static_assert(std::is_trivially_copyable_v<T>);
+            std::memcpy(&value, take(sizeof value), sizeof value);
+        }
+    }
+    template <class T>
+    void get(std::optional<T>& value) {
+        char some = 0;
+        get(some);
+        value.reset();
+        if (some != 0) get(value.emplace());
     }
     template <class T>
     void get(std::vector<T>& values) {
@@ -65,6 +93,15 @@ private:
         const std::size_t length = values.size() * sizeof(T);
         const char* from = take(length);
         if (length > 0) std::memcpy(values.data(), from, length);
+    }
+    // Items are appended one by one: a wrong size fails at the end of the bytes, before much memory
+    // is allocated.
+    template <class T>
+    void get(std::deque<T>& values) {
+        std::uint64_t size = 0;
+        get(size);
+        values.clear();
+        for (; size > 0; --size) get(values.emplace_back());
     }
     const char* take(std::size_t n) {
         if (n > bytes_.size()) throw Error(failure_, broken_);

@@ -3,6 +3,7 @@
 // attract. A Path (path.hpp) leads a model from level to level.
 #pragma once
 
+#include "base/archive.hpp"
 #include "contact/level.hpp"
 
 namespace rsc {
@@ -98,6 +99,13 @@ public:
     }
     // Earlier solutions are no longer starting points, and there is no history.
     virtual void forget() = 0;
+
+    // Everything beside the bodies, the place of the tip and the history that later results depend
+    // on, to the last bit: the last solution, to which stiffness() and energy() refer, and the
+    // starting points. recall() of an identically made model, at this place and history, then
+    // continues as this one does. Throws as the reader.
+    virtual void keep(ArchiveWriter& to) const { (void)to; }
+    virtual void recall(ArchiveReader& from) { (void)from; }
 
     // Of the last solution, or with adhesion of the state after move_tip(): dN/dz (negative; 0
     // without contact, NaN in full contact of two flats, where N is no function of z)

@@ -180,7 +180,7 @@ Level Path::in_steps(double from, double to, Reach reach) {
     const int steps = first ? 1 : int(steps_of_time(length, shortest_time()));
     const bool halved = slides && !first && length > 0;
     std::optional<State> before;
-    if (steps > 1 || halved) before = state();
+    if (steps > 1 || halved) before = history_state();
     level_.reset();
     solved_ = true;
     Level level;
@@ -369,17 +369,28 @@ void Path::forget() {
     model_->forget();
 }
 
-Path::State Path::state() const {
+Path::State Path::history_state() const {
     State now;
-    now.x0 = indenter().x0;
-    now.y0 = indenter().y0;
     if (accepted_) now.time = *accepted_;
     now.separation = separation_;
     now.force = force_;
     if (history()) now.history = history()->write();
+    return now;
+}
+
+Path::State Path::state() const {
+    State now = history_state();
+    now.x0 = indenter().x0;
+    now.y0 = indenter().y0;
+    now.moved = indenter().around.finite();
+    now.clock = time_;
     now.level = level_;
     now.level_x0 = level_place_.x;
     now.level_y0 = level_place_.y;
+    ArchiveWriter writer;
+    archive(writer, *this);
+    model_->keep(writer);
+    now.solution = std::move(writer.bytes);
     return now;
 }
 
@@ -393,13 +404,25 @@ void Path::restore_history(const State& state) {
 }
 
 void Path::restore(const State& state) {
-    if (history()) forget();  // what is replaced below would follow the tip
-    const bool at_level = history() && state.level && !pulls();
+    forget();  // what is replaced below would follow the tip
+    const bool at_level = state.solution.empty() && history() && state.level && !pulls();
     level_.reset();
     put_tip(at_level ? state.level_x0 : state.x0, at_level ? state.level_y0 : state.y0);
     restore_history(state);
     level_ = state.level;
     level_place_ = {state.level_x0, state.level_y0};
+    restore_solution(state);
+    if (std::isfinite(state.clock)) time_ = state.clock;
+}
+
+void Path::restore_solution(const State& state) {
+    if (!state.solution.empty()) {
+        ArchiveReader reader(state.solution, Failure::bad_input, "the state is damaged");
+        archive(reader, *this);
+        model_->recall(reader);
+        return reader.end();
+    }
+    const bool at_level = history() && state.level && !pulls();
     solved_ = !level_;
     // Without a history this is left until it is needed.
     if (history()) solve_level_again();
@@ -561,7 +584,7 @@ Level Path::search_force(double N) {
 Level Path::follow_to_force(double N) {
     // Where the smallest force is reached, less than this share from it.
     constexpr double near_least = 1e-7;
-    const State before = state();
+    const State before = history_state();
     const auto take_back = [&] { restore_history(before); };
     try {
         Level level = approach_force(N);

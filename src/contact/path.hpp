@@ -86,18 +86,24 @@ public:
     // Resets to the state of a new contact at this position of the tip.
     void forget();
 
-    // All that later levels depend on, and the last level: for trials that are taken back, copies,
-    // and files.
+    // All that later levels and answers depend on, to the last bit, and the last level: for trials
+    // that are taken back, copies, and files.
     struct State {
         double x0 = 0, y0 = 0;  // the tip
+        bool moved = false;     // Indenter::around: it was moved on a surface that repeats
+        double clock = 0;       // set_time(); NaN (files of rsc 0.4): that of the last level
         // Of the last accepted level; NaN: there is none.
         double time = kNotComputed, separation = kNotComputed, force = kNotComputed;
         std::vector<double> history;  // History::write()
         std::optional<Level> level;
         double level_x0 = 0, level_y0 = 0;  // tip of the level
+        // The last solution and the starting points, by an archive of this version of rsc. Empty:
+        // the level is solved again, and the following ones are the same within the tolerance.
+        std::string solution;
     };
     State state() const;
-    // Throws Error(bad_input) if the state does not belong to these bodies.
+    // Throws Error(bad_input) if the state does not belong to these bodies. A tip that was moved
+    // cannot become one that was not.
     void restore(const State& state);
     // Later solutions start from this level as from one solved here, where there is no history.
     void start_from(const Level& level) {
@@ -108,7 +114,14 @@ private:
     History* history() const { return model_->history(); }
     double shortest_time() const { return history() ? history()->shortest_time() : kInfinity; }
     void put_tip(double x0, double y0);
+    State history_state() const;
     void restore_history(const State& state);
+    void restore_solution(const State& state);
+    template <class Archive, class Self>
+    static void archive(Archive& a, Self& path) {
+        a(path.solved_, path.solved_force_, path.last_force_, path.rise_, path.levels_since_move_,
+          path.last_);
+    }
     void solve_level_again();
 
     // A stage of a step of sliding: History::step().

@@ -35,7 +35,18 @@ public:
     // is equal at the solution; for pixels at the highest pressure as p (z - Z0 + w)/2.
     double energy() const;
 
+    // The last solution, to which energy() and stiffness() refer.
+    template <class Archive, class Self>
+    static void archive(Archive& a, Self& my) {
+        a(my.wanted_, my.Z0_, my.diagonal_, my.rows_, my.z_, my.p_, my.w_);
+    }
+
 protected:
+    // Whether an archived solution is one of n pixels.
+    bool fits(std::size_t n) const {
+        return z_.size() == n && p_.size() == n && w_.size() == n && rows_.size() > 1 &&
+               rows_.front() == 0 && rows_.back() == n && std::ranges::is_sorted(rows_);
+    }
     struct Manner {
         int steps;         // largest number of conjugate-gradient steps in a round
         double reduction;  // reduction of the preconditioned residual that ends a round earlier

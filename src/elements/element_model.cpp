@@ -84,6 +84,18 @@ public:
         return past_[0].separation;
     }
     double shift() const override { return products_->shift(); }
+    void keep(ArchiveWriter& to) const override {
+        to(past_, accepted_);
+        solver_.keep(to);
+    }
+    void recall(ArchiveReader& from) override {
+        from(past_, accepted_);
+        solver_.recall(from, heights_.nx, heights_.ny);
+        for (const Past& past : past_)
+            if (past.p.size() != past.pixels.size() ||
+                !within(past.pixels, heights_.nx, heights_.ny))
+                bad_input("the state does not belong to a contact of this surface");
+    }
 
 protected:
     void forget_solutions() override { past_.clear(); }
@@ -106,9 +118,13 @@ protected:
 private:
     // Pixels under pressure at earlier levels, the last level first.
     struct Past {
-        double separation;
-        std::vector<Pixel> pixels;
-        std::vector<double> p;
+        double separation = 0;
+        std::vector<Pixel> pixels = {};
+        std::vector<double> p = {};
+        template <class Archive, class Self>
+        static void archive(Archive& a, Self& my) {
+            a(my.separation, my.pixels, my.p);
+        }
     };
     void keep(Past last) {
         past_.push_front(std::move(last));

@@ -1,5 +1,6 @@
 #include "elements/elements.hpp"
 
+#include "base/error.hpp"
 #include "base/parallel.hpp"
 
 namespace rsc {
@@ -323,9 +324,31 @@ std::vector<std::pair<Pixel, double>> ElementsSolver::press_out() {
     return lowered;
 }
 
+void ElementsSolver::keep(ArchiveWriter& to) const {
+    const BoundedSolver& solved = *this;
+    archive(to, solved);
+    to(set_);
+}
+
+void ElementsSolver::recall(ArchiveReader& from, int columns, int rows) {
+    BoundedSolver& solved = *this;
+    archive(from, solved);
+    from(set_);
+    if (!fits(set_.size()) || !within(set_, columns, rows))
+        bad_input("the state does not belong to a contact of this surface");
+    if (!set_.empty()) products_.set_pixels(set_);
+    enclose();
+}
+
+bool within(const std::vector<Pixel>& pixels, int columns, int rows) {
+    return std::ranges::all_of(pixels, [&](const Pixel& pixel) {
+        return pixel.x >= 0 && pixel.x < columns && pixel.y >= 0 && pixel.y < rows;
+    });
+}
+
 double ElementsSolver::stiffness(double tolerance, bool back) {
     constexpr int rounds = 60;
-    tolerance_ = tolerance;
+    tolerance_ = 0;  // products in full, so that nothing depends on the last one
     return BoundedSolver::stiffness(back, tolerance, rounds, 4 * kSteps,
                                     std::max(0.1 * products_.inner_error(), 1e-3));
 }

@@ -3,10 +3,14 @@
 // the end. The preconditioner is the inverse of K between near pixels.
 #pragma once
 
+#include "base/archive.hpp"
 #include "elements/bounded.hpp"
 #include "elements/pixel_products.hpp"
 
 namespace rsc {
+
+// Whether all pixels lie on a map of this size.
+bool within(const std::vector<Pixel>& pixels, int columns, int rows);
 
 class ElementsSolver : private BoundedSolver {
 public:
@@ -38,6 +42,10 @@ public:
     // (BoundedSolver::stiffness).
     double stiffness(double tolerance, bool back);
     using BoundedSolver::energy;
+
+    // As Model: the last solution, of pixels within the map.
+    void keep(ArchiveWriter& to) const;
+    void recall(ArchiveReader& from, int columns, int rows);
 
 private:
     void start(const std::vector<Pixel>& pixels, const std::vector<double>& g0,

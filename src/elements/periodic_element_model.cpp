@@ -52,6 +52,14 @@ public:
         return report(solver_.separation(), outcome);
     }
     double closed() const override { return solver_.closed(); }
+    void keep(ArchiveWriter& to) const override {
+        to(touches_, accepted_);
+        solver_.keep(to);
+    }
+    void recall(ArchiveReader& from) override {
+        from(touches_, accepted_);
+        solver_.recall(from);
+    }
     // Force of a flat punch as wide as the period, an upper bound also for yielding surfaces.
     double force_at_most(double depth) override {
         return indenter_.E_star * std::max(heights_.Lx(), heights_.Ly()) * depth;

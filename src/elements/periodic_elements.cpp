@@ -417,6 +417,22 @@ double PeriodicElements::stiffness(bool back) {
            (pressure_unit_ / rms_);
 }
 
+void PeriodicElements::keep(ArchiveWriter& to) const {
+    const BoundedSolver& solved = *this;
+    archive(to, solved);
+    to(column_);
+}
+
+void PeriodicElements::recall(ArchiveReader& from) {
+    BoundedSolver& solved = *this;
+    archive(from, solved);
+    from(column_);
+    const auto inside = [&](std::int32_t i) { return i >= 0 && i < relief_.nx; };
+    if (!fits(column_.size()) || rows_.size() != at(relief_.ny) + 1 ||
+        !std::ranges::all_of(column_, inside))
+        bad_input("the state does not belong to a contact of this surface");
+}
+
 double PeriodicElements::energy() const {
     return BoundedSolver::energy() / points() * (pressure_unit_ * rms_);
 }

@@ -3,6 +3,7 @@
 // elements/periodic_pixels.hpp.
 #pragma once
 
+#include "base/archive.hpp"
 #include "elements/block_correction.hpp"
 #include "elements/bounded.hpp"
 #include "elements/pixel_products.hpp"
@@ -69,6 +70,10 @@ public:
     double stiffness(bool back);
     // p'Kp/2 per pixel, with an error of the order of the square of the residual.
     double energy() const;
+
+    // As Model: the last solution.
+    void keep(ArchiveWriter& to) const;
+    void recall(ArchiveReader& from);
 
 private:
     // Controlled quantity: the mean of p over the grid (only without a highest pressure), or Z0.

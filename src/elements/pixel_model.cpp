@@ -156,8 +156,10 @@ void PixelModel::accept(Level& level) {
     if (!lowered_points_.empty()) residual_changed();
     if (limited())
         level.plastic_work = highest_ * pixel_area() * sum_of(yielded());
-    if (lowering_)
+    if (lowering_) {
         lowering_->measure(level, heights_, indenter_, lowered_points_, yielded_);
+        step(0, 0);
+    }
 }
 
 void PixelModel::accept_loads(Level& level) {
@@ -175,6 +177,7 @@ void PixelModel::accept_loads(Level& level) {
     loads_->accept(where, p,
                    [&](const std::vector<double>& q) { return deflections(loaded_pixels(), q); });
     level.energy_lost = pixel_area() * loads_->lost();
+    step(0, 0);
 }
 
 Level PixelModel::report(double Z0, const ElementsOutcome& outcome, std::size_t candidates,

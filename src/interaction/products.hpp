@@ -14,6 +14,9 @@ public:
 
     // Sets the working set; coordinates are copied.
     virtual void set_points(int n, const double* x, const double* y) = 0;
+    // The coordinates of the working set.
+    const std::vector<double>& x() const { return x_; }
+    const std::vector<double>& y() const { return y_; }
     // Sets the positions in the working set that carry force, in increasing order. Valid until the
     // next set_points().
     virtual void set_active(const std::vector<int>& active) = 0;

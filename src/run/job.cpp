@@ -226,6 +226,8 @@ public:
             Level& level = levels_[g * kGroup].emplace(press(job_, g * kGroup, first_, none));
             points = std::max(points, level.candidates);
             begin_[g] = first_.contact->state();
+            // The others start from levels of several groups, not from earlier solutions.
+            begin_[g].solution.clear();
             if (g == 0) take_(taken_++, std::move(level));
         }
         if (points > kFewPoints) {

@@ -4,11 +4,13 @@
 
 #include "base/error.hpp"
 #include "base/parallel.hpp"
+#include "case/read_case.hpp"
 #include "case/registry.hpp"
 #include "io/inputs.hpp"
 #include "io/netcdf_writer.hpp"
 #include "io/whole_file.hpp"
 #include "observe/regimes.hpp"
+#include "run/checkpoint.hpp"
 #include "run/compare.hpp"
 #include "run/gap.hpp"
 #include "run/screen.hpp"
@@ -26,7 +28,33 @@ std::vector<std::string> input_files(const Case& settings) {
     return files;
 }
 
+namespace {
+
+// With --resume, a file that has all realizations of this case and more of them is left alone.
+void require_none_lost(const Case& settings) {
+    const std::optional<ResultHead> head = head_of_result(settings.output.file);
+    if (!head || !head->this_version()) return;
+    const Reading there = read_namelist(head->case_text);
+    const auto &has = there.settings.run, &asks = settings.run;
+    const auto end = [](const auto& run) { return run.first_realization + run.realizations; };
+    if (there.study || !there.faults.empty() || has.realizations <= asks.realizations ||
+        asks.first_realization < has.first_realization || end(asks) > end(has))
+        return;
+    Case same = settings;
+    same.run.first_realization = has.first_realization;
+    same.run.realizations = has.realizations;
+    if (!Checkpoint::differences(there.settings, without_idle_keys(same)).empty()) return;
+    bad_input("'", settings.output.file, "' is complete: it holds ", has.realizations,
+              " realizations of this case, which asks for ", asks.realizations,
+              ". Nothing is changed. Set run%realizations = ", has.realizations,
+              " to go on with this file, another output%file for fewer, or leave out --resume to "
+              "replace the file");
+}
+
+}  // namespace
+
 bool check_result_path(const Case& settings, const RunOptions& options) {
+    if (options.resume) require_none_lost(settings);
     std::vector<std::string> inputs = input_files(settings);
     append(inputs, options.inputs);
     return check_output(settings.output.file, inputs);

@@ -55,6 +55,9 @@ void test_single() {
     CHECK(force_at(c, z) == 0 && value(c, "stiffness") == 0 && value(c, "energy") == 0);
     OK(rsc_contact_press(c, 0, &Z));
     CHECK(Z == z);
+    // Beyond the limits of numbers.
+    CHECK(rsc_contact_press(c, 1e60, &Z) == -2 && rsc_contact_indent(c, -1e60, &N) == -2 &&
+          rsc_contact_move_tip(c, 1e60, y) == -2 && Z == z);
     // The sphere moved aside by s stands lower there by R - sqrt(R^2 - s^2).
     const double s = 0.05, drop = R - std::sqrt(R * R - s * s);
     OK(rsc_contact_move_tip(c, x + s, y));
@@ -63,7 +66,7 @@ void test_single() {
     OK(rsc_contact_tip(c, &x0, nullptr));
     CHECK(x0 == x + s);
     // A place where the sphere cannot feel the asperity: refused, and the tip stays.
-    for (const double far : {x + 2 * R, 1e300}) CHECK(rsc_contact_move_tip(c, far, y) == -2);
+    for (const double far : {x + 2 * R, 1e49}) CHECK(rsc_contact_move_tip(c, far, y) == -2);
     CHECK(message().find("is not above the surface") != std::string::npos);
     OK(rsc_contact_tip(c, &x0, nullptr));
     CHECK(x0 == x + s);

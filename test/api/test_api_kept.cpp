@@ -123,4 +123,30 @@ TEST(many_contacts) {
     for (auto& c : made) OK(rsc_contact_destroy(&c));
 }
 
+// A step of many returns what each level alone does, with stiffness and without, also where two
+// flats of asperities are pressed so far together that there is no level.
+TEST(steps_of_many) {
+    const Made made(
+        "&surface n=64 L_lambda_l=4 L_lambda_s=16 / &solids R=Infinity,Infinity / "
+        "&indentation boundary='periodic' /");
+    for (const double Z0 : {0.01, -0.05}) {
+        const ContactHandle alone = contact_on(made.asperities, made.c);
+        double N = 0, separation = 7, force = 7, slope = 7;
+        const std::int32_t status = rsc_contact_indent(alone, Z0, &N);
+        CHECK(status == (Z0 > 0 ? RSC_SUCCESS : RSC_NOT_CONVERGED));
+        for (double* stiffness : {static_cast<double*>(nullptr), &slope}) {
+            const ContactHandle one = contact_on(made.asperities, made.c);
+            rsc_contact* contacts[] = {one};
+            std::int32_t level = -1, each = -1;
+            CHECK(rsc_contacts_step(1, contacts, nullptr, nullptr, 0, &Z0, &separation, &force,
+                                    stiffness, nullptr, nullptr, nullptr, nullptr, &level, &each,
+                                    1) == status);
+            CHECK(each == status && separation == Z0 &&
+                  (level == RSC_LEVEL_NOT_CONVERGED) == (status != RSC_SUCCESS));
+            CHECK(std::isnan(N) ? std::isnan(force) : force == N);
+        }
+        CHECK(std::isnan(N) ? std::isnan(slope) : slope < 0);
+    }
+}
+
 }  // namespace test_api_kept

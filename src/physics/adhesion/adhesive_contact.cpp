@@ -16,13 +16,12 @@ public:
 
     double stiffness(double accuracy) override {
         if (fresh_ && accuracy >= kForNewton) return path_->here.dforce;
-        if (std::exchange(fresh_, false)) slope_ = path_->solver.slope(path_->here.states);
+        if (std::exchange(fresh_, false))
+            slope_ = stands() ? path_->solver.slope(path_->here.states) : kNotComputed;
         return slope_;
     }
     double clamped_stiffness() override {
-        return std::isnan(stiffness(kExact)) || path_->here.active.empty()
-                   ? slope_
-                   : path_->solver.clamped_stiffness(path_->here.states);
+        return stands() ? path_->solver.clamped_stiffness(path_->here.states) : stiffness(kExact);
     }
     double energy() const override { return energy_; }
     void move_tip(double x0, double y0) override;
@@ -47,8 +46,16 @@ public:
     // force, with Fallback::held.
     std::optional<Level> solve_under(double N) override;
     double force_at_most(double) override { return 0; }
+    void keep(ArchiveWriter& to) const override { to(slope_, energy_, fresh_); }
+    void recall(ArchiveReader& from) override { from(slope_, energy_, fresh_); }
 
 private:
+    // Finds the accepted state again, by which all that is asked of it depends on nothing else;
+    // false without a contact.
+    bool stands() {
+        return path_->begin(path_->accepted.separation) && !path_->lost_way &&
+               !path_->here.active.empty();
+    }
     double attraction() const override { return path_->options.physics.adhesion.range; }
     void accept(Level&) override {
         path_->accepted = path_->now;

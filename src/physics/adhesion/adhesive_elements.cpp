@@ -30,8 +30,26 @@ public:
     void solve_again(double, const Level&) override {}  // read() has
     double closed() const override { return state_.flats ? state_.flats->closed() : -kInfinity; }
     double force_at_most(double) override { return 0; }
+    void keep(ArchiveWriter& to) const override {
+        exchange(to, state_);
+        if (state_.flats) return state_.flats->keep(to);
+        state_.spots->keep(to);
+    }
+    void recall(ArchiveReader& from) override {
+        exchange(from, state_);
+        state_.tried.reset();
+        for (const auto* values : {&state_.q, &state_.p_before})
+            if (values->size() != state_.clearance.size())
+                bad_input("this is not the state of a contact of this surface");
+        if (state_.flats) return state_.flats->recall(from);
+        state_.spots->recall(from, state_.heights.nx, state_.heights.ny);
+    }
 
 private:
+    template <class Archive, class Self>
+    static void exchange(Archive& a, Self& state) {
+        a(state.q, state.p_before, state.margin, state.bulged, state.accepted.energy);
+    }
     double attraction() const override { return state_.z0; }
     void accept(Level&) override {
         state_.accepted = state_.now;

@@ -24,6 +24,16 @@ public:
         last_[1].reset();
     }
 
+    // Which contacts have their last level here; recall() takes the levels of these contacts, which
+    // have been restored.
+    std::array<bool, 2> known() const { return {last_[0] != nullptr, last_[1] != nullptr}; }
+    void recall(std::array<bool, 2> known) {
+        for (const auto k : indices(known))
+            last_[k] = known[k] && contact_[k]->level()
+                           ? std::make_unique<Level>(*contact_[k]->level())
+                           : nullptr;
+    }
+
     // Number of levels computed, and of those that did not converge.
     long levels() const { return levels_; }
     long failed() const { return failed_; }

@@ -113,7 +113,7 @@ public:
     }
     double work_lost() const override {
         double sum = 0;
-        for (const Summit& s : summits_) sum += s.lost;
+        for (const int i : yielded_) sum += summit(i).lost;
         return sum;
     }
 
@@ -121,6 +121,7 @@ public:
         for (const int k : indices(n)) {
             Summit& s = summits_[at(place_[at(asperity[k])])];
             if (!(u[k] > s.yield && u[k] > s.deepest)) continue;
+            s.end = {};  // where the search begins: the result depends on the depth alone
             const Flat now = flat(asperity[k], u[k]);
             const double f = s.H * now.area, spent = s.work + flow(s, s.start, now);
             const double x = 0.75 * f / (s.modulus * now.radius);  // a^2/r'

@@ -181,8 +181,15 @@ test_grow() {
         fail "what the result had is lost"
     }
     rm -f out.nc.checkpoint before long.nml
-    # Another case, or fewer: told, and computed.
+    # Fewer: refused, and nothing is lost. Another case: told, and computed.
     expect 0 "$rsc" -q ../case.nml
+    cp out.nc before
+    for fewer in realizations=5 first_realization=4,realizations=2 realizations=1; do
+        expect 2 "$rsc" --resume -s "run%${fewer%,*}" -s "run%${fewer#*,}" ../case.nml
+        says "complete: it holds 30 realizations"
+        cmp out.nc before || fail "the file was changed"
+    done
+    rm before
     expect 0 "$rsc" --resume -s surface%hurst=0.75 ../case.nml
     says "surface%hurst: 0.7 there, 0.75 now"
     silent_on "are finished"

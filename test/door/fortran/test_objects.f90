@@ -39,6 +39,7 @@ program test_objects
   call lists()
   call memory()
   call threads()
+  call sizes()
   print '(i0,a)', failures, ' failed'
   if (failures > 0) error stop 'test_objects'
 
@@ -190,4 +191,27 @@ contains
     call works(c, 0d0, 'the original')
     call c%free()
   end subroutine
+  ! Sizes that do not belong together are refused by the number of the argument in rsc.h, its name
+  ! and both shapes.
+  subroutine sizes()
+    type(rsc_contact) :: c(2)
+    type(rsc_surface) :: map
+    double precision :: w(4) = 0, z(3,4)
+    integer :: stat
+    character(300) :: errmsg
+    call set(c(1), 1d0)
+    call c(1)%indent(-1d-3)
+    call c(1)%deflection([1d0, 2d0, 3d0, 4d0], [0d0, 0d0, 0d0], w, stat, errmsg)
+    call check(stat == -4 .and. index(errmsg, 'y (number 4') > 0 .and. &
+               index(errmsg, '(3), not (4)') > 0, 'size of y: ' // trim(errmsg))
+    call rsc_press_all(c, [1d0, 2d0], w(:1), stat=stat, errmsg=errmsg)
+    call check(stat == -4 .and. index(errmsg, '(1), not (2)') > 0, 'size of a list: ' // trim(errmsg))
+    call map%take(reshape([(w, stat = 1, 5)], [5, 4]), 0.1d0)
+    call map%heights(z, stat, errmsg)
+    call check(stat == -3 .and. index(errmsg, '(3,4), not (5,4)') > 0, 'shape: ' // trim(errmsg))
+    call map%free(stat, errmsg)
+    call c(1)%free(stat, errmsg)
+    call check(stat == 0, 'free')
+  end subroutine
+
 end program

@@ -105,7 +105,7 @@ foreach(compiler ${FORTRAN_COMPILER} ${FLANG})
   endif()
   run(${CMAKE_COMMAND} -S ${SOURCE}/fortran_only -B ${FOLDER}/only_${name}
       "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_Fortran_COMPILER=${compiler}"
-      -DRSC_VERSION=${VERSION} -DRESULTS=${results} ${works})
+      -DRSC_VERSION=0.3 -DRESULTS=${results} ${works})
   run(${CMAKE_COMMAND} --build ${FOLDER}/only_${name})
   must_run(${FOLDER}/only_${name}/only_shared)
   must_run(${FOLDER}/only_${name}/only_static)

@@ -33,6 +33,10 @@ def fortran(array):
     return np.asfortranarray(array)
 
 
+MASKED = np.ma.masked_array(np.arange(6.0), [0, 0, 1, 0, 0, 0])
+FORCES = np.ma.masked_array([1.0, 9.0, 2.0, 9.0], [0, 0, 1, 0])[::2]
+
+
 def closed(thing):
     thing.close()
     return thing
@@ -117,6 +121,19 @@ CASES = [
     (lambda: rsc.read("no/such/file.nc", xarray=False), "no/such/file.nc"),
     (lambda: rsc.Case().update(3), "source"),
     (lambda: take(kappa1=[1.0, 2.0]), "kappa1.*shape"),
+    # Masked values: of arrays with and without a stride, in lists, of numbers.
+    (lambda: take(x=MASKED[::2]), "x.*masked"),
+    (lambda: take(biharmonic=MASKED[:3]), "biharmonic.*masked"),
+    (lambda: take(z=[1.0, np.ma.masked, 1.0]), "z.*masked"),
+    (lambda: rsc.Surface.take(np.ma.masked_equal(GRID, 0.1), 1.0), "heights.*masked"),
+    (lambda: indented().deflection(MASKED, 0.5), "x.*masked"),
+    (lambda: indented().indent(MASKED[2]), "separation.*masked"),
+    (lambda: indented().curve(MASKED[::2]), "separations.*masked"),
+    (lambda: setattr(indented(), "tip", MASKED[1:3]), "tip.*masked"),
+    (lambda: rsc.press_all([indented(), indented()], FORCES), "forces.*masked"),
+    (lambda: rsc.step_all([indented()] * 1, FORCES[1:]), "forces.*masked"),
+    (lambda: rsc.stiffness_ratio(FORCES, [0.2, 0.3]), "E.*masked"),
+    (lambda: rsc.Case({"solids%E": FORCES}), "E.*masked"),
 ]
 
 

@@ -1,6 +1,8 @@
 """The library as a guest of Python: Ctrl-C, many contacts, arrays with holes, damaged results."""
 import os
 import signal
+import subprocess
+import sys
 import threading
 import unittest
 import unittest.mock
@@ -54,6 +56,53 @@ class Guest(InFolder):
 
         with self.assertRaisesRegex(RuntimeError, "enough"):
             case.run(self.path("long.nc"), refuse)
+
+    def test_end_of_the_interpreter(self):
+        program = """
+import rsc, threading, time
+case = rsc.Case({"surface": {"n": 512, "L_lambda_s": 128}, "run": {"realizations": 100000}})
+levels = rsc.Contact.from_case(rsc.Asperities.make(rsc.Case()), rsc.Case())
+def press():
+    while True:
+        levels.press(1.0)
+for work in (press, lambda: case.run("endless.nc")):
+    threading.Thread(target=work, daemon=True).start()
+time.sleep(0.5)
+"""
+        ended = subprocess.run(
+            [sys.executable, "-c", program], cwd=self.folder, stderr=subprocess.PIPE, timeout=60
+        )
+        self.assertEqual(ended.returncode, 0, ended.stderr)  # 134: aborted
+
+    def test_fork_during_a_call(self):
+        case = rsc.Case(SMALL)
+        busy, free = (rsc.Contact.from_case(rsc.Asperities.make(case), case) for _ in range(2))
+        stop = threading.Event()
+
+        def work():
+            while not stop.is_set():
+                busy.press(2.0)
+                busy.indent(0.01)
+
+        other = threading.Thread(target=work)
+        other.start()
+        refused = 0
+        for _ in range(10):
+            child = os.fork()
+            if child == 0:
+                signal.alarm(20)  # a child that hangs is killed
+                free.press(1.0)
+                try:
+                    busy.press(1.0)
+                except rsc.Error as error:
+                    os._exit(1 if "forked" in str(error) else 2)
+                os._exit(0)
+            status = os.waitpid(child, 0)[1]
+            self.assertIn(status, (0, 1 << 8))
+            refused += status != 0
+        stop.set()
+        other.join()
+        self.assertGreater(refused, 0)
 
     def test_holes(self):
         heights = np.ma.masked_greater(np.random.default_rng(1).normal(size=(8, 8)), 0.5)
