@@ -16,6 +16,7 @@ struct Bounds {
     double low = -kInfinity, high = kInfinity;
     bool open = false;      // low itself is excluded
     bool infinity = false;  // Infinity is allowed
+    bool nonzero = false;   // 0 is excluded
     bool hold(double value) const;
     std::string text() const;  // "> 0", "0 to 1", ... ; empty without bounds
 };
@@ -57,6 +58,7 @@ inline constexpr Bounds kAny{};
 inline constexpr Bounds kPositive{0, kNoLimit, true, false};
 inline constexpr Bounds kNotNegative{0, kNoLimit, false, false};
 inline constexpr Bounds kPositiveOrInfinite{0, kNoLimit, true, true};
+inline constexpr Bounds kRadius{-kNoLimit, kNoLimit, true, true, true};
 constexpr Bounds between(double low, double high) { return {low, high, false, false}; }
 constexpr Bounds above(double low, double high) { return {low, high, true, false}; }
 

@@ -43,6 +43,18 @@ Spectrum self_affine_spectrum(const Case& settings) {
             keys.aspect,          keys.direction, {keys.skewness, keys.kurtosis}};
 }
 
+GapRadii gap_radii(const Case& c) {
+    const auto& [R, radii] = std::tie(c.solids.R, c.indenter.radii);
+    GapRadii gap{{{R[0], radii[0].value_or(R[1])}, {R[0], radii[1].value_or(R[1])}},
+                 c.indenter.angle};
+    if (!c.indentation.line()) return gap;
+    const int along = std::isinf(gap.R[1][1]) ? 1 : 0;
+    gap.R[along][0] = kInfinity;
+    if (std::isinf(gap.R[0][1]) && std::isinf(gap.R[1][1]))  // body 2 is flat, in any direction
+        gap.angle = c.indentation.boundary == Boundary::periodic_x ? 90 : 0;
+    return gap;
+}
+
 ModelChoice model_of(const Case& c) {
     if (c.solver.model != ModelKind::automatic) return {c.solver.model};
     if (c.indentation.line()) return {ModelKind::elements, "line contact needs them"};

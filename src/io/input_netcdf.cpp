@@ -18,6 +18,32 @@ std::string line_of(uLong crc) {
     return format("\nrsc: CRC-32 of all before this line: %08lx\n", crc & 0xffffffffUL);
 }
 
+// Refuses a file with the attribute `source` of a result that ends with a checksum, "rsc 0.4.0,
+// ...". Its bytes are searched, because HDF5 crashes on some damaged files.
+void refuse_cut_result(const std::string& path) {
+    constexpr std::size_t overlap = 64;
+    std::ifstream in(path, std::ios::binary);
+    std::string bytes;
+    std::vector<char> portion(1 << 20);
+    while (in) {
+        in.read(portion.data(), std::streamsize(portion.size()));
+        bytes.erase(0, bytes.size() - std::min(bytes.size(), overlap));
+        bytes.append(portion.data(), at(in.gcount()));
+        for (std::size_t k = bytes.find("rsc "); k != std::string::npos;
+             k = bytes.find("rsc ", k + 1)) {
+            int major = 0, minor = 0, end = 0;
+            if (k == 0 || bytes[k - 1] == ' ' ||
+                std::sscanf(bytes.c_str() + k, "rsc %d.%d.%*d, %n", &major, &minor, &end) < 2)
+                continue;
+            if (end > 0 && std::pair(major, minor) >= std::pair(0, 3))
+                bad_input(path,
+                          ": is cut or damaged: its last line, the checksum that rsc writes, is "
+                          "missing (a copy made by another program is read if its attribute source "
+                          "does not begin with 'rsc')");
+        }
+    }
+}
+
 }  // namespace
 
 std::string checksum_line(const char* bytes, std::size_t size) {
@@ -36,6 +62,7 @@ bool require_sound(const std::string& path) {
     if (!line.starts_with(start)) {
         if (line.find(start) != std::string::npos)
             bad_input(path, ": is truncated: its last line, the checksum, is incomplete");
+        refuse_cut_result(path);
         return false;
     }
     std::vector<char> buffer(1 << 20);
@@ -47,10 +74,7 @@ bool require_sound(const std::string& path) {
         left -= in.gcount();
     }
     if (line_of(crc) != line)
-        bad_input(path,
-                  ": is damaged, or was changed since rsc wrote it: its checksum is wrong (nccopy "
-                  "makes a copy "
-                  "without one)");
+        bad_input(path, ": is damaged, or was changed since rsc wrote it: its checksum is wrong");
     return true;
 }
 
@@ -259,15 +283,34 @@ void suppress_hdf5_messages() {
     if (H5Eset_auto2) H5Eset_auto2(0, nullptr, nullptr);
 }
 
-NetcdfInput::NetcdfInput(const std::string& path) : alone_(library_lock()), path_(path) {
+std::string global_text(int file, const char* name) {
+    // of a case: the length in a damaged file may be arbitrary
+    constexpr std::size_t longest = std::size_t{1} << 26;
+    std::size_t length = 0;
+    nc_type type = NC_NAT;
+    std::string value;
+    if (nc_inq_att(file, NC_GLOBAL, name, &type, &length) != NC_NOERR || type != NC_CHAR ||
+        length > longest)
+        return value;
+    value.resize(length);
+    if (nc_get_att_text(file, NC_GLOBAL, name, value.data()) != NC_NOERR) value.clear();
+    return value;
+}
+
+int open_netcdf(const std::string& path) {
     suppress_hdf5_messages();
     require_sound(path);
     check_classic_length(path);  // the library reads zeros beyond the end of a classic file
-    const int status = nc_open(path.c_str(), NC_NOWRITE, &id_);
+    int file = -1;
+    const int status = nc_open(path.c_str(), NC_NOWRITE, &file);
     if (status != NC_NOERR)
         bad_input(path, ": looks like NetCDF but cannot be opened; is it complete? (",
                   nc_strerror(status), ")");
+    return file;
 }
+
+NetcdfInput::NetcdfInput(const std::string& path)
+    : alone_(library_lock()), path_(path), id_(open_netcdf(path)) {}
 
 NetcdfInput::~NetcdfInput() { nc_close(id_); }
 
@@ -350,7 +393,8 @@ std::optional<std::string> NetcdfInput::text_attribute(const Variable& v, const 
     } else {
         bad_input(path_, ": attribute ", v.name, ":", name, " is no text");
     }
-    return printable(text.substr(0, text.find('\0')), text.size());
+    const std::string converted = utf8(text.substr(0, text.find('\0')));
+    return printable(converted, converted.size());
 }
 
 double NetcdfInput::number_attribute(const Variable& v, const char* name, double otherwise) const {
