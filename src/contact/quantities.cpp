@@ -37,7 +37,7 @@ constexpr LevelQuantity kRows[] = {
      .comment = "law 'hertz': sum of pi a^2 over the contacts; 'elliptic' and 'fourth_order': area "
                 "of the union of their elliptic spots; boundary elements: area of the pixels under "
                 "pressure, corrected at borders below the hardness",
-     .error_factor = 0.111,
+     .error_factor = 0.13,
      .error_averages = true,
      .error_member = &V::area_error_expected,
      .statistics = true,
@@ -68,7 +68,7 @@ constexpr LevelQuantity kRows[] = {
     {.name = "area_fraction",
      .member = &V::area_fraction,
      .meaning = "ratio of true to nominal contact area of two flats, A/A0",
-     .error_factor = 0.111,
+     .error_factor = 0.13,
      .error_averages = true,
      .always = false,
      .statistics = true,

@@ -99,6 +99,7 @@ void PeriodicElements::prepare_inverse() {
 
 void PeriodicElements::set_diagonal(double diagonal) {
     diagonal_ = diagonal / (rms_ / pressure_unit_);
+    closing_.reset();
 }
 
 int PeriodicElements::threads() const { return relief_.nx >= kThreads / relief_.ny ? 0 : 1; }
@@ -337,7 +338,8 @@ bool PeriodicElements::judge_exactly(bool exact, double residual, int) {
 ElementsOutcome PeriodicElements::solve(Given given, double tolerance, int most_iterations,
                                         bool finest) {
     bool started = false;
-    if (relief_.nx % 2 == 0 && relief_.ny % 2 == 0 &&
+    const bool closed = finest && given.is_pressure && given.value >= closing_pressure();
+    if (!closed && relief_.nx % 2 == 0 && relief_.ny % 2 == 0 &&
         std::min(relief_.nx, relief_.ny) >= 2 * kShortest) {
         // The memory of the coarser grid is free again before this one is solved.
         const std::vector<double> heights = coarse_heights();
@@ -353,7 +355,8 @@ ElementsOutcome PeriodicElements::solve(Given given, double tolerance, int most_
         wanted_ = given.value * points();
     else
         Z0_ = given.value;
-    ElementsOutcome outcome = iterate(tolerance, most_iterations, finest);
+    ElementsOutcome outcome =
+        closed ? flatten(tolerance) : iterate(tolerance, most_iterations, finest);
     outcome.products = products_ - before;
     if (!finest) return outcome;
     const auto pressed = pressed_by_row();
@@ -367,6 +370,40 @@ ElementsOutcome PeriodicElements::solve(Given given, double tolerance, int most_
             pressures_[next++] = p_[k] >= highest_ ? hardness_ : p_[k] * pressure_unit_;
         }
     });
+    return outcome;
+}
+
+template <class F>
+void PeriodicElements::flattening(F&& take) {
+    fine().apply(
+        [&](int j, double* row) {
+            for (int i = 0; i < relief_.nx; ++i) row[i] = height(j, i);
+        },
+        [&](int j, const double* row) { take(j, row); }, PeriodicPixels<double>::Answer::pressure);
+}
+
+double PeriodicElements::closing_pressure() {
+    if (closing_) return *closing_;
+    if (diagonal_ > 0 || highest_ < kInfinity) return kInfinity;
+    std::vector<double> least(at(relief_.ny));
+    flattening([&](int j, const double* row) {
+        least[at(j)] = *std::min_element(row, row + relief_.nx);
+    });
+    closing_ = 0 - *std::min_element(least.begin(), least.end()) / unit_;
+    return *closing_;
+}
+
+// In full contact the pressures are the mean one and those that flatten the surface.
+ElementsOutcome PeriodicElements::flatten(double tolerance) {
+    flattening([&](int j, const double* row) {
+        for (int i = 0; i < relief_.nx; ++i)
+            p_[rows_[at(j)] + at(i)] = std::max(p_[rows_[at(j)] + at(i)] + row[i] / unit_, 0.0);
+    });
+    ElementsOutcome outcome;
+    evaluate(true);
+    outcome.residual = error();
+    outcome.certificate = certificate();
+    outcome.converged = outcome.residual <= tolerance;
     return outcome;
 }
 

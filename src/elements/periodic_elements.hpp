@@ -56,7 +56,10 @@ public:
     // for which the last solution remains valid, and sets it to 0; as after press_out().
     void set_diagonal(double diagonal);
     using BoundedSolver::settle;
-    void heights_changed() { mean_ = mean_height(); }
+    void heights_changed() {
+        mean_ = mean_height();
+        closing_.reset();
+    }
 
     // K p at all points, row by row, for pressures p on some of them; its mean is 0.
     std::vector<double> deflections(const std::vector<Pixel>& pixels, const std::vector<double>& p);
@@ -99,6 +102,12 @@ private:
     }
     int threads() const;        // for loops over rows
     PeriodicPixels<double>& fine();
+    // Calls take(row number, row) with K^-1 z.
+    template <class F>
+    void flattening(F&& take);
+    // Mean pressure that closes the gap, -min of K^-1 z; Infinity where none does.
+    double closing_pressure();
+    ElementsOutcome flatten(double tolerance);
 
     // Sets starting pressures: uniform, or Hertz-like where z > Z0; or those of a coarser grid.
     void start(Given given);
@@ -131,6 +140,7 @@ private:
     // grid. K is `unit_` times that of PeriodicPixels with dx = 1.
     double zero_ = 0, rms_ = 1, scale_ = 1, pressure_unit_ = 1, unit_ = 1;
     double mean_ = 0;        // mean of the current heights
+    std::optional<double> closing_;  // closing_pressure(), once it is known
     double aspect_;          // dy/dx
     double inverse_of_ = 0;  // the diagonal for which the preconditioner is
     PeriodicPixels<float> inner_;

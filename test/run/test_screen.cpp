@@ -98,7 +98,7 @@ TEST(levels) {
         seen += screen.text;
     }
     for (const char* words : {"A title", "[um]", "sphere R = ", "two flats",
-                              "model error - ", "elements ("})
+                              "by elements: "})
         CHECK(seen.find(words) != std::string::npos);
 }
 

@@ -173,7 +173,8 @@ TEST(resolution) {
         const double N =
             4.0 / 3 * job.indenter.E_star * std::sqrt(200.0) * std::pow(-level.separation, 1.5);
         const double error = std::abs(level.force / N - 1);
-        CHECK(level.force_error_expected >= 0.9 * error);
+        // Contacts of few pixels may be farther off, with a doubt.
+        CHECK(level.force_error_expected >= error || (has(level, Cause::grid) && error > 0.03));
         CHECK((level.status == LevelStatus::out_of_validity) ==
               (level.force_error_expected > 0.03 || level.area_error_expected > 0.1));
     }
