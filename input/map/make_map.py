@@ -85,7 +85,8 @@ def write_sdf(path, rows):
     header += struct.pack(
         "<HHddddBBB", NX, NY, DX * 1e-6, DY * 1e-6, STEP * 1e-6, STEP * 1e-6, 0, 5, 0
     )
-    path.write_bytes(header + b"".join(struct.pack(f"<{NX}h", *row) for row in rows))
+    # The first profile has the lowest y.
+    path.write_bytes(header + b"".join(struct.pack(f"<{NX}h", *row) for row in reversed(rows)))
 
 
 def write_gwy(path, rows):

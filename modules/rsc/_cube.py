@@ -7,6 +7,8 @@ from collections import namedtuple
 import netCDF4
 import numpy as np
 
+from ._sound import open_result
+
 # variables: {name: (dimensions, values, attributes)}; keys: names of the variables with the values
 # of the keys.
 Cube = namedtuple("Cube", "variables keys attributes")
@@ -25,12 +27,12 @@ def attributes_of(variable):
     return {a: variable.getncattr(a) for a in variable.ncattrs() if a != "_FillValue"}
 
 
-def cube(path, check=lambda path: None):
+def cube(path):
     """The Cube of a manifest. Members without a result yet are NaN. Variables of different shape in
     the members are omitted, as are lists of asperities and contacts; a coordinate that differs
-    between members is stored under its name with '_values'. check is called with the path of each
-    member before it is opened. Raises OSError."""
-    with netCDF4.Dataset(path) as file:
+    between members is stored under its name with '_values'. The attribute source says that the cube
+    is none of the files that rsc wrote. Raises OSError."""
+    with open_result(path) as file:
         keys = {
             name: (
                 filled(v[:])
@@ -48,6 +50,7 @@ def cube(path, check=lambda path: None):
             for t in np.atleast_1d(netCDF4.chartostring(file["file"][:]))
         ]
         attributes = {a: file.getncattr(a) for a in file.ncattrs()}
+    attributes["source"] = f"members of a study by {attributes.get('source', 'rsc')}"
     order = {
         name: list(dict.fromkeys(values.tolist())) for name, (values, _) in keys.items()
     }  # in order of appearance
@@ -71,8 +74,7 @@ def cube(path, check=lambda path: None):
     read = {}
     for place, member in zip(places, members):
         if os.path.exists(member):
-            check(member)
-            with netCDF4.Dataset(member) as file:
+            with open_result(member) as file:
                 read[place] = {
                     name: (v.dimensions, filled(v[...]), attributes_of(v))
                     for name, v in file.variables.items()

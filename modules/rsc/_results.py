@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import os
-import zlib
 from typing import Any
-
-import numpy as np
 
 from ._h import FILE
 from ._library import Error, lock
@@ -20,15 +17,13 @@ def read(path: str | os.PathLike[str], xarray: bool | None = None) -> Any:
     dimension for each key that varies, with the values of the key; if the members do not form a
     full grid, one dimension 'member'. Needs netCDF4 (Debian's python3-netcdf4). Shapes, units and
     meanings are those of the file (ncdump -h); missing reals are NaN. Raises Error if the file
-    cannot be read, ImportError if a package is missing."""
+    cannot be read, is cut or damaged, ImportError if a package is missing."""
     path = os.fspath(path)
-    import netCDF4
-
     from ._cube import attributes_of, filled
+    from ._sound import open_result
 
-    _check_sound(path)
     try:
-        with lock(), netCDF4.Dataset(path) as file:
+        with lock(), open_result(path) as file:
             variables = {name: filled(variable[...]) for name, variable in file.variables.items()}
             attributes = {name: file.getncattr(name) for name in file.ncattrs()}
             if xarray is not False:
@@ -71,9 +66,10 @@ def _cube(path: str, dataset: bool) -> Any:
 
     try:
         with lock():
-            cube = cubes.cube(path, _check_sound)
+            cube = cubes.cube(path)
     except OSError as error:
-        raise Error(f"{path}: a member cannot be read: {error.strerror or error}", FILE) from None
+        name = error.filename or path
+        raise Error(f"{name}: cannot be read: {error.strerror or error}", FILE) from None
     if not dataset:
         return {name: values for name, (_, values, _) in cube.variables.items()} | {
             "": cube.attributes,
@@ -91,18 +87,3 @@ def _cube(path: str, dataset: bool) -> Any:
         {k: cube.variables[k] for k in coordinates},
         cube.attributes,
     )
-
-
-def _check_sound(path: str) -> None:
-    """Checks the checksum in the last line of a result before HDF5 opens the file, because HDF5
-    crashes on some damaged files."""
-    start = b"\nrsc: CRC-32 of all before this line: "
-    try:
-        content = np.memmap(path, np.uint8, "r")
-    except (OSError, ValueError):
-        return  # reported when it is read
-    line = bytes(content[-len(start) - 9 :])
-    if line.startswith(start) and line != start + b"%08x\n" % zlib.crc32(content[: -len(line)]):
-        raise Error(
-            f"{path}: is damaged, or was changed since rsc wrote it: its checksum is wrong", FILE
-        )

@@ -57,7 +57,7 @@ def main(words=None):
                 variable[...] = values.astype(object) if text else values
     except (OSError, IndexError, KeyError) as error:
         sys.exit(
-            f"cube.py: {arguments.manifest}: "
+            f"cube.py: {getattr(error, 'filename', None) or arguments.manifest}: "
             + (error.strerror or str(error) if isinstance(error, OSError) else "no list of members")
             + "; the manifest of a study (..._manifest.nc) is expected"
         )

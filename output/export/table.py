@@ -20,14 +20,14 @@ import os
 import signal
 import sys
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "plot"))
+import plot_python  # noqa: E402
+
 if __name__ == "__main__":
-    sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "plot"))
-    from plot_python import needs
+    plot_python.needs("numpy", "netCDF4")
 
-    needs("numpy", "netCDF4")
-
-import netCDF4
-import numpy as np
+import netCDF4  # noqa: E402
+import numpy as np  # noqa: E402
 
 DOUBTS, NOT_CONVERGED = 1, 4  # of the variable status
 GRAVITY = np.array([0, 3, 1, 2, 4])  # out of validity overrides overlapping and not unique
@@ -198,7 +198,7 @@ def _numbers(variable):
 
 def open_result(path):
     try:
-        return netCDF4.Dataset(path)
+        return plot_python.open_result(path)
     except OSError as error:
         raise Refused(f"cannot read {path!r}: {error.strerror or error}") from None
 

@@ -161,25 +161,22 @@ def open_results(paths):
     opened, stems = {}, []  # results by their real path
     for path in paths:
         members = members_of_manifest(path)
-        if members is None:
+        for member in [path] if members is None else members:
             try:
-                result = Result(path, in_si=True)
+                result = Result(member, in_si=True)
             except OSError as error:
                 sys.exit(
-                    f"plot.py: cannot read {path!r}: {error.strerror or error}; a result file "
+                    f"plot.py: cannot read {member!r}: {error.strerror or error}; a result file "
                     "of rsc (NetCDF) is expected"
                 )
             if not getattr(result.file, "source", "").startswith("rsc"):
                 sys.exit(
-                    f"plot.py: {path!r} is no result file of rsc: its attribute 'source' is "
+                    f"plot.py: {member!r} is no result file of rsc: its attribute 'source' is "
                     "of another program"
                 )
-            opened.setdefault(os.path.realpath(path), result)
-            stems.append(os.path.splitext(os.path.basename(path))[0])
-        else:
-            for member in members:
-                opened.setdefault(os.path.realpath(member), Result(member, in_si=True))
-            stems.append(os.path.splitext(os.path.basename(path))[0].removesuffix("_manifest"))
+            opened.setdefault(os.path.realpath(member), result)
+        stem = os.path.splitext(os.path.basename(path))[0]
+        stems.append(stem if members is None else stem.removesuffix("_manifest"))
     return list(opened.values()), stems[0] if len(stems) == 1 else f"{stems[0]}_to_{stems[-1]}"
 
 

@@ -50,3 +50,15 @@ def needs(*modules):
         " (Debian, Ubuntu), or\n"
         f"    {sys.executable} -m pip install {' '.join(missing)}"
     )
+
+
+def open_result(path):
+    """The netCDF4.Dataset of a result; raises OSError for a damaged one (modules/rsc/_sound.py, of
+    which an installation has a copy beside this file)."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    sys.path.append(os.path.join(here, "..", "..", "modules", "rsc"))
+    try:
+        from _sound import open_result as opened
+    finally:
+        sys.path.pop()
+    return opened(path)

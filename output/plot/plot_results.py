@@ -8,6 +8,7 @@ import sys
 import netCDF4
 import numpy as np
 
+from plot_python import open_result
 from plot_style import FEW, STYLES, amount, plt, si
 
 # Keys without effect on the numbers.
@@ -42,7 +43,7 @@ class Result:
 
     def __init__(self, path, in_si=False):
         self.path, self.in_si = path, in_si
-        self.file = netCDF4.Dataset(path)
+        self.file = open_result(path)
         self.cache = {}
         self.title = getattr(self.file, "title", "")
         self.realizations = (
@@ -327,11 +328,9 @@ class Result:
         """The same for a load per length, or for several."""
         if self.shape() != "paraboloid":
             return np.nan
-        radii = [float(radius) for radius in self.case["indenter%radii"].split(",")]
-        finite = [radius for radius in radii if np.isfinite(radius)]
-        if len(finite) != 1:
-            return np.nan
-        return 2 * np.sqrt(load * finite[0] * self.factor("separation") / np.pi / self["e_star"])
+        radii = [*self.case["indenter%radii"].split(","), self.case["solids%R"].split(",")[0]]
+        curvature = sum(1 / float(radius) for radius in radii) / self.factor("separation")
+        return 2 * np.sqrt(load / curvature / np.pi / self["e_star"])
 
     def along_y(self):
         """True if the axis of a line contact is along y."""
@@ -505,7 +504,7 @@ def members_of_manifest(path):
     """The results of a study from its manifest; None for another file. Missing members are reported
     and omitted."""
     try:
-        with netCDF4.Dataset(path) as file:
+        with open_result(path) as file:
             if "member" not in file.dimensions or "file" not in file.variables:
                 return None
             listed = [

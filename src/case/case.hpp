@@ -74,8 +74,9 @@ struct Case {
         Missing missing = Missing::refuse;
         double filter_cutoff = 0;  // 0: no filter
         std::string channel;
-        std::string height_unit;            // of a text map; empty: run%length_unit
-        std::optional<double> pixel;        // of a text matrix: step between its points [length]
+        std::string height_unit;      // of a map without units; empty: run%length_unit
+        std::string coordinate_unit;  // of its x and y; empty: run%length_unit
+        std::optional<double> pixel;  // of a map without coordinates: step between points [length]
         std::optional<double> window[4];    // x0, x1, y0, y1: part of the map to use; default: all
         double outliers = 0;                // 0: no search
         std::vector<double> missing_value;  // heights in a file that mean a missing point
@@ -161,6 +162,15 @@ struct ModelChoice {
     const char* why = "";  // of `auto`, for the screen
 };
 ModelChoice model_of(const Case& settings);
+
+// The radii of bodies 1 and 2 in the two principal directions of the gap between them, for the shapes
+// sphere and paraboloid: R[direction][body] [length], Infinity: straight. In line contact body 1 is a
+// cylinder: straight along the axis.
+struct GapRadii {
+    double R[2][2];
+    double angle;  // of the first direction from x [degree]
+};
+GapRadii gap_radii(const Case& settings);
 // True if body 1 relaxes, i.e. a share is positive.
 bool relaxes(const Case& settings);
 // True if body 1 wears, if bodies yield, and if they attract.

@@ -43,11 +43,8 @@ std::optional<double> radius_of(const Case& c) {
     const std::string_view shape = kShapes[at(c.indenter.shape)].name;
     if (shape == "sphere") return equivalent_radius(c.solids.R);
     if (shape != "paraboloid") return std::nullopt;
-    double smallest = kInfinity;
-    for (const auto& radius : c.indenter.radii)
-        smallest =
-            std::min(smallest, equivalent_radius({c.solids.R[0], radius.value_or(c.solids.R[1])}));
-    return smallest;
+    const GapRadii gap = gap_radii(c);
+    return std::min(equivalent_radius(gap.R[0]), equivalent_radius(gap.R[1]));
 }
 
 // Height of the highest of n independent Gaussian summits, over the rms height.
@@ -144,6 +141,18 @@ Spectrum self_affine_spectrum(const Case& settings) {
     return {keys.L.value_or(1.0), keys.hurst,     keys.L_lambda_l,
             keys.L_lambda_s,      keys.plateau,   keys.sigma.value_or(0.01),
             keys.aspect,          keys.direction, {keys.skewness, keys.kurtosis}};
+}
+
+GapRadii gap_radii(const Case& c) {
+    const auto& [R, radii] = std::tie(c.solids.R, c.indenter.radii);
+    GapRadii gap{{{R[0], radii[0].value_or(R[1])}, {R[0], radii[1].value_or(R[1])}},
+                 c.indenter.angle};
+    if (!c.indentation.line()) return gap;
+    const int along = std::isinf(gap.R[1][1]) ? 1 : 0;
+    gap.R[along][0] = kInfinity;
+    if (std::isinf(gap.R[0][1]) && std::isinf(gap.R[1][1]))  // body 2 is flat, in any direction
+        gap.angle = c.indentation.boundary == Boundary::periodic_x ? 90 : 0;
+    return gap;
 }
 
 ModelChoice model_of(const Case& c) {

@@ -15,6 +15,7 @@ constexpr Bounds kAny{};
 constexpr Bounds kPositive{0, kNoLimit, true, false};
 constexpr Bounds kNotNegative{0, kNoLimit, false, false};
 constexpr Bounds kPositiveOrInfinite{0, kNoLimit, true, true};
+constexpr Bounds kRadius{-kNoLimit, kNoLimit, true, true, true};
 constexpr Bounds between(double low, double high) { return {low, high, false, false}; }
 constexpr Bounds above(double low, double high) { return {low, high, true, false}; }
 
@@ -129,8 +130,10 @@ std::vector<Key> keys_of_solids() {
         number(RSC_KEY(solids, E), "force/length^2", kPositiveOrInfinite,
                "Young's modulus of body 1 (rough) and of body 2 (the indenter); Infinity: rigid"),
         number(RSC_KEY(solids, nu), "1", above(-1, 0.5), "Poisson's ratio of the two bodies"),
-        number(RSC_KEY(solids, R), "length", kPositiveOrInfinite,
-               "radius of curvature of the two bodies; Infinity: flat"),
+        number(
+            RSC_KEY(solids, R), "length", kRadius,
+            "radii of the two bodies, spheres; Infinity: flat; negative: concave (a socket; 1/R(1) "
+            "+ 1/R(2) must be positive). In line contact R(1) is the radius of a cylinder"),
         number(RSC_KEY(solids, hardness), "force/length^2", kPositiveOrInfinite,
                "hardness H0: upper limit of the mean pressure of an asperity, H0 sqrt(1 + "
                "size_effect/r), and of the pressure on an element, H0; each level then "
@@ -229,10 +232,17 @@ std::vector<Key> keys_of_height_maps() {
         text(RSC_KEY(surface, channel), 1024,
              "channel of a .gwy file (its title, or its number in Gwyddion, from 0), or variable "
              "of a NetCDF file; if empty, the first one with heights"),
-        text(RSC_KEY(surface, height_unit), 64,
-             "unit of the heights in a text file, as UDUNITS spells it; run%length_unit if empty"),
+        text(
+            RSC_KEY(surface, height_unit), 64,
+            "unit of the heights in a file without units, as UDUNITS spells it; run%length_unit if "
+            "empty"),
+        text(RSC_KEY(surface, coordinate_unit), 64,
+             "unit of x and y in three columns of a text, or in another file without units; "
+             "run%length_unit if empty"),
         number(RSC_KEY(surface, pixel), "length", kPositive,
-               "distance between neighbouring points of a text matrix, instead of L", "from L"),
+               "distance between neighbouring points of a text matrix, or of another file without "
+               "coordinates or units, instead of L",
+               "from L"),
         number(RSC_KEY(surface, window), "length", kAny,
                "x0, x1, y0, y1: use only this part of a height map, in the coordinates of the map",
                "the whole map"),
@@ -270,8 +280,10 @@ std::vector<Key> keys_of_indenter() {
                "shape of body 2: a sphere of solids%R (Infinity: a flat), a paraboloid of two "
                "radii (one Infinity: a cylinder), a cone, a flat "
                "punch, or a second rough body read from a height map"),
-        number(RSC_KEY(indenter, radii), "length", kPositiveOrInfinite,
-               "shape = 'paraboloid': principal radii of curvature; Infinity: straight",
+        number(RSC_KEY(indenter, radii), "length", kRadius,
+               "shape = 'paraboloid': principal radii of curvature; Infinity: straight; negative: "
+               "concave. The curvature 1/R(1) of body 1 is added. A ball of radius r on a straight "
+               "groove of radius g: radii = 1/(1/r - 1/g), r",
                "solids%R(2), twice"),
         number(RSC_KEY(indenter, angle), "degree", between(-360, 360),
                "shape = 'paraboloid': angle from the x axis to the direction of the first radius"),
@@ -288,7 +300,7 @@ std::vector<Key> keys_of_indenter() {
              "and y of body 1 (those of a body that is measured and "
              "then turned over are mirrored: not done here); its centre lies at "
              "indentation%centre, and surface%detrend, missing, outliers, "
-             "filter_cutoff, height_unit and pixel apply to it, too"),
+             "filter_cutoff, height_unit, coordinate_unit and pixel apply to it, too"),
         text(RSC_KEY(indenter, channel), 1024,
              "shape = 'map': channel or variable of that file, as surface%channel"),
     };
@@ -520,7 +532,8 @@ const Key& key_of(std::string_view name) {
 std::string full_name(const Key& key) { return joined(key.group, "%", key.name); }
 
 bool Bounds::hold(double value) const {
-    if (std::isnan(value) || (std::isinf(value) && !infinity)) return false;
+    if (std::isnan(value) || (std::isinf(value) && !infinity) || (nonzero && value == 0))
+        return false;
     return (open ? value > low : value >= low) && value <= high;
 }
 
@@ -530,7 +543,7 @@ std::string Bounds::text() const {
             return std::to_string(static_cast<long long>(value));
         return from_real(value);
     };
-    std::string result;
+    std::string result = nonzero ? "not 0" : "";
     if (std::isfinite(low) && std::isfinite(high))
         result = (open ? "> " + number(low) + " and <= " : number(low) + " to ") + number(high);
     else if (std::isfinite(low))

@@ -21,6 +21,7 @@ struct Bounds {
     double low = -kInfinity, high = kInfinity;
     bool open = false;      // low itself is excluded
     bool infinity = false;  // Infinity is allowed
+    bool nonzero = false;   // 0 is excluded
     bool hold(double value) const;
     std::string text() const;  // "> 0", "0 to 1", ... ; empty without bounds
 };

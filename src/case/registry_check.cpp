@@ -72,8 +72,10 @@ private:
         const Slot slot = key.slot(const_cast<Case&>(c_));
         const auto number = [&](double value, std::size_t element) {
             const bool overflows = std::isfinite(value) && !usable(value);
-            const bool vanishes = value > 0 && key.bounds.low == 0 && key.bounds.open &&
-                                  !usable_positive(value) && std::isfinite(value);
+            const bool never_zero =
+                key.bounds.nonzero || (value > 0 && key.bounds.low == 0 && key.bounds.open);
+            const bool vanishes = never_zero && value != 0 && !usable_positive(std::abs(value)) &&
+                                  std::isfinite(value);
             if (key.bounds.hold(value) && !overflows && !vanishes) return;
             const std::string bounds =
                 overflows || vanishes ? "of a magnitude from 1e-50 to 1e50" : key.bounds.text();
@@ -126,6 +128,7 @@ private:
         const std::tuple<const char*, const std::string&, Quantity> units[] = {
             {"run%length_unit", c_.run.length_unit, Quantity::length},
             {"surface%height_unit", c_.surface.height_unit, Quantity::length},
+            {"surface%coordinate_unit", c_.surface.coordinate_unit, Quantity::length},
             {"run%force_unit", c_.run.force_unit, Quantity::force},
             {"run%time_unit", c_.run.time_unit, Quantity::time}};
         for (const auto& [key, unit, quantity] : units)
@@ -266,6 +269,7 @@ private:
         const bool maps = s.source == Source::heights || shape() == "map";
         const std::pair<const char*, bool> of_maps[] = {
             {"surface%height_unit", !s.height_unit.empty()},
+            {"surface%coordinate_unit", !s.coordinate_unit.empty()},
             {"surface%pixel", s.pixel.has_value()},
             {"surface%window", s.window[0].has_value()},
             {"surface%outliers", s.outliers > 0},
@@ -341,6 +345,25 @@ private:
                 count(points), " points a side; the maximum is 32768");
     }
 
+    // The gap between bodies 1 and 2 must open in every direction.
+    void check_gap() {
+        const bool sphere = shape() == "sphere";
+        if (!sphere && shape() != "paraboloid") return;
+        const std::string_view key = sphere ? "solids%R" : "indenter%radii",
+                               other = sphere ? "indenter%shape" : "solids%R";
+        const auto flat = [](const double(&R)[2]) { return std::isinf(R[0]) && std::isinf(R[1]); };
+        const GapRadii gap = gap_radii(c_);
+        for (const auto& R : gap.R) {
+            if (flat(R) || 1 / R[0] + 1 / R[1] > 0) continue;
+            complain({key, other}, "bodies of radii ", R[0], " and ", R[1],
+                     " do not touch at one point: 1/R1 + 1/R2 must be positive (a concave body "
+                     "needs the larger radius)");
+            return;
+        }
+        require(sphere || !flat(gap.R[0]) || !flat(gap.R[1]), {key, other},
+                "two flats: give shape = 'sphere' and R = Infinity, Infinity");
+    }
+
     void check_indenter() {
         const Case::IndenterKeys& i = c_.indenter;
         const ShapeRow& row = kShapes.at(at(i.shape));
@@ -365,6 +388,7 @@ private:
         }
         require(i.radii[0].has_value() == i.radii[1].has_value(), {"indenter%radii"},
                 "two values are needed");
+        check_gap();
         if (shape() == "sphere") return;
         require(std::isinf(c_.solids.R[0]) || shape() == "paraboloid",
                 {"solids%R", "indenter%shape"},
@@ -401,7 +425,8 @@ private:
             require(std::isinf(c_.solids.R[0]) && std::isinf(c_.solids.R[1]),
                     {"indentation%boundary", "solids%R"}, repeats,
                     ", and a ball does not; give a cylinder, &indenter shape = "
-                    "'paraboloid' with one of radii Infinity, or R = Infinity, Infinity");
+                    "'paraboloid' with one of radii Infinity (both, if only body 1 is a cylinder, "
+                    "of radius R(1)), or R = Infinity, Infinity");
         require(shape() != "cone" && shape() != "punch", {"indentation%boundary", "indenter%shape"},
                 repeats, ", and shape = ", get_key(c_, "indenter%shape"), " does not");
         if (shape() != "paraboloid") return;

@@ -24,11 +24,14 @@ double equivalent_modulus(const double (&E)[2], const double (&nu)[2]) {
 }
 
 double equivalent_radius(const double (&R)[2]) {
-    double curvature = 0;
-    for (const int i : indices(2)) {
-        if (!(R[i] > 0)) refuse("radius", i, "positive (Infinity for a flat body)");
-        curvature += 1 / R[i];
-    }
+    for (const int i : indices(2))
+        if (R[i] == 0 || std::isnan(R[i]))
+            refuse("radius", i, "other than 0 (Infinity for a flat body)");
+    const double curvature = 1 / R[0] + 1 / R[1];
+    if (!(curvature > 0) && !(std::isinf(R[0]) && std::isinf(R[1])))
+        bad_input("bodies of radii ", R[0], " and ", R[1],
+                  " do not touch at one point: 1/R1 + 1/R2 must be positive (a concave body needs "
+                  "a larger radius than the convex one)");
     return curvature > 0 ? 1 / curvature : kInfinity;
 }
 

@@ -38,10 +38,11 @@ struct SmoothContact {
 
 // Parameters of all shapes (keys of &indenter). Each shape uses its own.
 struct ShapeKeys {
-    double R = kInfinity;      // sphere: its radius [length]; Infinity: a flat
-    double radii[2] = {0, 0};  // paraboloid: principal radii [length]; Infinity is allowed
-    double angle = 0;          // direction of the first from x [radian]
-    double slope = 0;          // cone
+    double R = kInfinity;        // sphere: its radius [length]; Infinity: a flat; < 0: concave
+    double R_rough = kInfinity;  // sphere: the radius of body 1, alike
+    double radii[2] = {0, 0};    // paraboloid: principal radii [length]; Infinity is allowed
+    double angle = 0;            // direction of the first from x [radian]
+    double slope = 0;            // cone
     double radius = 0,
            rim_radius = 0;  // punch: radii of its flat end and of its rounded rim [length]
     std::shared_ptr<const HeightMap>
@@ -94,7 +95,7 @@ public:
     virtual double edge(double blunt) const { return (void)blunt, -1.0; }
     // True if s depends only on the distance from the tip.
     virtual bool round() const { return false; }
-    // Radius R of a sphere; Infinity for a flat; NaN for any other shape.
+    // Radius R* of one sphere or two; Infinity for a flat; NaN for any other shape.
     virtual double hertz_radius() const { return std::numeric_limits<double>::quiet_NaN(); }
     // True if the shape has the periods (x, y), so that it can be one of two periodic flats, or of
     // the one that is finite, for line contact.

@@ -7,25 +7,33 @@
 
 namespace rsc {
 
+struct MapKeys;
+
 // Gwyddion's own files (.gwy), a tree of named values
 // (http://gwyddion.net/documentation/user-guide-en/gwyfile-format.html). is_gwy() is true for the
 // first bytes of such a file. Reads the first channel named `channel`, or the one of this number if
 // none has this name; by default the first one whose values are lengths. Missing points (NaN, or
-// those under the channel's mask) are NaN. Lengths are converted to length_unit. The first row of
-// the file, the top of the picture, has the largest y; x0 = y0 = 0.
+// those under the channel's mask) are NaN. Lengths are converted to length_unit; `keys` apply to a
+// channel without units. Rows go from the top of the picture to the bottom: the first has the
+// largest y; x0 = y0 = 0.
 bool is_gwy(const std::string& start);
 // `title` (optional) receives the name of the channel.
 HeightMap read_gwy(const std::string& path, const std::string& channel,
-                   const std::string& length_unit, std::string* title = nullptr);
+                   const std::string& length_unit, const MapKeys& keys,
+                   std::string* title = nullptr);
+// True if the channel that would be read has no unit of its heights or of its sides.
+bool gwy_lacks_units(const std::string& path, const std::string& channel);
 
 // Surface data files (.sdf) of ISO 25178-71, text and binary, and of its predecessor BCR. is_sdf()
-// is true for their first bytes: aISO-1.0, bISO-1.0, aBCR-1.0, ... The heights are converted from
-// metres to length_unit; missing points (BAD in a text, the least value of a signed type, the
-// largest of an unsigned one, in BCR the largest of any, NaN) are NaN. Rows and origin as in
-// read_gwy(); there are no channels and no title.
+// is true for their first bytes: aISO-1.0, bISO-1.0, aBCR-1.0, ... In a text `;` begins a comment,
+// lines end with CR, LF or both, and Compression, DataType and CheckType may be words (NULL,
+// INTEGER). The heights are converted from metres to length_unit; missing points (BAD in a text, the
+// least value of a signed type, the largest of an unsigned one, in BCR the largest of any, NaN) are
+// NaN. Profile j lies at y = j Yscale: the first row has the lowest y; x0 = y0 = 0. There are no
+// channels and no title; lengths are always in metres, so that `keys` do not apply.
 bool is_sdf(const std::string& start);
 HeightMap read_sdf(const std::string& path, const std::string& channel,
-                   const std::string& length_unit, std::string* title);
+                   const std::string& length_unit, const MapKeys& keys, std::string* title);
 
 // A rectangular table: value (row, column) = values[row*columns + column]; line[row] is the row's
 // line in the file, from 1.
@@ -35,7 +43,7 @@ struct TextTable {
     std::vector<long> line;
     // Units that the comments name.
     struct UnitMention {
-        enum Kind { values, width, height, other } kind = other;
+        enum Kind { values, width, height, coordinates, other } kind = other;
         std::string unit;
         double size = 0;  // of width and height, in `unit`
         long line = 0;
@@ -44,12 +52,22 @@ struct TextTable {
     const UnitMention* mention(UnitMention::Kind kind) const;  // the first; null if there is none
     // True if a comment states a width: a matrix, however few columns it has.
     bool matrix() const { return mention(UnitMention::width) != nullptr; }
+    // True for the heading of Gwyddion's exports, which states the width and the height of a picture
+    // in two successive lines.
+    bool picture() const;
 };
+
+// A text in UTF-8: one in another encoding is converted from ISO 8859-1.
+std::string utf8(std::string_view text);
+
+// A path, or a name of a new file for a converted copy, for the command line of a shell.
+std::string for_shell(const std::string& path);
+std::string copy_for_shell(const std::string& path, const std::string& ending);
 
 // What helps with files of instruments that rsc does not read.
 std::string gwyddion_advice(const std::string& path);
 
-// Numbers in columns from a text file, separated by blanks or tabs, by a comma, or by a semicolon
+// Numbers in columns from a text file, which gzip may have packed, separated by blanks or tabs, by a comma, or by a semicolon
 // (adjacent blanks are ignored); the same separator is required throughout. With semicolons the
 // decimal mark may be a comma, but then throughout. `#` starts a comment; empty lines are skipped;
 // exponents may be Fortran's (1.5d-3). `columns`: the required number, or 0 for that of the first
@@ -86,18 +104,30 @@ void reverse_rows(HeightMap& map);
 // The bytes of a binary file, read in order; reading beyond their end throws an error with the
 // position.
 
-// Reads all bytes of a file. Throws Error(bad_input) if they cannot be read.
-inline std::string read_bytes(const std::string& path) {
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    const std::streamoff size = file ? std::streamoff(file.tellg()) : -1;
-    if (size < 0) bad_input(path, ": cannot be read");
-    check_memory(path, "the file", double(size) / sizeof(double));
-    std::string bytes(std::size_t(size), '\0');
-    file.seekg(0);
-    file.read(bytes.data(), size);
-    if (file.gcount() != size) bad_input(path, ": reading failed");
-    return bytes;
-}
+// A file for reading; its bytes are unpacked if gzip packed them. Reading throws Error(bad_input) if
+// the system fails, or for a packed file that is cut or damaged.
+class UnpackedFile : public std::streambuf {
+public:
+    explicit UnpackedFile(const std::string& path);
+    UnpackedFile(const UnpackedFile&) = delete;
+    UnpackedFile& operator=(const UnpackedFile&) = delete;
+    ~UnpackedFile() override;
+
+protected:
+    int_type underflow() override;
+
+private:
+    std::string path_;
+    void* file_;  // a gzFile
+    std::array<char, 1 << 16> buffer_;
+};
+
+// All bytes of a file, and the first ones, at most 4096, unpacked.
+std::string read_bytes(const std::string& path);
+std::string first_bytes(const std::string& path);
+
+// The next line of a text, without its end: CR, LF or CRLF. False at the end of the text.
+bool next_line(std::streambuf& text, std::string& line);
 
 // Little-endian numbers.
 class ByteReader {

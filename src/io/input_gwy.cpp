@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "case/units.hpp"
+#include "io/inputs.hpp"
 
 namespace rsc {
 namespace {
@@ -98,7 +99,7 @@ public:
     std::string title(long n) const {
         const Component* const c = find(format("/%ld/data/title", n));
         if (!c || c->type != 's') return "channel " + std::to_string(n);
-        return std::string(reader(*c).text("a title"));
+        return utf8(reader(*c).text("a title"));
     }
 
     std::optional<Field> field(const std::string& name) const {
@@ -141,7 +142,7 @@ private:
     std::string unit(ByteReader& in) const {
         for (const Component& part : components(in, "GwySIUnit"))
             if (part.name == "unitstr" && part.type == 's')
-                return std::string(reader(part).text("a unit"));
+                return utf8(reader(part).text("a unit"));
         return {};
     }
 
@@ -159,24 +160,20 @@ std::optional<double> factor_of(const std::string& unit, const std::string& leng
     }
 }
 
-}  // namespace
-
-bool is_gwy(const std::string& start) { return start.substr(0, 3) == "GWY"; }
-
-HeightMap read_gwy(const std::string& path, const std::string& channel,
-                   const std::string& length_unit, std::string* title) {
-    const GwyFile file(path);
+// The number of the channel to read.
+long chosen_channel(const GwyFile& file, const std::string& path, const std::string& channel,
+                    const std::string& length_unit, bool without_unit) {
     std::string names;
     std::optional<long> chosen, numbered;
+    bool unknown = false;  // a channel has no unit
     for (const long n : file.channels()) {
-        const std::string title = file.title(n);
-        const auto field = file.field(format("/%ld/data", n));
-        enlist(names, ", ", "'", printable(title), "' (", n, ") in '", printable(field->unit_z),
-               "'");
+        const std::string title = file.title(n), unit = file.field(format("/%ld/data", n))->unit_z;
+        enlist(names, ", ", "'", printable(title), "' (", n, ") in '", printable(unit), "'");
+        unknown = unknown || unit.empty();
         if (channel == std::to_string(n)) numbered = n;
-        if (!chosen && (channel.empty() ? factor_of(field->unit_z, length_unit).has_value()
-                                        : title == channel))
-            chosen = n;
+        const bool heights =
+            factor_of(unit, length_unit).has_value() || (without_unit && unit.empty());
+        if (!chosen && (channel.empty() ? heights : title == channel)) chosen = n;
     }
     if (!chosen) chosen = numbered;
     if (names.empty()) bad_input(path, ": contains no channel (image)");
@@ -184,17 +181,56 @@ HeightMap read_gwy(const std::string& path, const std::string& channel,
         bad_input(path, ": ",
                   channel.empty() ? "no channel contains heights"
                                   : "there is no channel '" + channel + "'",
-                  "; there are ", names);
-    const std::string base = format("/%ld", *chosen);
+                  "; there are ", names,
+                  channel.empty() && unknown
+                      ? "; surface%height_unit is the unit of a channel that has none"
+                      : "");
+    return *chosen;
+}
+
+// Sets the steps of a map from the sides of its channel and the keys.
+void set_steps(HeightMap& map, const std::string& name, const Field& field, const MapKeys& keys,
+               const std::string& length_unit) {
+    const std::string unit = field.unit_xy.empty() ? keys.coordinate_unit : field.unit_xy;
+    if (field.unit_xy.empty() && keys.pixel) {
+        map.dx = map.dy = *keys.pixel;
+        return;
+    }
+    if (unit.empty())
+        bad_input(name,
+                  ": its sides have no unit; surface%pixel or surface%coordinate_unit must be "
+                  "given");
+    const auto factor = factor_of(unit, length_unit);
+    if (!factor) bad_input(name, ": its sides are in '", printable(unit), "', which is no length");
+    map.dx = field.Lx * *factor / double(field.nx);
+    map.dy = field.Ly * *factor / double(field.ny);
+}
+
+}  // namespace
+
+bool is_gwy(const std::string& start) { return start.substr(0, 3) == "GWY"; }
+
+bool gwy_lacks_units(const std::string& path, const std::string& channel) {
+    const GwyFile file(path);
+    const long chosen = chosen_channel(file, path, channel, "m", true);
+    const Field field = *file.field(format("/%ld/data", chosen));
+    return field.unit_z.empty() || field.unit_xy.empty();
+}
+
+HeightMap read_gwy(const std::string& path, const std::string& channel,
+                   const std::string& length_unit, const MapKeys& keys, std::string* title) {
+    const GwyFile file(path);
+    const long chosen = chosen_channel(file, path, channel, length_unit, !keys.height_unit.empty());
+    const std::string base = format("/%ld", chosen);
     const Field field = *file.field(base + "/data");
-    const std::string name = path + ": channel '" + printable(file.title(*chosen)) + "'";
-    if (title) *title = printable(file.title(*chosen));
-    const auto factor_z = factor_of(field.unit_z, length_unit),
-               factor_xy = factor_of(field.unit_xy, length_unit);
+    const std::string name = path + ": channel '" + printable(file.title(chosen)) + "'";
+    if (title) *title = printable(file.title(chosen));
+    keys.require_use(path, field.unit_z.empty(), field.unit_xy.empty());
+    const auto factor_z =
+        factor_of(field.unit_z.empty() ? keys.height_unit : field.unit_z, length_unit);
     if (!factor_z)
-        bad_input(name, ": its values are in '", printable(field.unit_z), "', which is no length");
-    if (!factor_xy)
-        bad_input(name, ": its sides are in '", printable(field.unit_xy), "', which is no length");
+        bad_input(name, ": its values are in '", printable(field.unit_z), "', which is no length",
+                  field.unit_z.empty() ? "; surface%height_unit, their unit, must be given" : "");
     check_grid(path, field.nx, field.ny);
     const std::size_t points = field.nx * field.ny;
     if (field.data.size() != points * sizeof(double))
@@ -203,8 +239,7 @@ HeightMap read_gwy(const std::string& path, const std::string& channel,
     if (!(field.Lx > 0 && field.Ly > 0 && std::isfinite(field.Lx) && std::isfinite(field.Ly)))
         bad_input(name, ": sides of ", field.Lx, " and ", field.Ly, " must be positive");
     HeightMap map = allocate_map(field.nx, field.ny);
-    map.dx = field.Lx * *factor_xy / double(field.nx);
-    map.dy = field.Ly * *factor_xy / double(field.ny);
+    set_steps(map, name, field, keys, length_unit);
     for (const auto k : indices(points))
         map.data[k] = *factor_z * ByteReader::value<double>(field.data.data() + k * sizeof(double));
     if (const auto mask = file.field(base + "/mask")) {

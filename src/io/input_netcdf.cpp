@@ -47,10 +47,7 @@ bool require_sound(const std::string& path) {
         left -= in.gcount();
     }
     if (line_of(crc) != line)
-        bad_input(path,
-                  ": is damaged, or was changed since rsc wrote it: its checksum is wrong (nccopy "
-                  "makes a copy "
-                  "without one)");
+        bad_input(path, ": is damaged, or was changed since rsc wrote it: its checksum is wrong");
     return true;
 }
 
@@ -259,15 +256,47 @@ void suppress_hdf5_messages() {
     if (H5Eset_auto2) H5Eset_auto2(0, nullptr, nullptr);
 }
 
-NetcdfInput::NetcdfInput(const std::string& path) : alone_(library_lock()), path_(path) {
+std::string global_text(int file, const char* name) {
+    // of a case: the length in a damaged file may be arbitrary
+    constexpr std::size_t longest = std::size_t{1} << 26;
+    std::size_t length = 0;
+    nc_type type = NC_NAT;
+    std::string value;
+    if (nc_inq_att(file, NC_GLOBAL, name, &type, &length) != NC_NOERR || type != NC_CHAR ||
+        length > longest)
+        return value;
+    value.resize(length);
+    if (nc_get_att_text(file, NC_GLOBAL, name, value.data()) != NC_NOERR) value.clear();
+    return value;
+}
+
+// True for the attribute `source` of a result that ends with a checksum.
+static bool ends_with_checksum(const std::string& source) {
+    int major = 0, minor = 0;
+    return std::sscanf(source.c_str(), "rsc %d.%d.", &major, &minor) == 2 &&
+           std::pair(major, minor) >= std::pair(0, 3);
+}
+
+int open_netcdf(const std::string& path) {
     suppress_hdf5_messages();
-    require_sound(path);
+    const bool checked = require_sound(path);
     check_classic_length(path);  // the library reads zeros beyond the end of a classic file
-    const int status = nc_open(path.c_str(), NC_NOWRITE, &id_);
+    int file = -1;
+    const int status = nc_open(path.c_str(), NC_NOWRITE, &file);
     if (status != NC_NOERR)
         bad_input(path, ": looks like NetCDF but cannot be opened; is it complete? (",
                   nc_strerror(status), ")");
+    if (!checked && ends_with_checksum(global_text(file, "source"))) {
+        nc_close(file);
+        bad_input(path,
+                  ": is cut or damaged: its last line, the checksum that rsc writes, is missing (a "
+                  "copy made by another program must not have rsc's attribute 'source')");
+    }
+    return file;
 }
+
+NetcdfInput::NetcdfInput(const std::string& path)
+    : alone_(library_lock()), path_(path), id_(open_netcdf(path)) {}
 
 NetcdfInput::~NetcdfInput() { nc_close(id_); }
 
@@ -350,7 +379,8 @@ std::optional<std::string> NetcdfInput::text_attribute(const Variable& v, const 
     } else {
         bad_input(path_, ": attribute ", v.name, ":", name, " is no text");
     }
-    return printable(text.substr(0, text.find('\0')), text.size());
+    const std::string converted = utf8(text.substr(0, text.find('\0')));
+    return printable(converted, converted.size());
 }
 
 double NetcdfInput::number_attribute(const Variable& v, const char* name, double otherwise) const {

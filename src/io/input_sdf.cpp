@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "case/namelist.hpp"
 #include "case/units.hpp"
+#include "io/inputs.hpp"
 
 namespace rsc {
 namespace {
@@ -106,48 +107,100 @@ HeightMap read_binary(const std::string& path, const std::string& bytes,
     return map;
 }
 
+// The words of a text, without comments, which begin with ';'.
+class SdfText {
+public:
+    SdfText(const std::string& path, const std::string& bytes) : path_(path), text_(bytes) {
+        next();
+    }
+
+    // The next line without its comment; false at the end of the file.
+    bool next() {
+        ++number_;
+        const bool there = next_line(text_, line_);
+        words_.clear();
+        words_.str(line_.substr(0, line_.find(';')));
+        return there;
+    }
+    // The next word of the lines; empty at the end of the file.
+    std::string word() {
+        std::string word;
+        while (!(words_ >> word))
+            if (!next()) return "";
+        return word;
+    }
+    // What is left of the line.
+    std::string rest() {
+        std::string all, word;
+        while (words_ >> word)
+            if (word != "=") enlist(all, " ", word);
+        return all;
+    }
+    long number() const { return number_; }
+    [[noreturn]] void refuse(const auto&... what) const {
+        bad_input(path_, ":", number_, ": ", what...);
+    }
+
+private:
+    const std::string& path_;
+    std::stringbuf text_;
+    std::string line_;
+    std::istringstream words_;
+    long number_ = 0;
+};
+
+// Words for numbers of the header, as the specification has them in its example and in its table of
+// types.
+std::optional<std::int64_t> number_of_word(std::string_view word) {
+    static const std::map<std::string, std::int64_t> known = {
+        {"null", 0},         {"none", 0},  {"unsigned char", 0},  {"unsigned integer", 1},
+        {"unsigned int", 1}, {"float", 3}, {"unsigned long", 2},  {"signed char", 4},
+        {"char", 4},         {"int", 5},   {"signed integer", 5}, {"integer", 5},
+        {"signed int", 5},   {"long", 6},  {"signed long", 6},    {"double", 7}};
+    const auto found = known.find(namelist::lower_case(word));
+    if (found == known.end()) return {};
+    return found->second;
+}
+
 // The header of a text: its names in lower case, with their values and lines.
 class TextHeader {
 public:
     // Reads up to the line that begins with '*'.
-    TextHeader(const std::string& path, std::istream& in) : path_(path) {
-        long lines = 0;
-        std::string line, word;
-        std::getline(in, line);  // the version
-        do {
-            if (!std::getline(in, line))
+    TextHeader(const std::string& path, SdfText& in) : path_(path) {
+        std::string name;
+        in.rest();  // the version
+        while ((name = in.word())[0] != '*') {
+            if (name.empty())
                 bad_input(path,
                           ": the line '*' that ends the header is missing; is the file complete?");
-            ++lines;
-            std::replace(line.begin(), line.end(), '=', ' ');
-            std::istringstream words(line);
-            std::string value, more;
-            word.clear();
-            words >> word >> value >> more;
-            if (!more.empty() && more[0] != ';')
-                value += ' ' + more;  // no unit may follow a number
-            values_[namelist::lower_case(word)] = {value, lines + 1};
-        } while (word[0] != '*');
+            const std::size_t equals = name.find('=');
+            std::string value = equals == std::string::npos ? "" : name.substr(equals + 1);
+            const std::string rest = in.rest();
+            if (!rest.empty()) enlist(value, " ", rest[0] == '=' ? rest.substr(1) : rest);
+            values_[namelist::lower_case(name.substr(0, equals))] = {value, in.number()};
+        }
+        in.rest();
     }
-
-    bool has(const char* name) const { return values_.count(namelist::lower_case(name)) > 0; }
 
     template <class Value>
     void number(const char* name, Value& value) const {
         const auto found = values_.find(namelist::lower_case(name));
         if (found == values_.end()) bad_input(path_, ": the header has no ", name);
-        const std::string& text = found->second.first;
-        const long at = found->second.second;
-        const auto read = [&] {
-            if constexpr (std::is_floating_point_v<Value>)
-                return number_in_file(text);
-            else
-                return namelist::to_integer(text);
-        }();
+        const auto& [text, line] = found->second;
+        const auto read = number_in_file(text);
         if (!read || (std::is_integral_v<Value> &&
-                      (*read < 0 || !std::in_range<std::uint32_t>(std::int64_t(*read)))))
-            bad_input(path_, ":", at, ": ", name, ": a number was expected, not ", shown(text));
+                      !(*read >= 0 && *read < 0x1p32 && *read == std::floor(*read))))
+            bad_input(path_, ":", line, ": ", name, ": a number was expected, not ", shown(text));
         value = static_cast<Value>(*read);
+    }
+    // A number or a word for it; unchanged if the header has none.
+    void choice(const char* name, long& value) const {
+        const auto found = values_.find(namelist::lower_case(name));
+        if (found == values_.end()) return;
+        if (const auto word = number_of_word(found->second.first))
+            value = long(*word);
+        else
+            number(name, value);
     }
 
 private:
@@ -157,7 +210,7 @@ private:
 
 HeightMap read_text(const std::string& path, std::string bytes, const std::string& length_unit) {
     std::replace(bytes.begin(), bytes.end(), '\0', ' ');
-    std::istringstream in(bytes);
+    SdfText in(path, bytes);
     const TextHeader header(path, in);
     Header h;
     header.number("NumPoints", h.nx);
@@ -165,9 +218,9 @@ HeightMap read_text(const std::string& path, std::string bytes, const std::strin
     header.number("Xscale", h.dx);
     header.number("Yscale", h.dy);
     header.number("Zscale", h.scale);
-    if (header.has("Compression")) header.number("Compression", h.compression);
-    if (header.has("DataType")) header.number("DataType", h.type);
-    if (header.has("CheckType")) header.number("CheckType", h.check);
+    header.choice("Compression", h.compression);
+    header.choice("DataType", h.type);
+    header.choice("CheckType", h.check);
     // A height has at least two characters, so excessive sizes are refused before memory is
     // allocated.
     if (h.nx > 0 && h.ny > bytes.size() / h.nx)
@@ -183,21 +236,17 @@ HeightMap read_text(const std::string& path, std::string bytes, const std::strin
     };
     const std::size_t points = h.nx * h.ny;
     const std::string size = std::to_string(h.nx) + " x " + std::to_string(h.ny);
-    const auto refuse = [&](const auto&... what) {
-        in.clear();
-        const auto lines_before = std::count(bytes.begin(), bytes.begin() + in.tellg(), '\n');
-        bad_input(path, ":", lines_before + 1, ": ", what...);
-    };
-    std::string word;
     for (const auto k : indices(points)) {
-        if (!(in >> word) || word[0] == '*')
-            refuse(k, " heights where ", size, " were expected; is the file complete?");
+        const std::string word = in.word();
+        if (word.empty() || word[0] == '*')
+            in.refuse(k, " heights where ", size, " were expected; is the file complete?");
         const auto value =
             namelist::lower_case(word) == "bad" ? std::nan("") : number_in_file(word);
-        if (!value) refuse(shown(word), " is not a number");
+        if (!value) in.refuse(shown(word), " is not a number");
         map.data[k] = missing(*value) ? std::nan("") : factor * *value;
     }
-    if (in >> word && word[0] != '*') refuse(shown(word), " after the last of ", size, " heights");
+    if (const std::string word = in.word(); !word.empty() && word[0] != '*')
+        in.refuse(shown(word), " after the last of ", size, " heights");
     return map;
 }
 
@@ -212,13 +261,12 @@ bool is_sdf(const std::string& start) {
 }
 
 HeightMap read_sdf(const std::string& path, const std::string&, const std::string& length_unit,
-                   std::string*) {
+                   const MapKeys& keys, std::string*) {
+    keys.require_use(path, false, false);
     const std::string bytes = read_bytes(path);
     if (!is_sdf(bytes)) bad_input(path, ": is no surface data file (ISO 25178-71)");
-    HeightMap map = bytes[0] == 'b' ? read_binary(path, bytes, length_unit)
-                                    : read_text(path, bytes, length_unit);
-    reverse_rows(map);
-    return map;
+    return bytes[0] == 'b' ? read_binary(path, bytes, length_unit)
+                           : read_text(path, bytes, length_unit);
 }
 
 }  // namespace rsc

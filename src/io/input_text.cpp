@@ -136,11 +136,17 @@ bool contains_word(std::string_view text, std::string_view word) {
     return false;
 }
 
+// True for the name of a coordinate before its unit, as in "x [um]".
+bool names_coordinate(const std::string& word) {
+    const std::string lower = namelist::lower_case(word);
+    return lower == "x" || lower == "y" || lower == "xy";
+}
+
 // Words that are a unit of length wherever they stand. Others, such as m and in, are one only in
 // brackets or after a number.
 bool always_a_length(const std::string& word) {
-    for (const char* const symbol : {"nm", "um", "mm", "pm", "cm", "\xc2\xb5m", "\xce\xbcm",
-                                     "\xb5m", "\xc3\x85", "\xe2\x84\xab"})
+    for (const char* const symbol :
+         {"nm", "um", "mm", "pm", "cm", "\xc2\xb5m", "\xce\xbcm", "\xc3\x85", "\xe2\x84\xab"})
         if (word == symbol) return true;
     const std::string lower = namelist::lower_case(word);
     const auto begins = [&](const char* stem) { return lower.starts_with(stem); };
@@ -238,7 +244,7 @@ void find_stated_unit(const LabelAndValue& stated, long line, std::vector<Mentio
     bool lateral = false;
     for (const char* const word : {"x", "y", "xy", "lateral", "width", "scan", "pixel"})
         lateral = lateral || contains_word(label, word);
-    found.push_back({lateral ? Mention::other : Mention::values,
+    found.push_back({lateral ? Mention::coordinates : Mention::values,
                      as_unit(value[0].number && value.size() > 1 ? value[1].text : value[0].text),
                      0, line});
 }
@@ -263,7 +269,8 @@ void find_units(std::string_view comment, long line, std::vector<Mention>& found
                                  words[k].bracketed || (alone && k == of_label)))
             continue;
         if (unit_factor(unit, "m") == 0) continue;
-        Mention mention{Mention::other, unit, 0, line};
+        const bool coordinate = k > 0 && names_coordinate(words[k - 1].text);
+        Mention mention{coordinate ? Mention::coordinates : Mention::other, unit, 0, line};
         if (side && k == of_label + 1) {
             const std::string label = namelist::lower_case(stated->label);
             if (contains_word(label, "width")) mention.kind = Mention::width;
@@ -279,6 +286,11 @@ void find_units(std::string_view comment, long line, std::vector<Mention>& found
 const Mention* TextTable::mention(UnitMention::Kind kind) const {
     const auto found = std::ranges::find(units, kind, &UnitMention::kind);
     return found == units.end() ? nullptr : &*found;
+}
+
+bool TextTable::picture() const {
+    const Mention *const w = mention(Mention::width), *const h = mention(Mention::height);
+    return w && h && h->line == w->line + 1;
 }
 
 std::optional<double> number_in_file(std::string_view word) {
@@ -313,81 +325,123 @@ static bool begins_with_word(std::string_view text) {
            !number_in_file(word);
 }
 
-// Refuses a file whose first line of text is not a comment, telling what to do about it.
-static void refuse_heading(const std::string& path, std::istream& file, std::string_view first,
-                           long line) {
-    if (!begins_with_word(first)) return;
+// The last line of the heading that begins with `first` at `line`, of which `file` holds the rest; 0
+// if the first line is none.
+static long heading_end(const std::string& path, std::streambuf& file, std::string_view first,
+                        long line) {
+    if (!begins_with_word(first)) return 0;
     long last = line;
     std::string text;
     bool binary = false;
     bool heading = true;
-    while (std::getline(file, text)) {
+    while (next_line(file, text)) {
         binary = binary || text.find('\0') != std::string::npos;
         heading = heading && begins_with_word(text);
         if (heading) ++last;
     }
     if (first.substr(0, 2) == "\\*" || binary)
         refuse(path, line, "the head of an instrument's file. ", gwyddion_advice(path));
-    std::string lower(first.substr(0, 5));
-    std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
-    const std::string lines = last > line ? joined("lines ", line, " to ", last, " begin")
-                                          : joined("line ", line, " begins");
-    refuse(path, line, lines, " with a word, not a number: put '#' before each line of text",
-           lower == "ncols" ? ", and give an ESRI grid's cellsize as surface%pixel and its "
-                              "NODATA_value as surface%missing_value"
-                            : "; a unit there is read");
+    return last;
 }
 
 std::string gwyddion_advice(const std::string& path) {
-    return "Gwyddion reads the files of most instruments: gwyddion --convert-to-gwy=map.gwy '" +
-           path + "' makes one that rsc reads";
+    return "If Gwyddion reads it, this makes a file that rsc reads: gwyddion --convert-to-gwy=" +
+           copy_for_shell(path, "_converted.gwy") + " " + for_shell(path);
 }
 
-TextTable read_table(const std::string& path, std::size_t columns, bool missing) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) bad_input(path, ": cannot be read");
-    TextTable table;
-    Style style;
-    table.columns = columns;
-    std::string text;
-    long line = 0;
-    bool open_ends = true;  // every row so far ends with a separator
-    while (std::getline(file, text)) {
-        ++line;
-        std::string_view view(text);
-        if (line == 1 && view.substr(0, 3) == "\xef\xbb\xbf")
-            view.remove_prefix(3);  // UTF-8 byte order mark
-        if (line == 1 && (view.substr(0, 2) == "\xff\xfe" || view.substr(0, 2) == "\xfe\xff"))
-            bad_input(path, ": is text in UTF-16: iconv -f UTF-16 -t UTF-8 '", path,
-                      "' > map.txt makes one that rsc reads");
-        if (view.find('\0') != std::string_view::npos)
-            refuse(path, line, "neither text nor a NetCDF file (there is a zero byte)");
-        if (const std::size_t mark = view.find('#'); mark != std::string_view::npos)
-            find_units(view.substr(mark + 1), line, table.units);
-        if (table.line.empty()) refuse_heading(path, file, view, line);
-        Row row = parse(view, path, line, style, missing, table.values);
-        if (row.count == 0) continue;
-        if (table.columns == 0) table.columns = row.count;
-        if (missing && row.open_end && row.count + 1 == table.columns) {
-            table.values.push_back(std::nan(""));  // the last cell is empty
+namespace {
+
+// The lines of a table, after `heading` lines that are no numbers.
+class TableReader {
+public:
+    TableReader(const std::string& path, std::size_t columns, bool missing, long heading)
+        : path_(path), columns_(columns), missing_(missing), heading_(heading), file_(path) {
+        table_.columns = columns;
+    }
+
+    TextTable read() {
+        std::string text;
+        while (next_line(file_, text)) {
+            ++line_;
+            std::string_view view(text);
+            if (line_ == 1) start(view);
+            if (view.find('\0') != std::string_view::npos)
+                refuse(path_, line_, "neither text nor a NetCDF file (there is a zero byte)");
+            if (const std::size_t mark = view.find('#'); mark != std::string_view::npos)
+                find_units(utf8(view.substr(mark + 1)), line_, table_.units);
+            if (line_ <= heading_) continue;
+            if (heading_ == 0 && table_.line.empty()) refuse_heading(view);
+            add(view);
+        }
+        table_.rows = table_.line.size();
+        if (table_.rows == 0) bad_input(path_, ": contains no numbers");
+        return std::move(table_);
+    }
+
+private:
+    void start(std::string_view& view) const {
+        if (view.substr(0, 3) == "\xef\xbb\xbf") view.remove_prefix(3);  // UTF-8 byte order mark
+        if (view.substr(0, 2) == "\xff\xfe" || view.substr(0, 2) == "\xfe\xff")
+            bad_input(path_,
+                      ": is text in UTF-16; this makes a file that rsc reads: iconv -f UTF-16 "
+                      "-t UTF-8 ",
+                      for_shell(path_), " > ", copy_for_shell(path_, "_utf8.txt"));
+    }
+
+    // Refuses a file whose first line of text is not a comment. What is to be done about it is told
+    // if it makes a table of the rest.
+    void refuse_heading(std::string_view first) {
+        const long last = heading_end(path_, file_, first, line_);
+        if (last == 0) return;
+        const std::string lines = last > line_ ? joined("lines ", line_, " to ", last, " begin")
+                                               : joined("line ", line_, " begins");
+        try {
+            (void)TableReader(path_, columns_, missing_, last).read();
+        } catch (const Error& error) {
+            refuse(path_, line_, lines,
+                   " with a word, not a number, and the rest is no table: ", error.what());
+        }
+        const bool esri = namelist::lower_case(first.substr(0, 5)) == "ncols";
+        refuse(path_, line_, lines, " with a word, not a number: put '#' before each line of text",
+               esri ? ", and give an ESRI grid's cellsize as surface%pixel and its NODATA_value as "
+                      "surface%missing_value"
+                    : "; a unit there is read");
+    }
+
+    void add(std::string_view view) {
+        Row row = parse(view, path_, line_, style_, missing_, table_.values);
+        if (row.count == 0) return;
+        if (table_.columns == 0) table_.columns = row.count;
+        if (missing_ && row.open_end && row.count + 1 == table_.columns) {
+            table_.values.push_back(std::nan(""));  // the last cell is empty
             ++row.count;
         }
-        if (missing && open_ends && columns == 0 && row.count == table.columns + 1) {
-            add_empty_column(table);  // all rows before end in an empty cell
+        if (missing_ && open_ends_ && columns_ == 0 && row.count == table_.columns + 1)
+            add_empty_column(table_);  // all rows before end in an empty cell
+        open_ends_ = open_ends_ && row.open_end;
+        if (row.count != table_.columns) {
+            const std::string wanted = columns_ > 0
+                                           ? joined(columns_)
+                                           : joined(table_.columns, " as in line ", table_.line[0]);
+            refuse(path_, line_, row.count, " values where ", wanted, " were expected");
         }
-        open_ends = open_ends && row.open_end;
-        if (row.count != table.columns) {
-            const std::string wanted = columns > 0
-                                           ? joined(columns)
-                                           : joined(table.columns, " as in line ", table.line[0]);
-            refuse(path, line, row.count, " values where ", wanted, " were expected");
-        }
-        table.line.push_back(line);
+        table_.line.push_back(line_);
     }
-    if (file.bad()) bad_input(path, ": reading failed after line ", line);
-    table.rows = table.line.size();
-    if (table.rows == 0) bad_input(path, ": contains no numbers");
-    return table;
+
+    const std::string& path_;
+    std::size_t columns_;
+    bool missing_;
+    long heading_, line_ = 0;
+    bool open_ends_ = true;  // every row so far ends with a separator
+    UnpackedFile file_;
+    Style style_;
+    TextTable table_;
+};
+
+}  // namespace
+
+TextTable read_table(const std::string& path, std::size_t columns, bool missing) {
+    return TableReader(path, columns, missing, 0).read();
 }
 
 }  // namespace rsc

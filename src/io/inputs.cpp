@@ -118,9 +118,18 @@ TextAxis text_axis(const std::string& path, const TextTable& table, std::size_t 
     return axis;
 }
 
+// Three columns, unless the heading says that they are a matrix.
+bool is_triples(const TextTable& table) { return table.columns == 3 && !table.matrix(); }
+
+// The factors from a file's units of heights, and of x and y, to length_unit.
+struct UnitFactors {
+    double heights = 1, coordinates = 1;
+};
+
 HeightMap read_text_triples(const std::string& path, const TextTable& table,
-                            std::optional<double> L, bool missing, const TextMap& text) {
-    if (text.pixel)
+                            std::optional<double> L, bool missing, const MapKeys& keys,
+                            double factor) {
+    if (keys.pixel)
         bad_input(path,
                   ": three columns are read as x y z of a map, which define the step; "
                   "surface%pixel is for a matrix");
@@ -151,29 +160,31 @@ HeightMap read_text_triples(const std::string& path, const TextTable& table,
                   ", y = ", y.first + double(point / x.count) * y.step,
                   "; surface%missing = 'fill' fills such points");
     }
-    map.x0 = x.first;
-    map.y0 = y.first;
-    map.dx = x.step;
-    map.dy = y.step;
+    map.x0 = x.first * factor;
+    map.y0 = y.first * factor;
+    map.dx = x.step * factor;
+    map.dy = y.step * factor;
     check_given_L(path, "x", map.nx, map.dx, L);
     return map;
 }
 
-HeightMap read_text_points(const std::string& path, const TextTable& table, std::optional<double> L,
-                           bool missing, const TextMap& text, const std::string& length_unit) {
-    const bool matrix = table.matrix();
-    if (table.columns == 3 && !matrix) return read_text_triples(path, table, L, missing, text);
-    if (table.columns == 4 && !matrix)
+HeightMap read_text_matrix(const std::string& path, const TextTable& table, std::optional<double> L,
+                           const MapKeys& keys, const std::string& length_unit) {
+    if (table.columns == 4 && !table.matrix())
         bad_input(path,
                   ": four columns are a list of asperities x y z r (surface%source='asperities'), "
                   "not a map");
+    if (!keys.coordinate_unit.empty())
+        bad_input(path,
+                  ": a matrix has no coordinates; surface%coordinate_unit is for three columns x y "
+                  "z, and surface%pixel is in run%length_unit");
     const auto side = [&](Mention::Kind kind) -> std::optional<double> {
         const Mention* const stated = table.mention(kind);
         if (!stated || !(stated->size > 0)) return {};
         return stated->size * length_factor(stated->unit, length_unit, 1);
     };
     const auto width = side(Mention::width), height = side(Mention::height);
-    if (!L && !text.pixel && !width)
+    if (!L && !keys.pixel && !width)
         bad_input(path,
                   ": a text matrix has no spacing; surface%pixel must be given, or of body 1 "
                   "surface%L, its extent in x");
@@ -181,9 +192,9 @@ HeightMap read_text_points(const std::string& path, const TextTable& table, std:
     check_grid(path, table.columns, table.rows);
     HeightMap map = allocate_map(table.columns, table.rows);
     std::ranges::copy(table.values, map.data.get());
-    map.dx = text.pixel ? *text.pixel : L ? *L / map.nx : *width / map.nx;
-    map.dy = text.pixel || !height ? map.dx : *height / map.ny;
-    if (text.pixel) check_given_L(path, "x", map.nx, map.dx, L);
+    map.dx = keys.pixel ? *keys.pixel : L ? *L / map.nx : *width / map.nx;
+    map.dy = keys.pixel || !height ? map.dx : *height / map.ny;
+    if (keys.pixel) check_given_L(path, "x", map.nx, map.dx, L);
     constexpr double kSameSide = 0.01;  // relative; a header is rounded
     const auto check_side = [&](Mention::Kind kind, std::optional<double> stated, double side,
                                 const char* extent) {
@@ -194,6 +205,7 @@ HeightMap read_text_points(const std::string& path, const TextTable& table, std:
     };
     check_side(Mention::width, width, map.Lx(), " wide");
     check_side(Mention::height, height, map.Ly(), " high");
+    if (table.picture()) reverse_rows(map);
     return map;
 }
 
@@ -207,43 +219,51 @@ void mark_missing(HeightMap& map, const std::vector<double>& codes, MapOrigin* o
     if (origin) origin->code = likely_code(map, origin->coded);
 }
 
-// The factor of the heights of a text file. A unit in a comment that is not understood, and is
-// another than the unit that applies, is refused.
-double text_height_factor(const std::string& path, const TextTable& table, const TextMap& text,
-                          const std::string& length_unit) {
-    const Mention* const stated = table.mention(Mention::values);
-    const std::string unit = !text.height_unit.empty() ? text.height_unit
-                             : stated                  ? stated->unit
-                                                       : length_unit;
-    const bool three = table.columns == 3 && !table.matrix();
-    const auto in_length_unit = [&](const Mention& mention) {
-        return mention.unit == length_unit || unit_factor(mention.unit, length_unit) == 1;
-    };
-    // One of the units in the comments is that of the coordinates.
-    const bool coordinates = std::ranges::any_of(table.units, in_length_unit);
+// A unit in a comment that is not understood, and is another than those that apply, is refused, as
+// are coordinates without a unit if the heights have one.
+UnitFactors text_factors(const std::string& path, const TextTable& table, const MapKeys& keys,
+                         const std::string& length_unit) {
+    const Mention *const stated = table.mention(Mention::values), *const lateral = table.mention(
+                                                                      Mention::coordinates);
+    const bool triples = is_triples(table), known = !keys.height_unit.empty() || stated;
+    const bool known_coordinates = !keys.coordinate_unit.empty() || lateral;
+    const std::string heights = !keys.height_unit.empty() ? keys.height_unit
+                                : stated                  ? stated->unit
+                                                          : length_unit;
+    const std::string coordinates = !triples || !known_coordinates  ? length_unit
+                                    : !keys.coordinate_unit.empty() ? keys.coordinate_unit
+                                                                    : lateral->unit;
+    if (triples && known && !known_coordinates)
+        bad_input(path, ": the heights are in '", heights,
+                  "', but neither the file nor the case has the unit of x and y; "
+                  "surface%coordinate_unit must be given");
     for (const Mention& other : table.units) {
-        const auto same = [&](const std::string& known) {
-            return other.unit == known || unit_factor(other.unit, known) == 1;
+        const auto same = [&](const std::string& unit) {
+            return other.unit == unit || unit_factor(other.unit, unit) == 1;
         };
-        const bool understood = !text.height_unit.empty() || stated;
-        if (&other == stated || in_length_unit(other) ||
-            (understood && (!three || (coordinates && same(unit)))))
+        const bool lateral_one = triples && other.kind == Mention::coordinates;
+        const bool understood =
+            lateral_one ? !keys.coordinate_unit.empty() : known && (!triples || known_coordinates);
+        if (&other == stated || understood || same(coordinates) || (!lateral_one && same(heights)))
             continue;
-        bad_input(path, ":", other.line, ": a comment names the unit '", other.unit, "'; ",
-                  understood && three
-                      ? "x and y are taken in run%length_unit = '" + length_unit +
-                            "', which must be that of the file"
-                      : "surface%height_unit, the unit of the heights, must be given");
+        bad_input(
+            path, ":", other.line, ": a comment names the unit '", other.unit,
+            "'; surface%height_unit, the unit of the heights, ",
+            triples && !known_coordinates ? "and surface%coordinate_unit, that of x and y, " : "",
+            "must be given");
     }
+    UnitFactors factors;
     try {
-        return length_factor(unit, length_unit, 1);
+        factors.heights = length_factor(heights, length_unit, 1);
     } catch (const Error& error) {
         bad_input(path,
-                  stated && text.height_unit.empty()
+                  stated && keys.height_unit.empty()
                       ? ":" + std::to_string(stated->line) + ": a comment: "
                       : ": ",
                   error.what(), "; surface%height_unit replaces it");
     }
+    factors.coordinates = length_factor(coordinates, length_unit, 1);
+    return factors;
 }
 
 // True if the values are uniform to the rounding of their digits.
@@ -271,14 +291,16 @@ void refuse_coordinates(const std::string& path, const TextTable& table) {
 }
 
 HeightMap read_text_heights(const std::string& path, std::optional<double> L, bool missing,
-                            const TextMap& text, const std::string& length_unit,
+                            const MapKeys& keys, const std::string& length_unit,
                             MapOrigin* origin) {
     const TextTable table = read_table(path, 0, missing);
     refuse_coordinates(path, table);
-    const double factor = text_height_factor(path, table, text, length_unit);
-    HeightMap map = read_text_points(path, table, L, missing, text, length_unit);
-    mark_missing(map, text.missing_value, origin);
-    scale_heights(map, factor);
+    const UnitFactors factors = text_factors(path, table, keys, length_unit);
+    HeightMap map = is_triples(table)
+                        ? read_text_triples(path, table, L, missing, keys, factors.coordinates)
+                        : read_text_matrix(path, table, L, keys, length_unit);
+    mark_missing(map, keys.missing_value, origin);
+    scale_heights(map, factors.heights);
     return map;
 }
 
@@ -310,9 +332,15 @@ std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variab
     // Tolerance for the rounding of coordinates stored in single precision.
     const double largest = std::max(std::abs(c.front()), std::abs(c.back()));
     const double rounding = variable->type == NC_FLOAT ? 1.2e-7 * largest : 4.5e-16 * largest;
+    const bool coarse = rounding > kUniformText * axis.step;
     for (const auto i : indices(n)) {
-        const double uniform = axis.first + double(i) * axis.step;
-        if (std::abs(c[i] - uniform) > kUniform * axis.step + rounding)
+        const double uniform = axis.first + double(i) * axis.step, off = std::abs(c[i] - uniform);
+        if (coarse && off > kUniformText * axis.step)
+            bad_input(file.path(), ": coordinate ", name, " has too few digits: it is rounded to ",
+                      rounding, " in its type, ", variable->type == NC_FLOAT ? "float" : "double",
+                      ", and its step is about ", axis.step,
+                      "; a hundredth of the step is expected");
+        if (off > kUniform * axis.step + rounding)
             bad_input(file.path(), ": coordinate ", name, " is not uniform to 1e-6 of its step ",
                       axis.step, ": ", name, "(", axis.reversed ? n - 1 - i : i,
                       "), counted from 0, is ", c[i], " where ", uniform, " was expected");
@@ -351,28 +379,33 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& c
 }
 
 // Factors of heights, x and y. Heights in nanometres with coordinates in micrometres are common,
-// and without conversion slopes would be
-// 1000 times too large. If only some variables have units, the unit of the others is unknown.
+// and without conversion slopes would be 1000 times too large. If only some variables have units, in
+// the file or by the keys, the unit of the others is unknown.
 std::array<double, 3> unit_factors(const NetcdfInput& file, const NetcdfInput::Variable& heights,
-                                   const std::string& length_unit, bool coordinates,
-                                   std::size_t of_x) {
+                                   const std::string& length_unit, const MapKeys& keys,
+                                   bool coordinates, std::size_t of_x) {
     std::vector<NetcdfInput::Variable> all = {heights};
     if (coordinates)
         for (const std::size_t dimension : {of_x, 1 - of_x})
             all.push_back(*file.find(heights.axes[dimension]));
     std::array<double, 3> factor{1, 1, 1};
     const NetcdfInput::Variable *with = nullptr, *without = nullptr;
+    std::string unit;  // of `with`
     for (const auto k : indices(all)) {
-        const auto known = file.unit_factor(all[k], length_unit);
-        if (!known)
+        const std::string& key = k == 0 ? keys.height_unit : keys.coordinate_unit;
+        auto known = file.unit_factor(all[k], length_unit);
+        if (!known && !key.empty()) known = length_factor(key, length_unit);
+        if (!known) {
             without = &all[k];
-        else if ((factor[k] = *known) != 1)
+        } else if ((factor[k] = *known) != 1) {
             with = &all[k];
+            unit = file.unit(*with).value_or(key);
+        }
     }
     if (with && without)
-        bad_input(file.path(), ": ", with->name, " is in '", file.unit(*with).value_or(""),
-                  "', but ", without->name,
-                  " has no attribute units or unit, so its unit is unknown");
+        bad_input(file.path(), ": ", with->name, " is in '", unit, "', but ", without->name,
+                  " has no attribute units or unit; surface%",
+                  without == &all[0] ? "height_unit" : "coordinate_unit", " must be given");
     return factor;
 }
 
@@ -396,7 +429,7 @@ HeightMap transposed(const HeightMap& map) {
 
 HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L,
                               const std::string& length_unit, const std::string& channel,
-                              bool missing, const TextMap& text, MapOrigin* origin) {
+                              bool missing, const MapKeys& keys, MapOrigin* origin) {
     const NetcdfInput file(path);
     const auto variable = find_heights(file, channel);
     if (origin) origin->channel = variable.name;
@@ -408,21 +441,29 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L,
     if (x.has_value() != y.has_value())
         bad_input(path, ": ", variable.shape(),
                   " has a coordinate variable for only one dimension; both or none were expected");
-    if (!x && !L)
-        bad_input(path, ": ", variable.shape(),
-                  " has no coordinate variables; they must be given, or of body 1 surface%L, its "
-                  "extent in x");
+    if (!x && !L && !keys.pixel)
+        bad_input(
+            path, ": ", variable.shape(),
+            " has no coordinate variables; they must be given, or surface%pixel, or of body 1 "
+            "surface%L, its extent in x");
+    if (x && keys.pixel)
+        bad_input(path,
+                  ": the step follows from its coordinates; surface%pixel is for files "
+                  "without them");
+    keys.require_use(path, !file.unit(variable),
+                     !x || !file.unit(*file.find(variable.axes[of_x])) || keys.pixel);
     HeightMap map = allocate_map(variable.lengths[1], variable.lengths[0]);
     file.read(variable, map.data.get(), missing);
     apply_mask(file, variable, map);
-    mark_missing(map, text.missing_value, origin);
+    mark_missing(map, keys.missing_value, origin);
     if (turned) map = transposed(map);
-    if (L) {
-        check_L(path, *L);
-        map.dx = map.dy = *L / map.nx;
+    if (L) check_L(path, *L);
+    if (!x) {
+        map.dx = map.dy = keys.pixel ? *keys.pixel : *L / map.nx;
+        check_given_L(path, variable.axes[of_x], map.nx, map.dx, L);
     }
     const auto [factor_z, factor_x, factor_y] =
-        unit_factors(file, variable, length_unit, x.has_value(), of_x);
+        unit_factors(file, variable, length_unit, keys, x.has_value(), of_x);
     if (x) {
         map.x0 = x->first * factor_x;
         map.y0 = y->first * factor_y;
@@ -436,20 +477,12 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L,
     return map;
 }
 
-std::string first_bytes(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::string start(4096, '\0');
-    file.read(start.data(), std::streamsize(start.size()));
-    start.resize(at(file.gcount()));
-    return start;
-}
-
 // The formats of instruments, recognised by a file's first bytes. They include sizes and units.
 struct InstrumentFormat {
     const char* name;
     bool (*is)(const std::string& first_bytes);
     HeightMap (*read)(const std::string& path, const std::string& channel,
-                      const std::string& length_unit, std::string* title);
+                      const std::string& length_unit, const MapKeys& keys, std::string* title);
     bool channels;  // a file has several maps, possibly with masks
 };
 constexpr InstrumentFormat kInstrumentFormats[] = {{".gwy", is_gwy, read_gwy, true},
@@ -462,8 +495,57 @@ const InstrumentFormat* instrument_format(const std::string& first_bytes) {
     return nullptr;
 }
 
-// A binary file of no known format is refused; the message says how to convert it.
+// Packed files, other than by gzip: what they begin with, and the command that unpacks them to
+// standard output.
+struct Packed {
+    std::string_view start;
+    const char *name, *command;
+};
+constexpr Packed kPacked[] = {{{"\xfd"
+                                "7zXZ\0",
+                                6},
+                               "xz",
+                               "xz -dc"},
+                              {"BZh", "bzip2", "bzip2 -dc"},
+                              {"\x28\xb5\x2f\xfd", "zstd", "zstd -dc"}};
+
+// Refuses packed files, with the command that unpacks them.
+void refuse_packed(const std::string& path, const std::string& start) {
+    for (const Packed& packed : kPacked)
+        if (start.starts_with(packed.start))
+            bad_input(path, ": is packed by ", packed.name, "; this unpacks it: ", packed.command,
+                      " ", for_shell(path), " > ", copy_for_shell(path, ""));
+    if (start.starts_with("CDF") || start.starts_with("\x89HDF"))
+        bad_input(path, ": is a NetCDF file packed by gzip; this unpacks it: gzip -dc ",
+                  for_shell(path), " > ", copy_for_shell(path, ""));
+    if (!start.starts_with("PK\3\4") || start.size() < 30) return;
+    // The name of the first file in an archive follows 30 bytes; archives of instruments (.x3p, .plux)
+    // begin with XML.
+    const std::size_t length = ByteReader::value<std::uint16_t>(start.data() + 26);
+    if (start.substr(30, length).ends_with(".xml"))
+        bad_input(path, ": is an archive of an instrument. ", gwyddion_advice(path));
+    bad_input(path, ": is a zip archive; this unpacks it: unzip ", for_shell(path));
+}
+
+// Refuses meshes: STL, which begins with its name and triangles, or with 80 bytes and their number,
+// and PLY.
+void refuse_mesh(const std::string& path, const std::string& start) {
+    constexpr std::size_t head = 84, triangle = 50;  // bytes
+    std::error_code error;
+    const bool text = start.starts_with("solid") && start.find("facet") != std::string::npos;
+    const bool binary =
+        start.size() >= head &&
+        std::filesystem::file_size(path, error) ==
+            head + triangle * ByteReader::value<std::uint32_t>(start.data() + head - 4);
+    if (text || binary || start.starts_with("ply\n") || start.starts_with("ply\r"))
+        bad_input(path, ": is a mesh of triangles (", start.starts_with("ply") ? "PLY" : "STL",
+                  "), not a height map: heights on a grid are expected");
+}
+
+// A file of no known format is refused; the message says how to convert it.
 void refuse_unknown(const std::string& path, const std::string& start) {
+    refuse_packed(path, start);
+    refuse_mesh(path, start);
     if (start.find('\0') == std::string::npos || start.substr(0, 2) == "\xff\xfe" ||
         start.substr(0, 2) == "\xfe\xff")
         return;
@@ -520,11 +602,26 @@ Asperities read_text_asperities(const std::string& path) {
 
 }  // namespace
 
-bool is_instrument_map(const std::string& path) {
-    return !is_netcdf(path) && instrument_format(first_bytes(path));
+void MapKeys::require_use(const std::string& path, bool heights, bool sides) const {
+    const auto refuse = [&path](const char* key, const char* what) {
+        bad_input(path, ": has a unit of its ", what, "; surface%", key,
+                  " is for files without it");
+    };
+    if (!heights && !height_unit.empty()) refuse("height_unit", "heights");
+    if (!sides && !coordinate_unit.empty()) refuse("coordinate_unit", "x and y");
+    if (!sides && pixel) refuse("pixel", "x and y");
 }
 
-bool is_text_map(const std::string& path) { return !is_netcdf(path) && !is_instrument_map(path); }
+bool lacks_units(const std::string& path, const std::string& channel) {
+    if (is_netcdf(path)) {
+        const NetcdfInput file(path);
+        const auto heights = find_heights(file, channel);
+        const auto x = file.find(heights.axes[1]);
+        return !file.unit(heights) || !x || !file.unit(*x);
+    }
+    const std::string start = first_bytes(path);
+    return is_gwy(start) ? gwy_lacks_units(path, channel) : !is_sdf(start);
+}
 
 // The lowest and the highest height other than `code`; infinities if there is none.
 static std::pair<double, double> range_of(const HeightMap& map, double code) {
@@ -584,7 +681,7 @@ std::optional<double> likely_code(const HeightMap& map, long& points) {
 
 HeightMap read_heights(const std::string& path, std::optional<double> L,
                        const std::string& length_unit, const std::string& channel, Missing missing,
-                       const TextMap& text, MapOrigin* origin) {
+                       const MapKeys& keys, MapOrigin* origin) {
     const bool fill = missing == Missing::fill;
     const bool netcdf = is_netcdf(path);
     const std::string start = first_bytes(path);
@@ -594,16 +691,12 @@ HeightMap read_heights(const std::string& path, std::optional<double> L,
         bad_input(path, ": has no channel '", channel,
                   "'; only .gwy and NetCDF files have channels");
     if (!netcdf && !instrument) refuse_unknown(path, start);
-    if ((netcdf || instrument) && text.any())
-        bad_input(
-            path,
-            ": is not a text file; surface%height_unit and surface%pixel are only for text files");
-    HeightMap map = netcdf ? read_netcdf_heights(path, L, length_unit, channel, fill, text, origin)
-                    : instrument ? instrument->read(path, channel, length_unit,
+    HeightMap map = netcdf ? read_netcdf_heights(path, L, length_unit, channel, fill, keys, origin)
+                    : instrument ? instrument->read(path, channel, length_unit, keys,
                                                     origin ? &origin->channel : nullptr)
-                                 : read_text_heights(path, L, fill, text, length_unit, origin);
+                                 : read_text_heights(path, L, fill, keys, length_unit, origin);
     if (instrument) {
-        mark_missing(map, text.missing_value, origin);
+        mark_missing(map, keys.missing_value, origin);
         check_given_L(path, "x", map.nx, map.dx, L);
     }
     for (const double step : {map.dx, map.dy})

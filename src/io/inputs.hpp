@@ -18,20 +18,24 @@ bool is_pattern(const std::string& name);
 // Error(bad_input) if nothing matches.
 std::vector<std::string> matching_files(const std::string& name);
 
-// Properties of a map that a file may not contain.
-struct TextMap {
-    std::string height_unit;      // of its heights; empty: length_unit
+// Properties of a map that a file may not contain; keys of &surface.
+struct MapKeys {
+    std::string height_unit;      // of its heights, if the file has no units
     std::optional<double> pixel;  // step between the points of a matrix, instead of L [length_unit]
-    // Heights that mean a missing point, also for other files: as text and NetCDF files have them,
-    // of instruments' files [length_unit].
+    // Heights that mean a missing point: as text and NetCDF files have them, of instruments' files
+    // [length_unit].
     std::vector<double> missing_value = {};
-    bool any() const { return !height_unit.empty() || pixel; }
+    std::string coordinate_unit = "";  // of its x and y, if the file has no units
+
+    // Throws Error(bad_input) for a key that the file leaves no use for: `heights` and `sides` are
+    // true if it has no unit of these.
+    void require_use(const std::string& path, bool heights, bool sides) const;
 };
 
 // What a map was read from, for messages and results.
 struct MapOrigin {
     std::string channel;  // image of a .gwy or variable of a NetCDF file; empty: the file has none
-    // A height as in TextMap::missing_value that is probably a code for missing points
+    // A height as in MapKeys::missing_value that is probably a code for missing points
     // (likely_code()).
     std::optional<double> code;
     long coded = 0;  // points that have it
@@ -43,12 +47,9 @@ struct MapOrigin {
 // no other height fills such blocks. `points` receives their number. Rows without padding.
 std::optional<double> likely_code(const HeightMap& map, long& points);
 
-// True if the readable file `path` is one of an instrument, .gwy or .sdf.
-bool is_instrument_map(const std::string& path);
-
-// True if the readable file `path` is neither NetCDF nor of an instrument, so that TextMap applies
-// to it.
-bool is_text_map(const std::string& path);
+// True if the units and the pixel of MapKeys may apply to the readable file `path`: text, or a file
+// without units of its heights or coordinates. `channel` as for read_heights().
+bool lacks_units(const std::string& path, const std::string& channel);
 
 // Heights from `path`.
 //
@@ -56,18 +57,20 @@ bool is_text_map(const std::string& path);
 // scale_factor and add_offset are applied; missing values (_FillValue, missing_value, outside
 // valid_min, valid_max or valid_range, NaN) are refused. These limits are stored values, before
 // scale_factor and add_offset; real numbers for packed integers are heights. Heights and
-// coordinates are converted from their `units` to `length_unit`. If none of them has `units`,
-// length_unit is assumed; if only some have, and another unit than length_unit, the file is
-// refused. The spacing comes from the coordinate variables of the two dimensions, which must be
-// uniform to 1e-6 of a step (or to the rounding of their own type); x0, y0 are the first
-// coordinates; decreasing coordinates are reversed. Without coordinate variables the steps are
-// dx = dy = L/nx and x0 = y0 = 0. If both are given, nx dx must equal L to 1e-6.
+// coordinates are converted from their `units` to `length_unit`. If none of them has `units`, `keys`
+// or length_unit apply; if only some have, and another unit than length_unit, the file is refused. The spacing comes from the coordinate variables of the two dimensions, which must be
+// uniform to 1e-6 of a step (or to the rounding of their own type, if this is a hundredth of a step
+// at most); x0, y0 are the first coordinates; decreasing coordinates are reversed. Without coordinate
+// variables the steps are dx = dy = pixel or L/nx, x0 = y0 = 0, and the first row has the lowest y. If both are given, nx dx must equal L to 1e-6.
 //
-// Text (formats.hpp): a matrix, one line for each y in increasing order; heights are in the unit
-// that a comment states as theirs, otherwise in length_unit; a comment that names another unit of
-// length asks for `text.height_unit`. Needs L, or a comment with the width. Or three columns x y z,
+// Text (formats.hpp), which gzip may have packed: a matrix, one line for each y in increasing order,
+// but from the top of the picture, in decreasing order, under the heading of Gwyddion's exports;
+// heights are in the unit that a comment states as theirs, otherwise in length_unit; a comment that
+// names another unit of length asks for `keys.height_unit`. Needs L, or a comment with the width. Or three columns x y z,
 // in any order of the lines: the points of a full grid whose coordinates are uniform to a hundredth
-// of a step, as text is rounded. Four columns are refused, because they are a list of asperities.
+// of a step, as text is rounded; x and y are in the unit of a comment ("x [um]") or of
+// `keys.coordinate_unit`, which must be given if the heights have a unit and x and y have none. Four
+// columns are refused, because they are a list of asperities.
 //
 // Gwyddion's .gwy and .sdf of ISO 25178-71 (formats.hpp): sizes and units come from the file; L, if
 // given, must agree.
@@ -76,10 +79,10 @@ bool is_text_map(const std::string& path);
 // is not periodic. `channel` names the image of a .gwy or the variable of a NetCDF file; empty: the
 // first with heights. With Missing::fill missing points are NaN in the map; otherwise they are
 // refused. In a text `nan` and `bad` are missing points, as are points that are not among the
-// triples. `text` is for text files only; other files are refused with it.
+// triples.
 HeightMap read_heights(const std::string& path, std::optional<double> L,
                        const std::string& length_unit = "mm", const std::string& channel = "",
-                       Missing missing = Missing::refuse, const TextMap& text = {},
+                       Missing missing = Missing::refuse, const MapKeys& keys = {},
                        MapOrigin* origin = nullptr);
 
 // Asperities from `path`.

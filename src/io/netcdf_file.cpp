@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/library_lock.hpp"
+#include "io/formats.hpp"
 #include "io/input_netcdf.hpp"
 #include "io/whole_file.hpp"
 
@@ -137,7 +138,9 @@ void put_attribute(int ncid, int varid, const std::string& name, const NetcdfAtt
     };
     const Overloaded put_value = {
         [&](const std::string& text) {
-            check(nc_put_att_text(ncid, varid, name.c_str(), text.size(), text.c_str()), path);
+            // The case stays as it is, because it may name files.
+            const std::string shown = name == "case" ? text : utf8(text);
+            check(nc_put_att_text(ncid, varid, name.c_str(), shown.size(), shown.c_str()), path);
         },
         [&](const double& x) { put(nc_put_att_double, NC_DOUBLE, std::span(&x, 1)); },
         [&](const std::int32_t& n) { put(nc_put_att_int, NC_INT, std::span(&n, 1)); },

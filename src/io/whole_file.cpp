@@ -179,26 +179,11 @@ bool ResultHead::this_version() const { return source.starts_with("rsc " RSC_VER
 
 std::optional<ResultHead> head_of_result(const std::string& path) {
     const std::lock_guard lock(library_lock());
-    int file = -1;
     // By the first bytes, because NetCDF and HDF5 take long to open their first file.
     if (!begins_with(path, "CDF") && !begins_with(path, "\x89HDF")) return std::nullopt;
     require_memory(32 << 20, "to read '" + path + "'");
-    require_sound(path);
-    if (nc_open(path.c_str(), NC_NOWRITE, &file) != NC_NOERR) return std::nullopt;
-    const auto text = [file](const char* name) {
-        // of a case: the length in a damaged file may be arbitrary
-        constexpr std::size_t longest = std::size_t{1} << 26;
-        std::size_t length = 0;
-        nc_type type = NC_NAT;
-        std::string value;
-        if (nc_inq_att(file, NC_GLOBAL, name, &type, &length) != NC_NOERR || type != NC_CHAR ||
-            length > longest)
-            return value;
-        value.resize(length);
-        if (nc_get_att_text(file, NC_GLOBAL, name, value.data()) != NC_NOERR) value.clear();
-        return value;
-    };
-    ResultHead head{text("source"), text("case")};
+    const int file = open_netcdf(path);
+    ResultHead head{global_text(file, "source"), global_text(file, "case")};
     nc_close(file);
     if (!head.source.starts_with("rsc ") || head.case_text.empty()) return std::nullopt;
     return head;

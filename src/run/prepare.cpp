@@ -94,15 +94,16 @@ HeightMap read_raw_map(const Case& settings, const std::string& path, std::optio
                        const std::string& channel, bool windowed, MapOrigin* origin) {
     const auto& keys = settings.surface;
     const bool part = windowed && keys.window[0];
-    // Of two maps one may be a text file, to which alone these keys apply.
+    // Of two maps one may have no units, to which alone these keys apply.
     const std::string other = windowed                         ? settings.indenter.file
                               : keys.source == Source::heights ? map_file(keys.file, 1)
                                                                : "";
-    TextMap text{keys.height_unit, keys.pixel, keys.missing_value};
-    if (!other.empty() && is_text_map(other) && !is_text_map(path))
-        text = {"", {}, keys.missing_value};
+    MapKeys given{keys.height_unit, keys.pixel, keys.missing_value, keys.coordinate_unit};
+    if (!other.empty() && lacks_units(other, windowed ? settings.indenter.channel : keys.channel) &&
+        !lacks_units(path, channel))
+        given = {"", {}, keys.missing_value};
     HeightMap map = read_heights(path, L, settings.run.length_unit, channel,
-                                 part ? Missing::fill : keys.missing, text, origin);
+                                 part ? Missing::fill : keys.missing, given, origin);
     return part ? part_of(map, keys.window, path) : std::move(map);
 }
 
@@ -431,11 +432,12 @@ SurfaceModel make_surface_model(const Case& settings, std::int64_t number, int t
 Shape shape_of(const Case& settings) {
     const Case::IndenterKeys& keys = settings.indenter;
     ShapeKeys made;
-    made.R = equivalent_radius(settings.solids.R);
-    for (const int k : indices(2))
-        made.radii[k] =
-            equivalent_radius({settings.solids.R[0], keys.radii[k].value_or(settings.solids.R[1])});
-    made.angle = keys.angle * std::numbers::pi / 180;
+    made.R = settings.solids.R[1];
+    made.R_rough = settings.solids.R[0];
+    const GapRadii gap = gap_radii(settings);
+    if (kShapes[at(keys.shape)].make == make_paraboloid)
+        for (const int k : indices(2)) made.radii[k] = equivalent_radius(gap.R[k]);
+    made.angle = gap.angle * std::numbers::pi / 180;
     made.slope = keys.slope.value_or(0);
     made.radius = keys.radius.value_or(0);
     made.rim_radius = keys.rim_radius;

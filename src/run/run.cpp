@@ -117,14 +117,15 @@ std::string stem(const std::string& result) {
 }
 
 // The keys of a surface that belong to the map of body 2, too.
-Case::Surface for_second_body(const Case::Surface& keys, const std::string& file) {
+Case::Surface for_second_body(const Case::Surface& keys, const Case::IndenterKeys& body) {
     Case::Surface kept;
     kept.detrend = keys.detrend;
     kept.missing = keys.missing;
     kept.filter_cutoff = keys.filter_cutoff;
     kept.outliers = keys.outliers;
-    if (is_text_map(file)) {
+    if (lacks_units(body.file, body.channel)) {
         kept.height_unit = keys.height_unit;
+        kept.coordinate_unit = keys.coordinate_unit;
         kept.pixel = keys.pixel;
     }
     kept.missing_value = keys.missing_value;
@@ -147,8 +148,8 @@ std::string twins_text(const Job& job, const std::string& result) {
     twins.run.realizations = kRealizations;
     twins.run.first_realization = 1;
     const Case::Surface keys = twins.surface;
-    const std::string& second = twins.indenter.file;
-    twins.surface = second.empty() ? Case::Surface() : for_second_body(keys, second);
+    const Case::IndenterKeys& second = twins.indenter;
+    twins.surface = second.file.empty() ? Case::Surface() : for_second_body(keys, second);
     twins.surface.source = Source::spectrum;
     twins.surface.file = result;
     twins.surface.L = L;

@@ -79,7 +79,8 @@ double smooth_radius(const Job& job) {
 void print_unlikely_units(std::ostream& out, const Job& job) {
     const UnitNames units = units_of(job);
     const char *l = units.length, *f = units.force;
-    constexpr double stiffest = 2e12, softest = 1e3, steepest = 3, flattest = 1e-6, highest = 0.1;
+    constexpr double stiffest = 2e12, softest = 1e3, highest = 0.1;
+    const double steepest = job.measured ? 1 : 3, flattest = job.measured ? 1e-4 : 1e-6;
     const double in_pascals = pascals(job.settings);
     const auto modulus = [&](const char* key, double E) {
         const double value = E * in_pascals;
@@ -99,7 +100,8 @@ void print_unlikely_units(std::ostream& out, const Job& job) {
                                          : kNotComputed,
                  L = std::max(job.domain.Lx, job.domain.Ly);
     const char* const heights = job.spectrum ? "surface%sigma or surface%L"
-                                             : "surface%height_unit, surface%pixel or surface%L";
+                                             : "surface%height_unit, surface%coordinate_unit, "
+                                               "surface%pixel or surface%L";
     constexpr double rounding = 1e-12;  // of heights from which a form was subtracted
     if (slope > steepest || (slope > rounding && slope < flattest))
         out << format("warning: the rms slope is %.3g: are %s in %s?\n", slope, heights, l);

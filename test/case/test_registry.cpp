@@ -65,6 +65,8 @@ void bounds_of(const Key& key, const std::string& name) {
         taken(-1e50);
         refused(std::nextafter(-1e50, -infinity));
         refused(-infinity);
+        if (b.nonzero)
+            for (const double v : {0.0, 9.99e-51, -9.99e-51}) refused(v);
     } else if (!b.open) {
         taken(b.low);
         refused(next(b.low, -infinity));

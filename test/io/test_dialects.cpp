@@ -17,7 +17,7 @@ using netcdf_file::Variable;
 const Folder folder;
 constexpr const char* kRows = "1 2 3 4 5\n2 3 4 5 6\n3 4 5 6 8\n";
 
-HeightMap text_map(const std::string& text, const TextMap& keys = {"", 0.5},
+HeightMap text_map(const std::string& text, const MapKeys& keys = {"", 0.5},
                    Missing missing = Missing::refuse, MapOrigin* origin = nullptr) {
     return read_heights(folder.write("t", text), {}, "um", "", missing, keys, origin);
 }
@@ -41,8 +41,14 @@ TEST(test_units_in_comments) {
     std::string points;
     for (const int k : indices(9))
         points += std::to_string(k % 3) + " " + std::to_string(k / 3) + " 1\n";
-    REFUSED(text_map("# x [nm] y [nm] z [nm]\n" + points, {"nm", {}}), "run%length_unit");
+    CHECK_RELATIVE(text_map("# x [nm] y [nm] z [nm]\n" + points, {"nm", {}}).dx, 1e-3, 1e-12);
     CHECK(text_map("# x [um] y [um] z [nm]\n" + points, {"nm", {}})(0, 0) == 0.001);
+    CHECK(text_map(points, {"nm", {}, {}, "mm"}).dx == 1000 && text_map(points, {}).dx == 1);
+    for (const char* const comment : {"# scan of 10 mm\n", "# x [um] y [nm]\n"})
+        REFUSED(text_map(comment + points, {"nm", {}}), "surface%");
+    REFUSED(text_map(points, {"nm", {}}), "surface%coordinate_unit must be given");
+    REFUSED(text_map("# z units: nm\n" + points, {}), "surface%coordinate_unit must be given");
+    REFUSED(text_map(kRows, {"", 0.5, {}, "um"}), "a matrix has no coordinates");
 }
 
 // The sides of the header of Gwyddion's exports; with it, three or four columns are a matrix.
@@ -87,7 +93,7 @@ TEST(test_headers_in_other_languages) {
     // The height of the map counts also where its width is given, and contradicts square points.
     const std::string high = "# Width: 5 um\n# Height: 6 um\n# Value units: um\n";
     const HeightMap map = read_heights(folder.write("t", high + kRows), 5.0, "um", "",
-                                       Missing::refuse, TextMap{}, nullptr);
+                                       Missing::refuse, MapKeys{}, nullptr);
     CHECK_RELATIVE(map.dx, 1, 1e-12);
     CHECK_RELATIVE(map.dy, 2, 1e-12);
     REFUSED(text_map(high + kRows, {"", 1.0}), "a comment says that the map is 6 um high");

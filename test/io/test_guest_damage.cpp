@@ -31,7 +31,8 @@ std::vector<double> asperities_in(const std::string& path) {
     return all;
 }
 
-// One damaged byte, at 150 places of the file: the file is refused every time.
+// One damaged byte, at 150 places of the file, and a file that is cut, or whose end is zeros: the
+// file is refused every time.
 void test_damage(const Folder& folder, Format format) {
     const std::string path = folder / "result.nc", spoilt = folder / "spoilt.nc";
     Result r = sample::result(1);
@@ -42,9 +43,16 @@ void test_damage(const Folder& folder, Format format) {
     const auto heights = heights_in(path), asperities = asperities_in(path);
     const std::string text = head_of_result(path)->case_text;
     int read = 0, refused = 0;
+    std::vector<std::string> spoiled;
     for (std::size_t k = 1; k <= 150; ++k) {
-        std::string damaged = whole;
-        damaged[(k * whole.size()) / 151 + k % 7] ^= char(1 << k % 8);
+        spoiled.push_back(whole);
+        spoiled.back()[(k * whole.size()) / 151 + k % 7] ^= char(1 << k % 8);
+    }
+    for (const std::size_t lost : {std::size_t{1}, std::size_t{47}, whole.size() / 2}) {
+        spoiled.push_back(whole.substr(0, whole.size() - lost));
+        spoiled.push_back(spoiled.back() + std::string(lost, '\0'));
+    }
+    for (const std::string& damaged : spoiled) {
         folder.write("spoilt.nc", damaged);
         const auto look = [&](auto&& in, const auto& truth) {
             ++(accepted([&] { CHECK(in(spoilt) == truth); }) ? read : refused);
@@ -57,7 +65,7 @@ void test_damage(const Folder& folder, Format format) {
             },
             text);
     }
-    CHECK(read == 0 && refused == 450);
+    CHECK(read == 0 && refused == 3 * int(spoiled.size()));
 }
 
 // A surface data file with 3 x 3 heights.

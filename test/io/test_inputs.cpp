@@ -42,6 +42,18 @@ TEST(bad_heights_from_netcdf) {
             "coordinate x does not vary: it begins and");
     REFUSED(read_heights(heights_file("one", x, {}), std::nullopt),
             "height(y = 3, x = 5) has a coordinate");
+    // Single precision: far from 0 it cannot hold the spacing.
+    for (const double far : {0.0, 5438.0}) {
+        const std::string file =
+            write(folder / "single", Dimensions{{"y", 3}, {"x", 5}},
+                  std::vector<Variable>{{"x", NC_FLOAT, {"x"}, counted(5, far, 1e-3)},
+                                        {"y", NC_FLOAT, {"y"}, counted(3, 0, 1e-3)},
+                                        {"height", NC_DOUBLE, {"y", "x"}, counted(15, 0, 1)}});
+        if (far == 0)
+            CHECK_RELATIVE(read_heights(file, std::nullopt).dx, 1e-3, 1e-6);
+        else
+            REFUSED(read_heights(file, std::nullopt), "coordinate x has too few digits");
+    }
     std::vector<double> nan_x = x;
     nan_x[4] = std::nan("");
     REFUSED(read_heights(heights_file("nanx", nan_x, y), std::nullopt),
@@ -127,11 +139,11 @@ TEST(heights_from_text) {
     REFUSED(heights("# nothing\n\n"), "t: contains no numbers");
     REFUSED(heights(""), "t: is empty");
     REFUSED(heights(std::string("1 2\0 3\n", 7)),
-            "t: neither NetCDF, .gwy, .sdf nor text. Gwyddion reads the files of most instruments: "
-            "gwyddion --convert-to-gwy=map.gwy '" +
-                folder / "t" + "' makes one that rsc reads");
+            "t: neither NetCDF, .gwy, .sdf nor text. If Gwyddion reads it, this makes a file that "
+            "rsc reads: gwyddion --convert-to-gwy='" +
+                folder / "t_converted.gwy" + "' '" + folder / "t" + "'");
     REFUSED(heights(std::string("\xff\xfe") + "1"),
-            "t: is text in UTF-16: iconv -f UTF-16 -t UTF-8 '");
+            "t: is text in UTF-16; this makes a file that rsc reads: iconv -f UTF-16 -t UTF-8 '");
     // Heads of files: named with their lines, and what to do about them.
     REFUSED(heights("x,y (um)\n1,2\n3,4\n"),
             "t:1: line 1 begins with a word, not a number: put '#'");
@@ -139,10 +151,10 @@ TEST(heights_from_text) {
             "t:2: lines 2 to 4 begin with a word, not a number: put '#' before each line of text, "
             "and give an ESRI grid's cellsize as surface%pixel");
     REFUSED(heights("\\*File list\r\n\\Version: 7\r\n"),
-            "t:1: the head of an instrument's file. Gwyddion reads");
+            "t:1: the head of an instrument's file. If Gwyddion reads it");
     const std::string late = std::string(3000, '\n') + "1 2 3\n" + std::string(3, '\0');
     REFUSED(heights("[DataSet]\n" + std::string(3000, '\n') + late),
-            "t:1: the head of an instrument's file. Gwyddion reads");
+            "t:1: the head of an instrument's file. If Gwyddion reads it");
     CHECK(read_heights(write("t", "nan 2 3 4 5\n4 5 6 7 8\n7 8 9 1 2\n"), 1.0, "um", "",
                        Missing::fill)(2, 2) == 9);
     REFUSED(heights("1 2 3 1\n4 5 6 1\n7 8 9 1\n"), "four columns are a list of asperities x y z");

@@ -1,11 +1,13 @@
 // Files of instruments: .gwy and .sdf, what is read and what is refused with which words; where
 // Gwyddion is installed, what it makes of them itself.
 #include <unistd.h>
+#include <zlib.h>
 
 #include "check.hpp"
 #include "io/formats.hpp"
 #include "io/inputs.hpp"
 #include "support/map_files.hpp"
+#include "support/netcdf_file.hpp"
 #include "support/refused.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -27,6 +29,15 @@ Map sample() {
         for (const int i : indices(6)) map.z.push_back(1e-9 * (100 * j + i));
     return map;
 }
+
+// The same with rows from below, as .sdf has them.
+Map upwards() {
+    Map map = sample();
+    for (const int j : indices(4))
+        for (const int i : indices(6)) map.z[std::size_t(6 * j + i)] = 1e-9 * (100 * (3 - j) + i);
+    return map;
+}
+constexpr std::size_t kHole = 2 * 6 + 4;  // the point of check_sample() among these
 
 // The sample in micrometres, y upwards; `missing` is the column of a missing point in the second
 // row from the top, or -1.
@@ -100,7 +111,7 @@ TEST(gwy) {
             "no channel contains heights; there are 'A' (0) in");
     REFUSED(in_micrometres(write("number.gwy",
                                  gwy_file(gwy_channel(0, "A", map, "")))),  // a number is no length
-            "number.gwy: no channel contains heights; there are 'A' (0) in ''");
+            "there are 'A' (0) in ''; surface%height_unit is the unit of a channel that has none");
     REFUSED(in_micrometres(write("none.gwy", gwy_file(between))),
             "none.gwy: contains no channel (image)");
     REFUSED(in_micrometres(write("xy.gwy", gwy_file(gwy_channel(0, "A", map, "m", "s")))),
@@ -172,17 +183,17 @@ template <class T>
 std::vector<T> values_of(const Map& map, double scale, T missing, bool hole) {
     std::vector<T> values;
     for (const double z : map.z) values.push_back(static_cast<T>(std::round(z / scale)));
-    if (hole) values[6 + 4] = missing;
+    if (hole) values[kHole] = missing;
     return values;
 }
 
 template <class T>
 void sdf_type(int type, T missing) {
-    const Map map = sample();
+    const Map map = upwards();
     for (const bool hole : {false, true}) {
         if (sizeof(T) == 1) {  // too few numbers for the sample: the type alone
             std::vector<T> values(24, T{3});
-            if (hole) values[6 + 4] = missing;
+            if (hole) values[kHole] = missing;
             const HeightMap m = of_sdf(sdf_binary(map, type, 1e-9, values), Missing::fill);
             CHECK_RELATIVE(m(0, 0), 3e-3, 1e-12);
             CHECK(std::isnan(m(4, 2)) == hole);
@@ -196,7 +207,7 @@ void sdf_type(int type, T missing) {
 }
 
 TEST(sdf) {
-    const Map map = sample();
+    const Map map = upwards();
     sdf_type<std::uint8_t>(0, 255);
     sdf_type<std::uint16_t>(1, 65535);
     sdf_type<std::uint32_t>(2, 4294967295u);
@@ -221,7 +232,7 @@ TEST(sdf) {
     // A mark that the format does not know, in the unit of the case (um).
     const auto marked = values_of<std::int16_t>(map, 1e-9, 9999, true);
     const std::string path = write("t.sdf", sdf_binary(map, 5, 1e-9, marked));
-    const TextMap text{"", {}, {9.999}};
+    const MapKeys text{"", {}, {9.999}};
     check_sample(read_heights(path, {}, "um", "", Missing::fill, text), 4);
     // Olympus: eight bytes more in the header.
     std::string olympus = sdf_binary(map, 5, 1e-9, i16);
@@ -231,23 +242,23 @@ TEST(sdf) {
     std::vector<std::string> words;
     for (const double z : map.z) words.push_back(std::to_string(std::lround(z * 1e9)));
     check_sample(of_sdf(sdf_text(map, 1e-9, words)), -1);
-    words[6 + 4] = "BAD";
+    words[kHole] = "BAD";
     check_sample(of_sdf(sdf_text(map, 1e-9, words), Missing::fill), 4);
-    words[6 + 4] = "-32768";
+    words[kHole] = "-32768";
     check_sample(of_sdf(sdf_text(map, 1e-9, words, 5), Missing::fill), 4);
     REFUSED(of_sdf(sdf_text(map, 1e-9, words, 5)), "1 of 24 points are missing");
-    words[6 + 4] = "-2147483648";
+    words[kHole] = "-2147483648";
     check_sample(of_sdf(sdf_text(map, 1e-9, words, 6), Missing::fill), 4);
     CHECK_RELATIVE(of_sdf(sdf_text(map, 1e-9, words, 7))(4, 2), -2147483.648,
                    1e-12);  // a number like others
-    words[6 + 4] = "NaN";
+    words[kHole] = "NaN";
     check_sample(of_sdf(sdf_text(map, 1e-9, words, 6), Missing::fill), 4);
     for (const std::string word : {"1O4", "10-4"}) {
-        words[6 + 4] = word;
-        REFUSED(of_sdf(sdf_text(map, 1e-9, words)), "t.sdf:17: '" + word + "' is not a number");
+        words[kHole] = word;
+        REFUSED(of_sdf(sdf_text(map, 1e-9, words)), "t.sdf:18: '" + word + "' is not a number");
     }
     words.pop_back();
-    words[6 + 4] = "104";
+    words[kHole] = "104";
     REFUSED(of_sdf(sdf_text(map, 1e-9, words)),
             ": 23 heights where 6 x 4 were expected; is the file complete?");
     words.resize(25, "0");
@@ -294,6 +305,101 @@ TEST(example) {
             different += std::isnan(sdf(i, j)) != std::isnan(gwy(i, j)) ||
                          std::abs(sdf(i, j) - gwy(i, j)) > 1e-9;
     CHECK(different == 0);
+}
+
+std::string packed(const std::string& path) {
+    const std::string content = ::bytes(path), name = path + ".gz";
+    const gzFile file = gzopen(name.c_str(), "wb");
+    CHECK(gzwrite(file, content.data(), unsigned(content.size())) == int(content.size()));
+    gzclose(file);
+    return name;
+}
+
+// The lines of heights in nanometres, the first with the given y.
+std::string lines(const std::string& separator, bool from_top, const std::string& end = "\n") {
+    std::string text;
+    for (const int j : indices(4))
+        for (const int i : indices(6))
+            text += std::to_string(100 * (from_top ? j : 3 - j) + i) + (i < 5 ? separator : end);
+    return text;
+}
+
+// One map in every format is one map: rows lie where the format has them, whatever the order in the
+// file.
+TEST(one_map_in_every_format) {
+    const MapKeys none, nm{"nm", {}, {}, "um"};
+    const auto check = [](const std::string& path, const MapKeys& keys) {
+        check_sample(read_heights(path, {}, "um", "", Missing::refuse, keys), -1);
+    };
+    check(write("w.gwy", gwy_file(gwy_channel(0, "T", sample()))), none);
+    check(write("w.gwy", gwy_file(gwy_channel(0, "T", sample(), "m", ""))), {"", {}, {}, "m"});
+    Map numbers = sample();
+    for (double& z : numbers.z) z *= 1e9;
+    check(write("w.gwy", gwy_file(gwy_channel(0, "T", numbers, ""))), {"nm", {}});
+    const std::string head =
+        "aBCR-1.0 ; first\nNumPoints = 6\nNumProfiles = 4\nXscale = 2e-6\nYscale = 3E-006\n"
+        "Zscale=1E-9\nCompression  = NULL ; or 0\nDataType = INTEGER\nCheckType = NULL\n"
+        "*  ; EOF header\n   ; data\n";
+    for (const char* const end : {"\n", "\r\n", "\r"}) {
+        std::string text = head + lines(" ", false) + "*\n";
+        for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos;)
+            text.replace(at, 1, end), at += std::strlen(end);
+        check(write("t.sdf", text), none);
+        check(packed(folder / "t.sdf"), none);
+    }
+    check(write("t.sdf", sdf_binary(upwards(), 7, 1, upwards().z, "bISO-2.0")), none);
+    const std::string heading = "# Channel: T\n# Width: 12 \xb5m\n# Height: 12 \xc2\xb5m\n";
+    check(write("g.txt", heading + "# Value units: nm\n" + lines("\t", true)), none);
+    check(packed(folder / "g.txt"), none);
+    std::string triples;
+    for (const int k : {5, 2, 0, 1, 3, 4})  // columns in any order, rows from the top
+        for (const int j : indices(4))
+            triples += joined(2 * k, " ", 9 - 3 * j, " ", 100 * j + k, "\n");
+    check(write("t.txt", triples), nm);
+    check(write("t.txt", "# x [um] y [um]\n" + triples), {"nm", {}});
+    check(packed(folder / "t.txt"), {"nm", {}});
+    for (const bool down : {false, true})
+        for (const bool turned : {false, true}) {
+            std::vector<double> z, y;
+            for (const int j : indices(4)) y.push_back(3e-6 * (down ? 3 - j : j));
+            for (const int k : indices(24)) {
+                const int j = turned ? k % 4 : k / 6, i = turned ? k / 4 : k % 6;
+                z.push_back(1e-9 * (100 * (down ? j : 3 - j) + i));
+            }
+            using Names = std::vector<std::string>;
+            const std::vector<std::pair<std::string, std::string>> metres = {{"units", "m"}};
+            const std::vector<netcdf_file::Variable> all = {
+                {"x", NC_DOUBLE, {"x"}, netcdf_file::counted(6, 0, 2e-6), metres},
+                {"y", NC_DOUBLE, {"y"}, y, metres},
+                {"height", NC_DOUBLE, turned ? Names{"x", "y"} : Names{"y", "x"}, z, metres}};
+            for (const int format : {NC_NETCDF4, 0, NC_64BIT_DATA})
+                check(netcdf_file::write(folder / "m.nc", {{"x", 6}, {"y", 4}}, all, format), none);
+        }
+    // Square points of a matrix.
+    for (const char* const separator : {" ", ",", ";"}) {
+        const HeightMap map = read_heights(write("m.txt", lines(separator, false)), {}, "um", "",
+                                           Missing::refuse, {"nm", 2.0});
+        CHECK(map(1, 0) == 0.301 && map(1, 3) == 0.001 && map.dx == 2);
+    }
+}
+
+// What is packed otherwise, or no map at all, and the command that helps.
+TEST(other_files) {
+    const auto refused = [](const std::string& content, const std::string& words) {
+        REFUSED(in_micrometres(write("a'b.dat", content)), words);
+    };
+    refused(std::string("\xfd"
+                        "7zXZ\0\1",
+                        7),
+            "packed by xz; this unpacks it: xz -dc '");
+    refused("BZh91AY", "bzip2 -dc '" + (folder / "a'\\''b.dat") + "' > '");
+    refused("PK\3\4" + std::string(22, '\0') + std::string("\5\0\0\0m.txt", 9), "unzip '");
+    refused("PK\3\4" + std::string(22, '\0') + std::string("\10\0\0\0main.xml", 12), "Gwyddion");
+    refused("solid a\n facet normal 0 0 1\n", "is a mesh of triangles (STL)");
+    refused(std::string(80, ' ') + bytes(std::uint32_t{2}) + std::string(100, '\0'), "(STL)");
+    const std::string gzip = ::bytes(packed(write("p", lines(" ", true))));
+    refused(gzip.substr(0, gzip.size() - 9), "cut or damaged");
+    refused("name a\nname b\n", "lines 1 to 2 begin with a word, not a number, and the rest is no");
 }
 
 }  // namespace test_maps

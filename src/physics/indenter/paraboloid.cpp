@@ -100,9 +100,7 @@ std::shared_ptr<const IndenterShape> make_paraboloid(const char* name, const Sha
         if (!(R > 0))
             bad_input("the radii of the paraboloid must be positive (Infinity: straight)");
     if (std::isinf(keys.radii[0]) && std::isinf(keys.radii[1]))
-        bad_input(
-            "indenter%radii = Infinity, Infinity is a flat: use shape = 'sphere' and "
-            "solids%R = Infinity, Infinity");
+        bad_input("a paraboloid of radii Infinity, Infinity is a flat");
     return std::make_shared<Paraboloid>(name, keys);
 }
 

@@ -17,6 +17,9 @@ import numpy as np
 EXPORT = sys.argv.pop(1)
 sys.path[:0] = [EXPORT, os.path.join(EXPORT, "..", "plot")]
 import cube  # noqa: E402
+import fields  # noqa: E402
+import law  # noqa: E402
+import plot  # noqa: E402
 import plot_results  # noqa: E402
 import report  # noqa: E402
 import rsc  # noqa: E402
@@ -183,6 +186,42 @@ class Tables(InFolder):
             ],
         )
         self.assertEqual(table.markdown(["a", "b"], [["1", "22"]]).splitlines()[2], "| 1 | 22 |")
+
+
+class Damage(InFolder):
+    def test_cut_results_are_refused(self):
+        """By every reader, in every format: without the last line, cut in half, and of the full
+        length with zeros at the end."""
+        case = """&surface n = 64 L_lambda_l = 4 L_lambda_s = 16 / &indentation steps = 3 /
+&output format = '%s' fields = 'pressure' /"""
+        path = self.path("r.nc")
+        readers = {
+            "rsc.read": lambda: rsc.read(path, xarray=False),
+            "table": lambda: table.main([path]),
+            "law": lambda: law.main([path, "--table"]),
+            "report": lambda: report.main([path]),
+            "plot": lambda: plot.main([path, "-o", self.folder]),
+            "cube": lambda: cube.main([path]),
+            "fields": lambda: fields.main([path, "--format", "csv"]),
+            "--case": lambda: subprocess.run(
+                [os.environ["RSC_PROGRAM"], "--case", path], check=True, capture_output=True
+            ),
+        }
+        refusals = SystemExit, rsc.Error, subprocess.CalledProcessError
+        for kind in ("netcdf4", "classic", "cdf5"):
+            command = [os.environ["RSC_PROGRAM"], "-q", "-o", path]
+            subprocess.run(command, input=case % kind, text=True, check=True)
+            with open(path, "rb") as file:
+                whole = file.read()
+            for lost in (47, len(whole) // 2):
+                for end in (b"", b"\0" * lost):
+                    with open(path, "wb") as file:
+                        file.write(whole[: len(whole) - lost] + end)
+                    for name, reader in readers.items():
+                        with self.subTest(kind=kind, lost=lost, end=len(end), reader=name):
+                            with self.assertRaises(refusals), contextlib.redirect_stdout(None):
+                                reader()
+            os.remove(path)
 
 
 class Studies(InFolder):

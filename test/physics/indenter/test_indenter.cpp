@@ -30,6 +30,7 @@ Shape shape(const std::string& name, const ShapeKeys& keys) {
 ShapeKeys keys() {
     ShapeKeys k;
     k.R = 1.5;
+    k.R_rough = -4;  // a socket
     k.radii[0] = 0.7;
     k.radii[1] = 4;
     k.angle = 0.3;
@@ -90,6 +91,7 @@ void bounds(const char* name, bool sharp) {
     ShapeKeys k = keys();
     if (sharp) {
         k.rim_radius = 0;
+        k.R_rough = 3;
         k.radii[1] = kInfinity;
         k.map = waves(64, false);
     }
@@ -130,6 +132,7 @@ TEST(all_indenter) {
     // Equal radii: the sphere to (rho/R)^2. Turned by any angle with the place: the same.
     ShapeKeys k = keys();
     k.radii[0] = k.radii[1] = k.R;
+    k.R_rough = kInfinity;
     CHECK_RELATIVE(shape("paraboloid", k)->height(0.03, 0.04),
                    shape("sphere", k)->height(0.03, 0.04), std::pow(0.05 / k.R, 2));
     CHECK(shape("paraboloid", k)->round() && shape("paraboloid", k)->hertz_radius() == k.R &&
@@ -164,6 +167,10 @@ TEST(all_indenter) {
     k.map = nullptr;
     CHECK_THROWS(shape("paraboloid", k), Error);
     CHECK_THROWS(shape("map", k), Error);
+    for (const double socket : {-1.5, -1.0, 0.0}) {  // of a ball of 1.5
+        k.R_rough = socket;
+        CHECK_THROWS(shape("sphere", k), Error);
+    }
 }
 
 }  // namespace test_indenter

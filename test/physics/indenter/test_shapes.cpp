@@ -96,6 +96,31 @@ void friction(const char* name, const ShapeKeys& keys, double depth, double side
     }
 }
 
+// Two spheres, and a ball in a socket (R < 0), at contacts too wide for paraboloids: forces and depths
+// of the axisymmetric contact are linear in the gap, so each is the sum of Segedin's for one sphere
+// (Sneddon 1965, eq. 6.15).
+TEST(two_spheres) {
+    for (const double R_rough : {kInfinity, 1.0, -2.0}) {
+        ShapeKeys keys;
+        keys.R = 1;
+        keys.R_rough = R_rough;
+        const double a = 0.4;
+        double depth = 0, force = 0;
+        for (const double R : {1.0, R_rough}) {
+            if (std::isinf(R)) continue;
+            const double log = std::log((R + a) / (R - a));
+            depth += 0.5 * a * log;
+            force += kE * (0.5 * (a * a + R * R) * log - a * R);
+        }
+        constexpr int n = 96;
+        const auto contact = make_element_contact(flat_map(n, n, 2.5 * a / n),
+                                                  {kE, shape("sphere", keys), 0, 0}, elements());
+        const Level level = contact->at_separation(-depth);
+        CHECK_RELATIVE(level.force, force, 1e-3);  // of 38 points in a; paraboloids: 2 or 3 %
+        CHECK_RELATIVE(level.area, pi * a * a, 1e-2);
+    }
+}
+
 // Two maps that repeat: heights add, so a flat on their sum carries the same at the same distance
 // of mean planes.
 TEST(two_maps) {
