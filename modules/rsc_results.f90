@@ -14,11 +14,13 @@
 !> file, too. rsc_is_absent(value) finds what is missing. Attributes: nf90_get_att(r%id, ...). With
 !> stat a failure is reported in it and in errmsg; without stat it is an error stop.
 module rsc_results
-  use, intrinsic :: iso_fortran_env, only: real64
+  use, intrinsic :: iso_fortran_env, only: int64, real64
   use netcdf
   implicit none
   private
   public :: rsc_result, rsc_is_absent, real64
+
+  integer, parameter :: cut = 1  !< a status of this module; those of NetCDF are below 0
 
   type :: rsc_result
     integer :: id = -1                    !< of netcdf-fortran
@@ -48,10 +50,38 @@ contains
     status = nf90_open(self%file, nf90_nowrite, self%id)
     if (status == nf90_noerr .and. .not. (self%has('force') .and. self%has('map_pressure'))) then
       status = nf90_enotvar
-      call self%close()
+    else if (status == nf90_noerr) then
+      if (lacks_end(self)) status = cut
     end if
+    if (status == nf90_enotvar .or. status == cut) call self%close()
     call finish(self, '', status, stat, errmsg)
   end subroutine
+
+  !> True for a result of rsc 0.3 or later without its last line: of a cut file NetCDF returns
+  !> zeros.
+  logical function lacks_end(self)
+    class(rsc_result), intent(in) :: self
+    character(*), parameter :: start = new_line('a') // 'rsc: CRC-32 of all before this line: '
+    character(len(start) + 9) :: line
+    character(:), allocatable :: source
+    integer(int64) :: bytes
+    integer :: length, status, unit
+    lacks_end = .false.
+    status = nf90_inquire_attribute(self%id, nf90_global, 'source', len=length)
+    if (status /= nf90_noerr .or. length < 8) return
+    allocate (character(length) :: source)
+    status = nf90_get_att(self%id, nf90_global, 'source', source)
+    if (status /= nf90_noerr .or. source(:4) /= 'rsc ') return
+    if (any(source(5:8) == ['0.0.', '0.1.', '0.2.'])) return
+    line = ''
+    open (newunit=unit, file=self%file, access='stream', form='unformatted', action='read', &
+          iostat=status)
+    if (status /= 0) return
+    inquire (unit, size=bytes)
+    read (unit, pos=max(bytes - len(line), 0_int64) + 1, iostat=status) line
+    close (unit)
+    lacks_end = line(:len(start)) /= start .or. line(len(line):) /= new_line('a')
+  end function
 
   subroutine close_result(self)
     class(rsc_result), intent(inout) :: self
@@ -140,7 +170,12 @@ contains
     character(:), allocatable :: message
     if (present(stat)) stat = status
     if (status == nf90_noerr) return
-    message = "cannot read '" // self%file // "': " // trim(nf90_strerror(status))
+    message = "cannot read '" // self%file // "': "
+    if (status == cut) then
+      message = message // 'is cut or damaged: its last line, the checksum, is missing'
+    else
+      message = message // trim(nf90_strerror(status))
+    end if
     if (name /= '') message = message // " (variable '" // name // "')"
     if (name == '' .and. status == nf90_enotvar) message = message // ': no result of rsc'
     if (status == nf90_einvalcoords) message = message // ': the array has another rank'

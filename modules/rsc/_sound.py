@@ -1,5 +1,5 @@
-"""Opens result files, and refuses those that are cut or damaged. Needs no library of rsc: the scripts
-in output/ use it, too."""
+"""Opens result files, and refuses those that are cut or damaged. Needs no library of rsc: the
+scripts in output/ use it, too."""
 
 import errno
 import re
@@ -22,8 +22,8 @@ def open_result(path):
         file.close()
         raise OSError(
             errno.EIO,
-            "is cut or damaged: its last line, the checksum that rsc writes, is missing (a copy made "
-            "by another program must not have rsc's attribute 'source')",
+            "is cut or damaged: its last line, the checksum that rsc writes, is missing (a copy "
+            "made by another program must not have rsc's attribute 'source')",
             path,
         )
     return file

@@ -163,9 +163,9 @@ struct ModelChoice {
 };
 ModelChoice model_of(const Case& settings);
 
-// The radii of bodies 1 and 2 in the two principal directions of the gap between them, for the shapes
-// sphere and paraboloid: R[direction][body] [length], Infinity: straight. In line contact body 1 is a
-// cylinder: straight along the axis.
+// The radii of bodies 1 and 2 in the two principal directions of the gap between them, for the
+// shapes sphere and paraboloid: R[direction][body] [length], Infinity: straight. In line contact
+// body 1 is a cylinder: straight along the axis.
 struct GapRadii {
     double R[2][2];
     double angle;  // of the first direction from x [degree]

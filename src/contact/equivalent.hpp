@@ -9,9 +9,9 @@ namespace rsc {
 // bodies are rigid.
 double equivalent_modulus(const double (&E)[2], const double (&nu)[2]);
 
-// R* of two spheres, 1/R* = 1/R1 + 1/R2 [length]. R = Infinity is flat, a negative radius is that of
-// a concave body; two flat bodies give Infinity. Throws Error(bad_input) if a radius is 0, or if the
-// bodies, not both flat, do not touch at one point: 1/R1 + 1/R2 <= 0.
+// R* of two spheres, 1/R* = 1/R1 + 1/R2 [length]. R = Infinity is flat, a negative radius is that
+// of a concave body; two flat bodies give Infinity. Throws Error(bad_input) if a radius is 0, or if
+// the bodies, not both flat, do not touch at one point: 1/R1 + 1/R2 <= 0.
 double equivalent_radius(const double (&R)[2]);
 
 // Ratio m = 4 G*/E* of tangential to normal contact stiffness of two bodies (Johnson 1985, section

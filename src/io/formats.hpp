@@ -27,10 +27,10 @@ bool gwy_lacks_units(const std::string& path, const std::string& channel);
 // Surface data files (.sdf) of ISO 25178-71, text and binary, and of its predecessor BCR. is_sdf()
 // is true for their first bytes: aISO-1.0, bISO-1.0, aBCR-1.0, ... In a text `;` begins a comment,
 // lines end with CR, LF or both, and Compression, DataType and CheckType may be words (NULL,
-// INTEGER). The heights are converted from metres to length_unit; missing points (BAD in a text, the
-// least value of a signed type, the largest of an unsigned one, in BCR the largest of any, NaN) are
-// NaN. Profile j lies at y = j Yscale: the first row has the lowest y; x0 = y0 = 0. There are no
-// channels and no title; lengths are always in metres, so that `keys` do not apply.
+// INTEGER). The heights are converted from metres to length_unit; missing points (BAD in a text,
+// the least value of a signed type, the largest of an unsigned one, in BCR the largest of any, NaN)
+// are NaN. Profile j lies at y = j Yscale: the first row has the lowest y; x0 = y0 = 0. There are
+// no channels and no title; lengths are always in metres, so that `keys` do not apply.
 bool is_sdf(const std::string& start);
 HeightMap read_sdf(const std::string& path, const std::string& channel,
                    const std::string& length_unit, const MapKeys& keys, std::string* title);
@@ -52,8 +52,8 @@ struct TextTable {
     const UnitMention* mention(UnitMention::Kind kind) const;  // the first; null if there is none
     // True if a comment states a width: a matrix, however few columns it has.
     bool matrix() const { return mention(UnitMention::width) != nullptr; }
-    // True for the heading of Gwyddion's exports, which states the width and the height of a picture
-    // in two successive lines.
+    // True for the heading of Gwyddion's exports, which states the width and the height of a
+    // picture in two successive lines.
     bool picture() const;
 };
 
@@ -67,13 +67,13 @@ std::string copy_for_shell(const std::string& path, const std::string& ending);
 // What helps with files of instruments that rsc does not read.
 std::string gwyddion_advice(const std::string& path);
 
-// Numbers in columns from a text file, which gzip may have packed, separated by blanks or tabs, by a comma, or by a semicolon
-// (adjacent blanks are ignored); the same separator is required throughout. With semicolons the
-// decimal mark may be a comma, but then throughout. `#` starts a comment; empty lines are skipped;
-// exponents may be Fortran's (1.5d-3). `columns`: the required number, or 0 for that of the first
-// row. With `missing` the words nan and bad and empty cells between commas or semicolons are
-// missing values: NaN. Throws Error(bad_input) for words that are no finite number, rows of
-// different length or separator, files without rows, and UTF-16.
+// Numbers in columns from a text file, which gzip may have packed, separated by blanks or tabs, by
+// a comma, or by a semicolon (adjacent blanks are ignored); the same separator is required
+// throughout. With semicolons the decimal mark may be a comma, but then throughout. `#` starts a
+// comment; empty lines are skipped; exponents may be Fortran's (1.5d-3). `columns`: the required
+// number, or 0 for that of the first row. With `missing` the words nan and bad and empty cells
+// between commas or semicolons are missing values: NaN. Throws Error(bad_input) for words that are
+// no finite number, rows of different length or separator, files without rows, and UTF-16.
 TextTable read_table(const std::string& path, std::size_t columns, bool missing = false);
 
 // A number as Fortran reads it. Empty for other words, and for an exponent without a letter: in a
@@ -104,8 +104,8 @@ void reverse_rows(HeightMap& map);
 // The bytes of a binary file, read in order; reading beyond their end throws an error with the
 // position.
 
-// A file for reading; its bytes are unpacked if gzip packed them. Reading throws Error(bad_input) if
-// the system fails, or for a packed file that is cut or damaged.
+// A file for reading; its bytes are unpacked if gzip packed them. Reading throws Error(bad_input)
+// if the system fails, or for a packed file that is cut or damaged.
 class UnpackedFile : public std::streambuf {
 public:
     explicit UnpackedFile(const std::string& path);

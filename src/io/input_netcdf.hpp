@@ -19,9 +19,9 @@ std::string checksum_line(const char* bytes, std::size_t size);
 // checksum, of earlier versions or other programs, pass; true if the line is there.
 bool require_sound(const std::string& path);
 
-// Opens a NetCDF file of any format for reading, under library_lock(). Throws Error(bad_input) if it
-// cannot be opened, its checksum is wrong, it is shorter than its header says, or it is a result of
-// rsc 0.3 or later without the checksum, so that a cut file is never read as zeros.
+// Opens a NetCDF file of any format for reading, under library_lock(). Throws Error(bad_input) if
+// it cannot be opened, its checksum is wrong, it is shorter than its header says, or it is a result
+// of rsc 0.3 or later without the checksum, so that a cut file is never read as zeros.
 int open_netcdf(const std::string& path);
 
 // A global text attribute of an open file; empty if there is none.

@@ -325,8 +325,8 @@ static bool begins_with_word(std::string_view text) {
            !number_in_file(word);
 }
 
-// The last line of the heading that begins with `first` at `line`, of which `file` holds the rest; 0
-// if the first line is none.
+// The last line of the heading that begins with `first` at `line`, of which `file` holds the rest;
+// 0 if the first line is none.
 static long heading_end(const std::string& path, std::streambuf& file, std::string_view first,
                         long line) {
     if (!begins_with_word(first)) return 0;

@@ -379,8 +379,8 @@ NetcdfInput::Variable find_heights(const NetcdfInput& file, const std::string& c
 }
 
 // Factors of heights, x and y. Heights in nanometres with coordinates in micrometres are common,
-// and without conversion slopes would be 1000 times too large. If only some variables have units, in
-// the file or by the keys, the unit of the others is unknown.
+// and without conversion slopes would be 1000 times too large. If only some variables have units,
+// in the file or by the keys, the unit of the others is unknown.
 std::array<double, 3> unit_factors(const NetcdfInput& file, const NetcdfInput::Variable& heights,
                                    const std::string& length_unit, const MapKeys& keys,
                                    bool coordinates, std::size_t of_x) {
@@ -519,8 +519,8 @@ void refuse_packed(const std::string& path, const std::string& start) {
         bad_input(path, ": is a NetCDF file packed by gzip; this unpacks it: gzip -dc ",
                   for_shell(path), " > ", copy_for_shell(path, ""));
     if (!start.starts_with("PK\3\4") || start.size() < 30) return;
-    // The name of the first file in an archive follows 30 bytes; archives of instruments (.x3p, .plux)
-    // begin with XML.
+    // The name of the first file in an archive follows 30 bytes; archives of instruments (.x3p,
+    // .plux) begin with XML.
     const std::size_t length = ByteReader::value<std::uint16_t>(start.data() + 26);
     if (start.substr(30, length).ends_with(".xml"))
         bad_input(path, ": is an archive of an instrument. ", gwyddion_advice(path));

@@ -57,20 +57,22 @@ bool lacks_units(const std::string& path, const std::string& channel);
 // scale_factor and add_offset are applied; missing values (_FillValue, missing_value, outside
 // valid_min, valid_max or valid_range, NaN) are refused. These limits are stored values, before
 // scale_factor and add_offset; real numbers for packed integers are heights. Heights and
-// coordinates are converted from their `units` to `length_unit`. If none of them has `units`, `keys`
-// or length_unit apply; if only some have, and another unit than length_unit, the file is refused. The spacing comes from the coordinate variables of the two dimensions, which must be
+// coordinates are converted from their `units` to `length_unit`. If none of them has `units`,
+// `keys` or length_unit apply; if only some have, and another unit than length_unit, the file is
+// refused. The spacing comes from the coordinate variables of the two dimensions, which must be
 // uniform to 1e-6 of a step (or to the rounding of their own type, if this is a hundredth of a step
-// at most); x0, y0 are the first coordinates; decreasing coordinates are reversed. Without coordinate
-// variables the steps are dx = dy = pixel or L/nx, x0 = y0 = 0, and the first row has the lowest y. If both are given, nx dx must equal L to 1e-6.
+// at most); x0, y0 are the first coordinates; decreasing coordinates are reversed. Without
+// coordinate variables the steps are dx = dy = pixel or L/nx, x0 = y0 = 0, and the first row has
+// the lowest y. If both are given, nx dx must equal L to 1e-6.
 //
-// Text (formats.hpp), which gzip may have packed: a matrix, one line for each y in increasing order,
-// but from the top of the picture, in decreasing order, under the heading of Gwyddion's exports;
-// heights are in the unit that a comment states as theirs, otherwise in length_unit; a comment that
-// names another unit of length asks for `keys.height_unit`. Needs L, or a comment with the width. Or three columns x y z,
-// in any order of the lines: the points of a full grid whose coordinates are uniform to a hundredth
-// of a step, as text is rounded; x and y are in the unit of a comment ("x [um]") or of
-// `keys.coordinate_unit`, which must be given if the heights have a unit and x and y have none. Four
-// columns are refused, because they are a list of asperities.
+// Text (formats.hpp), which gzip may have packed: a matrix, one line for each y in increasing
+// order, but from the top of the picture, in decreasing order, under the heading of Gwyddion's
+// exports; heights are in the unit that a comment states as theirs, otherwise in length_unit; a
+// comment that names another unit of length asks for `keys.height_unit`. Needs L, or a comment with
+// the width. Or three columns x y z, in any order of the lines: the points of a full grid whose
+// coordinates are uniform to a hundredth of a step, as text is rounded; x and y are in the unit of
+// a comment ("x [um]") or of `keys.coordinate_unit`, which must be given if the heights have a unit
+// and x and y have none. Four columns are refused, because they are a list of asperities.
 //
 // Gwyddion's .gwy and .sdf of ISO 25178-71 (formats.hpp): sizes and units come from the file; L, if
 // given, must agree.

@@ -60,6 +60,26 @@ TEST(times) {
     CHECK((prepare(c).times == std::vector<double>{0, 2, 4, 6}));
 }
 
+// The gap between curved bodies: curvatures add, in line contact across the axis alone.
+TEST(gap_of_two_bodies) {
+    Case c = synthetic();
+    c.solids.R[0] = -10;
+    c.indenter.shape = shape_number("paraboloid");
+    c.indenter.radii[0] = 6;
+    c.indenter.radii[1] = 4;
+    const auto gap = [&](double x, double y) { return shape_of(c)->height(x, y); };
+    CHECK_RELATIVE(gap(0.2, 0.3), 0.02 * (1 / 6.0 - 0.1) + 0.045 * (0.25 - 0.1), kRounding);
+    c.indenter.radii[1] = kInfinity;
+    CHECK(!accepted([&] { shape_of(c); }));  // straight on a concave body
+    c.indentation.boundary = Boundary::periodic_y;
+    CHECK_RELATIVE(gap(0.2, 0.3), 0.02 * (1 / 6.0 - 0.1), kRounding);
+    c.indenter.radii[0] = kInfinity;
+    c.solids.R[0] = 10;
+    CHECK_RELATIVE(gap(0.2, 0.3), 0.02 * 0.1, kRounding);
+    c.indentation.boundary = Boundary::periodic_x;
+    CHECK_RELATIVE(gap(0.2, 0.3), 0.045 * 0.1, kRounding);
+}
+
 TEST(places) {
     Case c = synthetic();
     // A rectangle that does not begin at 0, in a domain of unlike sides.

@@ -1,6 +1,6 @@
-// Spheres without approximation, s = R - sqrt(R^2 - rho^2), and the flat as their limit. The form of
-// body 1, if it is a sphere, too, is part of s: the heights of both bodies add. A radius below 0 is
-// that of a socket.
+// Spheres without approximation, s = R - sqrt(R^2 - rho^2), and the flat as their limit. The form
+// of body 1, if it is a sphere, too, is part of s: the heights of both bodies add. A radius below 0
+// is that of a socket.
 
 #include "base/error.hpp"
 #include "contact/equivalent.hpp"

@@ -101,6 +101,11 @@ contains
                'another NetCDF file: ' // trim(message))
     open (newunit=id, file='foreign.nc')
     close (id, status='delete')
+    call copy(result, 'cut.nc', 47)  ! without the last line
+    call r%open('cut.nc', stat, message)
+    call check(stat /= 0 .and. index(message, 'cut or damaged') > 0, 'cut: ' // trim(message))
+    open (newunit=id, file='cut.nc')
+    close (id, status='delete')
     message = 'untouched'
     call r%open(result, stat, message)
     call check(stat == 0 .and. message == 'untouched', 'errmsg keeps its value without failure')
@@ -115,5 +120,21 @@ contains
     call r%close()
     call r%get('force', values, stat, message)
     call check(stat /= 0, 'a closed file')
+  end subroutine
+
+  !> Copies a file without its last bytes.
+  subroutine copy(from, to, lost)
+    character(*), intent(in) :: from, to
+    integer, intent(in) :: lost
+    character(:), allocatable :: content
+    integer :: unit, bytes
+    open (newunit=unit, file=from, access='stream', form='unformatted', action='read')
+    inquire (unit, size=bytes)
+    allocate (character(bytes - lost) :: content)
+    read (unit) content
+    close (unit)
+    open (newunit=unit, file=to, access='stream', form='unformatted', status='replace')
+    write (unit) content
+    close (unit)
   end subroutine
 end program test_results

@@ -96,9 +96,9 @@ void friction(const char* name, const ShapeKeys& keys, double depth, double side
     }
 }
 
-// Two spheres, and a ball in a socket (R < 0), at contacts too wide for paraboloids: forces and depths
-// of the axisymmetric contact are linear in the gap, so each is the sum of Segedin's for one sphere
-// (Sneddon 1965, eq. 6.15).
+// Two spheres, and a ball in a socket (R < 0), at contacts too wide for paraboloids: forces and
+// depths of the axisymmetric contact are linear in the gap, so each is the sum of Segedin's for one
+// sphere (Sneddon 1965, eq. 6.15).
 TEST(two_spheres) {
     for (const double R_rough : {kInfinity, 1.0, -2.0}) {
         ShapeKeys keys;
