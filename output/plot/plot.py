@@ -169,7 +169,7 @@ def open_results(paths):
                     f"plot.py: cannot read {member!r}: {error.strerror or error}; a result file "
                     "of rsc (NetCDF) is expected"
                 )
-            if not getattr(result.file, "source", "").startswith("rsc"):
+            if "rsc" not in getattr(result.file, "source", ""):
                 sys.exit(
                     f"plot.py: {member!r} is no result file of rsc: its attribute 'source' is "
                     "of another program"

@@ -289,7 +289,8 @@ const Mention* TextTable::mention(UnitMention::Kind kind) const {
 }
 
 bool TextTable::picture() const {
-    const Mention *const w = mention(Mention::width), *const h = mention(Mention::height);
+    const Mention* const w = mention(Mention::width);
+    const Mention* const h = mention(Mention::height);
     return w && h && h->line == w->line + 1;
 }
 

@@ -223,9 +223,10 @@ void mark_missing(HeightMap& map, const std::vector<double>& codes, MapOrigin* o
 // are coordinates without a unit if the heights have one.
 UnitFactors text_factors(const std::string& path, const TextTable& table, const MapKeys& keys,
                          const std::string& length_unit) {
-    const Mention *const stated = table.mention(Mention::values), *const lateral = table.mention(
-                                                                      Mention::coordinates);
-    const bool triples = is_triples(table), known = !keys.height_unit.empty() || stated;
+    const Mention* const stated = table.mention(Mention::values);
+    const Mention* const lateral = table.mention(Mention::coordinates);
+    const bool triples = is_triples(table);
+    const bool known = !keys.height_unit.empty() || stated;
     const bool known_coordinates = !keys.coordinate_unit.empty() || lateral;
     const std::string heights = !keys.height_unit.empty() ? keys.height_unit
                                 : stated                  ? stated->unit
@@ -332,15 +333,13 @@ std::optional<Axis> read_axis(const NetcdfInput& file, const NetcdfInput::Variab
     // Tolerance for the rounding of coordinates stored in single precision.
     const double largest = std::max(std::abs(c.front()), std::abs(c.back()));
     const double rounding = variable->type == NC_FLOAT ? 1.2e-7 * largest : 4.5e-16 * largest;
-    const bool coarse = rounding > kUniformText * axis.step;
+    if (rounding > kUniformText * axis.step)
+        bad_input(file.path(), ": coordinate ", name, " has too few digits: it is rounded to ",
+                  rounding, " in its type, ", variable->type == NC_FLOAT ? "float" : "double",
+                  ", and its step is about ", axis.step, "; a hundredth of the step is expected");
     for (const auto i : indices(n)) {
-        const double uniform = axis.first + double(i) * axis.step, off = std::abs(c[i] - uniform);
-        if (coarse && off > kUniformText * axis.step)
-            bad_input(file.path(), ": coordinate ", name, " has too few digits: it is rounded to ",
-                      rounding, " in its type, ", variable->type == NC_FLOAT ? "float" : "double",
-                      ", and its step is about ", axis.step,
-                      "; a hundredth of the step is expected");
-        if (off > kUniform * axis.step + rounding)
+        const double uniform = axis.first + double(i) * axis.step;
+        if (std::abs(c[i] - uniform) > kUniform * axis.step + rounding)
             bad_input(file.path(), ": coordinate ", name, " is not uniform to 1e-6 of its step ",
                       axis.step, ": ", name, "(", axis.reversed ? n - 1 - i : i,
                       "), counted from 0, is ", c[i], " where ", uniform, " was expected");
@@ -450,6 +449,8 @@ HeightMap read_netcdf_heights(const std::string& path, std::optional<double> L,
         bad_input(path,
                   ": the step follows from its coordinates; surface%pixel is for files "
                   "without them");
+    if (!x && !keys.coordinate_unit.empty())
+        bad_input(path, ": has no coordinates; surface%coordinate_unit does not apply");
     keys.require_use(path, !file.unit(variable),
                      !x || !file.unit(*file.find(variable.axes[of_x])) || keys.pixel);
     HeightMap map = allocate_map(variable.lengths[1], variable.lengths[0]);
@@ -514,10 +515,10 @@ void refuse_packed(const std::string& path, const std::string& start) {
     for (const Packed& packed : kPacked)
         if (start.starts_with(packed.start))
             bad_input(path, ": is packed by ", packed.name, "; this unpacks it: ", packed.command,
-                      " ", for_shell(path), " > ", copy_for_shell(path, ""));
+                      " ", for_shell(path), " > ", copy_for_shell(path, "_unpacked"));
     if (start.starts_with("CDF") || start.starts_with("\x89HDF"))
         bad_input(path, ": is a NetCDF file packed by gzip; this unpacks it: gzip -dc ",
-                  for_shell(path), " > ", copy_for_shell(path, ""));
+                  for_shell(path), " > ", copy_for_shell(path, "_unpacked"));
     if (!start.starts_with("PK\3\4") || start.size() < 30) return;
     // The name of the first file in an archive follows 30 bytes; archives of instruments (.x3p,
     // .plux) begin with XML.

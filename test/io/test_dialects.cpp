@@ -80,7 +80,7 @@ TEST(test_headers_in_other_languages) {
                    height + " 6.00 \xc2\xb5m\n# " + unit + value + "\n" + kRows;
         };
         const HeightMap map = text_map(header(" m"), {});
-        CHECK(map(0, 0) == 1e6);
+        CHECK(map(0, 2) == 1e6);  // the first line is the top
         CHECK_RELATIVE(map.dx, 2, 1e-12);
         CHECK_RELATIVE(map.dy, 2, 1e-12);
         for (const char* const other : {" V", ""})

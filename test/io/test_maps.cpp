@@ -283,7 +283,7 @@ TEST(sdf) {
     packed = binary;
     packed[80] = 2;
     REFUSED(of_sdf(packed), "t.sdf: CheckType = 2: only 0 (none) is known");
-    REFUSED(read_sdf(write("t.sdf", "cISO-1.0"), "", "mm", nullptr),
+    REFUSED(read_sdf(write("t.sdf", "cISO-1.0"), "", "mm", {}, nullptr),
             "t.sdf: is no surface data file (ISO 25178-71)");
     REFUSED(in_micrometres(write("t.sdf", binary), "Height"), "has no channel 'Height'; only");
     // A file of an unknown format.
@@ -385,21 +385,21 @@ TEST(one_map_in_every_format) {
 
 // What is packed otherwise, or no map at all, and the command that helps.
 TEST(other_files) {
-    const auto refused = [](const std::string& content, const std::string& words) {
+    const auto expect = [](const std::string& content, const std::string& words) {
         REFUSED(in_micrometres(write("a'b.dat", content)), words);
     };
-    refused(std::string("\xfd"
-                        "7zXZ\0\1",
-                        7),
-            "packed by xz; this unpacks it: xz -dc '");
-    refused("BZh91AY", "bzip2 -dc '" + (folder / "a'\\''b.dat") + "' > '");
-    refused("PK\3\4" + std::string(22, '\0') + std::string("\5\0\0\0m.txt", 9), "unzip '");
-    refused("PK\3\4" + std::string(22, '\0') + std::string("\10\0\0\0main.xml", 12), "Gwyddion");
-    refused("solid a\n facet normal 0 0 1\n", "is a mesh of triangles (STL)");
-    refused(std::string(80, ' ') + bytes(std::uint32_t{2}) + std::string(100, '\0'), "(STL)");
+    expect(std::string("\xfd"
+                       "7zXZ\0\1",
+                       7),
+           "packed by xz; this unpacks it: xz -dc '");
+    expect("BZh91AY", "bzip2 -dc '" + (folder / "a'\\''b.dat") + "' > '");
+    expect("PK\3\4" + std::string(22, '\0') + std::string("\5\0\0\0m.txt", 9), "unzip '");
+    expect("PK\3\4" + std::string(22, '\0') + std::string("\10\0\0\0main.xml", 12), "Gwyddion");
+    expect("solid a\n facet normal 0 0 1\n", "is a mesh of triangles (STL)");
+    expect(std::string(80, ' ') + bytes(std::uint32_t{2}) + std::string(100, '\0'), "(STL)");
     const std::string gzip = ::bytes(packed(write("p", lines(" ", true))));
-    refused(gzip.substr(0, gzip.size() - 9), "cut or damaged");
-    refused("name a\nname b\n", "lines 1 to 2 begin with a word, not a number, and the rest is no");
+    expect(gzip.substr(0, gzip.size() - 9), "cut or damaged");
+    expect("name a\nname b\n", "lines 1 to 2 begin with a word, not a number, and the rest is no");
 }
 
 }  // namespace test_maps

@@ -246,7 +246,8 @@ std::string other_value(const Key& key, const std::string& value) {
     if (std::string(key.name) == "length_unit") return "'um'";
     if (std::string(key.name) == "force_unit") return "'kN'";
     if (std::string(key.name) == "time_unit") return "'ms'";
-    if (std::string(key.name) == "height_unit") return "'um'";
+    for (const std::string_view unit : {"height_unit", "coordinate_unit"})
+        if (key.name == unit) return "'um'";
     for (const std::string_view rises : {"times", "distances", "stress_depths"})
         if (key.name == rises) return "1.25, 2.75";
     if (std::string(key.name) == "relaxation_share") return "0.25, 0.375";

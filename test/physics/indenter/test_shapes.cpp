@@ -113,8 +113,9 @@ TEST(two_spheres) {
             force += kE * (0.5 * (a * a + R * R) * log - a * R);
         }
         constexpr int n = 96;
-        const auto contact = make_element_contact(flat_map(n, n, 2.5 * a / n),
-                                                  {kE, shape("sphere", keys), 0, 0}, elements());
+        const HeightMap map = flat_map(n, n, 2.5 * a / n);
+        const auto contact =
+            make_element_contact(map, {kE, shape("sphere", keys), 0, 0}, elements());
         const Level level = contact->at_separation(-depth);
         CHECK_RELATIVE(level.force, force, 1e-3);  // of 38 points in a; paraboloids: 2 or 3 %
         CHECK_RELATIVE(level.area, pi * a * a, 1e-2);
