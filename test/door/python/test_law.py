@@ -108,7 +108,7 @@ def made(
         {key: v for key, v in variables.items() if key not in drop},
         attributes,
         title,
-        "rsc 1.2.3, a model",
+        "rsc 0.0.3, a model",
     )
 
 
