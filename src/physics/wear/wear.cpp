@@ -75,11 +75,14 @@ std::vector<Key> wear_keys() {
     };
 }
 
+void require_distances(const PreparedFacts& facts) {
+    if (!facts.settings.indentation.slides())
+        bad_input(
+            "indentation%sliding: body 1 wears (solids%wear_coefficient), and the levels have no "
+            "distances of sliding; give sliding or distances");
+}
+
 void check_wear(const Case& settings, const Complain& complain) {
-    if (settings.solids.wear_coefficient > 0 && !settings.indentation.slides())
-        complain({"indentation%sliding", "solids%wear_coefficient"},
-                 "body 1 wears (solids%wear_coefficient), and the levels have no distances of "
-                 "sliding; give sliding or distances");
     if (settings.solids.wear_coefficient > 0 && !settings.indenter.file.empty())
         complain({"solids%wear_coefficient", "indenter%shape"},
                  "not available together with indenter%shape; the heights of body 2 would have to "
@@ -173,6 +176,7 @@ const Physics kWear = {
     .quantities = wear_quantities(),
     .lowers = true,
     .reshapes = true,
+    .require_feasible = require_distances,
     .bytes_per_point = 58,  // depths, with those of the level before
     .remark = print_worn,
     .lowering = make_wear,
