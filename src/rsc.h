@@ -351,8 +351,7 @@ RSC_API int32_t rsc_asperities_find(rsc_asperities** asperities, const rsc_surfa
  * that rsc_surface_synthesize would create, or the list in surface%file. A synthetic surface is not
  * stored: this is faster, takes half the memory and allows any grid for every asperities%law. With
  * solver%model = 'elements': the points of the surface on the grid of elements%points_per_wave.
- * 'auto' means asperities here, because the program's choice depends on the levels, which are not
- * known yet.
+ * 'auto' means asperities here, and elements for heights from a file.
  *     asperities (out): the handle;
  *     a_case: the case, null for the defaults;
  *     realization: as in rsc_surface_synthesize; no effect on a list of asperities.
@@ -607,10 +606,8 @@ RSC_API int32_t rsc_contact_answer(rsc_contact* contact, double* separation, dou
  * "moment_y", "gap_mean", "percolates_x", "permeability_xx", "hydraulic_gap_x", ... (two flats
  * solved by elements), "resistance" (if solids%resistivity is set in the case of the contact). The
  * error message for an unknown name lists all names.
- * The expected errors of N and A, "force_error_expected" and "area_error_expected", are available
- * for asperities, and for elements with adhesion. For elements without adhesion, rsc_case_run
- * estimates the error from a second grid; a contact handle does not, and its status does not
- * include that error.
+ * The expected errors of N and A are "force_error_expected" and "area_error_expected", under a
+ * prescribed force "separation_error_expected"; those of other quantities: rsc_contact_error.
  *     contact: the contact;
  *     name: the name;
  *     value (out): its value.

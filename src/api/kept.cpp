@@ -203,8 +203,8 @@ void put_state(Entries& to, const std::string& prefix, const Path::State& state)
     const LevelPixels& p = level.pixels;
     to.numbers[prefix + "level.pixels"] = {double(p.columns), p.x0, p.y0, p.dx, p.dy};
     Numbers& more = to.numbers[prefix + "level.more"];
-    more = {double(level.converged), double(level.unique), level.sliding_area_error,
-            double(level.gaps.beyond)};
+    more = {double(level.converged), double(level.unique), double(level.gaps.beyond)};
+    to.numbers[prefix + "level.errors"] = {level.errors.begin(), level.errors.end()};
     append(more, level.gaps.power);
     Numbers& spots = to.numbers[prefix + "level.spots"];
     for (const Spot& s : level.spots) append(spots, {s.x, s.y, s.major, s.minor, s.angle});
@@ -215,12 +215,14 @@ void get_rest(const Entries& from, const std::string& prefix, Level& level) {
     if (!from.numbers.contains(prefix + "level.more")) return;
     const Numbers &more = from.of(prefix + "level.more"), &spots = from.of(prefix + "level.spots");
     auto& power = level.gaps.power;
-    if (more.size() != 4 + power.size() || spots.size() % 5 != 0) bad_input(kBroken);
+    if (more.size() != 3 + power.size() || spots.size() % 5 != 0) bad_input(kBroken);
     level.converged = more[0] != 0;
     level.unique = more[1] != 0;
-    level.sliding_area_error = more[2];
-    level.gaps.beyond = std::int32_t(more[3]);
-    std::copy(more.begin() + 4, more.end(), power.begin());
+    level.gaps.beyond = std::int32_t(more[2]);
+    const Numbers& errors = from.of(prefix + "level.errors");
+    if (errors.size() != level.errors.size()) bad_input(kBroken);
+    std::ranges::copy(errors, level.errors.begin());
+    std::copy(more.begin() + 3, more.end(), power.begin());
     for (std::size_t k = 0; k < spots.size(); k += 5)
         level.spots.push_back({spots[k], spots[k + 1], spots[k + 2], spots[k + 3], spots[k + 4]});
 }

@@ -40,7 +40,8 @@ public:
     // pressures then grow without any change of the separation.
     bool full() const {
         return !(diagonal_ > 0 || highest_ < kInfinity) &&
-               pixels_.size() == at(relief_.nx) * at(relief_.ny);
+               p_.size() == at(relief_.nx) * at(relief_.ny) &&
+               std::ranges::all_of(p_, [](double p) { return p > 0; });
     }
 
     // Separation of full contact: the mean height, to rounding. None with a highest pressure,
