@@ -171,16 +171,6 @@ struct GapRadii {
     double angle;  // of the first direction from x [degree]
 };
 GapRadii gap_radii(const Case& settings);
-// True if body 1 relaxes, i.e. a share is positive.
-bool relaxes(const Case& settings);
-// True if body 1 wears, if bodies yield, and if they attract.
-inline bool wears(const Case& settings) { return settings.solids.wear_coefficient > 0; }
-inline bool yields(const Case& settings) { return std::isfinite(settings.solids.hardness); }
-inline bool attracts(const Case& settings) { return settings.solids.adhesion > 0; }
-// True if levels depend on the levels before.
-inline bool path_dependent(const Case& settings) {
-    return relaxes(settings) || wears(settings) || yields(settings) || attracts(settings);
-}
 // True if closed forms of areas and pressures hold: body 1 is an elastic half-space without layers,
 // and the only rough body.
 bool has_closed_forms(const Case& settings);

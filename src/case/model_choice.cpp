@@ -4,6 +4,7 @@
 #include "case/case.hpp"
 #include "contact/equivalent.hpp"
 #include "physics/indenter/shapes.hpp"
+#include "physics/physics.hpp"
 #include "surface/spectrum.hpp"
 
 namespace rsc {
@@ -117,9 +118,6 @@ const char* why_asperities(const Case& c) {
         {c.surface.source == Source::asperities, "only asperities are given"},
         {c.surface.source == Source::spectrum, "the surface is synthetic"},
         {c.compare.listed(), "compare%levels compares them with elements"},
-        {attracts(c) && !(c.solids.adhesion_range > 0),
-         "solids%adhesion without adhesion_range needs them"},
-        {yields(c) && c.solids.size_effect > 0, "solids%size_effect needs them"},
         {c.asperities.law != LawKind::hertz || c.asperities.curvature != Curvature::geometric,
          "&asperities is set"},
         {c.solver.method != Method::automatic, "solver%method needs them"},
@@ -129,6 +127,9 @@ const char* why_asperities(const Case& c) {
              c.elements.points_per_wave * c.surface.L_lambda_s > kLargestGrid,
          "elements would need more than 32768 points a side"},
     };
+    for (const Physics* p : physics_asked(c))
+        if (const char* const why = p->needs_asperities ? p->needs_asperities(c) : ""; *why)
+            return why;
     for (const auto& [holds, why] : reasons)
         if (holds) return why;
     return "";
@@ -161,7 +162,9 @@ ModelChoice model_of(const Case& c) {
     if (const char* why = why_asperities(c); *why) return {ModelKind::asperities, why};
     if (c.surface.source == Source::heights)
         return {ModelKind::elements, "the heights are read from a file"};
-    if (wears(c)) return {ModelKind::elements, "solids%wear_coefficient needs them"};
+    for (const Physics* p : physics_asked(c))
+        if (const char* const why = p->needs_elements ? p->needs_elements(c) : ""; *why)
+            return {ModelKind::elements, why};
     if (c.output.flow) return {ModelKind::elements, "output%flow needs them"};
     try {
         if (const char* why = why_elements(c); *why) return {ModelKind::elements, why};

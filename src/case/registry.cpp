@@ -3,101 +3,14 @@
 #include "base/error.hpp"
 #include "observe/fields.hpp"
 #include "physics/indenter/shapes.hpp"
+#include "physics/physics.hpp"
 
 namespace rsc {
 
 using namespace namelist;
+using namespace keys;
 
 namespace {
-
-constexpr double kNoLimit = kInfinity;
-constexpr Bounds kAny{};
-constexpr Bounds kPositive{0, kNoLimit, true, false};
-constexpr Bounds kNotNegative{0, kNoLimit, false, false};
-constexpr Bounds kPositiveOrInfinite{0, kNoLimit, true, true};
-constexpr Bounds kRadius{-kNoLimit, kNoLimit, true, true, true};
-constexpr Bounds between(double low, double high) { return {low, high, false, false}; }
-constexpr Bounds above(double low, double high) { return {low, high, true, false}; }
-
-template <class T>
-Slot choice_slot(T& member) {
-    return ChoiceSlot{&member, [](const void* p) { return int(*static_cast<const T*>(p)); },
-                      [](void* p, int i) { *static_cast<T*>(p) = static_cast<T>(i); }};
-}
-
-// The place of a member of a Case; the first of an array.
-template <class T>
-Slot slot_of(T& member) {
-    if constexpr (std::is_array_v<T>)
-        return &member[0];
-    else if constexpr (std::is_enum_v<T>)
-        return choice_slot(member);
-    else
-        return &member;
-}
-
-// A key has the name of its member of Case, which also determines its type and the size of an
-// array.
-struct Place {
-    const char *group, *name;
-    std::size_t extent;
-    Slot (*slot)(Case&);
-};
-#define RSC_KEY(group, name)                                         \
-    place(#group, #name, std::extent_v<decltype(Case().group.name)>, \
-          [](Case& c) { return slot_of(c.group.name); })
-Place place(const char* group, const char* name, std::size_t extent, Slot (*slot)(Case&)) {
-    return {group, name, extent, slot};
-}
-
-Key number(const Place& at, const char* unit, Bounds bounds, const char* meaning,
-           const char* unset = "") {
-    static Case any;
-    constexpr Type types[] = {Type::logical, Type::integer, Type::long_integer, Type::real,
-                              Type::real,    Type::string,  Type::real,         Type::choice};
-    const Type type = types[at.slot(any).index()];
-    return {at.group, at.name, type,   std::max(int(at.extent), 1), false, 0, unit, bounds, {},
-            unset,    meaning, at.slot};
-}
-Key list(const Place& at, int most, const char* unit, Bounds bounds, const char* unset,
-         const char* meaning) {
-    Key key = number(at, unit, bounds, meaning, unset);
-    key.list = true;
-    key.size = most;
-    return key;
-}
-Key text(const Place& at, int length, const char* meaning) {
-    Key key = number(at, "", kAny, meaning);
-    key.length = length;
-    return key;
-}
-// The order of the names is the order of the enumeration.
-template <class Names>
-Key choice(const Place& at, const Names& names, const char* meaning) {
-    Key key = text(at, 32, meaning);
-    key.type = Type::choice;
-    key.choices.assign(names.begin(), names.end());
-    return key;
-}
-// A list of choices, in any order.
-Key words(Key key) {
-    key.list = true;
-    key.size = int(key.choices.size());
-    key.unset = "none";
-    return key;
-}
-// A list of numbers, or one of some words.
-template <class Names>
-Key or_word(const Names& names, Slot (*word)(Case&), Key key) {
-    key.choices.assign(names.begin(), names.end());
-    key.word = word;
-    return key;
-}
-
-Key changing(Changes what, Key key) {
-    key.changes = what;
-    return key;
-}
 
 std::vector<const char*> shape_names() {
     std::vector<const char*> all;
@@ -134,29 +47,9 @@ std::vector<Key> keys_of_solids() {
             RSC_KEY(solids, R), "length", kRadius,
             "radii of the two bodies, spheres; Infinity: flat; negative: concave (a socket; 1/R(1) "
             "+ 1/R(2) must be positive). In line contact R(1) is the radius of a cylinder"),
-        number(RSC_KEY(solids, hardness), "force/length^2", kPositiveOrInfinite,
-               "hardness H0: upper limit of the mean pressure of an asperity, H0 sqrt(1 + "
-               "size_effect/r), and of the pressure on an element, H0; each level then "
-               "depends on the levels before it"),
-        number(
-            RSC_KEY(solids, size_effect), "length", kNotNegative,
-            "characteristic length of the indentation size effect on the hardness of asperities"),
         number(RSC_KEY(solids, resistivity), "resistance*length", kNotNegative,
                "electrical or thermal resistivity of the two bodies, for the constriction "
                "resistance of the contact"),
-        number(RSC_KEY(solids, friction), "1", kNotNegative,
-               "coefficient of friction mu; if above 0, the result has the tangential force at "
-               "each level (one realization only)"),
-        number(RSC_KEY(solids, adhesion), "force/length", kNotNegative,
-               "work of adhesion w; above 0 forces may be negative, and each level depends on the "
-               "levels before it"),
-        number(RSC_KEY(solids, adhesion_range), "length", kNotNegative,
-               "range z0 of the attraction, a constant traction w/z0 across gaps below z0 "
-               "(Dugdale); 0: attraction of zero range (JKR)"),
-        number(RSC_KEY(solids, wear_coefficient), "length^2/force", kNotNegative,
-               "Archard's k: a pressure p that slides a distance ds wears off the depth k p ds, of "
-               "both bodies together if body 2 is smooth; for elements, with "
-               "indentation%sliding or distances"),
         list(RSC_KEY(solids, layer_thickness), kMostLayers, "length", kPositive, "none",
              "thicknesses of layers on body 1, top first; E(1) and nu(1) then belong to the body "
              "below them"),
@@ -165,11 +58,6 @@ std::vector<Key> keys_of_solids() {
         list(RSC_KEY(solids, layer_nu), kMostLayers, "1", above(-1, 0.5), "none",
              "Poisson's ratios of the layers"),
 
-        list(RSC_KEY(solids, relaxation_share), kMostRelaxations, "1", between(0, 1), "none",
-             "shares g_k of E(1) that body 1 loses by relaxation, E(t) = E(1) (1 - sum g_k (1 - "
-             "exp(-t/tau_k))); their sum is at most 1"),
-        list(RSC_KEY(solids, relaxation_time), kMostRelaxations, "time", kPositive, "none",
-             "relaxation times tau_k, one for each share"),
     };
 }
 
@@ -325,20 +213,6 @@ std::vector<Key> keys_of_indentation() {
         list(RSC_KEY(indentation, levels), 10000, "`unit`", kAny,
              "start, stop and steps give the levels",
              "list of levels instead of start, stop and steps"),
-        number(RSC_KEY(indentation, duration), "time", kPositive,
-               "for a body that relaxes, time from the first to the last level, in equal steps; "
-               "the first level is reached at once",
-               "none"),
-        list(RSC_KEY(indentation, times), 10000, "time", kAny, "none",
-             "time of each level, increasing, instead of `duration`; separations, or forces, "
-             "change linearly in between"),
-        number(RSC_KEY(indentation, sliding), "length", kPositive,
-               "for a body that wears, distance of sliding from the first to the last level, in "
-               "equal steps; the first level is reached without sliding",
-               "none"),
-        list(RSC_KEY(indentation, distances), 10000, "length", kNotNegative, "none",
-             "distance of sliding of each level, increasing, instead of `sliding`; separations, or "
-             "forces, change linearly in between"),
         number(RSC_KEY(indentation, centre), "length", kAny, "x and y of the tip of the indenter",
                "the middle of the surface"),
         choice(RSC_KEY(indentation, selection), kSelectionNames,
@@ -445,10 +319,15 @@ std::vector<Key> make_registry() {
                             keys_of_asperities, keys_of_indenter, keys_of_indentation,
                             keys_of_solver, keys_of_elements, keys_of_compare, keys_of_output})
         for (Key& key : keys()) all.push_back(std::move(key));
+    for (const Physics* p : all_physics())
+        for (Key& key : p->keys()) {  // at the end of its group
+            const auto last = std::find_if(all.rbegin(), all.rend(), [&](const Key& other) {
+                return std::string_view(other.group) == key.group;
+            });
+            all.insert(last.base(), std::move(key));
+        }
     return all;
 }
-
-#undef RSC_KEY
 
 constexpr std::pair<const char*, const char*> kGroups[] = {
     {"run", "title, realizations, threads and units"},

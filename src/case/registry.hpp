@@ -2,7 +2,7 @@
 // the `case` attribute of result files, and the functions that set and get keys by name.
 #pragma once
 
-#include "case/case.hpp"
+#include "case/key.hpp"
 #include "case/namelist.hpp"
 
 namespace rsc {
@@ -10,50 +10,6 @@ namespace rsc {
 // Nominal pressure over E* sqrt(2 m2) above which two flats are near full contact: less than 5 % of
 // the area is gap, by Persson's erf(sqrt(2) p/(E* h')).
 inline constexpr double kClosingPressure = 1;
-
-// The effect of a key on a result: on its numbers, only on their storage in the file, or none.
-enum class Changes { numbers, file, nothing };
-
-enum class Type { logical, integer, long_integer, real, string, choice };
-
-// Bounds of a real or integer. NaN is always refused, Infinity unless `infinity` is set.
-struct Bounds {
-    double low = -kInfinity, high = kInfinity;
-    bool open = false;      // low itself is excluded
-    bool infinity = false;  // Infinity is allowed
-    bool nonzero = false;   // 0 is excluded
-    bool hold(double value) const;
-    std::string text() const;  // "> 0", "0 to 1", ... ; empty without bounds
-};
-
-// An enumeration, as the number of its choice in the key's list.
-struct ChoiceSlot {
-    void* object;
-    int (*get)(const void*);
-    void (*set)(void*, int);
-};
-
-// The place of a key in a Case: the value, the first of `size` values, or a list.
-using Slot = std::variant<bool*, int*, std::int64_t*, double*, std::optional<double>*, std::string*,
-                          std::vector<double>*, ChoiceSlot>;
-
-struct Key {
-    const char* group;
-    const char* name;  // as documented; compared without case
-    Type type;
-    int size;          // number of elements, the maximum for a list; 1 for a scalar
-    bool list;         // a list has as many elements as are given
-    int length;        // of a string: maximum number of characters
-    const char* unit;  // "1" for a pure number, "" for text
-    Bounds bounds;
-    std::vector<const char*> choices;
-    const char* unset;  // for a key that may stay unset: its meaning then; otherwise ""
-    const char* meaning;
-    Slot (*slot)(Case&);
-    Changes changes = Changes::numbers;
-    // a list that may be one of `choices` instead, which applies while the list is empty
-    Slot (*word)(Case&) = nullptr;
-};
 
 // All keys, group by group in the documented order.
 std::span<const Key> registry();

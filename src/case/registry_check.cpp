@@ -1,6 +1,5 @@
 // The checks of a case, key by key and as a whole.
 
-#include "asperities/law.hpp"
 #include "base/error.hpp"
 #include "case/case.hpp"
 #include "case/registry.hpp"
@@ -8,6 +7,7 @@
 #include "observe/fields.hpp"
 #include "physics/flow/permeability.hpp"
 #include "physics/indenter/shapes.hpp"
+#include "physics/physics.hpp"
 #include "surface/asperities.hpp"
 
 namespace rsc {
@@ -139,103 +139,41 @@ private:
     // Pairs of keys that exclude each other.
     void check_exclusive() {
         const Case::Solids& s = c_.solids;
-        const bool adhesion = attracts(c_), range = s.adhesion_range > 0;
-        const bool hard = yields(c_), friction = s.friction > 0;
-        const bool relaxes = rsc::relaxes(c_), wears = rsc::wears(c_);
-        const bool layers = !s.layer_thickness.empty(), compare = c_.compare.listed();
-        const bool dgesv = c_.solver.method == Method::dgesv,
-                   paper = c_.indentation.selection == Selection::paper;
-        const bool size_effect = hard && s.size_effect > 0,
-                   resistivity = s.resistivity[0] > 0 || s.resistivity[1] > 0;
-        const bool line = c_.indentation.line();
-        const bool ask_law = !elements_ && (adhesion || hard || relaxes);
-        const LawCapabilities law =
-            ask_law ? capabilities_of(c_.asperities.law) : LawCapabilities{};
-        const std::string of_law =
-            joined("law = '", kLawNames[at(c_.asperities.law)], "' does not say ");
-        const struct {
-            bool both;
-            const char *key, *other;
-            std::string why;
-        } pairs[] = {
-            {adhesion && hard, "solids%adhesion", "solids%hardness", ""},
-            {adhesion && friction, "solids%adhesion", "solids%friction", ""},
-            {adhesion && relaxes, "solids%adhesion", "solids%relaxation_share", ""},
-            {adhesion && !elements_ && !law.widening, "solids%adhesion", "asperities%law",
-             of_law + "how its contacts widen"},
-            {adhesion && range && !elements_ && !law.paraboloid, "solids%adhesion",
-             "asperities%law",
-             of_law + "that it is that of a paraboloid, which adhesion_range > 0 needs: give "
-                      "'hertz' or 'elliptic'"},
-            {hard && !elements_ && !law.truncation, "solids%hardness", "asperities%law",
-             of_law + "how its contacts grow by truncation"},
-            {relaxes && !elements_ && !law.convex, "solids%relaxation_share", "asperities%law",
-             of_law + "that its slope increases with the penetration"},
-            {adhesion && !range && elements_, "solids%adhesion", "solver%model",
-             "elements need adhesion_range > 0"},
-            {adhesion && !range && compare, "solids%adhesion", "compare%levels",
-             "elements need adhesion_range > 0"},
-            {adhesion && dgesv, "solids%adhesion", "solver%method",
-             "'dgesv' has no tensile forces"},
-            {adhesion && paper, "solids%adhesion", "indentation%selection",
-             "asperities beyond the circle of 'paper' attract, too"},
-            {hard && friction, "solids%hardness", "solids%friction",
-             "friction needs elastic asperities"},
-            {size_effect && elements_, "solids%size_effect", "solver%model",
-             "it needs the radius of asperities"},
-            {size_effect && compare, "solids%size_effect", "compare%levels",
-             "it needs the radius of asperities"},
-            {friction && layers, "solids%friction", "solids%layer_thickness",
-             "it is not for layers"},
-            {resistivity && layers, "solids%resistivity", "solids%layer_thickness",
-             "the resistance of coated bodies is not computed: where spots are smaller than the "
-             "thickness of the coating, give its resistivity and no layer"},
-            {line && layers, "indentation%boundary", "solids%layer_thickness", ""},
-            {line && relaxes, "indentation%boundary", "solids%relaxation_share", ""},
-            {line && adhesion, "indentation%boundary", "solids%adhesion", ""},
-            {wears && adhesion, "solids%wear_coefficient", "solids%adhesion", ""},
-            {wears && relaxes, "solids%wear_coefficient", "solids%relaxation_share", ""},
-            {wears && hard, "solids%wear_coefficient", "solids%hardness", ""},
-            {wears && layers, "solids%wear_coefficient", "solids%layer_thickness",
-             "wear would thin the layers"},
-            {wears && friction, "solids%wear_coefficient", "solids%friction",
-             "it is for surfaces that remain as they are"},
-            {wears && !elements_, "solids%wear_coefficient", "solver%model",
-             "points of the surface wear, not asperities; use model = 'elements'"},
-            {relaxes && hard, "solids%relaxation_share", "solids%hardness", ""},
-            {relaxes && friction, "solids%relaxation_share", "solids%friction", ""},
-            {relaxes && layers, "solids%relaxation_share", "solids%layer_thickness", ""},
-            {relaxes && compare, "solids%relaxation_share", "compare%levels", ""},
-            {relaxes && dgesv, "solids%relaxation_share", "solver%method", ""},
-        };
-        for (const auto& [both, key, other, why] : pairs)
-            require(!both, {key, other}, "not available together with ", other,
-                    why.empty() ? "" : "; ", why);
+        const BodyPhysics bodies = physics_of(c_);
+        const Combination all{.bodies = bodies,
+                              .elements = elements_,
+                              .compares = c_.compare.listed(),
+                              .line = c_.indentation.line(),
+                              .layers = !s.layer_thickness.empty(),
+                              .method = c_.solver.method,
+                              .selection = c_.indentation.selection,
+                              .law = c_.asperities.law};
+        const Complain refuse = [&](std::initializer_list<std::string_view> keys,
+                                    const std::string& text) { complain(keys, text); };
+        find_exclusions(all, refuse);
+        for (const Physics* p : all_physics())
+            if (p->check) p->check(c_, refuse);
+        require(!(all.layers && (s.resistivity[0] > 0 || s.resistivity[1] > 0)),
+                {"solids%resistivity", "solids%layer_thickness"},
+                "not available together with solids%layer_thickness; the resistance of coated "
+                "bodies is not computed: where spots are smaller than the thickness of the "
+                "coating, give its resistivity and no layer");
+        require(!(all.layers && all.line), {"indentation%boundary", "solids%layer_thickness"},
+                "not available together with solids%layer_thickness");
     }
 
     void check_solids() {
         const Case::Solids& s = c_.solids;
-        const std::size_t layers = s.layer_thickness.size(), shares = s.relaxation_share.size();
-        require(attracts(c_) || !(s.adhesion_range > 0),
-                {"solids%adhesion_range", "solids%adhesion"}, "needs solids%adhesion > 0");
-        const auto as_many = [&](const std::vector<double>& values, std::size_t wanted,
-                                 const char* key, const char* other) {
-            require(values.size() == wanted, {key, other}, "needs as many values as ", other, " (",
-                    wanted, "), found ", values.size());
+        const std::size_t layers = s.layer_thickness.size();
+        const auto as_many = [&](const std::vector<double>& values, const char* key) {
+            require(values.size() == layers, {key, "solids%layer_thickness"},
+                    "needs as many values as solids%layer_thickness (", layers, "), found ",
+                    values.size());
         };
-        as_many(s.layer_E, layers, "solids%layer_E", "solids%layer_thickness");
-        as_many(s.layer_nu, layers, "solids%layer_nu", "solids%layer_thickness");
-        as_many(s.relaxation_time, shares, "solids%relaxation_time", "solids%relaxation_share");
-        const double sum = sum_of(s.relaxation_share);
-        require(!(sum > 1 + 1e-12), {"solids%relaxation_share"}, "the shares add up to ",
-                from_real(sum), ", more than 1");
-        if (!std::isinf(s.E[0])) return;
-        require(layers > 0 || !std::isinf(s.E[1]), {"solids%E"},
+        as_many(s.layer_E, "solids%layer_E");
+        as_many(s.layer_nu, "solids%layer_nu");
+        require(layers > 0 || !std::isinf(s.E[0]) || !std::isinf(s.E[1]), {"solids%E"},
                 "two rigid bodies do not deform; at most one body may be rigid");
-        require(layers > 0 || !yields(c_), {"solids%hardness", "solids%E"},
-                "the asperities of body 1 yield, so body 1 must not be rigid (E(1) = Infinity)");
-        require(!relaxes(c_), {"solids%relaxation_share", "solids%E"},
-                "E(1) = Infinity makes body 1 rigid");
     }
 
     void check_times() {
@@ -401,8 +339,9 @@ private:
         const Case::Indentation& i = c_.indentation;
         const bool separation = i.control == Control::separation,
                    with_log = i.spacing == Spacing::log && i.levels.empty();
-        if (separation ? !with_log : attracts(c_) && !with_log) return;
-        const std::string of = separation || attracts(c_) ? "spacing" : "control";
+        const bool pulls = any_physics(c_, &Physics::pulls);
+        if (separation ? !with_log : pulls && !with_log) return;
+        const std::string of = separation || pulls ? "spacing" : "control";
         const std::string text =
             "must be positive with " + of + " = " + get_key(c_, "indentation%" + of);
         if (!i.levels.empty()) {
@@ -512,7 +451,8 @@ private:
         require(c_.solids.layer_thickness.empty(),
                 {"output%stress_depths", "solids%layer_thickness"},
                 "stresses below the surface are not available in layers");
-        require(elements_ || !attracts(c_), {"output%stress_depths", "solids%adhesion"},
+        require(elements_ || !any_physics(c_, &Physics::pulls),
+                {"output%stress_depths", "solver%model"},
                 "with adhesion stresses are available for model = 'elements'");
         if (!o.sliding_direction) return;
         require(c_.solids.friction > 0, {"output%sliding_direction", "solids%friction"},
@@ -542,8 +482,6 @@ private:
         at_most(levels_ * c_.run.realizations, kMostLevelValues, "run%realizations");
         require(cells * o.radial_bins <= kMostCircles, {"output%radial_bins", "output%map_cells"},
                 "times map_cells at most ", count(kMostCircles));
-        require(!(c_.solids.friction > 0) || c_.run.realizations == 1, {"run%realizations"},
-                "only one with solids%friction > 0");
         require(double(c_.run.first_realization) + c_.run.realizations - 1 <= 2147483647.0,
                 {"run%first_realization", "run%realizations"},
                 "the last realization would be beyond 2147483647");
@@ -582,12 +520,9 @@ void require_valid(const Case& settings, std::initializer_list<std::string_view>
     if (!text.empty()) bad_input(text);
 }
 
-bool relaxes(const Case& settings) {
-    return std::ranges::any_of(settings.solids.relaxation_share, [](double g) { return g > 0; });
-}
-
 bool has_closed_forms(const Case& c) {
-    return c.solids.layer_thickness.empty() && !relaxes(c) && c.indenter.file.empty();
+    return c.solids.layer_thickness.empty() && physics_of(c).relaxation.none() &&
+           c.indenter.file.empty();
 }
 
 }  // namespace rsc

@@ -17,7 +17,7 @@ enum class ModelKind : std::int32_t { asperities, elements, automatic };
 inline constexpr std::array kModelNames = {"asperities", "elements", "auto"};
 enum class Selection { overlap, paper };
 inline constexpr std::array kSelectionNames = {"overlap", "paper"};
-enum class LawKind { hertz, elliptic, fourth_order };  // law/law.hpp
+enum class LawKind { hertz, elliptic, fourth_order };  // asperities/law.hpp
 inline constexpr std::array kLawNames = {"hertz", "elliptic", "fourth_order"};
 
 // Equivalent problem: elastic half-space E_star (with layers, that of the top layer) and a rigid
@@ -67,13 +67,14 @@ struct Rectangle {
 };
 
 // Pressures are limited to H = H0 sqrt(1 + length/r), where r is the radius of an asperity
-// (law/hardness.hpp).
+// (physics/hardness/hardness.hpp).
 struct Hardness {
     double H0 = __builtin_huge_val();  // [force/length^2]; Infinity: elastic
     double length = 0;                 // length of the size effect [length]
+    double at(double radius) const { return H0 * std::sqrt(1 + length / radius); }
 };
 
-// Adhesion of the bodies (law/sticking.hpp).
+// Adhesion of the bodies (physics/adhesion/sticking.hpp).
 struct Adhesion {
     double work = 0;   // work of adhesion w [force/length]; 0: no adhesion
     double range = 0;  // range z0 of the attraction [length]; 0: JKR
@@ -117,6 +118,7 @@ struct BodyPhysics {
     Relaxation relaxation = {};
     Adhesion adhesion = {};
     Wear wear = {};
+    double friction = 0;  // coefficient
 };
 
 // What is known of the rough surface beside its asperities or heights. 0: unknown.

@@ -1,48 +1,63 @@
 #include "contact/make.hpp"
 
 #include "asperities/asperity_model.hpp"
+#include "base/error.hpp"
 #include "elements/element_model.hpp"
-#include "elements/pixel_spots.hpp"
-#include "physics/adhesion/adhesive_contact.hpp"
-#include "physics/adhesion/adhesive_elements.hpp"
-#include "physics/hardness/hardness.hpp"
-#include "physics/relaxation/relaxing_asperities.hpp"
-#include "physics/wear/wear.hpp"
+#include "physics/physics.hpp"
 
 namespace rsc {
 namespace {
 
-AsperityPhysics physics_of(const ContactBodies& bodies) {
+// Throws Error(bad_input) for physics out of range, or that exclude each other or the model.
+void require_compatible(const SolverOptions& options, const Indenter& indenter, bool elements) {
+    for (const Physics* p : physics_asked(options.physics))
+        if (p->require_sound) p->require_sound(options.physics);
+    const Combination all{.bodies = options.physics,
+                          .elements = elements,
+                          .line = indenter.period.line(),
+                          .layers = indenter.layers.count > 0,
+                          .method = options.method,
+                          .selection = options.selection,
+                          .law = options.law};
+    find_exclusions(all, [](std::initializer_list<std::string_view> keys, const std::string& text) {
+        bad_input(*keys.begin(), ": ", text);
+    });
+}
+
+AsperityPhysics law_of(const ContactBodies& bodies) {
     const SolverOptions& options = bodies.options;
-    AsperityPhysics physics = make_yielding_asperities(
-        bodies, make_law(options.law, bodies.asperities, bodies.indenter.E_star,
-                         bodies.of_difference.get()));
-    if (options.physics.relaxation.none()) return physics;
-    return make_relaxing_asperities(bodies, std::move(physics.law));
+    AsperityPhysics physics{make_law(options.law, bodies.asperities, bodies.indenter.E_star,
+                                     bodies.of_difference.get()),
+                            std::make_unique<AsperityHistory>()};
+    for (const Physics* p : physics_asked(options.physics))
+        if (p->law) physics = p->law(bodies, std::move(physics.law));
+    return physics;
 }
 
 }  // namespace
 
 std::unique_ptr<Path> make_asperity_contact(const Asperities& asperities, const Indenter& indenter,
                                             const SolverOptions& options) {
-    require_no_wear(options);
-    if (options.physics.adhesion.work > 0)
-        return std::make_unique<Path>(make_adhesive_asperities(asperities, indenter, options),
-                                      options.tolerance);
-    return std::make_unique<Path>(
-        std::make_unique<AsperityModel>(asperities, indenter, options, physics_of),
-        options.tolerance);
+    require_compatible(options, indenter, false);
+    std::unique_ptr<Model> model;
+    for (const Physics* p : physics_asked(options.physics))
+        if (p->asperities) model = p->asperities(asperities, indenter, options);
+    if (!model) model = std::make_unique<AsperityModel>(asperities, indenter, options, law_of);
+    return std::make_unique<Path>(std::move(model), options.tolerance);
 }
 
 std::unique_ptr<Path> make_element_contact(const HeightMap& heights, const Indenter& indenter,
                                            const SolverOptions& options) {
-    std::unique_ptr<Lowering> wear = make_wear(options);
-    if (options.physics.adhesion.work > 0)
-        return std::make_unique<Path>(
-            make_adhesive_elements(require_elements(heights, indenter, options), indenter, options),
-            options.tolerance);
-    return std::make_unique<Path>(make_elements(heights, indenter, options, std::move(wear)),
-                                  options.tolerance);
+    require_compatible(options, indenter, true);
+    std::unique_ptr<Model> model;
+    ElementPhysics physics;
+    for (const Physics* p : physics_asked(options.physics)) {
+        if (p->elements) model = p->elements(heights, indenter, options);
+        if (p->lowering) physics.lowering = p->lowering(options.physics);
+        if (p->largest_pressure) physics.highest = p->largest_pressure(options.physics, kInfinity);
+    }
+    if (!model) model = make_elements(heights, indenter, options, std::move(physics));
+    return std::make_unique<Path>(std::move(model), options.tolerance);
 }
 
 }  // namespace rsc

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "contact/answers.hpp"
 #include "physics/flow/flow.hpp"
+#include "physics/physics.hpp"
 
 namespace rsc {
 namespace {
@@ -273,78 +274,6 @@ constexpr LevelQuantity kRows[] = {
      .meaning = "nominal area under the sphere, or of two flats",
      .comment = "the smallest disc about the tip that contains all contacts (boundary elements: "
                 "all pixels under pressure), at most the area of the surface; two flats: A0"},
-    {.name = "plastic_contacts",
-     .member = &V::plastic_contacts,
-     .meaning = "contacts that yield",
-     .comment = "mean pressure at the hardness H = H0 sqrt(1 + l/r), at the largest penetration so "
-                "far; boundary elements: contacts with a pixel at the hardness",
-     .always = false,
-     .beside = &V::plastic_work},
-    {.name = "plastic_work",
-     .member = &V::plastic_work,
-     .length_power = 1,
-     .force_power = 1,
-     .meaning = "plastic work of all contacts since the first level",
-     .comment = "boundary elements: H times the volume of the plastic residual; levels after "
-                "yielding depend on the history",
-     .always = false},
-    {.name = "time",
-     .member = &V::time,
-     .unit = "time",
-     .of_step = true,
-     .meaning = "time of the level",
-     .comment =
-         "the load changes linearly between levels; the first level is applied instantaneously",
-     .always = false,
-     .heading = "time",
-     .width = 11,
-     .digits = 6},
-    {.name = "distance",
-     .member = &V::distance,
-     .length_power = 1,
-     .of_step = true,
-     .meaning = "sliding distance of the level",
-     .comment =
-         "the load changes linearly between levels; the first level is reached without sliding",
-     .always = false,
-     .heading = "distance",
-     .width = 11,
-     .digits = 6},
-    {.name = "worn_volume",
-     .member = &V::worn_volume,
-     .length_power = 3,
-     .meaning = "volume that is worn off",
-     .comment = "solids%wear_coefficient times the integral of the force over the sliding "
-                "distance, of both bodies",
-     .always = false,
-     .statistics = true,
-     .plain = "worn volume",
-     .heading = "worn",
-     .width = 12,
-     .digits = 6},
-    {.name = "wear_depth_max",
-     .member = &V::wear_depth_max,
-     .length_power = 1,
-     .meaning = "largest depth that is worn off",
-     .always = false,
-     .statistics = true,
-     .plain = "largest depth of wear"},
-    {.name = "worn_rms",
-     .member = &V::worn_rms,
-     .length_power = 1,
-     .meaning = "rms height of the worn surface",
-     .comment = "of all points about their mean",
-     .always = false,
-     .statistics = true,
-     .plain = "rms height of the worn surface"},
-    {.name = "sliding_error",
-     .member = &V::sliding_error,
-     .unit = "1",
-     .meaning = "error by the steps in which the level was reached",
-     .comment = "change of N, relative to the larger N of the two levels, by halving the steps; "
-                "under a force that of the separation, relative to its depth below first touch of "
-                "the worn surface; without the errors of earlier levels",
-     .always = false},
     {.name = "energy_lost",
      .member = &V::energy_lost,
      .length_power = 1,
@@ -357,35 +286,6 @@ constexpr LevelQuantity kRows[] = {
      .always = false,
      .statistics = true,
      .plain = "energy lost"},
-    {.name = "jumps",
-     .member = &V::jumps,
-     .meaning = "number of jumps since the previous level",
-     .comment =
-         "adhesion: a contact forms or breaks at one separation, including the avalanche that it "
-         "triggers; boundary elements: connected sets of at least 8 points that began or ceased to "
-         "attract and dissipated more than a tenth of w times their area between the two levels; "
-         "steps short beside adhesion_range tell jumps from smooth changes",
-     .always = false,
-     .beside = &V::least_force},
-    {.name = "least_force",
-     .member = &V::least_force,
-     .force_power = 1,
-     .meaning = "smallest force since the first level",
-     .comment = "adhesion: including forces between levels; pull_off_force is its last value",
-     .always = false},
-    {.name = "cohesive_area",
-     .member = &V::cohesive_area,
-     .length_power = 2,
-     .meaning = "area that attracts without touching",
-     .comment = "adhesion with a range: gaps above 0 and below adhesion_range",
-     .always = false},
-    {.name = "cohesive_resolution",
-     .member = &V::cohesive_resolution,
-     .meaning = "length over which the attraction acts at edges of contact, (pi/4) E* "
-                "adhesion_range^2/adhesion, over the side of a pixel",
-     .comment = "boundary elements: the error of the pull-off force is of first order in its "
-                "inverse; 4 or more is wanted",
-     .always = false},
     {.name = "extreme_area_fraction",
      .member = &V::extreme_area_fraction,
      .meaning = "share of the contact area with a mean pressure above E*/10",
@@ -468,8 +368,9 @@ constexpr LevelQuantity kRows[] = {
 // Names of components by their number.
 constexpr const char* kComponents[][3] = {{""}, {"_x", "_y"}, {"_xx", "_yy", "_xy"}};
 
-std::vector<LevelQuantity> with_slots(std::span<const LevelQuantity> rows) {
-    std::vector<LevelQuantity> all(rows.begin(), rows.end());
+std::vector<LevelQuantity> make_quantities() {
+    std::vector<LevelQuantity> all(std::begin(kRows), std::end(kRows));
+    for (const Physics* p : all_physics()) append(all, p->quantities);
     std::size_t slots = 0;
     for (LevelQuantity& q : all) {
         q.slot = slots;
@@ -508,7 +409,7 @@ std::string LevelQuantity::error_name() const {
 }
 
 std::span<const LevelQuantity> level_quantities() {
-    static const std::vector<LevelQuantity> all = with_slots(kRows);
+    static const std::vector<LevelQuantity> all = make_quantities();
     return all;
 }
 

@@ -1,7 +1,8 @@
-// Quantities of a level. Each is defined by one member of LevelValues (contact/level.hpp) and one row
-// in quantities.cpp: name, unit, meaning, how it is computed if it does not come with the solution,
-// and how its error depends on the resolution. Result files, checkpoints, screen output, means of
-// campaigns, rsc_contact_value() and rsc_contact_error() use this table.
+// Quantities of a level. Each is defined by one member of LevelValues (contact/level.hpp) and one
+// row, in quantities.cpp or with its physics: name, unit, meaning, how it is computed if it does
+// not come with the solution, and how its error depends on the resolution. Result files,
+// checkpoints, screen output, means of campaigns, rsc_contact_value() and rsc_contact_error() use
+// this table.
 #pragma once
 
 #include "contact/path.hpp"

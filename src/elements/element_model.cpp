@@ -24,12 +24,12 @@ bool before(const Pixel& a, const Pixel& b) { return a.y < b.y || (a.y == b.y &&
 class ElementModel final : public PixelModel {
 public:
     ElementModel(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options,
-                 std::unique_ptr<Lowering> lowering)
-        : PixelModel(heights, indenter, options, std::move(lowering)),
+                 ElementPhysics physics)
+        : PixelModel(heights, indenter, options, std::move(physics)),
           body_(substrate_of(indenter)),
           products_(
               make_products(body_, indenter.period, heights, kInnerError, 0.1 * options.tolerance)),
-          solver_(*products_, options.physics.hardness.H0),
+          solver_(*products_, highest_),
           blocks_x_((heights.nx + kBlock - 1) / kBlock),
           blocks_y_((heights.ny + kBlock - 1) / kBlock) {
         cut_open(indenter_, kBlock);
@@ -400,7 +400,7 @@ bool ElementModel::solve_roughly(double N, double& power, ElementsOutcome& all) 
 // exponent of the last two levels. Without earlier levels rough solutions at separations come
 // first.
 std::optional<Level> ElementModel::solve_under(double N) {
-    if (loads_ || yields()) return std::nullopt;
+    if (loads_ || limited()) return std::nullopt;
     const auto far = [&] {
         if (past_.empty()) return true;
         const double last = force(past_[0]);
@@ -466,11 +466,10 @@ void ElementModel::remember(double Z0) {
 }  // namespace
 
 std::unique_ptr<Model> make_elements(const HeightMap& heights, const Indenter& indenter,
-                                     const SolverOptions& options,
-                                     std::unique_ptr<Lowering> lowering) {
+                                     const SolverOptions& options, ElementPhysics physics) {
     if (indenter.period.finite())
-        return make_periodic_elements(heights, indenter, options, std::move(lowering));
-    return std::make_unique<ElementModel>(heights, indenter, options, std::move(lowering));
+        return make_periodic_elements(heights, indenter, options, std::move(physics));
+    return std::make_unique<ElementModel>(heights, indenter, options, std::move(physics));
 }
 
 }  // namespace rsc

@@ -23,19 +23,15 @@
 #pragma once
 
 #include "contact/model.hpp"
+#include "elements/element_physics.hpp"
 #include "surface/surface.hpp"
 
 namespace rsc {
 
-class Lowering;  // pixel_model.hpp
-
 // The heights must outlive the model and are not changed; with periodic boundaries the map is the
-// period. The options used are the tolerance, the number of iterations, the hardness (without size
-// effect, because pixels have no radius) and relaxation. Throws Error(bad_input) for moduli, radii,
-// heights or options out of range.
-// `lowering`: bodies that wear.
+// period. The options used are the tolerance, the number of iterations and relaxation. Throws
+// Error(bad_input) for moduli, radii, heights or options out of range.
 std::unique_ptr<Model> make_elements(const HeightMap& heights, const Indenter& indenter,
-                                     const SolverOptions& options,
-                                     std::unique_ptr<Lowering> lowering = nullptr);
+                                     const SolverOptions& options, ElementPhysics physics = {});
 
 }  // namespace rsc

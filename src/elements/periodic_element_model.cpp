@@ -12,12 +12,12 @@ constexpr int kRows = 16;  // that a thread takes at a time
 class PeriodicElementModel final : public PixelModel {
 public:
     PeriodicElementModel(const HeightMap& heights, const Indenter& indenter,
-                         const SolverOptions& options, std::unique_ptr<Lowering> lowering)
-        : PixelModel(heights, indenter, options, std::move(lowering)),
+                         const SolverOptions& options, ElementPhysics physics)
+        : PixelModel(heights, indenter, options, std::move(physics)),
           changed_(history() || !indenter.shape->flat() ? less_face() : HeightMap{}),
           solver_({heights.nx, heights.ny, heights.dx, heights.dy, present().data.get(),
                    present().stride},
-                  substrate_of(indenter), options.physics.hardness.H0) {
+                  substrate_of(indenter), highest_) {
         set_heights();
     }
 
@@ -29,7 +29,7 @@ public:
         return touches_ ? area() * solver_.energy() : 0;
     }
     void require_gap(double N) override {
-        if (!yields()) solver_.require_gap(N / area());
+        if (!limited()) solver_.require_gap(N / area());
     }
     void move_tip(double x0, double y0) override {
         indenter_.x0 = x0;
@@ -44,7 +44,7 @@ public:
         return report(Z0, outcome);
     }
     std::optional<Level> solve_under(double N) override {
-        const double p = N / area(), H = options_.physics.hardness.H0;
+        const double p = N / area(), H = highest_;
         if (!(p < H))
             throw Error(Failure::bad_input,
                         format("a nominal pressure of %.9g exceeds the hardness %.9g", p, H));
@@ -148,8 +148,8 @@ private:
 
 std::unique_ptr<Model> make_periodic_elements(const HeightMap& heights, const Indenter& indenter,
                                               const SolverOptions& options,
-                                              std::unique_ptr<Lowering> lowering) {
-    return std::make_unique<PeriodicElementModel>(heights, indenter, options, std::move(lowering));
+                                              ElementPhysics physics) {
+    return std::make_unique<PeriodicElementModel>(heights, indenter, options, std::move(physics));
 }
 
 }  // namespace rsc

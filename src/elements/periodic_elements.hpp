@@ -1,6 +1,6 @@
 // Boundary-element contact on a periodic surface: 0 <= p, w = K p - (z - Z0) >= 0, p w = 0 on all
 // pixels of the period, for a given mean pressure or separation. Products with K:
-// interaction/periodic_pixels.hpp.
+// elements/periodic_pixels.hpp.
 #pragma once
 
 #include "base/archive.hpp"

@@ -13,12 +13,13 @@ Pixel pixel_of(const LevelPixels& pixels, std::size_t k) {
 }  // namespace
 
 PixelModel::PixelModel(const HeightMap& heights, const Indenter& indenter,
-                       const SolverOptions& options, std::unique_ptr<Lowering> lowering)
+                       const SolverOptions& options, ElementPhysics physics)
     : CutMap(require_elements(heights, indenter, options)),
       heights_(heights),
       indenter_(indenter),
       options_(options),
-      lowering_(std::move(lowering)) {
+      lowering_(std::move(physics.lowering)),
+      highest_(physics.highest) {
     if (!options.physics.relaxation.none()) loads_.emplace(Creep(options.physics.relaxation));
 }
 
@@ -159,8 +160,8 @@ void PixelModel::accept(Level& level) {
         lower_points([&](auto&& lower) {
             for (const auto& [pixel, depth] : press_out()) lower(pixel, depth);
         });
-    level.plastic_work = options_.physics.hardness.H0 * pixel_area() *
-                         std::accumulate(residual_.begin(), residual_.end(), 0.0);
+    level.plastic_work =
+        highest_ * pixel_area() * std::accumulate(residual_.begin(), residual_.end(), 0.0);
 }
 
 void PixelModel::accept_loads(Level& level) {
@@ -192,8 +193,7 @@ Level PixelModel::report(double Z0, const ElementsOutcome& outcome, std::size_t 
     level.method = Method::automatic;
     level.converged = outcome.converged;
     for (double& p : pressure) p /= scale();
-    add_pixels(level, frame, indenter_, options_.physics.hardness.H0, touching,
-               std::move(pressure));
+    add_pixels(level, frame, indenter_, highest_, touching, std::move(pressure));
     number_by_map(level);
     return level;
 }

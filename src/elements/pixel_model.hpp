@@ -5,39 +5,24 @@
 #include "contact/model.hpp"
 #include "elements/bounded.hpp"
 #include "elements/cut_map.hpp"
+#include "elements/element_physics.hpp"
 #include "physics/relaxation/load_memory.hpp"
 
 namespace rsc {
-
-// How pressures lower the points of a map for good in the course of a path (physics/wear).
-class Lowering {
-public:
-    virtual ~Lowering() = default;
-    // The following levels end a step of this length.
-    virtual void step(double length) = 0;
-    // Depth by which a unit pressure lowers a point in this step [length/pressure].
-    virtual double rate() const = 0;
-    // Adds the quantities of the lowered map to an accepted level.
-    virtual void measure(Level& level, const HeightMap& map,
-                         const std::vector<double>& depths) const = 0;
-    // As History.
-    virtual PathClock clock() const = 0;
-    virtual double accuracy() const = 0;
-};
 
 class PixelModel : public Model, private History, protected CutMap {
 public:
     double first_touch() const final { return top_; }
     const Indenter& indenter() const final { return indenter_; }
-    History* history() final { return loads_ || lowering_ || yields() ? this : nullptr; }
+    History* history() final { return loads_ || lowering_ || limited() ? this : nullptr; }
     void solve_again(double z, const Level& level) final;
     void forget() final;
 
 protected:
     PixelModel(const HeightMap& heights, const Indenter& indenter, const SolverOptions& options,
-               std::unique_ptr<Lowering> lowering);
+               ElementPhysics physics);
 
-    bool yields() const { return std::isfinite(options_.physics.hardness.H0); }
+    bool limited() const { return std::isfinite(highest_); }
     // Pixels that penetrate at the hardness, and their penetration, by which they are lowered; the
     // same pressures then cause none.
     virtual std::vector<std::pair<Pixel, double>> press_out() = 0;
@@ -76,6 +61,7 @@ protected:
     bool accepted_ = false;
     std::optional<LoadMemory> loads_;     // relaxing bodies
     std::unique_ptr<Lowering> lowering_;  // bodies that wear
+    double highest_;                      // limit of the pressures
 
 private:
     void accept(Level& level) final;
@@ -106,7 +92,6 @@ private:
 
 // Two rough flats: contact with periodic boundaries.
 std::unique_ptr<Model> make_periodic_elements(const HeightMap& heights, const Indenter& indenter,
-                                              const SolverOptions& options,
-                                              std::unique_ptr<Lowering> lowering);
+                                              const SolverOptions& options, ElementPhysics physics);
 
 }  // namespace rsc

@@ -38,12 +38,6 @@ const HeightMap& require_elements(const HeightMap& heights, const Indenter& inde
         throw Error(Failure::bad_input, "boundary elements: pixels of " + text_of(heights.dx) +
                                             " by " + text_of(heights.dy) +
                                             " are longer than 32 times their width");
-    if (!(options.physics.hardness.H0 > 0))
-        throw Error(Failure::bad_input, "solids%hardness must be positive (Infinity: elastic)");
-    if (std::isfinite(options.physics.hardness.H0) && options.physics.hardness.length != 0)
-        throw Error(Failure::bad_input,
-                    "solids%size_effect: boundary elements have no radius that could scale the "
-                    "hardness; set the effective hardness");
     return heights;
 }
 

@@ -4,6 +4,7 @@
 #include "contact/quantities.hpp"
 #include "io/netcdf_table.hpp"
 #include "observe/regimes.hpp"
+#include "physics/physics.hpp"
 #include "trust/doubts.hpp"
 
 namespace rsc {
@@ -36,16 +37,10 @@ void ResultTable::global_attributes(const std::string& history) {
                     "in the attribute `case` "
                     "reproduces this file, "
                     "except for the attribute `history`.");
-    if (path_dependent(r_.settings))
-        file_.attribute(
-            "path",
-            wears(r_.settings)     ? "each level depends on the previous ones: the surface remains "
-                                     "as it is worn"
-            : relaxes(r_.settings) ? "each level depends on the previous ones: the response of a "
-                                     "relaxing body depends on the history of loads"
-                                   : "each level depends on the previous ones: points that "
-                                     "yielded (solids hardness) remain lowered, attached spots "
-                                     "(solids adhesion) remain attached until pull-off");
+    std::string path;
+    for (const Physics* p : physics_asked(r_.settings))
+        if (p->path) enlist(path, ", ", p->path);
+    if (!path.empty()) file_.attribute("path", "each level depends on the previous ones: " + path);
     file_.attribute("case", r_.case_text);
     if (r_.settings.run.seed >= std::numeric_limits<std::int32_t>::min() &&
         r_.settings.run.seed <= std::numeric_limits<std::int32_t>::max())

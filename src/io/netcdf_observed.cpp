@@ -3,6 +3,7 @@
 
 #include "io/netcdf_table.hpp"
 #include "observe/regimes.hpp"
+#include "physics/physics.hpp"
 
 namespace rsc {
 namespace {
@@ -263,6 +264,7 @@ void ResultTable::contact_mask() {
         each_of(rows, [&](int j) { return grid.y_of((bottom + j) * grid.columns); }));
     add("mask_x", {"mask_x"}, unit(1), "x of the pixels of contact_mask",
         each_of(columns, [&](int i) { return grid.x_of(left + i); }));
+    const double most = largest_pressure(r_.settings);
     const auto fill = [=, this](std::size_t k, std::span<double> row) {
         std::ranges::fill(row, 0);
         const LevelPixels& p = r_.pixels[at(steps[k])];
@@ -270,8 +272,7 @@ void ResultTable::contact_mask() {
             const int i = pixel % p.columns - left, j = pixel / p.columns - bottom;
             return row[at(j) * at(columns) + at(i)];
         };
-        for (const auto n : indices(p.index))
-            kind_of(p.index[n]) = p.pressure[n] >= r_.settings.solids.hardness ? 2 : 1;
+        for (const auto n : indices(p.index)) kind_of(p.index[n]) = p.pressure[n] >= most ? 2 : 1;
         for (const std::int32_t pixel : p.cohesive) kind_of(pixel) = 3;
     };
     constexpr std::array<const char*, 4> kinds = {"apart", "contact", "yielding", "attracted"};
@@ -369,8 +370,9 @@ void ResultTable::heights() {
     file_.variable({"height",
                     {"height_y", "height_x"},
                     unit(1),
-                    wears(r_.settings) ? "height of the worn surface after the last level"
-                                       : "height of the surface",
+                    any_physics(r_.settings, &Physics::reshapes)
+                        ? "height of the worn surface after the last level"
+                        : "height of the surface",
                     RowFiller([&h](std::size_t j, std::span<double> row) {
                         std::copy_n(h.data.get() + std::ptrdiff_t(j) * h.stride, row.size(),
                                     row.begin());
@@ -434,8 +436,10 @@ void ResultTable::fields() {
         if (const std::vector<double>& values = f.*q.field; !values.empty())
             add_disorder(std::string("field_") + q.name, planes, unit(-2, 1), q.meaning, values);
     if (!f.heights.empty())
-        add_disorder("field_height", wears(r_.settings) ? dims : Names{"field_y", "field_x"},
-                     unit(1), "height of the surface without load", f.heights);
+        add_disorder(
+            "field_height",
+            any_physics(r_.settings, &Physics::reshapes) ? dims : Names{"field_y", "field_x"},
+            unit(1), "height of the surface without load", f.heights);
 }
 
 }  // namespace rsc

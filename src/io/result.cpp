@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "contact/quantities.hpp"
 #include "io/input_netcdf.hpp"
+#include "physics/physics.hpp"
 
 namespace rsc {
 
@@ -36,8 +37,7 @@ ObserveOptions observe_options(const Case& c, const Domain& domain, const Indent
     for (double level : c.output.pdf_levels) options.pdf_levels.push_back(level * sigma);
     // radii down to a quarter of 1/sqrt(m4): nearly all (Nayak's density of curvatures)
     constexpr double sharpest = 4;
-    const double hardest =
-        c.solids.hardness * std::sqrt(1 + sharpest * c.solids.size_effect * sqrt_m4);
+    const double hardest = largest_pressure(c, 1 / (sharpest * sqrt_m4));
     options.pdf = make_pdf_bins(c.output.pdf_bins, indenter.E_star, sigma, sqrt_m4, 1.1 * hardest);
     // Two rough flats are at most some four rms heights apart on either side of the mean.
     if (by_elements(c) && indenter.period.finite()) options.pdf.gap_max = 8 * sigma;
@@ -63,6 +63,7 @@ Result make_result(const Case& c, std::string case_text, const Indenter& indente
 }
 
 void keep_contacts(Result& result, std::vector<Level>& levels, Contacts keep) {
+    const bool yields = std::isfinite(largest_pressure(result.settings));
     PackedContacts packed;
     if (keep == Contacts::none || keep == Contacts::automatic) return;
     for (const auto s : indices(levels)) {
@@ -91,7 +92,7 @@ void keep_contacts(Result& result, std::vector<Level>& levels, Contacts keep) {
             packed.minor.push_back(spot.minor);
             packed.angle.push_back(spot.angle);
         }
-        if (yields(result.settings)) append(packed.yields, level.yields);
+        if (yields) append(packed.yields, level.yields);
         result.pixels.resize(levels.size());
         result.pixels[s] = std::move(level.pixels);
     }

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "contact/make.hpp"
+#include "physics/physics.hpp"
 #include "run/memory.hpp"
 #include "run/screen.hpp"
 #include "trust/judge.hpp"
@@ -177,7 +178,9 @@ bool compares(const Job& job, bool automatically) {
         return false;
     const bool possible = c.surface.source != Source::asperities &&
                           c.solver.interaction == Interaction::point &&
-                          !(yields(c) && c.solids.size_effect > 0) && !relaxes(c) && !attracts(c);
+                          std::ranges::all_of(physics_asked(c), [&](const Physics* p) {
+                              return !p->compares_itself || p->compares_itself(c);
+                          });
     if (!possible || (job.spectrum && !too_large_for_elements(c, *job.spectrum).empty()))
         return false;
     if (job.levels.empty()) return false;

@@ -7,8 +7,8 @@
 #include "contact/make.hpp"
 #include "elements/deformed.hpp"
 #include "io/inputs.hpp"
-#include "physics/adhesion/adhesive_elements.hpp"
 #include "physics/flow/flow.hpp"
+#include "physics/physics.hpp"
 #include "run/friction.hpp"
 #include "run/gap.hpp"
 #include "run/stress.hpp"
@@ -19,9 +19,10 @@ namespace rsc {
 namespace {
 
 // The times, or distances of sliding, of the levels; empty if the case has none.
-std::vector<double> times_of(const Case::Indentation& keys, std::size_t levels) {
-    const std::optional<double>& whole = keys.slides() ? keys.sliding : keys.duration;
-    if (!whole) return keys.slides() ? keys.distances : keys.times;
+std::vector<double> times_of(const Job& job, std::size_t levels) {
+    const Case::Indentation& keys = job.settings.indentation;
+    const std::optional<double>& whole = job.slides ? keys.sliding : keys.duration;
+    if (!whole) return job.slides ? keys.distances : keys.times;
     std::vector<double> times(levels, 0.0);
     for (std::size_t k = 1; k < levels; ++k) times[k] = *whole * double(k) / double(levels - 1);
     return times;
@@ -99,7 +100,7 @@ std::string key_of_largest(const Case::Indentation& keys) {
 // Two elastic flats by elements have no level at the separation of their mean planes, where they
 // are in full contact, nor below it.
 void require_open(const Job& job) {
-    if (!job.indenter.period.finite() || yields(job.settings) || wears(job.settings) ||
+    if (!job.indenter.period.finite() || any_physics(job.settings, &Physics::lowers) ||
         job.levels.empty())
         return;
     double mean = 0;  // that of a synthetic surface
@@ -127,10 +128,9 @@ std::vector<std::int32_t> steps_of_fields(const Job& job) {
     const auto& keys = job.settings.output;
     if (keys.fields.empty()) return {};
     std::vector<std::int32_t> steps;
-    const bool slides = job.settings.indentation.slides();
     for (const double wanted : keys.field_levels)
-        steps.push_back(slides ? nearest_level(job.times, wanted)
-                               : nearest_level(job.levels, wanted * job.level_unit));
+        steps.push_back(job.slides ? nearest_level(job.times, wanted)
+                                   : nearest_level(job.levels, wanted * job.level_unit));
     if (steps.empty()) steps.push_back(std::int32_t(job.levels.size()) - 1);
     return steps;
 }
@@ -152,7 +152,7 @@ FieldsAsked fields_asked(const Job& job) {
     asked.shear = has(Field::shear);
     asked.tension = has(Field::tension);
     asked.traction = has(Field::traction);
-    asked.worn = wears(settings);
+    asked.worn = any_physics(settings, &Physics::reshapes);
     asked.friction = settings.solids.friction;
     asked.depths = job.observe.stress_depths;
     asked.body = stressed_body(job);
@@ -179,8 +179,7 @@ Level press(const Job& job, std::size_t k, Pressed& pressed,
     Path& contact = *pressed.contact;
     if (!job.times.empty()) contact.set_time(job.times[k]);
     Level level = by_force ? contact.at_force(job.levels[k]) : contact.at_separation(job.levels[k]);
-    if (!job.times.empty())
-        (job.settings.indentation.slides() ? level.distance : level.time) = job.times[k];
+    if (!job.times.empty()) (job.slides ? level.distance : level.time) = job.times[k];
     LevelSource source = source_of(job, contact, level);
     compute_quantities(source, Stage::solution);
     complete(level);
@@ -342,29 +341,16 @@ double unit_of_pressures(const Job& job) {
                              "the area is gap, too little for the asperity model; use "
                              "solver%%model = 'elements', which is valid up to full contact",
                              level * unit, full));
-        if (!(level * unit < settings.solids.hardness))
-            bad_input(key_of_largest(settings.indentation),
-                      format("a nominal pressure of %.9g exceeds the hardness, %.9g", level * unit,
-                             settings.solids.hardness));
+        for (const Physics* p : physics_asked(settings))
+            if (const double most = p->largest_pressure
+                                        ? p->largest_pressure(physics_of(settings), kInfinity)
+                                        : kInfinity;
+                !(level * unit < most))
+                bad_input(key_of_largest(settings.indentation),
+                          format("a nominal pressure of %.9g exceeds the %s, %.9g", level * unit,
+                                 p->name, most));
     }
     return unit * job.indenter.period.area();
-}
-
-// Refuses adhesion that closes all gaps of the roughness, so that the contacts of asperities merge:
-// the work of adhesion is more than the elastic energy that flattens the roughness, for each unit
-// of area (E*/4) sigma^2 times the mean wavenumber <q> (Persson and Tosatti, 2001). The energy is
-// at most E* sigma h'/4, since <q>^2 <= <q^2>; with layers no such bound is known.
-void require_separate_contacts(const Job& job) {
-    if (!attracts(job.settings) || !job.theory || !job.settings.solids.layer_thickness.empty())
-        return;
-    const double flat = 0.25 * job.indenter.E_star * job.sigma * job.theory->rms_slope();
-    if (const double w = job.settings.solids.adhesion; w >= flat)
-        bad_input(
-            format("solids%%adhesion = %g: more than the elastic energy that flattens the "
-                   "roughness, at most E* sigma h'/4 = %.3g for each unit of area; the contacts of "
-                   "asperities merge, and asperities do not hold; give adhesion_range > 0 and "
-                   "solver%%model = 'elements'",
-                   w, flat));
 }
 
 // Refuses what asperities or elements cannot resolve or hold in memory.
@@ -372,17 +358,16 @@ void require_feasible(const Job& job) {
     const Case& settings = job.settings;
     const auto& indentation = settings.indentation;
     const bool elements = by_elements(settings);
-    if (!elements) require_separate_contacts(job);
     if (elements && indentation.control == Control::separation &&
         (job.given_heights || (job.spectrum && job.indenter.shape->flat())))
         require_open(job);
-    if (elements && attracts(settings)) {
-        const double side =
-            job.given_heights ? std::max(job.given_heights->dx, job.given_heights->dy)
-            : job.spectrum    ? job.spectrum->L / element_points(settings, *job.spectrum)
-                              : 0.0;
-        require_resolved(job.indenter.E_star, job.solver.physics.adhesion, side);
-    }
+    const double side = job.given_heights ? std::max(job.given_heights->dx, job.given_heights->dy)
+                        : elements && job.spectrum
+                            ? job.spectrum->L / element_points(settings, *job.spectrum)
+                            : 0.0;
+    for (const Physics* p : physics_asked(settings))
+        if (p->require_feasible)
+            p->require_feasible({settings, job.indenter, job.theory, job.sigma, side, elements});
     if (settings.output.flow)
         require_flow_memory(settings, job.given_heights
                                           ? double(job.given_heights->nx) * job.given_heights->ny
@@ -408,15 +393,8 @@ Job prepare(const Case& settings) {
 
     const auto& indentation = settings.indentation;
     job.levels = spaced(indentation);
-    job.times = times_of(indentation, job.levels.size());
-    if (relaxes(settings) && job.times.empty())
-        bad_input(
-            "indentation%duration: solids%relaxation_share lets body 1 relax, and the levels have "
-            "no times; give duration or times");
-    if (wears(settings) && !indentation.slides())
-        bad_input(
-            "indentation%sliding: body 1 wears (solids%wear_coefficient), and the levels have no "
-            "distances of sliding; give sliding or distances");
+    job.slides = indentation.slides();
+    job.times = times_of(job, job.levels.size());
     if (indentation.control == Control::separation && indentation.unit == LevelUnit::sigma)
         job.level_unit = job.sigma;
     if (indentation.control == Control::pressure) job.level_unit = unit_of_pressures(job);
@@ -512,7 +490,9 @@ void require_reachable(const Job& job, Path& contact) {
     const auto& settings = job.settings;
     if (settings.indentation.control == Control::separation || job.levels.empty()) return;
     try {
-        contact.require_gap(wears(settings) ? job.levels.front() : std::ranges::max(job.levels));
+        contact.require_gap(any_physics(settings, &Physics::reshapes)
+                                ? job.levels.front()
+                                : std::ranges::max(job.levels));
     } catch (const Error& error) {
         if (error.kind() != Failure::bad_input) throw;
         bad_input(key_of_largest(settings.indentation), error.what(), "; give smaller ones");
@@ -587,7 +567,7 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     }
     contact.reset();
     if (!settings.output.heights) r.heights.reset();
-    if (wears(settings)) {
+    if (any_physics(settings, &Physics::reshapes)) {
         if (settings.output.heights) r.heights = lowered_map(*map, r.residual_profile);
         r.residual_profile = {};
     }

@@ -20,6 +20,7 @@ struct Job {
     std::vector<double>
         levels;  // separations [length], or forces [force] with control='force' or 'pressure'
     std::vector<double> times;         // of the levels; empty: no times
+    bool slides = false;               // these are distances of sliding
     double level_unit = 1;             // factor from the levels of the case to `levels`
     std::optional<Spectrum> spectrum;  // of a synthetic surface
     std::optional<Moments> theory;     // its moments

@@ -2,6 +2,7 @@
 
 #include "interaction/products.hpp"
 #include "physics/flow/permeability.hpp"
+#include "physics/physics.hpp"
 
 namespace rsc {
 namespace {
@@ -52,8 +53,8 @@ double greenwood_force(const Job& job, double Z0) {
     const double higher =
         job.theory ? 4 * job.theory->m2 / std::sqrt(std::numbers::pi * job.theory->m4) : 0.0;
     const double elastic = density * k * under_indenter(job, Z0 - higher, 1.5),
-                 H = job.settings.solids.hardness;
-    return std::isfinite(H) ? std::min(elastic, H * under_indenter(job, Z0, 0)) : elastic;
+                 most = largest_pressure(job.settings);
+    return std::isfinite(most) ? std::min(elastic, most * under_indenter(job, Z0, 0)) : elastic;
 }
 
 // A separation with approximately this force.
@@ -82,7 +83,7 @@ double points_of_elements(const Job& job, double points_per_wave) {
 // is higher.
 double share_in_contact(const Job& job, double level, bool is_force) {
     const double area = job.domain.Lx * job.domain.Ly;
-    if (wears(job.settings)) return 1;
+    if (any_physics(job.settings, &Physics::reshapes)) return 1;
     if (!is_force) return std::min(1.0, 0.4 * area_under(job, level) / area);
     const double slope = job.theory ? job.theory->rms_slope() : job.solver.surface.gentlest_slope;
     return slope > 0 ? std::erf(1.86 * level / area / (job.indenter.E_star * slope)) : 1.0;
@@ -140,10 +141,7 @@ public:
         : job_(job),
           workers_(workers),
           points_(points_of_elements(job, job.settings.elements.points_per_wave)) {
-        const bool yields = std::isfinite(job.settings.solids.hardness),
-                   sticks = job.settings.solids.adhesion > 0, worn = wears(job.settings);
-        // Depths of lowered points, and with wear those of the level before.
-        each_ = (sticks ? 49 : 0) + (yields ? 8 : 0) + (worn ? 58 : 0);
+        for (const Physics* p : physics_asked(job.settings)) each_ += p->bytes_per_point;
     }
 
     // Of a realization: the largest of a level, and what it stores of all levels.
@@ -221,7 +219,7 @@ private:
 
     const Job& job_;
     double workers_, points_;
-    double each_;  // bytes for each point of the surface, of hardness, adhesion and wear
+    double each_ = 0;  // bytes for each point of the surface, of its physics
 };
 
 // Of the stored values of the kernel of coated asperities, at most between all candidates [byte].

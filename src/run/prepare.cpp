@@ -7,6 +7,7 @@
 #include "contact/equivalent.hpp"
 #include "io/inputs.hpp"
 #include "physics/indenter/shapes.hpp"
+#include "physics/physics.hpp"
 #include "surface/defects.hpp"
 #include "surface/detection.hpp"
 
@@ -250,8 +251,8 @@ bool reads_high_points(const Case& c) {
     return has_spectrum(c) && !levels.empty() && c.indentation.boundary == Boundary::free &&
            c.indentation.control == Control::separation &&
            std::ranges::all_of(levels, [](double level) { return level > 0; }) &&
-           c.indenter.file.empty() && !yields(c) && !attracts(c) && !relaxes(c) && !wears(c) &&
-           !c.output.heights && c.output.fields.empty();
+           c.indenter.file.empty() && !path_dependent(c) && !c.output.heights &&
+           c.output.fields.empty();
 }
 
 Surface make_element_surface(const Case& settings, std::int64_t number, int threads,

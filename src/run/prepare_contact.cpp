@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "contact/equivalent.hpp"
 #include "contact/make.hpp"
+#include "physics/physics.hpp"
 #include "run/prepare.hpp"
 
 namespace rsc {
@@ -87,15 +88,7 @@ SolverOptions solver_of(const Case& settings, const SurfaceDomain& domain) {
     SolverOptions options;
     options.method = settings.solver.method;
     options.law = settings.asperities.law;
-    options.physics.hardness = {settings.solids.hardness, settings.solids.size_effect};
-    if (relaxes(settings)) {
-        const Case::Solids& s = settings.solids;
-        const auto compliance = [&](int i) { return (1 - s.nu[i] * s.nu[i]) / s.E[i]; };
-        options.physics.relaxation = {s.relaxation_share, s.relaxation_time,
-                                      compliance(0) / (compliance(0) + compliance(1))};
-    }
-    options.physics.adhesion = {settings.solids.adhesion, settings.solids.adhesion_range};
-    options.physics.wear = {settings.solids.wear_coefficient};
+    options.physics = physics_of(settings);
     options.interaction = settings.solver.interaction;
     options.selection = settings.indentation.selection;
     options.selection_factor = settings.indentation.selection_factor;

@@ -3,23 +3,12 @@
 
 #include "asperities/shifted_summits.hpp"
 #include "base/format.hpp"
-#include "physics/adhesion/adhesive_elements.hpp"
+#include "physics/physics.hpp"
 #include "run/screen.hpp"
 #include "trust/judge.hpp"
 
 namespace rsc {
 namespace {
-
-// Dundurs' second parameter, which couples the normal and the tangential problem; 0 for equal
-// bodies.
-double coupling(const Case::Solids& s) {
-    const auto compliance = [&](int i) {
-        return std::isinf(s.E[i]) ? 0.0 : 2 * (1 + s.nu[i]) / s.E[i];
-    };  // 1/G
-    const double above = (1 - 2 * s.nu[0]) * compliance(0) - (1 - 2 * s.nu[1]) * compliance(1);
-    const double below = 2 * ((1 - s.nu[0]) * compliance(0) + (1 - s.nu[1]) * compliance(1));
-    return above / below;
-}
 
 struct Remarks {
     std::ostream& out;
@@ -39,15 +28,15 @@ struct Remarks {
             });
         // the hardness of hardened steel; softer bodies bear E*/10
         constexpr double kHardest = 5e9;  // [Pa]
-        if (job.indenter.E_star / 10 * pascals(c) > kHardest && !yields(c) && !relaxes(c) &&
-            extreme != levels.end() && extreme->extreme_area_fraction > kExtremeShare)
+        if (job.indenter.E_star / 10 * pascals(c) > kHardest &&
+            !any_physics(c, &Physics::mends_extreme_pressures) && extreme != levels.end() &&
+            extreme->extreme_area_fraction > kExtremeShare)
             out << format(
                 "  pressures above E*/10 on %.0f %% of the contact area at %s: no metal stays "
                 "elastic "
                 "at such pressures; solids%%hardness limits them.\n",
                 100 * extreme->extreme_area_fraction, place_of(*extreme).c_str());
-        print_changes();
-        print_sticking();
+        print_physics();
         print_words();
         std::int64_t crowded = 0;
         for (const LevelValues& level : levels) crowded += level.crowded_cells;
@@ -93,9 +82,10 @@ struct Remarks {
     // Advice where the surface is known beyond a list of asperities, so that elements can solve it.
     std::string to_elements(const char* reason = " solves the surface itself") const {
         if (c.surface.source == Source::asperities) return "";
-        const bool ranged = attracts(c) && c.solids.adhesion_range == 0;
-        return std::string("; solver%model = 'elements'") +
-               (ranged ? " with a solids%adhesion_range" : "") + reason;
+        std::string advice = "; solver%model = 'elements'";
+        for (const Physics* p : physics_asked(c))
+            if (p->for_elements) advice += p->for_elements(c);
+        return advice + reason;
     }
 
     std::string remedy_of(Cause cause) const {
@@ -139,7 +129,7 @@ struct Remarks {
         };
         const bool flats = c.indentation.boundary == Boundary::periodic;
         std::string remedy = "raise solver%max_iterations or the tolerance";
-        if (!elements && attracts(c))
+        if (!elements && any_physics(c, &Physics::pulls))
             remedy = "contacts overlap too much to follow their path" + to_elements();
         else if (!elements && (!c.solids.layer_thickness.empty() || flats))
             remedy =
@@ -196,129 +186,25 @@ struct Remarks {
                       first.c_str(), area.c_str());
     }
 
-    // The summary of plastic contacts for cases with hardness, of what is worn off, and of the
-    // energy lost in bodies that relax.
-    void print_changes() const {
-        if (relaxes(c) && !levels.empty() && c.run.realizations == 1)
-            out << format(
-                "  %.4g %s %s of the work done are lost by relaxation. Results depend on the "
-                "loading history.\n",
-                levels.back().energy_lost, f, l);
-        if (wears(c) && !levels.empty() && c.run.realizations == 1) {
-            const LevelValues& last = levels.back();
-            out << format(
-                "  %.4g %s3 are worn off, up to %.4g %s deep, and the surface has the rms height "
-                "%.4g "
-                "%s. Results depend on the loading history.\n",
-                last.worn_volume, l, last.wear_depth_max, l, last.worn_rms, l);
-        }
-        if (!yields(c) || levels.empty()) return;
-        const auto most =
-            std::ranges::max_element(levels, [](const LevelValues& p, const LevelValues& q) {
-                return p.plastic_contacts < q.plastic_contacts;
-            });
-        if (most->plastic_contacts == 0) {
-            out << "  no contact yields: pressures stay below the hardness.\n";
-            return;
-        }
-        out << format("  level %td, %s: %d of %d contacts yield", most - levels.begin() + 1,
-                      place_of(*most).c_str(), most->plastic_contacts, most->contacts);
-        double lost = 0;
-        for (const LevelValues& level : levels)
-            lost = std::max(lost, level.plastic_work);  // NaN if a level did not converge
-        if (c.run.realizations == 1) out << format("; plastic work %.4g %s %s", lost, f, l);
-        out << ". Results depend on the loading history.\n";
-    }
-
-    // The range of attraction up to which JKR is valid.
-    void print_tabor() const {
-        // JKR holds from a Tabor parameter of 5 on.
-        const auto reach = [&](double radius) {
-            return std::cbrt(radius * std::pow(c.solids.adhesion / job.indenter.E_star, 2));
-        };
-        double summit = kNotComputed;
-        if (job.theory)
+    // What the physics of the case say of the levels.
+    void print_physics() const {
+        double summit = kNotComputed;  // mean radius
+        if (job.theory) {
             summit = 0.737 / std::sqrt(job.theory->m4);
-        else if (job.given && job.given->asperities.size() > 0) {
-            summit = 0;
-            for (double r : job.given->asperities.radius)
-                summit += r / double(job.given->asperities.radius.size());
+        } else if (job.given && job.given->asperities.size() > 0) {
+            const std::vector<double>& radii = job.given->asperities.radius;
+            summit = sum_of(radii) / double(radii.size());
         }
-        const double R = job.indenter.shape->hertz_radius(), range = c.solids.adhesion_range;
-        if (summit > 0 && range > 0)
-            out << format(
-                "  Tabor's parameter (JKR from 5 on, DMT below 0.1): %.3g for summits of mean "
-                "radius "
-                "(%.3g %s)",
-                reach(summit) / range, summit, l);
-        else if (summit > 0)
-            out << format(
-                "  JKR (adhesion_range = 0) is valid for summits of mean radius (%.3g %s) if the "
-                "range "
-                "of the attraction is at most %.3g %s (Tabor's parameter 5)",
-                summit, l, reach(summit) / 5, l);
-        if (summit > 0 && std::isfinite(R))
-            out << (range > 0 ? format("; %.3g for a smooth sphere", reach(R) / range)
-                              : format("; for a smooth sphere at most %.3g %s", reach(R) / 5, l));
-        if (summit > 0) out << ".\n";
-    }
-
-    // Whether two flats with this surface would stick.
-    void print_stickiness() const {
-        const double range = c.solids.adhesion_range;
-        if (!(job.theory && range > 0) || job.indenter.layers.count > 0) return;
-        // Pastewka and Robbins, PNAS 111, 3298 (2014), with kappa_rep = 2, d_rep = 4 h'/h'': h'
-        // range/(2 l_a) (h'^2/(h'' range))^(2/3) < pi (3/16)^(2/3), l_a = w/E*, rms slope h', rms
-        // curvature h'' (rms of the sum of both second derivatives).
-        const double slope = std::sqrt(2 * job.theory->m2),
-                     curvature = std::sqrt(8.0 / 3 * job.theory->m4);
-        const double needed = 1 / (2 * 1.03) * job.indenter.E_star * slope * range *
-                              std::pow(slope * slope / (curvature * range), 2.0 / 3);
-        out << format(
-            "  two flats with this surface %s (Pastewka and Robbins 2014): it needs w above about "
-            "%.2g "
-            "%s/%s.\n",
-            c.solids.adhesion > needed ? "would stick" : "would not stick", needed, f,
-            units_of(job).length);
-    }
-
-    // The summary of a run with adhesion.
-    void print_sticking() const {
-        if (!attracts(c) || levels.empty()) return;
-        long jumps = 0;
-        double lost = 0, least = 0, attracting = 0;
-        for (const LevelValues& level : levels) {
-            attracting = std::fmax(attracting, level.area + level.cohesive_area);
-            jumps += level.jumps;
-            lost = std::fmax(lost, level.energy_lost);
-            least = std::fmin(least, level.least_force);
-        }
-        std::string how;
-        if (by_elements(c))
-            how = format(" (steps that lose less than %.1g count as reversible)",
-                         kAdhesiveLossShare * c.solids.adhesion * attracting);
-        const bool without_state = std::ranges::any_of(
-            levels, [](const LevelValues& level) { return std::isnan(level.force); });
-        if (c.run.realizations == 1 && without_state)
-            out << "  adhesion: the smallest force is not known, because levels have no state.\n";
-        else if (c.run.realizations == 1)
-            out << format(
-                "  adhesion: the smallest force is %.4g %s; jumps: %ld, energy lost: %.4g %s %s%s. "
-                "Results depend on the loading history.\n",
-                least, f, jumps, lost, f, l, how.c_str());
-        print_tabor();
-        print_stickiness();
+        const RunFacts run{
+            c, levels, job.indenter, job.theory, summit, elements, [this](const LevelValues& l) {
+                return place_of(l);
+            }};
+        for (const Physics* p : physics_asked(c))
+            if (p->remark) p->remark(out, run);
     }
 
     // Effects that the model of this case neglects.
     void print_words() const {
-        constexpr double much_coupling = 0.05;
-        if (c.solids.friction > 0 && std::abs(coupling(c.solids)) > much_coupling)
-            out << format(
-                "  friction between unlike bodies: the coupling of pressure and tangential "
-                "displacement (Dundurs' beta = %.2f) is neglected in the tangential "
-                "forces.\n",
-                coupling(c.solids));
         if (elements) return;
         if (c.indentation.selection == Selection::paper && c.indentation.selection_factor < 1.5)
             out << format(

@@ -7,6 +7,7 @@
 #include "contact/quantities.hpp"
 #include "io/inputs.hpp"
 #include "observe/regimes.hpp"
+#include "physics/physics.hpp"
 #include "run/gap.hpp"
 #include "trust/doubts.hpp"
 
@@ -34,9 +35,9 @@ bool shown(const LevelQuantity& q, const Job& job) {
     if (!q.heading) return false;
     if (q.always) return true;
     if (q.of_flow) return job.settings.output.flow;
-    if (q.of_step)
-        return !job.times.empty() && job.settings.indentation.slides() == (q.unit == nullptr);
-    if (q.member == LevelQuantity::Member(&LevelValues::worn_volume)) return wears(job.settings);
+    if (q.of_step) return !job.times.empty() && job.slides == (q.unit == nullptr);
+    if (q.member == LevelQuantity::Member(&LevelValues::worn_volume))
+        return any_physics(job.settings, &Physics::reshapes);
     const bool line = q.member == LevelQuantity::Member(&LevelValues::force_per_length);
     return line ? job.indenter.period.line() : job.indenter.period.finite();
 }
@@ -223,7 +224,7 @@ void print_second(std::ostream& out, const Job& job) {
 
 }  // namespace
 
-// The columns after the first three are quantities of observe/quantities.hpp.
+// The columns after the first three are quantities of contact/quantities.hpp.
 void print_heading(std::ostream& out, const Job& job) {
     print_case(out, job);
     print_measured(out, job);

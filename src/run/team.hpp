@@ -97,7 +97,7 @@ class CampaignWork {
 public:
     // `whole`: options for running whole members, with `threads` threads.
     CampaignWork(std::vector<Case> members, RunOptions whole);
-    // The record of the realization as bytes (campaign_archive.hpp), or for a whole member those of
+    // The record of the realization as bytes (checkpoint.hpp), or for a whole member those of
     // its RunSummary. Throws Error with the number of the realization, and Interrupted when
     // abandoned.
     std::string operator()(const Task& task, const std::atomic<bool>& abandoned);

@@ -1,5 +1,4 @@
-// Preparation of a measured map: missing points, form, filter, and the properties of the result
-// (physics, section 11).
+// Preparation of a measured map: missing points, form, filter, and the properties of the result.
 #pragma once
 
 #include "surface/defects.hpp"

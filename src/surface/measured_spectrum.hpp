@@ -12,7 +12,7 @@ struct Fitted {
 };
 
 // Fitted self-affine spectrum: Phi0 (k/kl)^(-2(1+hurst)) from kl to ks, Phi0 below kl with the
-// plateau (physics, section 2). If kl_seen is false, the power law continues below kl.
+// plateau. If kl_seen is false, the power law continues below kl.
 struct SelfAffineFit {
     Fitted Phi0;    // [length^4]
     Fitted kl, ks;  // [1/length]

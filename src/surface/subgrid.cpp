@@ -292,7 +292,7 @@ std::optional<RefinedSummit> SummitClimber::summit_from(int i, int j, bool maxim
 // Biharmonic of the round profile that flattens like an elongated summit. To first order, contact
 // depends on the mean of the quartic over the rim of the contact ellipse: (3/8)(c_LL r + c_SS/r) +
 // c_LS/8 for an ellipse of area pi with the axis ratio sqrt(r), long over short. c_LL, c_LS and
-// c_SS are the coefficients of the quartic along the long and short axes (physics, section 16).
+// c_SS are the coefficients of the quartic along the long and short axes.
 // Also appends the plain one.
 double SummitClimber::append_biharmonic(const RefinedSummit& s, Asperities& a) const {
     const double dx = place_.dx, dy = place_.dy;

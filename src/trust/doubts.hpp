@@ -45,7 +45,8 @@ struct Doubt {
 // Sets status, doubts and expected errors of a level: the errors are the sums over all doubts, and
 // missing if one of them is not known. Under a prescribed force the error of N is one of the
 // separation, for which the level's stiffness must be known, and adds to that of the area. Errors
-// of other quantities follow from the pixels per contact, as their rows say (contact/quantities.hpp).
+// of other quantities follow from the pixels per contact, as their rows say
+// (contact/quantities.hpp).
 void conclude(LevelValues& level, std::span<const Doubt> doubts, bool by_force);
 
 }  // namespace rsc

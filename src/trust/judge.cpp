@@ -1,5 +1,6 @@
 #include "trust/judge.hpp"
 
+#include "physics/physics.hpp"
 #include "trust/asperity_error.hpp"
 #include "trust/counts.hpp"
 
@@ -36,17 +37,18 @@ bool known_shape(const Indenter& indenter) {
 // What the study of asperities against elements (input/trust) contains: no flats other than
 // isotropic Gaussian ones.
 bool calibrated(const Level& level, const Path& contact, const SolverOptions& options) {
-    const bool yields = std::isfinite(options.physics.hardness.H0);
+    const bool layers = contact.indenter().layers.count > 0;
+    const auto compared = [&](const Physics* p) {
+        return p->calibrated && p->calibrated(options.physics, layers);
+    };
     const std::vector<double> depths = contact.residual_depths();
     const auto yielded = std::ranges::count_if(depths, [](double depth) { return depth > 0; });
     return is_compared(options.law) && options.interaction == Interaction::point &&
-           options.selection == Selection::overlap && options.physics.adhesion.work == 0 &&
-           options.physics.relaxation.none() && known_shape(contact.indenter()) &&
-           options.surface.mean_spacing > 0 &&
+           options.selection == Selection::overlap &&
+           std::ranges::all_of(physics_asked(options.physics), compared) &&
+           known_shape(contact.indenter()) && options.surface.mean_spacing > 0 &&
            !(options.surface.measured && contact.indenter().shape->flat()) &&
            options.surface.gentlest_slope > 0 &&
-           !(yields &&
-             (options.physics.hardness.length > 0 || contact.indenter().layers.count > 0)) &&
            yielded <= level.plastic_contacts;  // otherwise some are unloaded
 }
 

@@ -1,8 +1,12 @@
 // Each asperity law against its own limits and against independent quadratures.
 #include "asperities/ellipse.hpp"
 #include "asperities/law.hpp"
+#include "asperities/uniqueness.hpp"
 #include "base/error.hpp"
 #include "check.hpp"
+#include "physics/adhesion/sticking.hpp"
+#include "physics/hardness/hardness.hpp"
+#include "physics/relaxation/relaxing.hpp"
 #include "support/asperities.hpp"
 
 namespace test_laws {
@@ -196,6 +200,42 @@ TEST(fourth_order_to_the_last_digits) {
             CHECK_RELATIVE(r.force, law->force(0, double(2 * A * half * half)), kRounding);
         }
     }
+}
+
+// A cone of slope 0.1 (Sneddon 1965), which says nothing of itself beyond its response.
+class Cone final : public Law {
+public:
+    void prepare(std::span<const int>) override {}
+    void respond(int n, const int*, const double* u, double* force, double* slope,
+                 double* work) const override {
+        for (const int k : indices(n)) {
+            const double x = std::max(u[k], 0.0);
+            slope[k] = 4 / pi * kE / 0.1 * x;
+            force[k] = 0.5 * slope[k] * x;
+            work[k] = force[k] * x / 3;
+        }
+    }
+    Footprint footprint(int, double u) const override {
+        return {4 / pi * std::pow(std::max(u, 0.0) / 0.1, 2), 1, false};
+    }
+};
+
+// What a law does not say is not available with it, nor proved of it.
+TEST(law_without_capabilities) {
+    const Asperities one = asperities_at({{0, 0, 0, 1 / 6000.0}});
+    CHECK_THROWS((void)make_yielding(std::make_unique<Cone>(), one, {4000, 0}), Error);
+    const Creep creep({{0.5}, {1.0}});
+    CHECK_THROWS((void)make_relaxing(std::make_unique<Cone>(), 1, creep), Error);
+    Cone cone;
+    CHECK_THROWS((void)Sticking(cone, 1e-3), Error);
+    const std::vector<double> zero = {0}, u = {1e-3};
+    const Response r = cone.response(0, u[0]);
+    const auto proved = [&](const Law& law) {
+        return has_one_solution(law, *make_kernel(Interaction::point, kE), {0}, zero, zero, u,
+                                {r.force}, {r.slope});
+    };
+    CHECK(!proved(cone));
+    CHECK(cone.onset(0) == 0 && !cone.memory());
 }
 
 }  // namespace test_laws

@@ -31,17 +31,6 @@ AdhesivePath::AdhesivePath(const Asperities& asperities_, const Indenter& indent
       sticking(*law, options_.physics.adhesion.work, options_.physics.adhesion.range),
       direct(make_direct_products(kernel)),
       solver(sticking) {
-    const auto refuse = [](const char* what) { bad_input("solids%adhesion is ", what); };
-    if (std::isfinite(options.physics.hardness.H0))
-        refuse("not available yet with solids%hardness");
-    if (!options.physics.relaxation.none())
-        refuse("not available yet with solids%relaxation_share");
-    if (options.method == Method::dgesv)
-        refuse("not available with solver%method = 'dgesv': the paper's method excludes tension");
-    if (options.selection == Selection::paper)
-        refuse(
-            "not available with indentation%selection = 'paper': other asperities are attracted as "
-            "well");
     for (std::size_t i = 0; of_difference && i < asperities.size(); ++i) of_difference->shift(i);
     margin = options.physics.adhesion.range;
     ranking.assign(asperities, indenter);

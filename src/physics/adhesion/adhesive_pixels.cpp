@@ -157,13 +157,6 @@ AdhesivePixels::AdhesivePixels(const HeightMap& heights_, const Indenter& indent
       s0(options.physics.adhesion.work / options.physics.adhesion.range),
       z0(options.physics.adhesion.range),
       pixel(heights.dx * heights.dy) {
-    const auto refuse = [](const std::string& what) { bad_input("solids%adhesion: ", what); };
-    if (!(z0 > 0))
-        refuse("boundary elements require solids%adhesion_range > 0 (JKR is the limit of 0)");
-    if (std::isfinite(options.physics.hardness.H0))
-        refuse("not available yet with solids%hardness");
-    if (!options.physics.relaxation.none())
-        refuse("not available yet with solids%relaxation_share");
     require_resolved(indenter.E_star, options.physics.adhesion, std::max(heights.dx, heights.dy));
     const Substrate body = substrate_of(indenter);
     if (indenter.period.finite()) {

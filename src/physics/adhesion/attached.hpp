@@ -1,6 +1,6 @@
 // Adhesive asperities at a given separation: equilibrium of the attached ones.
 //
-// Unknowns: the state s of every attached asperity (law/sticking.hpp), with its penetration u(s)
+// Unknowns: the state s of every attached asperity (sticking.hpp), with its penetration u(s)
 // and force f(s) of either sign.
 //     r = g0 - B f - u(s) = 0 over the attached
 //     equations
@@ -18,9 +18,9 @@
 // right-hand side 1 + B D. For nearly incompressible layers on a stiffer body, whose B has small
 // negative elements, the sign of those of H is assumed, not proved.
 // A cheaper proof is tried before these two. H is congruent to diag(f'/(q D)) + S^-1/D with S = I +
-// D^1/2 B D^1/2. Let S be positive definite (solver/uniqueness.hpp) and U be the asperities with f'
-// < 0. Since (S^-1)_UU is at least (S_UU)^-1, it suffices that diag(u'/|f'|) - B_UU is positive
-// definite, and as B >= 0 that some v > 0 has u' v > |f'| B v on U. Such a v is found by
+// D^1/2 B D^1/2. Let S be positive definite (asperities/uniqueness.hpp) and U be the asperities
+// with f' < 0. Since (S^-1)_UU is at least (S_UU)^-1, it suffices that diag(u'/|f'|) - B_UU is
+// positive definite, and as B >= 0 that some v > 0 has u' v > |f'| B v on U. Such a v is found by
 // fixed-point iteration from the previous v.
 // For y = ds f'/p with p = sign(f') sqrt(D |f'|/(|f'| + q)) the systems are symmetric, with the
 // matrix diag((f' + q)/(|f'| + q)) sign(f') + p B p. Its diagonal is positive for asperities that

@@ -25,7 +25,7 @@
 //     z0 = (c^2 beta + a e - 2 a^2 beta)/(pi r) + (4 s0/(pi E)) (e beta - c + a)     the gap at c
 // and before contact, a = 0, u = c^2/(2 r) - 4 s0 c/(pi E) - z0, f = -pi s0 c^2 (Kim, McMeeking and
 // Johnson 1998): u, f and their slopes are continuous. A free asperity attaches at u = -z0. The
-// stiffness at a fixed c is 2 E a; D is at least a tenth of 2 E c, because solver/attached.hpp
+// stiffness at a fixed c is 2 E a; D is at least a tenth of 2 E c, because attached.hpp
 // requires a positive value. A larger D than necessary makes it take stable states of close
 // neighbours for unstable ones.
 #pragma once

@@ -30,7 +30,7 @@ public:
             if (place_[at(i)] >= 0) continue;
             place_[at(i)] = int(summits_.size());
             Summit s;
-            s.H = hardness_.H0 * std::sqrt(1 + hardness_.length / radius_[at(i)]);
+            s.H = hardness_.at(radius_[at(i)]);
             s.yield = truncation_.yield_penetration(i, s.H);
             const double area = elastic_->area(i, s.yield);
             const Response first = elastic_->response(i, s.yield);
@@ -261,13 +261,124 @@ std::unique_ptr<YieldingLaw> make_yielding(std::unique_ptr<Law> elastic,
 AsperityPhysics make_yielding_asperities(const ContactBodies& bodies,
                                          std::unique_ptr<Law> elastic) {
     const Hardness& hardness = bodies.options.physics.hardness;
-    if (!(hardness.H0 > 0)) bad_input("solids%hardness must be positive (Infinity: elastic)");
-    if (!(hardness.length >= 0) || std::isinf(hardness.length))
-        bad_input("solids%size_effect must not be negative");
-    if (std::isinf(hardness.H0)) return {std::move(elastic), std::make_unique<AsperityHistory>()};
     auto law = make_yielding(std::move(elastic), bodies.asperities, hardness);
     auto history = std::make_unique<YieldingAsperities>(*law, bodies.asperities.size());
     return {std::move(law), std::move(history)};
 }
+
+namespace {
+
+std::vector<Key> hardness_keys() {
+    using namespace keys;
+    return {
+        number(RSC_KEY(solids, hardness), "force/length^2", kPositiveOrInfinite,
+               "hardness H0: upper limit of the mean pressure of an asperity, H0 sqrt(1 + "
+               "size_effect/r), and of the pressure on an element, H0; each level then "
+               "depends on the levels before it"),
+        number(
+            RSC_KEY(solids, size_effect), "length", kNotNegative,
+            "characteristic length of the indentation size effect on the hardness of asperities"),
+    };
+}
+
+void check_hardness(const Case& settings, const Complain& complain) {
+    const Case::Solids& s = settings.solids;
+    if (std::isfinite(s.hardness) && std::isinf(s.E[0]) && s.layer_thickness.empty())
+        complain({"solids%hardness", "solids%E"},
+                 "the asperities of body 1 yield, so body 1 must not be rigid (E(1) = Infinity)");
+}
+
+void print_yielding(std::ostream& out, const RunFacts& run) {
+    const auto& levels = run.levels;
+    if (levels.empty()) return;
+    const auto most = std::ranges::max_element(levels, {}, &LevelValues::plastic_contacts);
+    if (most->plastic_contacts == 0) {
+        out << "  no contact yields: pressures stay below the hardness.\n";
+        return;
+    }
+    out << format("  level %td, %s: %d of %d contacts yield", most - levels.begin() + 1,
+                  run.place_of(*most).c_str(), most->plastic_contacts, most->contacts);
+    double lost = 0;
+    for (const LevelValues& level : levels)
+        lost = std::max(lost, level.plastic_work);  // NaN if a level did not converge
+    const auto& units = run.settings.run;
+    if (units.realizations == 1)
+        out << format("; plastic work %.4g %s %s", lost, units.force_unit.c_str(),
+                      units.length_unit.c_str());
+    out << ". Results depend on the loading history.\n";
+}
+
+std::vector<LevelQuantity> hardness_quantities() {
+    using V = LevelValues;
+    return {
+        {.name = "plastic_contacts",
+         .member = &V::plastic_contacts,
+         .meaning = "contacts that yield",
+         .comment =
+             "mean pressure at the hardness H = H0 sqrt(1 + l/r), at the largest penetration so "
+             "far; boundary elements: contacts with a pixel at the hardness",
+         .always = false,
+         .beside = &V::plastic_work},
+        {.name = "plastic_work",
+         .member = &V::plastic_work,
+         .length_power = 1,
+         .force_power = 1,
+         .meaning = "plastic work of all contacts since the first level",
+         .comment = "boundary elements: H times the volume of the plastic residual; levels after "
+                    "yielding depend on the history",
+         .always = false},
+    };
+}
+
+void require_sound(const BodyPhysics& bodies) {
+    const Hardness& hardness = bodies.hardness;
+    if (!(hardness.H0 > 0)) bad_input("solids%hardness must be positive (Infinity: elastic)");
+    if (!(hardness.length >= 0) || std::isinf(hardness.length))
+        bad_input("solids%size_effect must not be negative");
+}
+
+bool has_size_effect(const Combination& c) { return c.bodies.hardness.length > 0; }
+
+}  // namespace
+
+const Physics kHardness = {
+    .name = "hardness",
+    .key = "solids%hardness",
+    .keys = hardness_keys,
+    .take =
+        [](const Case& c, BodyPhysics& bodies) {
+            bodies.hardness = {c.solids.hardness, c.solids.size_effect};
+        },
+    .asked = [](const BodyPhysics& bodies) { return bodies.hardness.H0 != kInfinity; },
+    .excludes = {{"friction", "friction needs elastic asperities"},
+                 {"solver%model", "it needs the radius of asperities",
+                  [](const Combination& c) { return has_size_effect(c) && c.elements; },
+                  "solids%size_effect"},
+                 {"compare%levels", "it needs the radius of asperities",
+                  [](const Combination& c) { return has_size_effect(c) && c.compares; },
+                  "solids%size_effect"},
+                 {"asperities%law", "the law does not say how its contacts grow by truncation",
+                  [](const Combination& c) {
+                      return !c.elements && !capabilities_of(c.law).truncation;
+                  }}},
+    .check = check_hardness,
+    .needs_asperities =
+        [](const Case& c) {
+            return c.solids.size_effect > 0 ? "solids%size_effect needs them" : "";
+        },
+    .path = "points that yielded (solids hardness) remain lowered",
+    .quantities = hardness_quantities(),
+    .lowers = true,
+    .mends_extreme_pressures = true,
+    .largest_pressure = [](const BodyPhysics& bodies,
+                           double radius) { return bodies.hardness.at(radius); },
+    .calibrated = [](const BodyPhysics& bodies,
+                     bool layers) { return bodies.hardness.length == 0 && !layers; },
+    .require_sound = require_sound,
+    .compares_itself = [](const Case& c) { return !(c.solids.size_effect > 0); },
+    .bytes_per_point = 8,  // depths of lowered points
+    .remark = print_yielding,
+    .law = make_yielding_asperities,
+};
 
 }  // namespace rsc

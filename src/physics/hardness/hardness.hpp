@@ -5,15 +5,15 @@
 // reaches H, the area grows by truncation at constant pressure:
 //     A = A(u_c) + 2 [A(u) - A(u_c)],   f = H A
 //     (sphere: u_c = (3 pi H/(4 E*))^2 r, A = pi r (2u - u_c))
-// where A(u) is the area of the elastic law, extrapolated linearly beyond its range (Truncation::spread).
-// Force and area are continuous; the slope increases abruptly at u_c (sphere: from 1.5 pi H r to 2
-// pi H r). Unloading from (u_m, f_m, a_m) is elastic, like a sphere of radius r' = 4 E' a_m^3/(3
-// f_m) that touches at u_r = u_m - a_m^2/r'. E' = 3 f(u_c)/(4 a(u_c) u_c), which is E* for a
-// sphere, makes u_r = 0 at the onset of yielding, also for elliptic spots. Reloading follows the
-// same curve up to u_m. The history is u_m of every asperity. For u_m slightly above u_c (sphere:
-// below 1.42 u_c) such unloading would return more work than was done. There the force is
-// proportional to (u - u_r)^m with m > 3/2 such that all work is returned, so that a closed cycle
-// never produces work.
+// where A(u) is the area of the elastic law, extrapolated linearly beyond its range
+// (Truncation::spread). Force and area are continuous; the slope increases abruptly at u_c (sphere:
+// from 1.5 pi H r to 2 pi H r). Unloading from (u_m, f_m, a_m) is elastic, like a sphere of radius
+// r' = 4 E' a_m^3/(3 f_m) that touches at u_r = u_m - a_m^2/r'. E' = 3 f(u_c)/(4 a(u_c) u_c), which
+// is E* for a sphere, makes u_r = 0 at the onset of yielding, also for elliptic spots. Reloading
+// follows the same curve up to u_m. The history is u_m of every asperity. For u_m slightly above
+// u_c (sphere: below 1.42 u_c) such unloading would return more work than was done. There the force
+// is proportional to (u - u_r)^m with m > 3/2 such that all work is returned, so that a closed
+// cycle never produces work.
 //
 // More accurate model, if `sinks` (law 'fourth_order'): the flattened summit also sinks in as a
 // whole, by 4 H a/(pi E') at its border (disc of constant pressure, Johnson 1985, eq. 3.29b), so
@@ -25,9 +25,11 @@
 // Size effect (Swadener, George, Pharr 2002; paper, section 5): H_i = H0 sqrt(1 + l/r_i).
 #pragma once
 
-#include "asperities/asperity_history.hpp"
+#include "physics/physics.hpp"
 
 namespace rsc {
+
+extern const Physics kHardness;
 
 // A law with limited pressures. Its memory is the largest accepted penetration of each asperity.
 class YieldingLaw : public Law, public LawMemory {

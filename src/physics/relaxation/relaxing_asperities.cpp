@@ -178,4 +178,108 @@ AsperityPhysics make_relaxing_asperities(const ContactBodies& bodies,
     return {std::move(law), std::move(history)};
 }
 
+namespace {
+
+std::vector<Key> relaxation_keys() {
+    using namespace keys;
+    return {
+        list(RSC_KEY(solids, relaxation_share), kMostRelaxations, "1", between(0, 1), "none",
+             "shares g_k of E(1) that body 1 loses by relaxation, E(t) = E(1) (1 - sum g_k (1 - "
+             "exp(-t/tau_k))); their sum is at most 1"),
+        list(RSC_KEY(solids, relaxation_time), kMostRelaxations, "time", kPositive, "none",
+             "relaxation times tau_k, one for each share"),
+        number(RSC_KEY(indentation, duration), "time", kPositive,
+               "for a body that relaxes, time from the first to the last level, in equal steps; "
+               "the first level is reached at once",
+               "none"),
+        list(RSC_KEY(indentation, times), 10000, "time", kAny, "none",
+             "time of each level, increasing, instead of `duration`; separations, or forces, "
+             "change linearly in between"),
+    };
+}
+
+bool relaxes(const Case::Solids& s) {
+    return std::ranges::any_of(s.relaxation_share, [](double g) { return g > 0; });
+}
+
+void take_relaxation(const Case& settings, BodyPhysics& bodies) {
+    const Case::Solids& s = settings.solids;
+    if (!relaxes(s)) return;
+    const auto compliance = [&](int i) { return (1 - s.nu[i] * s.nu[i]) / s.E[i]; };
+    bodies.relaxation = {s.relaxation_share, s.relaxation_time,
+                         compliance(0) / (compliance(0) + compliance(1))};
+}
+
+void check_relaxation(const Case& settings, const Complain& complain) {
+    const Case::Solids& s = settings.solids;
+    const std::size_t times = s.relaxation_time.size(), shares = s.relaxation_share.size();
+    if (times != shares)
+        complain({"solids%relaxation_time", "solids%relaxation_share"},
+                 joined("needs as many values as solids%relaxation_share (", shares, "), found ",
+                        times));
+    const double sum = sum_of(s.relaxation_share);
+    if (sum > 1 + 1e-12)
+        complain({"solids%relaxation_share"},
+                 format("the shares add up to %.9g, more than 1", sum));
+    if (!relaxes(s)) return;
+    if (std::isinf(s.E[0]))
+        complain({"solids%relaxation_share", "solids%E"}, "E(1) = Infinity makes body 1 rigid");
+    if (settings.indentation.times.empty() && !settings.indentation.duration)
+        complain({"indentation%duration", "solids%relaxation_share"},
+                 "solids%relaxation_share lets body 1 relax, and the levels have no times; give "
+                 "duration or times");
+}
+
+std::vector<LevelQuantity> relaxation_quantities() {
+    using V = LevelValues;
+    return {
+        {.name = "time",
+         .member = &V::time,
+         .unit = "time",
+         .of_step = true,
+         .meaning = "time of the level",
+         .comment =
+             "the load changes linearly between levels; the first level is applied instantaneously",
+         .always = false,
+         .heading = "time",
+         .width = 11,
+         .digits = 6},
+    };
+}
+
+void print_relaxation(std::ostream& out, const RunFacts& run) {
+    const auto& units = run.settings.run;
+    if (units.realizations > 1 || run.levels.empty()) return;
+    out << format(
+        "  %.4g %s %s of the work done are lost by relaxation. Results depend on the loading "
+        "history.\n",
+        run.levels.back().energy_lost, units.force_unit.c_str(), units.length_unit.c_str());
+}
+
+}  // namespace
+
+const Physics kRelaxation = {
+    .name = "relaxation",
+    .key = "solids%relaxation_share",
+    .keys = relaxation_keys,
+    .take = take_relaxation,
+    .asked = [](const BodyPhysics& bodies) { return !bodies.relaxation.none(); },
+    .excludes =
+        {{"hardness"},
+         {"friction"},
+         {"solids%layer_thickness", "", [](const Combination& c) { return c.layers; }},
+         {"compare%levels", "", [](const Combination& c) { return c.compares; }},
+         {"indentation%boundary", "", [](const Combination& c) { return c.line; }},
+         {"solver%method", "", [](const Combination& c) { return c.method == Method::dgesv; }},
+         {"asperities%law", "the law does not say that its slope increases with the penetration",
+          [](const Combination& c) { return !c.elements && !capabilities_of(c.law).convex; }}},
+    .check = check_relaxation,
+    .path = "the response of a relaxing body depends on the history of loads",
+    .quantities = relaxation_quantities(),
+    .mends_extreme_pressures = true,
+    .compares_itself = [](const Case&) { return false; },
+    .remark = print_relaxation,
+    .law = make_relaxing_asperities,
+};
+
 }  // namespace rsc

@@ -1,11 +1,13 @@
 // Interaction of asperities of a relaxing body: effect of the rests of their law
-// (law/relaxing.hpp), and energies. Used by asperity_contact.
+// (relaxing.hpp), and energies. Used by AsperityModel.
 #pragma once
 
-#include "asperities/asperity_history.hpp"
+#include "physics/physics.hpp"
 #include "physics/relaxation/relaxing.hpp"
 
 namespace rsc {
+
+extern const Physics kRelaxation;
 
 class RelaxingAsperities final : public AsperityHistory {
 public:

@@ -43,23 +43,127 @@ private:
     double coefficient_, rate_ = 0;
 };
 
-void refuse(const char* why) { bad_input("wear is not available ", why); }
+std::vector<Key> wear_keys() {
+    using namespace keys;
+    return {
+        number(RSC_KEY(solids, wear_coefficient), "length^2/force", kNotNegative,
+               "Archard's k: a pressure p that slides a distance ds wears off the depth k p ds, of "
+               "both bodies together if body 2 is smooth; for elements, with "
+               "indentation%sliding or distances"),
+        number(RSC_KEY(indentation, sliding), "length", kPositive,
+               "for a body that wears, distance of sliding from the first to the last level, in "
+               "equal steps; the first level is reached without sliding",
+               "none"),
+        list(RSC_KEY(indentation, distances), 10000, "length", kNotNegative, "none",
+             "distance of sliding of each level, increasing, instead of `sliding`; separations, or "
+             "forces, change linearly in between"),
+    };
+}
+
+void check_wear(const Case& settings, const Complain& complain) {
+    if (settings.solids.wear_coefficient > 0 && !settings.indentation.slides())
+        complain({"indentation%sliding", "solids%wear_coefficient"},
+                 "body 1 wears (solids%wear_coefficient), and the levels have no distances of "
+                 "sliding; give sliding or distances");
+}
+
+std::vector<LevelQuantity> wear_quantities() {
+    using V = LevelValues;
+    return {
+        {.name = "distance",
+         .member = &V::distance,
+         .length_power = 1,
+         .of_step = true,
+         .meaning = "sliding distance of the level",
+         .comment =
+             "the load changes linearly between levels; the first level is reached without sliding",
+         .always = false,
+         .heading = "distance",
+         .width = 11,
+         .digits = 6},
+        {.name = "worn_volume",
+         .member = &V::worn_volume,
+         .length_power = 3,
+         .meaning = "volume that is worn off",
+         .comment = "solids%wear_coefficient times the integral of the force over the sliding "
+                    "distance, of both bodies",
+         .always = false,
+         .statistics = true,
+         .plain = "worn volume",
+         .heading = "worn",
+         .width = 12,
+         .digits = 6},
+        {.name = "wear_depth_max",
+         .member = &V::wear_depth_max,
+         .length_power = 1,
+         .meaning = "largest depth that is worn off",
+         .always = false,
+         .statistics = true,
+         .plain = "largest depth of wear"},
+        {.name = "worn_rms",
+         .member = &V::worn_rms,
+         .length_power = 1,
+         .meaning = "rms height of the worn surface",
+         .comment = "of all points about their mean",
+         .always = false,
+         .statistics = true,
+         .plain = "rms height of the worn surface"},
+        {.name = "sliding_error",
+         .member = &V::sliding_error,
+         .unit = "1",
+         .meaning = "error by the steps in which the level was reached",
+         .comment =
+             "change of N, relative to the larger N of the two levels, by halving the steps; "
+             "under a force that of the separation, relative to its depth below first touch of "
+             "the worn surface; without the errors of earlier levels",
+         .always = false},
+    };
+}
+
+void print_worn(std::ostream& out, const RunFacts& run) {
+    const auto& units = run.settings.run;
+    if (units.realizations > 1 || run.levels.empty()) return;
+    const char* const l = units.length_unit.c_str();
+    const LevelValues& last = run.levels.back();
+    out << format(
+        "  %.4g %s3 are worn off, up to %.4g %s deep, and the surface has the rms height %.4g "
+        "%s. Results depend on the loading history.\n",
+        last.worn_volume, l, last.wear_depth_max, l, last.worn_rms, l);
+}
 
 }  // namespace
 
-std::unique_ptr<Lowering> make_wear(const SolverOptions& options) {
-    const double k = options.physics.wear.coefficient;
-    if (k == 0) return nullptr;
+const Physics kWear = {
+    .name = "wear",
+    .key = "solids%wear_coefficient",
+    .keys = wear_keys,
+    .take = [](const Case& c, BodyPhysics& bodies) { bodies.wear = {c.solids.wear_coefficient}; },
+    .asked = [](const BodyPhysics& bodies) { return bodies.wear.coefficient != 0; },
+    .excludes = {{"adhesion"},
+                 {"relaxation"},
+                 {"hardness"},
+                 {"solids%layer_thickness", "wear would thin the layers",
+                  [](const Combination& c) { return c.layers; }},
+                 {"friction", "it is for surfaces that remain as they are"},
+                 {"solver%model",
+                  "points of the surface wear, not asperities; use model = 'elements'",
+                  [](const Combination& c) { return !c.elements; }}},
+    .check = check_wear,
+    .needs_elements = [](const Case&) { return "solids%wear_coefficient needs them"; },
+    .path = "the surface remains as it is worn",
+    .quantities = wear_quantities(),
+    .lowers = true,
+    .reshapes = true,
+    .bytes_per_point = 58,  // depths, with those of the level before
+    .remark = print_worn,
+    .lowering = make_wear,
+};
+
+std::unique_ptr<Lowering> make_wear(const BodyPhysics& bodies) {
+    const double k = bodies.wear.coefficient;
     if (!(k > 0 && std::isfinite(k)))
         bad_input("the coefficient of wear must be positive and finite");
-    if (std::isfinite(options.physics.hardness.H0)) refuse("with a hardness");
-    if (options.physics.adhesion.work > 0) refuse("with adhesion");
-    if (!options.physics.relaxation.none()) refuse("for bodies that relax");
     return std::make_unique<WornPoints>(k);
-}
-
-void require_no_wear(const SolverOptions& options) {
-    if (options.physics.wear.coefficient != 0) refuse("for asperities; use elements");
 }
 
 }  // namespace rsc

@@ -5,15 +5,13 @@
 // N ds. Steps are extrapolated to second order by Path.
 #pragma once
 
-#include "elements/pixel_model.hpp"
+#include "physics/physics.hpp"
 
 namespace rsc {
 
-// Null without wear. Throws Error(bad_input) for a coefficient out of range, and for bodies that
-// also yield, attract or relax.
-std::unique_ptr<Lowering> make_wear(const SolverOptions& options);
+extern const Physics kWear;
 
-// Throws Error(bad_input) with wear, which asperities cannot have.
-void require_no_wear(const SolverOptions& options);
+// Throws Error(bad_input) for a coefficient out of range.
+std::unique_ptr<Lowering> make_wear(const BodyPhysics& bodies);
 
 }  // namespace rsc

@@ -1,5 +1,5 @@
-// Asperities that attract within a range (law/sticking.hpp): against Maugis's equations, and JKR as
-// its limit.
+// Asperities that attract within a range (physics/adhesion/sticking.hpp): against Maugis's
+// equations, and JKR as its limit.
 #include "base/error.hpp"
 #include "support/adhesive_paths.hpp"
 

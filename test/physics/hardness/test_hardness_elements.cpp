@@ -1,4 +1,4 @@
-// Elements that yield (elements/element_contact.hpp): the elastic and the plastic limit, work and
+// Elements that yield (elements/element_model.hpp): the elastic and the plastic limit, work and
 // energy along a path. Against a slow solver: test_element_levels.
 #include "asperities/ranking.hpp"
 #include "base/error.hpp"

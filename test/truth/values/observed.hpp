@@ -112,7 +112,7 @@ inline void regimes(CheckedFile& f, const Truth& t) {
            1e-5);
 }
 
-// Means of a map over circles: cubic curves between cell centres (radial.hpp), written as
+// Means of a map over circles: cubic curves between cell centres (observe/map.hpp), written as
 // Hermite's.
 inline double cubic(long n, const std::function<double(long)>& f, double s) {
     const long i = std::clamp(long(std::floor(s)), 0L, n - 2);

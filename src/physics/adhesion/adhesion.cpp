@@ -1,0 +1,227 @@
+#include "physics/adhesion/adhesion.hpp"
+
+#include "base/error.hpp"
+#include "elements/element_model.hpp"
+#include "elements/pixel_spots.hpp"
+#include "physics/adhesion/adhesive_contact.hpp"
+#include "physics/adhesion/adhesive_elements.hpp"
+
+namespace rsc {
+namespace {
+
+std::vector<Key> adhesion_keys() {
+    using namespace keys;
+    return {
+        number(RSC_KEY(solids, adhesion), "force/length", kNotNegative,
+               "work of adhesion w; above 0 forces may be negative, and each level depends on the "
+               "levels before it"),
+        number(RSC_KEY(solids, adhesion_range), "length", kNotNegative,
+               "range z0 of the attraction, a constant traction w/z0 across gaps below z0 "
+               "(Dugdale); 0: attraction of zero range (JKR)"),
+    };
+}
+
+void check_adhesion(const Case& settings, const Complain& complain) {
+    if (settings.solids.adhesion_range > 0 && !(settings.solids.adhesion > 0))
+        complain({"solids%adhesion_range", "solids%adhesion"}, "needs solids%adhesion > 0");
+}
+
+std::vector<LevelQuantity> adhesion_quantities() {
+    using V = LevelValues;
+    return {
+        {.name = "jumps",
+         .member = &V::jumps,
+         .meaning = "number of jumps since the previous level",
+         .comment = "adhesion: a contact forms or breaks at one separation, including the "
+                    "avalanche that it "
+                    "triggers; boundary elements: connected sets of at least 8 points that began "
+                    "or ceased to "
+                    "attract and dissipated more than a tenth of w times their area between the "
+                    "two levels; "
+                    "steps short beside adhesion_range tell jumps from smooth changes",
+         .always = false,
+         .beside = &V::least_force},
+        {.name = "least_force",
+         .member = &V::least_force,
+         .force_power = 1,
+         .meaning = "smallest force since the first level",
+         .comment = "adhesion: including forces between levels; pull_off_force is its last value",
+         .always = false},
+        {.name = "cohesive_area",
+         .member = &V::cohesive_area,
+         .length_power = 2,
+         .meaning = "area that attracts without touching",
+         .comment = "adhesion with a range: gaps above 0 and below adhesion_range",
+         .always = false},
+        {.name = "cohesive_resolution",
+         .member = &V::cohesive_resolution,
+         .meaning = "length over which the attraction acts at edges of contact, (pi/4) E* "
+                    "adhesion_range^2/adhesion, over the side of a pixel",
+         .comment = "boundary elements: the error of the pull-off force is of first order in its "
+                    "inverse; 4 or more is wanted",
+         .always = false},
+    };
+}
+
+// The range of attraction up to which JKR is valid.
+void print_tabor(std::ostream& out, const RunFacts& run) {
+    // JKR holds from a Tabor parameter of 5 on.
+    const Case::Solids& s = run.settings.solids;
+    const auto reach = [&](double radius) {
+        return std::cbrt(radius * std::pow(s.adhesion / run.indenter.E_star, 2));
+    };
+    const double summit = run.summit_radius, R = run.indenter.shape->hertz_radius(),
+                 range = s.adhesion_range;
+    const char* const l = run.settings.run.length_unit.c_str();
+    if (!(summit > 0)) return;
+    if (range > 0)
+        out << format(
+            "  Tabor's parameter (JKR from 5 on, DMT below 0.1): %.3g for summits of mean radius "
+            "(%.3g %s)",
+            reach(summit) / range, summit, l);
+    else
+        out << format(
+            "  JKR (adhesion_range = 0) is valid for summits of mean radius (%.3g %s) if the "
+            "range of the attraction is at most %.3g %s (Tabor's parameter 5)",
+            summit, l, reach(summit) / 5, l);
+    if (std::isfinite(R))
+        out << (range > 0 ? format("; %.3g for a smooth sphere", reach(R) / range)
+                          : format("; for a smooth sphere at most %.3g %s", reach(R) / 5, l));
+    out << ".\n";
+}
+
+// Whether two flats with this surface would stick.
+void print_stickiness(std::ostream& out, const RunFacts& run) {
+    const Case::Solids& s = run.settings.solids;
+    const double range = s.adhesion_range;
+    if (!(run.theory && range > 0) || run.indenter.layers.count > 0) return;
+    // Pastewka and Robbins, PNAS 111, 3298 (2014), with kappa_rep = 2, d_rep = 4 h'/h'': h'
+    // range/(2 l_a) (h'^2/(h'' range))^(2/3) < pi (3/16)^(2/3), l_a = w/E*, rms slope h', rms
+    // curvature h'' (rms of the sum of both second derivatives).
+    const double slope = std::sqrt(2 * run.theory->m2),
+                 curvature = std::sqrt(8.0 / 3 * run.theory->m4);
+    const double needed = 1 / (2 * 1.03) * run.indenter.E_star * slope * range *
+                          std::pow(slope * slope / (curvature * range), 2.0 / 3);
+    out << format(
+        "  two flats with this surface %s (Pastewka and Robbins 2014): it needs w above about "
+        "%.2g %s/%s.\n",
+        s.adhesion > needed ? "would stick" : "would not stick", needed,
+        run.settings.run.force_unit.c_str(), run.settings.run.length_unit.c_str());
+}
+
+void print_sticking(std::ostream& out, const RunFacts& run) {
+    const auto& levels = run.levels;
+    if (levels.empty()) return;
+    long jumps = 0;
+    double lost = 0, least = 0, attracting = 0;
+    for (const LevelValues& level : levels) {
+        attracting = std::fmax(attracting, level.area + level.cohesive_area);
+        jumps += level.jumps;
+        lost = std::fmax(lost, level.energy_lost);
+        least = std::fmin(least, level.least_force);
+    }
+    std::string how;
+    if (run.elements)
+        how = format(" (steps that lose less than %.1g count as reversible)",
+                     kAdhesiveLossShare * run.settings.solids.adhesion * attracting);
+    const auto& units = run.settings.run;
+    const bool without_state =
+        std::ranges::any_of(levels, [](const LevelValues& l) { return std::isnan(l.force); });
+    if (units.realizations == 1 && without_state)
+        out << "  adhesion: the smallest force is not known, because levels have no state.\n";
+    else if (units.realizations == 1)
+        out << format(
+            "  adhesion: the smallest force is %.4g %s; jumps: %ld, energy lost: %.4g %s %s%s. "
+            "Results depend on the loading history.\n",
+            least, units.force_unit.c_str(), jumps, lost, units.force_unit.c_str(),
+            units.length_unit.c_str(), how.c_str());
+    print_tabor(out, run);
+    print_stickiness(out, run);
+}
+
+// Refuses adhesion that closes all gaps of the roughness, so that the contacts of asperities merge:
+// the work of adhesion is more than the elastic energy that flattens the roughness, for each unit
+// of area (E*/4) sigma^2 times the mean wavenumber <q> (Persson and Tosatti, 2001). The energy is
+// at most E* sigma h'/4, since <q>^2 <= <q^2>; with layers no such bound is known.
+void require_separate_contacts(const PreparedFacts& facts) {
+    if (!facts.theory || facts.indenter.layers.count > 0) return;
+    const double flat = 0.25 * facts.indenter.E_star * facts.sigma * facts.theory->rms_slope();
+    if (const double w = facts.settings.solids.adhesion; w >= flat)
+        bad_input(
+            format("solids%%adhesion = %g: more than the elastic energy that flattens the "
+                   "roughness, at most E* sigma h'/4 = %.3g for each unit of area; the contacts of "
+                   "asperities merge, and asperities do not hold; give adhesion_range > 0 and "
+                   "solver%%model = 'elements'",
+                   w, flat));
+}
+
+void require_feasible(const PreparedFacts& facts) {
+    if (!facts.elements) return require_separate_contacts(facts);
+    const Case::Solids& s = facts.settings.solids;
+    require_resolved(facts.indenter.E_star, {s.adhesion, s.adhesion_range}, facts.side);
+}
+
+bool has_range(const Combination& c) { return c.bodies.adhesion.range > 0; }
+
+std::unique_ptr<Model> make_elements_that_attract(const HeightMap& heights,
+                                                  const Indenter& indenter,
+                                                  const SolverOptions& options) {
+    return make_adhesive_elements(require_elements(heights, indenter, options), indenter, options);
+}
+
+}  // namespace
+
+const Physics kAdhesion = {
+    .name = "adhesion",
+    .key = "solids%adhesion",
+    .keys = adhesion_keys,
+    .take =
+        [](const Case& c, BodyPhysics& bodies) {
+            bodies.adhesion = {c.solids.adhesion, c.solids.adhesion_range};
+        },
+    .asked = [](const BodyPhysics& bodies) { return bodies.adhesion.work > 0; },
+    .excludes = {{"hardness"},
+                 {"friction"},
+                 {"relaxation"},
+                 {"asperities%law", "the law does not say how its contacts widen",
+                  [](const Combination& c) {
+                      return !c.elements && !capabilities_of(c.law).widening;
+                  }},
+                 {"asperities%law",
+                  "with adhesion_range > 0 it must be the law of a paraboloid, 'hertz' or "
+                  "'elliptic'",
+                  [](const Combination& c) {
+                      return has_range(c) && !c.elements && !capabilities_of(c.law).paraboloid;
+                  }},
+                 {"solver%model", "elements need adhesion_range > 0",
+                  [](const Combination& c) { return !has_range(c) && c.elements; }},
+                 {"compare%levels", "elements need adhesion_range > 0",
+                  [](const Combination& c) { return !has_range(c) && c.compares; }},
+                 {"solver%method", "'dgesv' has no tensile forces",
+                  [](const Combination& c) { return c.method == Method::dgesv; }},
+                 {"indentation%selection", "asperities beyond the circle of 'paper' attract, too",
+                  [](const Combination& c) { return c.selection == Selection::paper; }},
+                 {"indentation%boundary", "", [](const Combination& c) { return c.line; }}},
+    .check = check_adhesion,
+    .needs_asperities =
+        [](const Case& c) {
+            return c.solids.adhesion_range > 0
+                       ? ""
+                       : "solids%adhesion without adhesion_range needs them";
+        },
+    .path = "attached spots (solids adhesion) remain attached until pull-off",
+    .quantities = adhesion_quantities(),
+    .pulls = true,
+    .require_feasible = require_feasible,
+    .for_elements =
+        [](const Case& c) {
+            return c.solids.adhesion_range > 0 ? "" : " with a solids%adhesion_range";
+        },
+    .compares_itself = [](const Case&) { return false; },
+    .bytes_per_point = 49,
+    .remark = print_sticking,
+    .asperities = make_adhesive_asperities,
+    .elements = make_elements_that_attract,
+};
+
+}  // namespace rsc

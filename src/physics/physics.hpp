@@ -1,0 +1,124 @@
+// The physics beyond elastic contact, a row each. A row says everything that other rooms need to
+// know of its physics; what it does not say is not there. Rows stand in the rooms physics/NAME, and
+// physics.cpp lists them: case/, contact/make, trust/, io/ and run/ go through this list.
+#pragma once
+
+#include "asperities/asperity_history.hpp"
+#include "case/key.hpp"
+#include "contact/quantities.hpp"
+#include "elements/element_physics.hpp"
+
+namespace rsc {
+
+struct Physics;
+
+// What physics may exclude: the bodies with all their physics, their model and its methods.
+struct Combination {
+    const BodyPhysics& bodies;
+    bool elements = false;  // otherwise asperities
+    bool compares = false;  // asperities with elements
+    bool line = false, layers = false;
+    Method method = Method::automatic;
+    Selection selection = Selection::overlap;
+    LawKind law = LawKind::hertz;
+};
+
+// A physics is not available together with the physics of this name, or with what this key asks
+// for where `when` holds.
+struct Exclusion {
+    const char* other;
+    const char* why = "";
+    bool (*when)(const Combination&) = nullptr;
+    const char* key = nullptr;  // the key to blame, if it is not that of the physics
+};
+
+// A contradiction between keys; the first key is to blame.
+using Complain = std::function<void(std::initializer_list<std::string_view>, const std::string&)>;
+
+// What is known before the first level.
+struct PreparedFacts {
+    const Case& settings;
+    const Indenter& indenter;
+    const std::optional<Moments>& theory;  // closed forms of the surface
+    double sigma;                          // its rms height [length]
+    double side;                           // of a pixel of elements; 0: not known [length]
+    bool elements;
+};
+
+// What the remarks of a run are about.
+struct RunFacts {
+    const Case& settings;
+    std::span<const LevelValues> levels;
+    const Indenter& indenter;
+    const std::optional<Moments>& theory;  // closed forms of the surface
+    double summit_radius;                  // mean radius of its summits; NaN: not known [length]
+    bool elements;
+    std::function<std::string(const LevelValues&)> place_of;  // "N = 3 N": names a level
+};
+
+struct Physics {
+    const char* name;
+    const char* key;  // that asks for it
+    // Its rows of the registry, each in the group it names.
+    std::vector<Key> (*keys)();
+    // Takes its parameters from the keys, and whether these ask for it.
+    void (*take)(const Case&, BodyPhysics&);
+    bool (*asked)(const BodyPhysics&);
+    // All that it cannot be combined with; the only place where a pair is refused.
+    std::vector<Exclusion> excludes = {};
+    // Relations between its keys.
+    void (*check)(const Case&, const Complain&) = nullptr;
+    // Why a case with it needs a model; empty: it does not.
+    const char* (*needs_elements)(const Case&) = nullptr;
+    const char* (*needs_asperities)(const Case&) = nullptr;
+    // Why each level depends on the levels before; null: none does.
+    const char* path = nullptr;
+    std::vector<LevelQuantity> quantities = {};  // of a level
+    bool lowers = false;                         // points of the surface, for good
+    bool reshapes = false;                       // the surface after each level is a result
+    bool pulls = false;                          // forces may be negative
+    // It limits the pressures that elastic metals could not bear, or is not for metals.
+    bool mends_extreme_pressures = false;
+    // Throws Error(bad_input) for what cannot be solved.
+    void (*require_feasible)(const PreparedFacts&) = nullptr;
+    // The largest mean pressure that an asperity of this radius bears, or with Infinity an element.
+    double (*largest_pressure)(const BodyPhysics&, double radius) = nullptr;
+    // What elements need in addition, for advice: " with a solids%..."; empty: nothing.
+    const char* (*for_elements)(const Case&) = nullptr;
+    // Whether asperities with it were compared with elements (input/trust); null: they were not.
+    bool (*calibrated)(const BodyPhysics&, bool layers) = nullptr;
+    // Throws Error(bad_input) for parameters out of range.
+    void (*require_sound)(const BodyPhysics&) = nullptr;
+    // Whether a run of asperities may compare some levels with elements of its own accord.
+    bool (*compares_itself)(const Case&) = nullptr;
+    double bytes_per_point = 0;  // of elements
+    // Prints sentences after the levels of a run.
+    void (*remark)(std::ostream&, const RunFacts&) = nullptr;
+
+    // What it adds to a contact: a law around that of the asperities, how points of elements are
+    // lowered, or a model of its own.
+    AsperityPhysics (*law)(const ContactBodies&, std::unique_ptr<Law>) = nullptr;
+    std::unique_ptr<Lowering> (*lowering)(const BodyPhysics&) = nullptr;
+    std::unique_ptr<Model> (*asperities)(const Asperities&, const Indenter&,
+                                         const SolverOptions&) = nullptr;
+    std::unique_ptr<Model> (*elements)(const HeightMap&, const Indenter&,
+                                       const SolverOptions&) = nullptr;
+};
+
+std::span<const Physics* const> all_physics();
+
+// The parameters of all physics of a case, and the physics that it asks for.
+BodyPhysics physics_of(const Case& settings);
+std::vector<const Physics*> physics_asked(const BodyPhysics& bodies);
+std::vector<const Physics*> physics_asked(const Case& settings);
+// True if some physics of the case has this property.
+bool any_physics(const Case& settings, bool Physics::*has);
+// The largest pressure that the bodies of a case bear; Infinity: any.
+double largest_pressure(const Case& settings, double radius = kInfinity);
+// True if levels depend on the levels before.
+bool path_dependent(const Case& settings);
+
+// Calls refuse({key, other}, text) for each pair that is excluded.
+void find_exclusions(const Combination& all, const Complain& refuse);
+
+}  // namespace rsc

@@ -1,0 +1,27 @@
+// The rows of the physics (physics/physics.hpp): what they name exists.
+#include "case/registry.hpp"
+#include "check.hpp"
+#include "physics/physics.hpp"
+
+namespace test_rows {
+
+using namespace rsc;
+
+TEST(rows_of_physics) {
+    std::set<std::string> names;
+    for (const Physics* p : all_physics()) CHECK(names.insert(p->name).second);
+    CHECK(physics_asked(Case{}).empty() && physics_asked(BodyPhysics{}).empty());
+    for (const Physics* p : all_physics()) {
+        CHECK(full_name(key_of(p->key)) == p->key);
+        CHECK(p->keys && p->take && p->asked);
+        for (const Key& key : p->keys()) CHECK(find_key(key.group, key.name));
+        for (const Exclusion& x : p->excludes) {
+            // A physics by its name, or a key with the condition.
+            CHECK(x.when ? full_name(key_of(x.other)) == x.other : names.contains(x.other));
+            CHECK(!x.key || full_name(key_of(x.key)) == x.key);
+        }
+        for (const LevelQuantity& q : p->quantities) CHECK(find_quantity(q.name).has_value());
+    }
+}
+
+}  // namespace test_rows
