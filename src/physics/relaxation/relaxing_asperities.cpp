@@ -221,13 +221,16 @@ void check_relaxation(const Case& settings, const Complain& complain) {
     if (sum > 1 + 1e-12)
         complain({"solids%relaxation_share"},
                  format("the shares add up to %.9g, more than 1", sum));
-    if (!relaxes(s)) return;
-    if (std::isinf(s.E[0]))
+    if (relaxes(s) && std::isinf(s.E[0]))
         complain({"solids%relaxation_share", "solids%E"}, "E(1) = Infinity makes body 1 rigid");
-    if (settings.indentation.times.empty() && !settings.indentation.duration)
-        complain({"indentation%duration", "solids%relaxation_share"},
-                 "solids%relaxation_share lets body 1 relax, and the levels have no times; give "
-                 "duration or times");
+}
+
+void require_times(const PreparedFacts& facts) {
+    const Case::Indentation& levels = facts.settings.indentation;
+    if (levels.times.empty() && !levels.duration)
+        bad_input(
+            "indentation%duration: solids%relaxation_share lets body 1 relax, and the levels have "
+            "no times; give duration or times");
 }
 
 std::vector<LevelQuantity> relaxation_quantities() {
@@ -277,6 +280,7 @@ const Physics kRelaxation = {
     .path = "the response of a relaxing body depends on the history of loads",
     .quantities = relaxation_quantities(),
     .mends_extreme_pressures = true,
+    .require_feasible = require_times,
     .compares_itself = [](const Case&) { return false; },
     .remark = print_relaxation,
     .law = make_relaxing_asperities,

@@ -60,11 +60,11 @@ std::vector<Key> wear_keys() {
     };
 }
 
-void check_wear(const Case& settings, const Complain& complain) {
-    if (settings.solids.wear_coefficient > 0 && !settings.indentation.slides())
-        complain({"indentation%sliding", "solids%wear_coefficient"},
-                 "body 1 wears (solids%wear_coefficient), and the levels have no distances of "
-                 "sliding; give sliding or distances");
+void require_distances(const PreparedFacts& facts) {
+    if (!facts.settings.indentation.slides())
+        bad_input(
+            "indentation%sliding: body 1 wears (solids%wear_coefficient), and the levels have no "
+            "distances of sliding; give sliding or distances");
 }
 
 std::vector<LevelQuantity> wear_quantities() {
@@ -148,12 +148,12 @@ const Physics kWear = {
                  {"solver%model",
                   "points of the surface wear, not asperities; use model = 'elements'",
                   [](const Combination& c) { return !c.elements; }}},
-    .check = check_wear,
     .needs_elements = [](const Case&) { return "solids%wear_coefficient needs them"; },
     .path = "the surface remains as it is worn",
     .quantities = wear_quantities(),
     .lowers = true,
     .reshapes = true,
+    .require_feasible = require_distances,
     .bytes_per_point = 58,  // depths, with those of the level before
     .remark = print_worn,
     .lowering = make_wear,
