@@ -18,32 +18,6 @@ std::string line_of(uLong crc) {
     return format("\nrsc: CRC-32 of all before this line: %08lx\n", crc & 0xffffffffUL);
 }
 
-// Refuses a file with the attribute `source` of a result that ends with a checksum, "rsc 0.4.0,
-// ...". Its bytes are searched, because HDF5 crashes on some damaged files.
-void refuse_cut_result(const std::string& path) {
-    constexpr std::size_t overlap = 64;
-    std::ifstream in(path, std::ios::binary);
-    std::string bytes;
-    std::vector<char> portion(1 << 20);
-    while (in) {
-        in.read(portion.data(), std::streamsize(portion.size()));
-        bytes.erase(0, bytes.size() - std::min(bytes.size(), overlap));
-        bytes.append(portion.data(), at(in.gcount()));
-        for (std::size_t k = bytes.find("rsc "); k != std::string::npos;
-             k = bytes.find("rsc ", k + 1)) {
-            int major = 0, minor = 0, end = 0;
-            if (k == 0 || bytes[k - 1] == ' ' ||
-                std::sscanf(bytes.c_str() + k, "rsc %d.%d.%*d, %n", &major, &minor, &end) < 2)
-                continue;
-            if (end > 0 && std::pair(major, minor) >= std::pair(0, 3))
-                bad_input(path,
-                          ": is cut or damaged: its last line, the checksum that rsc writes, is "
-                          "missing (a copy made by another program is read if its attribute source "
-                          "does not begin with 'rsc')");
-        }
-    }
-}
-
 }  // namespace
 
 std::string checksum_line(const char* bytes, std::size_t size) {
@@ -62,7 +36,6 @@ bool require_sound(const std::string& path) {
     if (!line.starts_with(start)) {
         if (line.find(start) != std::string::npos)
             bad_input(path, ": is truncated: its last line, the checksum, is incomplete");
-        refuse_cut_result(path);
         return false;
     }
     std::vector<char> buffer(1 << 20);
@@ -297,15 +270,30 @@ std::string global_text(int file, const char* name) {
     return value;
 }
 
+// True for the attribute `source` of a result that ends with a checksum.
+static bool ends_with_checksum(const std::string& source) {
+    int major = 0, minor = 0;
+    return std::sscanf(source.c_str(), "rsc %d.%d.", &major, &minor) == 2 &&
+           std::pair(major, minor) >= std::pair(0, 3);
+}
+
 int open_netcdf(const std::string& path) {
     suppress_hdf5_messages();
-    require_sound(path);
+    const bool checked = require_sound(path);
     check_classic_length(path);  // the library reads zeros beyond the end of a classic file
     int file = -1;
     const int status = nc_open(path.c_str(), NC_NOWRITE, &file);
     if (status != NC_NOERR)
         bad_input(path, ": looks like NetCDF but cannot be opened; is it complete? (",
                   nc_strerror(status), ")");
+    if (!checked && ends_with_checksum(global_text(file, "source"))) {
+        nc_close(file);
+        bad_input(
+            path,
+            ": is cut or damaged: its last line, the checksum that rsc writes, is missing (a "
+            "copy made by another program is read if its attribute source does not begin with "
+            "'rsc')");
+    }
     return file;
 }
 

@@ -15,14 +15,13 @@ namespace rsc {
 // The checksum line for the `size` bytes of a file.
 std::string checksum_line(const char* bytes, std::size_t size);
 
-// Throws Error(bad_input) for a file with such a line whose bytes do not match it, and for a result
-// of rsc 0.3 or later without the line. Files of earlier versions or other programs pass without a
-// checksum; true if the line is there.
+// Throws Error(bad_input) for a file with such a line whose bytes do not match it. Files without a
+// checksum, of earlier versions or other programs, pass; true if the line is there.
 bool require_sound(const std::string& path);
 
 // Opens a NetCDF file of any format for reading, under library_lock(). Throws Error(bad_input) if
-// it cannot be opened, is shorter than its header says, or by require_sound(), so that a cut file is
-// never read as zeros.
+// it cannot be opened, its checksum is wrong, it is shorter than its header says, or it is a result
+// of rsc 0.3 or later without the checksum, so that a cut file is never read as zeros.
 int open_netcdf(const std::string& path);
 
 // A global text attribute of an open file; empty if there is none.

@@ -484,6 +484,7 @@ class Numbers(Drawn):
             path("many"), path("oblong")
         )  # as if a quarter of the last row were on the surface
         with netCDF4.Dataset(path("oblong"), "a") as file:
+            file.source = "changed: " + file.source
             file["y"].share_of_last_row, file["map_pressure"][11, -1] = (
                 0.25,
                 file["map_pressure"][11].max(),
@@ -686,6 +687,7 @@ class Numbers(Drawn):
         did is drawn."""
         shutil.copy(path("one"), path("failed"))
         with netCDF4.Dataset(path("failed"), "a") as file:
+            file.source = "changed: " + file.source
             file["status"][:, -2:] = 4
         self.assertEqual(Result(path("failed"), in_si=True).chosen(1, None), [23])
 
