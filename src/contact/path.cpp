@@ -15,7 +15,7 @@ constexpr int kMostSteps = 64;  // of sliding to a level
 // Sliding: accuracy of the area and the largest pressure, whose smallest change is a pixel; and a
 // change of N that no longer matters, relative to N before the level.
 constexpr double kCoarseSteps = 0.05, kWornOff = 1e-6;
-constexpr int kTrials = 2;      // number of failures after which no trials are used
+constexpr int kTrials = 2;  // number of failures after which no trials are used
 
 // Evaluation of a level at z: it is the solution (or failed), or lies above it; `next` is the next
 // separation by Newton's method, -Infinity: none.
@@ -254,9 +254,11 @@ Level Path::in_sliding_steps(double from, double to, Reach reach, const State& b
             const double accuracy = history()->accuracy();
             const bool settled = level.sliding_error <= accuracy ||
                                  (!by_force && std::abs(value - other) <= kWornOff * before.force);
-            const auto near = [&](double a, double b) { return std::abs(a - b) <= kCoarseSteps * b; };
-            const bool alike = near(last->area, level.area) &&
-                               near(last->pressure_max, level.pressure_max);
+            const auto near = [&](double a, double b) {
+                return std::abs(a - b) <= kCoarseSteps * b;
+            };
+            const bool alike =
+                near(last->area, level.area) && near(last->pressure_max, level.pressure_max);
             if ((settled && alike) || n >= kMostSteps) return level;
         }
         last = level;

@@ -177,11 +177,12 @@ constexpr LevelQuantity kRows[] = {
     {.name = "certificate",
      .member = &V::certificate,
      .meaning = "largest violation of the contact conditions by the returned pressures",
-     .comment = "boundary elements, recomputed in double precision: the largest of the penetration "
-                "and of the gap under pressure (relative to the mean overlap under pressure), of "
-                "the complementarity sum p gap (relative to sum p overlap), and of the difference "
-                "of the prescribed force. It tells how well the discrete problem is solved, not how "
-                "far that is from the continuous one",
+     .comment =
+         "boundary elements, recomputed in double precision: the largest of the penetration "
+         "and of the gap under pressure (relative to the mean overlap under pressure), of "
+         "the complementarity sum p gap (relative to sum p overlap), and of the difference "
+         "of the prescribed force. It tells how well the discrete problem is solved, not how "
+         "far that is from the continuous one",
      .always = false},
     {.name = "status",
      .member = &V::status,
@@ -235,9 +236,10 @@ constexpr LevelQuantity kRows[] = {
      .member = &V::border_share,
      .unit = "1",
      .meaning = "sides of pixels on the borders of contacts over pixels in contact",
-     .comment = "boundary elements; of two flats over the pixels of the gap if these are fewer; 2.5 "
-                "over the radius in pixels of a round contact. Expected "
-                "errors grow in proportion to it",
+     .comment =
+         "boundary elements; of two flats over the pixels of the gap if these are fewer; 2.5 "
+         "over the radius in pixels of a round contact. Expected "
+         "errors grow in proportion to it",
      .always = false},
     {.name = "force_error_expected",
      .member = &V::force_error_expected,

@@ -92,8 +92,7 @@ double BoundedSolver::error() {
     });
     const double bad = sums.inside + outside();
     if (sums.touching == 0) return bad > 0 ? kInfinity : 0.0;
-    return std::sqrt(bad / static_cast<double>(sums.touching)) /
-           (sums.overlap / sums.weight);
+    return std::sqrt(bad / static_cast<double>(sums.touching)) / (sums.overlap / sums.weight);
 }
 
 double BoundedSolver::certificate() {

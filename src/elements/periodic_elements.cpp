@@ -386,9 +386,8 @@ double PeriodicElements::closing_pressure() {
     if (closing_) return *closing_;
     if (diagonal_ > 0 || highest_ < kInfinity) return kInfinity;
     std::vector<double> least(at(relief_.ny));
-    flattening([&](int j, const double* row) {
-        least[at(j)] = *std::min_element(row, row + relief_.nx);
-    });
+    flattening(
+        [&](int j, const double* row) { least[at(j)] = *std::min_element(row, row + relief_.nx); });
     closing_ = 0 - *std::min_element(least.begin(), least.end()) / unit_;
     return *closing_;
 }

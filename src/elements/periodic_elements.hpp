@@ -101,7 +101,7 @@ private:
     double height(int j, int i) const {
         return (relief_.z[j * relief_.stride + i] - zero_) * scale_;
     }
-    int threads() const;        // for loops over rows
+    int threads() const;  // for loops over rows
     PeriodicPixels<double>& fine();
     // Calls take(row number, row) with K^-1 z.
     template <class F>
@@ -140,10 +140,10 @@ private:
     // (both of the initial heights), pressures in units of E* rms/dx with the dx of the finest
     // grid. K is `unit_` times that of PeriodicPixels with dx = 1.
     double zero_ = 0, rms_ = 1, scale_ = 1, pressure_unit_ = 1, unit_ = 1;
-    double mean_ = 0;        // mean of the current heights
+    double mean_ = 0;                // mean of the current heights
     std::optional<double> closing_;  // closing_pressure(), once it is known
-    double aspect_;          // dy/dx
-    double inverse_of_ = 0;  // the diagonal for which the preconditioner is
+    double aspect_;                  // dy/dx
+    double inverse_of_ = 0;          // the diagonal for which the preconditioner is
     PeriodicPixels<float> inner_;
     std::unique_ptr<PeriodicPixels<double>> fine_;
     SparsePlane plane_;

@@ -94,8 +94,8 @@ void PixelModel::solve_again(double z, const Level& level) {
     start_from(z, level);
     // In full contact of two flats the separation does not determine the level, and worn flats are
     // in full contact in the course of time.
-    const bool by_force = lowering_ || level.pixels.index.size() ==
-                                           at(heights_.nx) * at(heights_.ny);
+    const bool by_force =
+        lowering_ || level.pixels.index.size() == at(heights_.nx) * at(heights_.ny);
     if (!(by_force && level.force > 0 && solve_under(level.force))) (void)solve(z, false);
     accepted_ = true;
 }
@@ -154,8 +154,7 @@ void PixelModel::accept(Level& level) {
         if (lowering_) press(yielded_);
     }
     if (!lowered_points_.empty()) residual_changed();
-    if (limited())
-        level.plastic_work = highest_ * pixel_area() * sum_of(yielded());
+    if (limited()) level.plastic_work = highest_ * pixel_area() * sum_of(yielded());
     if (lowering_) {
         lowering_->measure(level, heights_, indenter_, lowered_points_, yielded_);
         step(0, 0);

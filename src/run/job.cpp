@@ -176,8 +176,7 @@ LevelSource source_of(const Job& job, Path& contact, Level& level) {
 // Computes what a level has of its gap, and the flux at its points if a field asks for it.
 void measure_gap(const Job& job, const HeightMap& map, Path& contact, Level& level, std::size_t k) {
     if (std::isnan(level.force)) return;  // there is no state
-    const bool field =
-        fields_asked(job).flow && contains(steps_of_fields(job), std::int32_t(k));
+    const bool field = fields_asked(job).flow && contains(steps_of_fields(job), std::int32_t(k));
     LevelSource source = source_of(job, contact, level);
     source.map = &map;
     source.flux = field ? &level.flux : nullptr;
@@ -507,7 +506,9 @@ Realization realize(const Job& job, std::int64_t number, int threads,
     if (settings.solids.friction > 0) friction.emplace(settings, make_contact);
     r.levels.reserve(job.levels.size());
     const std::vector<std::int32_t> field_steps = steps_of_fields(job);
-    const MakePressed make = [&] { return Pressed{make_contact(), Judge(solver, surface.judged), map}; };
+    const MakePressed make = [&] {
+        return Pressed{make_contact(), Judge(solver, surface.judged), map};
+    };
     Pressed pressed = make();
     std::unique_ptr<Path>& contact = pressed.contact;
     std::vector<FieldLevel> fields;

@@ -13,7 +13,8 @@ std::string sentence(Cause cause, bool elements) {
         "surface ends there",
         "the contact may lie on missing points of the map, which are filled smoothly "
         "(filled_share): N is too small",
-        "the contacts have too few pixels: a finer grid may change N at this separation by more than "
+        "the contacts have too few pixels: a finer grid may change N at this separation by more "
+        "than "
         "3 % (with adhesion 10 %), or A by more than 10 %",
         "the indenter is steep compared with the surface (slope_ratio above 0.2), so that it "
         "touches flanks, not summits",

@@ -186,8 +186,7 @@ std::vector<Doubt> Judge::of_elements(const Level& level, Path& contact, bool by
         doubts.push_back({Cause::adhesion_range});
     doubts.push_back(grid(level, contact));
     if (level.with_half_the_steps) {
-        const double error = level.sliding_error,
-                     depth = contact.first_touch() - level.separation,
+        const double error = level.sliding_error, depth = contact.first_touch() - level.separation,
                      area_error = std::abs(1 - level.with_half_the_steps->area / level.area);
         doubts.push_back({Cause::sliding_steps, by_force ? 0.0 : error, area_error,
                           error > kLongSteps, by_force ? error * depth : 0.0});
@@ -229,7 +228,9 @@ Doubt Judge::grid(const Level& level, Path& contact) const {
     const GridError by_size = error_of_grid(level, indenter, std::max(map.dx, map.dy), read),
                     crests = error_of_crests(level, stiffness, map, indenter, surface_.curvature);
     doubt.force = std::max(by_size.force, crests.force);
-    doubt.area = std::max(by_size.area, crests.area);
+    // The borders of straight ridges are known to half a pixel, alike along their length.
+    doubt.area =
+        crests.area > by_size.area ? crests.area + 0.25 * level.border_share : by_size.area;
     doubt.serious = doubt.force > kUnresolved || doubt.area > kMuchAreaError;
     return doubt;
 }

@@ -325,7 +325,8 @@ TEST(guest_state) {
         test_kept(relaxing + (model.empty() ? tight : model + " tolerance=1e-9"), "energy_lost");
     }
     for (const std::string& range :
-         {std::string(), std::string("adhesion_range=2e-4 / &asperities law='hertz'"), "adhesion_range=0.02" + elements})
+         {std::string(), std::string("adhesion_range=2e-4 / &asperities law='hertz'"),
+          "adhesion_range=0.02" + elements})
         test_kept("adhesion=0.5 " + range, "energy_lost");
     // Attached summits of z - shape, at each place others: their numbers stay under a flat ball.
     test_kept("adhesion=0.05 / &asperities law='elliptic'", "energy_lost",

@@ -127,8 +127,7 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
         ".true., sigma = 1.5";
     const std::string out =
         "&output map_cells = 9, radial_bins = 7, pdf_levels = 0.9, 0.25, pdf_bins = 31";
-    const std::string asperities =
-        "&solver model = 'asperities' /\n&asperities law = 'hertz' /\n";
+    const std::string asperities = "&solver model = 'asperities' /\n&asperities law = 'hertz' /\n";
     const std::string of_map =
         "&surface source = 'heights', file = '" + folder / "input_map.nc" + "', missing = 'fill', ";
 
@@ -137,8 +136,9 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
                    "&run length_unit = 'um', force_unit = 'mN', seed = 12345678901, title = 'Of "
                    "its own' /\n" +
                        bodies + ", friction = 0.3 /\n" + surface +
-                       " /\n&asperities law = 'hertz' /\n&indentation levels = 9.0, 1.5, 0.8, 0.2, centre = 57, 38 /\n" + out +
-                       ", heights = .true. /\n&compare levels = 8.5, 0.3, 1.2 /\n"});
+                       " /\n&asperities law = 'hertz' /\n&indentation levels = 9.0, 1.5, 0.8, 0.2, "
+                       "centre = 57, 38 /\n" +
+                       out + ", heights = .true. /\n&compare levels = 8.5, 0.3, 1.2 /\n"});
     all.push_back(
         {"rough", micro + bodies + " /\n" + rough +
                       " /\n&asperities law = 'hertz' /\n&solver model = 'asperities' /\n" +
@@ -146,12 +146,13 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
                       "&output map_cells = 8, radial_bins = 5, pdf_levels = -0.5, pdf_bins = 40, "
                       "contacts = 'last' /\n"});
     all.push_back(
-        {"paper", micro + bodies + " /\n" + surface +
-                      ", normalise = 'ensemble' /\n&asperities curvature = 'algebraic', law = 'hertz' /\n" +
-                      "&indentation start = 2.5, stop = 0.3, steps = 4, spacing = 'log', selection "
-                      "= 'paper', selection_factor = 0.4 /\n" +
-                      "&solver method = 'dgesv', tolerance = 1e-8 /\n&output format = 'cdf5', "
-                      "contacts = 'none', map_cells = 5 /\n"});
+        {"paper",
+         micro + bodies + " /\n" + surface +
+             ", normalise = 'ensemble' /\n&asperities curvature = 'algebraic', law = 'hertz' /\n" +
+             "&indentation start = 2.5, stop = 0.3, steps = 4, spacing = 'log', selection "
+             "= 'paper', selection_factor = 0.4 /\n" +
+             "&solver method = 'dgesv', tolerance = 1e-8 /\n&output format = 'cdf5', "
+             "contacts = 'none', map_cells = 5 /\n"});
     all.push_back({"ellipses", micro + bodies + " /\n" + rough +
                                    " /\n&asperities law = 'elliptic' /\n" +
                                    "&indentation levels = 2, 1, centre = 60, 41 /\n&solver method "
@@ -211,8 +212,7 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
         "/\n&output map_cells = 11, radial_bins = 6, heights = .true., pdf_levels = 0.3, pdf_bins "
         "= 25 /\n";
     all.push_back({"map",
-                   of_map +
-                       "detrend = 'quadratic' /\n&solids E = 3000, 9000  R(2) = 80 /\n" +
+                   of_map + "detrend = 'quadratic' /\n&solids E = 3000, 9000  R(2) = 80 /\n" +
                        "&asperities law = 'hertz' /\n&compare "
                        "levels = 0.2 /\n" +
                        "&indentation levels = 0.8, 0.2, centre = 5.3, 1.6 " + on_map,
@@ -250,18 +250,16 @@ std::vector<Scene> scenes(const Folder& folder, const HeightMap& map) {
     all.push_back(
         {"campaign",
          "&run length_unit = 'um', force_unit = 'mN', realizations = 4, first_realization = 3 /\n" +
-             bodies + " /\n" + surface +
-             " /\n" + asperities + "&indentation levels = 9.0, 1.2, 0.3, centre = 57, 38 /\n" + out +
+             bodies + " /\n" + surface + " /\n" + asperities +
+             "&indentation levels = 9.0, 1.2, 0.3, centre = 57, 38 /\n" + out +
              " /\n&compare levels = 0.3 /\n"});
-    all.push_back(
-        {"campaign_force", "&run realizations = 4 /\n" + bodies + " /\n" + surface +
-                               " /\n" + asperities +
-                               "&indentation control = 'force', levels = 200, 900 /\n" + out +
-                               ", format = 'classic' /\n"});
+    all.push_back({"campaign_force", "&run realizations = 4 /\n" + bodies + " /\n" + surface +
+                                         " /\n" + asperities +
+                                         "&indentation control = 'force', levels = 200, 900 /\n" +
+                                         out + ", format = 'classic' /\n"});
     all.push_back(
         {"campaign_flats",
-         "&run realizations = 4 /\n" + flats + " /\n" + surface +
-             " /\n" + asperities +
+         "&run realizations = 4 /\n" + flats + " /\n" + surface + " /\n" + asperities +
              "&indentation boundary = 'periodic', control = 'pressure', unit = 'pressure', "
              "levels = 0.1 /\n" +
              "&output map_cells = 6, pdf_levels = 2.0, pdf_bins = 20, format = 'classic' /\n"});

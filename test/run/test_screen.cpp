@@ -67,7 +67,8 @@ TEST(levels) {
             "L=2.5 sigma=0.02 / &indentation levels=6, 3, 1.5, 0, -2.9, -3.1, centre=1.1, 1.4 / "
             "&run title='A title' length_unit='um' / "
             "&solids E=1e4,3e4 nu=0.1,0.4 R=3,7 /",
-        kSurface + "/ &solver model='asperities' / &indentation control='force' levels=0.01,0.5,8 /",
+        kSurface +
+            "/ &solver model='asperities' / &indentation control='force' levels=0.01,0.5,8 /",
         kSurface + "/ &solver model='elements' / &indentation levels=6,2,1 /",
         kSurface +
             "/ &solids R=Infinity,Infinity / &indentation boundary='periodic' control='pressure' "
@@ -97,8 +98,7 @@ TEST(levels) {
               screen.says(("result: " + path).c_str()));
         seen += screen.text;
     }
-    for (const char* words : {"A title", "[um]", "sphere R = ", "two flats",
-                              "by elements: "})
+    for (const char* words : {"A title", "[um]", "sphere R = ", "two flats", "by elements: "})
         CHECK(seen.find(words) != std::string::npos);
 }
 

@@ -78,8 +78,7 @@ namespace {
 // Geometric mean of the permeabilities of the gap on every second point, of both diagonal choices;
 // NaN for odd numbers of points.
 Permeability coarse_permeability(const GapMap& map) {
-    if (map.nx % 2 != 0 || map.ny % 2 != 0)
-        return {kNotComputed, kNotComputed, kNotComputed};
+    if (map.nx % 2 != 0 || map.ny % 2 != 0) return {kNotComputed, kNotComputed, kNotComputed};
     const int nx = map.nx / 2, ny = map.ny / 2;
     double xx = 1, yy = 1;
     for (const int offset : {0, 1}) {

@@ -16,6 +16,8 @@ slow() {
     cat > case.nml << END
 &run         threads = 1 /
 &surface     n = 2048  L_lambda_l = 8  L_lambda_s = 512 /
+&solver      model = 'asperities' /
+&asperities  law = 'hertz' /
 &indentation $1 /
 &output      file = 'work/out.nc'  $2 /
 END

@@ -114,6 +114,7 @@ MASS = 7.8e-9 * 4 / 3 * np.pi * 2.5**3
 def ball():
     return Spheres(
         SMALL.format("1.0e-3") + " &solids E=210d3, 210d3, nu=0.3, 0.3, R=Infinity, 2.5 /"
+        " &asperities law='hertz' /"
     )
 
 

@@ -21,6 +21,7 @@ ROUGH = """&solids E = 1.0e3, Infinity nu = 0.0, 0.0 R = Infinity, {R} /
 &surface L = 1.0 sigma = 1.0e-3 L_lambda_l = 2 L_lambda_s = 6 n = 64 /
 &indentation boundary = '{boundary}' levels = 1.5, 0.5 /
 &solver model = '{model}' /
+&asperities law = 'hertz' /
 &elements points_per_wave = 10 /
 &output fields = 'pressure', 'gap', 'contact', 'heights' field_levels = 1.6, 0.6 contacts = 'none' /
 """

@@ -16,6 +16,7 @@ E, U = 2.0e5, 1.0e-3
 SMALL = {
     "surface": {"n": 128, "L_lambda_l": 4.0, "L_lambda_s": 32.0, "sigma": 0.01},
     "solver": {"method": "direct"},
+    "asperities": {"law": "hertz"},
 }
 
 

@@ -232,7 +232,7 @@ inline void levels(CheckedFile& f, const Truth& t) {
             double squares = 0, force = 0;
             const auto add = [&](double x, double y, double part) {
                 const double rho = std::hypot(x - t.tip_x, y - t.tip_y);
-                squares += part * rho * rho / (t.R * t.R - rho * rho);
+                squares += part * std::pow(rho * t.slope_over_offset(rho * rho), 2);
                 force += part;
             };
             for (const Pixel2& q : t.contacts[k][s].pixels) add(q.x, q.y, q.p);
@@ -397,8 +397,8 @@ inline void levels(CheckedFile& f, const Truth& t) {
                     }
                     return;
                 }
-                const double up = std::sqrt(t.R * t.R - dx * dx - dy * dy), dz = t.R - up,
-                             fx = -force * dx / up, fy = -force * dy / up;
+                const double slope = t.slope_over_offset(dx * dx + dy * dy), dz = -t.top(px, py),
+                             fx = -force * dx * slope, fy = -force * dy * slope;
                 x += moment ? dy * force - dz * fy : fx;
                 y += moment ? dz * fx - dx * force : fy;
             };

@@ -356,8 +356,18 @@ struct Truth {
         return out;
     }
     double top(double x, double y) const {  // height of the sphere, negative, above its tip's level
-        if (std::isinf(R)) return 0;
-        return std::sqrt(R * R - (x - tip_x) * (x - tip_x) - (y - tip_y) * (y - tip_y)) - R;
+        const double rho2 = (x - tip_x) * (x - tip_x) + (y - tip_y) * (y - tip_y);
+        double fall = 0;  // of both bodies
+        for (const double one : c.solids.R)
+            if (std::isfinite(one)) fall += one - std::sqrt(one * one - rho2);
+        return -fall;
+    }
+    // The slope of the sum of both spheres at an offset from the tip, over this offset.
+    double slope_over_offset(double rho2) const {
+        double sum = 0;
+        for (const double one : c.solids.R)
+            if (std::isfinite(one)) sum += 1 / std::sqrt(one * one - rho2);
+        return sum;
     }
     double distance(double x, double y, double u, double v) const {
         double a = x - u, b = y - v;
