@@ -37,24 +37,29 @@ SURFACE = (
     "&run length_unit='um' force_unit='mN' REALIZATIONS /"
 )
 BALL = "&solids E=78.0,200.0 R=Infinity,3000.0 nu=0.42,0.3 resistivity=2.0e-5,3.0e-5 /"
+BY_ASPERITIES = "&solver model='asperities' / "
+OF_PAPER = BY_ASPERITIES + "&asperities law='hertz' / "
 SMALL = "&surface n=128 L_lambda_l=4 L_lambda_s=16 sigma=0.01 / "
 CASES = {
-    "one": SURFACE
+    "one": OF_PAPER
+    + SURFACE
     + BALL
     + (
         "&indentation centre=500.0,680.0 start=5.0 stop=0.0 steps=26 / &output map_cells=23 "
         "heights=.true. pdf_levels=0.0,0.6 /"
     ),
-    "many": SURFACE.replace("REALIZATIONS", "realizations=5")
+    "many": OF_PAPER
+    + SURFACE.replace("REALIZATIONS", "realizations=5")
     + BALL
     + "&indentation start=3.5 stop=0.5 steps=13 / &output map_cells=21 /",
-    "slid": SURFACE
+    "slid": OF_PAPER
+    + SURFACE
     + BALL.replace("resistivity", "friction=0.3 resistivity")
     + "&indentation centre=500.0,680.0 start=3.0 stop=1.0 steps=41 /",
     "back": SMALL
     + (
-        "&solver model='asperities' / &solids hardness=1.5e4 / &indentation "
-        "levels=2.5,2,1.5,1,1.2,1.4,1.6,1.8 /"
+        "&solver model='asperities' / &asperities law='hertz' / &solids hardness=1.5e4 / "
+        "&indentation levels=2.5,2,1.5,1,1.2,1.4,1.6,1.8 /"
     ),
     "compared": SMALL
     + (
@@ -75,16 +80,19 @@ CASES = {
     "pulled": SMALL.replace("0.01", "0.0001") + "&run realizations=3 /"
     "&solids E=200,Infinity R=Infinity,5 adhesion=2e-5 / &indentation levels=3,1,0,1,3,9 /"
     "&study surface%sigma=1e-4,2e-4,4e-4 /",
-    "pressed": "&surface n=128 L_lambda_l=4 L_lambda_s=32 sigma=0.0009 / "
+    "pressed": OF_PAPER
+    + "&surface n=128 L_lambda_l=4 L_lambda_s=32 sigma=0.0009 / "
     "&solids R=Infinity,Infinity / &run realizations=3 /"
     "&indentation boundary='periodic' control='pressure' unit='relative' levels=0.001,0.004,0.01 /",
-    "study": SURFACE
+    "study": OF_PAPER
+    + SURFACE
     + BALL
     + (
         "&indentation start=2.0 stop=0.5 steps=4 / &study surface%sigma=5.0,10.0,20.0 "
         "surface%hurst=0.5,0.8 /"
     ),
-    "laws": SURFACE
+    "laws": BY_ASPERITIES
+    + SURFACE
     + BALL
     + (
         "&indentation levels=1.0,0.5 / &study asperities%law='hertz','fourth_order' "
@@ -97,12 +105,14 @@ CASES = {
         "&solids hardness=1.5e4 / &indenter shape='cone' slope=0.05 / &indentation "
         "control='force' levels=0.1,1,10,1 /"
     ),
-    "creep": SMALL
+    "creep": OF_PAPER
+    + SMALL
     + (
         "&solids relaxation_share=0.5 relaxation_time=1.0 / &indentation control='force' "
         "levels=1,1,1,1 times=0,1,10,100 /"
     ),
-    "keys": SMALL
+    "keys": BY_ASPERITIES
+    + SMALL
     + (
         "&indentation levels=1.0 / &study surface%sigma=0.01,0.02,0.03 surface%hurst=0.5,0.8 "
         "asperities%law='hertz','elliptic' /"
