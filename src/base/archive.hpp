@@ -81,7 +81,7 @@ private:
         char some = 0;
         get(some);
         value.reset();
-        if (some != 0) get(value.emplace());
+        if (some != 0) get(value.emplace(T()));
     }
     template <class T>
     void get(std::vector<T>& values) {

@@ -41,8 +41,9 @@ test_cases() {
 test_first() {
     draws || exit 77
     rm rsc
-    mkdir -p output/plot
+    mkdir -p output/plot modules/rsc
     cp "$project"/output/plot/*.py output/plot/
+    cp "$project"/modules/rsc/_sound.py modules/rsc/
     cat > input/setup.sh << END
 #!/bin/sh
 [ "\$(pwd)" = "$(pwd)" ] || exit 1
