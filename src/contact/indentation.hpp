@@ -135,8 +135,8 @@ struct SurfaceFacts {
     // errors are larger.
     bool measured = false;
     std::shared_ptr<const MapMarks> marks = nullptr;  // marks of a measured map, or null
-    // Of a list of asperities, what law 'fourth_order' amounts to with what is given of them: spheres
-    // (hertz) where only radii are known, and without the biharmonic elliptic.
+    // Of a list of asperities, what law 'fourth_order' amounts to with what is given of them:
+    // spheres (hertz) where only radii are known, and without the biharmonic elliptic.
     LawKind richest_law = LawKind::fourth_order;
 };
 

@@ -74,8 +74,8 @@ struct LevelValues {
     // boundary elements: median pixels per contact, weighted by area
     double pixels_per_contact = kNotComputed;
     // boundary elements: sides of pixels on the borders of contacts over pixels under pressure (of
-    // two flats, or over those of the gap if these are fewer), 2.5 over the radius of a round contact
-    // in pixels; the errors of the grid depend on it
+    // two flats, or over those of the gap if these are fewer), 2.5 over the radius of a round
+    // contact in pixels; the errors of the grid depend on it
     double border_share = kNotComputed;
     // Expected relative errors of N and A, and under a prescribed force the error of Z0 [length]
     // (trust/judge.hpp).
@@ -127,8 +127,8 @@ struct LevelValues {
     double time = kNotComputed;         // time of the level, relaxing bodies [time]
     // Bodies that wear: sliding distance of the level [length]; volume and largest depth that are
     // worn off, rms height of the worn points without their form [length^3], [length]; change of N,
-    // or under a force of the depth of the separation below first touch, relative to these, when the
-    // steps of the distance are halved.
+    // or under a force of the depth of the separation below first touch, relative to these, when
+    // the steps of the distance are halved.
     double distance = kNotComputed;
     double worn_volume = kNotComputed, wear_depth_max = kNotComputed, worn_rms = kNotComputed;
     double sliding_error = kNotComputed;

@@ -221,11 +221,12 @@ Level Path::in_equal_steps(int steps, double from, double to, Reach reach) {
     return level;
 }
 
-// A step of sliding has two implicit stages (SDIRK2: Alexander, SIAM J. Numer. Anal. 14, 1977): it is
-// of second order, exact for the volume under a force that changes linearly, never adds material,
-// and damps at once the pressures that a step before left uneven. The number of steps is doubled
-// until N (under a force the depth below first touch), the area and the largest pressure change
-// by less than the accuracy. Where wear takes the force off, its change is relative to that before the level.
+// A step of sliding has two implicit stages (SDIRK2: Alexander, SIAM J. Numer. Anal. 14, 1977): it
+// is of second order, exact for the volume under a force that changes linearly, never adds
+// material, and damps at once the pressures that a step before left uneven. The number of steps is
+// doubled until N (under a force the depth below first touch), the area and the largest pressure
+// change by less than the accuracy. Where wear takes the force off, its change is relative to that
+// before the level.
 Level Path::in_sliding_steps(double from, double to, Reach reach, const State& before) {
     const double stage = 1 - 1 / std::numbers::sqrt2;
     const bool by_force = reach == &Path::to_force;

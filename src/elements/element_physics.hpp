@@ -16,8 +16,8 @@ public:
     // Depth by which a unit pressure lowers a point in this step, and for good [length/pressure].
     virtual double rate() const = 0;
     virtual double lasting_rate() const = 0;
-    // Adds the quantities of the lowered map, under this indenter, to an accepted level. `depths`: by
-    // which the points were lowered, of these `yielded` by yielding; empty: nowhere.
+    // Adds the quantities of the lowered map, under this indenter, to an accepted level. `depths`:
+    // by which the points were lowered, of these `yielded` by yielding; empty: nowhere.
     virtual void measure(Level& level, const HeightMap& map, const Indenter& indenter,
                          const std::vector<double>& depths,
                          const std::vector<double>& yielded) const = 0;

@@ -31,8 +31,8 @@ public:
     PeriodicElements(const Relief& relief, const Substrate& substrate, double highest);
 
     // Solves for a given mean pressure > 0, or a separation Z0 (from z = 0 to the flat; the mean of
-    // K p is 0). approach() throws Error(bad_input) at full contact, where Z0 does not determine the
-    // pressure.
+    // K p is 0). approach() throws Error(bad_input) at full contact, where Z0 does not determine
+    // the pressure.
     ElementsOutcome press(double mean_pressure, double tolerance, int most_iterations);
     ElementsOutcome approach(double Z0, double tolerance, int most_iterations);
 
@@ -69,8 +69,8 @@ public:
     double separation() const { return zero_ + Z0_ * rms_; }
     const std::vector<Pixel>& pixels() const { return pixels_; }  // under pressure, row by row
     const std::vector<double>& pressures() const { return pressures_; }  // of these pixels
-    // -d(mean pressure)/dZ0, not in full contact. For further loading, pixels at the highest pressure keep it; for
-    // unloading (`back`) they are elastic.
+    // -d(mean pressure)/dZ0, not in full contact. For further loading, pixels at the highest
+    // pressure keep it; for unloading (`back`) they are elastic.
     double stiffness(bool back);
     // p'Kp/2 per pixel, with an error of the order of the square of the residual.
     double energy() const;

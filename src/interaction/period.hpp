@@ -7,8 +7,9 @@ namespace rsc {
 
 struct Period {
     double x = kInfinity, y = kInfinity;  // [length]; Infinity: not periodic
-    // Of line contact: the distance from a uniform line load at which it lowers nothing [length]; 0:
-    // the side of the surface across the line. A line load on a half-space has no absolute approach.
+    // Of line contact: the distance from a uniform line load at which it lowers nothing [length];
+    // 0: the side of the surface across the line. A line load on a half-space has no absolute
+    // approach.
     double reference = 0;
 
     bool finite() const { return std::isfinite(x) && std::isfinite(y); }

@@ -140,8 +140,8 @@ double sigma_of(const Case& settings, const SurfaceDomain& domain);
 std::unique_ptr<Path> make_contact(const SurfaceModel& model, const Indenter& indenter,
                                    const SolverOptions& options);
 
-// The law of an asperity of a case on a surface: of a list of asperities, the part of 'fourth_order'
-// that what is given of them permits.
+// The law of an asperity of a case on a surface: of a list of asperities, the part of
+// 'fourth_order' that what is given of them permits.
 LawKind law_of(const Case& settings, const SurfaceFacts& surface);
 
 // The keys of &solver, &asperities and &indentation that a solver needs. Throws Error(bad_input) if

@@ -6,12 +6,13 @@
 namespace rsc {
 namespace {
 
-// Heights from a file may have waves as short as their grid; the error is that of a measurement twice
-// as fine.
+// Heights from a file may have waves as short as their grid; the error is that of a measurement
+// twice as fine.
 constexpr double kRead = 1.5;
 
-// Largest stresses, over border_share, at the surface; they fall with the depth in pixels. The tension
-// behind the edge of a sliding contact rises like the root of the distance, and so does its error.
+// Largest stresses, over border_share, at the surface; they fall with the depth in pixels. The
+// tension behind the edge of a sliding contact rises like the root of the distance, and so does its
+// error.
 constexpr double kMises = 0.14, kShear = 0.16, kTension = 0.05, kSlidingEdge = 0.5;
 
 // Elements, sharp punches on a plane: N differs from 2 a E* d by up to this share of the ratio of

@@ -1,10 +1,10 @@
 // Grid errors of elements.
 //
-// The error of a quantity grows with the share of border pixels of the contacts (border_share), with
-// a constant from the study of input/trust, which solves bodies of many kinds on grids four times
-// finer. A second solution on every second point was tried and given up: two grids often agree by
-// accident. Crests of straight ridges between the points, and the edges of punches, have errors of
-// their own.
+// The error of a quantity grows with the share of border pixels of the contacts (border_share),
+// with a constant from the study of input/trust, which solves bodies of many kinds on grids four
+// times finer. A second solution on every second point was tried and given up: two grids often
+// agree by accident. Crests of straight ridges between the points, and the edges of punches, have
+// errors of their own.
 #pragma once
 
 #include "contact/quantities.hpp"
@@ -24,8 +24,8 @@ struct PlaceOfTip {
 };
 
 // Expected relative error of a quantity from the resolution of the contacts; NaN where none was
-// calibrated, or there is no contact. `read`: the heights were measured, and may have waves as short
-// as their grid.
+// calibrated, or there is no contact. `read`: the heights were measured, and may have waves as
+// short as their grid.
 double error_of_resolution(const LevelQuantity& quantity, std::size_t component,
                            const LevelValues& level, bool read);
 

@@ -16,8 +16,8 @@ constexpr double kLongSteps = 0.01;
 // Asperities: largest slope_ratio. Above, the bodies touch beside the summits.
 constexpr double kSteepest = 0.2;
 
-// Largest slope that counts as small, of the surface (kSteep of run/remarks.cpp) and of the indenter
-// over the contacts alike.
+// Largest slope that counts as small, of the surface (kSteep of run/remarks.cpp) and of the
+// indenter over the contacts alike.
 constexpr double kSmallSlope = 0.5;
 
 // A larger share of the contact area on filled points is a doubt.
@@ -101,8 +101,8 @@ Doubt edges_of_adhesion(const Level& level, const Indenter& indenter, const Heig
     return doubt;
 }
 
-// The errors of the quantities of elements: by the resolution, by the steps of sliding, and the error
-// of N that other causes have.
+// The errors of the quantities of elements: by the resolution, by the steps of sliding, and the
+// error of N that other causes have.
 void state_errors(Level& level, std::span<const Doubt> doubts, bool read) {
     level.errors.fill(kNotComputed);
     double others = level.converged ? 0.0 : kNotComputed;

@@ -10,8 +10,8 @@
 
 namespace rsc {
 
-// A larger expected error of N of elements is a doubt. Under a prescribed force it is an error of the
-// separation.
+// A larger expected error of N of elements is a doubt. Under a prescribed force it is an error of
+// the separation.
 inline constexpr double kUnresolved = 0.03;
 
 // Mean curvature of a synthetic surface at points of unit height [1/length^2].

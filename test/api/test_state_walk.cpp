@@ -1,6 +1,6 @@
 // The state of a contact as a value: two twins go the same random way through the calls of rsc.h,
-// and one of them is again and again replaced by its copy, by what a file gives back, or rolled back
-// after trials. Both answer the same to the last bit, on bodies of every kind.
+// and one of them is again and again replaced by its copy, by what a file gives back, or rolled
+// back after trials. Both answer the same to the last bit, on bodies of every kind.
 #include "check.hpp"
 #include "support/library.hpp"
 #include "support/temporary_folder.hpp"

@@ -313,8 +313,8 @@ HeightMap uneven() {
     return map;
 }
 
-// What the certificate of a level says of its pressures, from these and the full matrix. Levels of a
-// loose tolerance, whose certificate is not rounding.
+// What the certificate of a level says of its pressures, from these and the full matrix. Levels of
+// a loose tolerance, whose certificate is not rounding.
 TEST(certificate) {
     HeightMap map = uneven();
     for (const bool repeats : {false, true})

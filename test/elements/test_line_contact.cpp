@@ -102,10 +102,10 @@ TEST(hertz_line) {
 }
 
 TEST(tiling_a_roller_along_its_axis_changes_nothing) {
-    // A half-width of 0.3 on a side of 2 across, with periods of 0.08, 0.16 and 0.32: contacts wider
-    // than the period, too, have one force at each separation, and values per length that do not
-    // depend on the period. Tolerance: images farther than the next are points, not pixels, an error of
-    // h^2/(24 d^2) at the distance d of two periods.
+    // A half-width of 0.3 on a side of 2 across, with periods of 0.08, 0.16 and 0.32: contacts
+    // wider than the period, too, have one force at each separation, and values per length that do
+    // not depend on the period. Tolerance: images farther than the next are points, not pixels, an
+    // error of h^2/(24 d^2) at the distance d of two periods.
     const double E = 1e5, R = 10, step = 0.01;
     std::array<std::vector<double>, 3> values;
     for (const int tiles : {1, 2, 4}) {

@@ -74,8 +74,8 @@ TEST(westergaard) {
             CHECK_RELATIVE(contact->energy(), work, 20.0 / (n * n));
             before = error;
         }
-        // In full contact the flat is at the mean plane, and the wave's energy is the elastic one of
-        // flattening it, E* k Delta^2/8 for each unit of area.
+        // In full contact the flat is at the mean plane, and the wave's energy is the elastic one
+        // of flattening it, E* k Delta^2/8 for each unit of area.
         for (const double share : {1.001, 7.0}) {
             CHECK_RELATIVE(closing(*contact, share * closed * map.Ly()), closed, 1e-8);
             CHECK_CLOSE(contact->level()->separation, 0, 1e-8 * Delta);

@@ -363,8 +363,8 @@ TEST(adhesion_that_flattens) {
     CHECK(accepted([&] { prepare(c); }));
     c.solids.adhesion = 1.1 * energy;
     REFUSED(prepare(c), "solids%adhesion");
-    // A soft layer that is thin compared with the waves takes hardly less energy than the body below:
-    // the bound does not apply to layers.
+    // A soft layer that is thin compared with the waves takes hardly less energy than the body
+    // below: the bound does not apply to layers.
     c.solids.adhesion = 0.9 * energy;
     c.solids.layer_nu = {c.solids.nu[0]};
     c.solids.layer_thickness = {1e-4};

@@ -139,8 +139,8 @@ TEST(pixels_of_contacts) {
 }
 
 // A ball narrower than a step of the grid may touch between the points, and one pressed as deep as
-// its radius is steep; neither is an answer without a doubt. A paraboloid's slope r/R, weighted with
-// Hertz's pressure, has the square 2 a^2/(5 R^2).
+// its radius is steep; neither is an answer without a doubt. A paraboloid's slope r/R, weighted
+// with Hertz's pressure, has the square 2 a^2/(5 R^2).
 TEST(narrow_and_steep) {
     const HeightMap map = flat_map(60, 60, 0.1, 0.1);
     const auto judged_at = [&](double R, double x0, double Z0) {

@@ -161,7 +161,8 @@ TEST(hardness) {
     }
 }
 
-// A force that falls by ten in one level: the pressures of the worn surface are those of many levels.
+// A force that falls by ten in one level: the pressures of the worn surface are those of many
+// levels.
 TEST(falling_force) {
     const Body flats = std::move(bodies()[2]);
     const auto one = path_of(flats), many = path_of(flats);
