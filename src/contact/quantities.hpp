@@ -45,9 +45,9 @@ struct LevelQuantity {
     const char* (*compute)(LevelSource&) = nullptr;
     Stage stage = Stage::solution;
     // Boundary elements: its expected relative error is error_factor border_share, for a sum over
-    // all contacts (error_averages), whose errors partly cancel, divided by the fourth root of their
-    // number; 0: none is stated. The factors are those of input/trust/resolution.py, rounded up. Of
-    // 91 levels of bodies that were not fitted, 81 to 100 % were within, by quantity.
+    // all contacts (error_averages), whose errors partly cancel, divided by the fourth root of
+    // their number; 0: none is stated. The factors are those of input/trust/resolution.py, rounded
+    // up. Of 91 levels of bodies that were not fitted, 81 to 100 % were within, by quantity.
     double error_factor = 0;
     bool error_averages = false;
     // Instead of this, the expected relative error of a component, from other values of the level.
