@@ -44,6 +44,34 @@ PICTURES = {
     "map": ["surface", "spots"],
 }
 ORDER = ["first", "paper", "gold", "compare", "elements", "stress", "coating", "lay", "flat"]
+# Sections of the theory, by what the names of keys contain.
+SECTIONS = {
+    "hardness": "Hardness",
+    "adhesion": "Adhesion",
+    "relaxation": "Relaxation",
+    "friction": "Friction",
+    "wear|distances": "Wear",
+    "flow": "Flow",
+    "stress|sliding_direction": "Stresses",
+    "layer": "Layers",
+    "resistivity": "Forces, stiffness and energy",
+    "boundary|line_reference": "Line contact",
+    "law": "Contact laws of an asperity",
+    "selection": "The system of equations",
+    "method|delta": "Newton's method",
+    "model": "Boundary elements",
+    "sigma|hurst|lambda|plateau|normalise|seed": "Spectrum",
+    "detrend|filter|missing|outliers": "Measured maps",
+    "indenter%": "Two bodies become one problem",
+    "map|radial|pdf": "What is read off a level",
+}
+STYLE = """\
+dl.key, dl.c, dl.py { margin-bottom: 1em; }
+dd > p { margin: 0.3em 0; }
+math { font-family: "STIX Two Math", "Latin Modern Math", "Cambria Math", "STIX Math",
+       "DejaVu Math TeX Gyre", math; }
+math[display="block"] { margin: 0.8em 0; overflow-x: auto; }
+"""
 
 
 def read(*names):
@@ -64,9 +92,8 @@ def indented(lines, by=4):
     return [(" " * by + line).rstrip() for line in lines]
 
 
-def readme(name):
-    """A README with links to the others in place of their names."""
-    path = [name] if name.isupper() else [name, "README"]
+def page(*path):
+    """A page of the project with links to the READMEs in place of their names."""
     lines = []
     for line in read(*path).split("\n"):
         if not line.startswith("    "):  # not in a literal block; links are as long as the names
@@ -144,15 +171,19 @@ def keys(program):
     lines = heading("Keys of a case", "=")
     lines += ["All keys with their defaults, types, units and bounds: ``rsc --describe``.", ""]
     told = subprocess.run([program, "--describe"], capture_output=True, text=True, check=True)
-    group = ""
+    group = theory = ""
     for line in told.stdout.splitlines():
         if line.startswith("&"):
             group, _, about = line[1:].partition(":")
             lines += ["", *heading(f"&{group}"), plain(about.strip()), ""]
         elif line.startswith("      "):
-            lines += ["   " + plain(line.strip()), ""]
+            lines += ["   " + plain(line.strip()) + theory, ""]
+            theory = ""
         elif line.strip():
-            lines += [f".. key:: {group}%{line.strip()}", ""]
+            key = f"{group}%{line.strip()}"
+            lines += [f".. key:: {key}", ""]
+            titles = [SECTIONS[s] for s in SECTIONS if re.search(s, key.split(" =")[0])]
+            theory = f"; theory: :ref:`theory:{titles[0]}`" if titles else ""
     return lines
 
 
@@ -245,20 +276,15 @@ def main():
     shutil.copy(os.path.join(HERE, "conf.py"), source)
     os.makedirs(os.path.join(source, "_static"))
     with open(os.path.join(source, "_static", "manual.css"), "w", encoding="utf-8") as out:
-        out.write("dl.key, dl.c, dl.py { margin-bottom: 1em; } dd > p { margin: 0.3em 0; }\n")
-    pages = {name: readme(name) for name in READMES}
+        out.write(STYLE)
+    pages = {name: page(*([name] if name.isupper() else [name, "README"])) for name in READMES}
+    pages["theory"] = page("src", "THEORY.rst")
     pages["gallery"] = gallery(program, results, source)
     pages["keys"] = keys(program)
-    # The equations are a section of src/README.
-    first = pages["src"].index("The equations and their sources")
-    last = pages["src"].index("To add")
-    equations = pages["src"][first + 2 : last]
-    pages["equations"] = heading("Equations and their sources", "=") + equations
-    del pages["src"][first:last]
     pages["c"] = c_interface()
     pages["python"] = python(os.path.join(os.path.dirname(program), "librsc.so"))
     # README is the first page, with a picture above its first command.
-    order = "gallery input keys output equations python modules c src test CHANGELOG"
+    order = "gallery input keys output theory python modules c src test CHANGELOG"
     order = [name for name in order.split() if pages[name]]
     first = pages.pop("README")
     picture = "first_spots.png"

@@ -1,5 +1,5 @@
 // Deflections of an elastic half-space by uniform pressures on the pixels of a grid, w = K p
-// (physics: Johnson 1985, section 3.4).
+// (Johnson 1985, section 3.4).
 #pragma once
 
 #include "elements/sparse_plane.hpp"

@@ -142,7 +142,7 @@ endif()
 file(GLOB doc ${prefix}/share/doc/*)
 foreach(name README CHANGELOG LICENSE input/README input/first.nml input/map/map.sdf
         input/map/map.gwy modules/README output/README src/README
-        test/README example/fixed.f)
+        src/THEORY.rst test/README example/fixed.f)
   if(NOT EXISTS ${doc}/${name})
     message(FATAL_ERROR "${name} is not installed")
   endif()

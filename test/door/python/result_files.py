@@ -1,5 +1,5 @@
 """A folder for each test, and small result files with numbers of one's own, named and shaped as
-rsc's (interface.md)."""
+those of rsc."""
 import os
 import tempfile
 import unittest

@@ -110,7 +110,8 @@ class Readme(unittest.TestCase):
     def test_pages(self):
         """Every page is reStructuredText without errors, no line longer than 80 columns."""
         pages = glob.glob(os.path.join(PROJECT, "*", "README"))
-        for page in [*pages, *(os.path.join(PROJECT, p) for p in ("README", "CHANGELOG"))]:
+        others = ("README", "CHANGELOG", "src/THEORY.rst")
+        for page in [*pages, *(os.path.join(PROJECT, p) for p in others)]:
             text = read(page)
             self.assertEqual([line for line in text.splitlines() if len(line) > 80], [], page)
             if docutils:
@@ -119,14 +120,43 @@ class Readme(unittest.TestCase):
                 docutils.core.publish_doctree(text, settings_overrides=settings)
                 self.assertEqual(told.getvalue(), "", page)
 
-    def test_files(self):
-        """Every file that src/README names exists."""
-        rooms = "|".join(d for d in os.listdir(os.path.join(PROJECT, "src")) if "." not in d)
-        names = re.findall(rf"(?<![\w/])((?:{rooms})/[a-z_0-9/]+)(?![\w/])", read("src", "README"))
-        self.assertGreater(len(names), 60)
-        gone = [
-            n for n in names if not glob.glob(os.path.join(PROJECT, "src", n.rstrip("/")) + "*")
+    def test_names(self):
+        """Every file that src/README, src/THEORY.rst or a comment names exists, and every section
+        of src/THEORY.rst."""
+        tops = ("src", "test", "modules", "input/trust", "output/plot", "output/export")
+        files = [
+            os.path.relpath(os.path.join(folder, name), PROJECT)
+            for top in tops
+            for folder, _, names in os.walk(os.path.join(PROJECT, top))
+            for name in names
         ]
+        known = {*files, *map(os.path.basename, files)}
+        for file in files:
+            parts = os.path.splitext(file)[0].split("/")
+            known.update("/".join(parts[:k]) for k in range(1, len(parts) + 1))
+        theory = read("src", "THEORY.rst").split("\n")
+        titles = {a for a, b in zip(theory, theory[1:]) if b in ("-" * len(a), "~" * len(a))}
+        rooms = "|".join(d for d in os.listdir(os.path.join(PROJECT, "src")) if "." not in d)
+        name = re.compile(
+            rf"(?<![\w/.-])((?:(?:{rooms}|truth)/[a-z_0-9/]+(?:\.[a-z0-9]+)?)"
+            r"|[a-z_0-9/]+\.(?:hpp|cpp|inl|py|cmake|rst|md))(?![\w/*])"
+        )
+        said, gone = 0, []
+        signs = {".hpp": "//", ".cpp": "//", ".inl": "//", ".py": "#"}
+        for file in files:
+            sign = signs.get(os.path.splitext(file)[1])
+            text = read(file) if sign or file in ("src/README", "src/THEORY.rst") else ""
+            if sign:
+                comments = re.findall(rf"{sign} ?([^\n]*)|\"\"\"(.*?)\"\"\"", text, re.S)
+                text = " ".join(map("".join, comments))
+            for word in name.findall(text):
+                places = ["", "src/", "test/", "modules/", os.path.dirname(file) + "/"]
+                said += 1
+                if not any(place + word.rstrip("/") in known for place in places):
+                    gone.append(f"{file}: {word}")
+            sections = re.findall(r"THEORY\.rst, ([A-Z][\w' -]*[a-z])", text)
+            gone += [f"{file}: section {s}" for s in sections if s not in titles]
+        self.assertGreater(said, 200)
         self.assertEqual(gone, [])
 
     def test_commands(self):

@@ -73,7 +73,7 @@ inline void separations(CheckedFile& f, const Truth& t) {
         CHECK_RELATIVE(N[i], asked[i % t.steps], 10 * t.c.solver.tolerance);
 }
 
-// What yielding of paraboloids leaves (physics.md, section 10).
+// What yielding of paraboloids leaves (THEORY.rst, Hardness).
 struct Pressed {
     double rest = 0, lost = 0;
 };

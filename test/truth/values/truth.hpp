@@ -128,7 +128,7 @@ struct Grid {
     }
 };
 
-// Closed forms of physics.md, section 2.
+// Closed forms (THEORY.rst, Moments).
 inline Moments4 closed_forms(const Case& c) {
     const auto& s = c.surface;
     const double L = s.L.value_or(1.0), kl = 2 * pi * s.L_lambda_l / L,
