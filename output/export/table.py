@@ -1,18 +1,21 @@
 #!/usr/bin/env python3
-"""A table of loads from result files of rsc: force, area, separation, stiffness, resistance and
-contacts, with their errors.
+"""A table of loads from result files of rsc: what the case computed at each level, with the
+expected errors.
 
     table.py RESULT.nc                 every level: Markdown on a terminal, otherwise CSV
     table.py RESULT.nc --at 1,10,100   at these forces (pressures of two flats), in its unit
     table.py RESULT.nc --at 0.01 --by separation
+    table.py RESULT.nc --columns force,pressure_max,mises_max
     table.py STUDY_manifest.nc --at 1  a row for every member and load
 
 Values are means over the realizations that converged; *_stderr is the standard error of the mean,
-the standard deviation over sqrt(number); *_expected_error is the expected relative error of the
-model, if the file has it. Over several realizations permeability and hydraulic_gap are geometric
-means, exp(mean of ln), of those whose gap is open, percolates is the share of these, and
-*_ln_stderr the standard error of the mean of ln. Needs numpy and netCDF4 (Debian: python3-numpy
-python3-netcdf4)."""
+the standard deviation over sqrt(number); *_error_expected is the expected error of the model if
+the file has it, relative to the value (that of separation: a length). normal_stiffness is
+-dN/dZ0 >= 0. Of stresses the depth where they are largest is
+shown, with --columns every depth. Over several realizations permeability and
+hydraulic_gap are geometric means, exp(mean of ln), of those whose gap is open, percolates is the
+share of these, and *_ln_stderr the standard error of the mean of ln. Needs numpy and netCDF4
+(Debian: python3-numpy python3-netcdf4)."""
 
 import argparse
 import csv
@@ -31,24 +34,46 @@ import numpy as np  # noqa: E402
 
 DOUBTS, NOT_CONVERGED = 1, 4  # of the variable status
 GRAVITY = np.array([0, 3, 1, 2, 4])  # out of validity overrides overlapping and not unique
+# What is shown of a file that has it, in this order; the first is the load if it is there.
 COLUMNS = [
     "pressure",
     "force",
+    "force_per_length",
     "contact_area",
     "area_fraction",
     "separation",
-    "stiffness",
-    "resistance",
+    "time",
+    "distance",
+    "normal_stiffness",
+    "pressure_max",
     "contacts",
     "gap_mean",
+    "conductance_length",
+    "resistance",
     "percolates",
     "permeability",
     "hydraulic_gap",
+    "leak_rate",
+    "plastic_contacts",
+    "plastic_area",
+    "plastic_work",
+    "least_force",
+    "energy_lost",
+    "worn_volume",
+    "wear_depth_max",
+    "worn_rms",
+    "tangential_stiffness",
+    "cycle_work",
+    "mises_max",
+    "shear_max",
+    "tension_max",
 ]
+NEGATED = {"normal_stiffness": "stiffness"}  # columns that are minus a variable
 GEOMETRIC = "permeability", "hydraulic_gap"
 OPEN = "percolates", *GEOMETRIC
 AXES = "_x", "_y"  # of the columns of a vector, or of the first two components of a tensor
-EXPECTED = {"force": "force_error_expected", "contact_area": "area_error_expected"}
+EXPECTED = "_error_expected"
+DERIVED = EXPECTED, "_mean", "_std", "_stderr", "_count"  # variables that belong to another one
 
 
 class Refused(Exception):
@@ -59,7 +84,7 @@ class Table:
     """columns: {name: values over the levels}; units: {name: unit}; load: the column of --at;
     status: the most serious of each level."""
 
-    def __init__(self, path):
+    def __init__(self, path, names=None):
         self.path = path
         with open_result(path) as file:
             variables = file.variables
@@ -75,33 +100,61 @@ class Table:
             good = status != NOT_CONVERGED
             self.status = np.take_along_axis(status, GRAVITY[status].argmax(axis=0)[None], 0)[0]
             self.columns, self.units = {}, {}
-            for name in COLUMNS:
-                if name not in variables:
-                    continue
-                every = _numbers(variables[name])
-                vector = every.ndim == 3
-                for part, axis in enumerate(AXES if vector else ("",)):
-                    values, many = self._values(every[..., part] if vector else every, good)
-                    if not np.isfinite(values).any():
-                        continue
-                    unit = getattr(variables[name], "units", "1")
-                    if many and name in GEOMETRIC:
-                        mean, stderr = _mean(np.log(np.where(values > 0, values, np.nan)))
-                        self._add(name + axis, np.where(np.isfinite(mean), np.exp(mean), 0), unit)
-                        self._add(name + axis + "_ln_stderr", stderr, "1")
-                        continue
-                    mean, stderr = _mean(values)
-                    self._add(name + axis, mean, unit)
-                    if many and (stderr > 1e-9 * abs(mean)).any():  # not a prescribed load
-                        self._add(name + axis + "_stderr", stderr, unit)
-                if EXPECTED.get(name) in variables:
-                    self._add(
-                        name + "_expected_error",
-                        _mean(self._values(_numbers(variables[EXPECTED[name]]), good)[0])[0],
-                        "1",
+            load = "pressure" if "pressure" in variables else "force"
+            for name in dict.fromkeys([load, "separation", *names] if names else COLUMNS):
+                variable = NEGATED.get(name, name)
+                if variable in variables and "step" in variables[variable].dimensions:
+                    self._read(file, name, variables[variable], good, bool(names))
+                elif names:
+                    raise Refused(
+                        f"--columns: {path!r} has no {name!r} of its levels; it has "
+                        + ", ".join(_of_levels(variables))
                     )
         self.words = [self._words([k]) for k in range(self.status.size)]
         self.load = "pressure" if "pressure" in self.columns else "force"
+
+    def _read(self, file, name, variable, good, every_depth):
+        """Adds the columns of a variable, one for each component, with their errors; of depths all
+        or the one where the mean is largest."""
+        sign = -1.0 if name in NEGATED else 1.0
+        unit = getattr(variable, "units", "1")
+        errors = [file.variables[n] for n in getattr(variable, "ancillary_variables", "").split()]
+        last = variable.dimensions[-1]
+        if last == "step":
+            parts = {"": ...}
+        elif last == "depth":
+            depths = np.atleast_1d(_numbers(file.variables["depth"]))
+            parts = {f"_at_{z:.4g}": (..., k) for k, z in enumerate(depths)}
+            if not every_depth:
+                parts, largest = self._largest(_numbers(variable), good)
+                self._add(name + "_depth", depths[largest], file.variables["depth"].units)
+        else:
+            parts = {axis: (..., k) for k, axis in enumerate(AXES)}
+        for suffix, part in parts.items():
+            values, many = self._values(sign * _numbers(variable)[part], good)
+            if not np.isfinite(values).any():
+                continue
+            column = name + suffix
+            if many and name in GEOMETRIC:
+                mean, stderr = _mean(np.log(np.where(values > 0, values, np.nan)))
+                self._add(column, np.where(np.isfinite(mean), np.exp(mean), 0), unit)
+                self._add(column + "_ln_stderr", stderr, "1")
+            else:
+                mean, stderr = _mean(values)
+                self._add(column, mean, unit)
+                if many and (stderr > 1e-9 * abs(mean)).any():  # not a prescribed load
+                    self._add(column + "_stderr", stderr, unit)
+            for error in errors:
+                of_part = part if error.ndim == variable.ndim else ...
+                expected = _mean(self._values(_numbers(error)[of_part], good)[0])[0]
+                if np.isfinite(expected).any():
+                    self._add(column + EXPECTED, expected, getattr(error, "units", "1"))
+
+    def _largest(self, every, good):
+        """({"": index of the depth of each level where the mean is largest}, these depths)."""
+        means = [_mean(self._values(values, good)[0])[0] for values in np.moveaxis(every, -1, 0)]
+        largest = np.argmax(np.nan_to_num(means, nan=-np.inf), axis=0)
+        return {"": (..., np.arange(largest.size), largest)}, largest
 
     def _words(self, levels):
         """The most serious status of some levels in words; that of doubts names them."""
@@ -191,6 +244,17 @@ def _doubts(variable):
     return [(name.replace("_", " "), bits & mask > 0) for name, mask in zip(names, masks)]
 
 
+def _of_levels(variables):
+    """Names of the variables with a value, a vector or depths at each level."""
+    return [
+        name
+        for name, variable in variables.items()
+        if "step" in variable.dimensions[-2:]
+        and variable.dimensions[-1] in ("step", "component", "tensor_component", "depth")
+        and not name.endswith(DERIVED)
+    ]
+
+
 def _numbers(variable):
     """The values of a variable, NaN where they are missing."""
     return np.ma.filled(np.ma.asarray(variable[:]).astype(float), np.nan)
@@ -237,15 +301,15 @@ def members(path):
         ]
 
 
-def rows(paths, at=None, by=None):
+def rows(paths, at=None, by=None, names=None):
     """(header, rows of texts) of the files, with studies replaced by their members; the first
-    column is the file if there are several."""
+    column is the file if there are several; names: the columns, by default COLUMNS."""
     found = []
     for path in paths:
         found += members(path) or [(path, {})]
     header, lines = {}, []
     for path, keys in found:
-        table = Table(path)
+        table = Table(path, names)
         columns, words = table.at(at, by) if at else (table.columns, table.words)
         fixed = ({"file": os.path.basename(path)} if len(found) > 1 else {}) | keys
         names = {
@@ -268,7 +332,25 @@ def rows(paths, at=None, by=None):
     return header, [[line.get(name, "") for name in header] for line in lines]
 
 
+def with_errors(header, lines):
+    """The same with each expected error in the column of its value, as in "1.23 +- 4 %"."""
+    place = {name.split(" [")[0]: k for k, name in enumerate(header)}
+    error_of = {place[name[: -len(EXPECTED)]]: k for name, k in place.items() if EXPECTED in name}
+
+    def cell(line, k):
+        error = line[error_of[k]] if k in error_of else ""
+        if not error or not line[k]:
+            return line[k]
+        relative = header[error_of[k]].endswith(EXPECTED)
+        return f"{line[k]} +- " + (f"{100 * float(error):.2g} %" if relative else f"{float(error):.2g}")
+
+    shown = [k for k in range(len(header)) if k not in error_of.values()]
+    return [header[k] for k in shown], [[cell(line, k) for k in shown] for line in lines]
+
+
 def markdown(header, lines):
+    """The text of a table whose values have their errors beside them."""
+    header, lines = with_errors(header, lines)
     widths = [max(map(len, column)) for column in zip(header, *lines)]
     return (
         "\n".join(
@@ -312,6 +394,13 @@ def main(words=None):
         help="quantity of --at (default: force, for two flats pressure)",
     )
     parser.add_argument(
+        "--columns",
+        type=lambda text: text.split(","),
+        metavar="NAME,NAME,...",
+        help="variables of the levels to show (default: what answers the case); of stiffness also "
+        "normal_stiffness, its negative",
+    )
+    parser.add_argument(
         "--format",
         choices=["csv", "markdown"],
         help="default: markdown on a terminal, csv elsewhere",
@@ -324,7 +413,9 @@ def main(words=None):
     )
     arguments = parser.parse_args(words)
     try:
-        header, lines = rows(arguments.result, arguments.at, arguments.by)
+        header, lines = rows(
+            arguments.result, arguments.at, arguments.by, arguments.columns
+        )
         kind = arguments.format or (
             "markdown"
             if (arguments.output or "").endswith(".md")

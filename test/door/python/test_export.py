@@ -28,7 +28,8 @@ from result_files import InFolder, write_result  # noqa: E402
 
 FORCE = np.array([1.0, 4.0, 20.0, 100.0])
 MEANINGS = {
-    ("status", "flag_meanings"): "converged out_of_validity overlapping not_unique not_converged"
+    ("status", "flag_meanings"): "converged out_of_validity overlapping not_unique not_converged",
+    ("force", "ancillary_variables"): "force_error_expected",
 }
 
 
@@ -155,6 +156,33 @@ class Tables(InFolder):
             rtol=1e-12,
         )
 
+    def test_depths_and_errors(self):
+        """The largest stress over the depths with the error that belongs to this depth; by name
+        all depths; the stiffness of the force against the separation with its sign turned."""
+        mises = np.array([[[1.0, 5.0, 2.0], [7.0, 3.0, 4.0], [1.0, 2.0, 8.0], [0.0, 6.0, 1.0]]])
+        path = result(self.folder, "depths")
+        with netCDF4.Dataset(path, "a") as file:
+            file.createDimension("depth", 3)
+            file.createVariable("depth", "f8", "depth")[:] = [0.1, 0.2, 0.4]
+            file["depth"].units = "mm"
+            dimensions = "realization", "step", "depth"
+            file.createVariable("mises_max", "f8", dimensions)[:] = mises
+            file["mises_max"].ancillary_variables = "mises_max_error_expected"
+            file.createVariable("mises_max_error_expected", "f8", dimensions)[:] = mises / 100
+            file.createVariable("stiffness", "f8", dimensions[:2])[:] = -mises[:, :, 0]
+        columns = table.Table(path).columns
+        np.testing.assert_array_equal(columns["mises_max"], [5, 7, 8, 6])
+        np.testing.assert_array_equal(columns["mises_max_depth"], [0.2, 0.1, 0.4, 0.2])
+        np.testing.assert_array_equal(
+            columns["mises_max_error_expected"], columns["mises_max"] / 100
+        )
+        np.testing.assert_array_equal(columns["normal_stiffness"], mises[0, :, 0])
+        columns = table.Table(path, ["mises_max"]).columns
+        self.assertEqual(list(columns)[:3], ["force", "force_error_expected", "separation"])
+        np.testing.assert_array_equal(columns["mises_max_at_0.4"], mises[0, :, 2])
+        with self.assertRaisesRegex(table.Refused, "no 'leak'.*it has force, .*mises_max"):
+            table.Table(path, ["leak"])
+
     def test_what_is_printed(self):
         said = io.StringIO()
         with contextlib.redirect_stdout(said):
@@ -174,7 +202,7 @@ class Tables(InFolder):
                 (
                     line["file"],
                     float(line["force [N]"]),
-                    float(line["force_expected_error"]),
+                    float(line["force_error_expected"]),
                     line["status"],
                 )
                 for line in lines
@@ -186,6 +214,11 @@ class Tables(InFolder):
             ],
         )
         self.assertEqual(table.markdown(["a", "b"], [["1", "22"]]).splitlines()[2], "| 1 | 22 |")
+        header = ["x [mm]", "x_error_expected", "y", "y_error_expected [mm]"]
+        self.assertEqual(
+            table.markdown(header, [["2", "0.05", "3", "0.25"]]).splitlines()[2],
+            "| 2 +- 5 % | 3 +- 0.25 |",
+        )
 
 
 class Damage(InFolder):
