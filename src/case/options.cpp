@@ -162,6 +162,7 @@ std::string usage_text() {
            "      --case FILE.nc               print the case inside a result file\n"
            "      --describe [group[%key]]     describe keys: type, unit, default, bounds,\n"
            "                                   meaning\n"
+           "      --describe WORD              keys and results whose name or meaning has it\n"
            "      --list                       list the members of a &study\n"
            "      --member K                   run only member K of a &study\n"
            "      --resume                     resume an interrupted campaign, or add\n"

@@ -4,6 +4,7 @@
 #include "base/version.h"
 #include "case/options.hpp"
 #include "case/registry.hpp"
+#include "contact/quantities.hpp"
 
 namespace rsc {
 namespace {
@@ -46,6 +47,32 @@ void describe_group(std::ostream& out, std::string_view group) {
     }
 }
 
+// Whether a word occurs in one of two texts, without regard to case.
+bool mentions(std::string_view word, const char* name, const char* meaning) {
+    const std::string text = std::string(name) + "\n" + meaning;
+    return namelist::lower_case(text).find(word) != std::string::npos;
+}
+
+// The keys and the quantities of a level whose name or meaning has a word; "" if there are none.
+std::string search(const std::string& word) {
+    std::ostringstream out;
+    const char* group = "";
+    for (const Key& key : registry()) {
+        if (!mentions(word, key.name, key.meaning)) continue;
+        if (std::string_view(group) != key.group) out << "&" << key.group << "\n";
+        group = key.group;
+        describe_key(out, key);
+    }
+    bool first = true;
+    for (const LevelQuantity& quantity : level_quantities()) {
+        if (!mentions(word, quantity.name, quantity.meaning)) continue;
+        out << (first ? "variables of results\n" : "");
+        first = false;
+        out << "  " << quantity.name << "\n      " << quantity.meaning << "\n";
+    }
+    return out.str();
+}
+
 }  // namespace
 
 Case without_idle_keys(const Case& settings) {
@@ -85,6 +112,9 @@ std::string describe(std::string_view name) {
     }
     if (const std::string group = namelist::lower_case(name); group_meaning(group)) {
         describe_group(out, group);
+    } else if (const std::string found = search(group);
+               name.find('%') == name.npos && !found.empty()) {
+        return found;
     } else {
         const Key& key = key_of(name);
         out << "&" << key.group << "\n";

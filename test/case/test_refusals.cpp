@@ -125,8 +125,8 @@ TEST(by_name) {
     refused([&] { get_key(c, "run%seed(1)"); }, "no array");
     refused([&] { get_key(c, "solids%R(3)"); }, "1 to 2");
     refused([&] { get_key(c, "solids%X"); }, "unknown key 'X'");
-    refused([&] { describe("surfac"); }, "did you mean 'surface'");
-    refused([&] { describe("levels"); }, "indentation%levels or compare%levels");
+    refused([&] { describe("surfce"); }, "did you mean 'surface'");
+    refused([&] { describe("surface%levels"); }, "indentation%levels or compare%levels");
     c = {};
     c.output.pdf_levels.clear();
     c.run.title = "ends with a blank ";

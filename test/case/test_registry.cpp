@@ -26,6 +26,10 @@ TEST(texts) {
     }
     CHECK(version_text() == "rsc " RSC_VERSION "\n" &&
           page.find("\"rsc " RSC_VERSION "\"") != std::string::npos);
+    // A word: what has it in its name or meaning, in either case, and nothing else.
+    const std::string wear = describe("WORN"), levels = describe("pdf_levels");
+    CHECK(wear.find("worn_volume") != wear.npos && wear.find("hurst") == wear.npos);
+    CHECK(levels.starts_with("&output\n") && levels.find("pdf_bins") == levels.npos);
     for (const char* option : {"--check", "--describe", "--merge", "--resume", "--set", "--output"})
         CHECK(usage_text().find(option) != std::string::npos &&
               page.find(std::string(option).substr(2)) != std::string::npos);
