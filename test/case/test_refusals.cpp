@@ -126,7 +126,7 @@ TEST(by_name) {
     refused([&] { get_key(c, "solids%R(3)"); }, "1 to 2");
     refused([&] { get_key(c, "solids%X"); }, "unknown key 'X'");
     refused([&] { describe("surfce"); }, "did you mean 'surface'");
-    refused([&] { describe("surface%levels"); }, "indentation%levels or compare%levels");
+    refused([&] { get_key(c, "levels"); }, "indentation%levels or compare%levels");
     c = {};
     c.output.pdf_levels.clear();
     c.run.title = "ends with a blank ";
