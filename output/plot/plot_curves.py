@@ -244,7 +244,9 @@ def load(results, options):
     return page.finish(title(results, f"{what} and contacts against approach"))
 
 
-def _against_force(results, options, name, sign, text, what, theory=None):
+def _against_load(results, options, name, sign, text, what, theory=None):
+    """sign times a variable against the force; of two flats, both per nominal area. theory(axis,
+    result) draws the line of a single result, or of several with the same smooth body."""
     results = [
         r
         for r in results
@@ -254,35 +256,56 @@ def _against_force(results, options, name, sign, text, what, theory=None):
         return None
     page, looks = begin(results, options)
     axis = page.axes[0]
-    for which, values, by in (("x", "force", 1), ("y", name, sign)):
-        decades = _many_decades([by * r.mean(values)[r.carrying()] for r in results])
-        getattr(axis, f"set_{which}scale")("log" if decades else "linear")
+    flat = all("pressure" in r for r in results) and name == "stiffness"
+    load, load_text = ("pressure", "nominal pressure $p$") if flat else ("force", "force $N$")
+    dimension = "N m-3" if flat else results[0].dimension(name)
+    values = [sign * r.mean(name) / (r.mean("nominal_area") if flat else 1) for r in results]
+    for which, drawn in (
+        ("x", [r.mean(load)[r.carrying()] for r in results]),
+        ("y", [y[r.carrying()] for r, y in zip(results, values)]),
+    ):
+        getattr(axis, f"set_{which}scale")("log" if _many_decades(drawn) else "linear")
     alone = len(results) == 1
-    for result, look in zip(results, looks):
-        y = sign * result.mean(name)
-        curve(page, axis, result, look, result.mean("force"), y, name, "force", alone)
-    if theory and alone:
-        theory(axis, results[0])
-    label(axis, "x", "force $N$", results[0].dimension("force"))
-    label(axis, "y", text, results[0].dimension(name))
-    return page.finish(title(results, what))
+    for result, look, y in zip(results, looks, values):
+        curve(page, axis, result, look, result.mean(load), y, name, load, alone)
+    if theory:
+        theory(axis, results)
+    label(axis, "x", load_text, results[0].dimension(load))
+    label(axis, "y", text + (" per area" if flat else ""), dimension)
+    return page.finish(title(results, what.replace("force", "pressure") if flat else what))
+
+
+def _smooth_stiffness(axis, results):
+    """2 E* a of the smooth indenter, if it is the same for all results."""
+    bodies = {(float(r["e_star"]), r.shape(), float(r["r_star"])) for r in results if r.has_sphere()}
+    if len(bodies) != 1 or not all(r.has_sphere() for r in results):
+        return
+    force = np.concatenate([r.mean("force")[r.loaded()] for r in results])
+    area = np.concatenate([r["area_hertz"][r.loaded()] for r in results])
+    order = np.argsort(force)
+    y = 2 * float(results[0]["e_star"]) * np.sqrt(area[order] / np.pi)
+    axis.plot(force[order], y, ":", color=GREY, lw=1.0, label=results[0].smooth())
 
 
 def stiffness(results, options):
-    """Normal stiffness against force."""
-    return _against_force(
+    """Normal stiffness against force, that of two flats per area against pressure."""
+    return _against_load(
         results,
         options,
         "stiffness",
         -1,
         r"stiffness $-\mathrm{d}N/\mathrm{d}Z_0$",
         "Stiffness against force",
+        _smooth_stiffness,
     )
 
 
-def _holm(axis, result):
-    """Holm's constriction rho/(2 a) of a single round spot of the true area, of that of the smooth
+def _holm(axis, results):
+    """Of a single result, Holm's constriction rho/(2 a) of a single round spot of the true area, of that of the smooth
     indenter, and of the area N/H of bodies that yield."""
+    if len(results) > 1:
+        return
+    result = results[0]
     at = result.loaded()
     at = at[np.argsort(result.mean("force")[at])]
     force = result.mean("force")[at]
@@ -300,7 +323,7 @@ def _holm(axis, result):
 
 def resistance(results, options):
     """Constriction resistance against force, if resistivities are given."""
-    return _against_force(
+    return _against_load(
         results,
         options,
         "resistance",

@@ -66,6 +66,7 @@ _SHOWN = {
     "N m": [(1e-9, "nJ"), (1e-6, "µJ"), (1e-3, "mJ"), (1.0, "J"), (1e3, "kJ")],
     "N m-1": [(1.0, "N/m"), (1e3, "N/mm"), (1e6, "N/µm"), (1e9, "kN/µm")],
     "N m-2": [(1.0, "Pa"), (1e3, "kPa"), (1e6, "MPa"), (1e9, "GPa")],
+    "N m-3": [(1e9, "MPa/mm"), (1e12, "MPa/µm"), (1e15, "GPa/µm"), (1e18, "GPa/nm")],
     "N-1 m2": [(1e-9, "1/GPa"), (1e-6, "1/MPa"), (1e-3, "1/kPa"), (1.0, "1/Pa")],
     # A case does not specify electrical or thermal resistivities.
     "ohm": [

@@ -323,9 +323,11 @@ class Numbers(Drawn):
                         / v["force"].mean(axis=0)[at],
                     )
                 )
-            self.has_curve(
-                self.figure("stiffness", name), force[at], -v["stiffness"].mean(axis=0)[at]
-            )
+            figure = self.figure("stiffness", name)
+            self.has_curve(figure, force[at], -v["stiffness"].mean(axis=0)[at])
+            # Hertz's ball: 2 E* a, a^3 = 3 N R/(4 E*).
+            E, R, N = float(v["e_star"]), float(v["r_star"]), np.sort(force[at])
+            self.has_curve(figure, N, 2 * E * (0.75 * N * R / E) ** (1 / 3))
         # R = (rho_1 + rho_2)/L by the electrical analogy.
         v, _ = raw("one")
         at = np.flatnonzero(v["force"][0] > 0)
