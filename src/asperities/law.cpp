@@ -40,9 +40,9 @@ public:
         return {slope * u, slope, 0.5 * slope * u * u};
     }
     double widening(int, double u) const override { return 0.5 / u; }
+    // f/A = 4 E*/(3 pi) sqrt(u/r)
     double yield_penetration(int asperity, double pressure) const override {
-        const double root =
-            0.75 * std::numbers::pi * pressure / E_star_;  // f/A = 4 E*/(3 pi) sqrt(u/r)
+        const double root = 0.75 * std::numbers::pi * pressure / E_star_;
         return root * root * radius_[at(asperity)];
     }
 

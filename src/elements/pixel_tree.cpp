@@ -25,8 +25,8 @@ struct Generation {
     // around the bounding rectangle, so that boxes there can be looked up
     static constexpr int kMargin = 3;
     int x0 = 0, y0 = 0, nx = 0, ny = 0;  // bounding rectangle in units of boxes
-    std::vector<int>
-        index;  // index of the box at each position of the rectangle with its margin, -1: none
+    // index of the box at each position of the rectangle with its margin, -1: none
+    std::vector<int> index;
     std::vector<Box> boxes;
     std::vector<int> parent;          // in the next generation
     std::vector<std::size_t> inside;  // begin of the boxes, or strips of a tile, in each box

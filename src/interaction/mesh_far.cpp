@@ -50,8 +50,8 @@ std::vector<long double> polynomial(const std::function<double(double)>& functio
     return sum;
 }
 
-// Sorted by decreasing error: the larger of the errors measured on 1600 random points with forces
-// of random sign and of one sign. beta and the window shape were optimised for the smallest error.
+// Sorted by decreasing error, which beta and the shape of the window minimise. The script
+// input/trust/mesh_designs.py finds them again.
 constexpr MeshDesign kDesigns[] = {
     {6.6e-04, 4, 2.0, 8.27, 5.53},    {3.8e-04, 4, 2.5, 8.34, 6.65},
     {2.0e-04, 4, 3.0, 10.26, 6.48},   {7.3e-05, 6, 2.5, 10.45, 7.71},

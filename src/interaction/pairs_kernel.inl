@@ -54,8 +54,7 @@ struct Pack {
     RSC_TARGET static void refine(V* d2, const V* r) {
         if constexpr (sizeof(R) == 8) {
             // Binomial series of (1 - h)^(-1/2), h = 1 - d2 r^2. Estimates of 12 bits have |h| <
-            // 7.4e-4, so the first neglected term is
-            // 6e-17.
+            // 7.4e-4, so the first neglected term is 6e-17.
             V p[rows];
             RSC_FOR_ROWS d2[k] = d2[k] * r[k];
             RSC_FOR_ROWS d2[k] = 1 - d2[k] * r[k];

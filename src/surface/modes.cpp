@@ -220,8 +220,8 @@ ModeSums draw_column(const Spectrum& spectrum, const NoiseKey& key, int kx, int 
     Lanes lanes;
     const int first = std::max(kx > 0 ? 0 : 1, bottom);
     draw_run(spectrum, limits, key, differences, kx, first, top, column + first, lanes);
-    const double nyquist_energy =
-        2.0 * std::norm(column[n / 2]);  // of the mode (0, n/2), if present
+    // of the mode (0, n/2), if present
+    const double nyquist_energy = 2.0 * std::norm(column[n / 2]);
     if (kx > 0) {
         draw_run(spectrum, limits, key, differences, kx, bottom, std::min(top, -1),
                  column + n + bottom, lanes);

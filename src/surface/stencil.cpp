@@ -80,8 +80,8 @@ private:
 // with an antisymmetric one. The weights are fitted to (ik)^q for 0 < k < cutoff.
 double Stencil::fit(double cutoff) {
     constexpr int kWaves = 160;
-    constexpr double kLongest =
-        1.0 / 256;  // wavenumber, relative to the cutoff, below which the weight is constant
+    // wavenumber, relative to the cutoff, below which the weight is constant
+    constexpr double kLongest = 1.0 / 256;
     constexpr double kExponent = -2.6;  // of the profile spectrum for H = 0.8
     // Weights that the band does not determine are kept small, so that rounding errors of the
     // heights are not amplified.

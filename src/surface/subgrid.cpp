@@ -185,8 +185,8 @@ bool SummitClimber::seen_from_maximum(int i, int j, const Rows& row) const {
     struct Top {
         double x, y;
     };
-    const auto top =
-        [&](int l, int k) -> Top {  // top of the paraboloid about the point in row l, column k
+    // top of the paraboloid about the point in row l, column k
+    const auto top = [&](int l, int k) -> Top {
         const PointDifferences d = differences(z[l - 1], z[l], z[l + 1], k - 1, k, k + 1);
         return {k + d.step_x() / d.determinant(), l + d.step_y() / d.determinant()};
     };
@@ -293,7 +293,7 @@ std::optional<RefinedSummit> SummitClimber::summit_from(int i, int j, bool maxim
 // depends on the mean of the quartic over the rim of the contact ellipse: (3/8)(c_LL r + c_SS/r) +
 // c_LS/8 for an ellipse of area pi with the axis ratio sqrt(r), long over short. c_LL, c_LS and
 // c_SS are the coefficients of the quartic along the long and short axes.
-// Also appends the plain one.
+// Also appends the plain one (THEORY.rst, Contact laws of an asperity).
 double SummitClimber::append_biharmonic(const RefinedSummit& s, Asperities& a) const {
     const double dx = place_.dx, dy = place_.dy;
     const double z40 = s.zxxxx / (dx * dx * dx * dx);

@@ -75,8 +75,8 @@ RowSource::RowSource(const Spectrum& wanted, int n, Normalise normalise, std::in
                     "surface: n = " + std::to_string(n) +
                         " points cannot represent waves of L/lambda = " + std::to_string(most) +
                         ": n must be at least " + std::to_string(2 * most + (tilted ? 2 : 0)));
-    column_stride_ =
-        (n + 3) / 4 * 4 + 4;  // multiples of 64 bytes, and columns not a power of two apart
+    // multiples of 64 bytes, and columns not a power of two apart
+    column_stride_ = (n + 3) / 4 * 4 + 4;
     row_stride_ = (n + 2 + 7) / 8 * 8 + 8;
     columns_data_.reset(allocate_doubles(
         2 * static_cast<std::size_t>(columns_) * static_cast<std::size_t>(column_stride_),

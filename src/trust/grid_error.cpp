@@ -7,22 +7,22 @@ namespace rsc {
 namespace {
 
 // Heights from a file may have waves as short as their grid; the error is that of a measurement
-// twice as fine.
+// twice as fine (kinds map and mapflat of input/trust/resolution.py).
 constexpr double kRead = 1.5;
 
 // Largest stresses, over border_share, at the surface; they fall with the depth in pixels. The
 // tension behind the edge of a sliding contact rises like the root of the distance, and so does its
-// error.
+// error. input/trust/resolution.py makes them (fit, sliding).
 constexpr double kMises = 0.14, kShear = 0.16, kTension = 0.05, kSlidingEdge = 0.5;
 
 // Elements, sharp punches on a plane: N differs from 2 a E* d by up to this share of the ratio of
-// pixel side to radius, in nine of ten cases.
+// pixel side to radius, in nine of ten cases (input/trust/resolution.py, kind edge).
 constexpr double kEdgeShare = 0.17;
 
-// Errors of N and A on ridges, fitted to 150 ridged bodies (test/README). If all crests rose above
-// the points as far as they can, N would grow by a share q. The error of N is 0.35 q where contacts
-// are wide (small q), and three times as much just after first touch (large q). That of A is 0.8
-// sqrt(q): the width of a contact in points is proportional to 1/sqrt(q).
+// Errors of N and A on ridges, found by hand on 150 ridged bodies and checked by test_ridges. If
+// all crests rose above the points as far as they can, N would grow by a share q. The error of N is
+// 0.35 q where contacts are wide (small q), and three times as much just after first touch (large
+// q). That of A is 0.8 sqrt(q): the width of a contact in points is proportional to 1/sqrt(q).
 constexpr double kCrest = 0.35, kCrestArea = 0.8;
 
 constexpr int kRows = 16;  // that a thread takes at a time

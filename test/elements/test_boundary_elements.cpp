@@ -1,6 +1,6 @@
 // Load and contact area of rough surfaces under a sphere against boundary elements by other hands
-// (truth/bem/bem.py in Python, whose results are data/boundary_elements.txt): rsc's elements, which are
-// to give the same, and asperities by fourth_order, within 2 to 3 per cent.
+// (truth/bem/bem.py in Python, whose results are data/boundary_elements.txt): rsc's elements, which
+// are to give the same, and asperities by fourth_order, within 2 to 3 per cent.
 //
 // The reference: the very same surface, paper's gold (E* = 94706 N/mm2, sigma = 0.01 mm, L/lambda_l
 // = 24, H = 0.8, R = 2.5 mm), grid 4096, areas corrected by their perimeter. Its own error, from

@@ -1,6 +1,5 @@
 // The screen of runs: the numbers of its tables are those of the result file, and remarks stand
-// there when the levels ask for them
-// (test_remarks has each threshold).
+// there when the levels ask for them (test_remarks has each threshold).
 #include "run/screen.hpp"
 #include "support/runs.hpp"
 #include "support/temporary_folder.hpp"

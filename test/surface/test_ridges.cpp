@@ -8,8 +8,7 @@ namespace test_ridges {
 
 using namespace rsc;
 
-// Along a lay, just after first touch: two surfaces
-// against the same on a grid four times as fine.
+// Along a lay, just after first touch: two surfaces against the same on a grid four times as fine.
 TEST(lay) {
     Case c;
     c.surface.L_lambda_l = 2;

@@ -62,8 +62,7 @@ private:
         path_->accepted.jumps = 0;
     }
     // Position of the tip, separation, dissipated energy, smallest force, jumps, margin, largest
-    // energy, and pairs
-    // of an attached asperity and its state.
+    // energy, and pairs of an attached asperity and its state.
     std::vector<double> write() const override;
     void read(const std::vector<double>& numbers) override;
 

@@ -563,7 +563,9 @@ AdhesivePath::Point AdhesivePath::least_between(const Point& there, double bound
     const double most = std::max(-low.dforce, high.dforce) * (high.Z - low.Z);
     if (!(low.dforce < 0 && high.dforce > 0) || least.force - most >= bound) return least;
     for (int i = 0; i < 40; ++i) {
-        const double share = std::clamp(low.dforce / (low.dforce - high.dforce), 0.05, 0.95);
+        // Near detachment the slope is so large that the secant hardly moves.
+        const double secant = low.dforce / (low.dforce - high.dforce),
+                     share = i % 2 == 1 ? 0.5 : std::clamp(secant, 0.05, 0.95);
         if (!find_between(low, high, share, middle)) break;
         const double gained = std::abs(middle.dforce * (high.Z - low.Z));
         if (middle.force < least.force) least = middle;

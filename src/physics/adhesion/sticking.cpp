@@ -157,8 +157,7 @@ Sticking::State Sticking::attracting(const Limits& of, double s) const {
     state.area = pi * a * a;
     state.outer = pi * c * c;
     // Elastic energy E int_0^c chi^2 dt with chi = u - t^2/r in the contact and -(2 s0/E) sqrt(c^2
-    // - t^2) outside, minus the adhesive
-    // energy.
+    // - t^2) outside, minus the adhesive energy.
     const double u = state.u,
                  elastic = E * a * (u * u - 2.0 / 3 * u * a * a / r + a * a * a * a / (5 * r * r)) +
                            4 * s0 * s0 / E * (2.0 / 3 * c * c * c - c * c * a + a * a * a / 3);

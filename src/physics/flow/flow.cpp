@@ -97,8 +97,8 @@ Permeability coarse_permeability(const GapMap& map) {
 }  // namespace
 
 double permeability_error(const LevelValues& level, std::size_t component) {
-    // Fitted once to 24 gaps of eight surfaces at A/A0 below 0.3, against grids three times finer;
-    // it is not among the constants that input/trust/resolution.py calibrates.
+    // Fitted to 24 gaps of eight surfaces at A/A0 below 0.3, against grids three times finer:
+    // input/trust/permeability.py makes it again.
     constexpr double part = 0.46;
     if (component > 1) return kNotComputed;
     const double K = component == 0 ? level.permeability_xx : level.permeability_yy,

@@ -71,6 +71,11 @@ TEST(test_one) {
         CHECK(away.jumps == 1);
         CHECK_RELATIVE(away.energy_lost, first_loss + jkr.energy(jkr.least()), 1e-7);
         CHECK_RELATIVE(away.least_force, -1.5 * unit, 1e-9);
+        // Of one step from deep in contact to just before it lets go, too.
+        const auto other = under_flat(a, sticky(w));
+        (void)other->at_separation(0.1 - 30 * length);
+        const Level pulled = other->at_separation(0.1 + (1 - 1e-6) * length);
+        CHECK_RELATIVE(pulled.least_force, -1.5 * unit, 1e-9);
     }
 }
 

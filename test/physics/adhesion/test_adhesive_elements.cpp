@@ -63,8 +63,7 @@ HeightMap paraboloid(double side, int n) {
 
 SolverOptions attracting(double w, double range) { return {.physics = {.adhesion = {w, range}}}; }
 
-// The relative error of the pull-off force; forces at given penetrations on
-// the way up are checked on the way.
+// The relative error of the pull-off force; forces at given penetrations are checked on the way up.
 double pull_off_error(double lambda, double resolution) {
     const Sphere truth{{1, 0.01, lambda, 1}};
     const double h = truth.range() / resolution,
