@@ -53,6 +53,12 @@ def stress(results, options):
         drawn = np.where(values > 0, values, np.nan)
         axis.plot(drawn, z, line, color=colour, marker=".", label=text)
         top = max(top, np.nanmax(drawn, initial=0))
+        if result.realizations == 1 and name + "_max_error_expected" in result:
+            off = np.nan_to_num(result[name + "_max_error_expected"][0, step]) * values
+            if (off > 0.06 * values).any():  # less is not visible
+                looks = dict(color=colour, alpha=0.15, lw=0)
+                axis.fill_betweenx(z, np.maximum(values - off, 0), values + off, **looks)
+                page.entry("expected error of the model", color="0.7", lw=5)
     R, N = float(result["r_star"]), result.mean("force")[step]
     if np.isfinite(R) and R < 1e27 and N > 0:
         nu = float(result.case["solids%nu"].split(",")[0])
@@ -64,6 +70,11 @@ def stress(results, options):
     axis.set_yscale("symlog", linthresh=z[z > 0].min() if (z > 0).any() else 1, linscale=0.4)
     axis.set_ylim(z[-1], 0)
     axis.set_xlim(0, 1.05 * top)
+    if (z > 0).any():
+        powers = 10.0 ** np.arange(np.floor(np.log10(z[z > 0].min())), np.log10(z[-1]))
+        ticks = (powers[:, None] * [1, 2, 5]).ravel()
+        axis.set_yticks([0, *ticks[(ticks >= z[z > 0].min()) & (ticks <= z[-1])]], minor=False)
+        axis.minorticks_off()
     label(axis, "x", "largest stress at the depth", result.dimension("mises_max"))
     label(axis, "y", "depth", result.dimension("depth"))
     return page.finish(result.heading(f"Stresses below the surface at {result.level_name(step)}"))
@@ -96,9 +107,12 @@ def section(results, options):
     dimension = result.dimension(f"field_{name}")
     half = [(v[-1] - v[0]) / (v.size - 1) / 2 for v in (x, y)]
     most = stresses.max()
-    # The depths are not evenly spaced: between their planes the picture is interpolated.
-    z = np.linspace(0, min(depth[-1], x[-1] - x[0]), 300)
     cut = stresses[:, worst[1], :]
+    # Down to where the stresses are small, and as far to both sides of the worst point. The depths
+    # are not evenly spaced: between their planes the picture is interpolated.
+    deepest = depth[np.flatnonzero(np.nanmax(cut, axis=1) > 0.1 * most)[-1]]
+    deepest = min(max(deepest, depth[1]), x[-1] - x[0])
+    z = np.linspace(0, deepest, 300)
     smooth = np.array([np.interp(z, depth, column) for column in cut.T]).T
     image = side.imshow(
         smooth,
@@ -109,6 +123,9 @@ def section(results, options):
         vmax=most,
     )
     side.plot(x[worst[2]], depth[worst[0]], "o", ms=9, mfc="none", mec="c")
+    side.set_xlim(
+        max(x[0] - half[0], x[worst[2]] - deepest), min(x[-1] + half[0], x[worst[2]] + deepest)
+    )
     label(side, "x", "$x$", result.dimension("field_x"))
     label(side, "y", "depth", result.dimension("depth"))
     side.set_title(f"$y$ = {amount(y[worst[1]], result.dimension('field_y'))}")
