@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from plot_curves import begin, curve, title
+from plot_curves import begin, curve, smooth_areas, title
 from plot_style import GREY, amount, label
 
 
 def area(results, options):
-    """A(N). A single result is drawn with the smooth sphere or cylinder (Hertz) and the two regimes
-    of the paper with their crossing, two flats with the theories of Persson, of Bush, Gibson and
+    """A(N), beside the smooth sphere (Hertz) if it is the same for all results. A single result is
+    drawn with the smooth sphere or cylinder and the two regimes of the paper with their crossing, two flats with the theories of Persson, of Bush, Gibson and
     Thomas, of Greenwood and Williamson."""
     results = [
         r
@@ -25,6 +25,8 @@ def area(results, options):
         r.pulls() for r in results
     )  # forces of either sign, to which the theories do not apply
     axis.set(xscale="linear" if pulls else "log", yscale="linear" if pulls else "log")
+    if not alone and not pulls and (smooth := smooth_areas(results)):
+        axis.plot(*smooth, ":", color=GREY, lw=1.0, label=results[0].smooth())
     for result, look in zip(results, looks):
         if alone:
             page.entry("rsc", color=look[1], ls=look[0])

@@ -275,16 +275,27 @@ def _against_load(results, options, name, sign, text, what, theory=None):
     return page.finish(title(results, what.replace("force", "pressure") if flat else what))
 
 
-def _smooth_stiffness(axis, results):
-    """2 E* a of the smooth indenter, if it is the same for all results."""
-    bodies = {(float(r["e_star"]), r.shape(), float(r["r_star"])) for r in results if r.has_sphere()}
-    if len(bodies) != 1 or not all(r.has_sphere() for r in results):
-        return
+def smooth_areas(results):
+    """(forces, areas) of the contact of the smooth indenter at the loads of results, in the order
+    of the forces; None if they do not have the same one."""
+    bodies = {
+        (float(r["e_star"]), r.shape(), float(r["r_star"])) if r.has_sphere() else None
+        for r in results
+    }
+    if len(bodies) > 1 or None in bodies:
+        return None
     force = np.concatenate([r.mean("force")[r.loaded()] for r in results])
     area = np.concatenate([r["area_hertz"][r.loaded()] for r in results])
     order = np.argsort(force)
-    y = 2 * float(results[0]["e_star"]) * np.sqrt(area[order] / np.pi)
-    axis.plot(force[order], y, ":", color=GREY, lw=1.0, label=results[0].smooth())
+    return force[order], area[order]
+
+
+def _smooth_stiffness(axis, results):
+    """2 E* a of the smooth indenter, if it is the same for all results."""
+    if smooth := smooth_areas(results):
+        force, area = smooth
+        y = 2 * float(results[0]["e_star"]) * np.sqrt(area / np.pi)
+        axis.plot(force, y, ":", color=GREY, lw=1.0, label=results[0].smooth())
 
 
 def stiffness(results, options):

@@ -24,6 +24,7 @@ def radial(results, options):
             (r, level, f"{name}, $N$ = {amount(r.mean('force')[level], r.dimension('force'))}")
             for r, level, name in panels
         ]
+        panels = list({panel[2]: panel for panel in panels}.values())  # the rest is equal
     page = Page(options, 2)
     end, all_pressures, lines = 0.0, [], False
     for (result, level, _), (marker, line, colour) in zip(
@@ -36,9 +37,10 @@ def radial(results, options):
         )
         lines = lines or np.isfinite(a)
         all_pressures.append(pressure[pressure > 0])
-        end = max(end, radius[pressure > 0].max(initial=0), 1.3 * a)
+        last = radius[np.nan_to_num(pressure) != 0].max(initial=0)
+        end = max(end, last, 1.3 * a)
         for axis, logarithmic in zip(page.axes, (False, True)):
-            good = pressure > 0 if logarithmic else np.isfinite(pressure)
+            good = pressure > 0 if logarithmic else np.isfinite(pressure) & (radius <= last)
             axis.plot(
                 radius[good], pressure[good], marker, ms=2.5, color=colour, mfc="none", mew=0.7
             )
