@@ -71,6 +71,8 @@ dd > p { margin: 0.3em 0; }
 math { font-family: "STIX Two Math", "Latin Modern Math", "Cambria Math", "STIX Math",
        "DejaVu Math TeX Gyre", math; }
 math[display="block"] { margin: 0.8em 0; overflow-x: auto; }
+div.body a:has(> img) { border: none; }
+@media (max-width: 875px) { div.sphinxsidebar ul ul { display: none; } }
 """
 
 
@@ -144,7 +146,7 @@ def description(text):
             out += ["", "::", ""]
         if not command and out and out[-1].startswith("    "):
             out.append("")
-        out.append(line if command else plain(line))
+        out.append(line if command else re.sub(r"\\`(.*?)\\`", r"``\1``", plain(line)))
     return out + [""], text[len(head) :].strip("\n").split("\n")
 
 
@@ -283,14 +285,18 @@ def main():
     pages["keys"] = keys(program)
     pages["c"] = c_interface()
     pages["python"] = python(os.path.join(os.path.dirname(program), "librsc.so"))
-    # README is the first page, with a picture above its first command.
+    # README is the first page, with the pictures of its first command below it.
     order = "gallery input keys output theory python modules c src test CHANGELOG"
     order = [name for name in order.split() if pages[name]]
     first = pages.pop("README")
-    picture = "first_spots.png"
-    if os.path.exists(os.path.join(source, picture)):
+    widths = {"first_area": 37, "first_spots": 61, "first_map": 98}  # [%]
+    shown = [name for name in widths if os.path.exists(os.path.join(source, name + ".png"))]
+    if shown:
+        row = ["", " ".join(f"|{name}|" for name in shown), ""]
+        for name in shown:
+            row += [f".. |{name}| image:: {name}.png", f"   :width: {widths[name]}%", ""]
         at = first.index("    sh input/first.sh") + 1
-        first[at:at] = ["", f".. image:: {picture}", "   :width: 70%"]
+        first[at:at] = row
     pages["index"] = first + ["", ".. toctree::", "   :hidden:", "", *indented(order, 3)]
     for name in [*order, "index"]:
         with open(os.path.join(source, name + ".rst"), "w", encoding="utf-8") as out:
