@@ -64,7 +64,8 @@ install(FILES ${PROJECT_SOURCE_DIR}/src/THEORY.rst DESTINATION ${CMAKE_INSTALL_D
 install(TARGETS rsc_shared EXPORT rscTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS rsc_static EXPORT rscStaticTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(FILES ${PROJECT_SOURCE_DIR}/src/rsc.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/src/rsc.h ${PROJECT_SOURCE_DIR}/modules/rsc_law.h
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT rscTargets NAMESPACE rsc:: DESTINATION ${rsc_package_folder})
 install(EXPORT rscStaticTargets NAMESPACE rsc:: DESTINATION ${rsc_package_folder})
 
@@ -97,6 +98,7 @@ else()
   set(rsc_fortran_folder ${rsc_fortran_root})  # the source alone, for any compiler
 endif()
 install(FILES ${PROJECT_SOURCE_DIR}/modules/rsc.f90 ${PROJECT_SOURCE_DIR}/modules/rsc_results.f90
+        ${PROJECT_SOURCE_DIR}/modules/rsc_law.f90
         DESTINATION ${rsc_fortran_folder})
 install(FILES ${PROJECT_SOURCE_DIR}/modules/generated/interface.inc
         ${PROJECT_SOURCE_DIR}/modules/generated/wrappers.inc
