@@ -26,9 +26,15 @@ inline double conductance(double a, double b, double side, double distance) {
     return side / distance / halves;
 }
 
-// Sum of the fluxes that leave each point for pressures p and a mean gradient (gx, gy).
-inline std::vector<double> outflow(const Gap& m, const std::vector<double>& p, double gx,
-                                   double gy) {
+// What the smooth face drags at unit velocity through the face between two open neighbours.
+inline double dragged(double a, double b, double side) {
+    return a > 0 && b > 0 ? side * 0.5 * (a + b) / 2 : 0;
+}
+
+// Sum of the fluxes that leave each point for pressures p, a mean gradient (gx, gy), and a velocity
+// (ux, uy) of the smooth face.
+inline std::vector<double> outflow(const Gap& m, const std::vector<double>& p, double gx, double gy,
+                                   double ux = 0, double uy = 0) {
     std::vector<double> out(m.g.size(), 0.0);
     for (const int j : indices(m.ny))
         for (const int i : indices(m.nx)) {
@@ -39,7 +45,9 @@ inline std::vector<double> outflow(const Gap& m, const std::vector<double>& p, d
                                         : conductance(m.at(i, j), m.at(x, y), m.dx, m.dy);
                 const double drop =
                     p[j * m.nx + i] - p[y * m.nx + x] - (gx * a * m.dx + gy * b * m.dy);
-                out[j * m.nx + i] += c * drop;
+                out[j * m.nx + i] +=
+                    c * drop + (a != 0 ? a * ux * dragged(m.at(i, j), m.at(x, y), m.dy)
+                                       : b * uy * dragged(m.at(i, j), m.at(x, y), m.dx));
             }
         }
     return out;
@@ -47,9 +55,11 @@ inline std::vector<double> outflow(const Gap& m, const std::vector<double>& p, d
 
 // Pressures without net outflow anywhere, by conjugate gradients with the diagonal as
 // preconditioner.
-inline std::vector<double> pressures(const Gap& m, double gx, double gy) {
+inline std::vector<double> pressures(const Gap& m, double gx, double gy, double ux = 0,
+                                     double uy = 0) {
     const std::size_t n = m.g.size();
-    std::vector<double> p(n, 0.0), zero = outflow(m, p, gx, gy), r(n), z(n), d(n, 0.0), diagonal(n);
+    std::vector<double> p(n, 0.0), zero = outflow(m, p, gx, gy, ux, uy), r(n), z(n), d(n, 0.0),
+                                   diagonal(n);
     for (const int j : indices(m.ny))
         for (const int i : indices(m.nx))
             diagonal[j * m.nx + i] = conductance(m.at(i, j), m.at(i + 1, j), m.dy, m.dx) +
@@ -100,6 +110,29 @@ inline std::array<double, 3> permeability(const Gap& m) {
             }
     }
     return K;
+}
+
+// The mean flux per width (xx, yx) of a velocity along x, (xy, yy) of one along y, by solving
+// div(U g/2 - g^3/12 grad P) = 0 for each: in the order xx, xy, yx, yy.
+inline std::array<double, 4> shear_flow(const Gap& m) {
+    std::array<double, 4> S{};
+    const double area = m.nx * m.dx * m.ny * m.dy;
+    for (const int s : {0, 1}) {
+        const std::vector<double> p = pressures(m, 0, 0, 1 - s, s);
+        for (const int j : indices(m.ny))
+            for (const int i : indices(m.nx)) {
+                const double here = p[j * m.nx + i], g = m.at(i, j);
+                const double right = m.at(i + 1, j), above = m.at(i, j + 1);
+                S[s] += m.dx / area *
+                        ((1 - s) * dragged(g, right, m.dy) +
+                         conductance(g, right, m.dy, m.dx) * (here - p[j * m.nx + (i + 1) % m.nx]));
+                S[2 + s] +=
+                    m.dy / area *
+                    (s * dragged(g, above, m.dx) +
+                     conductance(g, above, m.dx, m.dy) * (here - p[(j + 1) % m.ny * m.nx + i]));
+            }
+    }
+    return S;
 }
 
 // True if a walk through open points from some point ends at its own image in another period along

@@ -87,7 +87,7 @@ Permeability coarse_permeability(const GapMap& map) {
         for (const int j : indices(ny))
             for (const int i : indices(nx))
                 gap.push_back(map.gap[at(2 * j + offset) * at(map.nx) + at(2 * i + offset)]);
-        const Permeability k = permeability({nx, ny, 2 * map.dx, 2 * map.dy, gap});
+        const Permeability k = permeability({nx, ny, 2 * map.dx, 2 * map.dy, gap}).K;
         xx *= k.xx;
         yy *= k.yy;
     }
@@ -116,7 +116,7 @@ const char* compute_permeability(LevelSource& source) {
     if (!has_permeability()) return "this rsc was built without CHOLMOD";
     LevelValues& level = source.level;
     if (!std::isnan(level.permeability_xx)) return nullptr;
-    const Permeability k = permeability(gap_of(source), source.flux);
+    const Permeability k = permeability(gap_of(source), source.flux).K;
     level.permeability_xx = k.xx;
     level.permeability_yy = k.yy;
     level.permeability_xy = k.xy;

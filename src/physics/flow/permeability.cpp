@@ -42,7 +42,7 @@ double permeability_points(double bytes) {
 
 bool has_permeability() { return false; }
 
-Permeability permeability(const GapMap&, std::vector<double>*) {
+GapFlow permeability(const GapMap&, std::vector<double>*) {
     throw Error(Failure::internal, "rsc was built without CHOLMOD: there is no permeability");
 }
 
@@ -236,6 +236,24 @@ public:
         return sum;
     }
 
+    ShearFlow shear(const Pressures& p) const {
+        ShearFlow sum;
+        for (std::size_t k = 0; k < map_.points(); ++k) {
+            if (!used_[k]) continue;
+            for (const bool along_x : {true, false}) {
+                const std::size_t l = along_x ? map_.right_of(k) : map_.above(k);
+                if (!(link(k, l, along_x) > 0)) continue;
+                const double half = (map_.gap[k] + map_.gap[l]) / 4;
+                (along_x ? sum.xx : sum.xy) += half * drop(p[0], 0, k, l, along_x);
+                (along_x ? sum.yx : sum.yy) += half * drop(p[1], 1, k, l, along_x);
+            }
+        }
+        // A gradient is in units of 1/dx along x, of 1/dy along y.
+        const double points = double(map_.points()), stretch = map_.dx / map_.dy;
+        return {sum.xx / points, sum.xy * stretch / points, sum.yx / stretch / points,
+                sum.yy / points};
+    }
+
     // Difference of the pressures of neighbours for the gradient along `axis`, which sets of points
     // that do not wind along it balance completely.
     double drop(const std::vector<double>& p, int axis, std::size_t k, std::size_t l,
@@ -372,7 +390,7 @@ std::vector<double> flux_of(const GapMap& map, const FlowEquations& equations,
 
 }  // namespace
 
-Permeability permeability(const GapMap& map, std::vector<double>* flow) {
+GapFlow permeability(const GapMap& map, std::vector<double>* flow) {
     if (flow) flow->assign(map.points(), 0.0);
     Conductances conductance(map);
     // Rounding makes the elimination fail where a link is 1e-16 of those beside it or less: then
@@ -390,7 +408,8 @@ Permeability permeability(const GapMap& map, std::vector<double>* flow) {
         const double unit = conductance.unit() / double(map.points());
         const double stretch = map.dx / map.dy;
         const Permeability k = equations.dissipation(*pressures);
-        return {unit * stretch * k.xx, unit * k.yy / stretch, unit * k.xy};
+        return {{unit * stretch * k.xx, unit * k.yy / stretch, unit * k.xy},
+                equations.shear(*pressures)};
     }
     throw Error(Failure::internal, "the equations of the flow through the gap are not solved");
 }

@@ -16,6 +16,17 @@ struct Permeability {
     double xx = 0, yy = 0, xy = 0;
 };
 
+// Flux per width q = S U that the smooth face drags along when it slides with the velocity U over
+// the rough one at rest [length]; xy: along x, for a velocity along y.
+struct ShearFlow {
+    double xx = 0, xy = 0, yx = 0, yy = 0;
+};
+
+struct GapFlow {
+    Permeability K;
+    ShearFlow S;
+};
+
 // False if rsc was built without CHOLMOD.
 bool has_permeability();
 
@@ -24,10 +35,12 @@ bool has_permeability();
 double permeability_bytes(double points);
 double permeability_points(double bytes);
 
-// Solves for the permeability. `flow`: if not null, the magnitude of the flux at each point times
+// Solves for the permeability, and computes from its pressures the shear flow: by reciprocity S_as =
+// <(g/2) (e_a + grad P_a)_s>, P_a the pressure of the mean gradient along a, g the mean gap of two
+// open neighbours. `flow`: if not null, the magnitude of the flux at each point times
 // eta for a mean gradient 1 along x [length^3], row by row. Links so narrow that rounding hides
 // them beside the widest are left out. Throws Error(no_memory), and Error(internal) without
 // CHOLMOD or if the equations are not solved to 1e-11 of K.
-Permeability permeability(const GapMap& map, std::vector<double>* flow = nullptr);
+GapFlow permeability(const GapMap& map, std::vector<double>* flow = nullptr);
 
 }  // namespace rsc

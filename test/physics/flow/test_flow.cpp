@@ -20,7 +20,7 @@ truth::Gap gap(int nx, int ny, double dx, double dy, const std::function<double(
 
 GapMap view(const truth::Gap& m) { return {m.nx, m.ny, m.dx, m.dy, m.g}; }
 
-Permeability solved(const truth::Gap& m) { return permeability(view(m)); }
+Permeability solved(const truth::Gap& m) { return permeability(view(m)).K; }
 
 // A periodic Gaussian field of rms 1 and waves of up to `most` periods in the cell.
 std::vector<double> noise(int nx, int ny, int most, unsigned seed) {
@@ -88,6 +88,50 @@ TEST(rough_gaps_by_conjugate_gradients) {
     CHECK(worst < 1e-8);
 }
 
+// Along stripes <g>/2, across them <g^-2>/(2 <g^-3>), which the grid meets to second order. A
+// parallel gap drags half of itself, a gap closed across the sliding nothing.
+TEST(shear_flow_of_stripes) {
+    double before = 0;
+    for (const int n : {64, 128, 256}) {
+        const auto width = [&](int k) { return 1.3 + std::sin(2 * pi * (k + 0.5) / n); };
+        const ShearFlow S =
+            permeability(view(gap(n, 6, 0.5, 0.3, [&](int i, int) { return width(i); }))).S;
+        // With a = 1.3: <1/g^2> = a/(a^2 - 1)^(3/2), <1/g^3> = (a^2 + 1/2)/(a^2 - 1)^(5/2).
+        const double across = 1.3 * (1.69 - 1) / (1.69 + 0.5) / 2;
+        CHECK_RELATIVE(S.yy, 1.3 / 2, 1e-12);
+        CHECK(std::abs(S.xy) < 1e-12 && std::abs(S.yx) < 1e-12);
+        const double error = std::abs(S.xx / across - 1);
+        if (before > 0) CHECK_CLOSE(std::log2(before / error), 2, 0.2);
+        before = error;
+    }
+    CHECK(before < 1e-3);
+    const ShearFlow parallel =
+        permeability(view(gap(6, 9, 0.3, 0.7, [](int, int) { return 2.0; }))).S;
+    CHECK_RELATIVE(parallel.xx, 1, 1e-13);
+    CHECK_RELATIVE(parallel.yy, 1, 1e-13);
+    const ShearFlow wall =
+        permeability(view(gap(8, 6, 1, 1, [](int i, int) { return i == 3 ? 0.0 : 1.0; }))).S;
+    CHECK(wall.xx == 0);
+    CHECK_RELATIVE(wall.yy, 0.5 * 7 / 8, 1e-13);
+}
+
+// Reciprocity against the direct solution for the sliding face.
+TEST(shear_flow_by_conjugate_gradients) {
+    double worst = 0;
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+        const truth::Gap m = rough(48, 40, 0.5, 0.4 + 0.1 * seed, seed);
+        const auto expected = truth::shear_flow(m);
+        const ShearFlow S = permeability(view(m)).S;
+        const std::array<double, 4> found{S.xx, S.xy, S.yx, S.yy};
+        const double scale = std::max(expected[0], expected[3]);
+        CHECK(scale > 0.01);
+        for (const auto k : indices(found))
+            worst = check::worse(worst, std::abs(found[k] - expected[k]) / scale);
+    }
+    std::printf("shear flow: largest difference %.1e\n", worst);
+    CHECK(worst < 1e-10);
+}
+
 TEST(channels_dead_ends_and_islands) {
     // A channel one pixel wide along x carries what its resistance lets through; a pocket beside
     // it, and an island, carry nothing.
@@ -126,7 +170,7 @@ TEST(channels_dead_ends_and_islands) {
 TEST(the_flux_at_each_point_adds_up) {
     const truth::Gap m = rough(40, 32, 0.5, 0.6, 3);
     std::vector<double> flow;
-    const Permeability K = permeability(view(m), &flow);
+    const Permeability K = permeability(view(m), &flow).K;
     const double mean = sum_of(flow) / (40 * 32);
     CHECK(mean > std::hypot(K.xx, K.xy));  // the mean of magnitudes
     for (const auto k : indices(flow)) CHECK(m.g[k] > 0 || flow[k] == 0);
