@@ -23,7 +23,7 @@
 !> LAWRED reads the NCOL columns NAMES into W, of NW numbers; NEED is the size that it needs. LAWVAL
 !> evaluates the K-th of them against column IAGAIN (1 or 2) of the file. IERR is the status.
 module rsc_law
-  use, intrinsic :: iso_fortran_env, only: real64
+  use, intrinsic :: iso_fortran_env, only: error_unit, real64
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite, ieee_quiet_nan, ieee_value
   implicit none
   private
@@ -137,6 +137,7 @@ contains
     if (present(stat)) then
       stat = status
     else if (status /= law_success) then
+      write (error_unit, '(3a)') what, ': ', law_message(status)
       error stop 'rsc_law: a call without stat failed'
     end if
   end subroutine

@@ -1,9 +1,15 @@
 #!/usr/bin/env python3
-"""A contact law for finite elements from a result file of rsc.
+"""The law of an interface from a result file of rsc, for finite-element, lubrication and particle
+codes.
 
-    law.py RESULT.nc --calculix   for an input deck of CalculiX, to standard output or -o FILE
-    law.py RESULT.nc --abaqus     for an input deck of Abaqus
-    law.py RESULT.nc --table      columns with the scatter, for modules/example/uinter.f90
+    law.py RESULT.nc --calculix     for an input deck of CalculiX, to standard output or -o FILE
+    law.py RESULT.nc --abaqus       for an input deck of Abaqus
+    law.py RESULT.nc --table        columns with the scatter, for modules/example/uinter.f90
+    law.py RESULT.nc --text         every column, for modules/rsc_law.f90, rsc_law.h and rsc.law
+    law.py RESULT.nc --lubrication  the same, which must have flow factors
+    law.py RESULT.nc --netcdf -o F  every column with its errors and scatter, the case, the version
+
+With --conductance the decks also have the thermal conductance of flats (*GAP CONDUCTANCE).
 
 A sphere or another indenter becomes a nonlinear spring, force against approach; two flats
 (boundary='periodic') pressure against overclosure. The law is the mean over realizations and
@@ -82,6 +88,7 @@ class Law:
         a = table.get(area, np.full_like(n, np.nan))
         bad = (table["status"] == NOT_CONVERGED).any(axis=0)
         depth = -z.mean(axis=0)
+        steps = np.arange(depth.size)
         later = self.yields & (depth <= np.fmax.accumulate(np.append(-np.inf, depth[:-1])))
         self.later, bad, z, n, a = (
             int(later.sum()),
@@ -99,7 +106,7 @@ class Law:
         self.statuses = ", ".join(
             f"{(worst == k).sum()} {word}" for k, word in enumerate(meanings) if (worst == k).any()
         )
-        self._points(z[:, ~bad], n[:, ~bad], a[:, ~bad])
+        self._points(z[:, ~bad], n[:, ~bad], a[:, ~bad], steps[~later][~bad])
 
     def _by_realization(self, variable):
         """(realization, step), with the same row for all if a variable depends on steps only."""
@@ -110,9 +117,9 @@ class Law:
             else values
         )
 
-    def _points(self, z, n, a):
+    def _points(self, z, n, a, steps):
         """The mean curve: loads at given separations, or separations at given loads, as prescribed
-        in the run."""
+        in the run. `steps` of the file: without contact, and those of the law."""
         spread = [
             np.std(v, axis=0, ddof=1) if np.any(np.ptp(v, axis=0) > 0) else np.zeros(v.shape[1])
             for v in (z, n, a)
@@ -133,6 +140,8 @@ class Law:
                 not keep or load[k] > load[keep[-1]] and depth[k] > depth[keep[-1]]
             ):
                 keep.append(k)
+        self.without_contact = list(steps[order][:first])
+        self.levels = list(steps[order][keep])
         self.not_increasing = int(touching.sum()) - len(keep)
         if len(keep) < 2:
             raise Refused(f"{self.path!r}: the load does not increase with the approach")
@@ -245,6 +254,37 @@ def abaqus(law, name):
     return lines
 
 
+def conductance(path, card):
+    """Lines of a deck: thermal conductance per area against pressure."""
+    from interface_law import Interface
+
+    law = Interface(path)
+    column = law["conductance"]
+    if not law.flats or column is None or not law.resistivity:
+        raise Refused(
+            f"{path!r}: --conductance needs two flats and their thermal resistivities, "
+            "solids%resistivity [K/W times the unit of length]"
+        )
+    rows = [(v, p) for v, p in zip(column.values, law["pressure"].values) if p > 0][::-1]
+    return [
+        f"** conductance per area [{column.unit}], pressure [{law['pressure'].unit}]",
+        card,
+        *(f"{v:.10g}, {p:.10g}" for v, p in [(0.0, 0.0)] + rows),
+    ]
+
+
+def text(law, name):
+    from interface_law import Interface, text as lines_of
+
+    return lines_of(Interface(law.path), name)
+
+
+def lubrication(law, name):
+    from interface_law import Interface, lubrication as lines_of
+
+    return lines_of(Interface(law.path), name)
+
+
 def table(law, name):
     load, area = ("pressure", "area_fraction") if law.flats else ("force", "contact_area")
     approach = "overclosure" if law.flats else "approach"
@@ -267,8 +307,9 @@ def table(law, name):
 def main(words=None):
     parser = argparse.ArgumentParser(
         description=(
-            "A contact law for finite elements from a result file of rsc: an indenter "
-            "as a nonlinear spring, flats as pressure against overclosure."
+            "The law of an interface from a result file of rsc: for finite elements an indenter "
+            "as a nonlinear spring, flats as pressure against overclosure; for other codes every "
+            "quantity against the gap or the approach."
         )
     )
     parser.add_argument("result", help="result file (NetCDF)")
@@ -294,6 +335,30 @@ def main(words=None):
         const=table,
         help="columns: approach or overclosure, load, its scatter, area, its scatter",
     )
+    kind.add_argument(
+        "--text",
+        dest="write",
+        action="store_const",
+        const=text,
+        help="the text that modules/rsc_law.f90, modules/rsc_law.h and rsc.law evaluate",
+    )
+    kind.add_argument(
+        "--lubrication",
+        dest="write",
+        action="store_const",
+        const=lubrication,
+        help="the same, with the flow factors of two flats (output%%flow)",
+    )
+    kind.add_argument(
+        "--netcdf",
+        action="store_true",
+        help="a NetCDF file (-o) with every column, its errors and scatter",
+    )
+    parser.add_argument(
+        "--conductance",
+        action="store_true",
+        help="with --calculix or --abaqus: also the thermal conductance of flats",
+    )
     parser.add_argument(
         "-o", "--output", metavar="FILE", help="file to write (default: standard output)"
     )
@@ -303,8 +368,21 @@ def main(words=None):
         help="name of the interaction or of the element set (default ROUGH)",
     )
     arguments = parser.parse_args(words)
+    if arguments.netcdf and not arguments.output:
+        parser.error("--netcdf needs -o FILE")
+    card = {calculix: "*GAP CONDUCTANCE", abaqus: "*GAP CONDUCTANCE, PRESSURE"}.get(arguments.write)
+    if arguments.conductance and not card:
+        parser.error("--conductance needs --calculix or --abaqus")
     try:
+        if arguments.netcdf:
+            from interface_law import Interface, write_netcdf
+
+            write_netcdf(Interface(arguments.result), arguments.output)
+            print(arguments.output)
+            return
         lines = arguments.write(Law(arguments.result), arguments.name)
+        if arguments.conductance:
+            lines += conductance(arguments.result, card)
         if arguments.output:
             with open(arguments.output, "w", encoding="utf-8") as out:
                 out.write("\n".join(lines) + "\n")

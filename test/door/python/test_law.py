@@ -1,7 +1,8 @@
 """Laws for finite elements: the points of law.py are those of the file, the law increases, bad
-files are refused; uinter.f90 evaluates the table and rsc alike.
+files are refused; uinter.f90 evaluates the table and rsc alike. Laws of interfaces: the columns
+against the numbers of the file, the bearing and the particles of modules/example.
 
-usage: test_law.py FOLDER_OF_EXPORT UINTER_PROGRAM        (RSC_PROGRAM in the environment)
+usage: test_law.py FOLDER_OF_EXPORT UINTER BEARING PARTICLES     (RSC_PROGRAM in the environment)
 """
 import contextlib
 import io
@@ -16,9 +17,10 @@ import numpy as np
 sys.path.insert(0, sys.argv.pop(1))
 import law  # noqa: E402
 import rsc  # noqa: E402
+from rsc.law import Law  # noqa: E402
 from result_files import write_result  # noqa: E402
 
-UINTER = sys.argv.pop(1)
+UINTER, BEARING, PARTICLES = (sys.argv.pop(1) for _ in range(3))
 SURFACE = "&surface n=256 L_lambda_l=8 L_lambda_s=64 sigma=0.01 /"
 
 
@@ -266,6 +268,128 @@ class WholeText(unittest.TestCase):
             "3 points, force increasing",
             run(made("pair", self.Z, pair, pair, 0 * self.STATUS), "--table"),
         )
+
+
+class Interface(unittest.TestCase):
+    """The columns of an interface, from a file whose numbers are known: two realizations of five
+    levels, the first without contact, the last but one closed for one of them, the last full."""
+
+    GAP = np.array([[9.0, 5.0, 3.0, 1.0, 0.0], [9.0, 5.5, 3.5, 1.2, 0.0]])
+    LOAD = np.array([[0, 1.0, 4.0, 20.0, 90.0]] * 2)
+    K = GAP**3 / 12 * np.array([[0.99, 0.9, 0.7, 0.2, 0], [0.98, 0.92, 0.75, 0, 0]])
+    S = GAP / 2 * np.array([[0.99, 0.95, 0.8, 0.3, 0], [0.995, 0.93, 0.85, 0, 0]])
+
+    def flats(self, name, **more):
+        tensor = lambda v: np.stack([v, 2 * v, 0 * v], axis=-1)
+        return made(
+            name,
+            -np.cumsum(np.ones((2, 5)), axis=1),
+            self.LOAD,
+            self.LOAD / 100,
+            0 * self.LOAD,
+            flats=True,
+            indenter="flat",
+            gap_mean=("realization step", self.GAP, "um"),
+            nominal_area=("realization step", 0 * self.GAP + 7, "um2"),
+            stiffness=("realization step", -21 * self.LOAD, "mN um-1"),
+            conductance_length=("realization step", 14 * self.LOAD, "um"),
+            permeability=("realization step component3", tensor(self.K), "um3"),
+            permeability_error_expected=("realization step component3", tensor(0 * self.K + 0.1)),
+            shear_flow=("realization step component3", tensor(self.S), "um"),
+            sigma=("realization", np.array([2.0, 2.0]), "um"),
+            **more,
+        )
+
+    def law_of(self, file, *words):
+        target = os.path.join(FOLDER, "of.law")
+        self.assertEqual(run(file, *words, "-o", target), target + "\n")
+        return {column.name: column for column in Law(target).columns}, Law(target)
+
+    def test_columns(self):
+        file = self.flats("interface")
+        columns, _ = self.law_of(file, "--lubrication")
+        rows = [3, 2, 1, 0]  # by increasing gap, without full contact
+        gap, load = self.GAP.mean(axis=0), self.LOAD[0]
+        K = np.exp(np.log(np.maximum(self.K, 1e-9)).mean(axis=0))
+        K[3] = 0  # not open in more than half of the realizations
+        S = self.S.mean(axis=0)
+        for name, values in (
+            ("gap", gap),
+            ("pressure", load),
+            ("area_fraction", load / 100),
+            ("stiffness", 3 * load),
+            ("conductance", 2 * load),
+            ("permeability_x", K),
+            ("permeability_y", 2 * K),
+            ("shear_flow_x", S),
+            ("flow_factor_pressure_x", 12 * K / np.maximum(gap, 1e-9) ** 3),
+            ("flow_factor_sliding_y", 4 * S / np.maximum(gap, 1e-9)),
+            ("flow_factor_shear_x", (gap - 2 * S) / 2),
+        ):
+            self.assertTrue(np.allclose(columns[name].values, values[rows], rtol=1e-12), name)
+        self.assertEqual(columns["stiffness"].unit, "mN.um-1/um2")
+
+    def test_netcdf_is_the_text(self):
+        file = self.flats("interface")
+        text, _ = self.law_of(file, "--text")
+        netcdf, law = self.law_of(file, "--netcdf")
+        self.assertEqual(list(text), list(netcdf))
+        for name, column in text.items():
+            self.assertTrue(np.allclose(column.values, netcdf[name].values, rtol=1e-14))
+            self.assertEqual((column.unit, column.words), (netcdf[name].unit, netcdf[name].words))
+        import netCDF4
+
+        with netCDF4.Dataset(law.path) as out:
+            self.assertTrue(np.allclose(out["permeability_x_error_expected"][:], 0.1))
+            self.assertTrue(
+                np.allclose(out["gap_std"][:], self.GAP.std(axis=0, ddof=1)[[3, 2, 1, 0]])
+            )
+            self.assertIn("rsc 0.0.3", out.source)
+
+    def test_conductance(self):
+        """Conductance per area of two bodies of resistivities whose sum is 0.25."""
+        file = self.flats(
+            "warm",
+            resistance=(
+                "realization step",
+                np.where(self.LOAD > 0, 0.25 / (14 * np.maximum(self.LOAD, 1)), np.nan),
+                "K W-1",
+            ),
+        )
+        for flag, card in (("--calculix", "\n*GAP CONDUCTANCE\n"), ("--abaqus", ", PRESSURE\n")):
+            deck = run(file, flag, "--conductance")
+            rows = points(deck[deck.index(card) :])
+            self.assertTrue(np.allclose(rows, [[8 * p, p] for p in (0, 1.0, 4, 20)], rtol=1e-9))
+        said = run(self.flats("interface"), "--calculix", "--conductance")
+        self.assertIn("solids%resistivity", said)
+
+    def test_of_a_ball(self):
+        z = np.array([9.0, 8.0, 6.5, 5.0])
+        n = np.array([[0, 1.0, 3.0, 10.0]])
+        file = made("ball", z, n, 2 * n, 0 * n, stiffness=("realization step", -3 * n, "mN um-1"))
+        with open(file, "rb"):
+            columns, law = self.law_of(file, "--text")
+        self.assertEqual(list(columns), ["approach", "force", "contact_area", "stiffness"])
+        self.assertTrue(np.allclose(columns["approach"].values, [1, 2.5, 4]))
+        self.assertTrue(np.allclose(law.evaluate("stiffness", force=[1, 3, 10])[0], [3, 9, 30]))
+        self.assertIn("has no permeability", run(file, "--lubrication"))
+
+    def test_bearing_and_particles(self):
+        """The examples, with laws that rsc computes; each checks its result."""
+        for program, text, flag, words in (
+            (
+                PARTICLES,
+                SURFACE + "&indentation levels=3,2.5,2,1.5,1,0.5,0,-1,-2 /",
+                "--text",
+                "1000 balls",
+            ),
+        ):
+            result, target = path("example"), os.path.join(FOLDER, "example.law")
+            rsc.Case(text).run(result)
+            self.assertEqual(run(result, flag, "-o", target), target + "\n")
+            done = subprocess.run([program, target], text=True, capture_output=True)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.assertIn(words, done.stdout)
 
 
 class Uinter(unittest.TestCase):
