@@ -36,6 +36,8 @@ class Interface(laws.Law):
             self.file, self.columns = file, []
             self.case = getattr(file, "case", "")
             self.sigma = self._number("sigma")
+            self.e_star = self._number("e_star")
+            self.summits = self._summits()
             self.resistivity = "resistance" in file.variables
             self._flats() if self.flats else self._indenter()
             self.file = None
@@ -47,6 +49,19 @@ class Interface(laws.Law):
         if name not in self.file.variables:
             return np.nan
         return float(np.mean(np.ma.filled(self.file[name][...].astype(float), np.nan)))
+
+    def _summits(self):
+        """Density, mean radius and standard deviation of heights of the summits, from the moments
+        of the surface (McCool 1987); None without them."""
+        m2, m4 = self._number("m2"), self._number("m4")
+        if not (m2 > 0 and m4 > 0 and self.sigma > 0):
+            return None
+        bandwidth = self.sigma**2 * m4 / m2**2
+        return (
+            m4 / (6 * np.pi * np.sqrt(3) * m2),
+            0.375 * np.sqrt(np.pi / m4),
+            self.sigma * np.sqrt(max(1 - 0.8968 / bandwidth, 0)),
+        )
 
     def _rows(self, name, part=None):
         """(realization, row) of a variable; None if the file lacks it."""
@@ -175,6 +190,13 @@ class Interface(laws.Law):
             f"increasing, {self.later} after the first loading",
             f"status of the levels, the worst of the realizations: {self.statuses}",
         ]
+        if self.summits:
+            density, radius, deviation = self.summits
+            lines.append(
+                f"rms height {self.sigma:.6g}; summits (McCool 1987): density {density:.6g}, mean "
+                f"radius {radius:.6g}, deviation of heights {deviation:.6g}, product "
+                f"{density * radius * deviation:.6g}; E* = {self.e_star:.6g}"
+            )
         if self.yields:
             lines.append("first loading of bodies that yield (solids%hardness): unloading differs")
         if not self.flats:

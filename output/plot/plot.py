@@ -30,6 +30,7 @@ import plot_curves
 import plot_distributions
 import plot_flats
 import plot_friction
+import plot_law
 import plot_line
 import plot_map
 import plot_radial
@@ -51,6 +52,7 @@ PICTURES = {
     "flats": plot_flats.flats,
     "seal": plot_seal.seal,
     "flow": plot_seal.flow,
+    "law": plot_law.law,
     "study": plot_study.study,
     "pulloff": plot_study.pulloff,
     "map": plot_map.maps,

@@ -178,11 +178,13 @@ class Languages(unittest.TestCase):
             for program in (C, FORTRAN):
                 status, rows = other(program, name, axis, x)
                 self.assertEqual(status, (SUCCESS, 0))
-                for k in (0, 1):
-                    difference = abs(rows[:, k] - expected[k])
-                    # relative 1e-13; of what passes through 0, of the largest
-                    scale = np.maximum(abs(expected[k]), 1e-3 * abs(expected[k]).max())
-                    self.assertLess((difference / scale).max(), 1e-13, (program, name, axis, k))
+                # Values relative to themselves, or to 1e-3 of the largest where they pass through
+                # 0; slopes times the argument also relative to the values, as they may be 0.
+                scale = np.maximum(abs(expected[0]), 1e-3 * abs(expected[0]).max())
+                for k, by in ((0, 1), (1, x)):
+                    difference = abs(rows[:, k] - expected[k]) * by / scale
+                    self.assertLess(difference.max(), 1e-13, (program, name, axis, k))
+                    scale = scale + abs(expected[1]) * x
                 self.assertTrue(np.array_equal(rows[:, 2], expected[2]))
 
     def test_no_value(self):
