@@ -200,7 +200,8 @@ class Interface(laws.Law):
         if self.yields:
             lines.append("first loading of bodies that yield (solids%hardness): unloading differs")
         if not self.flats:
-            lines.append(f"approach = {self.origin:.9g} - separation of the tip from the mean plane")
+            origin = f"{self.origin:.9g}"
+            lines.append(f"approach = {origin} - separation of the tip from the mean plane")
         closed = len(self.without_contact + self.levels) - len(self.steps) if self.flats else 0
         if closed:
             lines.append(f"{closed} levels of full contact are left out: the gap is closed there")
@@ -245,7 +246,7 @@ def lubrication(law, name):
 
 def write_netcdf(law, path):
     """The law as one NetCDF file: a variable for each column with its unit, meaning and words of
-    interpolation, NAME_error_expected and NAME_std where they are known, the case and the version."""
+    interpolation, NAME_error_expected and NAME_std where they are known, the case, the version."""
     import netCDF4
 
     missing = netCDF4.default_fillvals["f8"]

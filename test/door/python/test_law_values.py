@@ -178,9 +178,11 @@ class Languages(unittest.TestCase):
             for program in (C, FORTRAN):
                 status, rows = other(program, name, axis, x)
                 self.assertEqual(status, (SUCCESS, 0))
-                # Values relative to themselves, or to 1e-3 of the largest where they pass through
-                # 0; slopes times the argument also relative to the values, as they may be 0.
-                scale = np.maximum(abs(expected[0]), 1e-3 * abs(expected[0]).max())
+                # Values relative to themselves, or to the rows where they pass through 0 or fall
+                # to it; slopes times the argument also relative to the values.
+                column = next(abs(v) for n, _, v in COLUMNS if n == name)
+                least = column.max() if name == "waves" else column[column > 0].min()
+                scale = np.maximum(abs(expected[0]), least)
                 for k, by in ((0, 1), (1, x)):
                     difference = abs(rows[:, k] - expected[k]) * by / scale
                     self.assertLess(difference.max(), 1e-13, (program, name, axis, k))
