@@ -10,6 +10,7 @@ Needs numpy and netCDF4; takes some minutes."""
 import argparse
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -25,7 +26,9 @@ if __name__ == "__main__":
 import netCDF4
 import numpy as np
 
-PART = 0.46  # that of flow.cpp
+HERE = os.path.dirname(os.path.abspath(__file__))
+with open(os.path.join(HERE, "..", "..", "src", "physics", "flow", "flow.cpp")) as source:
+    PART = float(re.search(r"double part = ([\d.]+)", source.read())[1])
 E_STAR = 1e4 / 0.91
 
 

@@ -36,16 +36,16 @@ EllipseFactors ellipse_factors(double ratio) {
     // 4.28): kappa1/kappa2 = [(a/b)^2 E - K]/[K - E].
     // Newton's method with dK = -B and d(B + axes^2 D) = axes^2 D for a change of ln axes by 1.
     constexpr double nearly_round = 1e-9;
-    const double wanted = std::log(ratio);
-    double x = -2.0 / 3 * wanted;
-    if (wanted > nearly_round) {
+    const double log_ratio = std::log(ratio);
+    double x = -2.0 / 3 * log_ratio;
+    if (log_ratio > nearly_round) {
         constexpr int most = 50;
         for (int k = 0; k < most; ++k) {
             const double square = std::exp(2 * x);
             const Elliptic e = elliptic(std::exp(x));
             const double dD = -(e.B - square * e.D) / -std::expm1(2 * x), dB = -e.B - dD;
             const double step =
-                (std::log(e.B / (square * e.D)) - wanted) / (dB / e.B - dD / e.D - 2);
+                (std::log(e.B / (square * e.D)) - log_ratio) / (dB / e.B - dD / e.D - 2);
             x -= step;
             if (std::abs(step) < 1e-8 * std::abs(x)) break;  // the next would be its square
         }

@@ -4,7 +4,6 @@ namespace rsc {
 namespace {
 
 using Vector = std::vector<double>;
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -13,7 +12,7 @@ void EarlierLevels::remember(double Z0, const Candidates& candidates, const Vect
     unique_ = unique;
     ++solved_;
     const auto& rank = candidates.rank;
-    Past level{Z0, Vector(rank.empty() ? 0 : rank.back() + 1, kUnknown)};
+    Past level{Z0, Vector(rank.empty() ? 0 : rank.back() + 1, kNotComputed)};
     for (std::size_t k = 0; k < rank.size(); ++k) level.phi[rank[k]] = candidates.set.g0[k] - v[k];
     past_ = std::move(level);
 }
@@ -27,44 +26,45 @@ void EarlierLevels::bend(const Candidates& candidates, const Vector& slope) {
 
 void EarlierLevels::carry(const Candidates& candidates, const Vector& v, std::size_t asperities,
                           Vec2 from, Vec2 to) {
-    if (past_) {  // otherwise moved twice without a level between; the carried state is kept
-        std::swap(carried_, before_);
-        for (const int i : carried_.known) carried_.phi[at(i)] = kUnknown;
-        carried_.known.clear();
+    if (past_) {  // otherwise the tip moved twice without a level in between
+        std::swap(last_place_, place_before_);
+        for (const int i : last_place_.known) last_place_.phi[at(i)] = kNotComputed;
+        last_place_.known.clear();
         if (v.size() == at(candidates.size())) {
-            carried_.separation = past_->separation;
-            carried_.place = from;
-            carried_.phi.resize(asperities, kUnknown);
-            carried_.known = candidates.set.asperity;
+            last_place_.separation = past_->separation;
+            last_place_.place = from;
+            last_place_.phi.resize(asperities, kNotComputed);
+            last_place_.known = candidates.set.asperity;
             for (std::size_t k = 0; k < v.size(); ++k)
-                carried_.phi[at(candidates.set.asperity[k])] = candidates.set.g0[k] - v[k];
+                last_place_.phi[at(candidates.set.asperity[k])] = candidates.set.g0[k] - v[k];
         }
         past_.reset();
         solved_ = 0;
     }
     constexpr double straight = 0.2, furthest = 2.5;
-    const Vec2 move{to.x - carried_.place.x, to.y - carried_.place.y};
-    const Vec2 last{carried_.place.x - before_.place.x, carried_.place.y - before_.place.y};
+    const Vec2 move{to.x - last_place_.place.x, to.y - last_place_.place.y};
+    const Vec2 last{last_place_.place.x - place_before_.place.x,
+                    last_place_.place.y - place_before_.place.y};
     const double square = last.x * last.x + last.y * last.y;
-    ahead_ = carried_.known.empty() || before_.known.empty()
-                 ? 0
-                 : (move.x * last.x + move.y * last.y) / square;
-    const double aside = std::hypot(move.x - ahead_ * last.x, move.y - ahead_ * last.y);
-    if (!(std::abs(ahead_) <= furthest) || aside > straight * std::hypot(move.x, move.y))
-        ahead_ = 0;
+    step_ratio_ = last_place_.known.empty() || place_before_.known.empty()
+                      ? 0
+                      : (move.x * last.x + move.y * last.y) / square;
+    const double aside = std::hypot(move.x - step_ratio_ * last.x, move.y - step_ratio_ * last.y);
+    if (!(std::abs(step_ratio_) <= furthest) || aside > straight * std::hypot(move.x, move.y))
+        step_ratio_ = 0;
 }
 
 bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& start) const {
     const auto& rank = candidates.rank;
     const Vector& g0 = candidates.set.g0;
-    if (!past_ && !carried_.known.empty()) {
+    if (!past_ && !last_place_.known.empty()) {
         start.resize(rank.size());
         bool any = false;
         for (std::size_t k = 0; k < rank.size(); ++k) {
             const auto i = at(candidates.set.asperity[k]);
-            double phi = carried_.phi[i];
-            if (ahead_ != 0 && std::isfinite(before_.phi[i]))
-                phi += ahead_ * (phi - before_.phi[i]);
+            double phi = last_place_.phi[i];
+            if (step_ratio_ != 0 && std::isfinite(place_before_.phi[i]))
+                phi += step_ratio_ * (phi - place_before_.phi[i]);
             start[k] = std::isfinite(phi) ? g0[k] - phi : -kInfinity;
             any = any || start[k] > 0;
         }
@@ -74,7 +74,7 @@ bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& sta
     start.resize(rank.size());
     bool any = false;
     for (std::size_t k = 0; k < rank.size(); ++k) {
-        double phi = rank[k] < past_->phi.size() ? past_->phi[rank[k]] : kUnknown;
+        double phi = rank[k] < past_->phi.size() ? past_->phi[rank[k]] : kNotComputed;
         if (rank[k] < past_->slope.size())
             phi = std::max(phi + (Z0 - past_->separation) * past_->slope[rank[k]], 0.0);
         start[k] = std::isfinite(phi) ? g0[k] - phi : -kInfinity;
@@ -85,9 +85,10 @@ bool EarlierLevels::predict(double Z0, const Candidates& candidates, Vector& sta
 
 std::optional<double> EarlierLevels::likely_separation(double first_touch) const {
     if (past_) return past_->separation;
-    if (carried_.known.empty() || !(carried_.separation < first_touch)) return std::nullopt;
-    const double next = carried_.separation + ahead_ * (carried_.separation - before_.separation);
-    return next < first_touch ? next : carried_.separation;
+    if (last_place_.known.empty() || !(last_place_.separation < first_touch)) return std::nullopt;
+    const double next =
+        last_place_.separation + step_ratio_ * (last_place_.separation - place_before_.separation);
+    return next < first_touch ? next : last_place_.separation;
 }
 
 Vector cold_start(const Law& law, Products& products, const WorkingSet& candidates) {

@@ -21,8 +21,8 @@ public:
     void bend(const Candidates& candidates, const std::vector<double>& slope);
 
     // To be called when the tip moves from one place to another and ranks become invalid: stores
-    // the last level by asperity as the start of the next level. On a way straight on, the next
-    // level is extrapolated from the last levels of two places.
+    // the last level by asperity as the start of the next level. If the tip keeps its direction,
+    // the start is extrapolated linearly from the levels at its last two places.
     void carry(const Candidates& candidates, const std::vector<double>& v, std::size_t asperities,
                Vec2 from, Vec2 to);
 
@@ -38,11 +38,11 @@ public:
 
     // Whether archived levels are of this many asperities.
     bool fits(std::size_t asperities) const {
-        return carried_.fits(asperities) && before_.fits(asperities);
+        return last_place_.fits(asperities) && place_before_.fits(asperities);
     }
     template <class Archive, class Self>
     static void archive(Archive& a, Self& my) {
-        a(my.past_, my.solved_, my.unique_, my.carried_, my.before_, my.ahead_);
+        a(my.past_, my.solved_, my.unique_, my.last_place_, my.place_before_, my.step_ratio_);
     }
 
 private:
@@ -59,7 +59,7 @@ private:
     std::size_t solved_ = 0;
     bool unique_ = true;
 
-    struct Carried {
+    struct AtPlace {
         double separation = 0;
         Vec2 place{};
         std::vector<double> phi;  // B F by asperity; NaN: unknown
@@ -83,8 +83,9 @@ private:
             return (phi.empty() || phi.size() == asperities) &&
                    std::ranges::all_of(known, [&](int i) { return i >= 0 && at(i) < phi.size(); });
         }
-    } carried_, before_;  // of the last place of the tip, and of the one before
-    double ahead_ = 0;    // the last move of the tip relative to the one before; 0: not straight on
+    } last_place_, place_before_;  // of the last place of the tip, and of the one before
+    // Length of the last move of the tip over that of the one before; 0: it turned.
+    double step_ratio_ = 0;
 };
 
 // Mean-field start: penetrations g0 - s of the no-interaction forces F = f(<g0 - s>), where s is

@@ -315,10 +315,10 @@ private:
     // One dimension, blanks allowed between its parts. Returns an error message.
     std::string subscript(Assignment& a) {
         const std::string of = "the subscript of '" + a.key + "' ";
-        const std::string wanted =
+        const std::string expected =
             of + "must be (first), (first:last) or (first:last:step), found '" + excerpt(at_) + "'";
         const std::size_t close = text_.find_first_of(")\n", at_);
-        if (close == std::string_view::npos || text_[close] != ')') return wanted;
+        if (close == std::string_view::npos || text_[close] != ')') return expected;
         std::string_view inside = text_.substr(at_ + 1, close - at_ - 1);
         Subscript s;
         s.at = position(at_);
@@ -331,7 +331,7 @@ private:
             while (!part.empty() && is_blank(part.front())) part.remove_prefix(1);
             while (!part.empty() && is_blank(part.back())) part.remove_suffix(1);
             const auto number = to_integer(part);
-            if (!number && !part.empty()) return wanted;
+            if (!number && !part.empty()) return expected;
             if (number && std::abs(*number) > kLargestRepeat) return of + "is too large";
             parts.push_back(number);
         }

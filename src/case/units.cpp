@@ -88,12 +88,12 @@ const Known& known(Quantity quantity) {
 
 std::string problem_of(Session& session, const std::string& text, const Unit& unit,
                        Quantity quantity) {
-    const Known& wanted = known(quantity);
-    const std::string of = std::string("a unit of ") + wanted.name +
-                           " as UDUNITS spells it is expected, such as " + wanted.examples;
+    const Known& expected = known(quantity);
+    const std::string of = std::string("a unit of ") + expected.name +
+                           " as UDUNITS spells it is expected, such as " + expected.examples;
     if (!unit) return "'" + text + "' is no unit; " + of;
-    if (factor_between(unit, session.parse(wanted.measure)) == 0)
-        return "'" + text + "' is no unit of " + wanted.name + "; " + of;
+    if (factor_between(unit, session.parse(expected.measure)) == 0)
+        return "'" + text + "' is no unit of " + expected.name + "; " + of;
     return {};
 }
 
@@ -111,15 +111,15 @@ double length_factor(const std::string& from, const std::string& to, int power) 
     const auto number = [](const std::string& text) { return text.empty() || text == "1"; };
     if ((power == 1 && a == b) || (number(a) && number(b))) return 1;
     Session session;
-    const Unit unit = session.parse(a), wanted = session.parse(b);
+    const Unit unit = session.parse(a), expected = session.parse(b);
     const auto require = [&](const std::string& text, const Unit& parsed) {
         if (const std::string wrong = problem_of(session, text, parsed, Quantity::length);
             !wrong.empty())
             bad_input(wrong);
     };
-    if (power != 0) require(b, wanted);  // 0: an angle or a pure number
+    if (power != 0) require(b, expected);  // 0: an angle or a pure number
     if (power == 1) require(a, unit);
-    const Unit raised(ut_raise(wanted.get(), power), ut_free);
+    const Unit raised(ut_raise(expected.get(), power), ut_free);
     const double factor = unit && raised ? factor_between(unit, raised) : 0;
     if (factor == 0) bad_input("'", a, "' where a unit like (", b, ")", power, " is expected");
     return factor;
@@ -127,8 +127,8 @@ double length_factor(const std::string& from, const std::string& to, int power) 
 
 double unit_factor(const std::string& from, const std::string& to) {
     Session session;
-    const Unit unit = session.parse(from), wanted = session.parse(to);
-    return unit && wanted ? factor_between(unit, wanted) : 0;
+    const Unit unit = session.parse(from), expected = session.parse(to);
+    return unit && expected ? factor_between(unit, expected) : 0;
 }
 
 std::string unit_of(const std::string& length_unit, int length_power, const std::string& force_unit,

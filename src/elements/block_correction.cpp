@@ -66,7 +66,7 @@ void BlockCorrection::multiply(const std::vector<float>& x, std::vector<float>& 
 }
 
 void BlockCorrection::subtract(const PixelSet& set, const float* r, float* y, int threads) {
-    // Solves (1 + D^1/2 F D^1/2) z = D^-1/2 P' M r. The wanted field is then F D^1/2 z.
+    // Solves (1 + D^1/2 F D^1/2) z = D^-1/2 P' M r. The field is then F D^1/2 z.
     std::vector<float> residual = sums(set, r, threads), z(residual.size(), 0.0f), direction, image;
     // The sum of add(i), which also changes the vectors.
     const auto sum = [&](auto&& add) {
@@ -85,8 +85,8 @@ void BlockCorrection::subtract(const PixelSet& set, const float* r, float* y, in
         direction[i] = residual[i] = divided(residual[i], i);
         return product(residual[i], residual[i]);
     });
-    const double wanted = kReduction * kReduction * square;
-    for (int step = 0; step < kSteps && square > wanted; ++step) {
+    const double goal = kReduction * kReduction * square;
+    for (int step = 0; step < kSteps && square > goal; ++step) {
         multiply(direction, image);
         const double curvature = sum([&](std::size_t i) {
             image[i] += direction[i];

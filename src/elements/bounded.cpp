@@ -47,14 +47,14 @@ void BoundedSolver::evaluate(bool exact) {
     stopping_point();
     multiply(p_, w_, exact);
     add_diagonal(p_, w_);
-    if (wanted_) Z0_ = 0;
+    if (given_sum_) Z0_ = 0;
     each([&](std::size_t k) { w_[k] += Z0_ - z_[k]; });
     find_Z0();
 }
 
 // If the sum of p is given, sets Z0 such that the mean of w over the pixels under pressure is 0.
 void BoundedSolver::find_Z0() {
-    if (!wanted_) return;
+    if (!given_sum_) return;
     struct Sums {
         std::size_t touching = 0;
         double w = 0;
@@ -115,7 +115,7 @@ double BoundedSolver::certificate() {
     });
     if (!(sums.weight > 0)) return 0;
     const double overlap = sums.overlap,
-                 load = wanted_ ? std::abs(sums.weight / *wanted_ - 1) : 0.0,
+                 load = given_sum_ ? std::abs(sums.weight / *given_sum_ - 1) : 0.0,
                  farthest = std::max(sums.largest, std::sqrt(outside()));
     return std::max({farthest * sums.weight / overlap, sums.product / overlap, load});
 }
@@ -138,14 +138,14 @@ void BoundedSolver::precondition_ones(std::vector<double>& y) {
 
 // Leaves K one_ in image_ where it computes punch_.
 void BoundedSolver::prepare_constant(bool plain) {
-    if (!manner_.repeats && !wanted_) return;
+    if (!manner_.repeats && !given_sum_) return;
     if (plain)
         one_.assign(free_.begin(), free_.end());
     else
         precondition_ones(one_);
     whole_ = sum_free([&](std::size_t k) { return one_[k]; });
     punch_ = 0;
-    if (wanted_ || plain) return;
+    if (given_sum_ || plain) return;
     multiply_roughly(one_, image_);
     add_diagonal(one_, image_);
     const double energy =
@@ -162,7 +162,7 @@ double BoundedSolver::descend(int most_steps, double reduction) {
     };
     // A single step follows the gradient itself, which remains a descent direction after projection
     // on the bounds.
-    const bool plain = most_steps == 1, constant = manner_.repeats || wanted_;
+    const bool plain = most_steps == 1, constant = manner_.repeats || given_sum_;
     for (auto* v : {&residual_, &y_, &direction_}) v->resize(n);
     const auto set_residual = [&](std::size_t k) {
         residual_[k] = free_[k] * (0 - w_[k]);
@@ -176,8 +176,8 @@ double BoundedSolver::descend(int most_steps, double reduction) {
         else
             precondition(residual_, y_);
         if (constant) {
-            const double c = wanted_ ? -sum_free([&](std::size_t k) { return y_[k]; }) / whole_
-                                     : punch_ * product(one_, residual_);
+            const double c = given_sum_ ? -sum_free([&](std::size_t k) { return y_[k]; }) / whole_
+                                        : punch_ * product(one_, residual_);
             each([&](std::size_t k) { y_[k] += c * one_[k]; });
         }
         const double ry = product(residual_, y_);
@@ -213,7 +213,7 @@ bool BoundedSolver::bound() {
         if (inside != p_[k]) cut.store(true, std::memory_order_relaxed);
         p_[k] = inside;
     });
-    if (!wanted_) return cut;
+    if (!given_sum_) return cut;
     constexpr int most = 50;
     for (int i = 0; i < most; ++i) {
         struct Sums {
@@ -224,8 +224,8 @@ bool BoundedSolver::bound() {
             part.all += p_[k];
             part.room += p_[k] > 0 ? one_[k] : 0.0;
         });
-        const double missing = *wanted_ - sums.all;
-        if (std::abs(missing) <= 1e-14 * *wanted_ || !(sums.room > 0)) break;
+        const double missing = *given_sum_ - sums.all;
+        if (std::abs(missing) <= 1e-14 * *given_sum_ || !(sums.room > 0)) break;
         each([&](std::size_t k) {
             if (p_[k] > 0) p_[k] = std::max(p_[k] + missing / sums.room * one_[k], 0.0);
         });
@@ -286,7 +286,7 @@ bool BoundedSolver::fell() {
 
 ElementsOutcome BoundedSolver::iterate(double tolerance, int most_rounds, bool exactly) {
     ElementsOutcome outcome;
-    if (wanted_) {  // the start may have another sum
+    if (given_sum_) {  // the start may have another sum
         one_ = p_;
         bound();
     }
@@ -346,7 +346,7 @@ double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, in
                                 double reduction) {
     // Solves K q = 1 by the same iteration; the solution of the level is restored afterwards.
     const std::vector<double> p = p_, w = w_;
-    const std::optional<double> wanted = std::exchange(wanted_, std::nullopt);
+    const std::optional<double> given_sum = std::exchange(given_sum_, std::nullopt);
     set_free([&](std::size_t k) { return p_[k] > 0 && (back || p_[k] < highest_); });
     const double count = sum_free([&](std::size_t k) { return free_[k] ? 1.0 : 0.0; });
     each([&](std::size_t k) {
@@ -391,7 +391,7 @@ double BoundedSolver::stiffness(bool back, double tolerance, int most_rounds, in
     if (!(residual <= useless)) answer = std::nan("");
     p_ = p;
     w_ = w;
-    wanted_ = wanted;
+    given_sum_ = given_sum;
     return answer;
 }
 

@@ -38,7 +38,7 @@ public:
     // The last solution, to which energy() and stiffness() refer.
     template <class Archive, class Self>
     static void archive(Archive& a, Self& my) {
-        a(my.wanted_, my.Z0_, my.diagonal_, my.rows_, my.z_, my.p_, my.w_);
+        a(my.given_sum_, my.Z0_, my.diagonal_, my.rows_, my.z_, my.p_, my.w_);
     }
 
 protected:
@@ -134,7 +134,7 @@ protected:
     double highest_;
     double diagonal_ = 0;
     Manner manner_;
-    std::optional<double> wanted_;  // given sum of p; absent: Z0 is given
+    std::optional<double> given_sum_;  // given sum of p; absent: Z0 is given
     double Z0_ = 0;
     // Vectors over the set, and the beginnings of its rows, or of parts of it; a row is summed by
     // one thread.

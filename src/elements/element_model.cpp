@@ -9,7 +9,6 @@
 namespace rsc {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInnerError = 1e-3;  // error of products in iterations
 constexpr double kMostTimes = 30;  // largest ratio to the last force for a start from its pressures
 // pixels are selected lower by this share of the step to the expected separation
@@ -63,7 +62,7 @@ public:
         cut_open(indenter_, kBlock);
         if (turn_x != before_x || turn_y != before_y) {
             past_.clear();
-            lowered_at_ = kUnknown;
+            lowered_at_ = kNotComputed;
         }
         find_top();
     }
@@ -100,7 +99,7 @@ public:
 protected:
     void forget_solutions() override { past_.clear(); }
     void step_changed() override {
-        lowered_at_ = kUnknown;
+        lowered_at_ = kNotComputed;
         solver_.set_diagonal(rate());
     }
     void settle() override { solver_.settle(); }
@@ -150,17 +149,17 @@ private:
     // Lowers candidate k by fall(k), and drops those that can then not touch.
     template <class F>
     void lower(F&& fall) {
-        std::size_t kept = 0;
+        std::size_t remaining = 0;
         for (std::size_t k = 0; k < pixels_.size(); ++k) {
             const double g = g0_[k] - fall(k);
             if (!(g > 0)) continue;
-            pixels_[kept] = pixels_[k];
-            p_[kept] = p_[k];
-            g0_[kept++] = g;
+            pixels_[remaining] = pixels_[k];
+            p_[remaining] = p_[k];
+            g0_[remaining++] = g;
         }
-        pixels_.resize(kept);
-        p_.resize(kept);
-        g0_.resize(kept);
+        pixels_.resize(remaining);
+        p_.resize(remaining);
+        g0_.resize(remaining);
     }
     Level report(double Z0, const ElementsOutcome& outcome);
 
@@ -181,7 +180,7 @@ private:
     std::unique_ptr<PixelProducts> loads_products_;
     // Deflection by earlier loads of the pixels that could touch at `lowered_at_` or above, in this
     // step; NaN: unknown.
-    double lowered_at_ = kUnknown;
+    double lowered_at_ = kNotComputed;
     std::vector<Pixel> lowered_pixels_;
     std::vector<double> lowered_;
 };
@@ -271,13 +270,13 @@ std::vector<double> ElementModel::deflections(const std::vector<Pixel>& where,
         return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), pixel, before) -
                                         all.begin());
     };
-    std::vector<double> source(all.size(), 0.0), w(all.size()), wanted;
-    if (all.empty()) return wanted;
+    std::vector<double> source(all.size(), 0.0), w(all.size()), deflection;
+    if (all.empty()) return deflection;
     for (std::size_t k = 0; k < loaded.size(); ++k) source[of(loaded[k])] = q[k];
     loads_products_->set_pixels(all);
     loads_products_->apply(source.data(), w.data(), PixelProducts::Accuracy::full);
-    for (const Pixel& pixel : where) wanted.push_back(w[of(pixel)]);
-    return wanted;
+    for (const Pixel& pixel : where) deflection.push_back(w[of(pixel)]);
+    return deflection;
 }
 
 // Subtracts the deflection by earlier loads.

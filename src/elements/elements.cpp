@@ -254,7 +254,7 @@ void ElementsSolver::precondition(const std::vector<double>& r, std::vector<doub
 
 bool ElementsSolver::judge_exactly(bool, double residual, int rounds) {
     // Z0 is not known before the next product
-    const double guess = wanted_ ? kReduction * residual : error();
+    const double guess = given_sum_ ? kReduction * residual : error();
     return (looked_ && guess < kInnerReach * products_.inner_error()) || guess < tolerance_ ||
            rounds > kQuick;
 }
@@ -301,7 +301,7 @@ ElementsOutcome ElementsSolver::solve(const std::vector<Pixel>& pixels,
     g0_ = &g0;
     answer_ = &p;
     tolerance_ = tolerance;
-    wanted_ = sum;
+    given_sum_ = sum;
     Z0_ = 0;
     member_.assign(pixels.size(), 0);
     looked_ = false;

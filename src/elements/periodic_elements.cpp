@@ -171,7 +171,7 @@ void PeriodicElements::start(Given given) {
     rows_.back() = p_.size();
     if (given.is_pressure || p_.empty()) return;
     // Scales the pressures to the smallest energy.
-    wanted_.reset();
+    given_sum_.reset();
     Z0_ = given.value;
     evaluate(false);
     double overlap = 0, energy = 0;
@@ -350,9 +350,9 @@ ElementsOutcome PeriodicElements::solve(Given given, double tolerance, int most_
     }
     if (!started) start(given);
     const long before = products_;
-    wanted_.reset();
+    given_sum_.reset();
     if (given.is_pressure)
-        wanted_ = given.value * points();
+        given_sum_ = given.value * points();
     else
         Z0_ = given.value;
     ElementsOutcome outcome =

@@ -59,9 +59,9 @@ double plane_modulus(double E, double nu) { return E / (1 - nu * nu); }
 double shear_modulus(double E, double nu) { return E / (2 * (1 + nu)); }
 
 void require_usable(const LayeredBody& body) {
-    const auto refuse = [](std::size_t i, const char* what, double value, const char* wanted) {
+    const auto refuse = [](std::size_t i, const char* what, double value, const char* expected) {
         throw Error(Failure::bad_input,
-                    format("%s of layer %zu is %.9g; it must be %s", what, i + 1, value, wanted));
+                    format("%s of layer %zu is %.9g; it must be %s", what, i + 1, value, expected));
     };
     for (std::size_t i = 0; i < static_cast<std::size_t>(body.count); ++i) {
         const Layer& layer = body.layer[i];

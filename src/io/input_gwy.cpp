@@ -38,19 +38,19 @@ void skip(ByteReader& in, char type, const std::string& name) {
 }
 
 // The components of the next object, beginning at its name and size.
-std::vector<Component> components(ByteReader& in, const std::string& wanted) {
+std::vector<Component> components(ByteReader& in, const std::string& expected) {
     const std::string_view name = in.text("the name of an object");
-    if (name != wanted)
-        in.refuse("an object ", wanted, " was expected, not '", printable(name), "'");
-    const std::size_t size = in.number<std::uint32_t>("the size of " + wanted);
+    if (name != expected)
+        in.refuse("an object ", expected, " was expected, not '", printable(name), "'");
+    const std::size_t size = in.number<std::uint32_t>("the size of " + expected);
     if (size > in.left())
-        in.refuse(wanted, " of ", size, " bytes, but ", in.left(),
+        in.refuse(expected, " of ", size, " bytes, but ", in.left(),
                   " are left; is the file complete?");
     const std::size_t end = in.at() + size;
     std::vector<Component> all;
     while (in.at() < end) {
         Component c;
-        c.name = in.text("the name of a component of " + wanted);
+        c.name = in.text("the name of a component of " + expected);
         c.type = in.number<char>("the type of a component");
         c.at = in.at();
         skip(in, c.type, printable(c.name));
@@ -108,8 +108,8 @@ public:
         ByteReader in = reader(*c);
         Field f;
         for (const Component& part : components(in, "GwyDataField")) {
-            const auto is = [&](const char* wanted, char type) {
-                return part.name == wanted && part.type == type;
+            const auto is = [&](const char* expected, char type) {
+                return part.name == expected && part.type == type;
             };
             ByteReader value = reader(part);
             if (is("xres", 'i')) f.nx = size(value, name + " xres");

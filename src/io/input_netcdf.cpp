@@ -186,9 +186,9 @@ private:
 
 void check_classic_length(const std::string& path) {
     ClassicHeader header(path);
-    const std::uint64_t wanted = header.wanted_length();
-    if (header.length() < wanted)
-        bad_input(path, ": ends at byte ", header.length(), " of the ", wanted,
+    const std::uint64_t needed = header.wanted_length();
+    if (header.length() < needed)
+        bad_input(path, ": ends at byte ", header.length(), " of the ", needed,
                   " in its header; the file is truncated");
 }
 

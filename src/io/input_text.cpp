@@ -421,10 +421,10 @@ private:
             add_empty_column(table_);  // all rows before end in an empty cell
         open_ends_ = open_ends_ && row.open_end;
         if (row.count != table_.columns) {
-            const std::string wanted = columns_ > 0
-                                           ? joined(columns_)
-                                           : joined(table_.columns, " as in line ", table_.line[0]);
-            refuse(path_, line_, row.count, " values where ", wanted, " were expected");
+            const std::string expected =
+                columns_ > 0 ? joined(columns_)
+                             : joined(table_.columns, " as in line ", table_.line[0]);
+            refuse(path_, line_, row.count, " values where ", expected, " were expected");
         }
         table_.line.push_back(line_);
     }

@@ -237,11 +237,11 @@ void NetcdfFile::attribute(const std::string& name, NetcdfAttribute value) {
 
 std::vector<std::size_t> NetcdfFile::shape(const NetcdfVariable& v) const {
     std::vector<std::size_t> lengths;
-    for (const std::string& wanted : v.dimensions) {
+    for (const std::string& dimension : v.dimensions) {
         const auto found =
-            std::ranges::find_if(dimensions_, [&](const auto& d) { return d.first == wanted; });
+            std::ranges::find_if(dimensions_, [&](const auto& d) { return d.first == dimension; });
         if (found == dimensions_.end())
-            throw Error(Failure::internal, "result file: no dimension '", wanted, "'");
+            throw Error(Failure::internal, "result file: no dimension '", dimension, "'");
         lengths.push_back(found->second);
     }
     return lengths;

@@ -96,9 +96,9 @@ void visit_while_making(const RowSource& source, int margin, int rows_held, int 
         held += made;
         for (int k = margin; k + margin < held; ++k)
             visit(next - held + k, window.get() + k * stride, stride);
-        const int kept = std::min(held, 2 * margin);
-        std::copy_n(window.get() + (held - kept) * stride, kept * stride, window.get());
-        held = kept;
+        const int reused = std::min(held, 2 * margin);
+        std::copy_n(window.get() + (held - reused) * stride, reused * stride, window.get());
+        held = reused;
     }
 }
 
@@ -208,7 +208,7 @@ Asperities make_asperities(const Spectrum& spectrum, int n, Normalise normalise,
             RowPlace place{fine, 0.0, step, step, 0.0, true};
             SummitClimber climber(stencils, place, fine, 0.0, curvature);
             const int margin = refined ? climber.margin() : 1;
-            // The window is at least twice as long as the 2 margin rows kept from one filling to
+            // The window is at least twice as long as the 2 margin rows reused from one filling to
             // the next, so that moving these is cheap.
             visit_while_making(source, margin, 4 * margin + RowSource::kBlock, first, last,
                                [&](int j, const double* z, std::ptrdiff_t stride) {

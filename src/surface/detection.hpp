@@ -17,9 +17,9 @@ enum class Detail {
 
 // Counts and means of a search for summits.
 struct SummitCount {
-    long summits = 0;  // asperities kept
-    long saddles = 0;  // grid maxima not kept: saddles by their curvatures, or no summit in reach
-    // Detail::subgrid: grid maxima not kept because another one leads to the same summit
+    long summits = 0;  // asperities found
+    long saddles = 0;  // grid maxima left out: saddles by their curvatures, or no summit in reach
+    // Detail::subgrid: grid maxima left out because another one leads to the same summit
     long repeated = 0;
     double mean_kappa_g = 0;  // mean of the geometric mean curvature [1/length]
     double mean_kappa_a = 0;  // mean of the algebraic mean curvature [1/length]

@@ -328,7 +328,7 @@ double twin_exponent(const std::function<double(double, double)>& psd,
             rings.push_back({log_k, height, slope});
         }
     }
-    const double wanted = parameters.sdq * parameters.sdq / (parameters.sq * parameters.sq);
+    const double ratio = parameters.sdq * parameters.sdq / (parameters.sq * parameters.sq);
     double low = -kMostExponent, high = most;
     for (int step = 0; step < 50; ++step) {
         const double e = 0.5 * (low + high);
@@ -337,7 +337,7 @@ double twin_exponent(const std::function<double(double, double)>& psd,
             height += h * std::exp(e * log_k);
             slope += s * std::exp(e * log_k);
         }
-        (slope > wanted * height ? high : low) = e;
+        (slope > ratio * height ? high : low) = e;
     }
     return high;
 }

@@ -114,18 +114,18 @@ double Stencil::fit(double cutoff) {
         const LeastSquares fit(std::move(columns));
         for (int q = odd; q < kDerivatives; q += 2) {
             const double sign = q / 2 % 2 == 0 ? 1.0 : -1.0;
-            std::vector<double> wanted;
+            std::vector<double> target;
             for (std::size_t j = 0; j < k.size(); ++j)
-                wanted.push_back(sign * weight[j] * std::pow(k[j], q));
-            wanted.resize(wanted.size() + static_cast<std::size_t>(unknowns), 0.0);
-            const double size = LeastSquares::dot(wanted, wanted);
-            const std::vector<double> w = fit.solve(wanted);
+                target.push_back(sign * weight[j] * std::pow(k[j], q));
+            target.resize(target.size() + static_cast<std::size_t>(unknowns), 0.0);
+            const double size = LeastSquares::dot(target, target);
+            const std::vector<double> w = fit.solve(target);
             for (int u = 0; u < unknowns; ++u) centre_[q][u + odd] = w[static_cast<std::size_t>(u)];
             if (q == 4) {
-                left4 = LeastSquares::dot(wanted, wanted);
+                left4 = LeastSquares::dot(target, target);
                 size4 = size;
             }
-            if (q == 5) left5 = LeastSquares::dot(wanted, wanted);
+            if (q == 5) left5 = LeastSquares::dot(target, target);
         }
     }
     return std::sqrt((left4 + 0.25 * left5) /
@@ -140,7 +140,7 @@ Stencil Stencil::band_limited(double points_per_wave) {
             text_of(points_per_wave));
     constexpr double kWanted = 1e-8;
     thread_local std::pair<double, Stencil> last{
-        0, Stencil(0)};  // the same one is wanted for every place of a tip
+        0, Stencil(0)};  // the same one serves every place of a tip
     for (int reach = 4; last.first != points_per_wave; ++reach) {
         last.second = Stencil(reach);
         last.second.band_known_ = true;
