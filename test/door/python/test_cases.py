@@ -15,6 +15,7 @@ import unittest.mock
 PROJECT = os.path.abspath(sys.argv.pop(1))
 RSC = os.path.abspath(os.environ["RSC_PROGRAM"])
 sys.path[:0] = [os.path.join(PROJECT, "output", "plot"), os.path.join(PROJECT, "output", "export")]
+import interface_law  # noqa: E402
 import law  # noqa: E402
 import plot  # noqa: E402
 
@@ -171,8 +172,9 @@ class Readme(unittest.TestCase):
             if script == "plot/plot":
                 plot.parse(words.split())
             else:
-                with unittest.mock.patch.object(
-                    law, "Law", side_effect=law.Refused("reached")
+                reached = {"side_effect": law.Refused("reached")}
+                with unittest.mock.patch.object(law, "Law", **reached), unittest.mock.patch.object(
+                    interface_law, "Interface", **reached
                 ), self.assertRaises(SystemExit) as stop:
                     law.main(words.split())
                 self.assertEqual(str(stop.exception.code), "law.py: reached")
