@@ -141,17 +141,17 @@ std::unique_ptr<rsc_contact> get_making(const Entries& from, const rsc_asperitie
     if (tip.size() != 2 || !from.texts.contains("case")) bad_input(kBroken);
     const auto keys = std::make_shared<const Case>(read_namelist(from.texts.at("case")).settings);
     const SurfaceDomain domain = domain_of(*keys, on);
-    const bool told = from.numbers.contains("given");
-    Indenter indenter = told ? Indenter{from.of("given").at(0), from.of("given").at(1), 0, 0,
-                                        period_of(*keys, domain)}
-                             : indenter_of(*keys, domain);
+    const bool given = from.numbers.contains("given");
+    Indenter indenter = given ? Indenter{from.of("given").at(0), from.of("given").at(1), 0, 0,
+                                         period_of(*keys, domain)}
+                              : indenter_of(*keys, domain);
     indenter.x0 = tip[0];
     indenter.y0 = tip[1];
     indenter = surrounded(std::move(indenter), domain);
     if (from.numbers.contains("moved") && from.one("moved") != 0)
         indenter.around = indenter.repeats;
     auto made = std::make_unique<rsc_contact>(asperities.model, keys, indenter);
-    if (told) made->given = {from.of("given")[0], from.of("given")[1]};
+    if (given) made->given = {from.of("given")[0], from.of("given")[1]};
     return made;
 }
 

@@ -99,8 +99,7 @@ protected:
 
     void evaluate(bool exact);
     // Relative error: rms (per pixel under pressure) of w where 0 < p < highest and of penetrations
-    // elsewhere, divided by the mean of
-    // |z - Z0| weighted with p.
+    // elsewhere, divided by the mean of |z - Z0| weighted with p.
     double error();
     // The largest of the penetration w < 0 at a pixel without pressure, and of |w| at one between
     // its bounds, both over the mean of |z - Z0| weighted with p, of the complementarity sum |p w|
@@ -150,7 +149,7 @@ private:
     }
     std::vector<double> residual_, y_, direction_, image_, before_p_, before_w_;
     // Correction by a constant pressure on the free pixels, which is most effective near full
-    // contact: K^-1 times 1 as the preconditioner has it, its sum, and 1/(one'K one).
+    // contact: M 1 (M: preconditioner), its sum, and 1/((M 1)'K (M 1)).
     std::vector<double> one_;
     double whole_ = 0, punch_ = 0;
 };

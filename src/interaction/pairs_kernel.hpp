@@ -33,8 +33,7 @@ struct MeshWindow {
 };
 
 // Coordinates are double if Real = double, and 32-bit integers whose differences fit if Real =
-// float. All loops add to phi. Padding has f =
-// 0.
+// float. All loops add to phi. Padding has f = 0.
 template <class Real, class Coordinate>
 struct PairLoops {
     // All pairs within n points, in both directions.

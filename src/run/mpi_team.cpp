@@ -199,7 +199,7 @@ int MpiJob::serve(const std::function<Work(const std::string&, std::size_t)>& ma
         Work work;
         std::optional<WorkerThreads> threads;
         Outbox outbox;
-        bool told = false;
+        bool announced = false;
         for (bool stop = false; !stop;) {
             while (std::optional<Message> message = receive()) {
                 if (message->tag == kStop) {
@@ -220,8 +220,8 @@ int MpiJob::serve(const std::function<Work(const std::string&, std::size_t)>& ma
                 }
             }
             if (stop) break;
-            if (caught_signal() != 0 && !told) {
-                told = true;
+            if (caught_signal() != 0 && !announced) {
+                announced = true;
                 outbox.send(0, kSignal, bytes_of(std::int32_t(caught_signal())));
             }
             std::optional<WorkerThreads::Done> done;

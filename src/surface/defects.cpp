@@ -38,8 +38,8 @@ public:
                 if (i < 0 || j < 0 || i >= map.nx || j >= map.ny) continue;
                 const double w = weight_[k];
                 p.diagonal += w;
-                p.beside[k] = number[map.index(i, j)];
-                if (p.beside[k] < 0) {
+                p.neighbour[k] = number[map.index(i, j)];
+                if (p.neighbour[k] < 0) {
                     sum += w * map(i, j);
                     weight += w;
                     p.source += w * map(i, j);
@@ -66,12 +66,12 @@ public:
         const std::size_t n = points_.size();
         std::vector<double> r(n), y(n), p, q(n);
         for (std::size_t k = 0; k < n; ++k) r[k] = points_[k].source;
-        const double wanted = kTolerance * std::sqrt(dot(r, r));
+        const double goal = kTolerance * std::sqrt(dot(r, r));
         precondition(r, y);
         p = y;
         solution_.assign(n, 0.0);
         double rho = dot(r, y);
-        for (std::size_t step = 0; step < 20 * n + 100 && std::sqrt(dot(r, r)) > wanted; ++step) {
+        for (std::size_t step = 0; step < 20 * n + 100 && std::sqrt(dot(r, r)) > goal; ++step) {
             for (std::size_t k = 0; k < n; ++k)
                 q[k] = points_[k].diagonal * p[k] - around(k, p, 0, 4);
             const double length = rho / dot(p, q);
@@ -120,8 +120,8 @@ private:
 
     struct Point {
         int i, j;
-        std::array<int, 4> beside{-1, -1, -1,
-                                  -1};  // numbers of the neighbours that are missing, or -1
+        // numbers of the neighbours that are missing, or -1
+        std::array<int, 4> neighbour{-1, -1, -1, -1};
         double diagonal = 0, source = 0, present = 0;
     };
 
@@ -134,7 +134,7 @@ private:
                   std::size_t end) const {
         double sum = 0;
         for (std::size_t s = first; s < end; ++s)
-            if (const int m = points_[k].beside[s]; m >= 0)
+            if (const int m = points_[k].neighbour[s]; m >= 0)
                 sum += weight_[s] * x[static_cast<std::size_t>(m)];
         return sum;
     }
@@ -385,7 +385,7 @@ void smooth_rounded(HeightMap& map, double step) {
     std::vector<double> power(ring(nx, ny) + 1), modes(power.size()), gain(power.size(), 0.0);
     constexpr double safety = 1.5;  // the power of the rounding on one ring scatters
     const double rounding = safety * 4 * points * step * step / 12;
-    constexpr std::size_t beside = 2;  // neighbouring rings on either side included in the mean
+    constexpr std::size_t near = 2;  // neighbouring rings on either side included in the mean
     damp_waves(map, false, "the cosine series of a map", [&](double* series, double scale) {
         for (std::size_t j = 0; j < ny; ++j)
             for (std::size_t i = 0; i < nx; ++i) {
@@ -394,8 +394,8 @@ void smooth_rounded(HeightMap& map, double step) {
             }
         for (std::size_t k = 0; k < power.size(); ++k) {
             double sum = 0, count = 0;
-            for (std::size_t l = k - std::min(k, beside);
-                 l <= std::min(k + beside, power.size() - 1); ++l) {
+            for (std::size_t l = k - std::min(k, near); l <= std::min(k + near, power.size() - 1);
+                 ++l) {
                 sum += power[l];
                 count += modes[l];
             }
@@ -465,12 +465,12 @@ namespace {
 
 // True if a neighbour is a pit or spike (`kind`), which causes the second difference at this point.
 bool bent_by(const Profile& p, Breaks::Kind kind, double least) {
-    const auto beside = [&](int k) {
+    const auto joins = [&](int k) {
         return p.has(k) &&
                kind_of({p.map, p.i + (p.along_x ? k : 0), p.j + (p.along_x ? 0 : k), p.along_x},
                        least) == kind;
     };
-    return beside(-1) || beside(1);
+    return joins(-1) || joins(1);
 }
 
 // The larger of the jumps to the two neighbours.

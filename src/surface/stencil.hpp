@@ -4,16 +4,15 @@
 namespace rsc {
 
 // Weights over the points -reach ... reach of a line, in units of grid steps. W_q are the weights
-// of derivative q at the middle point. At
-// |t| <= 1/2 from it the weights of derivative p follow from the Taylor series: sum over r of
-// t^r/r! W_(p+r).
+// of derivative q at the middle point. At |t| <= 1/2 from it the weights of derivative p follow
+// from the Taylor series: sum over r of t^r/r! W_(p+r).
 class Stencil {
 public:
     static constexpr int kMostReach = 15;
     // weights W_q of the points 0 ... reach, padded with zeros
     static constexpr int kHalf = kMostReach + 1;
-    static constexpr int kTaps =
-        2 * kMostReach + 2;            // weights of the points -reach ... reach, padded with zeros
+    // weights of the points -reach ... reach, padded with zeros
+    static constexpr int kTaps = 2 * kMostReach + 2;
     static constexpr int kOrders = 5;  // derivatives 0 ... 4 are available from weights()
 
     // For lines without waves shorter than `points_per_wave` >= 4 steps: least-squares error over

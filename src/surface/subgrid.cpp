@@ -251,7 +251,7 @@ RefinedSummit SummitClimber::of_grid(double bend, bool& broken) const {
         broken = true;
         double least = here;
         for (const int k : {-1, 1})
-            if (const double beside = bent(k); beside < 0) least = std::max(least, beside);
+            if (const double other = bent(k); other < 0) least = std::max(least, other);
         return least;
     };
     RefinedSummit s;
@@ -326,8 +326,8 @@ void SummitClimber::climb(int j, const Rows& row, RefinedSummits& to) {
 void SummitClimber::climb_from(int i, int j, bool maximum, const Rows& row, RefinedSummits& to) {
     const auto s = summit_from(i, j, maximum, row);
     double u = 0, v = 0;
-    bool kept = s.has_value();
-    if (kept) {
+    bool valid = s.has_value();
+    if (valid) {
         u = i + s->x;
         v = j + s->y;
         if (place_.periodic) {
@@ -337,10 +337,10 @@ void SummitClimber::climb_from(int i, int j, bool maximum, const Rows& row, Refi
         const SecondOrder second{0.5 * s->zxx / (place_.dx * place_.dx),
                                  0.5 * s->zyy / (place_.dy * place_.dy),
                                  0.5 * s->zxy / (place_.dx * place_.dy)};
-        kept = append_summit(place_.x0 + u * place_.dx, y0_ + v * place_.dy, s->z, second,
-                             curvature_, to.found);
+        valid = append_summit(place_.x0 + u * place_.dx, y0_ + v * place_.dy, s->z, second,
+                              curvature_, to.found);
     }
-    if (!kept) {
+    if (!valid) {
         to.saddles += maximum;
         return;
     }
@@ -392,10 +392,10 @@ long drop_repeated(RefinedSummits& s, int nx, int ny, bool periodic) {
     std::vector<int> best;
     find_all(s.from.size(), kStarts, 0, is_best, best);
     const auto before = maxima();
-    const std::vector<std::size_t> kept(best.begin(), best.end());
-    for (std::size_t k = 0; k < kept.size(); ++k) s.from[k] = s.from[kept[k]];
-    s.from.resize(kept.size());
-    s.found = selected(s.found, kept);
+    const std::vector<std::size_t> chosen(best.begin(), best.end());
+    for (std::size_t k = 0; k < chosen.size(); ++k) s.from[k] = s.from[chosen[k]];
+    s.from.resize(chosen.size());
+    s.found = selected(s.found, chosen);
     return before - maxima();
 }
 

@@ -80,9 +80,8 @@ public:
     const std::vector<Sticking::State>& states() const { return state_; }
     const std::vector<double>& phi() const { return phi_; }  // B f over the set
     double force() const { return force_; }
-    double energy() const {
-        return energy_;
-    }  // elastic energy of asperities and interaction minus w A: dW/dZ0 = -N
+    // elastic energy of asperities and interaction minus w A: dW/dZ0 = -N
+    double energy() const { return energy_; }
     double residual() const { return residual_; }
     const std::vector<double>& residuals() const { return res_; }  // g0 - B f - u of the attached
 
@@ -131,9 +130,9 @@ private:
     std::size_t weakest_ = 0;
     bool weighed_ = false;  // by weigh(), since the states were evaluated
     double mu_ = 0;         // of weigh()
-    std::vector<double>
-        stiffest_;       // by position in the set: D up to which S is known to be positive definite
-    double room_ = 1.2;  // factor by which they are taken larger
+    // by position in the set: D up to which S is known to be positive definite
+    std::vector<double> stiffest_;
+    double room_ = 1.2;                    // safety factor on stiffest_
     std::vector<double> proof_;            // by position in the set: the last v, a starting point
     std::vector<double> pulled_, lifted_;  // of solve_linear()
     std::vector<double> derivative_;       // -ds/dg0 of the present states, from stable()
