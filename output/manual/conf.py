@@ -20,6 +20,7 @@ html_theme_options = {
 }
 html_sidebars = {"**": ["about.html", "searchbox.html", "navigation.html"]}
 html_copy_source = False
+toc_object_entries = False  # the navigation has no methods
 html_static_path = ["_static"]
 html_css_files = ["manual.css"]
 html_show_sphinx = False

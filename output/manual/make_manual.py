@@ -86,6 +86,11 @@ def plain(text):
     return re.sub(r"([\\*`|_])", r"\\\1", text)
 
 
+def prose(text):
+    """Text in which nothing is markup but `code`."""
+    return re.sub(r"\\`(.*?)\\`", r"``\1``", plain(text))
+
+
 def heading(text, line="-"):
     return [text, line * len(text), ""]
 
@@ -102,6 +107,7 @@ def page(*path):
             line = re.sub(
                 r"(?:``)?\b(input|output|modules|src|test)/README\b(?:``)?", r":doc:`\1`", line
             )
+            line = line.replace("src/THEORY.rst", ":doc:`theory` ")
         lines.append(line)
     return lines
 
@@ -146,7 +152,7 @@ def description(text):
             out += ["", "::", ""]
         if not command and out and out[-1].startswith("    "):
             out.append("")
-        out.append(line if command else re.sub(r"\\`(.*?)\\`", r"``\1``", plain(line)))
+        out.append(line if command else prose(line))
     return out + [""], text[len(head) :].strip("\n").split("\n")
 
 
@@ -228,7 +234,7 @@ def docstring(thing, by):
     for paragraph in re.split(r"\n\s*\n", inspect.getdoc(thing) or ""):
         code = paragraph.startswith("    ")
         lines += ["::", ""] if code else []
-        lines += [line if code else plain(line) for line in paragraph.split("\n")] + [""]
+        lines += [line if code else prose(line) for line in paragraph.split("\n")] + [""]
     return indented(lines, by)
 
 

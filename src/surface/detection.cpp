@@ -21,7 +21,7 @@ double lay_share(const Asperities& summits) {
     }
     // Ten summits of an isotropic surface may reach `none` by chance, fewer reach more; surfaces
     // with correlation lengths in the ratio 1:1.6 reach `whole`. One summit alone is a lay of its
-    // own: there the quartic around its ellipse is right.
+    // own: there the quartic around its ellipse is right. Found by hand; checked by test_elongated.
     constexpr double whole = 0.75;
     const double none =
         std::clamp(0.3 * std::sqrt(10 / static_cast<double>(summits.size())), 0.3, 0.7);
